@@ -1,0 +1,269 @@
+//! Evaluation over any number type: doubles, exact fractions, intervals.
+
+use std::collections::BTreeMap;
+
+use num_integer::Integer;
+use num_traits::{One, Signed, Zero};
+
+use super::angle::{Angle, angle};
+use super::number::{self, Int};
+use super::{Expr, Function, Node, Rational, Symbol};
+
+/// A number type expressions can be evaluated in. A partial operation returns `None` where it has no value *in this type*:
+/// √2 is no fraction, and an interval around 0 has no reciprocal.
+pub trait Scalar: Clone {
+    /// The nearest value, or an enclosure.
+    fn from_rational(value: &Rational) -> Self;
+    /// The circle constant, where the type can represent it.
+    fn pi() -> Option<Self>;
+    /// Sum.
+    fn plus(&self, other: &Self) -> Self;
+    /// Product.
+    fn times(&self, other: &Self) -> Self;
+    /// Reciprocal.
+    fn recip(&self) -> Option<Self>;
+    /// Non-negative square root.
+    fn sqrt(&self) -> Option<Self>;
+    /// Power with an exponent that is neither an integer nor a half-integer.
+    fn pow(&self, exponent: &Self) -> Option<Self>;
+    /// A function; `Sin`, `Cos` and `Tan` come here only where the point gives no exact direction for the angle.
+    fn call(&self, function: Function) -> Option<Self>;
+}
+
+/// Values for the symbols of an expression.
+#[derive(Clone, Debug)]
+pub struct Point<T> {
+    /// Value of each symbol, angles in radians among them.
+    pub values: BTreeMap<Symbol, T>,
+    /// For an angle φ known by a direction: a divisor N and (cos(φ/N), sin(φ/N)). With rational entries this makes sin and
+    /// cos of every multiple of φ/N exact.
+    pub directions: BTreeMap<Symbol, (u32, [T; 2])>,
+}
+
+impl<T> Default for Point<T> {
+    fn default() -> Self {
+        Point { values: BTreeMap::new(), directions: BTreeMap::new() }
+    }
+}
+
+impl Expr {
+    /// The value at a point; `None` where the expression has none in `T`, or a symbol has no value.
+    pub fn evaluate<T: Scalar>(&self, at: &Point<T>) -> Option<T> {
+        match self.node() {
+            Node::Number(value) => Some(T::from_rational(value)),
+            Node::Symbol(name) if &**name == "pi" => T::pi(),
+            Node::Symbol(name) => at.values.get(name).cloned(),
+            Node::Sum(terms) => {
+                let mut total = terms[0].evaluate(at)?;
+                for term in &terms[1..] {
+                    total = total.plus(&term.evaluate(at)?);
+                }
+                Some(total)
+            }
+            Node::Product(factors) => {
+                let mut total = factors[0].evaluate(at)?;
+                for factor in &factors[1..] {
+                    total = total.times(&factor.evaluate(at)?);
+                }
+                Some(total)
+            }
+            Node::Power(base, exponent) => power(&base.evaluate(at)?, exponent, at),
+            Node::Call(function, argument) => call(*function, argument, at),
+        }
+    }
+}
+
+fn power<T: Scalar>(base: &T, exponent: &Expr, at: &Point<T>) -> Option<T> {
+    if let Some(k) = exponent.as_number() {
+        let twice = k * Rational::from(Int::from(2));
+        if twice.is_integer() {
+            let n = twice.numer().as_i64()?;
+            let root = if n % 2 == 0 { base.clone() } else { base.sqrt()? };
+            let times = if n % 2 == 0 { n / 2 } else { n };
+            let raised = integer_power(&root, times.unsigned_abs());
+            return if times < 0 { raised.recip() } else { Some(raised) };
+        }
+    }
+    base.pow(&exponent.evaluate(at)?)
+}
+
+/// Power by repeated squaring.
+fn integer_power<T: Scalar>(base: &T, exponent: u64) -> T {
+    let mut result = T::from_rational(&Rational::one());
+    let mut square = base.clone();
+    let mut left = exponent;
+    while left > 0 {
+        if left & 1 == 1 {
+            result = result.times(&square);
+        }
+        left >>= 1;
+        if left > 0 {
+            square = square.times(&square);
+        }
+    }
+    result
+}
+
+fn call<T: Scalar>(function: Function, argument: &Expr, at: &Point<T>) -> Option<T> {
+    if let Function::Sin | Function::Cos | Function::Tan = function {
+        if let Some([cos, sin]) = angle(argument).and_then(|a| direction(&a, at)) {
+            return match function {
+                Function::Sin => Some(sin),
+                Function::Cos => Some(cos),
+                _ => Some(sin.times(&cos.recip()?)),
+            };
+        }
+    }
+    argument.evaluate(at)?.call(function)
+}
+
+/// (cos, sin) of an angle whose symbols all have directions that divide it.
+fn direction<T: Scalar>(angle: &Angle, at: &Point<T>) -> Option<[T; 2]> {
+    let mut total = quarter_turns(&angle.pi)?;
+    for (name, factor) in &angle.symbols {
+        let (divisor, unit) = at.directions.get(name)?;
+        let turns = factor * Rational::from(Int::from(i64::from(*divisor)));
+        if !turns.is_integer() {
+            return None;
+        }
+        let k = turns.numer().as_i64()?;
+        if k.unsigned_abs() > 4096 {
+            return None;
+        }
+        total = turn(&total, &multiple(unit, k));
+    }
+    Some(total)
+}
+
+/// (cos, sin) of a multiple of π, for multiples of π/2.
+fn quarter_turns<T: Scalar>(pi: &Rational) -> Option<[T; 2]> {
+    let quarters = pi * Rational::from(Int::from(2));
+    if !quarters.is_integer() {
+        return None;
+    }
+    let (one, zero) = (Rational::one(), Rational::zero());
+    let k = quarters.numer().mod_floor(&Int::from(4)).as_i64()?;
+    let [c, s] = [[&one, &zero], [&zero, &one], [&-&one, &zero], [&zero, &-&one]][k as usize].map(T::from_rational);
+    Some([c, s])
+}
+
+fn turn<T: Scalar>(a: &[T; 2], b: &[T; 2]) -> [T; 2] {
+    let minus_one = T::from_rational(&-Rational::one());
+    [
+        a[0].times(&b[0]).plus(&minus_one.times(&a[1].times(&b[1]))),
+        a[1].times(&b[0]).plus(&a[0].times(&b[1])),
+    ]
+}
+
+fn multiple<T: Scalar>(unit: &[T; 2], k: i64) -> [T; 2] {
+    let mut square = unit.clone();
+    if k < 0 {
+        square[1] = T::from_rational(&-Rational::one()).times(&square[1]);
+    }
+    let mut result = [Rational::one(), Rational::zero()].map(|v| T::from_rational(&v));
+    let mut left = k.unsigned_abs();
+    while left > 0 {
+        if left & 1 == 1 {
+            result = turn(&result, &square);
+        }
+        left >>= 1;
+        square = turn(&square, &square);
+    }
+    result
+}
+
+impl Scalar for f64 {
+    fn from_rational(value: &Rational) -> f64 {
+        number::to_f64(value)
+    }
+    fn pi() -> Option<f64> {
+        Some(std::f64::consts::PI)
+    }
+    fn plus(&self, other: &f64) -> f64 {
+        self + other
+    }
+    fn times(&self, other: &f64) -> f64 {
+        self * other
+    }
+    fn recip(&self) -> Option<f64> {
+        (*self != 0.0).then(|| 1.0 / self)
+    }
+    fn sqrt(&self) -> Option<f64> {
+        (*self >= 0.0).then(|| f64::sqrt(*self))
+    }
+    fn pow(&self, exponent: &f64) -> Option<f64> {
+        (*self > 0.0).then(|| self.powf(*exponent))
+    }
+    fn call(&self, function: Function) -> Option<f64> {
+        let value = match function {
+            Function::Sin => self.sin(),
+            Function::Cos => self.cos(),
+            Function::Tan => self.tan(),
+            Function::Asin => self.asin(),
+            Function::Acos => self.acos(),
+            Function::Atan => self.atan(),
+            Function::Sinh => self.sinh(),
+            Function::Cosh => self.cosh(),
+            Function::Tanh => self.tanh(),
+            Function::Exp => self.exp(),
+            Function::Ln => self.ln(),
+            Function::Abs => self.abs(),
+        };
+        value.is_finite().then_some(value)
+    }
+}
+
+impl Scalar for Rational {
+    fn from_rational(value: &Rational) -> Rational {
+        value.clone()
+    }
+    fn pi() -> Option<Rational> {
+        None
+    }
+    fn plus(&self, other: &Rational) -> Rational {
+        self + other
+    }
+    fn times(&self, other: &Rational) -> Rational {
+        self * other
+    }
+    fn recip(&self) -> Option<Rational> {
+        (!self.is_zero()).then(|| Rational::recip(self))
+    }
+    fn sqrt(&self) -> Option<Rational> {
+        number::sqrt_exact(self)
+    }
+    fn pow(&self, _: &Rational) -> Option<Rational> {
+        None
+    }
+    fn call(&self, function: Function) -> Option<Rational> {
+        match function {
+            Function::Abs => Some(self.abs()),
+            Function::Sin | Function::Tan | Function::Asin | Function::Atan if self.is_zero() => Some(Rational::zero()),
+            Function::Cos if self.is_zero() => Some(Rational::one()),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::ratio;
+
+    #[test]
+    fn a_rational_point_of_the_circle_makes_multiple_angles_exact() {
+        let theta = Expr::symbol("theta");
+        let mut at = Point::<Rational>::default();
+        at.directions.insert("theta".into(), (1, [ratio(3, 5), ratio(4, 5)]));
+        let cos2 = (&theta * &Expr::from(2)).cos();
+        assert_eq!(cos2.evaluate(&at), Some(ratio(-7, 25)));
+        let shifted = (&theta + &(Expr::pi() * Expr::ratio(1, 2))).sin();
+        assert_eq!(shifted.evaluate(&at), Some(ratio(3, 5)));
+    }
+
+    #[test]
+    fn a_fraction_has_no_irrational_root() {
+        assert_eq!(Expr::from(2).sqrt().evaluate(&Point::<Rational>::default()), None);
+        assert_eq!(Expr::from(0).powi(-1).evaluate(&Point::<Rational>::default()), None);
+    }
+}

@@ -1,0 +1,369 @@
+//! Exact numbers: integers that are machine words until they no longer fit, and the fractions made of them.
+//!
+//! Nearly every coefficient in mechanics fits a machine word, and a heap allocation per coefficient would cost more than
+//! the arithmetic; [`Int`] therefore grows only when it has to, and never wraps. Fractions come from `num-rational`.
+
+use std::cmp::Ordering;
+use std::fmt;
+use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign};
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{Num, One, Signed, ToPrimitive, Zero};
+
+/// An exact fraction in lowest terms with a positive denominator.
+pub type Rational = num_rational::Ratio<Int>;
+
+/// An integer of any size. Invariant: a value that fits an `i64` is always `Small`, so equality is structural.
+#[derive(Clone, PartialEq, Eq, Hash)]
+pub struct Int(Repr);
+
+#[derive(Clone, PartialEq, Eq, Hash)]
+enum Repr {
+    Small(i64),
+    Big(BigInt),
+}
+use Repr::{Big, Small};
+
+impl Int {
+    /// The integer as a machine word, when it fits.
+    pub fn as_i64(&self) -> Option<i64> {
+        match self.0 {
+            Small(value) => Some(value),
+            Big(_) => None,
+        }
+    }
+
+    /// The integer in the representation of `num-bigint`.
+    pub fn to_bigint(&self) -> BigInt {
+        match &self.0 {
+            Small(value) => BigInt::from(*value),
+            Big(value) => value.clone(),
+        }
+    }
+
+    /// Number of bits of the absolute value; 0 for zero.
+    pub fn bits(&self) -> u64 {
+        match &self.0 {
+            Small(value) => u64::from(64 - value.unsigned_abs().leading_zeros()),
+            Big(value) => value.bits(),
+        }
+    }
+
+    /// Integer power. The caller bounds `exponent`; see the limits of the formula reader.
+    pub fn pow(&self, exponent: u32) -> Int {
+        match &self.0 {
+            Small(value) => match value.checked_pow(exponent) {
+                Some(result) => Int(Small(result)),
+                None => Int::from(BigInt::from(*value).pow(exponent)),
+            },
+            Big(value) => Int::from(value.pow(exponent)),
+        }
+    }
+
+    /// Largest integer whose square does not exceed `self`; `self` must not be negative.
+    pub fn sqrt(&self) -> Int {
+        match &self.0 {
+            Small(value) => Int(Small(value.isqrt())),
+            Big(value) => Int::from(value.sqrt()),
+        }
+    }
+}
+
+impl From<i32> for Int {
+    fn from(value: i32) -> Int {
+        Int(Small(i64::from(value)))
+    }
+}
+
+impl From<i64> for Int {
+    fn from(value: i64) -> Int {
+        Int(Small(value))
+    }
+}
+
+impl From<i128> for Int {
+    fn from(value: i128) -> Int {
+        match i64::try_from(value) {
+            Ok(small) => Int(Small(small)),
+            Err(_) => Int(Big(BigInt::from(value))),
+        }
+    }
+}
+
+impl From<BigInt> for Int {
+    fn from(value: BigInt) -> Int {
+        match value.to_i64() {
+            Some(small) => Int(Small(small)),
+            None => Int(Big(value)),
+        }
+    }
+}
+
+macro_rules! operator {
+    ($trait:ident, $method:ident, $assign_trait:ident, $assign:ident, $checked:ident, $symbol:tt) => {
+        impl<'a> $trait<&'a Int> for &'a Int {
+            type Output = Int;
+            fn $method(self, other: &Int) -> Int {
+                if let (Small(a), Small(b)) = (&self.0, &other.0) {
+                    if let Some(result) = a.$checked(*b) {
+                        return Int(Small(result));
+                    }
+                }
+                Int::from(self.to_bigint() $symbol other.to_bigint())
+            }
+        }
+        impl $trait for Int {
+            type Output = Int;
+            fn $method(self, other: Int) -> Int {
+                &self $symbol &other
+            }
+        }
+        impl $trait<&Int> for Int {
+            type Output = Int;
+            fn $method(self, other: &Int) -> Int {
+                &self $symbol other
+            }
+        }
+        impl $assign_trait<&Int> for Int {
+            fn $assign(&mut self, other: &Int) {
+                *self = &*self $symbol other;
+            }
+        }
+        impl $assign_trait for Int {
+            fn $assign(&mut self, other: Int) {
+                *self = &*self $symbol &other;
+            }
+        }
+    };
+}
+operator!(Add, add, AddAssign, add_assign, checked_add, +);
+operator!(Sub, sub, SubAssign, sub_assign, checked_sub, -);
+operator!(Mul, mul, MulAssign, mul_assign, checked_mul, *);
+operator!(Div, div, DivAssign, div_assign, checked_div, /);
+operator!(Rem, rem, RemAssign, rem_assign, checked_rem, %);
+
+impl Neg for Int {
+    type Output = Int;
+    fn neg(self) -> Int {
+        match self.0 {
+            Small(value) => Int::from(-i128::from(value)),
+            Big(value) => Int::from(-value),
+        }
+    }
+}
+
+impl Neg for &Int {
+    type Output = Int;
+    fn neg(self) -> Int {
+        -self.clone()
+    }
+}
+
+impl Ord for Int {
+    fn cmp(&self, other: &Int) -> Ordering {
+        match (&self.0, &other.0) {
+            (Small(a), Small(b)) => a.cmp(b),
+            // A big value lies outside the range of every small one, so its sign alone decides.
+            (Big(a), Small(_)) => if a.is_negative() { Ordering::Less } else { Ordering::Greater },
+            (Small(_), Big(b)) => if b.is_negative() { Ordering::Greater } else { Ordering::Less },
+            (Big(a), Big(b)) => a.cmp(b),
+        }
+    }
+}
+
+impl PartialOrd for Int {
+    fn partial_cmp(&self, other: &Int) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Zero for Int {
+    fn zero() -> Int {
+        Int(Small(0))
+    }
+    fn is_zero(&self) -> bool {
+        self.0 == Small(0)
+    }
+}
+
+impl One for Int {
+    fn one() -> Int {
+        Int(Small(1))
+    }
+    fn is_one(&self) -> bool {
+        self.0 == Small(1)
+    }
+}
+
+impl Num for Int {
+    type FromStrRadixErr = num_bigint::ParseBigIntError;
+    fn from_str_radix(text: &str, radix: u32) -> Result<Int, Self::FromStrRadixErr> {
+        BigInt::from_str_radix(text, radix).map(Int::from)
+    }
+}
+
+impl Signed for Int {
+    fn abs(&self) -> Int {
+        if self.is_negative() { -self } else { self.clone() }
+    }
+    fn abs_sub(&self, other: &Int) -> Int {
+        if self <= other { Int::zero() } else { self - other }
+    }
+    fn signum(&self) -> Int {
+        Int(Small(match self.cmp(&Int::zero()) {
+            Ordering::Less => -1,
+            Ordering::Equal => 0,
+            Ordering::Greater => 1,
+        }))
+    }
+    fn is_positive(&self) -> bool {
+        *self > Int::zero()
+    }
+    fn is_negative(&self) -> bool {
+        *self < Int::zero()
+    }
+}
+
+impl Integer for Int {
+    fn div_floor(&self, other: &Int) -> Int {
+        match (&self.0, &other.0) {
+            // i64::MIN / -1 is the one small quotient that does not fit.
+            (Small(a), Small(b)) if *b != -1 => Int(Small(a.div_floor(b))),
+            _ => Int::from(self.to_bigint().div_floor(&other.to_bigint())),
+        }
+    }
+    fn mod_floor(&self, other: &Int) -> Int {
+        match (&self.0, &other.0) {
+            (Small(a), Small(b)) if *b != -1 => Int(Small(a.mod_floor(b))),
+            _ => Int::from(self.to_bigint().mod_floor(&other.to_bigint())),
+        }
+    }
+    fn gcd(&self, other: &Int) -> Int {
+        match (&self.0, &other.0) {
+            (Small(a), Small(b)) => Int::from(i128::from(a.unsigned_abs().gcd(&b.unsigned_abs()))),
+            _ => Int::from(self.to_bigint().gcd(&other.to_bigint())),
+        }
+    }
+    fn lcm(&self, other: &Int) -> Int {
+        if self.is_zero() || other.is_zero() {
+            return Int::zero();
+        }
+        (self / &self.gcd(other) * other).abs()
+    }
+    fn divides(&self, other: &Int) -> bool {
+        self.is_multiple_of(other)
+    }
+    fn is_multiple_of(&self, other: &Int) -> bool {
+        if other.is_zero() { self.is_zero() } else { (self % other).is_zero() }
+    }
+    fn is_even(&self) -> bool {
+        match &self.0 {
+            Small(value) => value & 1 == 0,
+            Big(value) => value.is_even(),
+        }
+    }
+    fn is_odd(&self) -> bool {
+        !self.is_even()
+    }
+    fn div_rem(&self, other: &Int) -> (Int, Int) {
+        (self / other, self % other)
+    }
+}
+
+impl ToPrimitive for Int {
+    fn to_i64(&self) -> Option<i64> {
+        self.as_i64()
+    }
+    fn to_u64(&self) -> Option<u64> {
+        self.to_bigint().to_u64()
+    }
+    fn to_f64(&self) -> Option<f64> {
+        match &self.0 {
+            Small(value) => Some(*value as f64),
+            Big(value) => value.to_f64(),
+        }
+    }
+}
+
+impl fmt::Display for Int {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.0 {
+            Small(value) => value.fmt(f),
+            Big(value) => value.fmt(f),
+        }
+    }
+}
+
+impl fmt::Debug for Int {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+/// The fraction `numerator / denominator`; `denominator` must not be zero.
+pub fn ratio(numerator: i64, denominator: i64) -> Rational {
+    Rational::new(Int::from(numerator), Int::from(denominator))
+}
+
+/// The exact square root of a fraction, when it is a fraction too.
+pub fn sqrt_exact(value: &Rational) -> Option<Rational> {
+    if value.is_negative() {
+        return None;
+    }
+    let (n, d) = (value.numer().sqrt(), value.denom().sqrt());
+    (&n * &n == *value.numer() && &d * &d == *value.denom()).then(|| Rational::new_raw(n, d))
+}
+
+/// Nearest double, correctly rounded (ties to even), also where numerator or denominator leave the range of doubles.
+pub fn to_f64(value: &Rational) -> f64 {
+    let (n, d) = (value.numer(), value.denom());
+    if let (Some(a), Some(b)) = (n.as_i64(), d.as_i64()) {
+        // Both exact in a double: one correctly rounded division.
+        if a.unsigned_abs() <= 1 << 53 && b.unsigned_abs() <= 1 << 53 {
+            return a as f64 / b as f64;
+        }
+    }
+    // num-rational rounds correctly for big integers.
+    num_rational::BigRational::new_raw(n.to_bigint(), d.to_bigint()).to_f64().unwrap_or(f64::NAN)
+}
+
+/// The exact value of a double; `None` for infinities and NaN.
+pub fn from_f64(value: f64) -> Option<Rational> {
+    let exact = num_rational::BigRational::from_float(value)?;
+    Some(Rational::new_raw(Int::from(exact.numer().clone()), Int::from(exact.denom().clone())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arithmetic_leaves_machine_words_without_wrapping() {
+        let max = Int::from(i64::MAX);
+        assert_eq!((&max + &Int::one()).to_string(), "9223372036854775808");
+        assert_eq!((&max * &max).to_string(), "85070591730234615847396907784232501249");
+        assert_eq!(-Int::from(i64::MIN), &max + &Int::one());
+        assert_eq!(Int::from(i64::MIN).gcd(&Int::from(i64::MIN)), &max + &Int::one());
+    }
+
+    #[test]
+    fn a_value_that_shrinks_is_small_again() {
+        let big = Int::from(i64::MAX) + Int::one();
+        assert_eq!(big - Int::one(), Int::from(i64::MAX));
+    }
+
+    #[test]
+    fn big_values_order_by_sign_against_small_ones() {
+        let big = Int::from(10).pow(30);
+        assert!(big > Int::from(5) && -big < Int::from(i64::MIN));
+    }
+
+    #[test]
+    fn doubles_are_nearest() {
+        assert_eq!(to_f64(&ratio(1, 3)), 1.0 / 3.0);
+        let third = Rational::new(Int::from(10).pow(40), Int::from(3) * Int::from(10).pow(40));
+        assert_eq!(to_f64(&third), 1.0 / 3.0);
+        assert_eq!(from_f64(0.1).map(|r| to_f64(&r)), Some(0.1));
+    }
+}

@@ -1,0 +1,5 @@
+//! carom: symbolic-numeric mechanics of planar rigid-body collisions.
+pub mod dimension;
+pub mod domain;
+pub mod expr;
+pub mod scene;

@@ -1,0 +1,321 @@
+//! A scene: bodies, hinges, contacts, what is known and what is asked, with every position and velocity a formula.
+//!
+//! Coordinates are absolute: x to the right, y up, counterclockwise positive. A contact normal points out of the first
+//! body into the second; the impulse of a contact is the one on the second body.
+
+use crate::dimension::Dimension;
+use crate::domain::Domains;
+use crate::expr::{Expr, Symbol, Vector};
+
+/// Everything a scene file says, with names resolved to indices.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// Heading of the worked solution.
+    pub title: String,
+    /// Where the problem comes from, such as `Sample 17.29`.
+    pub source: String,
+    /// The problem in words.
+    pub statement: String,
+    /// Parameters in the order of the file.
+    pub parameters: Vec<Parameter>,
+    /// Domains of the parameters, and declared unit vectors.
+    pub domains: Domains,
+    /// Named points.
+    pub points: Vec<NamedPoint>,
+    /// Bodies in the order of the file.
+    pub bodies: Vec<Body>,
+    /// Hinges that hold before, during and after.
+    pub hinges: Vec<Hinge>,
+    /// Points where bodies collide.
+    pub contacts: Vec<Contact>,
+    /// Impulses from outside.
+    pub blows: Vec<Blow>,
+    /// What is known about the motion just after.
+    pub after: Vec<Known>,
+    /// Finite forces that act too; they have no impulse, and the solution says so.
+    pub forces: Vec<Force>,
+    /// What is asked.
+    pub questions: Vec<Question>,
+}
+
+/// A given quantity.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Name in formulas.
+    pub name: Symbol,
+    /// How it is typeset, such as `\ell`.
+    pub latex: Option<String>,
+    /// Unit as written, such as `kg m^2`.
+    pub unit: String,
+    /// Dimension of the unit.
+    pub dimension: Dimension,
+    /// Value in the unit, exact; angles in degrees are converted to multiples of `pi`.
+    pub value: Option<Expr>,
+    /// What it is, in words.
+    pub meaning: String,
+}
+
+/// A point with a name.
+#[derive(Clone, Debug)]
+pub struct NamedPoint {
+    /// Name, such as `C`.
+    pub name: String,
+    /// Position [m].
+    pub at: Vector,
+}
+
+/// A rigid body, a particle, or something that does not move because of the collision.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Name in the scene.
+    pub name: String,
+    /// What it looks like, and its inertia.
+    pub shape: Shape,
+    /// Mass m [kg]; zero for a massless link, meaningless for a fixed body.
+    pub mass: Expr,
+    /// Moment of inertia about the center of mass, I_G [kg m²].
+    pub inertia: Expr,
+    /// Center of mass G [m]; for a fixed body the point its velocity refers to.
+    pub center: Vector,
+    /// Orientation of the body's long axis, counterclockwise from x [rad].
+    pub angle: Expr,
+    /// Velocity of G just before, v_G⁻ [m/s].
+    pub velocity: Vector,
+    /// Angular velocity just before, ω⁻ [rad/s], counterclockwise.
+    pub spin: Expr,
+}
+
+impl Body {
+    /// Whether its motion is prescribed: ground, walls, pegs.
+    pub fn is_fixed(&self) -> bool {
+        matches!(self.shape, Shape::Fixed)
+    }
+
+    /// Whether it has no extension, so that neither spin nor moment equation belong to it.
+    pub fn is_particle(&self) -> bool {
+        matches!(self.shape, Shape::Particle)
+    }
+}
+
+/// The shapes a scene can name.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// Ground, wall, peg; also a wall that moves at a prescribed velocity.
+    Fixed,
+    /// A point mass.
+    Particle,
+    /// A uniform thin rod of this length along the body's axis.
+    Rod {
+        /// Length [m].
+        length: Expr,
+    },
+    /// A uniform disk.
+    Disk {
+        /// Radius [m].
+        radius: Expr,
+    },
+    /// A thin ring.
+    Ring {
+        /// Radius [m].
+        radius: Expr,
+    },
+    /// A uniform solid sphere.
+    Sphere {
+        /// Radius [m].
+        radius: Expr,
+    },
+    /// A uniform rectangle.
+    Rectangle {
+        /// Side along the body's axis [m].
+        width: Expr,
+        /// Side across the body's axis [m].
+        height: Expr,
+    },
+    /// Any other body; mass, center and inertia are all that is known.
+    Other,
+    /// Parts held together rigidly by massless bars.
+    Composite {
+        /// The parts; only shape, mass, inertia, center and angle of each mean something.
+        parts: Vec<Body>,
+    },
+}
+
+/// A frictionless hinge between two bodies, of which one may be fixed.
+#[derive(Clone, Debug)]
+pub struct Hinge {
+    /// Name.
+    pub name: String,
+    /// Indices of the bodies; the reaction is the impulse on the second.
+    pub bodies: [usize; 2],
+    /// Position [m].
+    pub at: Vector,
+}
+
+/// A point where two bodies collide.
+#[derive(Clone, Debug)]
+pub struct Contact {
+    /// Name.
+    pub name: String,
+    /// Indices of the bodies; the impulse is the one on the second.
+    pub bodies: [usize; 2],
+    /// Position [m].
+    pub at: Vector,
+    /// Outward unit normal of the first body.
+    pub normal: Option<Vector>,
+    /// The law that closes the equations.
+    pub law: ContactLaw,
+}
+
+/// What is assumed of a collision beyond momentum balance.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ContactLaw {
+    /// None: momentum balance alone.
+    None,
+    /// The touching points have the same velocity after.
+    Sticking,
+    /// Impulse along the normal; normal relative velocity after = −e × before.
+    Frictionless {
+        /// Coefficient of restitution, 0 ≤ e ≤ 1.
+        restitution: Expr,
+    },
+}
+
+/// An impulse from outside the scene.
+#[derive(Clone, Debug)]
+pub struct Blow {
+    /// Name.
+    pub name: String,
+    /// Index of the body it acts on.
+    pub body: usize,
+    /// Point of application [m].
+    pub at: Vector,
+    /// The given impulse [N s], or the direction along which an impulse of unknown size acts.
+    pub impulse: BlowImpulse,
+}
+
+/// What is known of an impulse from outside.
+#[derive(Clone, Debug)]
+pub enum BlowImpulse {
+    /// Both components [N s].
+    Given(Vector),
+    /// A direction (unit vector); the magnitude follows from what is known after.
+    Along(Vector),
+}
+
+/// Something known of the motion just after, in place of a law.
+#[derive(Clone, Debug)]
+pub struct Known {
+    /// Index of the body.
+    pub body: usize,
+    /// The quantity.
+    pub what: KnownQuantity,
+    /// Its value just after.
+    pub value: Expr,
+}
+
+/// What [`Known`] speaks of.
+#[derive(Clone, Debug)]
+pub enum KnownQuantity {
+    /// Component along `along` of the velocity of the body's point at `at` [m/s].
+    Velocity {
+        /// Point of the body.
+        at: Vector,
+        /// Direction, a unit vector.
+        along: Vector,
+    },
+    /// Angular velocity [rad/s].
+    Spin,
+}
+
+/// A finite force, which has no impulse in the vanishing time of a collision.
+#[derive(Clone, Debug)]
+pub struct Force {
+    /// Name in words, such as `weight`.
+    pub name: String,
+    /// Index of the body it acts on.
+    pub body: usize,
+}
+
+/// Something asked of the scene.
+#[derive(Clone, Debug)]
+pub struct Question {
+    /// Name of the answer; a vector's components are `name_x` and `name_y`.
+    pub name: String,
+    /// How the name is typeset.
+    pub latex: Option<String>,
+    /// What is asked.
+    pub ask: Ask,
+}
+
+/// The kinds of question.
+#[derive(Clone, Debug)]
+pub enum Ask {
+    /// Velocity just after of the point of `body` at `at` (the center of mass if `None`), a vector, or its component.
+    Velocity {
+        /// Index of the body.
+        body: usize,
+        /// Name and position of the point.
+        point: Option<(String, Vector)>,
+        /// Direction for a component.
+        along: Option<Vector>,
+    },
+    /// Angular velocity just after; counterclockwise positive unless `clockwise`.
+    Spin {
+        /// Index of the body.
+        body: usize,
+        /// Count clockwise as positive.
+        clockwise: bool,
+    },
+    /// Impulse at a contact, hinge or blow, on `on`, a vector, or its component.
+    Impulse {
+        /// What transmits it.
+        from: ImpulseAt,
+        /// Index of the body it acts on.
+        on: usize,
+        /// Direction for a component.
+        along: Option<Vector>,
+    },
+    /// Kinetic energy of one body, or of all.
+    Energy {
+        /// Before, after, or the loss.
+        when: EnergyWhen,
+        /// Index of the body; `None` for all.
+        of: Option<usize>,
+    },
+    /// Linear momentum of a system before = after along a direction, as an equation.
+    Balance {
+        /// Indices of the bodies.
+        system: Vec<usize>,
+        /// Direction.
+        along: Vector,
+    },
+    /// The matrix form of the equations that determine these component unknowns.
+    Matrix {
+        /// Names of balance questions, in order of rows.
+        rows: Vec<String>,
+        /// Names of component questions, in order of columns.
+        unknowns: Vec<String>,
+    },
+}
+
+/// What transmits an impulse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ImpulseAt {
+    /// Index of a contact.
+    Contact(usize),
+    /// Index of a hinge.
+    Hinge(usize),
+    /// Index of a blow.
+    Blow(usize),
+}
+
+/// When an energy is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EnergyWhen {
+    /// Just before.
+    Before,
+    /// Just after.
+    After,
+    /// Before minus after.
+    Lost,
+}
