@@ -1,0 +1,147 @@
+//! Physical dimensions: arithmetic, spelling, units ([`unit`]), and the dimension of an expression ([`of`]).
+//!
+//! Knows mass, length and time, which is all that mechanics of collisions needs; a plane angle has no dimension. Does not
+//! know how formulas are written: messages take a writer from the caller.
+
+mod infer;
+mod unit;
+
+use std::fmt;
+
+use num_traits::{One, Signed, Zero};
+
+use crate::expr::Rational;
+
+pub use infer::{Clash, of};
+pub use unit::{Unit, UnitFault, unit};
+
+/// A product of powers of mass, length and time. A plane angle has no dimension.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Dimension {
+    /// Exponent of mass.
+    pub mass: Rational,
+    /// Exponent of length.
+    pub length: Rational,
+    /// Exponent of time.
+    pub time: Rational,
+}
+
+impl Dimension {
+    /// The dimension mass^`mass` · length^`length` · time^`time`.
+    pub fn new(mass: i64, length: i64, time: i64) -> Dimension {
+        let whole = |k| crate::expr::ratio(k, 1);
+        Dimension { mass: whole(mass), length: whole(length), time: whole(time) }
+    }
+
+    /// No dimension: a number or an angle.
+    pub fn none() -> Dimension {
+        Dimension::default()
+    }
+
+    /// Whether all exponents are zero.
+    pub fn is_none(&self) -> bool {
+        self.mass.is_zero() && self.length.is_zero() && self.time.is_zero()
+    }
+
+    /// Dimension of a product.
+    pub fn times(&self, other: &Dimension) -> Dimension {
+        Dimension {
+            mass: &self.mass + &other.mass,
+            length: &self.length + &other.length,
+            time: &self.time + &other.time,
+        }
+    }
+
+    /// Dimension of a quotient.
+    pub fn over(&self, other: &Dimension) -> Dimension {
+        Dimension {
+            mass: &self.mass - &other.mass,
+            length: &self.length - &other.length,
+            time: &self.time - &other.time,
+        }
+    }
+
+    /// Dimension of a power.
+    pub fn power(&self, exponent: &Rational) -> Dimension {
+        Dimension { mass: &self.mass * exponent, length: &self.length * exponent, time: &self.time * exponent }
+    }
+
+    /// In plain characters, such as `mass*length^2/time`; `1` without dimension.
+    pub fn plain(&self) -> String {
+        self.spell(["mass", "length", "time"], "*", |k| {
+            if k.is_integer() { format!("^{k}") } else { format!("^({k})") }
+        })
+    }
+
+    /// As a unit of the SI, such as `kg m²/s`; `1` without dimension.
+    pub fn si(&self) -> String {
+        self.spell(["kg", "m", "s"], " ", superscript)
+    }
+
+    fn spell(&self, names: [&str; 3], times: &str, raise: impl Fn(&Rational) -> String) -> String {
+        let part = |positive: bool| {
+            let mut parts = Vec::new();
+            for (name, k) in names.iter().zip([&self.mass, &self.length, &self.time]) {
+                if !k.is_zero() && k.is_positive() == positive {
+                    let size = k.abs();
+                    parts.push(if size.is_one() { (*name).to_string() } else { format!("{name}{}", raise(&size)) });
+                }
+            }
+            parts
+        };
+        let (above, below) = (part(true), part(false));
+        let numerator = if above.is_empty() { "1".to_string() } else { above.join(times) };
+        match below.as_slice() {
+            [] => numerator,
+            [one] => format!("{numerator}/{one}"),
+            many => format!("{numerator}/({})", many.join(times)),
+        }
+    }
+}
+
+/// In words, such as `mass × length²/time`; `a number` without dimension.
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_none() {
+            return f.write_str("a number");
+        }
+        f.write_str(&self.spell(["mass", "length", "time"], " × ", superscript))
+    }
+}
+
+/// The exponent in raised characters.
+fn superscript(exponent: &Rational) -> String {
+    let raised = |c: char| match c {
+        '0' => '⁰',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '4' => '⁴',
+        '5' => '⁵',
+        '6' => '⁶',
+        '7' => '⁷',
+        '8' => '⁸',
+        '9' => '⁹',
+        '-' => '⁻',
+        '/' => 'ᐟ',
+        other => other,
+    };
+    exponent.to_string().chars().map(raised).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::ratio;
+
+    #[test]
+    fn a_dimension_is_spelled_in_words_in_characters_and_as_a_unit() {
+        let momentum = Dimension::new(1, 2, -1);
+        assert_eq!(momentum.to_string(), "mass × length²/time");
+        assert_eq!(momentum.plain(), "mass*length^2/time");
+        assert_eq!(momentum.si(), "kg m²/s");
+        assert_eq!(Dimension::none().to_string(), "a number");
+        assert_eq!(Dimension::new(0, 0, -1).plain(), "1/time");
+        assert_eq!(Dimension::new(0, 1, 0).power(&ratio(1, 2)).plain(), "length^(1/2)");
+    }
+}

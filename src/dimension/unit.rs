@@ -1,0 +1,366 @@
+//! Units of mechanics: text in, dimension and exact factor to SI out.
+//!
+//! Reads products, quotients and powers of SI units with prefixes, as people write them: `kg m^2`, `N·m`, `m s⁻²`,
+//! `kg·m/s`, `km/h`, `rpm`. Case matters, as it does in the SI. After one slash everything is in the denominator up to
+//! the end; `kg/m s` and `kg/m·s` are refused, because people disagree about them.
+
+use num_traits::{One, Zero};
+
+use super::Dimension;
+use crate::expr::{Expr, Rational, ratio};
+
+/// A unit and how it converts.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Unit {
+    /// Dimension.
+    pub dimension: Dimension,
+    /// SI value of one of it, up to `pi`.
+    pub factor: Rational,
+    /// Power of π that multiplies `factor`: 1 for degrees and turns.
+    pub pi: Rational,
+    /// Whether the unit names an angle (rad, deg, rpm): an angle is a number, but not every number is an angle.
+    pub angle: bool,
+}
+
+impl Unit {
+    /// SI value of one of it.
+    pub fn value(&self) -> Expr {
+        Expr::from(self.factor.clone()) * Expr::pi().power(Expr::from(self.pi.clone()))
+    }
+
+    fn number() -> Unit {
+        Unit { dimension: Dimension::none(), factor: Rational::one(), pi: Rational::zero(), angle: false }
+    }
+
+    fn times(&self, other: &Unit, power: i64) -> Unit {
+        let k = ratio(power, 1);
+        Unit {
+            dimension: self.dimension.times(&other.dimension.power(&k)),
+            factor: &self.factor * &raise(&other.factor, power),
+            pi: &self.pi + &(&other.pi * &k),
+            angle: self.angle || other.angle,
+        }
+    }
+}
+
+/// Why a text is no unit, with the bytes concerned.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct UnitFault {
+    /// What is wrong and what to write instead.
+    pub message: String,
+    /// First byte concerned.
+    pub start: usize,
+    /// Byte after the last one concerned.
+    pub end: usize,
+}
+
+/// Longest unit text looked at, in bytes.
+const LONGEST: usize = 80;
+/// Largest exponent of a unit.
+const HIGHEST: i64 = 12;
+
+/// Reads a unit; the whole text is consumed or it is a fault. `1` and the empty text are the unit of a pure number.
+pub fn unit(text: &str) -> Result<Unit, UnitFault> {
+    if text.len() > LONGEST {
+        return Err(fault(format!("a unit has at most {LONGEST} bytes"), 0, text.len()));
+    }
+    let mut reader = Reader { text, at: 0 };
+    reader.product(0)
+}
+
+struct Reader<'a> {
+    text: &'a str,
+    at: usize,
+}
+
+impl<'a> Reader<'a> {
+    fn product(&mut self, depth: u32) -> Result<Unit, UnitFault> {
+        let mut total = Unit::number();
+        let mut over = false;
+        let mut below = 0;
+        let mut waiting = false;
+        loop {
+            let before = self.at;
+            self.blank();
+            let Some(c) = self.peek() else { break };
+            match c {
+                ')' if depth > 0 => break,
+                '*' | '·' | '⋅' | '.' | '×' | '/' if waiting || before == 0 => {
+                    return Err(fault(format!("a unit is missing before `{c}`"), self.at, self.at + c.len_utf8()));
+                }
+                '*' | '·' | '⋅' | '.' | '×' => {
+                    self.at += c.len_utf8();
+                    // kg/m·s: the dot multiplies the denominator for some and the whole for others.
+                    if over && below > 0 {
+                        return Err(self.unclear(before));
+                    }
+                    waiting = true;
+                    continue;
+                }
+                '/' => {
+                    if over {
+                        return Err(fault("two slashes in a unit are read in two ways; use brackets".into(), self.at, self.at + 1));
+                    }
+                    self.at += 1;
+                    (over, waiting) = (true, true);
+                    continue;
+                }
+                _ => {}
+            }
+            if over && below > 0 {
+                return Err(self.unclear(before));
+            }
+            let start = self.at;
+            let atom = self.atom(depth)?;
+            let power = self.exponent()?;
+            let signed = if over { -power } else { power };
+            if over {
+                below += 1;
+            }
+            total = total.times(&atom, signed);
+            if self.at == start {
+                return Err(fault("this is no unit".into(), start, self.text.len()));
+            }
+            waiting = false;
+        }
+        if waiting {
+            return Err(fault("the unit ends where another one is expected".into(), self.text.len(), self.text.len()));
+        }
+        Ok(total)
+    }
+
+    fn unclear(&self, at: usize) -> UnitFault {
+        let message = "what is below the slash is unclear; write brackets, as in kg/(m s)";
+        fault(message.into(), at, self.text.len())
+    }
+
+    fn atom(&mut self, depth: u32) -> Result<Unit, UnitFault> {
+        let start = self.at;
+        match self.peek() {
+            Some('(') if depth < 3 => {
+                self.at += 1;
+                let inner = self.product(depth + 1)?;
+                if self.peek() != Some(')') {
+                    return Err(fault("the bracket is not closed".into(), start, self.text.len()));
+                }
+                self.at += 1;
+                Ok(inner)
+            }
+            Some('1') => {
+                self.at += 1;
+                Ok(Unit::number())
+            }
+            Some('°') => {
+                self.at += '°'.len_utf8();
+                Ok(angle(ratio(1, 180), 1))
+            }
+            _ => {
+                let rest = &self.text[start..];
+                let length = rest.find(|c: char| !(c.is_ascii_alphabetic() || c == 'µ' || c == 'μ')).unwrap_or(rest.len());
+                let word = &rest[..length];
+                let end = start + length.max(rest.chars().next().map_or(0, char::len_utf8));
+                let read = named(word).ok_or_else(|| {
+                    let shown = &self.text[start..end];
+                    fault(format!("`{shown}` is no unit of mechanics I know"), start, end)
+                })?;
+                self.at = end;
+                Ok(read)
+            }
+        }
+    }
+
+    /// The exponent after a unit: `^-2`, `^{2}`, `**2`, `²`, `⁻¹`, or a digit right behind, as in `m2`.
+    fn exponent(&mut self) -> Result<i64, UnitFault> {
+        let start = self.at;
+        let rest = &self.text[start..];
+        let mut digits = String::new();
+        let mut length = 0;
+        if let Some(tail) = rest.strip_prefix("**").or_else(|| rest.strip_prefix('^')) {
+            length = rest.len() - tail.len();
+            let braced = tail.starts_with('{') || tail.starts_with('(');
+            let body = if braced { &tail[1..] } else { tail };
+            for c in body.chars() {
+                match c {
+                    '-' | '−' if digits.is_empty() => digits.push('-'),
+                    '0'..='9' if digits.len() < 5 => digits.push(c),
+                    _ => break,
+                }
+                length += c.len_utf8();
+            }
+            if braced {
+                let closed = rest[length + 1..].starts_with(['}', ')']);
+                length += if closed { 2 } else { 1 };
+                if !closed {
+                    digits.clear();
+                }
+            }
+        } else {
+            for c in rest.chars() {
+                let plain = match c {
+                    '⁻' if digits.is_empty() => '-',
+                    '⁰' => '0',
+                    '¹' => '1',
+                    '²' => '2',
+                    '³' => '3',
+                    '⁴' => '4',
+                    '2' | '3' if digits.is_empty() => c,
+                    _ => break,
+                };
+                digits.push(plain);
+                length += c.len_utf8();
+            }
+        }
+        if length == 0 {
+            return Ok(1);
+        }
+        self.at += length.min(rest.len());
+        match digits.parse::<i64>() {
+            Ok(k) if k.abs() <= HIGHEST && k != 0 => Ok(k),
+            _ => Err(fault(format!("the exponent of a unit is a whole number up to {HIGHEST}"), start, self.at)),
+        }
+    }
+
+    fn blank(&mut self) {
+        while let Some(c) = self.peek() {
+            if !c.is_whitespace() {
+                break;
+            }
+            self.at += c.len_utf8();
+        }
+    }
+
+    fn peek(&self) -> Option<char> {
+        self.text[self.at..].chars().next()
+    }
+}
+
+fn fault(message: String, start: usize, end: usize) -> UnitFault {
+    UnitFault { message, start, end }
+}
+
+fn raise(value: &Rational, power: i64) -> Rational {
+    let k = power.unsigned_abs().min(HIGHEST as u64) as u32;
+    let up = Rational::new(value.numer().pow(k), value.denom().pow(k));
+    if power < 0 { up.recip() } else { up }
+}
+
+fn angle(factor: Rational, pi: i64) -> Unit {
+    Unit { dimension: Dimension::none(), factor, pi: ratio(pi, 1), angle: true }
+}
+
+/// A unit by its name, with a prefix where the SI allows one.
+fn named(word: &str) -> Option<Unit> {
+    if let Some(found) = plain(word) {
+        return Some(found);
+    }
+    let (prefix, power) = PREFIXES.iter().find(|(prefix, _)| word.starts_with(prefix) && word.len() > prefix.len())?;
+    let base = &word[prefix.len()..];
+    if !TAKES_PREFIX.contains(&base) {
+        return None;
+    }
+    let mut found = plain(base)?;
+    found.factor *= &raise(&ratio(10, 1), *power);
+    Some(found)
+}
+
+/// Prefixes and the powers of ten they stand for; `da` before `d` so that the longer is tried first.
+const PREFIXES: [(&str, i64); 13] = [
+    ("da", 1),
+    ("G", 9),
+    ("M", 6),
+    ("k", 3),
+    ("h", 2),
+    ("d", -1),
+    ("c", -2),
+    ("m", -3),
+    ("µ", -6),
+    ("μ", -6),
+    ("u", -6),
+    ("n", -9),
+    ("p", -12),
+];
+
+/// Units a prefix may stand before.
+const TAKES_PREFIX: [&str; 9] = ["g", "m", "s", "N", "J", "W", "Pa", "Hz", "rad"];
+
+fn plain(word: &str) -> Option<Unit> {
+    let si = |mass, length, time, factor| Unit { dimension: Dimension::new(mass, length, time), factor, ..Unit::number() };
+    let one = Rational::one;
+    Some(match word {
+        "kg" => si(1, 0, 0, one()),
+        "g" => si(1, 0, 0, ratio(1, 1000)),
+        "t" => si(1, 0, 0, ratio(1000, 1)),
+        "m" => si(0, 1, 0, one()),
+        "s" | "sec" => si(0, 0, 1, one()),
+        "min" => si(0, 0, 1, ratio(60, 1)),
+        "h" | "hr" => si(0, 0, 1, ratio(3600, 1)),
+        "N" => si(1, 1, -2, one()),
+        // Nm and Ns are not SI spelling, but how newton metre and newton second are often typed.
+        "Nm" | "J" => si(1, 2, -2, one()),
+        "Ns" => si(1, 1, -1, one()),
+        "W" => si(1, 2, -3, one()),
+        "Pa" => si(1, -1, -2, one()),
+        "Hz" => si(0, 0, -1, one()),
+        "rad" => angle(one(), 0),
+        "deg" | "degree" | "degrees" => angle(ratio(1, 180), 1),
+        "rev" | "turn" => angle(ratio(2, 1), 1),
+        "rpm" => Unit { dimension: Dimension::new(0, 0, -1), ..angle(ratio(1, 30), 1) },
+        "in" => si(0, 1, 0, ratio(127, 5000)),
+        "ft" => si(0, 1, 0, ratio(381, 1250)),
+        "lb" | "lbm" => si(1, 0, 0, ratio(45_359_237, 100_000_000)),
+        "lbf" => si(1, 1, -2, ratio(45_359_237, 100_000_000) * ratio(980_665, 100_000)),
+        "slug" => si(1, 0, 0, ratio(45_359_237, 100_000_000) * ratio(980_665, 100_000) * ratio(1250, 381)),
+        "mph" => si(0, 1, -1, ratio(1397, 3125)),
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_convert_exactly() {
+        let table = [
+            ("kg m^2", Dimension::new(1, 2, 0), (1, 1)),
+            ("m/s", Dimension::new(0, 1, -1), (1, 1)),
+            ("m s^-2", Dimension::new(0, 1, -2), (1, 1)),
+            ("m s⁻²", Dimension::new(0, 1, -2), (1, 1)),
+            ("N s", Dimension::new(1, 1, -1), (1, 1)),
+            ("N·m", Dimension::new(1, 2, -2), (1, 1)),
+            ("J", Dimension::new(1, 2, -2), (1, 1)),
+            ("kg·m/s", Dimension::new(1, 1, -1), (1, 1)),
+            ("kg*m**2/s", Dimension::new(1, 2, -1), (1, 1)),
+            ("kg/(m s)", Dimension::new(1, -1, -1), (1, 1)),
+            ("mm", Dimension::new(0, 1, 0), (1, 1000)),
+            ("cm^2", Dimension::new(0, 2, 0), (1, 10_000)),
+            ("g", Dimension::new(1, 0, 0), (1, 1000)),
+            ("km/h", Dimension::new(0, 1, -1), (5, 18)),
+            ("rad/s", Dimension::new(0, 0, -1), (1, 1)),
+            ("1/s", Dimension::new(0, 0, -1), (1, 1)),
+            ("s^{-1}", Dimension::new(0, 0, -1), (1, 1)),
+            ("1", Dimension::none(), (1, 1)),
+            ("", Dimension::none(), (1, 1)),
+            ("ms", Dimension::new(0, 0, 1), (1, 1000)),
+            ("MJ", Dimension::new(1, 2, -2), (1_000_000, 1)),
+            ("m2", Dimension::new(0, 2, 0), (1, 1)),
+            ("ft/s", Dimension::new(0, 1, -1), (381, 1250)),
+        ];
+        for (text, dimension, (n, d)) in table {
+            let read = unit(text).unwrap_or_else(|fault| panic!("{text}: {}", fault.message));
+            assert_eq!((read.dimension, read.factor), (dimension, ratio(n, d)), "{text}");
+        }
+        assert_eq!(unit("deg").map(|u| u.value()), Ok(Expr::pi() * Expr::ratio(1, 180)));
+        assert_eq!(unit("rpm").map(|u| u.value()), Ok(Expr::pi() * Expr::ratio(1, 30)));
+    }
+
+    #[test]
+    fn what_is_no_unit_is_refused_with_its_place() {
+        for text in ["Kg", "kg m^", "kg/m/s", "kg/m s", "m^99999", "v", "m/", "/s", "m··s", "(m", "m)", "kkg", "^2", "m^0", "é"] {
+            let found = unit(text);
+            assert!(found.is_err(), "{text} was read as {found:?}");
+            let fault = found.unwrap_err();
+            assert!(fault.start <= fault.end && fault.end <= text.len(), "{text}: {fault:?}");
+        }
+    }
+}
