@@ -2,4 +2,5 @@
 pub mod dimension;
 pub mod domain;
 pub mod expr;
+pub mod interval;
 pub mod scene;

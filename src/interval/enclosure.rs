@@ -1,0 +1,293 @@
+//! Intervals with dyadic ends at a chosen precision, and the same with the precision in the type.
+
+use num_traits::{One, Signed, Zero};
+
+use super::dyadic::{Dyadic, Round};
+use super::{Certified, Outcome, series};
+use crate::expr::{Function, Int, Rational};
+
+/// Numbers beyond 2^±`RANGE` are not followed: their exponents alone would fill memory.
+const RANGE: i64 = 1 << 40;
+
+/// A closed interval that contains the value meant.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Enclosure {
+    /// Lower end.
+    pub low: Dyadic,
+    /// Upper end.
+    pub high: Dyadic,
+}
+
+impl Enclosure {
+    /// The interval of one number.
+    pub fn point(x: Dyadic) -> Enclosure {
+        Enclosure { low: x.clone(), high: x }
+    }
+
+    /// The tightest interval of the precision around a fraction.
+    pub fn of(value: &Rational, bits: u32) -> Enclosure {
+        Enclosure {
+            low: Dyadic::from_rational(value, bits, Round::Down),
+            high: Dyadic::from_rational(value, bits, Round::Up),
+        }
+    }
+
+    /// The circle constant.
+    pub fn pi(bits: u32) -> Enclosure {
+        series::pi(bits)
+    }
+
+    /// Whether the interval is one number.
+    pub fn is_exact(&self) -> bool {
+        self.low == self.high
+    }
+
+    /// Whether zero lies inside.
+    pub fn has_zero(&self) -> bool {
+        self.low.sign() <= 0 && self.high.sign() >= 0
+    }
+
+    /// Whether the intervals have no number in common.
+    pub fn is_disjoint(&self, other: &Enclosure) -> bool {
+        self.high < other.low || other.high < self.low
+    }
+
+    /// Whether a fraction lies inside.
+    pub fn contains(&self, value: &Rational) -> bool {
+        let bits = 64 + (self.low.mantissa.bits().max(self.high.mantissa.bits())) as u32;
+        let tight = Enclosure::of(value, bits.max(value.numer().bits() as u32 + 64));
+        self.low <= tight.low && tight.high <= self.high
+    }
+
+    /// −x.
+    pub fn neg(&self) -> Enclosure {
+        Enclosure { low: self.high.neg(), high: self.low.neg() }
+    }
+
+    /// x·2^k.
+    pub fn scale(&self, k: i64) -> Enclosure {
+        Enclosure { low: self.low.scale(k), high: self.high.scale(k) }
+    }
+
+    /// Sum.
+    pub fn add(&self, other: &Enclosure, bits: u32) -> Enclosure {
+        Enclosure {
+            low: self.low.add(&other.low, bits, Round::Down),
+            high: self.high.add(&other.high, bits, Round::Up),
+        }
+    }
+
+    /// Difference.
+    pub fn sub(&self, other: &Enclosure, bits: u32) -> Enclosure {
+        self.add(&other.neg(), bits)
+    }
+
+    /// Product.
+    pub fn mul(&self, other: &Enclosure, bits: u32) -> Enclosure {
+        let (low, high) = match (self.sides(), other.sides()) {
+            (1, 1) => (self.low.mul(&other.low), self.high.mul(&other.high)),
+            (-1, -1) => (self.high.mul(&other.high), self.low.mul(&other.low)),
+            (1, -1) => (self.high.mul(&other.low), self.low.mul(&other.high)),
+            (-1, 1) => (self.low.mul(&other.high), self.high.mul(&other.low)),
+            _ => {
+                let ends = [
+                    self.low.mul(&other.low),
+                    self.low.mul(&other.high),
+                    self.high.mul(&other.low),
+                    self.high.mul(&other.high),
+                ];
+                let [a, b, c, d] = ends;
+                let low = a.clone().min(b.clone()).min(c.clone()).min(d.clone());
+                (low, a.max(b).max(c).max(d))
+            }
+        };
+        Enclosure { low: low.round(bits, Round::Down), high: high.round(bits, Round::Up) }
+    }
+
+    /// Square; never negative.
+    pub fn square(&self, bits: u32) -> Enclosure {
+        let a = self.abs();
+        Enclosure {
+            low: a.low.mul(&a.low).round(bits, Round::Down),
+            high: a.high.mul(&a.high).round(bits, Round::Up),
+        }
+    }
+
+    /// Quotient by a positive integer.
+    pub fn div_small(&self, n: u64, bits: u32) -> Enclosure {
+        Enclosure { low: self.low.div_small(n, bits, Round::Down), high: self.high.div_small(n, bits, Round::Up) }
+    }
+
+    /// Reciprocal; `None` around zero.
+    pub fn recip(&self, bits: u32) -> Option<Enclosure> {
+        (!self.has_zero()).then(|| Enclosure {
+            low: self.high.recip(bits, Round::Down),
+            high: self.low.recip(bits, Round::Up),
+        })
+    }
+
+    /// Square root; `None` where the interval reaches below zero.
+    pub fn sqrt(&self, bits: u32) -> Option<Enclosure> {
+        (self.low.sign() >= 0)
+            .then(|| Enclosure { low: self.low.sqrt(bits, Round::Down), high: self.high.sqrt(bits, Round::Up) })
+    }
+
+    /// Absolute value.
+    pub fn abs(&self) -> Enclosure {
+        match self.sides() {
+            1 => self.clone(),
+            -1 => self.neg(),
+            _ => Enclosure { low: Dyadic::zero(), high: self.low.neg().max(self.high.clone()) },
+        }
+    }
+
+    /// The interval widened by ±`by`.
+    pub fn widen(&self, by: &Dyadic, bits: u32) -> Enclosure {
+        Enclosure { low: self.low.add(&by.neg(), bits, Round::Down), high: self.high.add(by, bits, Round::Up) }
+    }
+
+    /// Number of decimal digits in which the two ends agree, roughly; large for an exact value.
+    pub fn digits(&self) -> u32 {
+        let width = self.high.add(&self.low.neg(), 32, Round::Up);
+        if width.sign() == 0 {
+            return u32::MAX;
+        }
+        let size = self.low.top().max(self.high.top());
+        let bits = size.saturating_sub(width.top()).max(0) as u64;
+        // log10 2 = 0.30103
+        (bits * 30_103 / 100_000).min(1_000_000) as u32
+    }
+
+    /// A decimal number within half a unit of its last digit of the middle, with the given number of significant digits.
+    pub fn decimal(&self, digits: u32) -> String {
+        let middle = self.low.add(&self.high, 4 * digits + 64, Round::Down).scale(-1);
+        if middle.mantissa.is_zero() {
+            return "0".into();
+        }
+        if middle.top().abs() > 20_000 {
+            // The power of ten to six digits; more would need numbers as long as the exponent.
+            let log = middle.top() as f64 * std::f64::consts::LOG10_2;
+            return format!("{}10^{:.0}", if middle.sign() < 0 { "-" } else { "" }, log);
+        }
+        decimal(&middle.to_rational(), digits)
+    }
+
+    /// 1 where all is ≥ 0, −1 where all is ≤ 0, 0 where both signs occur.
+    fn sides(&self) -> i32 {
+        if self.low.sign() >= 0 {
+            1
+        } else if self.high.sign() <= 0 {
+            -1
+        } else {
+            0
+        }
+    }
+
+    fn in_range(self) -> Outcome<Enclosure> {
+        let fits = |x: &Dyadic| x.mantissa.is_zero() || x.top().abs() <= RANGE;
+        if fits(&self.low) && fits(&self.high) { Outcome::Value(self) } else { Outcome::Unknown }
+    }
+}
+
+/// A fraction as a decimal number with the given number of significant digits, half a unit off at most.
+pub fn decimal(value: &Rational, digits: u32) -> String {
+    if value.is_zero() {
+        return "0".into();
+    }
+    let size = value.numer().bits() as i64 - value.denom().bits() as i64;
+    // First guess of the decimal exponent, then at most two corrections.
+    let mut exponent = (size * 30_103).div_euclid(100_000) as i32;
+    let shown = |exponent: i32| {
+        let shift = digits as i32 - 1 - exponent;
+        let factor = Rational::from(Int::from(10).pow(shift.unsigned_abs()));
+        let scaled = value.abs() * if shift >= 0 { factor } else { factor.recip() };
+        scaled.round().to_integer().to_string()
+    };
+    let mut text = shown(exponent);
+    for _ in 0..3 {
+        if text.len() as u32 > digits {
+            exponent += 1;
+        } else if (text.len() as u32) < digits {
+            exponent -= 1;
+        } else {
+            break;
+        }
+        text = shown(exponent);
+    }
+    let sign = if value.is_negative() { "-" } else { "" };
+    let body = if (-5..digits as i32).contains(&exponent) {
+        if exponent < 0 {
+            format!("0.{}{}", "0".repeat((-exponent - 1) as usize), text)
+        } else {
+            let (whole, part) = text.split_at((exponent as usize + 1).min(text.len()));
+            if part.is_empty() { whole.to_string() } else { format!("{whole}.{part}") }
+        }
+    } else {
+        let (whole, part) = text.split_at(1);
+        if part.is_empty() { format!("{whole}e{exponent}") } else { format!("{whole}.{part}e{exponent}") }
+    };
+    format!("{sign}{body}")
+}
+
+/// An enclosure computed with `BITS` bits.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Big<const BITS: u32>(pub Enclosure);
+
+fn known<const BITS: u32>(e: Enclosure) -> Outcome<Big<BITS>> {
+    e.in_range().then(|e| Outcome::Value(Big(e.clone())))
+}
+
+impl<const BITS: u32> Certified for Big<BITS> {
+    fn from_rational(value: &Rational) -> Self {
+        Big(Enclosure::of(value, BITS))
+    }
+    fn pi() -> Outcome<Self> {
+        Outcome::Value(Big(series::pi(BITS)))
+    }
+    fn plus(&self, other: &Self) -> Outcome<Self> {
+        known(self.0.add(&other.0, BITS))
+    }
+    fn times(&self, other: &Self) -> Outcome<Self> {
+        // The same number twice is a square: tighter around zero.
+        if std::ptr::eq(self, other) {
+            return known(self.0.square(BITS));
+        }
+        known(self.0.mul(&other.0, BITS))
+    }
+    fn recip(&self) -> Outcome<Self> {
+        match self.0.recip(BITS) {
+            Some(e) => known(e),
+            None if self.0.is_exact() => Outcome::Undefined,
+            None => Outcome::Unknown,
+        }
+    }
+    fn sqrt(&self) -> Outcome<Self> {
+        match self.0.sqrt(BITS) {
+            Some(e) => known(e),
+            None if self.0.high.sign() < 0 => Outcome::Undefined,
+            None => Outcome::Unknown,
+        }
+    }
+    fn pow(&self, exponent: &Self) -> Outcome<Self> {
+        if self.0.high.sign() < 0 {
+            return Outcome::Undefined;
+        }
+        if self.0.low.sign() <= 0 {
+            let zero = self.0.is_exact();
+            return match (zero, exponent.0.low.sign(), exponent.0.high.sign()) {
+                (true, 1, _) => Outcome::Value(self.clone()),
+                (true, _, -1) => Outcome::Undefined,
+                _ => Outcome::Unknown,
+            };
+        }
+        series::ln(&self.0, BITS).then(|l| series::exp(&l.mul(&exponent.0, BITS + 64), BITS)).then(|e| known(e.clone()))
+    }
+    fn call(&self, function: Function) -> Outcome<Self> {
+        series::call(&self.0, function, BITS).then(|e| known(e.clone()))
+    }
+}
+
+/// The exact fraction 1, as an enclosure.
+pub(super) fn unit() -> Enclosure {
+    Enclosure::point(Dyadic { mantissa: One::one(), exponent: 0 })
+}

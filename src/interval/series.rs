@@ -1,0 +1,357 @@
+//! Elementary functions of enclosures by argument reduction and Taylor series, every remainder bounded.
+//!
+//! All arithmetic below is interval arithmetic, so rounding needs no analysis of its own; the only error added by hand is
+//! the remainder of each series, bounded where the series is cut. `sin` and `cos` are evaluated at the middle and widened by
+//! half the width (their slope is at most 1); the monotone functions are evaluated at both ends.
+
+use std::sync::OnceLock;
+
+use num_bigint::BigInt;
+use num_traits::{One, ToPrimitive, Zero};
+
+use super::dyadic::{Dyadic, Round};
+use super::enclosure::unit;
+use super::{Enclosure, Outcome};
+use crate::expr::Function;
+use Outcome::{Undefined, Unknown, Value};
+
+/// Bits to which the constants are kept; working precisions beyond it get no more accurate.
+const CONSTANT_BITS: u32 = 4096 + 256;
+
+/// Arguments of sin, cos and exp beyond 2^`LARGEST` are not reduced.
+const LARGEST: i64 = 128;
+
+/// π = 16 atan(1/5) − 4 atan(1/239) (Machin 1706).
+pub(super) fn pi(bits: u32) -> Enclosure {
+    static PI: OnceLock<Enclosure> = OnceLock::new();
+    let full = PI.get_or_init(|| {
+        let w = CONSTANT_BITS + 16;
+        inverse_series(5, w, true).scale(4).sub(&inverse_series(239, w, true).scale(2), w)
+    });
+    rounded(full, bits)
+}
+
+/// ln 2 = 18 artanh(1/26) − 2 artanh(1/4801) + 8 artanh(1/8749).
+fn ln_two(bits: u32) -> Enclosure {
+    static LN2: OnceLock<Enclosure> = OnceLock::new();
+    let full = LN2.get_or_init(|| {
+        let w = CONSTANT_BITS + 16;
+        let [a, b, c] = [26, 4801, 8749].map(|n| inverse_series(n, w, false));
+        let nine = Enclosure::point(Dyadic::from_int(9));
+        a.mul(&nine, w).scale(1).sub(&b.scale(1), w).add(&c.scale(3), w)
+    });
+    rounded(full, bits)
+}
+
+/// atan(1/n) (alternating) or artanh(1/n): Σ (±1)^k / ((2k+1) n^(2k+1)) in fixed point with `w` bits.
+fn inverse_series(n: u64, w: u32, alternating: bool) -> Enclosure {
+    let mut power: BigInt = (BigInt::one() << w) / n;
+    let mut total = BigInt::zero();
+    let mut terms = 0u64;
+    while !power.is_zero() {
+        let term = &power / (2 * terms + 1);
+        if alternating && terms % 2 == 1 { total -= term } else { total += term }
+        power /= n * n;
+        terms += 1;
+    }
+    // Each power is at most 2 units too small (the error shrinks by n² ≥ 25 per step and grows by 1), each term so by at
+    // most 3; the terms left out sum to less than 2 units.
+    let error = BigInt::from(3 * terms + 2);
+    let [low, high] = [&total - &error, &total + &error];
+    let end = |m| Dyadic { mantissa: m, exponent: -i64::from(w) };
+    Enclosure { low: end(low), high: end(high) }
+}
+
+fn rounded(e: &Enclosure, bits: u32) -> Enclosure {
+    Enclosure { low: e.low.clone().round(bits, Round::Down), high: e.high.clone().round(bits, Round::Up) }
+}
+
+/// A function of an enclosure.
+pub(super) fn call(x: &Enclosure, function: Function, bits: u32) -> Outcome<Enclosure> {
+    let w = bits + 32;
+    match function {
+        Function::Abs => Value(x.abs()),
+        Function::Sin => Value(sin_cos(x, bits)[0].clone()),
+        Function::Cos => Value(sin_cos(x, bits)[1].clone()),
+        Function::Tan => {
+            let [sin, cos] = sin_cos(x, w);
+            quotient(&sin, &cos, bits)
+        }
+        Function::Asin => asin(x, bits),
+        Function::Acos => asin(x, w).then(|a| Value(pi(w).scale(-1).sub(a, bits))),
+        Function::Atan => Value(monotone(x, |t| atan_point(t, bits))),
+        Function::Exp => exp(x, bits),
+        Function::Ln => ln(x, bits),
+        Function::Sinh | Function::Cosh | Function::Tanh => hyperbolic(x, function, bits),
+    }
+}
+
+fn quotient(a: &Enclosure, b: &Enclosure, bits: u32) -> Outcome<Enclosure> {
+    match b.recip(bits + 8) {
+        Some(inverse) => Value(a.mul(&inverse, bits)),
+        None => Unknown,
+    }
+}
+
+/// The hull of an increasing function at both ends.
+fn monotone(x: &Enclosure, f: impl Fn(&Dyadic) -> Enclosure) -> Enclosure {
+    let low = f(&x.low);
+    if x.is_exact() {
+        return low;
+    }
+    Enclosure { low: low.low, high: f(&x.high).high }
+}
+
+/// [sin x, cos x].
+fn sin_cos(x: &Enclosure, bits: u32) -> [Enclosure; 2] {
+    let anything = Enclosure { low: Dyadic::from_int(-1), high: Dyadic::from_int(1) };
+    if x.low.top().max(x.high.top()) > LARGEST {
+        return [anything.clone(), anything];
+    }
+    let width = x.high.add(&x.low.neg(), 64, Round::Up);
+    if width.top() > 2 {
+        return [anything.clone(), anything];
+    }
+    // |x| < 2^128: the reduction loses at most that many bits.
+    let w = bits + 40 + x.low.top().max(x.high.top()).max(0) as u32;
+    let middle = x.low.add(&x.high, w, Round::Down).scale(-1);
+    let point = Enclosure::point(middle.clone());
+    let quarter = pi(w).scale(-1);
+    // Any integer k is right; the nearest keeps the rest small.
+    let k = match middle.top() {
+        top if top < 0 => BigInt::zero(),
+        _ => match quarter.recip(w) {
+            Some(inverse) => nearest(&point.mul(&inverse, w).low),
+            None => BigInt::zero(),
+        },
+    };
+    let turns = Enclosure::point(Dyadic { mantissa: k.clone(), exponent: 0 });
+    let rest = point.sub(&turns.mul(&quarter, w), w);
+    let [sin, cos] = sin_cos_small(&rest, w);
+    let four: BigInt = ((k % 4) + 4) % 4;
+    let [sin, cos] = match four.to_u8() {
+        Some(1) => [cos, sin.neg()],
+        Some(2) => [sin.neg(), cos.neg()],
+        Some(3) => [cos.neg(), sin],
+        _ => [sin, cos],
+    };
+    // The rounding of the middle is below the width of a working unit; for an exact argument it is repeated here.
+    let spread = x.high.add(&middle.neg(), 64, Round::Up).max(middle.add(&x.low.neg(), 64, Round::Up));
+    [sin, cos].map(|value| {
+        let wide = value.widen(&spread, bits);
+        let (low, high) = (wide.low.max(anything.low.clone()), wide.high.min(anything.high.clone()));
+        Enclosure { low, high }
+    })
+}
+
+/// The integer nearest to a number.
+fn nearest(x: &Dyadic) -> BigInt {
+    let half = x.add(&Dyadic { mantissa: BigInt::one(), exponent: -1 }, 256, Round::Down);
+    if half.exponent >= 0 { half.mantissa << half.exponent as u64 } else { half.mantissa >> half.exponent.unsigned_abs() }
+}
+
+/// [sin x, cos x] for |x| < 1, by halving j times, Taylor, and doubling: with d = cos − 1, sin 2x = 2 sin x (1 + d) and
+/// d(2x) = 4d + 2d².
+fn sin_cos_small(x: &Enclosure, bits: u32) -> [Enclosure; 2] {
+    let halvings = if bits > 400 { i64::from(bits.isqrt()) / 2 } else { 4 };
+    let w = bits + 2 * halvings as u32 + 8;
+    let y = x.scale(-halvings);
+    let square = y.square(w);
+    let enough = -i64::from(w) + y.abs().high.top().max(-i64::from(w));
+    // sin y = Σ (−1)^k y^(2k+1)/(2k+1)!, d = Σ_{k≥1} (−1)^k y^(2k)/(2k)!; for |y| < 1 the first term left out bounds the rest.
+    let series = |first: Enclosure, mut n: u64| {
+        let (mut term, mut total) = (first.clone(), first);
+        loop {
+            term = term.mul(&square, w).div_small((n + 1) * (n + 2), w).neg();
+            n += 2;
+            if term.abs().high.top() < enough {
+                let size = term.abs().high;
+                return total.widen(&size, w);
+            }
+            total = total.add(&term, w);
+        }
+    };
+    let mut sin = series(y.clone(), 1);
+    let mut d = series(square.scale(-1).neg(), 2);
+    for _ in 0..halvings {
+        sin = sin.mul(&d.add(&unit(), w), w).scale(1);
+        d = d.scale(2).add(&d.square(w).scale(1), w);
+    }
+    [rounded(&sin, bits), rounded(&d.add(&unit(), w), bits)]
+}
+
+/// eˣ.
+pub(super) fn exp(x: &Enclosure, bits: u32) -> Outcome<Enclosure> {
+    // 2^39 keeps the result's exponent countable.
+    if x.low.top().max(x.high.top()) > 39 {
+        return Unknown;
+    }
+    Value(monotone(x, |t| exp_point(t, bits)))
+}
+
+fn exp_point(x: &Dyadic, bits: u32) -> Enclosure {
+    let halvings = if bits > 400 { i64::from(bits.isqrt()) / 2 } else { 6 };
+    let w = bits + 64 + halvings as u32;
+    let point = Enclosure::point(x.clone());
+    let ln2 = ln_two(w);
+    let k = match ln2.recip(w) {
+        Some(inverse) => nearest(&point.mul(&inverse, w).low),
+        None => BigInt::zero(),
+    };
+    let turns = Enclosure::point(Dyadic { mantissa: k.clone(), exponent: 0 });
+    let y = point.sub(&turns.mul(&ln2, w), w).scale(-halvings);
+    // |y| < 1/2: the rest of the series is at most the first term left out times 1/(1 − 1/2).
+    let (mut term, mut total) = (unit(), unit());
+    for n in 1.. {
+        term = term.mul(&y, w).div_small(n, w);
+        if term.abs().high.top() < -i64::from(w) {
+            total = total.widen(&term.abs().high.scale(1), w);
+            break;
+        }
+        total = total.add(&term, w);
+    }
+    for _ in 0..halvings {
+        total = total.square(w);
+    }
+    rounded(&total.scale(k.to_i64().unwrap_or(0)), bits)
+}
+
+/// ln x.
+pub(super) fn ln(x: &Enclosure, bits: u32) -> Outcome<Enclosure> {
+    if x.high.sign() <= 0 {
+        return Undefined;
+    }
+    if x.low.sign() <= 0 {
+        return Unknown;
+    }
+    Value(monotone(x, |t| ln_point(t, bits)))
+}
+
+/// ln x = k ln 2 + 2 artanh((m − 1)/(m + 1)) with x = m·2^k and m in [1/√2, √2], roughly.
+fn ln_point(x: &Dyadic, bits: u32) -> Enclosure {
+    let w = bits + 64;
+    let mut k = x.top();
+    let mut m = x.scale(-k);
+    // m in [1/2, 1); below 0.7 it is doubled.
+    if m < (Dyadic { mantissa: BigInt::from(45), exponent: -6 }) {
+        m = m.scale(1);
+        k -= 1;
+    }
+    let mut m = Enclosure::point(m);
+    let mut roots = 0;
+    // Near 1 the quotient is small already, and roots would cancel digits.
+    if m.sub(&unit(), 64).abs().high.top() > -8 {
+        roots = if bits > 400 { i64::from(bits.isqrt()) / 2 } else { 4 };
+    }
+    let w = w + roots as u32 + 8;
+    for _ in 0..roots {
+        m = m.sqrt(w).unwrap_or_else(unit);
+    }
+    let z = match m.add(&unit(), w).recip(w) {
+        Some(inverse) => m.sub(&unit(), w).mul(&inverse, w),
+        None => unit(),
+    };
+    let part = odd_series(&z, w, false).scale(1 + roots);
+    let turns = Enclosure::point(Dyadic::from_int(k));
+    rounded(&turns.mul(&ln_two(w), w).add(&part, w), bits)
+}
+
+/// Σ (±1)^k z^(2k+1)/(2k+1) for |z| ≤ 1/2: artanh z, or atan z with alternating signs.
+fn odd_series(z: &Enclosure, w: u32, alternating: bool) -> Enclosure {
+    let square = z.square(w);
+    let step = if alternating { square.neg() } else { square };
+    let enough = z.abs().high.top().max(-4 * i64::from(w)) - i64::from(w);
+    let (mut power, mut total) = (z.clone(), z.clone());
+    let mut n = 1;
+    loop {
+        power = power.mul(&step, w);
+        n += 2;
+        if power.abs().high.top() < enough {
+            // The terms left out shrink by 1/4 or more each.
+            return total.widen(&power.abs().high.scale(1), w);
+        }
+        total = total.add(&power.div_small(n, w), w);
+    }
+}
+
+/// atan x by |x| > 1 → π/2 − atan(1/x), then atan x = 2 atan(x/(1 + √(1 + x²))).
+fn atan_point(x: &Dyadic, bits: u32) -> Enclosure {
+    if x.sign() == 0 {
+        return Enclosure::point(Dyadic::zero());
+    }
+    if x.sign() < 0 {
+        return atan_point(&x.neg(), bits).neg();
+    }
+    let halvings = if bits > 400 { i64::from(bits.isqrt()) / 2 } else { 4 };
+    let w = bits + 32;
+    let point = Enclosure::point(x.clone());
+    let inverted = x.top() > 0;
+    let mut z = match point.recip(w) {
+        Some(inverse) if inverted => inverse,
+        _ => point,
+    };
+    for _ in 0..halvings {
+        let root = z.square(w).add(&unit(), w).sqrt(w).unwrap_or_else(unit);
+        z = match root.add(&unit(), w).recip(w) {
+            Some(inverse) => z.mul(&inverse, w),
+            None => z,
+        };
+    }
+    let angle = odd_series(&z, w, true).scale(halvings);
+    let angle = if inverted { pi(w).scale(-1).sub(&angle, w) } else { angle };
+    rounded(&angle, bits)
+}
+
+/// asin x = atan(x/√(1 − x²)); ±π/2 at ±1.
+fn asin(x: &Enclosure, bits: u32) -> Outcome<Enclosure> {
+    let one = Dyadic::from_int(1);
+    if x.low > one || x.high < one.neg() {
+        return Undefined;
+    }
+    if x.high > one || x.low < one.neg() {
+        return Unknown;
+    }
+    let w = bits + 32;
+    let at = |t: &Dyadic| {
+        let point = Enclosure::point(t.clone());
+        // (1 − t)(1 + t) loses nothing near ±1.
+        let rest = unit().sub(&point, 4 * w).mul(&unit().add(&point, 4 * w), w);
+        match rest.sqrt(w).and_then(|r| r.recip(w)) {
+            Some(inverse) => monotone(&point.mul(&inverse, w), |q| atan_point(q, w)),
+            None if rest.is_exact() => if t.sign() > 0 { pi(w).scale(-1) } else { pi(w).scale(-1).neg() },
+            None => Enclosure { low: pi(w).scale(-1).neg().low, high: pi(w).scale(-1).high },
+        }
+    };
+    Value(rounded(&monotone(x, at), bits))
+}
+
+fn hyperbolic(x: &Enclosure, function: Function, bits: u32) -> Outcome<Enclosure> {
+    let w = bits + 32;
+    let cosh = |t: &Enclosure| exp(t, w).then(|e| match e.recip(w) {
+        Some(inverse) => Value(e.add(&inverse, w).scale(-1)),
+        None => Unknown,
+    });
+    match function {
+        Function::Cosh => cosh(&x.abs()).then(|high| {
+            // Even, and increasing in |x|.
+            cosh(&Enclosure::point(x.abs().low)).then(|low| {
+                Value(rounded(&Enclosure { low: low.low.clone(), high: high.high.clone() }, bits))
+            })
+        }),
+        _ => exp(x, w).then(|up| {
+            if up.recip(w).is_none() {
+                return Unknown;
+            }
+            let at = |t: &Dyadic| {
+                let e = exp_point(t, w);
+                let inverse = e.recip(w).unwrap_or_else(unit);
+                let (difference, sum) = (e.sub(&inverse, w), e.add(&inverse, w));
+                match function {
+                    Function::Sinh => difference.scale(-1),
+                    _ => difference.mul(&sum.recip(w).unwrap_or_else(unit), w),
+                }
+            };
+            Value(rounded(&monotone(x, at), bits))
+        }),
+    }
+}
