@@ -1,6 +1,7 @@
 //! carom: symbolic-numeric mechanics of planar rigid-body collisions.
 pub mod dimension;
 pub mod domain;
+pub mod equality;
 pub mod expr;
 pub mod interval;
 pub mod scene;

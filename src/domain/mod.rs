@@ -47,12 +47,20 @@ pub struct Domains {
 impl Limit {
     /// A number as an end.
     pub fn number(value: Rational, open: bool) -> Limit {
-        Limit { value, of_pi: false, open }
+        Limit {
+            value,
+            of_pi: false,
+            open,
+        }
     }
 
     /// A multiple of π as an end.
     pub fn pi(value: Rational, open: bool) -> Limit {
-        Limit { value, of_pi: true, open }
+        Limit {
+            value,
+            of_pi: true,
+            open,
+        }
     }
 
     /// How a fraction lies to the end; `None` where 36 digits of π do not tell.
@@ -61,7 +69,11 @@ impl Limit {
             return Some(compare(x, &self.value));
         }
         let [low, high] = pi_bounds().map(|p| p * &self.value);
-        let (low, high) = if low <= high { (low, high) } else { (high, low) };
+        let (low, high) = if low <= high {
+            (low, high)
+        } else {
+            (high, low)
+        };
         match (x.cmp(&low), x.cmp(&high)) {
             (Ordering::Less | Ordering::Equal, _) => Some(Ordering::Less),
             (_, Ordering::Greater | Ordering::Equal) => Some(Ordering::Greater),
@@ -71,19 +83,30 @@ impl Limit {
 
     /// The end in floating point, for plans and pictures.
     pub fn approximate(&self) -> f64 {
-        crate::expr::number::to_f64(&self.value) * if self.of_pi { std::f64::consts::PI } else { 1.0 }
+        crate::expr::number::to_f64(&self.value)
+            * if self.of_pi {
+                std::f64::consts::PI
+            } else {
+                1.0
+            }
     }
 }
 
 impl Domain {
     /// All numbers > 0.
     pub fn positive() -> Domain {
-        Domain { low: Some(Limit::number(Rational::zero(), true)), high: None }
+        Domain {
+            low: Some(Limit::number(Rational::zero(), true)),
+            high: None,
+        }
     }
 
     /// All numbers ≥ 0.
     pub fn nonnegative() -> Domain {
-        Domain { low: Some(Limit::number(Rational::zero(), false)), high: None }
+        Domain {
+            low: Some(Limit::number(Rational::zero(), false)),
+            high: None,
+        }
     }
 
     /// All real numbers.
@@ -93,12 +116,18 @@ impl Domain {
 
     /// The closed interval from `low` to `high`.
     pub fn between(low: Rational, high: Rational) -> Domain {
-        Domain { low: Some(Limit::number(low, false)), high: Some(Limit::number(high, false)) }
+        Domain {
+            low: Some(Limit::number(low, false)),
+            high: Some(Limit::number(high, false)),
+        }
     }
 
     /// The open interval of angles from `low`·π to `high`·π.
     pub fn angle(low: Rational, high: Rational) -> Domain {
-        Domain { low: Some(Limit::pi(low, true)), high: Some(Limit::pi(high, true)) }
+        Domain {
+            low: Some(Limit::pi(low, true)),
+            high: Some(Limit::pi(high, true)),
+        }
     }
 
     /// Angles strictly between 0 and π/2.
@@ -123,31 +152,53 @@ impl Domain {
 
     /// Whether a number is an end of the interval.
     pub fn is_end(&self, x: &Rational) -> bool {
-        [&self.low, &self.high].into_iter().flatten().any(|l| l.compare(x) == Some(Ordering::Equal))
+        [&self.low, &self.high]
+            .into_iter()
+            .flatten()
+            .any(|l| l.compare(x) == Some(Ordering::Equal))
     }
 
     /// Whether the interval holds both positive and negative numbers.
     pub fn changes_sign(&self) -> bool {
-        self.low.as_ref().is_none_or(|l| l.value.is_negative()) && self.high.as_ref().is_none_or(|h| h.value.is_positive())
+        self.low.as_ref().is_none_or(|l| l.value.is_negative())
+            && self.high.as_ref().is_none_or(|h| h.value.is_positive())
     }
 
     /// The part with the given sign: numbers ≥ 0 for `positive`, else numbers ≤ 0.
     pub fn half(&self, positive: bool) -> Domain {
         let zero = Some(Limit::number(Rational::zero(), false));
         if positive {
-            Domain { low: zero, high: self.high.clone() }
+            Domain {
+                low: zero,
+                high: self.high.clone(),
+            }
         } else {
-            Domain { low: self.low.clone(), high: zero }
+            Domain {
+                low: self.low.clone(),
+                high: zero,
+            }
         }
     }
 
     /// The domain as a condition on a symbol, such as `0 < theta < pi/2`.
     pub fn words(&self, symbol: &str) -> String {
-        let end = |l: &Limit| match (l.of_pi && !l.value.is_zero(), l.value.numer(), l.value.denom()) {
+        let end = |l: &Limit| match (
+            l.of_pi && !l.value.is_zero(),
+            l.value.numer(),
+            l.value.denom(),
+        ) {
             (false, ..) => l.value.to_string(),
             (true, n, d) => {
-                let n = if *n == Int::from(1) { String::new() } else { format!("{n}*") };
-                if *d == Int::from(1) { format!("{n}pi") } else { format!("{n}pi/{d}") }
+                let n = if *n == Int::from(1) {
+                    String::new()
+                } else {
+                    format!("{n}*")
+                };
+                if *d == Int::from(1) {
+                    format!("{n}pi")
+                } else {
+                    format!("{n}pi/{d}")
+                }
             }
         };
         let sign = |l: &Limit| if l.open { "<" } else { "≤" };
@@ -170,10 +221,15 @@ impl Domains {
                 continue;
             }
             if self.unit_vectors.iter().flatten().any(|s| s == name) {
-                all.symbols.insert(name.clone(), Domain::between(ratio(-1, 1), ratio(1, 1)));
+                all.symbols
+                    .insert(name.clone(), Domain::between(ratio(-1, 1), ratio(1, 1)));
                 continue;
             }
-            let domain = if role.turns { Domain::first_quadrant() } else { Domain::positive() };
+            let domain = if role.turns {
+                Domain::first_quadrant()
+            } else {
+                Domain::positive()
+            };
             assumed.push(domain.words(name));
             all.symbols.insert(name.clone(), domain);
         }
@@ -183,7 +239,12 @@ impl Domains {
 
 /// Order of two fractions; by cross multiplication where they are small, which nearly all are.
 fn compare(a: &Rational, b: &Rational) -> Ordering {
-    let small = |x: &Rational| Some((i128::from(x.numer().as_i64()?), i128::from(x.denom().as_i64()?)));
+    let small = |x: &Rational| {
+        Some((
+            i128::from(x.numer().as_i64()?),
+            i128::from(x.denom().as_i64()?),
+        ))
+    };
     match (small(a), small(b)) {
         (Some((n, d)), Some((m, e))) => (n * e).cmp(&(m * d)),
         _ => a.cmp(b),
@@ -203,7 +264,10 @@ mod tests {
 
     #[test]
     fn ends_belong_to_closed_intervals_only() {
-        assert!(Domain::nonnegative().contains(&ratio(0, 1)) && !Domain::positive().contains(&ratio(0, 1)));
+        assert!(
+            Domain::nonnegative().contains(&ratio(0, 1))
+                && !Domain::positive().contains(&ratio(0, 1))
+        );
         assert!(Domain::between(ratio(0, 1), ratio(1, 1)).contains(&ratio(1, 1)));
     }
 
@@ -218,6 +282,9 @@ mod tests {
     fn a_domain_reads_as_a_condition() {
         assert_eq!(Domain::positive().words("m"), "m > 0");
         assert_eq!(Domain::first_quadrant().words("theta"), "0 < theta < pi/2");
-        assert_eq!(Domain::between(ratio(0, 1), ratio(1, 1)).words("e"), "0 ≤ e ≤ 1");
+        assert_eq!(
+            Domain::between(ratio(0, 1), ratio(1, 1)).words("e"),
+            "0 ≤ e ≤ 1"
+        );
     }
 }

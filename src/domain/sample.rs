@@ -9,11 +9,11 @@ use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::{Domain, Domains};
+use crate::expr::Int;
 use crate::expr::angle::angle;
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Function, Node, Point, Rational, Scalar, Symbol, ratio};
 use crate::interval::{Certified, Outcome};
-use crate::expr::Int;
 
 /// How a symbol occurs in formulas.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -71,7 +71,8 @@ pub fn roles(formulas: &[&Expr]) -> Roles {
         // Too fine a division: treated as a value.
         role.bare |= role.turns && role.divisor > LARGEST_DIVISOR;
     }
-    let mixed = out.symbols.values().any(|r| r.turns && r.bare) && out.symbols.values().any(|r| r.turns && !r.bare);
+    let mixed = out.symbols.values().any(|r| r.turns && r.bare)
+        && out.symbols.values().any(|r| r.turns && !r.bare);
     out.radians |= mixed;
     out
 }
@@ -89,42 +90,60 @@ fn note(e: &Expr, out: &mut Roles) {
             note(base, out);
             note(exponent, out);
         }
-        Node::Call(Function::Sin | Function::Cos | Function::Tan, argument) => match angle(argument) {
-            Some(read) => {
-                out.radians |= !(&read.pi * ratio(2, 1)).is_integer();
-                for (name, factor) in &read.symbols {
-                    let role = role(out, name);
-                    role.turns = true;
-                    let below = factor.denom().to_u32().unwrap_or(u32::MAX);
-                    role.divisor = if role.divisor.max(below) > LARGEST_DIVISOR || factor.numer().bits() > 11 {
-                        u32::MAX
-                    } else {
-                        role.divisor.lcm(&below)
-                    };
+        Node::Call(Function::Sin | Function::Cos | Function::Tan, argument) => {
+            match angle(argument) {
+                Some(read) => {
+                    out.radians |= !(&read.pi * ratio(2, 1)).is_integer();
+                    for (name, factor) in &read.symbols {
+                        let role = role(out, name);
+                        role.turns = true;
+                        let below = factor.denom().to_u32().unwrap_or(u32::MAX);
+                        role.divisor = if role.divisor.max(below) > LARGEST_DIVISOR
+                            || factor.numer().bits() > 11
+                        {
+                            u32::MAX
+                        } else {
+                            role.divisor.lcm(&below)
+                        };
+                    }
+                }
+                None => {
+                    out.radians = true;
+                    note(argument, out);
                 }
             }
-            None => {
-                out.radians = true;
-                note(argument, out);
-            }
-        },
+        }
         Node::Call(_, argument) => note(argument, out),
     }
 }
 
 fn role<'a>(out: &'a mut Roles, name: &Symbol) -> &'a mut Role {
-    out.symbols.entry(name.clone()).or_insert(Role { turns: false, bare: false, divisor: 1 })
+    out.symbols.entry(name.clone()).or_insert(Role {
+        turns: false,
+        bare: false,
+        divisor: 1,
+    })
 }
 
 /// The first `count` points; the first gives every symbol its simplest value, the second gives different symbols
 /// different values, later ones are drawn from a fixed pseudo-random sequence. `domains` must declare every symbol of
 /// `roles`. Fewer points come out where a domain has no point that could be found.
 pub fn samples(roles: &Roles, domains: &Domains, count: usize) -> Vec<Sample> {
-    let wanted = if count <= 2 { roles.symbols.len() + 2 } else { 24 };
+    let wanted = if count <= 2 {
+        roles.symbols.len() + 2
+    } else {
+        24
+    };
     let mut axes: Vec<(&Symbol, &Domain, Vec<Coordinate>)> = Vec::new();
     for (name, role) in &roles.symbols {
-        let Some(domain) = domains.symbols.get(name) else { continue };
-        let list = if role.bare { numbers(domain, wanted) } else { directions(domain, role.divisor, wanted) };
+        let Some(domain) = domains.symbols.get(name) else {
+            continue;
+        };
+        let list = if role.bare {
+            numbers(domain, wanted)
+        } else {
+            directions(domain, role.divisor, wanted)
+        };
         if list.is_empty() {
             return Vec::new();
         }
@@ -143,13 +162,19 @@ pub fn samples(roles: &Roles, domains: &Domains, count: usize) -> Vec<Sample> {
                 1..6 => i + k,
                 _ => random.next() as usize,
             };
-            point.coordinates.insert((*name).clone(), list[pick % list.len()].clone());
+            point
+                .coordinates
+                .insert((*name).clone(), list[pick % list.len()].clone());
         }
         if k >= 12 {
             for (i, (name, domain, list)) in axes.iter().enumerate() {
                 if let Coordinate::Number(_) = list[0] {
-                    if let Some(value) = random_number(domain, &mut random).filter(|v| domain.contains(v)) {
-                        point.coordinates.insert((*name).clone(), Coordinate::Number(value));
+                    if let Some(value) =
+                        random_number(domain, &mut random).filter(|v| domain.contains(v))
+                    {
+                        point
+                            .coordinates
+                            .insert((*name).clone(), Coordinate::Number(value));
                     }
                 }
                 let _ = i;
@@ -172,7 +197,9 @@ fn place_units(point: &mut Sample, domains: &Domains, k: usize) -> bool {
             continue;
         }
         let fits = |unit: &[Rational; 2]| {
-            pair.iter().zip(unit).all(|(s, v)| domains.symbols.get(s).is_none_or(|d| d.contains(v)))
+            pair.iter()
+                .zip(unit)
+                .all(|(s, v)| domains.symbols.get(s).is_none_or(|d| d.contains(v)))
         };
         let all: Vec<[Rational; 2]> = circle().into_iter().filter(fits).collect();
         if all.is_empty() {
@@ -181,7 +208,9 @@ fn place_units(point: &mut Sample, domains: &Domains, k: usize) -> bool {
         let unit = &all[(k * (i + 1)) % all.len()];
         for (symbol, value) in pair.iter().zip(unit) {
             if point.coordinates.contains_key(symbol) {
-                point.coordinates.insert(symbol.clone(), Coordinate::Number(value.clone()));
+                point
+                    .coordinates
+                    .insert(symbol.clone(), Coordinate::Number(value.clone()));
             }
         }
     }
@@ -190,8 +219,32 @@ fn place_units(point: &mut Sample, domains: &Domains, k: usize) -> bool {
 
 /// Magnitudes tried in this order; a person can check a counterexample made of them.
 const SIMPLE: [(i64, i64); 26] = [
-    (1, 1), (2, 1), (1, 2), (3, 1), (1, 3), (3, 2), (2, 3), (4, 1), (1, 4), (3, 4), (4, 3), (5, 1), (1, 5), (2, 5),
-    (3, 5), (4, 5), (5, 2), (7, 1), (1, 7), (1, 10), (9, 10), (10, 1), (1, 100), (99, 100), (100, 1), (1000, 1),
+    (1, 1),
+    (2, 1),
+    (1, 2),
+    (3, 1),
+    (1, 3),
+    (3, 2),
+    (2, 3),
+    (4, 1),
+    (1, 4),
+    (3, 4),
+    (4, 3),
+    (5, 1),
+    (1, 5),
+    (2, 5),
+    (3, 5),
+    (4, 5),
+    (5, 2),
+    (7, 1),
+    (1, 7),
+    (1, 10),
+    (9, 10),
+    (10, 1),
+    (1, 100),
+    (99, 100),
+    (100, 1),
+    (1000, 1),
 ];
 
 /// Up to `count` numbers of a domain, simplest first, its ends last.
@@ -202,7 +255,11 @@ fn numbers(domain: &Domain, count: usize) -> Vec<Coordinate> {
         for n in [n, -n] {
             let value = ratio(n, d);
             if domain.contains(&value) {
-                if domain.is_end(&value) { ends.push(value) } else { inside.push(value) }
+                if domain.is_end(&value) {
+                    ends.push(value)
+                } else {
+                    inside.push(value)
+                }
             }
         }
         if inside.len() >= count {
@@ -238,7 +295,10 @@ fn numbers(domain: &Domain, count: usize) -> Vec<Coordinate> {
 
 /// The simplest fraction in a part of a bounded domain: the whole, halves, quarters, eighths.
 fn part(domain: &Domain, k: usize) -> Option<Rational> {
-    let (low, high) = (domain.low.as_ref()?.approximate(), domain.high.as_ref()?.approximate());
+    let (low, high) = (
+        domain.low.as_ref()?.approximate(),
+        domain.high.as_ref()?.approximate(),
+    );
     let (pieces, piece) = match k {
         0 => (1, 0),
         1 | 2 => (2, k - 1),
@@ -274,8 +334,15 @@ fn simplest(low: &Rational, high: &Rational, depth: u32) -> Option<Rational> {
 fn random_number(domain: &Domain, random: &mut Lcg) -> Option<Rational> {
     let step = ratio(1 + (random.next() % 96) as i64, 97);
     let scale = ratio(1 + (random.next() % 12) as i64, 1);
-    let end = |l: &super::Limit| if l.of_pi { crate::expr::number::from_f64(l.approximate()) } else { Some(l.value.clone()) };
-    let short = |x: Rational| Rational::new((x * ratio(1009, 1)).round().to_integer(), Int::from(1009));
+    let end = |l: &super::Limit| {
+        if l.of_pi {
+            crate::expr::number::from_f64(l.approximate())
+        } else {
+            Some(l.value.clone())
+        }
+    };
+    let short =
+        |x: Rational| Rational::new((x * ratio(1009, 1)).round().to_integer(), Int::from(1009));
     Some(match (&domain.low, &domain.high) {
         (Some(l), Some(h)) => {
             let (l, h) = (end(l)?, end(h)?);
@@ -289,8 +356,26 @@ fn random_number(domain: &Domain, random: &mut Lcg) -> Option<Rational> {
 
 /// Halved tangents t of the first quadrant's rational directions ((1 − t²)/(1 + t²), 2t/(1 + t²)), simplest first.
 const TANGENTS: [(i64, i64); 20] = [
-    (1, 2), (1, 3), (2, 3), (1, 5), (3, 5), (1, 4), (3, 4), (1, 7), (3, 7), (2, 5), (5, 7), (1, 9), (4, 5), (2, 7),
-    (1, 10), (1, 20), (9, 11), (1, 40), (1, 100), (1, 400),
+    (1, 2),
+    (1, 3),
+    (2, 3),
+    (1, 5),
+    (3, 5),
+    (1, 4),
+    (3, 4),
+    (1, 7),
+    (3, 7),
+    (2, 5),
+    (5, 7),
+    (1, 9),
+    (4, 5),
+    (2, 7),
+    (1, 10),
+    (1, 20),
+    (9, 11),
+    (1, 40),
+    (1, 100),
+    (1, 400),
 ];
 
 /// Rational points of the whole circle, simplest first: four per tangent, then the four ends of the axes.
@@ -308,8 +393,14 @@ fn circle() -> Vec<[Rational; 2]> {
 /// floating-point arctangents err by.
 fn directions(domain: &Domain, divisor: u32, count: usize) -> Vec<Coordinate> {
     const MARGIN: f64 = 1e-9;
-    let low = domain.low.as_ref().map_or(f64::NEG_INFINITY, super::Limit::approximate);
-    let high = domain.high.as_ref().map_or(f64::INFINITY, super::Limit::approximate);
+    let low = domain
+        .low
+        .as_ref()
+        .map_or(f64::NEG_INFINITY, super::Limit::approximate);
+    let high = domain
+        .high
+        .as_ref()
+        .map_or(f64::INFINITY, super::Limit::approximate);
     let n = f64::from(divisor);
     let mut out = Vec::new();
     for unit in circle() {
@@ -317,7 +408,11 @@ fn directions(domain: &Domain, divisor: u32, count: usize) -> Vec<Coordinate> {
         for turns in [0, 1, -1] {
             let phi = n * (psi + 2.0 * std::f64::consts::PI * f64::from(turns));
             if low + MARGIN < phi && phi < high - MARGIN {
-                out.push(Coordinate::Direction { divisor, unit, turns });
+                out.push(Coordinate::Direction {
+                    divisor,
+                    unit,
+                    turns,
+                });
                 break;
             }
         }
@@ -337,7 +432,10 @@ struct Lcg(u64);
 
 impl Lcg {
     fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         self.0 >> 33
     }
 }
@@ -348,7 +446,11 @@ impl Coordinate {
         match self {
             Coordinate::Number(value) => format!("{symbol} = {value}"),
             Coordinate::Pi(value) => format!("{symbol} = {value}*pi"),
-            Coordinate::Direction { divisor, unit, turns } => {
+            Coordinate::Direction {
+                divisor,
+                unit,
+                turns,
+            } => {
                 let [cos, sin] = self.direction().unwrap_or_else(|| unit.clone());
                 let quarter = *divisor == 1 && *turns == 0 && !sin.is_negative();
                 // A cosine fixes an angle between 0 and π; elsewhere the sine is told too.
@@ -364,7 +466,14 @@ impl Coordinate {
 
     /// Cosine and sine of the angle itself, where it is given by a direction.
     pub fn direction(&self) -> Option<[Rational; 2]> {
-        let Coordinate::Direction { divisor, unit: [c, s], .. } = self else { return None };
+        let Coordinate::Direction {
+            divisor,
+            unit: [c, s],
+            ..
+        } = self
+        else {
+            return None;
+        };
         let mut total = [Rational::one(), Rational::zero()];
         for _ in 0..*divisor {
             let [x, y] = &total;
@@ -377,7 +486,11 @@ impl Coordinate {
 impl Sample {
     /// The point in words, symbols in alphabetical order.
     pub fn words(&self) -> String {
-        self.coordinates.iter().map(|(name, c)| c.words(name)).collect::<Vec<_>>().join(", ")
+        self.coordinates
+            .iter()
+            .map(|(name, c)| c.words(name))
+            .collect::<Vec<_>>()
+            .join(", ")
     }
 
     /// The point for evaluation in a certified number type. With `radians`, angles known by direction also get their value.
@@ -390,13 +503,21 @@ impl Sample {
                     point.values.insert(name.clone(), number(value));
                 }
                 Coordinate::Pi(value) => {
-                    point.values.insert(name.clone(), number(value).times(&T::pi()));
+                    point
+                        .values
+                        .insert(name.clone(), number(value).times(&T::pi()));
                 }
-                Coordinate::Direction { divisor, unit, turns } => {
+                Coordinate::Direction {
+                    divisor,
+                    unit,
+                    turns,
+                } => {
                     let unit_of = [number(&unit[0]), number(&unit[1])];
                     point.directions.insert(name.clone(), (*divisor, unit_of));
                     if radians {
-                        point.values.insert(name.clone(), value_of(*divisor, unit, *turns));
+                        point
+                            .values
+                            .insert(name.clone(), value_of(*divisor, unit, *turns));
                     }
                 }
             }
@@ -413,9 +534,12 @@ fn value_of<T: Certified>(divisor: u32, unit: &[Rational; 2], turns: i32) -> Out
         T::pi()
     } else {
         let half = Outcome::<T>::from_rational(&(&unit[1] / below));
-        half.call(Function::Atan).unwrap_or(Outcome::Unknown).times(&number(2))
+        half.call(Function::Atan)
+            .unwrap_or(Outcome::Unknown)
+            .times(&number(2))
     };
-    psi.plus(&T::pi().times(&number(2 * i64::from(turns)))).times(&number(i64::from(divisor)))
+    psi.plus(&T::pi().times(&number(2 * i64::from(turns))))
+        .times(&number(i64::from(divisor)))
 }
 
 #[cfg(test)]
@@ -455,24 +579,37 @@ mod tests {
         let phi = Expr::symbol("phi");
         let e = (&phi * &Expr::ratio(1, 2)).cos() + phi.sin();
         let mut domains = Domains::default();
-        domains.symbols.insert("phi".into(), Domain::angle(ratio(1, 1), ratio(2, 1)));
+        domains
+            .symbols
+            .insert("phi".into(), Domain::angle(ratio(1, 1), ratio(2, 1)));
         let (roles, _, all) = points(&e, &domains, 8);
         assert_eq!(roles.symbols["phi"].divisor, 2);
         assert!(all.len() >= 4);
         for sample in all {
-            let value = evaluate::<Big<128>>(&phi, &sample.point(true)).value().expect("a value").0;
+            let value = evaluate::<Big<128>>(&phi, &sample.point(true))
+                .value()
+                .expect("a value")
+                .0;
             let pi = crate::interval::Enclosure::pi(128);
-            assert!(pi.high < value.low && value.high < pi.scale(1).low, "{}", sample.words());
+            assert!(
+                pi.high < value.low && value.high < pi.scale(1).low,
+                "{}",
+                sample.words()
+            );
         }
     }
 
     #[test]
     fn unit_vectors_lie_on_the_circle() {
-        let domains = Domains { unit_vectors: vec![["a".into(), "b".into()]], ..Domains::default() };
+        let domains = Domains {
+            unit_vectors: vec![["a".into(), "b".into()]],
+            ..Domains::default()
+        };
         let (_, _, all) = points(&(Expr::symbol("a") + Expr::symbol("b")), &domains, 12);
         assert!(all.len() == 12);
         for sample in all {
-            let value = (Expr::symbol("a").powi(2) + Expr::symbol("b").powi(2)).evaluate(&sample.point::<Big<64>>(false));
+            let value = (Expr::symbol("a").powi(2) + Expr::symbol("b").powi(2))
+                .evaluate(&sample.point::<Big<64>>(false));
             let one = value.and_then(Outcome::value).expect("a value").0;
             assert!(one.contains(&ratio(1, 1)));
         }
@@ -481,9 +618,14 @@ mod tests {
     #[test]
     fn every_number_lies_in_its_domain() {
         let table = [
-            Domain::positive(), Domain::nonnegative(), Domain::real(), Domain::between(ratio(0, 1), ratio(1, 1)),
-            Domain::between(ratio(3001, 10_000), ratio(3002, 10_000)), Domain::between(ratio(-7, 2), ratio(-3, 1)),
-            Domain::first_quadrant(), Domain::angle(ratio(-1, 1), ratio(1, 1)),
+            Domain::positive(),
+            Domain::nonnegative(),
+            Domain::real(),
+            Domain::between(ratio(0, 1), ratio(1, 1)),
+            Domain::between(ratio(3001, 10_000), ratio(3002, 10_000)),
+            Domain::between(ratio(-7, 2), ratio(-3, 1)),
+            Domain::first_quadrant(),
+            Domain::angle(ratio(-1, 1), ratio(1, 1)),
         ];
         for domain in table {
             let mut domains = Domains::default();
@@ -491,7 +633,9 @@ mod tests {
             let (_, _, all) = points(&Expr::symbol("x"), &domains, 24);
             assert!(all.len() >= 6, "{domain:?} {}", all.len());
             for sample in all {
-                let Coordinate::Number(value) = &sample.coordinates["x"] else { panic!("a number") };
+                let Coordinate::Number(value) = &sample.coordinates["x"] else {
+                    panic!("a number")
+                };
                 assert!(domain.contains(value), "{domain:?} {value}");
             }
         }

@@ -35,7 +35,10 @@ impl Interval {
     }
 
     fn dyadic(&self) -> Option<Enclosure> {
-        Some(Enclosure { low: Dyadic::from_f64(self.low)?, high: Dyadic::from_f64(self.high)? })
+        Some(Enclosure {
+            low: Dyadic::from_f64(self.low)?,
+            high: Dyadic::from_f64(self.high)?,
+        })
     }
 }
 
@@ -60,16 +63,28 @@ impl Certified for Interval {
             _ => false,
         };
         if exact || value.is_zero() {
-            Interval { low: near, high: near }
+            Interval {
+                low: near,
+                high: near,
+            }
         } else if near.is_nan() {
-            Interval { low: f64::NEG_INFINITY, high: f64::INFINITY }
+            Interval {
+                low: f64::NEG_INFINITY,
+                high: f64::INFINITY,
+            }
         } else {
-            Interval { low: near.next_down(), high: near.next_up() }
+            Interval {
+                low: near.next_down(),
+                high: near.next_up(),
+            }
         }
     }
     fn pi() -> Outcome<Self> {
         // The double constant lies below π (Hardy–Littlewood notation aside, π − PI ≈ 1.2e−16).
-        Value(Interval { low: std::f64::consts::PI, high: std::f64::consts::PI.next_up() })
+        Value(Interval {
+            low: std::f64::consts::PI,
+            high: std::f64::consts::PI.next_up(),
+        })
     }
     fn plus(&self, other: &Self) -> Outcome<Self> {
         // Adding an exact zero keeps the ends.
@@ -79,7 +94,10 @@ impl Certified for Interval {
         if self.low == 0.0 && self.high == 0.0 {
             return Value(*other);
         }
-        Interval::of((self.low + other.low).next_down(), (self.high + other.high).next_up())
+        Interval::of(
+            (self.low + other.low).next_down(),
+            (self.high + other.high).next_up(),
+        )
     }
     fn times(&self, other: &Self) -> Outcome<Self> {
         let ends = [
@@ -92,9 +110,16 @@ impl Certified for Interval {
         let high = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         // A zero end is exact only if a factor is exactly zero there; a product that underflowed is not, so step anyway.
         if (self.low == 0.0 && self.high == 0.0) || (other.low == 0.0 && other.high == 0.0) {
-            return Value(Interval { low: 0.0, high: 0.0 });
+            return Value(Interval {
+                low: 0.0,
+                high: 0.0,
+            });
         }
-        let low = if low == 0.0 && self.low >= 0.0 && other.low >= 0.0 { 0.0 } else { low.next_down() };
+        let low = if low == 0.0 && self.low >= 0.0 && other.low >= 0.0 {
+            0.0
+        } else {
+            low.next_down()
+        };
         Interval::of(low, high.next_up())
     }
     fn recip(&self) -> Outcome<Self> {
@@ -111,7 +136,10 @@ impl Certified for Interval {
             Undefined
         } else if self.low >= 0.0 {
             let low = self.low.sqrt();
-            Interval::of(if low == 0.0 { 0.0 } else { low.next_down() }, self.high.sqrt().next_up())
+            Interval::of(
+                if low == 0.0 { 0.0 } else { low.next_down() },
+                self.high.sqrt().next_up(),
+            )
         } else {
             Unknown
         }
@@ -121,9 +149,9 @@ impl Certified for Interval {
             return Undefined;
         }
         match (self.dyadic(), exponent.dyadic()) {
-            (Some(x), Some(y)) if self.low > 0.0 => {
-                series::ln(&x, BITS).then(|l| series::exp(&l.mul(&y, BITS), BITS)).then(back)
-            }
+            (Some(x), Some(y)) if self.low > 0.0 => series::ln(&x, BITS)
+                .then(|l| series::exp(&l.mul(&y, BITS), BITS))
+                .then(back),
             _ => Unknown,
         }
     }

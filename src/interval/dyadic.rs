@@ -29,12 +29,18 @@ pub enum Round {
 impl Dyadic {
     /// Zero.
     pub fn zero() -> Dyadic {
-        Dyadic { mantissa: BigInt::zero(), exponent: 0 }
+        Dyadic {
+            mantissa: BigInt::zero(),
+            exponent: 0,
+        }
     }
 
     /// An integer.
     pub fn from_int(value: i64) -> Dyadic {
-        Dyadic { mantissa: BigInt::from(value), exponent: 0 }
+        Dyadic {
+            mantissa: BigInt::from(value),
+            exponent: 0,
+        }
     }
 
     /// The exact value of a finite double.
@@ -45,8 +51,15 @@ impl Dyadic {
         let bits = value.to_bits();
         let raw = ((bits >> 52) & 0x7ff) as i64;
         let fraction = (bits & ((1 << 52) - 1)) as i64;
-        let (m, e) = if raw == 0 { (fraction, -1074) } else { (fraction | 1 << 52, raw - 1075) };
-        Some(Dyadic { mantissa: BigInt::from(if value < 0.0 { -m } else { m }), exponent: e })
+        let (m, e) = if raw == 0 {
+            (fraction, -1074)
+        } else {
+            (fraction | 1 << 52, raw - 1075)
+        };
+        Some(Dyadic {
+            mantissa: BigInt::from(if value < 0.0 { -m } else { m }),
+            exponent: e,
+        })
     }
 
     /// Sign: −1, 0 or 1.
@@ -60,17 +73,27 @@ impl Dyadic {
 
     /// The t with 2^(t−1) ≤ |x| < 2^t; `i64::MIN` for zero.
     pub fn top(&self) -> i64 {
-        if self.mantissa.is_zero() { i64::MIN } else { self.exponent.saturating_add(self.mantissa.bits() as i64) }
+        if self.mantissa.is_zero() {
+            i64::MIN
+        } else {
+            self.exponent.saturating_add(self.mantissa.bits() as i64)
+        }
     }
 
     /// x·2^k, exactly.
     pub fn scale(&self, k: i64) -> Dyadic {
-        Dyadic { mantissa: self.mantissa.clone(), exponent: self.exponent.saturating_add(k) }
+        Dyadic {
+            mantissa: self.mantissa.clone(),
+            exponent: self.exponent.saturating_add(k),
+        }
     }
 
     /// −x.
     pub fn neg(&self) -> Dyadic {
-        Dyadic { mantissa: -&self.mantissa, exponent: self.exponent }
+        Dyadic {
+            mantissa: -&self.mantissa,
+            exponent: self.exponent,
+        }
     }
 
     /// Rounded to at most `bits` bits of mantissa.
@@ -80,7 +103,10 @@ impl Dyadic {
             return self;
         }
         let drop = have - u64::from(bits);
-        Dyadic { mantissa: shift_right(&self.mantissa, drop, to), exponent: self.exponent + drop as i64 }
+        Dyadic {
+            mantissa: shift_right(&self.mantissa, drop, to),
+            exponent: self.exponent + drop as i64,
+        }
     }
 
     /// x + y, rounded.
@@ -91,7 +117,11 @@ impl Dyadic {
         if other.mantissa.is_zero() {
             return self.clone().round(bits, to);
         }
-        let (large, small) = if self.top() >= other.top() { (self, other) } else { (other, self) };
+        let (large, small) = if self.top() >= other.top() {
+            (self, other)
+        } else {
+            (other, self)
+        };
         let reach = (2 * i64::from(bits) + 8).max(large.mantissa.bits() as i64 + 8);
         if large.top() - small.top() > reach {
             // |small| < 2^(top − reach): replaced by 0 or by that bound, whichever lies on the safe side.
@@ -100,7 +130,10 @@ impl Dyadic {
                 (1, Round::Up) => 1,
                 _ => return large.clone().round(bits, to),
             };
-            let bound = Dyadic { mantissa: BigInt::from(sign), exponent: large.top() - reach };
+            let bound = Dyadic {
+                mantissa: BigInt::from(sign),
+                exponent: large.top() - reach,
+            };
             return aligned_sum(large, &bound).round(bits, to);
         }
         aligned_sum(large, small).round(bits, to)
@@ -108,7 +141,10 @@ impl Dyadic {
 
     /// x·y, exactly.
     pub fn mul(&self, other: &Dyadic) -> Dyadic {
-        Dyadic { mantissa: &self.mantissa * &other.mantissa, exponent: self.exponent.saturating_add(other.exponent) }
+        Dyadic {
+            mantissa: &self.mantissa * &other.mantissa,
+            exponent: self.exponent.saturating_add(other.exponent),
+        }
     }
 
     /// x/n for a positive integer, rounded.
@@ -143,7 +179,11 @@ impl Dyadic {
         if to == Round::Up && &root * &root != wide {
             root += 1;
         }
-        Dyadic { mantissa: root, exponent: (self.exponent - shift) / 2 }.round(bits, to)
+        Dyadic {
+            mantissa: root,
+            exponent: (self.exponent - shift) / 2,
+        }
+        .round(bits, to)
     }
 
     /// A fraction, rounded.
@@ -153,7 +193,11 @@ impl Dyadic {
         }
         let (n, d) = (value.numer().to_bigint(), value.denom().to_bigint());
         let shift = (u64::from(bits) + 1 + d.bits()).saturating_sub(n.bits());
-        Dyadic { mantissa: div_round(&(n << shift), &d, to), exponent: -(shift as i64) }.round(bits, to)
+        Dyadic {
+            mantissa: div_round(&(n << shift), &d, to),
+            exponent: -(shift as i64),
+        }
+        .round(bits, to)
     }
 
     /// The exact fraction; the caller bounds the exponent.
@@ -225,14 +269,21 @@ impl Ord for Dyadic {
             let [a, b] = [self, other].map(|x| x.mantissa.abs() << (x.exponent - low) as u64);
             a.cmp(&b)
         };
-        if self.sign() < 0 { size.reverse() } else { size }
+        if self.sign() < 0 {
+            size.reverse()
+        } else {
+            size
+        }
     }
 }
 
 fn aligned_sum(a: &Dyadic, b: &Dyadic) -> Dyadic {
     let low = a.exponent.min(b.exponent);
     let m = (&a.mantissa << (a.exponent - low) as u64) + (&b.mantissa << (b.exponent - low) as u64);
-    Dyadic { mantissa: m, exponent: low }
+    Dyadic {
+        mantissa: m,
+        exponent: low,
+    }
 }
 
 fn shift_right(m: &BigInt, by: u64, to: Round) -> BigInt {

@@ -21,7 +21,10 @@ pub struct Enclosure {
 impl Enclosure {
     /// The interval of one number.
     pub fn point(x: Dyadic) -> Enclosure {
-        Enclosure { low: x.clone(), high: x }
+        Enclosure {
+            low: x.clone(),
+            high: x,
+        }
     }
 
     /// The tightest interval of the precision around a fraction.
@@ -61,12 +64,18 @@ impl Enclosure {
 
     /// −x.
     pub fn neg(&self) -> Enclosure {
-        Enclosure { low: self.high.neg(), high: self.low.neg() }
+        Enclosure {
+            low: self.high.neg(),
+            high: self.low.neg(),
+        }
     }
 
     /// x·2^k.
     pub fn scale(&self, k: i64) -> Enclosure {
-        Enclosure { low: self.low.scale(k), high: self.high.scale(k) }
+        Enclosure {
+            low: self.low.scale(k),
+            high: self.high.scale(k),
+        }
     }
 
     /// Sum.
@@ -101,7 +110,10 @@ impl Enclosure {
                 (low, a.max(b).max(c).max(d))
             }
         };
-        Enclosure { low: low.round(bits, Round::Down), high: high.round(bits, Round::Up) }
+        Enclosure {
+            low: low.round(bits, Round::Down),
+            high: high.round(bits, Round::Up),
+        }
     }
 
     /// Square; never negative.
@@ -115,7 +127,10 @@ impl Enclosure {
 
     /// Quotient by a positive integer.
     pub fn div_small(&self, n: u64, bits: u32) -> Enclosure {
-        Enclosure { low: self.low.div_small(n, bits, Round::Down), high: self.high.div_small(n, bits, Round::Up) }
+        Enclosure {
+            low: self.low.div_small(n, bits, Round::Down),
+            high: self.high.div_small(n, bits, Round::Up),
+        }
     }
 
     /// Reciprocal; `None` around zero.
@@ -128,8 +143,10 @@ impl Enclosure {
 
     /// Square root; `None` where the interval reaches below zero.
     pub fn sqrt(&self, bits: u32) -> Option<Enclosure> {
-        (self.low.sign() >= 0)
-            .then(|| Enclosure { low: self.low.sqrt(bits, Round::Down), high: self.high.sqrt(bits, Round::Up) })
+        (self.low.sign() >= 0).then(|| Enclosure {
+            low: self.low.sqrt(bits, Round::Down),
+            high: self.high.sqrt(bits, Round::Up),
+        })
     }
 
     /// Absolute value.
@@ -137,13 +154,19 @@ impl Enclosure {
         match self.sides() {
             1 => self.clone(),
             -1 => self.neg(),
-            _ => Enclosure { low: Dyadic::zero(), high: self.low.neg().max(self.high.clone()) },
+            _ => Enclosure {
+                low: Dyadic::zero(),
+                high: self.low.neg().max(self.high.clone()),
+            },
         }
     }
 
     /// The interval widened by ±`by`.
     pub fn widen(&self, by: &Dyadic, bits: u32) -> Enclosure {
-        Enclosure { low: self.low.add(&by.neg(), bits, Round::Down), high: self.high.add(by, bits, Round::Up) }
+        Enclosure {
+            low: self.low.add(&by.neg(), bits, Round::Down),
+            high: self.high.add(by, bits, Round::Up),
+        }
     }
 
     /// Number of decimal digits in which the two ends agree, roughly; large for an exact value.
@@ -160,7 +183,10 @@ impl Enclosure {
 
     /// A decimal number within half a unit of its last digit of the middle, with the given number of significant digits.
     pub fn decimal(&self, digits: u32) -> String {
-        let middle = self.low.add(&self.high, 4 * digits + 64, Round::Down).scale(-1);
+        let middle = self
+            .low
+            .add(&self.high, 4 * digits + 64, Round::Down)
+            .scale(-1);
         if middle.mantissa.is_zero() {
             return "0".into();
         }
@@ -185,7 +211,11 @@ impl Enclosure {
 
     fn in_range(self) -> Outcome<Enclosure> {
         let fits = |x: &Dyadic| x.mantissa.is_zero() || x.top().abs() <= RANGE;
-        if fits(&self.low) && fits(&self.high) { Outcome::Value(self) } else { Outcome::Unknown }
+        if fits(&self.low) && fits(&self.high) {
+            Outcome::Value(self)
+        } else {
+            Outcome::Unknown
+        }
     }
 }
 
@@ -220,11 +250,19 @@ pub fn decimal(value: &Rational, digits: u32) -> String {
             format!("0.{}{}", "0".repeat((-exponent - 1) as usize), text)
         } else {
             let (whole, part) = text.split_at((exponent as usize + 1).min(text.len()));
-            if part.is_empty() { whole.to_string() } else { format!("{whole}.{part}") }
+            if part.is_empty() {
+                whole.to_string()
+            } else {
+                format!("{whole}.{part}")
+            }
         }
     } else {
         let (whole, part) = text.split_at(1);
-        if part.is_empty() { format!("{whole}e{exponent}") } else { format!("{whole}.{part}e{exponent}") }
+        if part.is_empty() {
+            format!("{whole}e{exponent}")
+        } else {
+            format!("{whole}.{part}e{exponent}")
+        }
     };
     format!("{sign}{body}")
 }
@@ -280,7 +318,9 @@ impl<const BITS: u32> Certified for Big<BITS> {
                 _ => Outcome::Unknown,
             };
         }
-        series::ln(&self.0, BITS).then(|l| series::exp(&l.mul(&exponent.0, BITS + 64), BITS)).then(|e| known(e.clone()))
+        series::ln(&self.0, BITS)
+            .then(|l| series::exp(&l.mul(&exponent.0, BITS + 64), BITS))
+            .then(|e| known(e.clone()))
     }
     fn call(&self, function: Function) -> Outcome<Self> {
         series::call(&self.0, function, BITS).then(|e| known(e.clone()))
@@ -289,5 +329,8 @@ impl<const BITS: u32> Certified for Big<BITS> {
 
 /// The exact fraction 1, as an enclosure.
 pub(super) fn unit() -> Enclosure {
-    Enclosure::point(Dyadic { mantissa: One::one(), exponent: 0 })
+    Enclosure::point(Dyadic {
+        mantissa: One::one(),
+        exponent: 0,
+    })
 }

@@ -26,7 +26,9 @@ pub(super) fn pi(bits: u32) -> Enclosure {
     static PI: OnceLock<Enclosure> = OnceLock::new();
     let full = PI.get_or_init(|| {
         let w = CONSTANT_BITS + 16;
-        inverse_series(5, w, true).scale(4).sub(&inverse_series(239, w, true).scale(2), w)
+        inverse_series(5, w, true)
+            .scale(4)
+            .sub(&inverse_series(239, w, true).scale(2), w)
     });
     rounded(full, bits)
 }
@@ -38,7 +40,10 @@ fn ln_two(bits: u32) -> Enclosure {
         let w = CONSTANT_BITS + 16;
         let [a, b, c] = [26, 4801, 8749].map(|n| inverse_series(n, w, false));
         let nine = Enclosure::point(Dyadic::from_int(9));
-        a.mul(&nine, w).scale(1).sub(&b.scale(1), w).add(&c.scale(3), w)
+        a.mul(&nine, w)
+            .scale(1)
+            .sub(&b.scale(1), w)
+            .add(&c.scale(3), w)
     });
     rounded(full, bits)
 }
@@ -50,7 +55,11 @@ fn inverse_series(n: u64, w: u32, alternating: bool) -> Enclosure {
     let mut terms = 0u64;
     while !power.is_zero() {
         let term = &power / (2 * terms + 1);
-        if alternating && terms % 2 == 1 { total -= term } else { total += term }
+        if alternating && terms % 2 == 1 {
+            total -= term
+        } else {
+            total += term
+        }
         power /= n * n;
         terms += 1;
     }
@@ -58,12 +67,21 @@ fn inverse_series(n: u64, w: u32, alternating: bool) -> Enclosure {
     // most 3; the terms left out sum to less than 2 units.
     let error = BigInt::from(3 * terms + 2);
     let [low, high] = [&total - &error, &total + &error];
-    let end = |m| Dyadic { mantissa: m, exponent: -i64::from(w) };
-    Enclosure { low: end(low), high: end(high) }
+    let end = |m| Dyadic {
+        mantissa: m,
+        exponent: -i64::from(w),
+    };
+    Enclosure {
+        low: end(low),
+        high: end(high),
+    }
 }
 
 fn rounded(e: &Enclosure, bits: u32) -> Enclosure {
-    Enclosure { low: e.low.clone().round(bits, Round::Down), high: e.high.clone().round(bits, Round::Up) }
+    Enclosure {
+        low: e.low.clone().round(bits, Round::Down),
+        high: e.high.clone().round(bits, Round::Up),
+    }
 }
 
 /// A function of an enclosure.
@@ -99,12 +117,18 @@ fn monotone(x: &Enclosure, f: impl Fn(&Dyadic) -> Enclosure) -> Enclosure {
     if x.is_exact() {
         return low;
     }
-    Enclosure { low: low.low, high: f(&x.high).high }
+    Enclosure {
+        low: low.low,
+        high: f(&x.high).high,
+    }
 }
 
 /// [sin x, cos x].
 fn sin_cos(x: &Enclosure, bits: u32) -> [Enclosure; 2] {
-    let anything = Enclosure { low: Dyadic::from_int(-1), high: Dyadic::from_int(1) };
+    let anything = Enclosure {
+        low: Dyadic::from_int(-1),
+        high: Dyadic::from_int(1),
+    };
     if x.low.top().max(x.high.top()) > LARGEST {
         return [anything.clone(), anything];
     }
@@ -125,7 +149,10 @@ fn sin_cos(x: &Enclosure, bits: u32) -> [Enclosure; 2] {
             None => BigInt::zero(),
         },
     };
-    let turns = Enclosure::point(Dyadic { mantissa: k.clone(), exponent: 0 });
+    let turns = Enclosure::point(Dyadic {
+        mantissa: k.clone(),
+        exponent: 0,
+    });
     let rest = point.sub(&turns.mul(&quarter, w), w);
     let [sin, cos] = sin_cos_small(&rest, w);
     let four: BigInt = ((k % 4) + 4) % 4;
@@ -136,24 +163,45 @@ fn sin_cos(x: &Enclosure, bits: u32) -> [Enclosure; 2] {
         _ => [sin, cos],
     };
     // The rounding of the middle is below the width of a working unit; for an exact argument it is repeated here.
-    let spread = x.high.add(&middle.neg(), 64, Round::Up).max(middle.add(&x.low.neg(), 64, Round::Up));
+    let spread =
+        x.high
+            .add(&middle.neg(), 64, Round::Up)
+            .max(middle.add(&x.low.neg(), 64, Round::Up));
     [sin, cos].map(|value| {
         let wide = value.widen(&spread, bits);
-        let (low, high) = (wide.low.max(anything.low.clone()), wide.high.min(anything.high.clone()));
+        let (low, high) = (
+            wide.low.max(anything.low.clone()),
+            wide.high.min(anything.high.clone()),
+        );
         Enclosure { low, high }
     })
 }
 
 /// The integer nearest to a number.
 fn nearest(x: &Dyadic) -> BigInt {
-    let half = x.add(&Dyadic { mantissa: BigInt::one(), exponent: -1 }, 256, Round::Down);
-    if half.exponent >= 0 { half.mantissa << half.exponent as u64 } else { half.mantissa >> half.exponent.unsigned_abs() }
+    let half = x.add(
+        &Dyadic {
+            mantissa: BigInt::one(),
+            exponent: -1,
+        },
+        256,
+        Round::Down,
+    );
+    if half.exponent >= 0 {
+        half.mantissa << half.exponent as u64
+    } else {
+        half.mantissa >> half.exponent.unsigned_abs()
+    }
 }
 
 /// [sin x, cos x] for |x| < 1, by halving j times, Taylor, and doubling: with d = cos − 1, sin 2x = 2 sin x (1 + d) and
 /// d(2x) = 4d + 2d².
 fn sin_cos_small(x: &Enclosure, bits: u32) -> [Enclosure; 2] {
-    let halvings = if bits > 400 { i64::from(bits.isqrt()) / 2 } else { 4 };
+    let halvings = if bits > 400 {
+        i64::from(bits.isqrt()) / 2
+    } else {
+        4
+    };
     let w = bits + 2 * halvings as u32 + 8;
     let y = x.scale(-halvings);
     let square = y.square(w);
@@ -190,7 +238,11 @@ pub(super) fn exp(x: &Enclosure, bits: u32) -> Outcome<Enclosure> {
 }
 
 fn exp_point(x: &Dyadic, bits: u32) -> Enclosure {
-    let halvings = if bits > 400 { i64::from(bits.isqrt()) / 2 } else { 6 };
+    let halvings = if bits > 400 {
+        i64::from(bits.isqrt()) / 2
+    } else {
+        6
+    };
     let w = bits + 64 + halvings as u32;
     let point = Enclosure::point(x.clone());
     let ln2 = ln_two(w);
@@ -198,7 +250,10 @@ fn exp_point(x: &Dyadic, bits: u32) -> Enclosure {
         Some(inverse) => nearest(&point.mul(&inverse, w).low),
         None => BigInt::zero(),
     };
-    let turns = Enclosure::point(Dyadic { mantissa: k.clone(), exponent: 0 });
+    let turns = Enclosure::point(Dyadic {
+        mantissa: k.clone(),
+        exponent: 0,
+    });
     let y = point.sub(&turns.mul(&ln2, w), w).scale(-halvings);
     // |y| < 1/2: the rest of the series is at most the first term left out times 1/(1 − 1/2).
     let (mut term, mut total) = (unit(), unit());
@@ -233,7 +288,10 @@ fn ln_point(x: &Dyadic, bits: u32) -> Enclosure {
     let mut k = x.top();
     let mut m = x.scale(-k);
     // m in [1/2, 1); below 0.7 it is doubled.
-    if m < (Dyadic { mantissa: BigInt::from(45), exponent: -6 }) {
+    if m < (Dyadic {
+        mantissa: BigInt::from(45),
+        exponent: -6,
+    }) {
         m = m.scale(1);
         k -= 1;
     }
@@ -241,7 +299,11 @@ fn ln_point(x: &Dyadic, bits: u32) -> Enclosure {
     let mut roots = 0;
     // Near 1 the quotient is small already, and roots would cancel digits.
     if m.sub(&unit(), 64).abs().high.top() > -8 {
-        roots = if bits > 400 { i64::from(bits.isqrt()) / 2 } else { 4 };
+        roots = if bits > 400 {
+            i64::from(bits.isqrt()) / 2
+        } else {
+            4
+        };
     }
     let w = w + roots as u32 + 8;
     for _ in 0..roots {
@@ -282,7 +344,11 @@ fn atan_point(x: &Dyadic, bits: u32) -> Enclosure {
     if x.sign() < 0 {
         return atan_point(&x.neg(), bits).neg();
     }
-    let halvings = if bits > 400 { i64::from(bits.isqrt()) / 2 } else { 4 };
+    let halvings = if bits > 400 {
+        i64::from(bits.isqrt()) / 2
+    } else {
+        4
+    };
     let w = bits + 32;
     let point = Enclosure::point(x.clone());
     let inverted = x.top() > 0;
@@ -298,7 +364,11 @@ fn atan_point(x: &Dyadic, bits: u32) -> Enclosure {
         };
     }
     let angle = odd_series(&z, w, true).scale(halvings);
-    let angle = if inverted { pi(w).scale(-1).sub(&angle, w) } else { angle };
+    let angle = if inverted {
+        pi(w).scale(-1).sub(&angle, w)
+    } else {
+        angle
+    };
     rounded(&angle, bits)
 }
 
@@ -318,8 +388,17 @@ fn asin(x: &Enclosure, bits: u32) -> Outcome<Enclosure> {
         let rest = unit().sub(&point, 4 * w).mul(&unit().add(&point, 4 * w), w);
         match rest.sqrt(w).and_then(|r| r.recip(w)) {
             Some(inverse) => monotone(&point.mul(&inverse, w), |q| atan_point(q, w)),
-            None if rest.is_exact() => if t.sign() > 0 { pi(w).scale(-1) } else { pi(w).scale(-1).neg() },
-            None => Enclosure { low: pi(w).scale(-1).neg().low, high: pi(w).scale(-1).high },
+            None if rest.is_exact() => {
+                if t.sign() > 0 {
+                    pi(w).scale(-1)
+                } else {
+                    pi(w).scale(-1).neg()
+                }
+            }
+            None => Enclosure {
+                low: pi(w).scale(-1).neg().low,
+                high: pi(w).scale(-1).high,
+            },
         }
     };
     Value(rounded(&monotone(x, at), bits))
@@ -327,15 +406,23 @@ fn asin(x: &Enclosure, bits: u32) -> Outcome<Enclosure> {
 
 fn hyperbolic(x: &Enclosure, function: Function, bits: u32) -> Outcome<Enclosure> {
     let w = bits + 32;
-    let cosh = |t: &Enclosure| exp(t, w).then(|e| match e.recip(w) {
-        Some(inverse) => Value(e.add(&inverse, w).scale(-1)),
-        None => Unknown,
-    });
+    let cosh = |t: &Enclosure| {
+        exp(t, w).then(|e| match e.recip(w) {
+            Some(inverse) => Value(e.add(&inverse, w).scale(-1)),
+            None => Unknown,
+        })
+    };
     match function {
         Function::Cosh => cosh(&x.abs()).then(|high| {
             // Even, and increasing in |x|.
             cosh(&Enclosure::point(x.abs().low)).then(|low| {
-                Value(rounded(&Enclosure { low: low.low.clone(), high: high.high.clone() }, bits))
+                Value(rounded(
+                    &Enclosure {
+                        low: low.low.clone(),
+                        high: high.high.clone(),
+                    },
+                    bits,
+                ))
             })
         }),
         _ => exp(x, w).then(|up| {

@@ -10,23 +10,59 @@ use crate::expr::{Expr, Int, number::from_f64, ratio};
 type Wide = Big<512>;
 
 fn at<const B: u32>(e: &Expr) -> Enclosure {
-    evaluate::<Big<B>>(e, &Point::default()).value().expect("has a value").0
+    evaluate::<Big<B>>(e, &Point::default())
+        .value()
+        .expect("has a value")
+        .0
 }
 
 #[test]
 fn constants_have_their_known_digits() {
     let table = [
-        (Expr::pi(), "3.1415926535897932384626433832795028841971693993751058"),
-        (Expr::call(Function::Exp, Expr::one()), "2.7182818284590452353602874713526624977572470936999596"),
-        (Expr::call(Function::Ln, Expr::from(2)), "0.69314718055994530941723212145817656807550013436025525"),
-        (Expr::call(Function::Ln, Expr::from(10)), "2.3025850929940456840179914546843642076011014886287730"),
-        (Expr::from(2).sqrt(), "1.4142135623730950488016887242096980785696718753769481"),
-        (Expr::one().sin(), "0.84147098480789650665250232163029899962256306079837107"),
-        (Expr::one().cos(), "0.54030230586813971740093660744297660373231042061792223"),
-        (Expr::call(Function::Atan, Expr::ratio(1, 2)), "0.46364760900080611621425623146121440202853705428612026"),
-        (Expr::call(Function::Acos, Expr::from(-1)), "3.1415926535897932384626433832795028841971693993751058"),
-        (Expr::call(Function::Sinh, Expr::one()), "1.1752011936438014568823818505956008151557179813340959"),
-        (Expr::call(Function::Tanh, Expr::one()), "0.76159415595576488811945828260479359041276859725793655"),
+        (
+            Expr::pi(),
+            "3.1415926535897932384626433832795028841971693993751058",
+        ),
+        (
+            Expr::call(Function::Exp, Expr::one()),
+            "2.7182818284590452353602874713526624977572470936999596",
+        ),
+        (
+            Expr::call(Function::Ln, Expr::from(2)),
+            "0.69314718055994530941723212145817656807550013436025525",
+        ),
+        (
+            Expr::call(Function::Ln, Expr::from(10)),
+            "2.3025850929940456840179914546843642076011014886287730",
+        ),
+        (
+            Expr::from(2).sqrt(),
+            "1.4142135623730950488016887242096980785696718753769481",
+        ),
+        (
+            Expr::one().sin(),
+            "0.84147098480789650665250232163029899962256306079837107",
+        ),
+        (
+            Expr::one().cos(),
+            "0.54030230586813971740093660744297660373231042061792223",
+        ),
+        (
+            Expr::call(Function::Atan, Expr::ratio(1, 2)),
+            "0.46364760900080611621425623146121440202853705428612026",
+        ),
+        (
+            Expr::call(Function::Acos, Expr::from(-1)),
+            "3.1415926535897932384626433832795028841971693993751058",
+        ),
+        (
+            Expr::call(Function::Sinh, Expr::one()),
+            "1.1752011936438014568823818505956008151557179813340959",
+        ),
+        (
+            Expr::call(Function::Tanh, Expr::one()),
+            "0.76159415595576488811945828260479359041276859725793655",
+        ),
     ];
     for (e, digits) in table {
         let value = at::<512>(&e);
@@ -45,10 +81,18 @@ fn large_arguments_are_reduced_by_enough_digits_of_pi() {
 #[test]
 fn a_value_without_meaning_is_undefined_and_an_unresolved_one_unknown() {
     let point = Point::default();
-    let undefined = [Expr::from(0).powi(-1), Expr::from(-2).sqrt(), Expr::call(Function::Ln, Expr::from(-1))];
+    let undefined = [
+        Expr::from(0).powi(-1),
+        Expr::from(-2).sqrt(),
+        Expr::call(Function::Ln, Expr::from(-1)),
+    ];
     for e in undefined {
         assert_eq!(evaluate::<Wide>(&e, &point), Outcome::Undefined, "{e:?}");
-        assert_eq!(evaluate::<Interval>(&e, &Point::default()), Outcome::Undefined, "{e:?}");
+        assert_eq!(
+            evaluate::<Interval>(&e, &Point::default()),
+            Outcome::Undefined,
+            "{e:?}"
+        );
     }
     let unresolved = (Expr::from(3).sqrt() * Expr::from(3).sqrt() - Expr::from(3)).powi(-1);
     assert_eq!(evaluate::<Wide>(&unresolved, &point), Outcome::Unknown);
@@ -57,9 +101,15 @@ fn a_value_without_meaning_is_undefined_and_an_unresolved_one_unknown() {
 #[test]
 fn huge_exponents_are_bounded() {
     let tower = Expr::from(9).powi(9_i64.pow(9));
-    assert!(matches!(evaluate::<Wide>(&tower, &Point::default()), Outcome::Value(_)));
+    assert!(matches!(
+        evaluate::<Wide>(&tower, &Point::default()),
+        Outcome::Value(_)
+    ));
     let higher = Expr::from(9).powi(9_i64.pow(18));
-    assert_eq!(evaluate::<Wide>(&higher, &Point::default()), Outcome::Unknown);
+    assert_eq!(
+        evaluate::<Wide>(&higher, &Point::default()),
+        Outcome::Unknown
+    );
 }
 
 fn fraction() -> impl Strategy<Value = crate::expr::Rational> {
@@ -132,7 +182,11 @@ proptest! {
     }
 }
 
-fn numbers<T: Scalar>(a: &crate::expr::Rational, b: &crate::expr::Rational, c: &crate::expr::Rational) -> Point<T> {
+fn numbers<T: Scalar>(
+    a: &crate::expr::Rational,
+    b: &crate::expr::Rational,
+    c: &crate::expr::Rational,
+) -> Point<T> {
     let mut point = Point::default();
     for (name, value) in [("a", a), ("b", b), ("c", c)] {
         point.values.insert(name.into(), T::from_rational(value));

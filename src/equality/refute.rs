@@ -1,0 +1,253 @@
+//! Looking for a point at which two formulas part: exactly where their values are fractions, else in enclosures of rising
+//! precision.
+
+use super::exact::Exact;
+use super::measure::Size;
+use super::{Counterexample, Evidence, Value};
+use crate::domain::{Coordinate, Roles, Sample};
+use crate::expr::{Expr, Symbol};
+use crate::interval::{Big, Certified, Enclosure, Interval, Outcome, evaluate};
+
+/// A pair of formulas to be compared at points.
+pub(super) struct Probe<'a> {
+    left: &'a Expr,
+    right: &'a Expr,
+    radians: bool,
+    angles: Vec<Symbol>,
+    constant: bool,
+}
+
+/// What the points tried so far have shown: counts of points.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Tally {
+    pub points: usize,
+    pub exact_equal: usize,
+    pub both_defined: usize,
+    pub left_defined: usize,
+    pub left_undefined: usize,
+    pub right_defined: usize,
+    pub right_undefined: usize,
+    /// Points where exactly one side has a value, with that side's value.
+    pub apart: Vec<(Sample, Value, Value)>,
+    /// Points where both are enclosed and overlap.
+    pub enclosed: usize,
+    pub digits: u32,
+}
+
+impl Tally {
+    pub fn evidence(&self) -> Evidence {
+        Evidence {
+            exact_points: self.exact_equal,
+            enclosed_points: self.enclosed,
+            digits: self.digits,
+        }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.both_defined == 0
+    }
+
+    fn note<T>(&mut self, left: &Outcome<T>, right: &Outcome<T>) {
+        self.points += 1;
+        let defined = |o: &Outcome<T>| matches!(o, Outcome::Value(_));
+        let undefined = |o: &Outcome<T>| matches!(o, Outcome::Undefined);
+        self.left_defined += usize::from(defined(left));
+        self.right_defined += usize::from(defined(right));
+        self.left_undefined += usize::from(undefined(left));
+        self.right_undefined += usize::from(undefined(right));
+        self.both_defined += usize::from(defined(left) && defined(right));
+    }
+}
+
+impl<'a> Probe<'a> {
+    pub fn new(left: &'a Expr, right: &'a Expr, roles: &Roles) -> Probe<'a> {
+        let angles = roles
+            .symbols
+            .iter()
+            .filter(|(_, r)| r.turns && !r.bare)
+            .map(|(name, _)| name.clone())
+            .collect();
+        Probe {
+            left,
+            right,
+            radians: roles.radians,
+            angles,
+            constant: roles.symbols.is_empty(),
+        }
+    }
+
+    fn values<T: Certified>(&self, at: &Sample) -> (Outcome<T>, Outcome<T>) {
+        // An angle whose domain left no rational direction has a plain value; the others must then have theirs too.
+        let plain =
+            |name: &Symbol| !matches!(at.coordinates.get(name), Some(Coordinate::Direction { .. }));
+        let radians = self.radians || self.angles.iter().any(plain);
+        let point = at.point::<T>(radians);
+        (evaluate(self.left, &point), evaluate(self.right, &point))
+    }
+
+    /// Compares at each point, exactly where possible, else in double intervals.
+    pub fn points(&self, points: &[Sample], tally: &mut Tally) -> Option<Counterexample> {
+        points.iter().find_map(|at| self.point(at, tally))
+    }
+
+    fn point(&self, at: &Sample, tally: &mut Tally) -> Option<Counterexample> {
+        let (left, right) = self.values::<Exact>(at);
+        if let (Outcome::Value(Exact(l)), Outcome::Value(Exact(r))) = (&left, &right) {
+            tally.note(&left, &right);
+            if l == r {
+                tally.exact_equal += 1;
+                return None;
+            }
+            let (left, right) = (Value::Exact(l.clone()), Value::Exact(r.clone()));
+            return Some(self.confirm(at, left, right));
+        }
+        if let (Outcome::Undefined, Outcome::Undefined) = (&left, &right) {
+            tally.note(&left, &right);
+            return None;
+        }
+        let (rough_left, rough_right) = self.values::<Interval>(at);
+        // What exact arithmetic knows for sure stands.
+        let merge = |exact: &Outcome<Exact>, rough: Outcome<Interval>| match exact {
+            Outcome::Undefined => Outcome::Undefined,
+            Outcome::Value(Exact(v)) => Outcome::Value(Interval::from_rational(v)),
+            Outcome::Unknown => rough,
+        };
+        let (l, r) = (merge(&left, rough_left), merge(&right, rough_right));
+        tally.note(&l, &r);
+        match (&l, &r) {
+            (Outcome::Value(l), Outcome::Value(r)) => {
+                if l.is_disjoint(r) {
+                    return self.separate(at, &left, &right);
+                }
+                tally.enclosed += 1;
+                tally.digits = tally.digits.max(agreement(l, r));
+                None
+            }
+            (Outcome::Undefined, Outcome::Value(_)) => {
+                if let Some(value) = self.shown(&right, at, false) {
+                    tally.apart.push((at.clone(), Value::None, value));
+                }
+                None
+            }
+            (Outcome::Value(_), Outcome::Undefined) => {
+                if let Some(value) = self.shown(&left, at, true) {
+                    tally.apart.push((at.clone(), value, Value::None));
+                }
+                None
+            }
+            _ => None,
+        }
+    }
+
+    fn shown(&self, exact: &Outcome<Exact>, at: &Sample, left: bool) -> Option<Value> {
+        if let Outcome::Value(Exact(v)) = exact {
+            return Some(Value::Exact(v.clone()));
+        }
+        let (l, r) = self.values::<Big<192>>(at);
+        match if left { l } else { r } {
+            Outcome::Value(Big(e)) => Some(Value::Within(e)),
+            _ => None,
+        }
+    }
+
+    /// Values for show at a point where double intervals are disjoint.
+    fn separate(
+        &self,
+        at: &Sample,
+        left: &Outcome<Exact>,
+        right: &Outcome<Exact>,
+    ) -> Option<Counterexample> {
+        let (l, r) = (self.shown(left, at, true)?, self.shown(right, at, false)?);
+        let apart = match (enclosure(&l), enclosure(&r)) {
+            (Some(l), Some(r)) => l.is_disjoint(&r),
+            _ => false,
+        };
+        // Two independent enclosures must agree that the values differ.
+        apart.then(|| Counterexample {
+            at: at.clone(),
+            left: l,
+            right: r,
+            confirmed: true,
+        })
+    }
+
+    /// A counterexample in fractions, checked by dyadic intervals.
+    fn confirm(&self, at: &Sample, left: Value, right: Value) -> Counterexample {
+        let (l, r) = self.values::<Big<192>>(at);
+        let inside = |value: &Value, outcome: &Outcome<Big<192>>| match (value, outcome) {
+            (Value::Exact(v), Outcome::Value(Big(e))) => e.contains(v),
+            _ => false,
+        };
+        let confirmed = inside(&left, &l)
+            && inside(&right, &r)
+            && match (&l, &r) {
+                (Outcome::Value(Big(l)), Outcome::Value(Big(r))) => l.is_disjoint(r),
+                _ => false,
+            };
+        Counterexample {
+            at: at.clone(),
+            left,
+            right,
+            confirmed,
+        }
+    }
+
+    /// Compares at rising precision, as far as the work limit for the size allows.
+    pub fn rising_precision(
+        &self,
+        points: &[Sample],
+        size: Size,
+        tally: &mut Tally,
+    ) -> Option<Counterexample> {
+        self.level::<192>(points, 6, size, tally)
+            .or_else(|| self.level::<640>(points, 3, size, tally))
+            .or_else(|| self.level::<4096>(points, 2, size, tally))
+    }
+
+    fn level<const BITS: u32>(
+        &self,
+        points: &[Sample],
+        most: usize,
+        size: Size,
+        tally: &mut Tally,
+    ) -> Option<Counterexample> {
+        let count = if self.constant { 1 } else { most };
+        for at in points.iter().take(count.min(size.evaluations(BITS))) {
+            let (Outcome::Value(Big(l)), Outcome::Value(Big(r))) = self.values::<Big<BITS>>(at)
+            else {
+                continue;
+            };
+            if l.is_disjoint(&r) {
+                return Some(Counterexample {
+                    at: at.clone(),
+                    left: Value::Within(l),
+                    right: Value::Within(r),
+                    confirmed: true,
+                });
+            }
+            tally.both_defined += 1;
+            tally.digits = tally
+                .digits
+                .max(l.digits().min(r.digits()).min(BITS * 3 / 10));
+        }
+        None
+    }
+}
+
+fn agreement(l: &Interval, r: &Interval) -> u32 {
+    let width = (l.high.max(r.high) - l.low.min(r.low)).abs();
+    let size = l.high.abs().max(r.high.abs());
+    if size > 0.0 && width > 0.0 {
+        (size / width).log10().clamp(0.0, 15.0) as u32
+    } else {
+        0
+    }
+}
+
+fn enclosure(value: &Value) -> Option<Enclosure> {
+    match value {
+        Value::Exact(v) => Some(Enclosure::of(v, 256)),
+        Value::Within(e) => Some(e.clone()),
+        Value::None => None,
+    }
+}
