@@ -167,17 +167,11 @@ pub fn samples(roles: &Roles, domains: &Domains, count: usize) -> Vec<Sample> {
                 .insert((*name).clone(), list[pick % list.len()].clone());
         }
         if k >= 12 {
-            for (i, (name, domain, list)) in axes.iter().enumerate() {
-                if let Coordinate::Number(_) = list[0] {
-                    if let Some(value) =
-                        random_number(domain, &mut random).filter(|v| domain.contains(v))
-                    {
-                        point
-                            .coordinates
-                            .insert((*name).clone(), Coordinate::Number(value));
-                    }
+            for (name, domain, list) in &axes {
+                let drawn = random_number(domain, &mut random).filter(|v| domain.contains(v));
+                if let (Coordinate::Number(_), Some(value)) = (&list[0], drawn) {
+                    point.coordinates.insert((*name).clone(), Coordinate::Number(value));
                 }
-                let _ = i;
             }
         }
         if place_units(&mut point, domains, k) && !out.contains(&point) {
