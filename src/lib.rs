@@ -3,5 +3,6 @@ pub mod dimension;
 pub mod domain;
 pub mod equality;
 pub mod expr;
+pub mod formula;
 pub mod interval;
 pub mod scene;

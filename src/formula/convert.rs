@@ -1,0 +1,205 @@
+//! From the written formula to expressions, with the size of numbers limited before any work.
+
+use num_traits::{Signed, Zero};
+
+use super::fault::{Fault, Faulty};
+use super::written::{Link, Shape, Sign, Written};
+use crate::expr::{Expr, Function, Rational};
+
+/// Largest exponent that is a plain number.
+const MAX_POWER: i64 = 10_000;
+/// Most bits of a number that arises from numbers.
+const MAX_BITS: u64 = 1 << 14;
+
+/// A scalar, or a vector along x, y and z.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Value {
+    Scalar(Expr),
+    Vector([Expr; 3]),
+}
+
+/// The value of a written piece; `upper` says which sign of ± is taken.
+pub(crate) fn value(w: &Written, upper: bool) -> Faulty<Value> {
+    let scalar = |e: Expr| Ok(Value::Scalar(e));
+    match &w.shape {
+        Shape::Number(literal) => scalar(Expr::from(literal.value.clone())),
+        Shape::Symbol(name) => match &**name {
+            "i_hat" => Ok(Value::Vector([Expr::one(), Expr::zero(), Expr::zero()])),
+            "j_hat" => Ok(Value::Vector([Expr::zero(), Expr::one(), Expr::zero()])),
+            "k_hat" => Ok(Value::Vector([Expr::zero(), Expr::zero(), Expr::one()])),
+            name => scalar(Expr::symbol(name)),
+        },
+        Shape::Sum(terms) => sum(w, terms, upper),
+        Shape::Product(factors) => product(w, factors, upper),
+        Shape::Fraction(above, below) => {
+            let divisor = reciprocal(below, upper)?;
+            multiply(w, [value(above, upper)?, Value::Scalar(divisor)])
+        }
+        Shape::Power(base, exponent) => scalar(power(w, base, one(exponent, upper)?, upper)?),
+        Shape::Root(index, inner) => {
+            let index = match index {
+                None => return scalar(one(inner, upper)?.sqrt()),
+                Some(index) => one(index, upper)?,
+            };
+            let k = index.as_number().filter(|k| k.is_integer() && k.is_positive());
+            match k.and_then(|k| k.numer().as_i64()) {
+                Some(2) => scalar(one(inner, upper)?.sqrt()),
+                Some(k) if k <= 64 => scalar(one(inner, upper)?.power(Expr::ratio(1, k))),
+                _ => Err(Fault::new("the index of a root is a whole number from 1 to 64", w.start, w.end)),
+            }
+        }
+        Shape::Call(function, argument) => scalar(call(*function, one(argument, upper)?)),
+        Shape::Reciprocal(function, argument) => scalar(call(*function, one(argument, upper)?).powi(-1)),
+        Shape::Bracket(inner) => value(inner, upper),
+        Shape::Abs(inner) => scalar(Expr::call(Function::Abs, one(inner, upper)?)),
+        Shape::Degrees(inner) => scalar(one(inner, upper)? * Expr::pi() * Expr::ratio(1, 180)),
+        Shape::List(parts) => {
+            let mut components = [Expr::zero(), Expr::zero(), Expr::zero()];
+            for (component, part) in components.iter_mut().zip(parts) {
+                *component = one(part, upper)?;
+            }
+            Ok(Value::Vector(components))
+        }
+    }
+}
+
+/// The expression of a piece that is no vector.
+pub(crate) fn one(w: &Written, upper: bool) -> Faulty<Expr> {
+    match value(w, upper)? {
+        Value::Scalar(e) => Ok(e),
+        Value::Vector(_) => Err(Fault::new("a vector stands where a number is expected", w.start, w.end)),
+    }
+}
+
+fn call(function: Function, argument: Expr) -> Expr {
+    match function {
+        Function::Sin => argument.sin(),
+        Function::Cos => argument.cos(),
+        Function::Tan => argument.tan(),
+        other => Expr::call(other, argument),
+    }
+}
+
+fn sum(w: &Written, terms: &[(Sign, Written)], upper: bool) -> Faulty<Value> {
+    let mut scalars = Vec::with_capacity(terms.len());
+    let mut vectors: Vec<[Expr; 3]> = Vec::new();
+    for (sign, term) in terms {
+        let minus = match sign {
+            Sign::Plus => false,
+            Sign::Minus => true,
+            Sign::PlusMinus => !upper,
+            Sign::MinusPlus => upper,
+        };
+        match value(term, upper)? {
+            Value::Scalar(e) => scalars.push(if minus { -e } else { e }),
+            Value::Vector(v) => vectors.push(if minus { v.map(|c| -c) } else { v }),
+        }
+    }
+    if vectors.is_empty() {
+        let total = Expr::sum(scalars);
+        return bounded(&total, w).map(|()| Value::Scalar(total));
+    }
+    if scalars.iter().any(|e| !e.is_zero()) {
+        return Err(Fault::new("a vector and a number are added", w.start, w.end));
+    }
+    let along = |k: usize| Expr::sum(vectors.iter().map(|v| v[k].clone()));
+    Ok(Value::Vector([along(0), along(1), along(2)]))
+}
+
+fn product(w: &Written, factors: &[(Link, Written)], upper: bool) -> Faulty<Value> {
+    let mut values = Vec::with_capacity(factors.len());
+    for (i, (link, factor)) in factors.iter().enumerate() {
+        values.push(match link {
+            Link::Over if i > 0 => Value::Scalar(reciprocal(factor, upper)?),
+            _ => value(factor, upper)?,
+        });
+    }
+    multiply(w, values)
+}
+
+fn multiply(w: &Written, values: impl IntoIterator<Item = Value>) -> Faulty<Value> {
+    let mut scalars = Vec::new();
+    let mut vector: Option<[Expr; 3]> = None;
+    let mut bits = 0;
+    for value in values {
+        match value {
+            Value::Scalar(e) => {
+                bits += leading_bits(&e);
+                scalars.push(e);
+            }
+            Value::Vector(v) if vector.is_none() => vector = Some(v),
+            Value::Vector(_) => {
+                return Err(Fault::new("a product of two vectors is not read", w.start, w.end));
+            }
+        }
+    }
+    if bits > MAX_BITS {
+        return Err(Fault::new("the numbers in this product are too large", w.start, w.end));
+    }
+    let scale = Expr::product(scalars);
+    Ok(match vector {
+        None => Value::Scalar(scale),
+        Some(v) => Value::Vector(v.map(|c| if c.is_zero() { c } else { &scale * &c })),
+    })
+}
+
+fn reciprocal(w: &Written, upper: bool) -> Faulty<Expr> {
+    let below = one(w, upper)?;
+    if below.is_zero() {
+        return Err(Fault::new("division by zero", w.start, w.end));
+    }
+    // 1/(x^-n) stays within the limit of powers, and 1/number is exact.
+    Ok(below.powi(-1))
+}
+
+fn power(w: &Written, base: &Written, exponent: Expr, upper: bool) -> Faulty<Expr> {
+    let below = one(base, upper)?;
+    if let Some(k) = exponent.as_number() {
+        let most = Rational::from(crate::expr::Int::from(MAX_POWER));
+        if k.abs() > most {
+            return Err(Fault::new(format!("an exponent is at most {MAX_POWER}"), w.start, w.end));
+        }
+        if below.is_zero() && !k.is_positive() {
+            return Err(Fault::new("zero to a power that is not positive has no value", w.start, w.end));
+        }
+        let times = k.numer().as_i64().unwrap_or(0).unsigned_abs();
+        let folds = k.is_integer() && times <= 64;
+        if folds && leading_bits(&below) * times > MAX_BITS {
+            return Err(Fault::new("this power is too large", w.start, w.end));
+        }
+        // Towers such as ((x^100)^100)^100 multiply their exponents.
+        if let crate::expr::Node::Power(_, inner) = below.node() {
+            if inner.as_number().is_some_and(|a| (a * k).abs() > most) {
+                return Err(Fault::new(format!("an exponent is at most {MAX_POWER}"), w.start, w.end));
+            }
+        }
+        if *k == crate::expr::ratio(1, 2) {
+            return Ok(below.sqrt());
+        }
+        if k.is_zero() && below.as_number().is_some() {
+            return Ok(Expr::one());
+        }
+    }
+    Ok(below.power(exponent))
+}
+
+/// Bits of the number an expression is or starts with.
+fn leading_bits(e: &Expr) -> u64 {
+    let of = |n: &Rational| n.numer().bits() + n.denom().bits();
+    match e.node() {
+        crate::expr::Node::Number(n) => of(n),
+        crate::expr::Node::Product(factors) => factors.first().and_then(Expr::as_number).map_or(0, of),
+        _ => 0,
+    }
+}
+
+fn bounded(e: &Expr, w: &Written) -> Faulty<()> {
+    let terms = match e.node() {
+        crate::expr::Node::Sum(terms) => terms.as_slice(),
+        _ => std::slice::from_ref(e),
+    };
+    match terms.iter().any(|t| leading_bits(t) > MAX_BITS) {
+        true => Err(Fault::new("the numbers in this sum are too large", w.start, w.end)),
+        false => Ok(()),
+    }
+}

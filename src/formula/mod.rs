@@ -1,0 +1,319 @@
+//! Formulas as people type them: text in, the written shape and expressions out, and expressions back to text.
+//!
+//! Plain text, Unicode and LaTeX are read by one reader, alone or mixed. The whole input is consumed or it is a
+//! [`Fault`] with its place. What could be read in two ways is noted, and the other readings can be asked for. This
+//! module never decides whether two formulas are equal.
+
+mod convert;
+mod fault;
+mod lexer;
+mod name;
+mod note;
+mod number;
+mod parser;
+mod symbols;
+mod write;
+mod written;
+
+use std::collections::BTreeSet;
+
+use crate::dimension::Unit;
+use crate::expr::{Expr, Symbol};
+use convert::Value;
+pub use fault::Fault;
+use fault::Faulty;
+pub use note::{Note, Remark};
+use parser::{Parser, Side};
+pub use symbols::{Declared, Symbols};
+pub use write::{latex_name, unicode_name, write_latex, write_plain, write_unicode};
+pub use written::{Link, Literal, Shape, Sign, Written};
+
+/// Longest formula, in bytes.
+pub const MAX_BYTES: usize = 1 << 16;
+
+/// A sign between two sides.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[allow(missing_docs)]
+pub enum Relation {
+    Equal,
+    NotEqual,
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Approximately,
+}
+
+impl Relation {
+    /// The sign in Unicode.
+    pub fn sign(self) -> &'static str {
+        match self {
+            Relation::Equal => "=",
+            Relation::NotEqual => "≠",
+            Relation::Less => "<",
+            Relation::LessEqual => "≤",
+            Relation::Greater => ">",
+            Relation::GreaterEqual => "≥",
+            Relation::Approximately => "≈",
+        }
+    }
+}
+
+/// A number, or an expression, with a unit.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Quantity {
+    /// Value in SI units.
+    pub value: Expr,
+    /// Value in the unit written.
+    pub written: Expr,
+    /// The unit.
+    pub unit: Unit,
+    /// The unit as written.
+    pub unit_text: String,
+}
+
+/// What was read.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Content {
+    /// An expression.
+    Scalar(Expr),
+    /// Two values written with ±: the one of the upper sign first.
+    Either([Expr; 2]),
+    /// A vector along x, y and z.
+    Vector([Expr; 3]),
+    /// A value with a unit.
+    Quantity(Quantity),
+    /// Sides with relations between them; one side more than there are relations.
+    Relations(Vec<Content>, Vec<Relation>),
+}
+
+impl Content {
+    /// The expression, when it is one; a quantity gives its SI value.
+    pub fn expr(&self) -> Option<&Expr> {
+        match self {
+            Content::Scalar(e) => Some(e),
+            Content::Quantity(q) => Some(&q.value),
+            _ => None,
+        }
+    }
+
+    /// What is said of a quantity: the right side of `ω = …`, of `ω = … = …` the last one, else the content itself.
+    pub fn answer(&self) -> &Content {
+        match self {
+            Content::Relations(sides, signs) => {
+                let defines = signs.iter().all(|s| matches!(s, Relation::Equal | Relation::Approximately));
+                let named = sides.first().and_then(Content::expr).is_some_and(|e| e.as_symbol().is_some());
+                match sides.last() {
+                    Some(last) if defines && named => last,
+                    _ => self,
+                }
+            }
+            other => other,
+        }
+    }
+
+    /// Calls `visit` for every expression inside.
+    pub fn each(&self, visit: &mut dyn FnMut(&Expr)) {
+        match self {
+            Content::Scalar(e) => visit(e),
+            Content::Either(pair) => pair.iter().for_each(visit),
+            Content::Vector(components) => components.iter().for_each(visit),
+            Content::Quantity(q) => visit(&q.value),
+            Content::Relations(sides, _) => sides.iter().for_each(|side| side.each(visit)),
+        }
+    }
+}
+
+/// A formula that was read.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Reading {
+    /// What it says.
+    pub content: Content,
+    /// The sides as written, one unless there are relations.
+    pub written: Vec<Written>,
+    /// The number with its digits, when the last side is a single number as written.
+    pub literal: Option<Literal>,
+    /// Remarks on how it was read.
+    pub notes: Vec<Note>,
+    /// How many places could be read in another way; see [`other_readings`].
+    pub choices: u32,
+}
+
+impl Reading {
+    /// The single expression, when it is one; of `ω = …` the right side.
+    pub fn expr(&self) -> Option<&Expr> {
+        self.content.answer().expr()
+    }
+
+    /// The names that occur.
+    pub fn symbols(&self) -> BTreeSet<Symbol> {
+        let mut names = BTreeSet::new();
+        self.content.each(&mut |e| names.extend(e.symbols()));
+        names
+    }
+}
+
+/// Reads a formula. Of several `\boxed{}` the last counts, and what stands around it is passed over.
+pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
+    read_as(text, symbols, 0).map_err(|fault| *fault)
+}
+
+/// Reads a formula that is a single expression, such as those in scenes.
+pub fn read_expr(text: &str, symbols: &Symbols) -> Result<Expr, Fault> {
+    let reading = read(text, symbols)?;
+    match reading.content {
+        Content::Scalar(e) => Ok(e),
+        _ => Err(*Fault::new("a single expression is expected", 0, text.len())),
+    }
+}
+
+/// Most readings tried beside the usual one.
+const MAX_READINGS: u32 = 16;
+
+/// The other plausible readings of a text that was read with [`Reading::choices`] above 0: each choice turned round
+/// alone, and all of them together. The same content is given once; a turned reading that fails is left out.
+pub fn other_readings(text: &str, symbols: &Symbols) -> Vec<Reading> {
+    let Ok(usual) = read(text, symbols) else { return Vec::new() };
+    let mut out: Vec<Reading> = Vec::new();
+    let count = usual.choices.min(MAX_READINGS);
+    let all = (count > 1).then_some(u64::MAX);
+    for flips in (0..count).map(|site| 1u64 << site).chain(all) {
+        if let Ok(reading) = read_as(text, symbols, flips) {
+            let known = reading.content == usual.content || out.iter().any(|r| r.content == reading.content);
+            if !known {
+                out.push(reading);
+            }
+        }
+    }
+    out
+}
+
+fn read_as(text: &str, symbols: &Symbols, flips: u64) -> Faulty<Reading> {
+    if text.len() > MAX_BYTES {
+        let message = format!("a formula has at most {MAX_BYTES} bytes, this one has {}", text.len());
+        return Err(Fault::new(message, 0, 0));
+    }
+    let (text, offset) = boxed(text)?;
+    let result = read_inner(text, symbols, false, flips).or_else(|first| match symbols.is_open() {
+        false => read_inner(text, symbols, true, flips).map_err(|_| first),
+        true => Err(first),
+    });
+    result.map_err(|mut fault| {
+        fault.start += offset;
+        fault.end += offset;
+        for other in &mut fault.also {
+            other.start += offset;
+            other.end += offset;
+        }
+        fault
+    })
+}
+
+fn read_inner(text: &str, symbols: &Symbols, units_first: bool, flips: u64) -> Faulty<Reading> {
+    let (text, stop) = unpunctuated(text);
+    let mut parser = Parser::new(text, symbols, units_first, flips);
+    let parsed = parser.statement();
+    let mut lexer = parser.lexer;
+    if !lexer.unknown.is_empty() {
+        let mut faults = std::mem::take(&mut lexer.unknown);
+        if let Err(other) = parsed {
+            if !faults.iter().any(|f| f.start == other.start) {
+                faults.push(*other);
+            }
+        }
+        let mut first = faults.remove(0);
+        first.also = faults;
+        return Err(Box::new(first));
+    }
+    let (sides, relations) = parsed?;
+    if let Some(stop) = stop {
+        lexer.note(Remark::Punctuation, stop.0, stop.0, stop.1);
+    }
+    let mut contents = Vec::with_capacity(sides.len());
+    for side in &sides {
+        contents.push(content(side, text, &mut lexer)?);
+    }
+    let literal = sides.last().and_then(|side| side.written.literal());
+    let content = match contents.pop() {
+        Some(only) if relations.is_empty() => only,
+        Some(last) => {
+            contents.push(last);
+            Content::Relations(contents, relations)
+        }
+        None => return Err(Fault::new("the formula is empty", 0, 0)),
+    };
+    let written = sides.into_iter().map(|side| side.written).collect();
+    Ok(Reading { content, written, literal, notes: lexer.notes, choices: lexer.sites })
+}
+
+fn content(side: &Side, text: &str, lexer: &mut lexer::Lexer) -> Faulty<Content> {
+    let upper = convert::value(&side.written, true)?;
+    let plain = match upper {
+        Value::Vector(v) => return Ok(Content::Vector(v)),
+        Value::Scalar(e) => e,
+    };
+    if let Some((unit, start, end)) = &side.unit {
+        if plain.symbols().is_empty() {
+            return Ok(Content::Quantity(Quantity {
+                value: &plain * &unit.value(),
+                written: plain,
+                unit: unit.clone(),
+                unit_text: text[*start..*end].trim().to_string(),
+            }));
+        }
+        lexer.note(Remark::UnitOfSymbols, *start, *start, *end);
+    }
+    if !has_both_signs(&side.written) {
+        return Ok(Content::Scalar(plain));
+    }
+    let lower = convert::one(&side.written, false)?;
+    Ok(Content::Either([plain, lower]))
+}
+
+fn has_both_signs(w: &Written) -> bool {
+    match &w.shape {
+        Shape::Sum(terms) => {
+            terms.iter().any(|(sign, term)| matches!(sign, Sign::PlusMinus | Sign::MinusPlus) || has_both_signs(term))
+        }
+        Shape::Product(factors) => factors.iter().any(|(_, f)| has_both_signs(f)),
+        Shape::Fraction(a, b) | Shape::Power(a, b) => has_both_signs(a) || has_both_signs(b),
+        Shape::Root(_, a) | Shape::Call(_, a) | Shape::Reciprocal(_, a) | Shape::Bracket(a) | Shape::Abs(a) => has_both_signs(a),
+        Shape::Degrees(a) => has_both_signs(a),
+        Shape::List(parts) => parts.iter().any(has_both_signs),
+        Shape::Number(_) | Shape::Symbol(_) => false,
+    }
+}
+
+/// The inside of the last `\boxed{}` and where it starts; without one the whole text.
+fn boxed(text: &str) -> Faulty<(&str, usize)> {
+    const OPEN: &str = "\\boxed";
+    let Some(at) = text.rfind(OPEN) else { return Ok((text, 0)) };
+    let behind = &text[at + OPEN.len()..];
+    let blanks = behind.len() - behind.trim_start().len();
+    let start = at + OPEN.len() + blanks;
+    let mut depth = 0u32;
+    for (i, b) in text.bytes().enumerate().skip(start) {
+        match b {
+            b'{' => depth += 1,
+            b'}' if depth == 1 => return Ok((&text[start + 1..i], start + 1)),
+            b'}' => depth = depth.saturating_sub(1),
+            _ if depth == 0 => break,
+            _ => {}
+        }
+    }
+    Err(Fault::new("\\boxed needs a group in braces that is closed", at, at + OPEN.len()))
+}
+
+/// The text without a full stop or comma behind it, and the place of that; `4.` keeps its point.
+fn unpunctuated(text: &str) -> (&str, Option<(usize, usize)>) {
+    let trimmed = text.trim_end_matches(|c: char| c.is_whitespace() || c == '$');
+    let Some(body) = trimmed.strip_suffix(['.', ',', ';']) else { return (text, None) };
+    let number = trimmed.ends_with('.') && body.ends_with(|c: char| c.is_ascii_digit());
+    match number || body.trim().is_empty() || body.ends_with(['.', ',', ';', '\\']) {
+        true => (text, None),
+        false => (body, Some((body.len(), trimmed.len()))),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,406 @@
+//! Reads one name: base, accent, index and marks, in plain text, Unicode or LaTeX.
+
+use super::symbols::{Parts, Symbols, greek_name, is_greek, variants};
+
+/// Longest index or mark, in bytes.
+const LONGEST: usize = 40;
+
+/// Bytes and text of an index or a raised mark in braces.
+fn braced(text: &str, at: usize) -> Option<(&str, usize)> {
+    let rest = text.get(at..)?.strip_prefix('{')?;
+    let mut depth = 0;
+    for (i, c) in rest.char_indices().take(LONGEST * 3) {
+        match c {
+            '{' => depth += 1,
+            '}' if depth == 0 => return Some((&rest[..i], at + i + 2)),
+            '}' => depth -= 1,
+            _ => {}
+        }
+    }
+    None
+}
+
+/// The plain spelling of an index: fonts, braces and spaces dropped, Greek letters named. `None` where it is no name.
+fn index_text(written: &str) -> Option<String> {
+    let mut out = String::new();
+    let mut rest = written;
+    while let Some(c) = rest.chars().next() {
+        rest = &rest[c.len_utf8()..];
+        match c {
+            '{' | '}' | '_' | ' ' | '~' => {}
+            '/' | ',' | '+' | '-' | '\'' | '*' => out.push(c),
+            '−' => out.push('-'),
+            '′' | '’' => out.push('\''),
+            '\\' => {
+                let length = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
+                let word = &rest[..length];
+                rest = &rest[length..];
+                match word {
+                    "mathrm" | "text" | "rm" | "mathit" | "textrm" | "mathbf" | "mathsf" | "operatorname" | "it" => {}
+                    "prime" => out.push('\''),
+                    "ell" => out.push('l'),
+                    "" if rest.starts_with([',', ' ', ';', '!']) => rest = &rest[1..],
+                    "" if rest.starts_with('/') => {}
+                    word if is_greek(word) => out.push_str(word),
+                    _ => return None,
+                }
+            }
+            c if c.is_ascii_alphanumeric() => out.push(c),
+            c => out.push_str(greek_name(c)?),
+        }
+    }
+    (!out.is_empty() && out.len() <= LONGEST).then_some(out)
+}
+
+/// An index character written low.
+pub(crate) fn lowered(c: char) -> Option<char> {
+    Some(match c {
+        '₀'..='₉' => char::from(b'0' + (u32::from(c) - u32::from('₀')) as u8),
+        'ₐ' => 'a',
+        'ₑ' => 'e',
+        'ₕ' => 'h',
+        'ᵢ' => 'i',
+        'ⱼ' => 'j',
+        'ₖ' => 'k',
+        'ₗ' => 'l',
+        'ₘ' => 'm',
+        'ₙ' => 'n',
+        'ₒ' => 'o',
+        'ₚ' => 'p',
+        'ᵣ' => 'r',
+        'ₛ' => 's',
+        'ₜ' => 't',
+        'ᵤ' => 'u',
+        'ᵥ' => 'v',
+        'ₓ' => 'x',
+        _ => return None,
+    })
+}
+
+/// What an index run without braces means.
+pub(crate) struct Index {
+    /// The index.
+    pub text: String,
+    /// Byte after it.
+    pub end: usize,
+    /// Whether digits took one of x, y, z along, as in `u1x`; it could be a product as well.
+    pub took_letter: bool,
+}
+
+/// Finds where an index without braces ends, asking `declared` which longer or shorter index gives a declared name.
+pub(crate) fn bare_index(text: &str, at: usize, after_sign: bool, declared: &dyn Fn(&str) -> bool, split: bool) -> Option<Index> {
+    let bytes = text.as_bytes();
+    let run = bytes[at..].iter().take_while(|b| b.is_ascii_alphanumeric()).take(LONGEST).count();
+    if run == 0 {
+        return None;
+    }
+    let index = |length: usize, took_letter| Index { text: text[at..at + length].to_string(), end: at + length, took_letter };
+    let digits = bytes[at..at + run].iter().take_while(|b| b.is_ascii_digit()).count();
+    if !after_sign && digits == 0 {
+        return None;
+    }
+    for length in (1..=run).rev() {
+        // Digits stay together: 12 is never 1 and 2.
+        let splits_digits = bytes[at + length - 1].is_ascii_digit() && length < run && bytes[at + length].is_ascii_digit();
+        if !splits_digits && declared(&text[at..at + length]) {
+            return Some(index(length, false));
+        }
+    }
+    if digits > 0 {
+        let component = !split && run == digits + 1 && matches!(bytes[at + digits], b'x' | b'y' | b'z');
+        return Some(index(digits + usize::from(component), component));
+    }
+    Some(index(run, false))
+}
+
+/// Whether the text behind a raised sign makes it the sign of an exponent: `x^-2`, `x^-(a+b)`, `x^-n`.
+fn starts_exponent(rest: &str) -> bool {
+    rest.starts_with(|c: char| c.is_ascii_alphanumeric() || matches!(c, '(' | '{' | '[' | '.')) || rest.starts_with("\\frac")
+}
+
+/// Reads index and marks behind a base that ends at byte `at`; gives the byte after them.
+pub(crate) fn tail(text: &str, mut at: usize, parts: &mut Parts, symbols: &Symbols, split: bool, took: &mut bool) -> usize {
+    // Digits right behind a letter are an index in any order with marks; each kind is read once.
+    loop {
+        let rest = &text[at..];
+        let Some(c) = rest.chars().next() else { return at };
+        match c {
+            '0'..='9' if parts.index.is_empty() && parts.marks.is_empty() => {
+                let Some(found) = declared_index(text, at, false, parts, symbols, split) else { return at };
+                *took |= found.took_letter;
+                (parts.index, at) = (found.text, found.end);
+            }
+            '_' if parts.index.is_empty() || parts.accent.is_empty() => {
+                let next = at + 1 + rest[1..].len() - rest[1..].trim_start_matches(' ').len();
+                if let Some((inside, end)) = braced(text, next) {
+                    let Some(index) = index_text(inside) else { return at };
+                    put_index(parts, &index);
+                    at = end;
+                } else if let Some(word) = text[next..].strip_prefix('\\') {
+                    let length = word.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(word.len());
+                    let font = matches!(&word[..length], "mathrm" | "text" | "textrm" | "rm");
+                    let (inside, end) = match braced(text, next + 1 + length) {
+                        Some((inside, end)) if font => (inside, end),
+                        _ => (&text[next..next + 1 + length], next + 1 + length),
+                    };
+                    let Some(index) = index_text(inside) else { return at };
+                    put_index(parts, &index);
+                    at = end;
+                } else if let Some(found) = declared_index(text, next, true, parts, symbols, split) {
+                    *took |= found.took_letter;
+                    put_index(parts, &found.text);
+                    at = found.end;
+                } else if let Some(name) = text[next..].chars().next().and_then(greek_name) {
+                    put_index(parts, name);
+                    at = next + text[next..].chars().next().map_or(0, char::len_utf8);
+                } else {
+                    return at;
+                }
+            }
+            '\'' | '′' | '’' | '‵' => {
+                parts.marks.push('\'');
+                at += c.len_utf8();
+            }
+            '″' => {
+                parts.marks.push_str("''");
+                at += c.len_utf8();
+            }
+            '⁺' | '⁻' if !rest[c.len_utf8()..].starts_with(['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹']) => {
+                parts.marks.push_str(if c == '⁺' { "^+" } else { "^-" });
+                at += c.len_utf8();
+            }
+            '^' => match raised(text, at + 1, parts, symbols) {
+                Some((mark, end)) => {
+                    parts.marks.push_str(&mark);
+                    at = end;
+                }
+                None => return at,
+            },
+            c => match lowered(c) {
+                Some(_) if parts.index.is_empty() => {
+                    for c in rest.chars() {
+                        let Some(plain) = lowered(c) else { break };
+                        parts.index.push(plain);
+                        at += c.len_utf8();
+                    }
+                }
+                _ => return at,
+            },
+        }
+        if parts.marks.len() > LONGEST {
+            return at;
+        }
+    }
+}
+
+fn put_index(parts: &mut Parts, index: &str) {
+    match super::symbols::ACCENTS.iter().find(|accent| **accent == index) {
+        Some(accent) if parts.accent.is_empty() => parts.accent = accent,
+        _ => parts.index.push_str(index),
+    }
+}
+
+fn declared_index(text: &str, at: usize, after_sign: bool, parts: &Parts, symbols: &Symbols, split: bool) -> Option<Index> {
+    let declared = |index: &str| {
+        let tried = Parts { index: format!("{}{index}", parts.index), ..parts.clone() };
+        find(&tried, symbols).is_some()
+            || tried.index.len() > 1 && symbols.find(&format!("{}_{}", parts.base, index)).is_some()
+    };
+    bare_index(text, at, after_sign, &declared, split)
+}
+
+/// A mark raised behind a name: `^+`, `^{-}`, `^\prime`, `^*`, or a raised word of a declared name (`I_{zz}^{cm}`).
+fn raised(text: &str, at: usize, parts: &Parts, symbols: &Symbols) -> Option<(String, usize)> {
+    let skipped = text[at..].len() - text[at..].trim_start_matches(' ').len();
+    let at = at + skipped;
+    let rest = &text[at..];
+    if let Some((inside, end)) = braced(text, at) {
+        let mark = inside.trim();
+        let spelled = match mark {
+            "+" => "^+".to_string(),
+            "-" | "−" => "^-".to_string(),
+            "*" | "\\ast" | "\\star" => "^*".to_string(),
+            "'" | "′" | "\\prime" => "'".to_string(),
+            "''" | "″" | "\\prime\\prime" => "''".to_string(),
+            _ => {
+                let index = index_text(mark)?;
+                let worded = mark.starts_with("\\text") || mark.starts_with("\\mathrm");
+                let marked = Parts { marks: format!("{}^{index}", parts.marks), ..parts.clone() };
+                if !worded && find(&marked, symbols).is_none() {
+                    return None;
+                }
+                format!("^{index}")
+            }
+        };
+        return Some((spelled, end));
+    }
+    if let Some(behind) = rest.strip_prefix("\\prime") {
+        let _ = behind;
+        return Some(("'".into(), at + 6));
+    }
+    if rest.starts_with("\\ast") {
+        return Some(("^*".into(), at + 4));
+    }
+    let c = rest.chars().next()?;
+    let mark = match c {
+        '+' => "^+",
+        '-' | '−' => "^-",
+        '*' if !rest[1..].starts_with('*') && skipped == 0 && !starts_exponent(&rest[1..]) => "^*",
+        _ => return None,
+    };
+    let behind = &rest[c.len_utf8()..];
+    let marked = Parts { marks: format!("{}{mark}", parts.marks), ..parts.clone() };
+    let digit = behind.starts_with(|c: char| c.is_ascii_digit() || c == '(' || c == '{');
+    if starts_exponent(behind) && (digit || find(&marked, symbols).is_none()) {
+        return None;
+    }
+    Some((mark.into(), at + c.len_utf8()))
+}
+
+/// The declared name these parts spell.
+pub(crate) fn find<'s>(parts: &Parts, symbols: &'s Symbols) -> Option<&'s super::symbols::Declared> {
+    if symbols.declared().is_empty() {
+        return None;
+    }
+    if let Some(found) = symbols.find(&parts.key()) {
+        return Some(found);
+    }
+    for other in variants(&parts.base) {
+        let tried = Parts { base: (*other).to_string(), ..parts.clone() };
+        if let Some(found) = symbols.find(&tried.key()) {
+            return Some(found);
+        }
+    }
+    if !parts.index.is_empty() && parts.accent.is_empty() {
+        // `u_{Gx}` for a declared `uGx`; but m_u is not μ.
+        let joined = format!("{}{}{}", parts.base, parts.index, parts.marks);
+        if !is_greek(&joined) {
+            return symbols.find(&joined);
+        }
+    }
+    None
+}
+
+/// The key of a name written in LaTeX; `None` where the text is not one name.
+pub(crate) fn key_of_latex(latex: &str) -> Option<String> {
+    let open = Symbols::open();
+    let (parts, end, _) = whole(latex.trim(), 0, &open)?;
+    (end == latex.trim().len()).then(|| parts.key())
+}
+
+/// Reads a name that starts at byte `at` with a macro, a Greek letter, a letter or a brace, undeclared or not.
+pub(crate) fn whole(text: &str, at: usize, symbols: &Symbols) -> Option<(Parts, usize, bool)> {
+    let mut parts = Parts::default();
+    let end = base(text, at, &mut parts, 0)?;
+    let mut took = false;
+    let end = tail(text, end, &mut parts, symbols, false, &mut took);
+    Some((parts, end, took))
+}
+
+/// Reads base and accent of a name; gives the byte after them.
+pub(crate) fn base(text: &str, at: usize, parts: &mut Parts, depth: u32) -> Option<usize> {
+    let rest = text.get(at..)?;
+    let c = rest.chars().next()?;
+    if depth > 4 {
+        return None;
+    }
+    let end = match c {
+        '\\' => {
+            let length = rest[1..].find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len() - 1);
+            let word = &rest[1..1 + length];
+            let behind = at + 1 + length;
+            match word {
+                "hat" | "widehat" | "dot" | "ddot" | "bar" | "overline" | "vec" | "overrightarrow" | "tilde" => {
+                    parts.accent = match word {
+                        "widehat" => "hat",
+                        "overline" => "bar",
+                        "overrightarrow" => "vec",
+                        other => super::symbols::ACCENTS.iter().find(|accent| **accent == other)?,
+                    };
+                    let accent = parts.accent;
+                    let end = argument(text, behind, parts, depth)?;
+                    // A double accent is another name.
+                    if parts.accent != accent {
+                        return None;
+                    }
+                    end
+                }
+                "mathrm" | "mathbf" | "mathit" | "boldsymbol" | "bm" | "textbf" | "mathsf" | "text" | "textit" | "textrm"
+                | "mathcal" => argument(text, behind, parts, depth)?,
+                "ell" => {
+                    parts.base.push('l');
+                    behind
+                }
+                "imath" => {
+                    parts.base.push('i');
+                    behind
+                }
+                "jmath" => {
+                    parts.base.push('j');
+                    behind
+                }
+                word if is_greek(word) => {
+                    parts.base.push_str(word);
+                    behind
+                }
+                _ => return None,
+            }
+        }
+        '{' => argument(text, at, parts, depth)?,
+        'î' | 'ĵ' | 'ŷ' => {
+            parts.accent = "hat";
+            parts.base.push(match c {
+                'î' => 'i',
+                'ĵ' => 'j',
+                _ => 'y',
+            });
+            at + c.len_utf8()
+        }
+        c if c.is_ascii_alphabetic() => {
+            parts.base.push(c);
+            at + 1
+        }
+        c => {
+            parts.base.push_str(greek_name(c)?);
+            at + c.len_utf8()
+        }
+    };
+    Some(combining(text, end, parts))
+}
+
+/// An accent as a combining character behind the letter.
+pub(crate) fn combining(text: &str, at: usize, parts: &mut Parts) -> usize {
+    let Some(c) = text[at..].chars().next() else { return at };
+    parts.accent = match c {
+        '\u{302}' => "hat",
+        '\u{307}' => "dot",
+        '\u{308}' => "ddot",
+        '\u{304}' | '\u{305}' => "bar",
+        '\u{20d7}' => "vec",
+        '\u{303}' => "tilde",
+        _ => return at,
+    };
+    at + c.len_utf8()
+}
+
+/// The base in braces, or the next single one, behind an accent or a font.
+fn argument(text: &str, at: usize, parts: &mut Parts, depth: u32) -> Option<usize> {
+    let at = at + text[at..].len() - text[at..].trim_start_matches(' ').len();
+    let Some((inside, end)) = braced(text, at) else { return base(text, at, parts, depth + 1) };
+    let trimmed = inside.trim();
+    let used = base(trimmed, 0, parts, depth + 1)?;
+    if used == trimmed.len() {
+        return Some(end);
+    }
+    // \vec{v}_{G} may be written \vec{v_G}.
+    let mut took = false;
+    let inner = tail(trimmed, used, parts, &Symbols::open(), false, &mut took);
+    if inner == trimmed.len() {
+        return Some(end);
+    }
+    if depth == 0 && trimmed.len() <= LONGEST && trimmed.bytes().all(|b| b.is_ascii_alphanumeric()) {
+        parts.base = trimmed.to_string();
+        return Some(end);
+    }
+    None
+}

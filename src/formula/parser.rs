@@ -1,0 +1,631 @@
+//! Builds the written formula from tokens by precedence climbing, with depth limited well below the stack.
+//!
+//! From loose to tight: sums; products and quotients with a sign; products without a sign; functions without brackets;
+//! powers. Where people's habits differ the decision is a numbered site, see [`super::other_readings`].
+
+use super::fault::{Fault, Faulty};
+use super::lexer::{Lexer, Tok, Token};
+use super::note::Remark;
+use super::symbols::Symbols;
+use super::written::{Link, Literal, Shape, Sign, Written};
+use super::Relation;
+use crate::dimension::Unit;
+use crate::expr::{Function, ratio};
+
+/// Deepest nesting of brackets, fractions, exponents and functions.
+pub(crate) const MAX_DEPTH: u32 = 60;
+
+/// One side of a relation.
+pub(crate) struct Side {
+    pub written: Written,
+    /// The unit behind it and where it stands.
+    pub unit: Option<(Unit, usize, usize)>,
+}
+
+pub(crate) struct Parser<'a> {
+    pub lexer: Lexer<'a>,
+    peeked: Option<Token>,
+    depth: u32,
+    bars: u32,
+}
+
+impl<'a> Parser<'a> {
+    pub fn new(text: &'a str, symbols: &'a Symbols, units_first: bool, flips: u64) -> Parser<'a> {
+        Parser { lexer: Lexer::new(text, symbols, units_first, flips), peeked: None, depth: 0, bars: 0 }
+    }
+
+    /// The whole input: one side, or sides with relations between them.
+    pub fn statement(&mut self) -> Faulty<(Vec<Side>, Vec<Relation>)> {
+        let mut sides = vec![self.side()?];
+        let mut relations = Vec::new();
+        loop {
+            let token = self.next()?;
+            match token.tok {
+                Tok::End => return Ok((sides, relations)),
+                Tok::Relation(relation) => {
+                    if relations.len() >= 32 {
+                        return Err(Fault::new("at most 32 relations in one line", token.start, token.end));
+                    }
+                    relations.push(relation);
+                    sides.push(self.side()?);
+                }
+                Tok::Comma if self.lexer.at_end() => {
+                    self.lexer.note(Remark::Punctuation, token.start, token.start, token.end);
+                }
+                _ => return Err(self.unexpected(&token)),
+            }
+        }
+    }
+
+    fn side(&mut self) -> Faulty<Side> {
+        let written = self.sum()?;
+        if let Tok::Unit(_) = self.peek()?.tok {
+            let token = self.next()?;
+            if let Tok::Unit(unit) = token.tok {
+                return Ok(Side { written, unit: Some((*unit, token.start, token.end)) });
+            }
+        }
+        Ok(Side { written, unit: None })
+    }
+
+    fn peek(&mut self) -> Faulty<&Token> {
+        if self.peeked.is_none() {
+            self.peeked = Some(self.lexer.next()?);
+        }
+        match &self.peeked {
+            Some(token) => Ok(token),
+            None => Err(Fault::new("nothing to read", 0, 0)),
+        }
+    }
+
+    fn next(&mut self) -> Faulty<Token> {
+        match self.peeked.take() {
+            Some(token) => Ok(token),
+            None => self.lexer.next(),
+        }
+    }
+
+    fn deeper<T>(&mut self, work: impl FnOnce(&mut Self) -> Faulty<T>) -> Faulty<T> {
+        if self.depth >= MAX_DEPTH {
+            let at = self.peeked.as_ref().map_or(self.lexer.pos, |t| t.start);
+            return Err(Fault::new(format!("nested more than {MAX_DEPTH} deep"), at, at));
+        }
+        self.depth += 1;
+        let result = work(self);
+        self.depth -= 1;
+        result
+    }
+
+    fn unexpected(&self, token: &Token) -> Box<Fault> {
+        let shown: String = self.lexer.text[token.start..token.end].chars().take(24).collect();
+        let message = match &token.tok {
+            Tok::End => "the formula ends here, and something is missing".to_string(),
+            Tok::Close(_) => format!("`{shown}` closes a bracket that was not opened"),
+            Tok::CloseBar => format!("`{shown}` closes a bar that was not opened"),
+            Tok::Relation(_) => format!("`{shown}` needs something on both sides"),
+            Tok::Comma => format!("`{shown}` separates components only inside brackets"),
+            Tok::Unit(_) => format!("the unit `{shown}` stands in the middle of a formula"),
+            Tok::Number(_) => format!("the number `{shown}` directly behind another number"),
+            _ => format!("`{shown}` is not expected here"),
+        };
+        Fault::new(message, token.start, token.end)
+    }
+
+    /// The fault where a value should start.
+    fn missing(&self, token: &Token) -> Box<Fault> {
+        let shown: String = self.lexer.text[token.start..token.end].chars().take(24).collect();
+        let message = match &token.tok {
+            Tok::End if self.lexer.text.trim().is_empty() => "the formula is empty".to_string(),
+            Tok::End => "a number, a name or a bracket is expected, and the formula ends".to_string(),
+            _ => format!("a number, a name or a bracket is expected before `{shown}`"),
+        };
+        Fault::new(message, token.start, token.end)
+    }
+
+    fn sum(&mut self) -> Faulty<Written> {
+        self.deeper(Self::sum_here)
+    }
+
+    fn sum_here(&mut self) -> Faulty<Written> {
+        let start = self.peek()?.start;
+        let mut terms: Vec<(Sign, Written)> = Vec::new();
+        let mut sign = self.sign()?;
+        let signed = sign.is_some();
+        loop {
+            let term = self.term()?;
+            terms.push((sign.unwrap_or(Sign::Plus), term));
+            sign = self.sign()?;
+            if sign.is_none() {
+                break;
+            }
+        }
+        if terms.len() == 1 && !(signed && terms[0].0 != Sign::Plus) {
+            if let Some((_, term)) = terms.pop() {
+                return Ok(term);
+            }
+        }
+        let end = terms.last().map_or(start, |(_, t)| t.end);
+        Ok(Written::new(Shape::Sum(terms), start, end))
+    }
+
+    fn sign(&mut self) -> Faulty<Option<Sign>> {
+        let sign = match self.peek()?.tok {
+            Tok::Plus => Sign::Plus,
+            Tok::Minus => Sign::Minus,
+            Tok::PlusMinus => Sign::PlusMinus,
+            Tok::MinusPlus => Sign::MinusPlus,
+            _ => return Ok(None),
+        };
+        self.next()?;
+        Ok(Some(sign))
+    }
+
+    /// Groups tied by `*` and `/`, from left to right.
+    fn term(&mut self) -> Faulty<Written> {
+        let first = self.group()?;
+        let mut factors: Vec<(Link, Written)> = Vec::new();
+        let (start, mut end) = (first.start, first.end);
+        let mut first = Some(first);
+        loop {
+            let link = match self.peek()?.tok {
+                Tok::Times => Link::Times,
+                Tok::Slash => Link::Over,
+                _ => break,
+            };
+            self.next()?;
+            if let Some(first) = first.take() {
+                factors.push((Link::Times, first));
+            }
+            let negative = match self.peek()?.tok {
+                Tok::Minus => Some(self.next()?.start),
+                Tok::Plus => {
+                    self.next()?;
+                    None
+                }
+                _ => None,
+            };
+            let (mut factor, rest) = if link == Link::Over { self.below(&factors)? } else { (self.group()?, None) };
+            if let Some(at) = negative {
+                let stop = factor.end;
+                factor = Written::new(Shape::Sum(vec![(Sign::Minus, factor)]), at, stop);
+            }
+            end = factor.end;
+            factors.push((link, factor));
+            if let Some(rest) = rest {
+                end = rest.end;
+                factors.push((Link::Beside, rest));
+            }
+        }
+        match first {
+            Some(only) => Ok(only),
+            None => Ok(Written::new(Shape::Product(factors), start, end)),
+        }
+    }
+
+    /// What stands below a slash: all that follows without a sign, or its first factor alone and the rest apart.
+    fn below(&mut self, above: &[(Link, Written)]) -> Faulty<(Written, Option<Written>)> {
+        let first = self.factor()?;
+        if !self.starts_factor()? {
+            return Ok((first, None));
+        }
+        // `1/2 m v²` with a space behind a fraction of two whole numbers is half of the rest to everybody.
+        let spaced = self.peek()?.spaced;
+        let whole = |w: &Written| matches!(&w.shape, Shape::Number(n) if !n.decimal);
+        let half = match above {
+            [(_, number)] => whole(number) && whole(&first) && first.start == number.end + 1 && spaced,
+            _ => false,
+        };
+        let usual = self.lexer.usual();
+        let tight = half != usual;
+        let from = above.last().map_or(first.start, |(_, w)| w.start);
+        let (middle, start) = (first.end, first.start);
+        let rest = self.group_from(if tight { Some(first.clone()) } else { None })?;
+        self.lexer.note(Remark::Slash { tight }, from, middle, rest.end);
+        let _ = start;
+        Ok(if tight { (rest, None) } else { (first, Some(rest)) })
+    }
+
+    /// Factors side by side.
+    fn group(&mut self) -> Faulty<Written> {
+        let first = self.factor()?;
+        self.group_from(Some(first))
+    }
+
+    fn group_from(&mut self, first: Option<Written>) -> Faulty<Written> {
+        let first = match first {
+            Some(first) => first,
+            None => self.factor()?,
+        };
+        if !self.starts_factor()? {
+            return Ok(first);
+        }
+        let (start, mut end) = (first.start, first.end);
+        let mut factors = vec![(Link::Beside, first)];
+        while self.starts_factor()? {
+            if let (Tok::Number(_), Some((_, Written { shape: Shape::Number(_), .. }))) = (&self.peek()?.tok, factors.last()) {
+                let token = self.next()?;
+                return Err(self.unexpected(&token).hint("write * for a product"));
+            }
+            let factor = self.factor()?;
+            end = factor.end;
+            factors.push((Link::Beside, factor));
+        }
+        Ok(Written::new(Shape::Product(factors), start, end))
+    }
+
+    fn starts_factor(&mut self) -> Faulty<bool> {
+        let bars = self.bars;
+        Ok(match self.peek()?.tok {
+            Tok::Number(_) | Tok::Name(_) | Tok::Call(_) | Tok::Reciprocal(_) | Tok::Root(_) | Tok::Fraction => true,
+            Tok::Open(_) | Tok::OpenBar | Tok::Vulgar(..) => true,
+            Tok::Bar => bars == 0,
+            _ => false,
+        })
+    }
+
+    /// A value with its exponents.
+    fn factor(&mut self) -> Faulty<Written> {
+        let primary = self.primary()?;
+        self.raised(primary)
+    }
+
+    fn raised(&mut self, mut base: Written) -> Faulty<Written> {
+        loop {
+            match self.peek()?.tok {
+                Tok::Caret => {
+                    self.next()?;
+                    let exponent = self.exponent()?;
+                    let (start, end) = (base.start, exponent.end);
+                    base = Written::new(Shape::Power(Box::new(base), Box::new(exponent)), start, end);
+                    if let Tok::Caret | Tok::Raised(_) = self.peek()?.tok {
+                        let token = self.next()?;
+                        return Err(Fault::new("two exponents on one base", token.start, token.end).hint("write brackets"));
+                    }
+                }
+                Tok::Raised(_) => {
+                    let token = self.next()?;
+                    let exponent = raised_number(&token);
+                    let (start, end) = (base.start, token.end);
+                    base = Written::new(Shape::Power(Box::new(base), Box::new(exponent)), start, end);
+                    if let Tok::Caret | Tok::Raised(_) = self.peek()?.tok {
+                        let token = self.next()?;
+                        return Err(Fault::new("two exponents on one base", token.start, token.end).hint("write brackets"));
+                    }
+                }
+                Tok::Degree => {
+                    let token = self.next()?;
+                    if !base.is_numeric() {
+                        let message = "degrees stand behind a number";
+                        return Err(Fault::new(message, token.start, token.end));
+                    }
+                    let (start, end) = (base.start, token.end);
+                    base = Written::new(Shape::Degrees(Box::new(base)), start, end);
+                }
+                _ => return Ok(base),
+            }
+        }
+    }
+
+    /// An exponent behind `^`: a sign and one factor; a further `^` belongs to the exponent.
+    fn exponent(&mut self) -> Faulty<Written> {
+        self.deeper(|p| {
+            let (start, sign) = (p.peek()?.start, p.sign()?);
+            let mut inner = p.primary()?;
+            if let Tok::Caret = p.peek()?.tok {
+                p.next()?;
+                let above = p.exponent()?;
+                let (from, to) = (inner.start, above.end);
+                inner = Written::new(Shape::Power(Box::new(inner), Box::new(above)), from, to);
+            }
+            let end = inner.end;
+            Ok(match sign {
+                None | Some(Sign::Plus) => inner,
+                Some(sign) => Written::new(Shape::Sum(vec![(sign, inner)]), start, end),
+            })
+        })
+    }
+
+    fn primary(&mut self) -> Faulty<Written> {
+        let token = self.next()?;
+        let (start, end) = (token.start, token.end);
+        match token.tok {
+            Tok::Number(literal) => Ok(Written::new(Shape::Number(literal), start, end)),
+            Tok::Name(name) => Ok(Written::new(Shape::Symbol(name), start, end)),
+            Tok::Vulgar(n, d) => Ok(vulgar(n, d, start, end)),
+            Tok::Open(open) => self.bracket(open, start),
+            Tok::Bar => {
+                let outer = std::mem::replace(&mut self.bars, 1);
+                let inner = self.sum()?;
+                self.bars = outer;
+                let close = self.next()?;
+                match close.tok {
+                    Tok::Bar => Ok(Written::new(Shape::Abs(Box::new(inner)), start, close.end)),
+                    _ => Err(self.unclosed("|", start, end, &close)),
+                }
+            }
+            Tok::OpenBar => {
+                let outer = std::mem::replace(&mut self.bars, 0);
+                let inner = self.sum()?;
+                self.bars = outer;
+                let close = self.next()?;
+                match close.tok {
+                    Tok::CloseBar => Ok(Written::new(Shape::Abs(Box::new(inner)), start, close.end)),
+                    _ => Err(self.unclosed("|", start, end, &close)),
+                }
+            }
+            Tok::Fraction => self.deeper(|p| {
+                let above = p.argument("the numerator")?;
+                let below = p.argument("the denominator")?;
+                let stop = below.end;
+                Ok(Written::new(Shape::Fraction(Box::new(above), Box::new(below)), start, stop))
+            }),
+            Tok::Root(index) => self.deeper(|p| p.root(index, start, end)),
+            Tok::Call(function) => self.deeper(|p| p.call(function, false, start, end)),
+            Tok::Reciprocal(function) => self.deeper(|p| p.call(function, true, start, end)),
+            _ => Err(self.missing(&token)),
+        }
+    }
+
+    fn unclosed(&self, open: &str, start: usize, end: usize, at: &Token) -> Box<Fault> {
+        match at.tok {
+            Tok::End => Fault::new(format!("`{open}` is opened here and never closed"), start, end),
+            _ => {
+                let shown: String = self.lexer.text[at.start..at.end].chars().take(24).collect();
+                let message = format!("`{shown}` stands where the `{open}` opened at byte {start} should be closed");
+                Fault::new(message, at.start, at.end)
+            }
+        }
+    }
+
+    fn bracket(&mut self, open: char, start: usize) -> Faulty<Written> {
+        let outer = std::mem::replace(&mut self.bars, 0);
+        let mut parts = vec![self.sum()?];
+        let mut token = self.next()?;
+        while token.tok == Tok::Comma && open != '{' {
+            if parts.len() >= 3 {
+                return Err(Fault::new("a vector has at most three components", token.start, token.end));
+            }
+            parts.push(self.sum()?);
+            token = self.next()?;
+        }
+        self.bars = outer;
+        let close = match open {
+            '(' => ')',
+            '[' => ']',
+            '{' => '}',
+            _ => '>',
+        };
+        if token.tok != Tok::Close(close) {
+            return Err(self.unclosed(&open.to_string(), start, start + open.len_utf8(), &token));
+        }
+        let shape = match parts.pop() {
+            Some(only) if parts.is_empty() => Shape::Bracket(Box::new(only)),
+            Some(last) => {
+                parts.push(last);
+                Shape::List(parts)
+            }
+            None => return Err(self.missing(&token)),
+        };
+        Ok(Written::new(shape, start, token.end))
+    }
+
+    /// One argument of a LaTeX command: a group, or a single digit, letter or command.
+    fn argument(&mut self, what: &str) -> Faulty<Written> {
+        if self.peeked.is_none() {
+            self.lexer.single = true;
+        }
+        let token = self.peek()?;
+        match token.tok {
+            Tok::Number(_) | Tok::Name(_) | Tok::Open('{' | '(') | Tok::Fraction | Tok::Root(_) | Tok::Vulgar(..) => self.primary(),
+            _ => {
+                let token = self.next()?;
+                Err(Fault::new(format!("{what} is expected here"), token.start, token.end))
+            }
+        }
+    }
+
+    fn root(&mut self, index: i64, start: usize, end: usize) -> Faulty<Written> {
+        let tex = self.lexer.text[start..].starts_with('\\');
+        let mut degree = (index != 2).then(|| Box::new(whole_number(index, start, end)));
+        let mut inner = None;
+        if index == 2 && self.lexer.text[end..].starts_with('[') {
+            // `sqrt[3]{x}` has an index, `sqrt[x+1]` an argument.
+            let bracket = self.primary()?;
+            let braced = matches!(self.peek()?.tok, Tok::Open('{' | '('));
+            match bracket.shape {
+                Shape::Bracket(index) if tex || braced => degree = Some(index),
+                shape => inner = Some(Written::new(shape, bracket.start, bracket.end)),
+            }
+        }
+        let inner = match inner {
+            Some(inner) => inner,
+            None if tex => self.argument("what stands under the root")?,
+            None => self.primary()?,
+        };
+        let bracketed = matches!(inner.shape, Shape::Bracket(_) | Shape::Call(..) | Shape::Root(..) | Shape::Fraction(..));
+        let shown = !tex && !bracketed && self.starts_factor()?;
+        let mut inner = inner;
+        if shown {
+            let usual = self.lexer.usual();
+            let middle = inner.end;
+            if usual {
+                let stop = self.peek()?.end;
+                self.lexer.note(Remark::Root { long: false }, start, middle, stop);
+            } else {
+                inner = self.group_from(Some(inner))?;
+                self.lexer.note(Remark::Root { long: true }, start, middle, inner.end);
+            }
+        }
+        let stop = inner.end;
+        Ok(Written::new(Shape::Root(degree, Box::new(inner)), start, stop))
+    }
+
+    /// A function: its own exponent, then its argument.
+    fn call(&mut self, function: Function, reciprocal: bool, start: usize, end: usize) -> Faulty<Written> {
+        let mut exponent = None;
+        match self.peek()?.tok {
+            Tok::Caret => {
+                self.next()?;
+                exponent = Some(self.exponent()?);
+            }
+            Tok::Raised(_) => exponent = Some(raised_number(&self.next()?)),
+            _ => {}
+        }
+        let name = function.name();
+        let in_bars = self.bars > 0;
+        let first = self.peek()?;
+        let argument = match first.tok {
+            Tok::Open(_) | Tok::Bar | Tok::OpenBar if first.tok != Tok::Bar || !in_bars => self.primary()?,
+            Tok::Minus | Tok::Plus => {
+                let (at, sign) = (first.start, self.sign()?);
+                let inner = self.bare_argument()?;
+                let stop = inner.end;
+                Written::new(Shape::Sum(vec![(sign.unwrap_or(Sign::Plus), inner)]), at, stop)
+            }
+            Tok::Number(_) | Tok::Name(_) | Tok::Vulgar(..) | Tok::Fraction | Tok::Root(_) | Tok::Call(_) | Tok::Reciprocal(_) => {
+                self.bare_argument()?
+            }
+            _ => {
+                let token = self.next()?;
+                return Err(Fault::new(format!("{name} needs an argument"), start, end.max(token.start)));
+            }
+        };
+        let trigonometric = matches!(function, Function::Sin | Function::Cos | Function::Tan);
+        if trigonometric && plain_number(&argument) {
+            self.lexer.note(Remark::Radians, argument.start, argument.start, argument.end);
+        }
+        let stop = argument.end;
+        let minus_one = exponent.as_ref().and_then(Written::literal).is_some_and(|k| k.value == ratio(-1, 1));
+        let inverse = match function {
+            Function::Sin => Some(Function::Asin),
+            Function::Cos => Some(Function::Acos),
+            Function::Tan => Some(Function::Atan),
+            _ => None,
+        };
+        if let (true, Some(inverse), false) = (minus_one, inverse, reciprocal) {
+            let raised_end = exponent.map_or(end, |e| e.end);
+            self.lexer.note(Remark::Inverse, start, start, raised_end);
+            return Ok(Written::new(Shape::Call(inverse, Box::new(argument)), start, stop));
+        }
+        let argument = Box::new(argument);
+        let shape = if reciprocal { Shape::Reciprocal(function, argument) } else { Shape::Call(function, argument) };
+        let called = Written::new(shape, start, stop);
+        Ok(match exponent {
+            Some(exponent) => Written::new(Shape::Power(Box::new(called), Box::new(exponent)), start, stop),
+            None => called,
+        })
+    }
+
+    /// The argument of a function without brackets: numbers, then one angle, or a product of names such as ω t.
+    fn bare_argument(&mut self) -> Faulty<Written> {
+        let first = self.factor()?;
+        if let Shape::Call(..) | Shape::Reciprocal(..) = first.shape {
+            return Ok(first);
+        }
+        let (start, mut end) = (first.start, first.end);
+        let mut numeric = first.is_numeric();
+        let mut angle = self.has_angle(&first);
+        let mut named = is_name(&first);
+        let mut factors = vec![(Link::Beside, first)];
+        loop {
+            let token = self.peek()?.clone();
+            let name = match &token.tok {
+                Tok::Name(name) => Some(name.clone()),
+                _ => None,
+            };
+            let hat = name.as_ref().is_some_and(|n| n.ends_with("_hat"));
+            let goes_on = match &token.tok {
+                Tok::Name(_) if hat => false,
+                Tok::Name(_) | Tok::Root(_) | Tok::Fraction | Tok::Open(_) if numeric => true,
+                Tok::Name(name) if named => {
+                    let both = angle && self.lexer.is_angle(name);
+                    let usual = self.lexer.usual();
+                    let long = (!angle || both) == usual;
+                    self.lexer.note(Remark::Argument { long }, start, end, token.end);
+                    long
+                }
+                Tok::Slash if named => {
+                    // sinθ/2: half of the sine, unless somebody meant the half angle.
+                    let digit = self.lexer.text[self.lexer.pos..].trim_start().starts_with(|c: char| c.is_ascii_digit());
+                    if digit && !self.lexer.usual() {
+                        self.next()?;
+                        let below = self.factor()?;
+                        self.lexer.note(Remark::Argument { long: true }, start, end, below.end);
+                        end = below.end;
+                        factors.push((Link::Over, below));
+                    } else if digit {
+                        self.lexer.note(Remark::Argument { long: false }, start, end, token.end + 1);
+                    }
+                    false
+                }
+                _ => false,
+            };
+            if !goes_on {
+                break;
+            }
+            let factor = self.factor()?;
+            end = factor.end;
+            let still = factor.is_numeric();
+            angle |= self.has_angle(&factor);
+            named = is_name(&factor);
+            factors.push((Link::Beside, factor));
+            if numeric && !still && !named {
+                break;
+            }
+            numeric &= still;
+        }
+        match factors.pop() {
+            Some((_, only)) if factors.is_empty() => Ok(only),
+            Some(last) => {
+                factors.push(last);
+                Ok(Written::new(Shape::Product(factors), start, end))
+            }
+            None => Err(Fault::new("an argument is missing", start, end)),
+        }
+    }
+
+    fn has_angle(&self, written: &Written) -> bool {
+        match &written.shape {
+            Shape::Symbol(name) => self.lexer.is_angle(name),
+            Shape::Power(base, _) => self.has_angle(base),
+            _ => false,
+        }
+    }
+}
+
+fn is_name(written: &Written) -> bool {
+    match &written.shape {
+        Shape::Symbol(name) => &**name != "pi",
+        Shape::Power(base, _) => is_name(base),
+        _ => false,
+    }
+}
+
+/// A whole number other than 0, with or without brackets and sign.
+fn plain_number(written: &Written) -> bool {
+    match &written.shape {
+        Shape::Number(n) => n.value != ratio(0, 1),
+        Shape::Bracket(inner) => plain_number(inner),
+        Shape::Sum(terms) => matches!(terms.as_slice(), [(_, inner)] if plain_number(inner)),
+        _ => false,
+    }
+}
+
+fn whole_number(value: i64, start: usize, end: usize) -> Written {
+    let literal = Literal { value: ratio(value, 1), digits: 1, place: 0, decimal: false };
+    Written::new(Shape::Number(literal), start, end)
+}
+
+fn raised_number(token: &Token) -> Written {
+    let value = match &token.tok {
+        Tok::Raised(value) => value.clone(),
+        _ => ratio(1, 1),
+    };
+    let literal = Literal { value, digits: 1, place: 0, decimal: false };
+    Written::new(Shape::Number(literal), token.start, token.end)
+}
+
+fn vulgar(n: i64, d: i64, start: usize, end: usize) -> Written {
+    let part = |value| Box::new(whole_number(value, start, end));
+    Written::new(Shape::Fraction(part(n), part(d)), start, end)
+}

@@ -1,0 +1,254 @@
+//! The names a formula may use, and which spellings mean the same name.
+//!
+//! A name has a base (a letter, a Greek letter, or a declared word), an accent, an index and marks such as ′ or ⁺. Its
+//! *key* writes these in one way, so that `v1`, `v_1`, `v_{1}` and `{v}_{1}` meet.
+
+use std::collections::{HashMap, HashSet};
+
+use crate::dimension::Dimension;
+use crate::expr::Symbol;
+
+/// A declared name.
+#[derive(Clone, Debug)]
+pub struct Declared {
+    /// The name as the scene writes it.
+    pub name: Symbol,
+    /// Its dimension, where known; it helps to see where the argument of a function ends.
+    pub dimension: Option<Dimension>,
+}
+
+/// The names in play while a formula is read.
+#[derive(Clone, Debug, Default)]
+pub struct Symbols {
+    declared: Vec<Declared>,
+    keys: HashMap<String, usize>,
+    bases: HashSet<String>,
+    open: bool,
+}
+
+impl Symbols {
+    /// Only what is declared may occur.
+    pub fn strict() -> Symbols {
+        Symbols::default()
+    }
+
+    /// Whatever is not declared is collected: letters with their indices, and Greek names.
+    pub fn open() -> Symbols {
+        Symbols { open: true, ..Symbols::default() }
+    }
+
+    /// Whether undeclared names are collected rather than refused.
+    pub fn is_open(&self) -> bool {
+        self.open
+    }
+
+    /// Declares a name.
+    pub fn declare(&mut self, name: &str) {
+        self.declare_as(name, None, None);
+    }
+
+    /// Declares a name with its LaTeX spelling and dimension, where there are such.
+    pub fn declare_as(&mut self, name: &str, latex: Option<&str>, dimension: Option<Dimension>) {
+        let index = self.declared.len();
+        self.declared.push(Declared { name: Symbol::from(name), dimension });
+        for key in [Some(key_of(name)), latex.and_then(super::name::key_of_latex)].into_iter().flatten() {
+            let base: String = key.chars().take_while(char::is_ascii_alphabetic).collect();
+            if base.len() > 1 {
+                self.bases.insert(base);
+            }
+            self.keys.entry(key).or_insert(index);
+        }
+        self.keys.insert(name.to_string(), index);
+        if name.len() > 1 && name.bytes().all(|b| b.is_ascii_alphabetic()) {
+            self.bases.insert(name.to_string());
+        }
+    }
+
+    /// The declared names in the order of declaration.
+    pub fn declared(&self) -> &[Declared] {
+        &self.declared
+    }
+
+    /// The declared name of this key.
+    pub(crate) fn find(&self, key: &str) -> Option<&Declared> {
+        self.keys.get(key).map(|&index| &self.declared[index])
+    }
+
+    /// Whether some declared name starts with this word of letters as its base.
+    pub(crate) fn has_base(&self, word: &str) -> bool {
+        !self.bases.is_empty() && self.bases.contains(word)
+    }
+
+    /// The declared name that looks most like `name`, when one is near.
+    pub fn nearest(&self, name: &str) -> Option<&Symbol> {
+        let limit = 1 + name.chars().count() / 3;
+        let distances = self.declared.iter().map(|d| (distance(name, &d.name), &d.name));
+        distances.filter(|(far, _)| *far <= limit).min_by_key(|(far, _)| *far).map(|(_, name)| name)
+    }
+}
+
+impl<'a> FromIterator<&'a str> for Symbols {
+    /// Declares names; nothing else may occur.
+    fn from_iter<I: IntoIterator<Item = &'a str>>(names: I) -> Symbols {
+        let mut symbols = Symbols::strict();
+        names.into_iter().for_each(|name| symbols.declare(name));
+        symbols
+    }
+}
+
+/// Accents that are part of a name.
+pub(crate) const ACCENTS: [&str; 6] = ["hat", "dot", "ddot", "bar", "vec", "tilde"];
+
+/// A name in its parts.
+#[derive(Clone, Default, Debug)]
+pub(crate) struct Parts {
+    pub base: String,
+    pub accent: &'static str,
+    pub index: String,
+    /// Primes, and `^` with what stands raised behind.
+    pub marks: String,
+}
+
+impl Parts {
+    /// The one way to write the name.
+    pub fn key(&self) -> String {
+        let mut key = self.base.clone();
+        if !self.accent.is_empty() {
+            key.push('_');
+            key.push_str(self.accent);
+        }
+        if !self.index.is_empty() {
+            if !self.index.starts_with(|c: char| c.is_ascii_digit()) {
+                key.push('_');
+            }
+            key.push_str(&self.index);
+        }
+        key.push_str(&self.marks);
+        key
+    }
+}
+
+/// The parts of a name as scenes write it: `v1`, `v_G1`, `theta_dot`, `v1'`, `v_G1^+`.
+pub(crate) fn parts_of(name: &str) -> Parts {
+    let mut parts = Parts::default();
+    let marks_at = name.find(['\'', '^']).unwrap_or(name.len());
+    let (plain, marks) = name.split_at(marks_at);
+    parts.marks = marks.replace(['{', '}'], "");
+    let base_end = plain.find(|c: char| c == '_' || c.is_ascii_digit()).unwrap_or(plain.len());
+    parts.base = plain[..base_end].to_string();
+    for piece in plain[base_end..].split('_') {
+        match ACCENTS.iter().find(|accent| **accent == piece) {
+            Some(accent) if parts.accent.is_empty() => parts.accent = accent,
+            _ => parts.index.push_str(&piece.replace(['{', '}'], "")),
+        }
+    }
+    parts
+}
+
+fn key_of(name: &str) -> String {
+    parts_of(name).key()
+}
+
+/// Other spellings of a base, tried when the written one is not declared.
+pub(crate) fn variants(base: &str) -> &'static [&'static str] {
+    match base {
+        "phi" => &["varphi"],
+        "varphi" => &["phi"],
+        "theta" => &["vartheta"],
+        "vartheta" => &["theta"],
+        "epsilon" => &["varepsilon"],
+        "varepsilon" => &["epsilon"],
+        "rho" => &["varrho"],
+        "varrho" => &["rho"],
+        "l" => &["ell"],
+        "ell" => &["l"],
+        _ => &[],
+    }
+}
+
+/// Names of Greek letters, as words and as macros.
+pub(crate) fn is_greek(word: &str) -> bool {
+    matches!(word,
+        "alpha" | "beta" | "gamma" | "delta" | "epsilon" | "varepsilon" | "zeta" | "eta" | "theta" | "vartheta" | "iota"
+        | "kappa" | "lambda" | "mu" | "nu" | "xi" | "rho" | "varrho" | "sigma" | "tau" | "upsilon" | "phi" | "varphi" | "chi"
+        | "psi" | "omega" | "Gamma" | "Delta" | "Theta" | "Lambda" | "Xi" | "Sigma" | "Upsilon" | "Phi" | "Psi" | "Omega")
+}
+
+/// The name of a Greek letter or a letter that stands for one; π is not among them.
+pub(crate) fn greek_name(c: char) -> Option<&'static str> {
+    Some(match c {
+        'α' => "alpha",
+        'β' => "beta",
+        'γ' => "gamma",
+        'δ' => "delta",
+        'ε' | 'ϵ' => "epsilon",
+        'ζ' => "zeta",
+        'η' => "eta",
+        'θ' | 'ϑ' => "theta",
+        'ι' => "iota",
+        'κ' => "kappa",
+        'λ' => "lambda",
+        'μ' | 'µ' => "mu",
+        'ν' => "nu",
+        'ξ' => "xi",
+        'ρ' | 'ϱ' => "rho",
+        'σ' => "sigma",
+        'τ' => "tau",
+        'υ' => "upsilon",
+        'φ' | 'ϕ' => "phi",
+        'χ' => "chi",
+        'ψ' => "psi",
+        'ω' => "omega",
+        'Γ' => "Gamma",
+        'Δ' | '∆' => "Delta",
+        'Θ' => "Theta",
+        'Λ' => "Lambda",
+        'Ξ' => "Xi",
+        'Σ' => "Sigma",
+        'Υ' => "Upsilon",
+        'Φ' => "Phi",
+        'Ψ' => "Psi",
+        'Ω' | '\u{2126}' => "Omega",
+        'ℓ' => "l",
+        _ => return None,
+    })
+}
+
+/// The letter of a Greek name.
+pub(crate) fn greek_letter(name: &str) -> Option<char> {
+    let letters = "αβγδεζηθικλμνξρστυφχψωΓΔΘΛΞΣΥΦΨΩπ";
+    let plain = match name {
+        "varphi" => "phi",
+        "vartheta" => "theta",
+        "varepsilon" => "epsilon",
+        "varrho" => "rho",
+        "pi" => return Some('π'),
+        "ell" => return Some('ℓ'),
+        other => other,
+    };
+    letters.chars().find(|c| greek_name(*c) == Some(plain))
+}
+
+/// Names that mean an angle unless the scene says otherwise.
+pub(crate) fn is_angle_name(name: &str) -> bool {
+    let base = name.find(['_', '\'', '^']).map_or(name, |end| &name[..end]);
+    let base = base.trim_end_matches(|c: char| c.is_ascii_digit());
+    let accented = ACCENTS.iter().any(|accent| name[base.len()..].starts_with(&format!("_{accent}")));
+    !accented && matches!(base, "alpha" | "beta" | "gamma" | "theta" | "vartheta" | "phi" | "varphi" | "psi" | "Theta" | "Phi")
+}
+
+/// Number of single-character edits from one word to another; swapping case counts as one.
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().take(40).collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().take(40).enumerate() {
+        let mut corner = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let change = corner + usize::from(x != *y);
+            corner = row[j + 1];
+            row[j + 1] = change.min(row[j] + 1).min(corner + 1);
+        }
+    }
+    row[b.len()]
+}

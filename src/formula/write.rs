@@ -1,0 +1,433 @@
+//! Expressions back to text: plain for machines, Unicode for terminals, LaTeX for print.
+//!
+//! What is written reads back as the same value with the same names declared. Only the order of factors is touched:
+//! numbers first, functions last.
+
+use num_traits::{One, Signed};
+
+use super::symbols::{greek_letter, is_greek, parts_of};
+use crate::expr::{Expr, Function, Node, Rational, ratio};
+
+/// How a name is typeset where the caller says so.
+type Names<'a> = &'a dyn Fn(&str) -> Option<String>;
+
+/// Machine-readable infix: `3*v*cos(theta)/(2*l)`.
+pub fn write_plain(e: &Expr) -> String {
+    write(e, Style::Plain, &|_| None)
+}
+
+/// For terminals: `3 v cosθ/(2 ℓ)`. `names` gives the LaTeX spelling of a name, where it is a special one.
+pub fn write_unicode(e: &Expr, names: &dyn Fn(&str) -> Option<String>) -> String {
+    write(e, Style::Unicode, names)
+}
+
+/// For print: `\frac{3 v \cos\theta}{2 \ell}`. `names` gives the LaTeX spelling of a name, where it is a special one.
+pub fn write_latex(e: &Expr, names: &dyn Fn(&str) -> Option<String>) -> String {
+    write(e, Style::Latex, names)
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Style {
+    Plain,
+    Unicode,
+    Latex,
+}
+
+struct Writer<'a> {
+    style: Style,
+    names: Names<'a>,
+    out: String,
+}
+
+fn write(e: &Expr, style: Style, names: Names) -> String {
+    let mut writer = Writer { style, names, out: String::new() };
+    writer.sum(e);
+    writer.out
+}
+
+/// A term as a quotient of factors: sign, above, below.
+struct Quotient {
+    negative: bool,
+    above: Vec<Expr>,
+    below: Vec<Expr>,
+}
+
+fn quotient(e: &Expr) -> Quotient {
+    let mut q = Quotient { negative: false, above: Vec::new(), below: Vec::new() };
+    let factors = match e.node() {
+        Node::Product(factors) => factors.as_slice(),
+        _ => std::slice::from_ref(e),
+    };
+    for factor in factors {
+        match factor.node() {
+            Node::Number(value) => {
+                q.negative ^= value.is_negative();
+                let size = value.abs();
+                let (n, d) = (Rational::from(size.numer().clone()), Rational::from(size.denom().clone()));
+                if !n.is_one() {
+                    q.above.push(Expr::from(n));
+                }
+                if !d.is_one() {
+                    q.below.push(Expr::from(d));
+                }
+            }
+            Node::Power(base, exponent) => match exponent.as_number() {
+                // A literal (1/2)^-1 would fold; only powers that stay powers are moved below.
+                Some(k) if k.is_negative() => q.below.push(base.power(Expr::from(-k))),
+                _ => q.above.push(factor.clone()),
+            },
+            _ => q.above.push(factor.clone()),
+        }
+    }
+    q.above.sort_by_key(class);
+    q.below.sort_by_key(class);
+    q
+}
+
+/// Numbers, then names, then roots, then sums, then functions.
+fn class(e: &Expr) -> u8 {
+    match e.node() {
+        Node::Number(_) => 0,
+        Node::Symbol(_) => 1,
+        Node::Power(base, exponent) if !exponent.as_number().is_some_and(Rational::is_integer) => class(base).max(2),
+        Node::Power(base, _) => class(base),
+        Node::Product(_) => 2,
+        Node::Sum(_) => 3,
+        Node::Call(Function::Abs, _) => 3,
+        Node::Call(..) => 4,
+    }
+}
+
+impl Writer<'_> {
+    fn sum(&mut self, e: &Expr) {
+        let terms = match e.node() {
+            Node::Sum(terms) => terms.as_slice(),
+            _ => std::slice::from_ref(e),
+        };
+        for (i, term) in terms.iter().enumerate() {
+            let q = quotient(term);
+            match (i, q.negative) {
+                (0, true) => self.out.push_str(if self.style == Style::Unicode { "−" } else { "-" }),
+                (0, false) => {}
+                (_, true) => self.out.push_str(if self.style == Style::Unicode { " − " } else { " - " }),
+                (_, false) => self.out.push_str(" + "),
+            }
+            self.quotient(&q);
+        }
+    }
+
+    fn quotient(&mut self, q: &Quotient) {
+        if q.below.is_empty() {
+            return self.product(&q.above);
+        }
+        if self.style == Style::Latex {
+            self.out.push_str("\\frac{");
+            self.lone_product(&q.above);
+            self.out.push_str("}{");
+            self.lone_product(&q.below);
+            self.out.push('}');
+            return;
+        }
+        self.product(&q.above);
+        self.out.push('/');
+        let single = q.below.len() == 1;
+        // Without brackets √2 x and 2³ x would go on below the slash.
+        if !single {
+            self.out.push('(');
+        }
+        self.product(&q.below);
+        if !single {
+            self.out.push(')');
+        }
+    }
+
+    /// A product that stands alone in braces, where a sum needs no brackets.
+    fn lone_product(&mut self, factors: &[Expr]) {
+        match factors {
+            [only] if matches!(only.node(), Node::Sum(_)) => self.sum(only),
+            _ => self.product(factors),
+        }
+    }
+
+    fn product(&mut self, factors: &[Expr]) {
+        if factors.is_empty() {
+            self.out.push('1');
+        }
+        for (i, factor) in factors.iter().enumerate() {
+            if i > 0 {
+                let digit = matches!(leading(factor).node(), Node::Number(_));
+                self.out.push_str(match self.style {
+                    Style::Plain => "*",
+                    Style::Unicode if digit => "·",
+                    Style::Latex if digit => " \\cdot ",
+                    _ => " ",
+                });
+            }
+            self.factor(factor);
+        }
+    }
+
+    fn bracketed(&mut self, e: &Expr) {
+        let tall = self.style == Style::Latex && is_tall(e);
+        self.out.push_str(if tall { "\\left(" } else { "(" });
+        self.sum(e);
+        self.out.push_str(if tall { "\\right)" } else { ")" });
+    }
+
+    fn factor(&mut self, e: &Expr) {
+        match e.node() {
+            Node::Number(value) if value.is_integer() && !value.is_negative() => self.out.push_str(&value.to_string()),
+            Node::Number(_) | Node::Sum(_) | Node::Product(_) => self.bracketed(e),
+            Node::Symbol(name) => self.name(name),
+            Node::Call(function, argument) => self.call(*function, argument, None),
+            Node::Power(base, exponent) => self.power(base, exponent),
+        }
+    }
+
+    fn power(&mut self, base: &Expr, exponent: &Expr) {
+        if exponent.as_number().is_some_and(|k| *k == ratio(1, 2)) {
+            match self.style {
+                Style::Plain => {
+                    self.out.push_str("sqrt(");
+                    self.sum(base);
+                    self.out.push(')');
+                }
+                Style::Unicode => {
+                    self.out.push('√');
+                    match base.as_number() {
+                        Some(n) if n.is_integer() && !n.is_negative() => self.factor(base),
+                        _ => self.bracketed(base),
+                    }
+                }
+                Style::Latex => {
+                    self.out.push_str("\\sqrt{");
+                    self.sum(base);
+                    self.out.push('}');
+                }
+            }
+            return;
+        }
+        let raised = exponent.as_number().filter(|k| k.is_integer() && k.is_positive());
+        if let (Node::Call(function, argument), true, Some(k)) = (base.node(), self.style != Style::Plain, raised) {
+            if *function != Function::Abs {
+                return self.call(*function, argument, Some(k));
+            }
+        }
+        let simple = match base.node() {
+            Node::Number(value) => value.is_integer() && !value.is_negative(),
+            Node::Symbol(name) => !name.contains(['^', '\'']),
+            Node::Call(..) => self.style == Style::Plain,
+            _ => false,
+        };
+        if simple {
+            self.factor(base);
+        } else {
+            self.bracketed(base);
+        }
+        match (self.style, raised) {
+            (Style::Unicode, Some(k)) if k.numer().bits() < 16 => self.out.push_str(&superscript(&k.to_string())),
+            (Style::Latex, _) => {
+                self.out.push_str("^{");
+                self.sum(exponent);
+                self.out.push('}');
+            }
+            (_, Some(k)) => {
+                self.out.push('^');
+                self.out.push_str(&k.to_string());
+            }
+            _ => {
+                self.out.push_str("^(");
+                self.sum(exponent);
+                self.out.push(')');
+            }
+        }
+    }
+
+    fn call(&mut self, function: Function, argument: &Expr, power: Option<&Rational>) {
+        if function == Function::Abs && self.style != Style::Plain {
+            self.out.push_str(if self.style == Style::Latex { "\\left|" } else { "|" });
+            self.sum(argument);
+            self.out.push_str(if self.style == Style::Latex { "\\right|" } else { "|" });
+            return;
+        }
+        match self.style {
+            Style::Latex => self.out.push_str(latex_function(function)),
+            _ => self.out.push_str(function.name()),
+        }
+        if let Some(k) = power {
+            match self.style {
+                Style::Latex => self.out.push_str(&format!("^{{{k}}}")),
+                _ if k.numer().bits() < 14 => self.out.push_str(&superscript(&k.to_string())),
+                _ => self.out.push_str(&format!("^{k}")),
+            }
+        }
+        // A bare argument: a name, or a whole number of times a Greek angle.
+        let bare = match argument.node() {
+            Node::Symbol(name) => !name.contains(['^', '\'']),
+            Node::Product(factors) => match factors.as_slice() {
+                [k, name] => {
+                    k.as_number().is_some_and(|k| k.is_integer() && k.is_positive())
+                        && name.as_symbol().is_some_and(|n| greek_letter(n).is_some() && &**n != "pi")
+                }
+                _ => false,
+            },
+            _ => false,
+        };
+        if self.style == Style::Plain || !bare {
+            return self.bracketed(argument);
+        }
+        let greek = argument.as_symbol().is_some_and(|n| greek_letter(&parts_of(n).base).is_some());
+        if !greek || (self.style == Style::Latex && (self.names)(argument.as_symbol().map_or("", |n| n)).is_some()) {
+            self.out.push(' ');
+        }
+        match argument.node() {
+            Node::Product(factors) => {
+                for factor in factors {
+                    self.factor(factor);
+                }
+            }
+            _ => self.factor(argument),
+        }
+    }
+
+    fn name(&mut self, name: &str) {
+        let special = (self.names)(name);
+        let text = match (self.style, special) {
+            (Style::Plain, _) => plain_name(name),
+            (Style::Unicode, Some(latex)) => unicode_of_latex(name, &latex),
+            (Style::Unicode, None) => unicode_name(name),
+            (Style::Latex, Some(latex)) => latex,
+            (Style::Latex, None) => latex_name(name),
+        };
+        self.out.push_str(&text);
+    }
+}
+
+/// The factor a written product would start with.
+fn leading(e: &Expr) -> &Expr {
+    match e.node() {
+        Node::Power(base, exponent) if exponent.as_number().is_none_or(|k| *k != ratio(1, 2)) => leading(base),
+        _ => e,
+    }
+}
+
+/// Whether a bracket around it should grow: a fraction or a root stands inside.
+fn is_tall(e: &Expr) -> bool {
+    let mut tall = false;
+    e.walk(&mut |part| match part.node() {
+        Node::Number(value) => tall |= !value.is_integer(),
+        Node::Power(_, exponent) => tall |= exponent.as_number().is_none_or(|k| !k.is_integer() || k.is_negative()),
+        _ => {}
+    });
+    tall
+}
+
+fn superscript(digits: &str) -> String {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    digits.chars().filter_map(|c| c.to_digit(10)).map(|d| RAISED[d as usize]).collect()
+}
+
+fn latex_function(function: Function) -> &'static str {
+    match function {
+        Function::Sin => "\\sin",
+        Function::Cos => "\\cos",
+        Function::Tan => "\\tan",
+        Function::Asin => "\\arcsin",
+        Function::Acos => "\\arccos",
+        Function::Atan => "\\arctan",
+        Function::Sinh => "\\sinh",
+        Function::Cosh => "\\cosh",
+        Function::Tanh => "\\tanh",
+        Function::Exp => "\\exp",
+        Function::Ln => "\\ln",
+        Function::Abs => "\\operatorname{abs}",
+    }
+}
+
+fn plain_name(name: &str) -> String {
+    match name.split_once('^') {
+        Some((base, mark)) => format!("{base}^{{{mark}}}"),
+        None => name.to_string(),
+    }
+}
+
+/// The LaTeX spelling of a name: `theta` → `\theta`, `omega1` → `\omega_{1}`, `v_G1` → `v_{G1}`, `v1^+` → `v_{1}^{+}`.
+pub fn latex_name(name: &str) -> String {
+    let parts = parts_of(name);
+    let base = match parts.base.as_str() {
+        "pi" => "\\pi".to_string(),
+        base if is_greek(base) => format!("\\{base}"),
+        "ell" => "\\ell".to_string(),
+        base if base.chars().count() == 1 => base.to_string(),
+        base => format!("\\mathrm{{{base}}}"),
+    };
+    let mut out = match parts.accent {
+        "" => base,
+        accent => format!("\\{accent}{{{base}}}"),
+    };
+    if !parts.index.is_empty() {
+        out.push_str(&format!("_{{{}}}", latex_index(&parts.index)));
+    }
+    let (primes, raised) = parts.marks.split_once('^').unwrap_or((&parts.marks, ""));
+    out.push_str(primes);
+    match raised {
+        "" => {}
+        "+" | "-" | "*" => out.push_str(&format!("^{{{raised}}}")),
+        word => out.push_str(&format!("^{{\\mathrm{{{word}}}}}")),
+    }
+    out
+}
+
+fn latex_index(index: &str) -> String {
+    if is_greek(index) { format!("\\{index}") } else { index.to_string() }
+}
+
+/// The name in Unicode: `theta` → `θ`, `omega1` → `ω₁`, `v_G1` → `v_G1`, `v1^+` → `v₁⁺`.
+pub fn unicode_name(name: &str) -> String {
+    let parts = parts_of(name);
+    let mut out = match greek_letter(&parts.base) {
+        Some(letter) => letter.to_string(),
+        None => parts.base.clone(),
+    };
+    match parts.accent {
+        "" => {}
+        "hat" => out.push('\u{302}'),
+        "dot" => out.push('\u{307}'),
+        "ddot" => out.push('\u{308}'),
+        "bar" => out.push('\u{304}'),
+        "vec" => out.push('\u{20d7}'),
+        _ => out.push('\u{303}'),
+    }
+    let single = parts.base.chars().count() == 1 || greek_letter(&parts.base).is_some();
+    if single && parts.index.bytes().all(|b| b.is_ascii_digit()) {
+        let low = |c: char| char::from_u32(u32::from('₀') + c.to_digit(10).unwrap_or(0));
+        out.extend(parts.index.chars().filter_map(low));
+    } else if !parts.index.is_empty() {
+        if !parts.index.starts_with(|c: char| c.is_ascii_digit()) {
+            out.push('_');
+        }
+        out.push_str(&parts.index);
+    }
+    let (primes, raised) = parts.marks.split_once('^').unwrap_or((&parts.marks, ""));
+    out.push_str(&primes.replace('\'', "′"));
+    match raised {
+        "" => {}
+        "+" => out.push('⁺'),
+        "-" => out.push('⁻'),
+        word => out.push_str(&format!("^{{{word}}}")),
+    }
+    out
+}
+
+fn unicode_of_latex(name: &str, latex: &str) -> String {
+    if latex == "\\ell" {
+        return "ℓ".into();
+    }
+    match super::name::key_of_latex(latex) {
+        Some(key) => {
+            let written = unicode_name(&key);
+            if latex.starts_with("\\ell") { written.replacen('l', "ℓ", 1) } else { written }
+        }
+        None => unicode_name(name),
+    }
+}

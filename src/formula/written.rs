@@ -1,0 +1,131 @@
+//! A formula as somebody wrote it: minus signs, fractions, brackets and products without a sign, each with its place.
+
+use crate::expr::{Function, Rational, Symbol};
+
+/// A written piece and its place in the text.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Written {
+    /// What it is.
+    pub shape: Shape,
+    /// First byte.
+    pub start: usize,
+    /// Byte after the last.
+    pub end: usize,
+}
+
+/// How a term of a sum is signed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Sign {
+    /// +, or nothing in front.
+    Plus,
+    /// −
+    Minus,
+    /// ±
+    PlusMinus,
+    /// ∓
+    MinusPlus,
+}
+
+/// How a factor is tied to those before it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Link {
+    /// Side by side, without a sign.
+    Beside,
+    /// With a multiplication sign.
+    Times,
+    /// Behind a slash or a division sign.
+    Over,
+}
+
+/// A number as written.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Literal {
+    /// Exact value.
+    pub value: Rational,
+    /// Significant digits: `0.050` has two.
+    pub digits: u32,
+    /// Power of ten of the last digit: −3 for `0.050`.
+    pub place: i32,
+    /// Whether a decimal point or an exponent was written.
+    pub decimal: bool,
+}
+
+/// The kinds of written piece.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Shape {
+    /// A number.
+    Number(Literal),
+    /// A name, or π.
+    Symbol(Symbol),
+    /// Signed terms; a single one with a minus is a negative.
+    Sum(Vec<(Sign, Written)>),
+    /// Factors, the link of the first being meaningless.
+    Product(Vec<(Link, Written)>),
+    /// A fraction with a bar.
+    Fraction(Box<Written>, Box<Written>),
+    /// A base and its exponent.
+    Power(Box<Written>, Box<Written>),
+    /// A root and its index; none is 2.
+    Root(Option<Box<Written>>, Box<Written>),
+    /// A function of an argument.
+    Call(Function, Box<Written>),
+    /// The reciprocal of a function: sec, csc, cot.
+    Reciprocal(Function, Box<Written>),
+    /// A bracketed piece.
+    Bracket(Box<Written>),
+    /// A piece between bars.
+    Abs(Box<Written>),
+    /// A number of degrees.
+    Degrees(Box<Written>),
+    /// Components of a vector.
+    List(Vec<Written>),
+}
+
+impl Written {
+    pub(crate) fn new(shape: Shape, start: usize, end: usize) -> Written {
+        Written { shape, start, end }
+    }
+
+    /// Whether it is made of numbers and π alone, without a sum.
+    pub(crate) fn is_numeric(&self) -> bool {
+        match &self.shape {
+            Shape::Number(_) => true,
+            Shape::Symbol(name) => &**name == "pi",
+            Shape::Fraction(a, b) | Shape::Power(a, b) => a.is_numeric() && b.is_numeric(),
+            Shape::Product(factors) => factors.iter().all(|(_, f)| f.is_numeric()),
+            Shape::Root(_, inner) | Shape::Bracket(inner) | Shape::Degrees(inner) => inner.is_numeric(),
+            _ => false,
+        }
+    }
+
+    /// The number, when the whole is one written as digits, a sign and a power of ten.
+    pub fn literal(&self) -> Option<Literal> {
+        match &self.shape {
+            Shape::Number(literal) => Some(literal.clone()),
+            Shape::Bracket(inner) => inner.literal(),
+            Shape::Sum(terms) => match terms.as_slice() {
+                [(Sign::Plus, inner)] => inner.literal(),
+                [(Sign::Minus, inner)] => {
+                    let found = inner.literal()?;
+                    Some(Literal { value: -found.value.clone(), ..found })
+                }
+                _ => None,
+            },
+            Shape::Product(factors) => match factors.as_slice() {
+                [(_, number), (Link::Times | Link::Beside, ten)] => {
+                    let found = number.literal()?;
+                    let Shape::Power(base, exponent) = &ten.shape else { return None };
+                    let (base, exponent) = (base.literal()?, exponent.literal()?);
+                    let k = exponent.value.is_integer().then(|| exponent.value.numer().as_i64()).flatten()?;
+                    if base.value != crate::expr::ratio(10, 1) || k.abs() > super::number::MAX_EXPONENT {
+                        return None;
+                    }
+                    let scaled = &found.value * &super::number::ten_to(k);
+                    Some(Literal { value: scaled, digits: found.digits, place: found.place + k as i32, decimal: true })
+                }
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+}
