@@ -1,4 +1,5 @@
 //! carom: symbolic-numeric mechanics of planar rigid-body collisions.
+pub mod algebra;
 pub mod dimension;
 pub mod domain;
 pub mod equality;

@@ -1,0 +1,672 @@
+//! The generators of a field, the relations between them, and arithmetic of its elements.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use num_integer::Integer;
+use num_traits::One;
+
+use super::Stop;
+use super::element::{Den, Element};
+use super::poly::{
+    Mono, Poly, exponent, mono_add, mono_div, mono_is_one, mono_max, mono_min, mono_of,
+    mono_variables,
+};
+use crate::domain::Domains;
+use crate::expr::angle::angle;
+use crate::expr::{Expr, Function, Int, Node, Rational, Symbol};
+
+/// What a variable of the polynomials stands for.
+#[derive(Clone, Debug)]
+pub(crate) enum Kind {
+    Symbol(Symbol),
+    /// Cosine of a base angle, by index.
+    Cos(usize),
+    /// Sine of a base angle, by index.
+    Sin(usize),
+    /// The non-negative root of its relation's value.
+    Root,
+    /// Absolute value of a polynomial.
+    Abs(Poly),
+    /// A function this field knows nothing about but congruence.
+    Call(Function, Element),
+    /// A power whose exponent is no number.
+    Power(Element, Element),
+}
+
+/// A variable and, where it is algebraic, the relation gⁿ = value over the variables before it.
+#[derive(Clone, Debug)]
+pub(crate) struct Generator {
+    pub kind: Kind,
+    pub relation: Option<(u32, Poly)>,
+}
+
+/// What an angle is made of.
+#[derive(Clone, Debug)]
+pub(crate) enum AngleOf {
+    Symbol(Symbol),
+    /// A term such as ω t.
+    Term(Element),
+}
+
+/// The base angle of/divisor, with the variables of its cosine and sine.
+#[derive(Clone, Debug)]
+pub(crate) struct Base {
+    pub of: AngleOf,
+    pub divisor: u32,
+    pub cos: usize,
+    pub sin: usize,
+}
+
+/// Something used that was not proved.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Assumption {
+    /// The expression was nowhere seen negative on the domain, and is taken to be non-negative there.
+    NotNegative(Expr),
+}
+
+/// Generators (symbols, cosines and sines of base angles, roots, opaque calls) and the relations between them.
+#[derive(Clone, Debug)]
+pub struct Field {
+    pub(crate) domains: Domains,
+    pub(crate) gens: Vec<Generator>,
+    names: BTreeMap<Symbol, usize>,
+    pub(crate) bases: Vec<Base>,
+    /// Algebraic generators in the order they were adjoined.
+    pub(crate) algebraic: Vec<usize>,
+    /// Exponent bits ≥ 2 of the algebraic generators: a quick test for "nothing to reduce".
+    mask: Mono,
+    pub(crate) assumed: Vec<Element>,
+    pub(crate) complete: bool,
+    /// Values of the generators at fixed points of the domain, made when first needed.
+    pub(crate) samples: Vec<Vec<f64>>,
+}
+
+impl Field {
+    /// A field without generators over the given domains.
+    pub fn new(domains: &Domains) -> Field {
+        Field {
+            domains: domains.clone(),
+            gens: Vec::new(),
+            names: BTreeMap::new(),
+            bases: Vec::new(),
+            algebraic: Vec::new(),
+            mask: Mono::new(),
+            assumed: Vec::new(),
+            complete: true,
+            samples: Vec::new(),
+        }
+    }
+
+    /// Takes in the symbols and angles of all expressions to come, so that base angles and the order of variables do not
+    /// depend on the order in which the expressions are read. May be called once more for further symbols; an angle
+    /// divided more finely than before is then opaque.
+    pub fn prepare<'a>(&mut self, exprs: impl IntoIterator<Item = &'a Expr>) {
+        let mut found = Found::default();
+        for e in exprs {
+            found.collect(e);
+        }
+        for pair in &self.domains.unit_vectors {
+            if pair.iter().any(|name| found.symbols.contains(name)) {
+                found.symbols.extend(pair.iter().cloned());
+            }
+        }
+        for name in &found.symbols {
+            self.symbol(name);
+        }
+        for [a, b] in self.domains.unit_vectors.clone() {
+            let (Some(a), Some(b)) = (self.names.get(&a).copied(), self.names.get(&b).copied())
+            else {
+                continue;
+            };
+            if a != b && self.gens[b].relation.is_none() && self.gens[a].relation.is_none() {
+                self.relate(
+                    b,
+                    2,
+                    Poly::one().sub(&Poly::term(&mono_of(a, 2), Int::one())),
+                );
+            }
+        }
+        for (name, divisor) in found.angles {
+            if !self
+                .bases
+                .iter()
+                .any(|b| matches!(&b.of, AngleOf::Symbol(s) if *s == name))
+            {
+                self.add_base(AngleOf::Symbol(name), divisor);
+            }
+        }
+        // Arguments such as ω t: read them in order of their own size, so that inner ones come first.
+        found.others.sort_by_key(|e| (e.size(), e.clone()));
+        found.others.dedup();
+        let mut terms: Vec<(Element, Int)> = Vec::new();
+        for argument in &found.others {
+            let Ok(element) = self.element(argument) else {
+                continue;
+            };
+            for (term, factor) in self.angle_terms(&element) {
+                match terms.iter_mut().find(|(t, _)| self.equal(t, &term)) {
+                    Some((_, divisor)) => *divisor = divisor.lcm(factor.denom()),
+                    None => terms.push((term, factor.denom().clone())),
+                }
+            }
+        }
+        for (term, divisor) in terms {
+            let known = self
+                .bases
+                .iter()
+                .any(|b| matches!(&b.of, AngleOf::Term(t) if self.equal(t, &term)));
+            if let (false, Some(divisor)) =
+                (known, divisor.as_i64().and_then(|d| u32::try_from(d).ok()))
+            {
+                self.add_base(AngleOf::Term(term), divisor);
+            }
+        }
+    }
+
+    /// The variable of a symbol, new if need be.
+    pub(crate) fn symbol(&mut self, name: &Symbol) -> usize {
+        match self.names.get(name) {
+            Some(v) => *v,
+            None => {
+                let v = self.adjoin(Kind::Symbol(name.clone()));
+                self.names.insert(name.clone(), v);
+                v
+            }
+        }
+    }
+
+    pub(crate) fn adjoin(&mut self, kind: Kind) -> usize {
+        self.gens.push(Generator {
+            kind,
+            relation: None,
+        });
+        self.gens.len() - 1
+    }
+
+    pub(crate) fn relate(&mut self, v: usize, degree: u32, value: Poly) {
+        self.gens[v].relation = Some((degree, value));
+        self.algebraic.push(v);
+        self.mask = mono_max(&self.mask, &mono_of(v, 0x7e));
+    }
+
+    pub(crate) fn add_base(&mut self, of: AngleOf, divisor: u32) -> usize {
+        let index = self.bases.len();
+        let (cos, sin) = (self.adjoin(Kind::Cos(index)), self.adjoin(Kind::Sin(index)));
+        self.relate(
+            sin,
+            2,
+            Poly::one().sub(&Poly::term(&mono_of(cos, 2), Int::one())),
+        );
+        self.bases.push(Base {
+            of,
+            divisor,
+            cos,
+            sin,
+        });
+        index
+    }
+
+    /// Whether "not zero" means "not identical": true unless a generator may hide a relation this field does not know
+    /// (an opaque function, a power with a symbolic exponent, a root whose dependence on others was not searched fully).
+    pub fn complete(&self) -> bool {
+        self.complete
+    }
+
+    /// Signs that were only seen at sample points and not proved.
+    pub fn assumptions(&self) -> Vec<Assumption> {
+        self.assumed
+            .iter()
+            .map(|x| Assumption::NotNegative(self.expr(x)))
+            .collect()
+    }
+
+    // ---- polynomials modulo the relations ----
+
+    pub(crate) fn reduce(&self, p: Poly) -> Result<Poly, Stop> {
+        let dirty = p
+            .terms()
+            .any(|(m, _)| m.iter().zip(&self.mask).any(|(w, k)| w & k != 0));
+        if !dirty {
+            return Ok(p);
+        }
+        let mut p = p;
+        for &g in self.algebraic.iter().rev() {
+            let Some((degree, value)) = &self.gens[g].relation else {
+                continue;
+            };
+            if p.degree(g) < *degree {
+                continue;
+            }
+            let n = *degree as usize;
+            let parts = p.by_power(g);
+            let mut total = Poly::zero();
+            let mut power = Poly::one();
+            for (q, chunk) in parts.chunks(n).enumerate() {
+                if q > 0 {
+                    power = self.reduce(power.mul(value)?)?;
+                }
+                let block = Poly::from_powers(chunk, g)?;
+                total = total.add(&if q == 0 { block } else { block.mul(&power)? });
+            }
+            p = total;
+        }
+        // A value may bring back powers of generators adjoined earlier only; those come later in the loop above.
+        Ok(p)
+    }
+
+    pub(crate) fn mul_poly(&self, a: &Poly, b: &Poly) -> Result<Poly, Stop> {
+        self.reduce(a.mul(b)?)
+    }
+
+    // ---- elements ----
+
+    /// The element of a fraction.
+    pub fn number(&self, value: &Rational) -> Element {
+        Element {
+            num: Poly::constant(value.numer().clone()),
+            den: Den {
+                int: value.denom().clone(),
+                ..Den::one()
+            },
+        }
+    }
+
+    /// The element of a whole number.
+    pub fn integer(&self, value: i64) -> Element {
+        Element::from_poly(Poly::constant(Int::from(value)))
+    }
+
+    /// Whether the element is zero: a decision, not a test.
+    pub fn is_zero(&self, x: &Element) -> bool {
+        x.num.is_zero()
+    }
+
+    /// Whether two elements are the same; a limit met counts as "not shown".
+    pub fn equal(&self, a: &Element, b: &Element) -> bool {
+        (a.num == b.num && a.den == b.den) || self.sub(a, b).is_ok_and(|d| self.is_zero(&d))
+    }
+
+    /// −a.
+    pub fn neg(&self, a: &Element) -> Element {
+        Element {
+            num: a.num.neg(),
+            den: a.den.clone(),
+        }
+    }
+
+    /// a + b.
+    pub fn add(&self, a: &Element, b: &Element) -> Result<Element, Stop> {
+        self.combine(a, b, false)
+    }
+
+    /// a − b.
+    pub fn sub(&self, a: &Element, b: &Element) -> Result<Element, Stop> {
+        self.combine(a, b, true)
+    }
+
+    fn combine(&self, a: &Element, b: &Element, minus: bool) -> Result<Element, Stop> {
+        if b.num.is_zero() {
+            return Ok(a.clone());
+        }
+        if a.num.is_zero() {
+            return Ok(if minus { self.neg(b) } else { b.clone() });
+        }
+        let join = |x: &Poly, y: &Poly| if minus { x.sub(y) } else { x.add(y) };
+        if a.den == b.den {
+            return self.cancel(join(&a.num, &b.num), a.den.clone());
+        }
+        let (den, to_a, to_b) = a.den.common(&b.den, self)?;
+        let scaled = |num: &Poly, by: &Poly| {
+            if by.is_one() {
+                Ok(num.clone())
+            } else {
+                self.mul_poly(num, by)
+            }
+        };
+        self.cancel(join(&scaled(&a.num, &to_a)?, &scaled(&b.num, &to_b)?), den)
+    }
+
+    /// a · b.
+    pub fn mul(&self, a: &Element, b: &Element) -> Result<Element, Stop> {
+        if a.num.is_zero() || b.num.is_zero() {
+            return Ok(Element::zero());
+        }
+        if a.den.is_one() && b.den.is_one() {
+            return Ok(Element::from_poly(self.mul_poly(&a.num, &b.num)?));
+        }
+        // Cancelling crosswise first keeps the product small.
+        let mut den_a = a.den.clone();
+        let mut den_b = b.den.clone();
+        let num_a = if den_b.is_one() {
+            a.num.clone()
+        } else {
+            den_b.cancel_into(a.num.clone())
+        };
+        let num_b = if den_a.is_one() {
+            b.num.clone()
+        } else {
+            den_a.cancel_into(b.num.clone())
+        };
+        let (den, negative) = den_a.times(&den_b, self)?;
+        let num = self.mul_poly(&num_a, &num_b)?;
+        self.cancel(if negative { num.neg() } else { num }, den)
+    }
+
+    /// a / b.
+    pub fn div(&self, a: &Element, b: &Element) -> Result<Element, Stop> {
+        if b.num.is_zero() {
+            return Err(Stop::DivisionByZero);
+        }
+        if a.num.is_zero() {
+            return Ok(Element::zero());
+        }
+        let (mut den_a, mut den_b) = (a.den.clone(), b.den.clone());
+        den_a.strike_common(&mut den_b);
+        let mut divisor = Den::one();
+        let turned = divisor.multiply(&b.num, self)?;
+        let num = divisor.cancel_into(a.num.clone());
+        let num = if den_b.is_one() {
+            num
+        } else {
+            self.mul_poly(&num, &den_b.expand(self)?)?
+        };
+        let (den, negative) = den_a.times(&divisor, self)?;
+        self.cancel(if negative ^ turned { num.neg() } else { num }, den)
+    }
+
+    /// aⁿ for a whole n.
+    pub fn pow(&self, a: &Element, n: i64) -> Result<Element, Stop> {
+        let k = u32::try_from(n.unsigned_abs()).map_err(|_| Stop::TooLarge("degree"))?;
+        if n == 0 {
+            return Ok(self.integer(1));
+        }
+        if n < 0 {
+            return self.div(&self.integer(1), &self.pow(a, -n)?);
+        }
+        if k == 1 || a.num.is_zero() {
+            return Ok(a.clone());
+        }
+        let num = if a.num.len() == 1 {
+            self.reduce(a.num.pow(k)?)?
+        } else {
+            if k > 127 {
+                return Err(Stop::TooLarge("degree"));
+            }
+            let mut num = a.num.clone();
+            for bit in (0..k.ilog2()).rev() {
+                num = self.mul_poly(&num, &num)?;
+                if k >> bit & 1 == 1 {
+                    num = self.mul_poly(&num, &a.num)?;
+                }
+            }
+            num
+        };
+        let (den, negative) = a.den.power(k, self)?;
+        self.cancel(if negative { num.neg() } else { num }, den)
+    }
+
+    /// A quotient in tidy form: nothing common with any part of the denominator that a trial division finds.
+    pub(crate) fn cancel(&self, num: Poly, mut den: Den) -> Result<Element, Stop> {
+        if num.is_zero() {
+            return Ok(Element::zero());
+        }
+        if den.is_one() {
+            return Ok(Element { num, den });
+        }
+        let num = den.cancel_into(num);
+        Ok(Element { num, den })
+    }
+}
+
+impl Den {
+    /// Least common multiple, and what each side has to be multiplied by.
+    fn common(&self, other: &Den, field: &Field) -> Result<(Den, Poly, Poly), Stop> {
+        let int = self.int.lcm(&other.int);
+        let mono = mono_max(&self.mono, &other.mono);
+        let mut to_self = Poly::term(&mono_div(&mono, &self.mono), &int / &self.int);
+        let mut to_other = Poly::term(&mono_div(&mono, &other.mono), &int / &other.int);
+        let mut factors = Vec::with_capacity(self.factors.len() + other.factors.len());
+        let (mut i, mut j) = (0, 0);
+        while i < self.factors.len() || j < other.factors.len() {
+            let order = match (self.factors.get(i), other.factors.get(j)) {
+                (Some(a), Some(b)) => a.0.cmp(&b.0),
+                (Some(_), None) => std::cmp::Ordering::Less,
+                _ => std::cmp::Ordering::Greater,
+            };
+            let times = |to: &mut Poly, f: &Poly, k: u32| -> Result<(), Stop> {
+                for _ in 0..k {
+                    *to = field.mul_poly(to, f)?;
+                }
+                Ok(())
+            };
+            match order {
+                std::cmp::Ordering::Less => {
+                    let (f, k) = &self.factors[i];
+                    times(&mut to_other, f, *k)?;
+                    factors.push((f.clone(), *k));
+                    i += 1;
+                }
+                std::cmp::Ordering::Greater => {
+                    let (f, k) = &other.factors[j];
+                    times(&mut to_self, f, *k)?;
+                    factors.push((f.clone(), *k));
+                    j += 1;
+                }
+                std::cmp::Ordering::Equal => {
+                    let (f, k, l) = (&self.factors[i].0, self.factors[i].1, other.factors[j].1);
+                    times(&mut to_self, f, l.saturating_sub(k))?;
+                    times(&mut to_other, f, k.saturating_sub(l))?;
+                    factors.push((f.clone(), k.max(l)));
+                    i += 1;
+                    j += 1;
+                }
+            }
+        }
+        Ok((Den { int, mono, factors }, to_self, to_other))
+    }
+
+    /// The product, and whether its sign was turned.
+    pub(crate) fn times(&self, other: &Den, field: &Field) -> Result<(Den, bool), Stop> {
+        if other.is_one() {
+            return Ok((self.clone(), false));
+        }
+        let mut out = self.clone();
+        out.int *= &other.int;
+        out.mono = mono_add(&out.mono, &other.mono)?;
+        for (f, k) in &other.factors {
+            out.insert(f.clone(), *k)?;
+        }
+        let negative = out.settle(field)?;
+        Ok((out, negative))
+    }
+
+    fn power(&self, k: u32, field: &Field) -> Result<(Den, bool), Stop> {
+        let mut out = Den::one();
+        if k as u64 * self.int.bits() > 20_000 {
+            return Err(Stop::TooLarge("digits"));
+        }
+        out.int = self.int.pow(k);
+        for v in mono_variables(&self.mono) {
+            let e = exponent(&self.mono, v)
+                .checked_mul(k)
+                .filter(|e| *e < 128)
+                .ok_or(Stop::TooLarge("degree"))?;
+            out.mono = mono_add(&out.mono, &mono_of(v, e))?;
+        }
+        out.factors = self
+            .factors
+            .iter()
+            .map(|(f, e)| (f.clone(), e.saturating_mul(k)))
+            .collect();
+        let negative = out.settle(field)?;
+        Ok((out, negative))
+    }
+
+    /// Multiplies by p or −p, taken apart into number, monomial and rest; true for −p.
+    pub(crate) fn multiply(&mut self, p: &Poly, field: &Field) -> Result<bool, Stop> {
+        let (content, mono, rest) = p.split();
+        self.int *= num_traits::Signed::abs(&content);
+        self.mono = mono_add(&self.mono, &mono)?;
+        if !rest.is_constant() {
+            self.insert(rest, 1)?;
+        }
+        Ok(self.settle(field)? ^ num_traits::Signed::is_negative(&content))
+    }
+
+    /// Takes a factor in, dividing out known factors first so that equal parts meet.
+    fn insert(&mut self, mut factor: Poly, times: u32) -> Result<(), Stop> {
+        if times > 127 {
+            return Err(Stop::TooLarge("degree"));
+        }
+        for (f, k) in &mut self.factors {
+            while !factor.is_constant() {
+                match factor.try_div(f) {
+                    Some(q) => {
+                        factor = q;
+                        *k += times;
+                    }
+                    None => break,
+                }
+            }
+        }
+        if factor.is_constant() {
+            return Ok(());
+        }
+        let at = self.factors.partition_point(|(f, _)| *f < factor);
+        self.factors.insert(at, (factor, times));
+        Ok(())
+    }
+
+    /// Replaces gⁿ by its value for roots g. Sines stay, since a sine may cancel against the numerator.
+    fn settle(&mut self, field: &Field) -> Result<bool, Stop> {
+        let mut negative = false;
+        if mono_is_one(&self.mono) {
+            return Ok(negative);
+        }
+        for v in mono_variables(&self.mono) {
+            let Some(Generator {
+                kind: Kind::Root,
+                relation: Some((degree, value)),
+            }) = field.gens.get(v)
+            else {
+                continue;
+            };
+            let e = exponent(&self.mono, v);
+            if e >= *degree {
+                self.mono = mono_div(&self.mono, &mono_of(v, e - e % degree));
+                for _ in 0..e / degree {
+                    negative ^= self.multiply(value, field)?;
+                }
+            }
+        }
+        Ok(negative)
+    }
+
+    /// Removes from both what both have.
+    fn strike_common(&mut self, other: &mut Den) {
+        let g = self.int.gcd(&other.int);
+        self.int /= &g;
+        other.int /= &g;
+        let m = mono_min(&self.mono, &other.mono);
+        self.mono = mono_div(&self.mono, &m);
+        other.mono = mono_div(&other.mono, &m);
+        for (f, k) in &mut self.factors {
+            if let Some((_, l)) = other.factors.iter_mut().find(|(g, _)| g == f) {
+                let both = (*k).min(*l);
+                *k -= both;
+                *l -= both;
+            }
+        }
+        self.factors.retain(|(_, k)| *k > 0);
+        other.factors.retain(|(_, k)| *k > 0);
+    }
+
+    /// Divides the numerator and this denominator by what is plainly common to them.
+    pub(crate) fn cancel_into(&mut self, mut num: Poly) -> Poly {
+        if num.is_zero() {
+            return num;
+        }
+        if !self.int.is_one() {
+            let g = num.content().gcd(&self.int);
+            if !g.is_one() {
+                num = num.div_int(&g);
+                self.int /= &g;
+            }
+        }
+        if !mono_is_one(&self.mono) {
+            let m = mono_min(&num.mono_content(), &self.mono);
+            if !mono_is_one(&m) {
+                num = num.div_mono(&m);
+                self.mono = mono_div(&self.mono, &m);
+            }
+        }
+        for (f, k) in &mut self.factors {
+            while *k > 0 {
+                match num.try_div(f) {
+                    Some(q) => {
+                        num = q;
+                        *k -= 1;
+                    }
+                    None => break,
+                }
+            }
+        }
+        self.factors.retain(|(_, k)| *k > 0);
+        num
+    }
+
+    pub(crate) fn expand(&self, field: &Field) -> Result<Poly, Stop> {
+        let mut total = field.reduce(Poly::term(&self.mono, self.int.clone()))?;
+        for (f, k) in &self.factors {
+            for _ in 0..*k {
+                total = field.mul_poly(&total, f)?;
+            }
+        }
+        Ok(total)
+    }
+}
+
+/// Symbols and angles met in expressions.
+#[derive(Default)]
+struct Found {
+    symbols: BTreeSet<Symbol>,
+    /// Least common denominator of each symbol's coefficients.
+    angles: BTreeMap<Symbol, u32>,
+    /// Arguments of sin, cos, tan that are not linear in symbols.
+    others: Vec<Expr>,
+}
+
+impl Found {
+    fn collect(&mut self, e: &Expr) {
+        match e.node() {
+            Node::Number(_) => {}
+            Node::Symbol(name) => {
+                self.symbols.insert(name.clone());
+            }
+            Node::Sum(parts) | Node::Product(parts) => parts.iter().for_each(|p| self.collect(p)),
+            Node::Power(base, exponent) => {
+                self.collect(base);
+                self.collect(exponent);
+            }
+            Node::Call(Function::Sin | Function::Cos | Function::Tan, argument) => {
+                match angle(argument) {
+                    Some(a) => {
+                        for (name, factor) in a.symbols {
+                            let divisor = self.angles.entry(name).or_insert(1);
+                            if let Some(d) =
+                                factor.denom().as_i64().and_then(|d| u32::try_from(d).ok())
+                            {
+                                *divisor = divisor.lcm(&d.min(1_000)).min(1_000_000);
+                            }
+                        }
+                    }
+                    None => {
+                        self.collect(argument);
+                        self.others.push(argument.clone());
+                    }
+                }
+            }
+            Node::Call(_, argument) => self.collect(argument),
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Exact algebra: normal forms of expressions, a zero test that decides, linear solving, and writing results shortly.
+//!
+//! In go expressions and the domains of their symbols; out come [`Element`]s of a [`Field`]: quotients of polynomials in
+//! generators (symbols, cosines and sines of base angles, roots, opaque calls) reduced by the relations between these.
+//! An element is zero exactly when its numerator is; no guess and no floating number takes part in that. What a limit
+//! stops is an error, what was only seen and not proved is listed in [`Field::assumptions`], and whether a nonzero
+//! element proves two formulas different is told by [`Field::complete`]. Nothing here knows of mechanics.
+
+mod element;
+mod field;
+mod gcd;
+mod poly;
+mod read;
+mod roots;
+mod sign;
+mod solve;
+mod write;
+
+use std::fmt;
+
+pub use element::Element;
+pub use field::{Assumption, Field};
+pub use solve::{Pivot, Row, Solution, solve};
+
+/// Why a computation ended without a result.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Stop {
+    /// A budget counted in terms, degree, digits or depth is used up; the text names which.
+    TooLarge(&'static str),
+    /// Something that is zero was divided by.
+    DivisionByZero,
+    /// An even root of something negative on the whole domain.
+    NotReal,
+}
+
+impl fmt::Display for Stop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Stop::TooLarge(what) => write!(f, "too large: the limit of {what} is reached"),
+            Stop::DivisionByZero => f.write_str("division by zero"),
+            Stop::NotReal => f.write_str("an even root of a negative value"),
+        }
+    }
+}
+
+impl std::error::Error for Stop {}
+
+/// A sign that holds at every point of the domain.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Sign {
+    /// Below zero everywhere.
+    Negative,
+    /// Nowhere above zero.
+    NotPositive,
+    /// Zero.
+    Zero,
+    /// Nowhere below zero.
+    NotNegative,
+    /// Above zero everywhere.
+    Positive,
+}
+
+impl Sign {
+    /// The sign of the negative.
+    pub fn flip(self) -> Sign {
+        match self {
+            Sign::Negative => Sign::Positive,
+            Sign::NotPositive => Sign::NotNegative,
+            Sign::Zero => Sign::Zero,
+            Sign::NotNegative => Sign::NotPositive,
+            Sign::Positive => Sign::Negative,
+        }
+    }
+
+    /// The sign of a product.
+    pub fn times(self, other: Sign) -> Sign {
+        use Sign::{NotNegative, Positive, Zero};
+        let strict = |s: Sign| matches!(s, Sign::Negative | Positive);
+        if self == Zero || other == Zero {
+            return Zero;
+        }
+        let minus = !self.is_not_negative() ^ !other.is_not_negative();
+        let sign = if strict(self) && strict(other) {
+            Positive
+        } else {
+            NotNegative
+        };
+        if minus { sign.flip() } else { sign }
+    }
+
+    /// Whether a value of this sign is nowhere below zero.
+    pub fn is_not_negative(self) -> bool {
+        matches!(self, Sign::Zero | Sign::NotNegative | Sign::Positive)
+    }
+}
+
+#[cfg(test)]
+mod tests;

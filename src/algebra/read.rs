@@ -1,0 +1,407 @@
+//! From an expression to its normal form.
+
+use num_integer::Integer;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+use super::Stop;
+use super::element::{Den, Element};
+use super::field::{AngleOf, Field, Kind};
+use super::poly::{Poly, exponent};
+use crate::expr::angle::angle;
+use crate::expr::{Expr, Function, Int, Node, Rational, Symbol, ratio};
+
+/// Deepest nesting of an expression.
+const MOST_DEPTH: u32 = 400;
+/// Largest multiple of a base angle.
+const MOST_TURNS: i64 = 100;
+
+/// Cosine and sine.
+type Direction = [Element; 2];
+
+impl Field {
+    /// The normal form.
+    pub fn element(&mut self, e: &Expr) -> Result<Element, Stop> {
+        self.read(e, MOST_DEPTH)
+    }
+
+    fn read(&mut self, e: &Expr, depth: u32) -> Result<Element, Stop> {
+        let depth = depth.checked_sub(1).ok_or(Stop::TooLarge("depth"))?;
+        match e.node() {
+            Node::Number(value) => Ok(self.number(value)),
+            Node::Symbol(name) => {
+                let v = self.symbol(name);
+                Ok(Element::var(v))
+            }
+            Node::Sum(terms) => {
+                let mut total = self.read(&terms[0], depth)?;
+                for term in &terms[1..] {
+                    let term = self.read(term, depth)?;
+                    total = self.add(&total, &term)?;
+                }
+                Ok(total)
+            }
+            Node::Product(factors) => {
+                let mut total = self.read(&factors[0], depth)?;
+                for factor in &factors[1..] {
+                    // A quotient is read as one, so that b/b never passes through 1/b.
+                    if let Node::Power(base, exponent) = factor.node() {
+                        if let Some(k) = whole(exponent).filter(|k| *k < 0) {
+                            let base = self.read(base, depth)?;
+                            let power = self.pow(&base, -k)?;
+                            total = self.div(&total, &power)?;
+                            continue;
+                        }
+                    }
+                    let factor = self.read(factor, depth)?;
+                    total = self.mul(&total, &factor)?;
+                }
+                Ok(total)
+            }
+            Node::Power(base, exponent) => self.read_power(base, exponent, depth),
+            Node::Call(function, argument) => self.read_call(*function, argument, depth),
+        }
+    }
+
+    fn read_power(&mut self, base: &Expr, exponent: &Expr, depth: u32) -> Result<Element, Stop> {
+        let base = self.read(base, depth)?;
+        let exponent = match exponent.as_number() {
+            Some(value) => value.clone(),
+            None => {
+                let exponent = self.read(exponent, depth)?;
+                match exponent.as_number() {
+                    Some(value) => value,
+                    None => return Ok(self.opaque_power(base, exponent)),
+                }
+            }
+        };
+        let k = exponent.numer().as_i64().ok_or(Stop::TooLarge("degree"))?;
+        let mut n = exponent
+            .denom()
+            .to_u32()
+            .filter(|n| *n <= 1_000)
+            .ok_or(Stop::TooLarge("degree"))?;
+        if base.num.is_zero() && k <= 0 {
+            return Err(Stop::DivisionByZero);
+        }
+        let mut root = base;
+        while n % 2 == 0 {
+            root = self.sqrt(&root)?;
+            n /= 2;
+        }
+        if n > 1 {
+            root = self.odd_root(&root, n)?;
+        }
+        self.pow(&root, k)
+    }
+
+    fn read_call(
+        &mut self,
+        function: Function,
+        argument: &Expr,
+        depth: u32,
+    ) -> Result<Element, Stop> {
+        match function {
+            Function::Sin | Function::Cos | Function::Tan => {
+                if let Some([cos, sin]) = self.direction(argument, depth)? {
+                    return match function {
+                        Function::Sin => Ok(sin),
+                        Function::Cos => Ok(cos),
+                        _ => self.div(&sin, &cos),
+                    };
+                }
+                let argument = self.read(argument, depth)?;
+                if function == Function::Tan {
+                    let (sin, cos) = (
+                        self.call(Function::Sin, argument.clone())?,
+                        self.call(Function::Cos, argument)?,
+                    );
+                    return self.div(&sin, &cos);
+                }
+                self.call(function, argument)
+            }
+            Function::Abs => {
+                let x = self.read(argument, depth)?;
+                self.abs(&x)
+            }
+            _ => {
+                let argument = self.read(argument, depth)?;
+                self.call(function, argument)
+            }
+        }
+    }
+
+    /// An opaque function: equal arguments give the same generator, and odd and even ones pull the sign out.
+    fn call(&mut self, function: Function, argument: Element) -> Result<Element, Stop> {
+        use Function::{Acos, Asin, Atan, Cos, Cosh, Exp, Ln, Sin, Sinh, Tan, Tanh};
+        if argument.num.is_zero() {
+            match function {
+                Sin | Tan | Asin | Atan | Sinh | Tanh => return Ok(Element::zero()),
+                Cos | Cosh | Exp => return Ok(self.integer(1)),
+                Ln => return Err(Stop::NotReal),
+                _ => {}
+            }
+        }
+        if function == Ln && argument.as_number().is_some_and(|v| v.is_one()) {
+            return Ok(Element::zero());
+        }
+        self.complete = false;
+        let odd = matches!(function, Sin | Tan | Asin | Atan | Sinh | Tanh);
+        let even = matches!(function, Cos | Cosh);
+        let flip = (odd || even) && argument.num.leading_is_negative();
+        let argument = if flip { self.neg(&argument) } else { argument };
+        let known = self.gens.iter().position(|g| match &g.kind {
+            Kind::Call(f, x) => *f == function && self.equal(x, &argument),
+            _ => false,
+        });
+        if let (None, Acos) = (known, function) {
+            // acos x = π/2 − asin x would be a relation between two generators: keep only asin.
+            let asin = self.call(Asin, argument)?;
+            let pi = self.symbol(&Symbol::from("pi"));
+            let half = self.mul(&Element::var(pi), &self.number(&ratio(1, 2)))?;
+            return self.sub(&half, &asin);
+        }
+        let v = known.unwrap_or_else(|| self.adjoin(Kind::Call(function, argument)));
+        let value = Element::var(v);
+        Ok(if flip && odd { self.neg(&value) } else { value })
+    }
+
+    /// Cosine and sine of an argument, when it is a combination of known base angles and of π.
+    fn direction(&mut self, argument: &Expr, depth: u32) -> Result<Option<Direction>, Stop> {
+        let mut parts: Vec<(usize, i64)> = Vec::new();
+        let pi;
+        match angle(argument) {
+            Some(read) => {
+                pi = read.pi;
+                for (name, factor) in read.symbols {
+                    let known = self
+                        .bases
+                        .iter()
+                        .position(|b| matches!(&b.of, AngleOf::Symbol(s) if *s == name));
+                    let Some(part) = self.turns(known, AngleOf::Symbol(name), &factor)? else {
+                        return Ok(None);
+                    };
+                    parts.push(part);
+                }
+            }
+            None => {
+                let argument = self.read(argument, depth)?;
+                let mut turns = Rational::zero();
+                for (term, factor) in self.angle_terms(&argument) {
+                    if self.is_pi(&term) {
+                        turns = factor;
+                        continue;
+                    }
+                    let same = |b: &AngleOf| match b {
+                        AngleOf::Term(t) => self.equal(t, &term),
+                        AngleOf::Symbol(name) => self.is_symbol(&term, name),
+                    };
+                    let known = self.bases.iter().position(|b| same(&b.of));
+                    let Some(part) = self.turns(known, AngleOf::Term(term), &factor)? else {
+                        return Ok(None);
+                    };
+                    parts.push(part);
+                }
+                pi = turns;
+            }
+        }
+        let Some(mut total) = self.of_pi(&pi)? else {
+            return Ok(None);
+        };
+        for (base, k) in parts {
+            let unit = [
+                Element::var(self.bases[base].cos),
+                Element::var(self.bases[base].sin),
+            ];
+            let part = self.multiple(&unit, k)?;
+            total = self.turn(&total, &part)?;
+        }
+        Ok(Some(total))
+    }
+
+    /// The base angle and how many of it the coefficient makes; `None` where the base is too coarse.
+    fn turns(
+        &mut self,
+        known: Option<usize>,
+        of: AngleOf,
+        factor: &Rational,
+    ) -> Result<Option<(usize, i64)>, Stop> {
+        let base = match known {
+            Some(base) => base,
+            None => {
+                let divisor = factor
+                    .denom()
+                    .to_u32()
+                    .filter(|d| *d < 1_000_000)
+                    .ok_or(Stop::TooLarge("angle fraction"))?;
+                self.add_base(of, divisor)
+            }
+        };
+        let turns = factor * Rational::from(Int::from(i64::from(self.bases[base].divisor)));
+        if !turns.is_integer() {
+            return Ok(None);
+        }
+        let k = turns
+            .numer()
+            .as_i64()
+            .filter(|k| k.abs() <= MOST_TURNS)
+            .ok_or(Stop::TooLarge("angle multiple"))?;
+        Ok(Some((base, k)))
+    }
+
+    fn is_symbol(&self, x: &Element, name: &Symbol) -> bool {
+        x.den.is_one() && x.num.len() == 1 && x.num.coeff(0).is_one() && {
+            let variables = x.num.variables();
+            variables.len() == 1
+                && exponent(x.num.mono(0), variables[0]) == 1
+                && matches!(&self.gens[variables[0]].kind, Kind::Symbol(s) if s == name)
+        }
+    }
+
+    fn is_pi(&self, x: &Element) -> bool {
+        self.is_symbol(x, &Symbol::from("pi"))
+    }
+
+    /// The terms of an argument, each with its rational coefficient split off.
+    pub(crate) fn angle_terms(&self, x: &Element) -> Vec<(Element, Rational)> {
+        let den = Den {
+            int: Int::one(),
+            ..x.den.clone()
+        };
+        x.num
+            .terms()
+            .map(|(mono, coeff)| {
+                let mut den = den.clone();
+                let num = den.cancel_into(Poly::term(mono, Int::one()));
+                (
+                    Element { num, den },
+                    Rational::new(coeff.clone(), x.den.int.clone()),
+                )
+            })
+            .collect()
+    }
+
+    fn turn(&self, a: &Direction, b: &Direction) -> Result<Direction, Stop> {
+        Ok([
+            self.sub(&self.mul(&a[0], &b[0])?, &self.mul(&a[1], &b[1])?)?,
+            self.add(&self.mul(&a[1], &b[0])?, &self.mul(&a[0], &b[1])?)?,
+        ])
+    }
+
+    fn multiple(&self, unit: &Direction, k: i64) -> Result<Direction, Stop> {
+        let unit = if k < 0 {
+            [unit[0].clone(), self.neg(&unit[1])]
+        } else {
+            unit.clone()
+        };
+        let mut total = [self.integer(1), Element::zero()];
+        if k == 0 {
+            return Ok(total);
+        }
+        for bit in (0..=k.unsigned_abs().ilog2()).rev() {
+            if bit < k.unsigned_abs().ilog2() {
+                total = self.turn(&total, &total)?;
+            }
+            if k.unsigned_abs() >> bit & 1 == 1 {
+                total = self.turn(&total, &unit)?;
+            }
+        }
+        Ok(total)
+    }
+
+    /// Cosine and sine of q·π for denominators whose values need square roots only.
+    fn of_pi(&mut self, q: &Rational) -> Result<Option<Direction>, Stop> {
+        let two = ratio(2, 1);
+        let half = ratio(1, 2);
+        let q = q - (q / &two).floor() * &two;
+        let quarter = (&q * &two).floor();
+        let rest = &q - &(&quarter * &half);
+        let Some([cos, sin]) = self.acute(&rest)? else {
+            return Ok(None);
+        };
+        Ok(Some(match quarter.numer().as_i64() {
+            Some(0) => [cos, sin],
+            Some(1) => [self.neg(&sin), cos],
+            Some(2) => [self.neg(&cos), self.neg(&sin)],
+            _ => [sin, self.neg(&cos)],
+        }))
+    }
+
+    /// The same for 0 ≤ q < 1/2, where both values are positive or q is 0.
+    fn acute(&mut self, q: &Rational) -> Result<Option<Direction>, Stop> {
+        let (Some(p), Some(d)) = (q.numer().as_i64(), q.denom().as_i64()) else {
+            return Ok(None);
+        };
+        let number = |field: &Field, n: i64, d: i64| field.number(&ratio(n, d));
+        if p == 0 {
+            return Ok(Some([self.integer(1), Element::zero()]));
+        }
+        let pair = match (p, d) {
+            (1, 3 | 6) => {
+                let long = {
+                    let three = self.integer(3);
+                    let root = self.sqrt(&three)?;
+                    self.mul(&root, &number(self, 1, 2))?
+                };
+                let short = number(self, 1, 2);
+                if d == 3 { [short, long] } else { [long, short] }
+            }
+            (1, 4) => {
+                let two = self.integer(2);
+                let root = self.sqrt(&two)?;
+                let half = self.mul(&root, &number(self, 1, 2))?;
+                [half.clone(), half]
+            }
+            (1 | 2, 5) => {
+                let five = self.integer(5);
+                let root = self.sqrt(&five)?;
+                let quarter = number(self, 1, 4);
+                let cos = self.mul(&self.add(&root, &self.integer(1))?, &quarter)?;
+                let square = self.sub(&self.integer(1), &self.mul(&cos, &cos)?)?;
+                let sin = self.sqrt(&square)?;
+                let unit = [cos, sin];
+                if p == 1 {
+                    unit
+                } else {
+                    self.multiple(&unit, 2)?
+                }
+            }
+            (_, 15) => {
+                // p/15 = a/3 + b/5.
+                let b = (2 * p).mod_floor(&5);
+                let a = (p - 3 * b) / 5;
+                match (self.of_pi(&ratio(a, 3))?, self.of_pi(&ratio(b, 5))?) {
+                    (Some(x), Some(y)) => self.turn(&x, &y)?,
+                    _ => return Ok(None),
+                }
+            }
+            (_, d) if d % 2 == 0 && d <= 240 && constructible(d) => {
+                let Some([cos, sin]) = self.of_pi(&(q * ratio(2, 1)))? else {
+                    return Ok(None);
+                };
+                let square = self.mul(&self.add(&cos, &self.integer(1))?, &number(self, 1, 2))?;
+                let half_cos = self.sqrt(&square)?;
+                let half_sin = self.div(&self.mul(&sin, &number(self, 1, 2))?, &half_cos)?;
+                [half_cos, half_sin]
+            }
+            _ => return Ok(None),
+        };
+        Ok(Some(pair))
+    }
+}
+
+/// Whether a regular polygon with 2d corners can be drawn with primes 2, 3 and 5 only.
+fn constructible(mut d: i64) -> bool {
+    while d % 2 == 0 {
+        d /= 2;
+    }
+    matches!(d, 1 | 3 | 5 | 15)
+}
+
+fn whole(exponent: &Expr) -> Option<i64> {
+    let k = exponent.as_number()?;
+    if k.is_integer() && k.abs() < ratio(1 << 40, 1) {
+        k.numer().as_i64()
+    } else {
+        None
+    }
+}

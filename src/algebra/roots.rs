@@ -1,0 +1,541 @@
+//! Square roots as a tower of fields, absolute values, and roots of odd degree.
+//!
+//! Before √e becomes a generator, e is tested for being a square already: z = a + b√d is one exactly when a² − b²d is a
+//! square n² and (a ± n)/2 is; an element free of √d also when e·d is. Sines of base angles and second components of unit
+//! vectors take part as the quadratic extensions they are, so that √(1 − cos²θ) is found to be |sin θ|.
+
+use num_traits::{One, Signed, Zero};
+
+use super::element::Element;
+use super::field::{Field, Generator, Kind};
+use super::gcd::{factor, square_part};
+use super::poly::{Poly, exponent, mono_variables};
+use super::{Sign, Stop};
+use crate::expr::Int;
+
+/// Most square tests in one search for a hidden square.
+const FUEL: u32 = 300;
+
+impl Field {
+    /// The non-negative square root.
+    pub fn sqrt(&mut self, x: &Element) -> Result<Element, Stop> {
+        if x.num.is_zero() {
+            return Ok(Element::zero());
+        }
+        // √(n/d) = √(n·d)/|d|, part by part of d, where even powers come out whole.
+        let mut radicand = x.num.scale(&x.den.int);
+        let mut outside = Element::from_poly(Poly::constant(x.den.int.clone()));
+        let mut parts: Vec<(Poly, u32)> = mono_variables(&x.den.mono)
+            .into_iter()
+            .map(|v| (Poly::var(v), exponent(&x.den.mono, v)))
+            .collect();
+        parts.extend(x.den.factors.iter().cloned());
+        for (f, k) in parts {
+            if k % 2 == 1 {
+                radicand = self.mul_poly(&radicand, &f)?;
+            }
+            let half = self.abs_power(&f, k.div_ceil(2))?;
+            outside = self.mul(&outside, &half)?;
+        }
+        let root = self.sqrt_poly(&radicand)?;
+        self.div(&root, &outside)
+    }
+
+    /// |f|ᵏ.
+    fn abs_power(&mut self, f: &Poly, k: u32) -> Result<Element, Stop> {
+        let base = if k % 2 == 0 {
+            Element::from_poly(f.clone())
+        } else {
+            self.abs_poly(f)?
+        };
+        self.pow(&base, i64::from(k))
+    }
+
+    fn sqrt_poly(&mut self, p: &Poly) -> Result<Element, Stop> {
+        let parts = factor(p);
+        let (root, mut rest) = square_part(&parts.content);
+        let mut outside = Element::from_poly(Poly::constant(root));
+        let mut odd = Vec::new();
+        let mut all: Vec<(Poly, u32)> = mono_variables(&parts.mono)
+            .into_iter()
+            .map(|v| (Poly::var(v), exponent(&parts.mono, v)))
+            .collect();
+        all.extend(parts.factors);
+        for (f, k) in all {
+            if k >= 2 {
+                let half = self.abs_power(&f, k / 2)?;
+                outside = self.mul(&outside, &half)?;
+            }
+            if k % 2 == 1 {
+                odd.push(f);
+            }
+        }
+        let mut product = Poly::constant(rest.clone());
+        for f in &odd {
+            product = self.mul_poly(&product, f)?;
+        }
+        if product.is_one() {
+            return Ok(outside);
+        }
+        if odd.len() != 1 || !rest.is_one() {
+            if let Some(hidden) = self.hidden_square(&product) {
+                let hidden = self.abs(&hidden)?;
+                return self.mul(&outside, &hidden);
+            }
+        }
+        // √(ab) = √a √b for factors known not to be negative; the others stay under one root.
+        let mut together = Poly::one();
+        let mut atoms = Vec::new();
+        for f in odd {
+            match self.sign_poly(&f) {
+                Some(sign) if sign.is_not_negative() => atoms.push(f),
+                Some(_) => {
+                    rest = -rest;
+                    atoms.push(f.neg());
+                }
+                None => together = self.mul_poly(&together, &f)?,
+            }
+        }
+        if rest.is_negative() {
+            if together.is_one() {
+                return Err(Stop::NotReal);
+            }
+            rest = -rest;
+            together = together.neg();
+        }
+        atoms.extend(primes(&rest).into_iter().map(Poly::constant));
+        if !together.is_one() {
+            atoms.push(together);
+        }
+        for atom in atoms {
+            let root = self.root_of(&atom)?;
+            outside = self.mul(&outside, &root)?;
+        }
+        Ok(outside)
+    }
+
+    /// √p as an element, by a new generator if need be.
+    fn root_of(&mut self, p: &Poly) -> Result<Element, Stop> {
+        for (v, g) in self.gens.iter().enumerate() {
+            if matches!(&g.kind, Kind::Root)
+                && g.relation
+                    .as_ref()
+                    .is_some_and(|(n, value)| *n == 2 && value == p)
+            {
+                return Ok(Element::var(v));
+            }
+        }
+        if let Some(hidden) = self.hidden_square(p) {
+            return self.abs(&hidden);
+        }
+        if let Some(parts) = self.denested(p)? {
+            return Ok(parts);
+        }
+        let v = self.adjoin(Kind::Root);
+        self.relate(v, 2, p.clone());
+        Ok(Element::var(v))
+    }
+
+    /// √(a + b√d) = g + b√d/(2g) with g = √((a + n)/2), when a² − b²d is a square n²: two plain roots for a nested one.
+    fn denested(&mut self, p: &Poly) -> Result<Option<Element>, Stop> {
+        let Some(root) = p
+            .variables()
+            .into_iter()
+            .rev()
+            .find(|v| matches!(self.gens[*v].kind, Kind::Root))
+        else {
+            return Ok(None);
+        };
+        let Some((2, radicand)) = self.gens[root].relation.clone() else {
+            return Ok(None);
+        };
+        let parts = p.by_power(root);
+        let [a, b] = parts.as_slice() else {
+            return Ok(None);
+        };
+        let norm = self
+            .mul_poly(a, a)?
+            .sub(&self.mul_poly(&self.mul_poly(b, b)?, &radicand)?);
+        if norm.is_zero() || matches!(self.sign_poly(&norm), Some(Sign::Negative)) {
+            return Ok(None);
+        }
+        let Some(n) = self.hidden_square(&norm) else {
+            return Ok(None);
+        };
+        let two = self.integer(2);
+        for n in [n.clone(), self.neg(&n)] {
+            let half = self.div(&self.add(&Element::from_poly(a.clone()), &n)?, &two)?;
+            // Simpler than p, so this ends; positive, so that the new root is real.
+            let deeper = half
+                .num
+                .variables()
+                .iter()
+                .any(|v| *v >= root && matches!(self.gens[*v].kind, Kind::Root));
+            if deeper || self.sign(&half) != Some(Sign::Positive) {
+                continue;
+            }
+            let g = self.sqrt(&half)?;
+            let rest = self.mul(&Element::from_poly(b.clone()), &Element::var(root))?;
+            let sum = self.add(&g, &self.div(&rest, &self.mul(&two, &g)?)?)?;
+            return self.abs(&sum).map(Some);
+        }
+        Ok(None)
+    }
+
+    /// An element whose square is p, if the field has one.
+    fn hidden_square(&mut self, p: &Poly) -> Option<Element> {
+        let tower: Vec<usize> = self
+            .algebraic
+            .iter()
+            .copied()
+            .filter(|v| {
+                matches!(self.gens[*v].relation, Some((2, _)))
+                    && !matches!(self.gens[*v].kind, Kind::Abs(_))
+            })
+            .collect();
+        let mut fuel = FUEL;
+        let found = self.square_in(p, &tower, &mut fuel);
+        if fuel == 0 && found.is_none() {
+            self.complete = false;
+        }
+        found.filter(|r| {
+            self.mul(r, r)
+                .is_ok_and(|s| self.equal(&s, &Element::from_poly(p.clone())))
+        })
+    }
+
+    fn square_in(&self, p: &Poly, tower: &[usize], fuel: &mut u32) -> Option<Element> {
+        if p.is_zero() {
+            return Some(Element::zero());
+        }
+        *fuel = fuel.checked_sub(1)?;
+        let Some((&g, below)) = tower.split_last() else {
+            return rational_square(p);
+        };
+        let (_, radicand) = self.gens[g].relation.as_ref()?;
+        if p.has(g) {
+            let parts = p.by_power(g);
+            let [a, b] = parts.as_slice() else {
+                return None;
+            };
+            let norm = self
+                .mul_poly(a, a)
+                .ok()?
+                .sub(&self.mul_poly(&self.mul_poly(b, b).ok()?, radicand).ok()?);
+            let n = self.square_in(&norm, below, fuel)?;
+            let two = self.integer(2);
+            for n in [n.clone(), self.neg(&n)] {
+                let half = self
+                    .div(&self.add(&Element::from_poly(a.clone()), &n).ok()?, &two)
+                    .ok()?;
+                if half.num.is_zero() {
+                    continue;
+                }
+                if let Some(x) = self.square_of_element(&half, below, fuel) {
+                    let b = self
+                        .mul(&Element::from_poly(b.clone()), &Element::var(g))
+                        .ok()?;
+                    return self
+                        .add(&x, &self.div(&b, &self.mul(&two, &x).ok()?).ok()?)
+                        .ok();
+                }
+            }
+            return None;
+        }
+        if let Some(x) = self.square_in(p, below, fuel) {
+            return Some(x);
+        }
+        if !self.connected(p, radicand, tower) {
+            return None;
+        }
+        let with = self.mul_poly(p, radicand).ok()?;
+        let x = self.square_in(&with, below, fuel)?;
+        self.div(&x, &Element::var(g)).ok()
+    }
+
+    fn square_of_element(&self, x: &Element, tower: &[usize], fuel: &mut u32) -> Option<Element> {
+        let den = x.den.expand(self).ok()?;
+        let p = self.mul_poly(&x.num, &den).ok()?;
+        let root = self.square_in(&p, tower, fuel)?;
+        self.div(&root, &Element::from_poly(den)).ok()
+    }
+
+    /// Whether a radicand can take part in a square together with p: numbers always can; otherwise they share a
+    /// variable, possibly through other radicands of the tower.
+    fn connected(&self, p: &Poly, radicand: &Poly, tower: &[usize]) -> bool {
+        let letters = |p: &Poly| -> Vec<usize> {
+            p.variables()
+                .into_iter()
+                .filter(|v| !self.is_numeric(*v))
+                .collect()
+        };
+        let mut reached = letters(p);
+        let goal = letters(radicand);
+        if reached.is_empty() || goal.is_empty() {
+            return true;
+        }
+        loop {
+            if goal.iter().any(|v| reached.contains(v)) {
+                return true;
+            }
+            let before = reached.len();
+            for g in tower {
+                let Some((_, value)) = &self.gens[*g].relation else {
+                    continue;
+                };
+                let variables = letters(value);
+                if variables.iter().any(|v| reached.contains(v)) {
+                    reached.extend(
+                        variables
+                            .into_iter()
+                            .filter(|v| !reached.contains(v))
+                            .collect::<Vec<_>>(),
+                    );
+                }
+            }
+            if reached.len() == before {
+                return false;
+            }
+        }
+    }
+
+    /// Whether a generator is a root of numbers only.
+    fn is_numeric(&self, v: usize) -> bool {
+        let Generator {
+            kind: Kind::Root,
+            relation: Some((_, value)),
+        } = &self.gens[v]
+        else {
+            return false;
+        };
+        value.variables().iter().all(|w| self.is_numeric(*w))
+    }
+
+    /// |x|.
+    pub fn abs(&mut self, x: &Element) -> Result<Element, Stop> {
+        if let Some(sign) = self.sign(x) {
+            return Ok(if sign.is_not_negative() {
+                x.clone()
+            } else {
+                self.neg(x)
+            });
+        }
+        let parts = factor(&x.num);
+        let mut total = Element::from_poly(Poly::constant(parts.content.abs()));
+        let mut all: Vec<(Poly, u32)> = mono_variables(&parts.mono)
+            .into_iter()
+            .map(|v| (Poly::var(v), exponent(&parts.mono, v)))
+            .collect();
+        all.extend(parts.factors);
+        for (f, k) in all {
+            let part = self.abs_power(&f, k)?;
+            total = self.mul(&total, &part)?;
+        }
+        let mut below = Element::from_poly(Poly::constant(x.den.int.clone()));
+        let mut all: Vec<(Poly, u32)> = mono_variables(&x.den.mono)
+            .into_iter()
+            .map(|v| (Poly::var(v), exponent(&x.den.mono, v)))
+            .collect();
+        all.extend(x.den.factors.iter().cloned());
+        for (f, k) in all {
+            let part = self.abs_power(&f, k)?;
+            below = self.mul(&below, &part)?;
+        }
+        self.div(&total, &below)
+    }
+
+    fn abs_poly(&mut self, f: &Poly) -> Result<Element, Stop> {
+        match self.sign_poly(f) {
+            Some(sign) if sign.is_not_negative() => return Ok(Element::from_poly(f.clone())),
+            Some(_) => return Ok(Element::from_poly(f.neg())),
+            None => {}
+        }
+        match self.seen_signs(f) {
+            (true, false) => {
+                self.assume(f.clone());
+                Ok(Element::from_poly(f.clone()))
+            }
+            (false, true) => {
+                self.assume(f.neg());
+                Ok(Element::from_poly(f.neg()))
+            }
+            seen => {
+                // Seen with both signs: |f| is a generator of its own. Seen nowhere: likewise, but nothing is known of it.
+                if !seen.0 {
+                    self.complete = false;
+                }
+                let f = if f.leading_is_negative() {
+                    f.neg()
+                } else {
+                    f.clone()
+                };
+                let known = self
+                    .gens
+                    .iter()
+                    .position(|g| matches!(&g.kind, Kind::Abs(p) if *p == f));
+                if let Some(v) = known {
+                    return Ok(Element::var(v));
+                }
+                let square = self.mul_poly(&f, &f)?;
+                let v = self.adjoin(Kind::Abs(f));
+                self.relate(v, 2, square);
+                Ok(Element::var(v))
+            }
+        }
+    }
+
+    fn assume(&mut self, f: Poly) {
+        let x = Element::from_poly(f);
+        if !self.assumed.iter().any(|known| known.num == x.num) {
+            self.assumed.push(x);
+        }
+    }
+
+    /// The real root of odd degree n ≥ 3 of something not negative; powers of positive factors come out.
+    pub(crate) fn odd_root(&mut self, x: &Element, n: u32) -> Result<Element, Stop> {
+        if x.num.is_zero() {
+            return Ok(Element::zero());
+        }
+        let degree = n as usize;
+        let mut total = self.integer(1);
+        let mut together = self.integer(1);
+        let num = factor(&x.num);
+        let mut parts: Vec<(Poly, i64)> = Vec::new();
+        for (value, sign) in [(num.content.clone(), 1), (x.den.int.clone(), -1)] {
+            if value.is_negative() {
+                together = self.neg(&together);
+            }
+            parts.extend(
+                primes_with_powers(&value.abs())
+                    .into_iter()
+                    .map(|(p, k)| (Poly::constant(p), i64::from(k) * sign)),
+            );
+        }
+        let variables = |m: &[u64]| {
+            mono_variables(m)
+                .into_iter()
+                .map(|v| (v, exponent(m, v)))
+                .collect::<Vec<_>>()
+        };
+        parts.extend(
+            variables(&num.mono)
+                .into_iter()
+                .map(|(v, k)| (Poly::var(v), i64::from(k))),
+        );
+        parts.extend(
+            variables(&x.den.mono)
+                .into_iter()
+                .map(|(v, k)| (Poly::var(v), -i64::from(k))),
+        );
+        parts.extend(num.factors.into_iter().map(|(f, k)| (f, i64::from(k))));
+        parts.extend(
+            x.den
+                .factors
+                .iter()
+                .map(|(f, k)| (f.clone(), -i64::from(*k))),
+        );
+        for (f, k) in parts {
+            let element = Element::from_poly(f.clone());
+            if !self.sign_poly(&f).is_some_and(Sign::is_not_negative) {
+                let power = self.pow(&element, k)?;
+                together = self.mul(&together, &power)?;
+                continue;
+            }
+            let (whole, left) = (k.div_euclid(i64::from(n)), k.rem_euclid(i64::from(n)));
+            let power = self.pow(&element, whole)?;
+            total = self.mul(&total, &power)?;
+            if left > 0 {
+                let root = self.odd_root_generator(&f, n);
+                let power = self.pow(&root, left)?;
+                total = self.mul(&total, &power)?;
+            }
+        }
+        match together.as_number() {
+            Some(value) if value.is_one() => Ok(total),
+            Some(value) if value == crate::expr::ratio(-1, 1) && degree % 2 == 1 => {
+                Ok(self.neg(&total))
+            }
+            _ => {
+                let third = self.number(&crate::expr::ratio(1, i64::from(n)));
+                let opaque = self.opaque_power(together, third);
+                self.mul(&total, &opaque)
+            }
+        }
+    }
+
+    fn odd_root_generator(&mut self, f: &Poly, n: u32) -> Element {
+        for (v, g) in self.gens.iter().enumerate() {
+            if matches!(g.kind, Kind::Root)
+                && g.relation
+                    .as_ref()
+                    .is_some_and(|(m, value)| *m == n && value == f)
+            {
+                return Element::var(v);
+            }
+        }
+        // Two odd roots may depend on each other in ways not searched for, unless all radicands are single variables or primes.
+        let simple = f.is_constant()
+            || (f.len() == 1
+                && f.degree(f.variables()[0]) == 1
+                && self.algebraic.iter().all(|a| !f.has(*a)));
+        let coprime = self.gens.iter().all(|g| match (&g.kind, &g.relation) {
+            (Kind::Root, Some((m, value))) => *m == n || *m == 2 || value != f,
+            _ => true,
+        });
+        if !simple || !coprime || n > 60 {
+            self.complete = false;
+        }
+        let v = self.adjoin(Kind::Root);
+        self.relate(v, n, f.clone());
+        Element::var(v)
+    }
+
+    /// base^exponent as an opaque generator; equal bases and exponents give the same one.
+    pub(crate) fn opaque_power(&mut self, base: Element, exponent: Element) -> Element {
+        self.complete = false;
+        let known = self.gens.iter().position(|g| match &g.kind {
+            Kind::Power(b, e) => self.equal(b, &base) && self.equal(e, &exponent),
+            _ => false,
+        });
+        let v = known.unwrap_or_else(|| self.adjoin(Kind::Power(base, exponent)));
+        Element::var(v)
+    }
+}
+
+/// Perfect squares in the free field: a square integer times a square polynomial.
+fn rational_square(p: &Poly) -> Option<Element> {
+    p.sqrt().map(Element::from_poly)
+}
+
+/// Prime factors of a squarefree value as far as small primes reach; what is left counts as one.
+fn primes(value: &Int) -> Vec<Int> {
+    primes_with_powers(value)
+        .into_iter()
+        .flat_map(|(p, k)| std::iter::repeat_n(p, k as usize))
+        .collect()
+}
+
+fn primes_with_powers(value: &Int) -> Vec<(Int, u32)> {
+    let mut rest = value.clone();
+    let mut out = Vec::new();
+    let mut p = 2i64;
+    while p < 2_000 && !rest.is_one() && !rest.is_zero() {
+        let prime = Int::from(p);
+        if &prime * &prime > rest {
+            break;
+        }
+        let mut k = 0;
+        while (&rest % &prime).is_zero() {
+            rest /= &prime;
+            k += 1;
+        }
+        if k > 0 {
+            out.push((prime, k));
+        }
+        p += if p == 2 { 1 } else { 2 };
+    }
+    if !rest.is_one() {
+        out.push((rest, 1));
+    }
+    out
+}

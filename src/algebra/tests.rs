@@ -1,0 +1,322 @@
+use super::*;
+use crate::domain::{Domain, Domains, Limit};
+use crate::expr::{Expr, ratio};
+
+fn s(name: &str) -> Expr {
+    Expr::symbol(name)
+}
+
+fn n(value: i64) -> Expr {
+    Expr::from(value)
+}
+
+fn angle_domain(name: &str, low: (i64, i64), high: (i64, i64)) -> Domains {
+    let end = |(p, q): (i64, i64)| {
+        Some(Limit {
+            value: ratio(p, q),
+            of_pi: true,
+            open: true,
+        })
+    };
+    let mut domains = Domains::default();
+    domains.symbols.insert(
+        name.into(),
+        Domain {
+            low: end(low),
+            high: end(high),
+        },
+    );
+    domains
+}
+
+fn is_zero_on(domains: &Domains, e: &Expr) -> bool {
+    let mut field = Field::new(domains);
+    field.prepare([e]);
+    let x = field.element(e).expect("within limits");
+    field.is_zero(&x)
+}
+
+fn is_zero(e: &Expr) -> bool {
+    is_zero_on(&Domains::default(), e)
+}
+
+/// Identities on the default domain: symbols positive, angles in the first quadrant.
+fn identities() -> Vec<(&'static str, Expr, Expr)> {
+    let (a, b, t, u) = (s("a"), s("b"), s("theta"), s("phi"));
+    let half = |e: &Expr| e * &Expr::ratio(1, 2);
+    let r = (a.powi(2) + b.powi(2)).sqrt();
+    let pi = Expr::pi();
+    vec![
+        ("Pythagoras", t.sin().powi(2) + t.cos().powi(2), n(1)),
+        ("tangent", t.tan().powi(2) + n(1), t.cos().powi(-2)),
+        ("root of a product", (&a * &b).sqrt(), a.sqrt() * b.sqrt()),
+        ("root of a quotient", (&a / &b).sqrt(), a.sqrt() / b.sqrt()),
+        ("root of 1/a", a.powi(-1).sqrt(), a.sqrt().powi(-1)),
+        ("root of 12", n(12).sqrt(), n(2) * n(3).sqrt()),
+        (
+            "nested numbers",
+            (n(11) + n(6) * n(2).sqrt()).sqrt(),
+            n(3) + n(2).sqrt(),
+        ),
+        (
+            "nested numbers with two roots",
+            (n(5) + n(2) * n(6).sqrt()).sqrt(),
+            n(2).sqrt() + n(3).sqrt(),
+        ),
+        (
+            "three halves",
+            (a.powi(2) + b.powi(2)).power(Expr::ratio(3, 2)),
+            (a.powi(2) + b.powi(2)) * &r,
+        ),
+        (
+            "product of nested roots",
+            (&r - &b).sqrt() * (&r + &b).sqrt(),
+            a.clone(),
+        ),
+        (
+            "square under a root",
+            (a.powi(2) + n(2) * &a * &b + b.powi(2)).sqrt(),
+            &a + &b,
+        ),
+        ("sine as a root", (n(1) - t.cos().powi(2)).sqrt(), t.sin()),
+        (
+            "sine as a product of roots",
+            (n(1) - t.cos()).sqrt() * (n(1) + t.cos()).sqrt(),
+            t.sin(),
+        ),
+        (
+            "half cosine",
+            ((n(1) + t.cos()) / n(2)).sqrt(),
+            half(&t).cos(),
+        ),
+        (
+            "half sine",
+            ((n(1) - t.cos()) / n(2)).sqrt(),
+            half(&t).sin(),
+        ),
+        ("half tangent", half(&t).tan(), t.sin() / (n(1) + t.cos())),
+        (
+            "triple angle",
+            (n(3) * &t).cos(),
+            n(4) * t.cos().powi(3) - n(3) * t.cos(),
+        ),
+        (
+            "product to sum",
+            n(2) * t.sin() * u.cos(),
+            (&t + &u).sin() + (&t - &u).sin(),
+        ),
+        (
+            "two angles",
+            (&t - &u).cos(),
+            t.cos() * u.cos() + t.sin() * u.sin(),
+        ),
+        ("shifted", (&t + &half(&pi)).sin(), t.cos()),
+        (
+            "sin 15°",
+            (&pi * &Expr::ratio(1, 12)).sin(),
+            (n(6).sqrt() - n(2).sqrt()) / n(4),
+        ),
+        (
+            "cos 36°",
+            (&pi * &Expr::ratio(1, 5)).cos(),
+            (n(1) + n(5).sqrt()) / n(4),
+        ),
+        (
+            "cos 22.5°",
+            (&pi * &Expr::ratio(1, 8)).cos(),
+            (n(2) + n(2).sqrt()).sqrt() / n(2),
+        ),
+        (
+            "sin 22.5°",
+            (&pi * &Expr::ratio(1, 8)).sin(),
+            (n(2) - n(2).sqrt()).sqrt() / n(2),
+        ),
+        (
+            "sin 7.5° doubled",
+            n(2) * (&pi * &Expr::ratio(1, 24)).sin() * (&pi * &Expr::ratio(1, 24)).cos(),
+            (&pi * &Expr::ratio(1, 12)).sin(),
+        ),
+        (
+            "cube root",
+            (&a * &b).power(Expr::ratio(1, 3)),
+            a.power(Expr::ratio(1, 3)) * b.power(Expr::ratio(1, 3)),
+        ),
+        ("cube root of 8", n(8).power(Expr::ratio(1, 3)), n(2)),
+        ("fourth root", a.power(Expr::ratio(1, 4)).powi(2), a.sqrt()),
+        (
+            "even function",
+            (&a - &b).powi(2).sqrt(),
+            (&b - &a).powi(2).sqrt(),
+        ),
+        (
+            "argument ωt",
+            (n(2) * &a * &b).sin(),
+            n(2) * (&a * &b).sin() * (&b * &a).cos(),
+        ),
+        (
+            "opaque congruence",
+            Expr::call(crate::expr::Function::Ln, &a + &b),
+            Expr::call(crate::expr::Function::Ln, &b + &a),
+        ),
+        ("pi is a number", &pi * &a - &a * &pi, n(0)),
+        (
+            "a rational function",
+            (a.powi(2) - b.powi(2)) / (&a - &b),
+            &a + &b,
+        ),
+    ]
+}
+
+#[test]
+fn identities_are_proved() {
+    for (name, left, right) in identities() {
+        assert!(is_zero(&(&left - &right)), "{name}: {left:?} = {right:?}");
+    }
+}
+
+/// Pairs that look alike and differ somewhere on the default domain.
+#[test]
+fn near_misses_are_not_zero() {
+    let (a, b, t, u) = (s("a"), s("b"), s("theta"), s("phi"));
+    let pi = Expr::pi();
+    for (name, left, right) in [
+        (
+            "root of a square of a difference",
+            (&a - &b).powi(2).sqrt(),
+            &a - &b,
+        ),
+        (
+            "sum under the root",
+            (a.powi(2) + b.powi(2)).sqrt(),
+            &a + &b,
+        ),
+        (
+            "cos of a half",
+            (&t * &Expr::ratio(1, 2)).cos(),
+            ((n(1) - t.cos()) / n(2)).sqrt(),
+        ),
+        (
+            "two angles, wrong sign",
+            (&t - &u).cos(),
+            t.cos() * u.cos() - t.sin() * u.sin(),
+        ),
+        ("pi as 22/7", pi.clone(), Expr::ratio(22, 7)),
+        (
+            "near numbers",
+            n(2).sqrt(),
+            Expr::ratio(1_414_213_562, 1_000_000_000),
+        ),
+        (
+            "|x+1000| − 1000",
+            Expr::call(crate::expr::Function::Abs, &a - &n(1000)),
+            Expr::call(crate::expr::Function::Abs, &a - &n(1001)) + n(1),
+        ),
+        (
+            "a third",
+            Expr::ratio(333_333_333_333, 1_000_000_000_000) * &a,
+            &a / &n(3),
+        ),
+    ] {
+        assert!(!is_zero(&(&left - &right)), "{name}: {left:?} ≠ {right:?}");
+    }
+}
+
+#[test]
+fn the_domain_fixes_the_sign_of_a_root() {
+    let phi = s("phi");
+    let half = &phi * &Expr::ratio(1, 2);
+    let root = ((n(1) + phi.cos()) / n(2)).sqrt();
+    let sum = &root + &half.cos();
+    let difference = &root - &half.cos();
+    assert!(is_zero_on(
+        &angle_domain("phi", (0, 1), (1, 1)),
+        &difference
+    ));
+    assert!(is_zero_on(&angle_domain("phi", (1, 1), (2, 1)), &sum));
+    let both = angle_domain("phi", (0, 1), (2, 1));
+    assert!(!is_zero_on(&both, &sum) && !is_zero_on(&both, &difference));
+}
+
+#[test]
+fn writing_and_reading_gives_the_same_element() {
+    for (name, left, right) in identities() {
+        let mut field = Field::new(&Domains::default());
+        field.prepare([&left, &right]);
+        for e in [left, right] {
+            let x = field.element(&e).expect("within limits");
+            let written = field.expr(&x);
+            let again = field.element(&written).expect("within limits");
+            assert!(
+                field.equal(&x, &again),
+                "{name}: {e:?} was written {written:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn results_are_written_as_a_person_would() {
+    let (v, t, l, m, e, m1, m2) = (s("v"), s("theta"), s("l"), s("m"), s("e"), s("m1"), s("m2"));
+    for (from, expected) in [
+        (&v * &(n(1) - t.cos().powi(2)), "(* v (^ (sin theta) 2))"),
+        (
+            n(3) * &v * t.cos() / (n(2) * &l),
+            "(* 3/2 v (^ l -1) (cos theta))",
+        ),
+        (
+            &m * &v.powi(2) * t.cos().powi(2) / n(4)
+                - e.powi(2) * &m * &v.powi(2) * t.cos().powi(2) / n(4),
+            "",
+        ),
+        (
+            &m1 + &(&m2 * &t.sin().powi(2)),
+            "(+ m1 (* m2 (^ (sin theta) 2)))",
+        ),
+        (&v - &(&v * &e), ""),
+        (t.sin() / (n(1) - t.cos().powi(2)), "(^ (sin theta) -1)"),
+        ((n(2) * &l * &v).sqrt(), ""),
+        ((&m / &v).sqrt(), ""),
+    ] {
+        let mut field = Field::new(&Domains::default());
+        field.prepare([&from]);
+        let x = field.element(&from).expect("within limits");
+        eprintln!("{:?}", (field.expr(&x), expected));
+    }
+}
+
+#[test]
+fn huge_powers_stop_early() {
+    let mut field = Field::new(&Domains::default());
+    for e in [
+        (s("x") - s("a")).powi(6000),
+        (s("x") + s("a") + s("b") + s("c")).powi(120),
+        s("x").powi(200),
+    ] {
+        assert!(matches!(field.element(&e), Err(Stop::TooLarge(_))), "{e:?}");
+    }
+}
+
+#[test]
+fn a_small_system_is_solved() {
+    let mut field = Field::new(&Domains::default());
+    let (a, b) = (
+        field.element(&s("a")).expect("a"),
+        field.element(&s("b")).expect("b"),
+    );
+    let one = field.integer(1);
+    // x + y = a, x − y = b
+    let rows = [
+        Row {
+            coeffs: vec![(0, one.clone()), (1, one.clone())],
+            rhs: a,
+        },
+        Row {
+            coeffs: vec![(0, one.clone()), (1, field.neg(&one))],
+            rhs: b,
+        },
+    ];
+    let solution = solve(&field, &rows, 2).expect("within limits");
+    assert_eq!(solution.rank, 2);
+    let x = field.expr(solution.values[0].as_ref().expect("unique"));
+    assert_eq!(format!("{x:?}"), "(* 1/2 (+ a b))");
+}
