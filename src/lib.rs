@@ -6,4 +6,5 @@ pub mod equality;
 pub mod expr;
 pub mod formula;
 pub mod interval;
+pub mod numeric;
 pub mod scene;

@@ -1,0 +1,166 @@
+//! The numbers a scene's questions ask for, taken from a motion.
+//!
+//! In: a question, what was given, the motion after. Out: a number or a vector. Knows no formulas but those the question
+//! itself brings (points and directions).
+
+use super::energy::{energy_after, energy_before, energy_lost, velocity_after};
+use super::given::{Given, GivenImpulse, GivenLaw, Reason, Undefined, vector};
+use super::number::{Number, dot};
+use super::solution::Motion;
+use super::system::Unknown;
+use crate::expr::{Point, Vector};
+use crate::scene::{Ask, EnergyWhen, ImpulseAt};
+
+/// What a question is answered with.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer<T> {
+    /// One number.
+    Scalar(T),
+    /// Components along x and y.
+    Vector([T; 2]),
+}
+
+/// Why a question has no number.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoAnswer {
+    /// The equations leave it open.
+    NotDetermined(Vec<Unknown>),
+    /// A point or direction in the question has no value.
+    Undefined(Undefined),
+    /// The question asks for equations rather than numbers.
+    NotANumber,
+}
+
+/// The number or vector a question asks for.
+pub fn answer<T: Number>(
+    ask: &Ask,
+    at: &Point<T>,
+    given: &Given<T>,
+    motion: &Motion<T>,
+) -> Result<Answer<T>, NoAnswer> {
+    let value = |v: &Vector| {
+        vector(v, at, || "point or direction asked for".into()).map_err(NoAnswer::Undefined)
+    };
+    let known = |body: usize| match given.bodies.get(body) {
+        Some(_) => Ok(body),
+        None => Err(NoAnswer::Undefined(Undefined {
+            quantity: "body asked for".into(),
+            reason: Reason::Missing,
+        })),
+    };
+    match ask {
+        Ask::Velocity { body, point, along } => {
+            let body = known(*body)?;
+            let point = match point {
+                Some((_, at)) => value(at)?,
+                None => given.bodies[body].center.clone(),
+            };
+            let arm = given.bodies[body].arm(&point);
+            let mut needs = vec![Unknown::VelocityX(body), Unknown::VelocityY(body)];
+            if !(arm[0].is_zero() && arm[1].is_zero()) {
+                needs.push(Unknown::Spin(body));
+            }
+            determined(motion, &needs)?;
+            let velocity = velocity_after(given, motion, body, &point);
+            component(velocity, along.as_ref().map(&value).transpose()?)
+        }
+        Ask::Spin { body, clockwise } => {
+            let body = known(*body)?;
+            determined(motion, &[Unknown::Spin(body)])?;
+            let spin = motion.spin[body].clone();
+            Ok(Answer::Scalar(if *clockwise {
+                spin.negated()
+            } else {
+                spin
+            }))
+        }
+        Ask::Impulse { from, on, along } => {
+            let (impulse, second) = impulse(*from, given, motion)?;
+            let felt = match second == *on {
+                true => impulse,
+                false => [impulse[0].negated(), impulse[1].negated()],
+            };
+            component(felt, along.as_ref().map(&value).transpose()?)
+        }
+        Ask::Energy { when, of } => {
+            if let Some(body) = of {
+                known(*body)?;
+            }
+            if *when != EnergyWhen::Before {
+                let bodies = (0..given.bodies.len()).filter(|i| of.is_none_or(|b| b == *i));
+                let needs: Vec<Unknown> = bodies
+                    .flat_map(|i| {
+                        [
+                            Unknown::VelocityX(i),
+                            Unknown::VelocityY(i),
+                            Unknown::Spin(i),
+                        ]
+                    })
+                    .collect();
+                determined(motion, &needs)?;
+            }
+            Ok(Answer::Scalar(match when {
+                EnergyWhen::Before => energy_before(given, *of),
+                EnergyWhen::After => energy_after(given, motion, *of),
+                EnergyWhen::Lost => energy_lost(given, motion, *of),
+            }))
+        }
+        Ask::Balance { .. } | Ask::Matrix { .. } => Err(NoAnswer::NotANumber),
+    }
+}
+
+/// An impulse on its second body, and which body that is.
+fn impulse<T: Number>(
+    from: ImpulseAt,
+    given: &Given<T>,
+    motion: &Motion<T>,
+) -> Result<([T; 2], usize), NoAnswer> {
+    let missing = || {
+        NoAnswer::Undefined(Undefined {
+            quantity: "impulse asked for".into(),
+            reason: Reason::Missing,
+        })
+    };
+    match from {
+        ImpulseAt::Hinge(i) => {
+            let hinge = given.hinges.get(i).ok_or_else(missing)?;
+            determined(motion, &[Unknown::HingeX(i), Unknown::HingeY(i)])?;
+            Ok((motion.hinge[i].clone(), hinge.bodies[1]))
+        }
+        ImpulseAt::Contact(i) => {
+            let contact = given.contacts.get(i).ok_or_else(missing)?;
+            match contact.law {
+                GivenLaw::Frictionless(_) => determined(motion, &[Unknown::ContactNormal(i)])?,
+                _ => determined(motion, &[Unknown::ContactX(i), Unknown::ContactY(i)])?,
+            }
+            Ok((motion.contact[i].clone(), contact.joint.bodies[1]))
+        }
+        ImpulseAt::Blow(i) => {
+            let blow = given.blows.get(i).ok_or_else(missing)?;
+            if let GivenImpulse::Along(_) = blow.impulse {
+                determined(motion, &[Unknown::Blow(i)])?;
+            }
+            Ok((motion.blow[i].clone(), blow.body))
+        }
+    }
+}
+
+fn determined<T>(motion: &Motion<T>, needs: &[Unknown]) -> Result<(), NoAnswer> {
+    let open: Vec<Unknown> = needs
+        .iter()
+        .copied()
+        .filter(|u| !motion.determines(*u))
+        .collect();
+    if open.is_empty() {
+        Ok(())
+    } else {
+        Err(NoAnswer::NotDetermined(open))
+    }
+}
+
+fn component<T: Number>(v: [T; 2], along: Option<[T; 2]>) -> Result<Answer<T>, NoAnswer> {
+    Ok(match along {
+        Some(direction) => Answer::Scalar(dot(&v, &direction)),
+        None => Answer::Vector(v),
+    })
+}

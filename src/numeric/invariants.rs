@@ -1,0 +1,409 @@
+//! What must hold of any motion after a collision, checked from the numbers alone.
+//!
+//! In: what was given and a motion, from whatever source. Out: identities with both sides, and what each contact says
+//! of its admissibility. Balances are formed for systems of bodies, with only the impulses that cross the system's
+//! boundary, and about points other than the centers of mass: not the rows that were solved.
+
+use super::energy::{
+    energy_after, energy_before, energy_lost, energy_of_change, relative_velocities,
+    velocity_after, work,
+};
+use super::given::{Freedom, Given, GivenLaw};
+use super::number::{Number, cross, difference, dot};
+use super::solution::Motion;
+
+/// What an identity states. Bodies, contacts and hinges by index.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Invariant {
+    /// Momentum of a system of bodies along x, after = before + impulses from outside the system.
+    MomentumX(Vec<usize>),
+    /// The same along y.
+    MomentumY(Vec<usize>),
+    /// Angular momentum of a system about the n-th of the points tried, after = before + moments of outside impulses.
+    AngularMomentum(Vec<usize>, usize),
+    /// Both sides of a hinge have the same velocity after, along x (0) or y (1).
+    Hinge(usize, usize),
+    /// Both sides of a hinge had the same velocity before; if not, the scene itself is inconsistent.
+    HingeBefore(usize, usize),
+    /// Touching points of a sticking contact have the same velocity after, along x (0) or y (1).
+    Sticking(usize, usize),
+    /// Normal relative velocity after = −e × before.
+    Restitution(usize),
+    /// The impulse of a frictionless contact has no tangential component.
+    NoFriction(usize),
+    /// A value known after.
+    Known(usize),
+    /// T after − T before = Σ ½ J·(v⁻ + v⁺) over all impulses on free bodies.
+    EnergyIsWork,
+    /// The loss formed from impulses = T before − T after.
+    EnergyLost,
+    /// Carnot: loss = (1−e)/(1+e) × energy of the change of velocity; sticking counts as e = 0.
+    Carnot,
+    /// With e = 1 everywhere nothing is lost.
+    Lossless,
+}
+
+/// Two sides that should be equal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Identity<T> {
+    /// What it states.
+    pub what: Invariant,
+    /// Left side.
+    pub left: T,
+    /// Right side.
+    pub right: T,
+    /// Size of the terms the sides are made of, the ruler for rounding errors.
+    pub size: f64,
+}
+
+impl<T: Number> Identity<T> {
+    /// Whether the sides agree to within `tolerance` × size of their terms; 0 asks for equality.
+    pub fn holds(&self, tolerance: f64) -> bool {
+        let gap = self.left.minus(&self.right);
+        gap.is_zero() || gap.size() <= tolerance * self.size
+    }
+}
+
+/// Every identity the motion has to fulfil.
+pub fn identities<T: Number>(given: &Given<T>, motion: &Motion<T>) -> Vec<Identity<T>> {
+    let mut list = Vec::new();
+    balances(given, motion, &mut list);
+    laws(given, motion, &mut list);
+    energies(given, motion, &mut list);
+    list
+}
+
+/// A sum that remembers how large its terms were.
+struct Sum<T>(T, f64);
+
+impl<T: Number> Sum<T> {
+    fn new() -> Sum<T> {
+        Sum(T::zero(), 0.0)
+    }
+    fn add(&mut self, term: T) {
+        self.1 += term.size();
+        self.0 = self.0.plus(&term);
+    }
+}
+
+fn identity<T>(what: Invariant, left: Sum<T>, right: Sum<T>) -> Identity<T> {
+    Identity {
+        what,
+        left: left.0,
+        right: right.0,
+        size: left.1 + right.1,
+    }
+}
+
+/// Momentum and angular momentum: each free body, all of them, and all but one.
+fn balances<T: Number>(given: &Given<T>, motion: &Motion<T>, list: &mut Vec<Identity<T>>) {
+    let free: Vec<usize> = (0..given.bodies.len())
+        .filter(|i| given.bodies[*i].freedom != Freedom::Fixed)
+        .collect();
+    let mut systems: Vec<Vec<usize>> = free.iter().map(|i| vec![*i]).collect();
+    if free.len() > 1 {
+        systems.push(free.clone());
+    }
+    if free.len() > 2 {
+        systems.extend(
+            free.iter()
+                .map(|i| free.iter().copied().filter(|j| j != i).collect()),
+        );
+    }
+    let mut points = vec![[T::zero(), T::zero()]];
+    points.extend(given.hinges.iter().map(|h| h.at.clone()));
+    points.extend(given.contacts.iter().map(|c| c.joint.at.clone()));
+    let (one, two) = (T::one(), T::one().plus(&T::one()));
+    points.push([two.plus(&one), two.negated()]);
+    for system in &systems {
+        let outside = outside_impulses(given, motion, system);
+        for axis in 0..2 {
+            let (mut left, mut right) = (Sum::new(), Sum::new());
+            for &i in system {
+                let b = &given.bodies[i];
+                left.add(b.mass.times(&motion.velocity[i][axis]));
+                right.add(b.mass.times(&b.velocity[axis]));
+            }
+            for (_, _, impulse) in &outside {
+                right.add(impulse[axis].clone());
+            }
+            let what = [Invariant::MomentumX, Invariant::MomentumY][axis](system.clone());
+            list.push(identity(what, left, right));
+        }
+        for (k, point) in points.iter().enumerate() {
+            let (mut left, mut right) = (Sum::new(), Sum::new());
+            for &i in system {
+                let b = &given.bodies[i];
+                let arm = difference(&b.center, point);
+                left.add(b.mass.times(&cross(&arm, &motion.velocity[i])));
+                right.add(b.mass.times(&cross(&arm, &b.velocity)));
+                if b.freedom == Freedom::Rigid {
+                    left.add(b.inertia.times(&motion.spin[i]));
+                    right.add(b.inertia.times(&b.spin));
+                }
+            }
+            for (body, at, impulse) in &outside {
+                let b = &given.bodies[*body];
+                let acts_at = if b.freedom == Freedom::Particle {
+                    &b.center
+                } else {
+                    at
+                };
+                right.add(cross(&difference(acts_at, point), impulse));
+            }
+            list.push(identity(
+                Invariant::AngularMomentum(system.clone(), k),
+                left,
+                right,
+            ));
+        }
+    }
+}
+
+/// Impulses that act on a body of the system from outside it: body, point, impulse.
+fn outside_impulses<T: Number>(
+    given: &Given<T>,
+    motion: &Motion<T>,
+    system: &[usize],
+) -> Vec<(usize, [T; 2], [T; 2])> {
+    let mut list = Vec::new();
+    let hinges = given.hinges.iter().zip(&motion.hinge);
+    let contacts = given.contacts.iter().map(|c| &c.joint).zip(&motion.contact);
+    for (joint, impulse) in hinges.chain(contacts) {
+        // What acts between two extended bodies of the system cancels; a particle takes it at its own center.
+        let [one, two] = joint.bodies;
+        let extended = |i: usize| given.bodies[i].freedom != Freedom::Particle;
+        if system.contains(&one) && system.contains(&two) && extended(one) && extended(two) {
+            continue;
+        }
+        if system.contains(&one) {
+            list.push((
+                one,
+                joint.at.clone(),
+                [impulse[0].negated(), impulse[1].negated()],
+            ));
+        }
+        if system.contains(&two) {
+            list.push((two, joint.at.clone(), impulse.clone()));
+        }
+    }
+    for (blow, impulse) in given.blows.iter().zip(&motion.blow) {
+        if system.contains(&blow.body) {
+            list.push((blow.body, blow.at.clone(), impulse.clone()));
+        }
+    }
+    list
+}
+
+/// Hinge conditions, contact laws and known values.
+fn laws<T: Number>(given: &Given<T>, motion: &Motion<T>, list: &mut Vec<Identity<T>>) {
+    let single = |v: &T| {
+        let mut sum = Sum::new();
+        sum.add(v.clone());
+        sum
+    };
+    let mut same = |what: Invariant, left: &T, right: &T| {
+        list.push(identity(what, single(left), single(right)))
+    };
+    for (i, hinge) in given.hinges.iter().enumerate() {
+        let [one, two] = hinge
+            .bodies
+            .map(|b| velocity_after(given, motion, b, &hinge.at));
+        let [one_before, two_before] = hinge
+            .bodies
+            .map(|b| given.bodies[b].velocity_before(&hinge.at));
+        for axis in 0..2 {
+            same(Invariant::Hinge(i, axis), &two[axis], &one[axis]);
+            same(
+                Invariant::HingeBefore(i, axis),
+                &two_before[axis],
+                &one_before[axis],
+            );
+        }
+    }
+    for (i, contact) in given.contacts.iter().enumerate() {
+        let at = &contact.joint.at;
+        let [one, two] = contact
+            .joint
+            .bodies
+            .map(|b| velocity_after(given, motion, b, at));
+        match (&contact.law, &contact.normal) {
+            (GivenLaw::Sticking, _) => {
+                for axis in 0..2 {
+                    same(Invariant::Sticking(i, axis), &two[axis], &one[axis]);
+                }
+            }
+            (GivenLaw::Frictionless(e), Some(n)) => {
+                let [before, _] = relative_velocities(given, motion, contact.joint.bodies, at);
+                let target = e.times(&dot(&before, n));
+                same(
+                    Invariant::Restitution(i),
+                    &dot(&two, n).plus(&target),
+                    &dot(&one, n),
+                );
+                let along = [
+                    motion.contact[i][0].times(&n[1]),
+                    motion.contact[i][1].times(&n[0]),
+                ];
+                same(Invariant::NoFriction(i), &along[0], &along[1]);
+            }
+            _ => {}
+        }
+    }
+    for (i, known) in given.known.iter().enumerate() {
+        let actual = match &known.component {
+            None => motion.spin[known.body].clone(),
+            Some([point, along]) => dot(along, &velocity_after(given, motion, known.body, point)),
+        };
+        same(Invariant::Known(i), &actual, &known.value);
+    }
+}
+
+fn energies<T: Number>(given: &Given<T>, motion: &Motion<T>, list: &mut Vec<Identity<T>>) {
+    let (before, after) = (
+        energy_before(given, None),
+        energy_after(given, motion, None),
+    );
+    let size = before.size() + after.size() + work(given, motion, None).size();
+    let gain = after.minus(&before);
+    let mut claim = |what, left, right| {
+        list.push(Identity {
+            what,
+            left,
+            right,
+            size,
+        })
+    };
+    claim(
+        Invariant::EnergyIsWork,
+        gain.clone(),
+        work(given, motion, None),
+    );
+    let lost = energy_lost(given, motion, None);
+    claim(Invariant::EnergyLost, lost.clone(), gain.negated());
+    if let Some(e) = one_restitution(given, motion) {
+        // Loss as seen from the walls: what they take or give is not lost.
+        let lost = given.contacts.iter().zip(&motion.contact).fold(
+            T::zero(),
+            |sum, (contact, impulse)| {
+                let [a, b] =
+                    relative_velocities(given, motion, contact.joint.bodies, &contact.joint.at);
+                sum.minus(&dot(impulse, &a).plus(&dot(impulse, &b)).halved())
+            },
+        );
+        let change = energy_of_change(given, motion);
+        let left = lost.times(&T::one().plus(&e));
+        claim(Invariant::Carnot, left, change.times(&T::one().minus(&e)));
+        if T::one().minus(&e).is_zero() {
+            claim(Invariant::Lossless, lost, T::zero());
+        }
+    }
+}
+
+/// The one coefficient of restitution of all contacts, if Carnot's theorem applies: nothing but contacts acts from
+/// outside, and the hinges were consistent before.
+fn one_restitution<T: Number>(given: &Given<T>, motion: &Motion<T>) -> Option<T> {
+    let mut one: Option<T> = None;
+    for contact in &given.contacts {
+        let e = match &contact.law {
+            GivenLaw::None => return None,
+            GivenLaw::Sticking => T::zero(),
+            GivenLaw::Frictionless(e) => e.clone(),
+        };
+        if one.as_ref().is_some_and(|first| !first.minus(&e).is_zero()) {
+            return None;
+        }
+        one = Some(e);
+    }
+    let quiet = given.blows.is_empty() && given.known.is_empty();
+    let consistent = given.hinges.iter().all(|h| {
+        let [[x, y], _] = relative_velocities(given, motion, h.bodies, &h.at);
+        let size = given.bodies[h.bodies[0]]
+            .velocity_before(&h.at)
+            .iter()
+            .map(Number::size)
+            .sum::<f64>();
+        [x, y]
+            .iter()
+            .all(|v| v.is_zero() || v.size() <= 1e-12 * size)
+    });
+    if quiet && consistent { one } else { None }
+}
+
+/// How two bodies meet at a contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Approach {
+    /// The touching points approach each other.
+    Approaching,
+    /// Their normal relative velocity is zero.
+    Grazing,
+    /// They move apart: no collision here.
+    Separating,
+}
+
+/// What a contact with a normal says of itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactReport<T> {
+    /// Normal relative velocity just before, u_n⁻ [m/s]; negative when approaching.
+    pub normal_before: T,
+    /// Normal relative velocity just after, u_n⁺ [m/s].
+    pub normal_after: T,
+    /// Normal impulse P_n on the second body [N s].
+    pub normal_impulse: T,
+    /// Tangential impulse P_t on the second body [N s], along the normal turned clockwise by 90°.
+    pub tangent_impulse: T,
+    /// How the bodies meet.
+    pub approach: Approach,
+    /// Friction coefficient the answer needs, |P_t| / P_n; `None` where P_n is not positive.
+    pub required_friction: Option<T>,
+    /// Whether the contact only pushes, and the bodies do not enter each other: P_n ≥ 0 and u_n⁺ ≥ 0.
+    pub admissible: bool,
+}
+
+/// The report of each contact; `None` for one without a normal.
+pub fn contact_reports<T: Number + PartialOrd>(
+    given: &Given<T>,
+    motion: &Motion<T>,
+) -> Vec<Option<ContactReport<T>>> {
+    let zero = T::zero();
+    let reports = given
+        .contacts
+        .iter()
+        .zip(&motion.contact)
+        .map(|(contact, impulse)| {
+            let n = contact.normal.as_ref()?;
+            let [before, after] =
+                relative_velocities(given, motion, contact.joint.bodies, &contact.joint.at);
+            let (normal_before, normal_after) = (dot(&before, n), dot(&after, n));
+            let (normal_impulse, tangent_impulse) = (dot(impulse, n), cross(impulse, n));
+            let approach = match normal_before.partial_cmp(&zero)? {
+                std::cmp::Ordering::Less => Approach::Approaching,
+                std::cmp::Ordering::Equal => Approach::Grazing,
+                std::cmp::Ordering::Greater => Approach::Separating,
+            };
+            let size = if tangent_impulse < zero {
+                tangent_impulse.negated()
+            } else {
+                tangent_impulse.clone()
+            };
+            let required_friction = if normal_impulse > zero {
+                normal_impulse.recip().map(|r| size.times(&r))
+            } else {
+                None
+            };
+            // Laws that set u_n⁺ to zero leave rounding there in doubles; what they state is not doubted here.
+            let apart = matches!(contact.law, GivenLaw::Sticking) || normal_after >= zero;
+            let admissible = normal_impulse >= zero && apart;
+            let report = ContactReport {
+                normal_before,
+                normal_after,
+                normal_impulse,
+                tangent_impulse,
+                approach,
+                required_friction,
+                admissible,
+            };
+            Some(report)
+        });
+    reports.collect()
+}

@@ -1,0 +1,30 @@
+//! The independent check: from a scene and values of its symbols straight to numbers, by all equations at once.
+//!
+//! `given` puts numbers for formulas, `assemble` writes every equation of the scene from its geometry, `solve_exact` and
+//! `solve_f64` solve them. Imports `expr` for evaluation, `domain` and `scene`; never `algebra`, `laws` or `derive`, which
+//! is why agreement with a derived formula means something.
+
+pub mod answer;
+pub mod energy;
+pub mod exact;
+pub mod float;
+pub mod given;
+pub mod invariants;
+pub mod number;
+pub mod points;
+pub mod solution;
+pub mod system;
+
+#[cfg(test)]
+mod tests;
+
+pub use answer::{Answer, NoAnswer, answer};
+pub use energy::{energy_after, energy_before, energy_lost};
+pub use exact::solve_exact;
+pub use float::solve_f64;
+pub use given::{Given, Reason, Undefined, given};
+pub use invariants::{Approach, ContactReport, Identity, Invariant, contact_reports, identities};
+pub use number::Number;
+pub use points::{needed, random_point, rounded};
+pub use solution::{Contradiction, Motion, Solution, motion};
+pub use system::{Law, System, Unknown, assemble};

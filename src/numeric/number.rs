@@ -1,0 +1,106 @@
+//! What the numeric side asks of a number beyond evaluation: differences, neutral elements, and a few plane vectors.
+//!
+//! Deliberately small: a new number type (double-double, ball) becomes usable everywhere by five short functions.
+
+use num_traits::{One, Zero};
+
+use crate::expr::{Rational, Scalar};
+
+/// A number type in which the equations of a scene can be assembled.
+pub trait Number: Scalar {
+    /// The neutral element of addition.
+    fn zero() -> Self;
+    /// The neutral element of multiplication.
+    fn one() -> Self;
+    /// Whether the number is exactly zero, for sure.
+    fn is_zero(&self) -> bool;
+    /// Difference.
+    fn minus(&self, other: &Self) -> Self;
+    /// The number with the other sign.
+    fn negated(&self) -> Self;
+    /// Half of the number.
+    fn halved(&self) -> Self;
+    /// The absolute value, roughly: for judging sizes, not for results.
+    fn size(&self) -> f64;
+}
+
+impl Number for f64 {
+    fn zero() -> f64 {
+        0.0
+    }
+    fn one() -> f64 {
+        1.0
+    }
+    fn is_zero(&self) -> bool {
+        *self == 0.0
+    }
+    fn minus(&self, other: &f64) -> f64 {
+        self - other
+    }
+    fn negated(&self) -> f64 {
+        -self
+    }
+    fn halved(&self) -> f64 {
+        self * 0.5
+    }
+    fn size(&self) -> f64 {
+        self.abs()
+    }
+}
+
+impl Number for Rational {
+    fn zero() -> Rational {
+        Zero::zero()
+    }
+    fn one() -> Rational {
+        One::one()
+    }
+    fn is_zero(&self) -> bool {
+        Zero::is_zero(self)
+    }
+    fn minus(&self, other: &Rational) -> Rational {
+        self - other
+    }
+    fn negated(&self) -> Rational {
+        -self
+    }
+    fn halved(&self) -> Rational {
+        self * crate::expr::ratio(1, 2)
+    }
+    fn size(&self) -> f64 {
+        crate::expr::number::to_f64(self).abs()
+    }
+}
+
+/// The difference a − b of two vectors.
+pub fn difference<T: Number>(a: &[T; 2], b: &[T; 2]) -> [T; 2] {
+    [a[0].minus(&b[0]), a[1].minus(&b[1])]
+}
+
+/// The sum a + b of two vectors.
+pub fn total<T: Number>(a: &[T; 2], b: &[T; 2]) -> [T; 2] {
+    [a[0].plus(&b[0]), a[1].plus(&b[1])]
+}
+
+/// Scalar product a · b.
+pub fn dot<T: Number>(a: &[T; 2], b: &[T; 2]) -> T {
+    a[0].times(&b[0]).plus(&a[1].times(&b[1]))
+}
+
+/// z-component of the cross product a × b.
+pub fn cross<T: Number>(a: &[T; 2], b: &[T; 2]) -> T {
+    a[0].times(&b[1]).minus(&a[1].times(&b[0]))
+}
+
+/// The vector a times the number k.
+pub fn stretched<T: Number>(a: &[T; 2], k: &T) -> [T; 2] {
+    [a[0].times(k), a[1].times(k)]
+}
+
+/// Velocity at a point whose position relative to the reference point is `arm`: v + ω × r.
+pub fn velocity_at<T: Number>(velocity: &[T; 2], spin: &T, arm: &[T; 2]) -> [T; 2] {
+    [
+        velocity[0].minus(&spin.times(&arm[1])),
+        velocity[1].plus(&spin.times(&arm[0])),
+    ]
+}

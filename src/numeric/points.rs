@@ -1,0 +1,332 @@
+//! Points to compare at: every symbol of a scene gets a small fraction inside its domain, every angle a rational point of
+//! the unit circle.
+//!
+//! In: symbols, domains, a seed. Out: a point with exact values. The same seed gives the same point on every machine and
+//! in whatever order symbols are met. Knows nothing of what will be evaluated there.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::PI;
+
+use num_integer::Integer;
+use num_traits::{One, ToPrimitive, Zero};
+
+use crate::domain::{Domain, Domains, Limit};
+use crate::expr::angle::angle;
+use crate::expr::number::to_f64;
+use crate::expr::{Expr, Function, Int, Node, Point, Rational, Symbol, ratio};
+use crate::scene::{Ask, BlowImpulse, ContactLaw, KnownQuantity, Scene};
+
+/// The symbols some formulas need values for: plain ones, and angles with the divisor N whose multiples occur.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Needed {
+    /// Symbols that occur outside sines and cosines.
+    pub plain: BTreeSet<Symbol>,
+    /// Symbols that occur under sine, cosine or tangent, with the least N such that only multiples of angle/N occur.
+    pub angles: BTreeMap<Symbol, u32>,
+}
+
+impl Needed {
+    /// Adds what `e` needs.
+    pub fn add(&mut self, e: &Expr) {
+        match e.node() {
+            Node::Number(_) => {}
+            Node::Symbol(name) if &**name == "pi" => {}
+            Node::Symbol(name) => {
+                self.plain.insert(name.clone());
+            }
+            Node::Sum(parts) | Node::Product(parts) => parts.iter().for_each(|p| self.add(p)),
+            Node::Power(base, exponent) => {
+                self.add(base);
+                self.add(exponent);
+            }
+            Node::Call(Function::Sin | Function::Cos | Function::Tan, argument) => {
+                match angle(argument) {
+                    Some(read) => {
+                        for (name, factor) in read.symbols {
+                            let divisor = factor.denom().to_u32().unwrap_or(1);
+                            let entry = self.angles.entry(name).or_insert(1);
+                            *entry = entry.lcm(&divisor).min(1 << 16);
+                        }
+                    }
+                    None => self.add(argument),
+                }
+            }
+            Node::Call(_, argument) => self.add(argument),
+        }
+    }
+}
+
+/// Everything the geometry, the motion before and the questions of a scene need.
+pub fn needed(scene: &Scene) -> Needed {
+    let mut needed = Needed::default();
+    let mut vectors = Vec::new();
+    for body in &scene.bodies {
+        if !body.is_fixed() {
+            needed.add(&body.mass);
+            if !body.is_particle() {
+                needed.add(&body.inertia);
+            }
+        }
+        needed.add(&body.spin);
+        vectors.extend([&body.center, &body.velocity]);
+    }
+    vectors.extend(scene.hinges.iter().map(|h| &h.at));
+    for contact in &scene.contacts {
+        vectors.push(&contact.at);
+        vectors.extend(&contact.normal);
+        if let ContactLaw::Frictionless { restitution } = &contact.law {
+            needed.add(restitution);
+        }
+    }
+    for blow in &scene.blows {
+        let (BlowImpulse::Given(v) | BlowImpulse::Along(v)) = &blow.impulse;
+        vectors.extend([&blow.at, v]);
+    }
+    for known in &scene.after {
+        needed.add(&known.value);
+        if let KnownQuantity::Velocity { at, along } = &known.what {
+            vectors.extend([at, along]);
+        }
+    }
+    for question in &scene.questions {
+        match &question.ask {
+            Ask::Velocity { point, along, .. } => {
+                vectors.extend(point.iter().map(|(_, at)| at));
+                vectors.extend(along);
+            }
+            Ask::Impulse { along, .. } => vectors.extend(along),
+            Ask::Balance { along, .. } => vectors.push(along),
+            Ask::Spin { .. } | Ask::Energy { .. } | Ask::Matrix { .. } => {}
+        }
+    }
+    for v in vectors {
+        v.iter().for_each(|e| needed.add(e));
+    }
+    needed
+}
+
+/// An exact point inside the domains. An undeclared symbol is taken as positive, an undeclared angle as one of the first
+/// quadrant. A symbol that is both an angle under a sine and a plain factor gets its direction only.
+pub fn random_point(needed: &Needed, domains: &Domains, seed: u64) -> Point<Rational> {
+    let mut point = Point::default();
+    for (name, divisor) in &needed.angles {
+        let mut rng = Rng::of(seed, name);
+        point.directions.insert(
+            name.clone(),
+            (
+                *divisor,
+                direction(domains.symbols.get(name), *divisor, &mut rng),
+            ),
+        );
+    }
+    for pair in &domains.unit_vectors {
+        let mut rng = Rng::of(seed, &pair[0]);
+        let tangent = ratio(rng.below(19) as i64 - 9, 1 + rng.below(9) as i64);
+        let [c, s] = circle_point(&tangent);
+        point.values.insert(pair[0].clone(), c);
+        point.values.insert(pair[1].clone(), s);
+    }
+    for name in &needed.plain {
+        if !point.values.contains_key(name) && !point.directions.contains_key(name) {
+            let mut rng = Rng::of(seed, name);
+            point
+                .values
+                .insert(name.clone(), inside(domains.symbols.get(name), &mut rng));
+        }
+    }
+    point
+}
+
+/// The exact values of given numbers: plain symbols as they are; an angle by a rational point of the circle, where its
+/// value is a multiple of π/2. `None` for an angle whose sine is no fraction.
+pub fn quarter_turns(turns: &Rational) -> Option<[Rational; 2]> {
+    let quarters = turns * ratio(2, 1);
+    let k = quarters
+        .is_integer()
+        .then(|| quarters.numer().mod_floor(&Int::from(4)))?
+        .as_i64()?;
+    let (c, s) = [(1, 0), (0, 1), (-1, 0), (0, -1)][k as usize];
+    Some([ratio(c, 1), ratio(s, 1)])
+}
+
+/// The same point in doubles: plain values rounded, angles by their directions.
+pub fn rounded(point: &Point<Rational>) -> Point<f64> {
+    let values = point
+        .values
+        .iter()
+        .map(|(name, v)| (name.clone(), to_f64(v)))
+        .collect();
+    let directions = point
+        .directions
+        .iter()
+        .map(|(name, (n, [c, s]))| (name.clone(), (*n, [to_f64(c), to_f64(s)])))
+        .collect();
+    Point { values, directions }
+}
+
+/// (cos φ, sin φ) for t = tan(φ/2).
+pub fn circle_point(t: &Rational) -> [Rational; 2] {
+    let square = t * t;
+    let below = (&square + Rational::one()).recip();
+    [(Rational::one() - square) * &below, t * ratio(2, 1) * below]
+}
+
+/// A rational direction of angle/N with the angle strictly inside its domain.
+fn direction(domain: Option<&Domain>, divisor: u32, rng: &mut Rng) -> [Rational; 2] {
+    let quadrant = || Domain {
+        low: Some(Limit {
+            value: Rational::zero(),
+            of_pi: true,
+            open: true,
+        }),
+        high: Some(Limit {
+            value: ratio(1, 2),
+            of_pi: true,
+            open: true,
+        }),
+    };
+    let domain = domain.cloned().unwrap_or_else(quadrant);
+    let end = |limit: &Option<Limit>, otherwise: f64| match limit {
+        None => otherwise,
+        Some(l) => to_f64(&l.value) * if l.of_pi { PI } else { 1.0 },
+    };
+    let low = end(&domain.low, -PI);
+    let high = end(&domain.high, PI).max(low);
+    // The angle is chosen first, then replaced by a nearby one with a simple tangent of a quarter... of its N-th part.
+    let share = (1 + rng.below(62)) as f64 / 64.0;
+    let part = (low + (high - low) * share) / f64::from(divisor);
+    let half = part / 2.0;
+    let spread = (high - low) / f64::from(divisor) / 2.0;
+    for denominator in [3i64, 8, 21, 64, 1024, 1 << 20] {
+        let numerator = (half.tan() * denominator as f64).round();
+        let found = (numerator / denominator as f64).atan();
+        let turned = (half / PI).round() * PI;
+        let margin = spread * (share.min(1.0 - share)) * 0.9;
+        if (found + turned - half).abs() < margin && numerator.abs() < 1e15 {
+            let [c, s] = circle_point(&ratio(numerator as i64, denominator));
+            return [c, s];
+        }
+    }
+    match half.cos().abs() < 1e-6 {
+        true => [ratio(-1, 1), Rational::zero()],
+        false => circle_point(&ratio((half.tan() * 1048576.0).round() as i64, 1048576)),
+    }
+}
+
+/// A small fraction strictly inside the domain.
+fn inside(domain: Option<&Domain>, rng: &mut Rng) -> Rational {
+    let positive = Domain {
+        low: Some(Limit {
+            value: Rational::zero(),
+            of_pi: false,
+            open: true,
+        }),
+        high: None,
+    };
+    let domain = domain.cloned().unwrap_or(positive);
+    // 22/7 for π would do for sampling anywhere but at the end; 355/113 is closer, and the end itself is never taken.
+    let end = |l: &Limit| {
+        if l.of_pi {
+            &l.value * ratio(355, 113)
+        } else {
+            l.value.clone()
+        }
+    };
+    let step = ratio(1 + rng.below(24) as i64, 1 + rng.below(7) as i64);
+    match (&domain.low, &domain.high) {
+        (Some(low), Some(high)) => {
+            let (low, high) = (end(low), end(high));
+            let width = &high - &low;
+            low + width * ratio(1 + rng.below(22) as i64, 24)
+        }
+        (Some(low), None) => end(low) + step,
+        (None, Some(high)) => end(high) - step,
+        (None, None) => {
+            if rng.below(2) == 0 {
+                step
+            } else {
+                -step
+            }
+        }
+    }
+}
+
+/// SplitMix64 (Steele, Lea & Flood 2014), seeded by number and name.
+struct Rng(u64);
+
+impl Rng {
+    fn of(seed: u64, name: &str) -> Rng {
+        // FNV-1a of the name, so that the order of symbols does not matter.
+        let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325u64, |h, b| {
+            (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3)
+        });
+        let mut rng = Rng(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ hash);
+        rng.below(1);
+        rng
+    }
+
+    fn below(&mut self, n: u64) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        (z ^ (z >> 31)) % n
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use num_traits::Signed;
+
+    use super::*;
+
+    fn between(low: Rational, high: Rational, of_pi: bool) -> Domain {
+        let limit = |value| {
+            Some(Limit {
+                value,
+                of_pi,
+                open: true,
+            })
+        };
+        Domain {
+            low: limit(low),
+            high: limit(high),
+        }
+    }
+
+    #[test]
+    fn points_lie_inside_their_domains_and_on_the_circle() {
+        let mut domains = Domains::default();
+        domains
+            .symbols
+            .insert("e".into(), between(ratio(0, 1), ratio(1, 1), false));
+        domains
+            .symbols
+            .insert("alpha".into(), between(ratio(2, 5), ratio(1, 2), true));
+        domains.unit_vectors.push(["nx".into(), "ny".into()]);
+        let mut needed = Needed::default();
+        let half = Expr::symbol("alpha") * Expr::ratio(1, 2);
+        let theta = Expr::symbol("theta");
+        for e in [
+            half.sin(),
+            Expr::symbol("e") * Expr::symbol("nx") + Expr::symbol("ny"),
+            theta.cos(),
+        ] {
+            needed.add(&e);
+        }
+        assert_eq!(needed.angles[&Symbol::from("alpha")], 2);
+        for seed in 0..500 {
+            let point = random_point(&needed, &domains, seed);
+            let e = &point.values["e"];
+            assert!(e.is_positive() && *e < ratio(1, 1));
+            let [nx, ny] = ["nx", "ny"].map(|n| &point.values[n]);
+            assert_eq!(nx * nx + ny * ny, ratio(1, 1));
+            for (name, low, high) in [("alpha", 0.4 * PI, 0.5 * PI), ("theta", 0.0, 0.5 * PI)] {
+                let (n, [c, s]) = &point.directions[name];
+                assert_eq!(c * c + s * s, ratio(1, 1));
+                let angle = to_f64(s).atan2(to_f64(c)) * f64::from(*n);
+                assert!(low < angle && angle < high, "{name} = {angle}");
+            }
+        }
+    }
+}

@@ -1,0 +1,372 @@
+//! From the numbers of a scene to its full system of linear equations, written from geometry alone.
+//!
+//! In: masses, positions, velocities before. Out: a row per law and a column per unknown. This module never reads an
+//! equation from `laws`; that is why agreement between the two means something. Positions are frozen during the
+//! collision and finite forces have no impulse. Signs: counterclockwise positive, impulses are those on the second body.
+
+use super::given::{Freedom, Given, GivenImpulse, GivenLaw};
+use super::number::{Number, cross, dot};
+
+/// A component that the equations determine, or fail to. The indices are those of the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Unknown {
+    /// x-component of the velocity of a body's center of mass just after [m/s].
+    VelocityX(usize),
+    /// y-component of the velocity of a body's center of mass just after [m/s].
+    VelocityY(usize),
+    /// Angular velocity of a body just after [rad/s].
+    Spin(usize),
+    /// x-component of a hinge's impulse on its second body [N s].
+    HingeX(usize),
+    /// y-component of a hinge's impulse on its second body [N s].
+    HingeY(usize),
+    /// x-component of a contact's impulse on its second body [N s].
+    ContactX(usize),
+    /// y-component of a contact's impulse on its second body [N s].
+    ContactY(usize),
+    /// A contact's impulse on its second body, along the normal [N s].
+    ContactNormal(usize),
+    /// Size of a blow along its direction [N s].
+    Blow(usize),
+}
+
+/// The law a row states. The indices are those of the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Law {
+    /// Momentum of a body along x.
+    MomentumX(usize),
+    /// Momentum of a body along y.
+    MomentumY(usize),
+    /// Angular momentum of a body about its center of mass.
+    AngularMomentum(usize),
+    /// Both bodies move alike along x at a hinge.
+    HingeX(usize),
+    /// Both bodies move alike along y at a hinge.
+    HingeY(usize),
+    /// Both bodies move alike along x at a sticking contact.
+    StickingX(usize),
+    /// Both bodies move alike along y at a sticking contact.
+    StickingY(usize),
+    /// Normal relative velocity after = −e × before, at a contact.
+    Restitution(usize),
+    /// A value known just after.
+    Known(usize),
+}
+
+/// Linear equations: for each row, Σ coefficient × unknown = right.
+#[derive(Clone, Debug, PartialEq)]
+pub struct System<T> {
+    /// What the columns stand for.
+    pub unknowns: Vec<Unknown>,
+    /// What the rows state.
+    pub laws: Vec<Law>,
+    /// Coefficients, row after row.
+    pub matrix: Vec<T>,
+    /// Right-hand sides.
+    pub right: Vec<T>,
+}
+
+impl<T> System<T> {
+    /// Coefficients of one row.
+    pub fn row(&self, row: usize) -> &[T] {
+        let n = self.unknowns.len();
+        &self.matrix[row * n..(row + 1) * n]
+    }
+
+    /// Column of an unknown.
+    pub fn column(&self, unknown: Unknown) -> Option<usize> {
+        self.unknowns.iter().position(|u| *u == unknown)
+    }
+
+    /// The same equations with every number converted.
+    pub fn map<U>(&self, mut f: impl FnMut(&T) -> U) -> System<U> {
+        System {
+            unknowns: self.unknowns.clone(),
+            laws: self.laws.clone(),
+            matrix: self.matrix.iter().map(&mut f).collect(),
+            right: self.right.iter().map(f).collect(),
+        }
+    }
+}
+
+/// The full system of a scene.
+pub fn assemble<T: Number>(given: &Given<T>) -> System<T> {
+    let columns = Columns::of(given);
+    let mut rows = Rows {
+        columns: columns.unknowns.len(),
+        laws: Vec::new(),
+        matrix: Vec::new(),
+        right: Vec::new(),
+    };
+    balances(given, &columns, &mut rows);
+    joints(given, &columns, &mut rows);
+    for (i, known) in given.known.iter().enumerate() {
+        let row = rows.start(Law::Known(i));
+        match &known.component {
+            None => rows.add_spin(row, &columns, given, known.body, &T::one()),
+            Some([point, along]) => {
+                rows.add_velocity(row, &columns, given, known.body, point, along)
+            }
+        }
+        rows.right[row] = rows.right[row].plus(&known.value);
+    }
+    System {
+        unknowns: columns.unknowns,
+        laws: rows.laws,
+        matrix: rows.matrix,
+        right: rows.right,
+    }
+}
+
+/// Momentum and angular momentum of every free body.
+fn balances<T: Number>(given: &Given<T>, columns: &Columns, rows: &mut Rows<T>) {
+    let mut first_row = vec![None; given.bodies.len()];
+    for (i, body) in given.bodies.iter().enumerate() {
+        let Some(column) = columns.body[i] else {
+            continue;
+        };
+        let x = rows.start(Law::MomentumX(i));
+        first_row[i] = Some(x);
+        rows.put(x, column, body.mass.clone());
+        rows.right[x] = body.mass.times(&body.velocity[0]);
+        let y = rows.start(Law::MomentumY(i));
+        rows.put(y, column + 1, body.mass.clone());
+        rows.right[y] = body.mass.times(&body.velocity[1]);
+        if body.freedom == Freedom::Rigid {
+            let turn = rows.start(Law::AngularMomentum(i));
+            rows.put(turn, column + 2, body.inertia.clone());
+            rows.right[turn] = body.inertia.times(&body.spin);
+        }
+    }
+    let [ex, ey] = [[T::one(), T::zero()], [T::zero(), T::one()]];
+    // An unknown impulse goes to the left side: m v⁺ − J = m v⁻.
+    let mut push =
+        |body: usize, at: &[T; 2], direction: &[T; 2], column: usize, on_second: bool| {
+            let Some(row) = first_row[body] else { return };
+            let sign = |v: T| if on_second { v.negated() } else { v };
+            rows.add(row, column, &sign(direction[0].clone()));
+            rows.add(row + 1, column, &sign(direction[1].clone()));
+            if given.bodies[body].freedom == Freedom::Rigid {
+                rows.add(
+                    row + 2,
+                    column,
+                    &sign(cross(&given.bodies[body].arm(at), direction)),
+                );
+            }
+        };
+    for (i, hinge) in given.hinges.iter().enumerate() {
+        for (body, on_second) in [(hinge.bodies[0], false), (hinge.bodies[1], true)] {
+            push(body, &hinge.at, &ex, columns.hinge[i], on_second);
+            push(body, &hinge.at, &ey, columns.hinge[i] + 1, on_second);
+        }
+    }
+    for (i, contact) in given.contacts.iter().enumerate() {
+        for (body, on_second) in [
+            (contact.joint.bodies[0], false),
+            (contact.joint.bodies[1], true),
+        ] {
+            match (&contact.law, &contact.normal) {
+                (GivenLaw::Frictionless(_), Some(n)) => {
+                    push(body, &contact.joint.at, n, columns.contact[i], on_second)
+                }
+                _ => {
+                    push(body, &contact.joint.at, &ex, columns.contact[i], on_second);
+                    push(
+                        body,
+                        &contact.joint.at,
+                        &ey,
+                        columns.contact[i] + 1,
+                        on_second,
+                    );
+                }
+            }
+        }
+    }
+    for (blow, column) in given.blows.iter().zip(&columns.blow) {
+        if let (GivenImpulse::Along(direction), Some(column)) = (&blow.impulse, column) {
+            push(blow.body, &blow.at, direction, *column, true);
+        }
+    }
+    for blow in &given.blows {
+        if let (GivenImpulse::Whole(impulse), Some(row)) = (&blow.impulse, first_row[blow.body]) {
+            rows.right[row] = rows.right[row].plus(&impulse[0]);
+            rows.right[row + 1] = rows.right[row + 1].plus(&impulse[1]);
+            if given.bodies[blow.body].freedom == Freedom::Rigid {
+                let moment = cross(&given.bodies[blow.body].arm(&blow.at), impulse);
+                rows.right[row + 2] = rows.right[row + 2].plus(&moment);
+            }
+        }
+    }
+}
+
+/// What hinges and contacts say of the velocities after.
+fn joints<T: Number>(given: &Given<T>, columns: &Columns, rows: &mut Rows<T>) {
+    let [ex, ey] = [[T::one(), T::zero()], [T::zero(), T::one()]];
+    let relative =
+        |rows: &mut Rows<T>, law: Law, [one, two]: [usize; 2], at: &[T; 2], along: &[T; 2]| {
+            let row = rows.start(law);
+            rows.add_velocity(row, columns, given, two, at, along);
+            rows.add_velocity(
+                row,
+                columns,
+                given,
+                one,
+                at,
+                &[along[0].negated(), along[1].negated()],
+            );
+            row
+        };
+    for (i, hinge) in given.hinges.iter().enumerate() {
+        relative(rows, Law::HingeX(i), hinge.bodies, &hinge.at, &ex);
+        relative(rows, Law::HingeY(i), hinge.bodies, &hinge.at, &ey);
+    }
+    for (i, contact) in given.contacts.iter().enumerate() {
+        let (bodies, at) = (contact.joint.bodies, &contact.joint.at);
+        match (&contact.law, &contact.normal) {
+            (GivenLaw::Sticking, _) => {
+                relative(rows, Law::StickingX(i), bodies, at, &ex);
+                relative(rows, Law::StickingY(i), bodies, at, &ey);
+            }
+            (GivenLaw::Frictionless(e), Some(n)) => {
+                let row = relative(rows, Law::Restitution(i), bodies, at, n);
+                let [one, two] = bodies.map(|b| given.bodies[b].velocity_before(at));
+                let before = dot(n, &two).minus(&dot(n, &one));
+                rows.right[row] = rows.right[row].minus(&e.times(&before));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Where the unknowns of each body and joint stand.
+struct Columns {
+    unknowns: Vec<Unknown>,
+    body: Vec<Option<usize>>,
+    hinge: Vec<usize>,
+    contact: Vec<usize>,
+    blow: Vec<Option<usize>>,
+}
+
+impl Columns {
+    fn of<T>(given: &Given<T>) -> Columns {
+        let mut unknowns = Vec::new();
+        let mut take = |list: &[Unknown]| {
+            unknowns.extend_from_slice(list);
+            unknowns.len() - list.len()
+        };
+        let body = given.bodies.iter().enumerate().map(|(i, body)| {
+            let all = [
+                Unknown::VelocityX(i),
+                Unknown::VelocityY(i),
+                Unknown::Spin(i),
+            ];
+            match body.freedom {
+                Freedom::Fixed => None,
+                Freedom::Particle => Some(take(&all[..2])),
+                Freedom::Rigid => Some(take(&all)),
+            }
+        });
+        let body = body.collect();
+        let hinge = (0..given.hinges.len())
+            .map(|i| take(&[Unknown::HingeX(i), Unknown::HingeY(i)]))
+            .collect();
+        let contact = given
+            .contacts
+            .iter()
+            .enumerate()
+            .map(|(i, contact)| match contact.law {
+                GivenLaw::Frictionless(_) => take(&[Unknown::ContactNormal(i)]),
+                GivenLaw::None | GivenLaw::Sticking => {
+                    take(&[Unknown::ContactX(i), Unknown::ContactY(i)])
+                }
+            });
+        let contact = contact.collect();
+        let blow = given
+            .blows
+            .iter()
+            .enumerate()
+            .map(|(i, blow)| match blow.impulse {
+                GivenImpulse::Whole(_) => None,
+                GivenImpulse::Along(_) => Some(take(&[Unknown::Blow(i)])),
+            });
+        let blow = blow.collect();
+        Columns {
+            unknowns,
+            body,
+            hinge,
+            contact,
+            blow,
+        }
+    }
+}
+
+/// Rows under construction.
+struct Rows<T> {
+    columns: usize,
+    laws: Vec<Law>,
+    matrix: Vec<T>,
+    right: Vec<T>,
+}
+
+impl<T: Number> Rows<T> {
+    /// A new empty row 0 = 0.
+    fn start(&mut self, law: Law) -> usize {
+        self.laws.push(law);
+        self.matrix
+            .resize(self.matrix.len() + self.columns, T::zero());
+        self.right.push(T::zero());
+        self.laws.len() - 1
+    }
+
+    fn put(&mut self, row: usize, column: usize, value: T) {
+        self.matrix[row * self.columns + column] = value;
+    }
+
+    fn add(&mut self, row: usize, column: usize, value: &T) {
+        let cell = &mut self.matrix[row * self.columns + column];
+        *cell = if cell.is_zero() {
+            value.clone()
+        } else {
+            cell.plus(value)
+        };
+    }
+
+    /// Adds ω⁺ of a body, times `factor`, to the left side.
+    fn add_spin(
+        &mut self,
+        row: usize,
+        columns: &Columns,
+        given: &Given<T>,
+        body: usize,
+        factor: &T,
+    ) {
+        match (given.bodies[body].freedom, columns.body[body]) {
+            (Freedom::Rigid, Some(column)) => self.add(row, column + 2, factor),
+            _ => self.right[row] = self.right[row].minus(&factor.times(&given.bodies[body].spin)),
+        }
+    }
+
+    /// Adds the component along `along` of the velocity after of a body's point at `point` to the left side. What is
+    /// prescribed goes to the right side.
+    fn add_velocity(
+        &mut self,
+        row: usize,
+        columns: &Columns,
+        given: &Given<T>,
+        body: usize,
+        point: &[T; 2],
+        along: &[T; 2],
+    ) {
+        let b = &given.bodies[body];
+        match columns.body[body] {
+            None => self.right[row] = self.right[row].minus(&dot(along, &b.velocity_before(point))),
+            Some(column) => {
+                self.add(row, column, &along[0]);
+                self.add(row, column + 1, &along[1]);
+                if b.freedom == Freedom::Rigid {
+                    self.add(row, column + 2, &cross(&b.arm(point), along));
+                }
+            }
+        }
+    }
+}
