@@ -5,8 +5,13 @@
 //! is why agreement with a derived formula means something.
 
 pub mod answer;
+pub mod ball;
+pub mod certify;
+pub mod dd;
+pub mod dyadic;
 pub mod energy;
 pub mod exact;
+pub mod field;
 pub mod float;
 pub mod given;
 pub mod invariants;
@@ -14,13 +19,17 @@ pub mod number;
 pub mod points;
 pub mod solution;
 pub mod system;
+pub mod wide;
 
 #[cfg(test)]
 mod tests;
 
 pub use answer::{Answer, NoAnswer, answer};
+pub use certify::{Certified, Tier, Uncertified, certify, certify_scene};
+pub use dyadic::solve_dyadic;
 pub use energy::{energy_after, energy_before, energy_lost};
 pub use exact::solve_exact;
+pub use field::eliminate;
 pub use float::solve_f64;
 pub use given::{Given, Reason, Undefined, given};
 pub use invariants::{Approach, ContactReport, Identity, Invariant, contact_reports, identities};

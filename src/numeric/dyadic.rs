@@ -1,0 +1,166 @@
+//! Exact solution from doubles: every double is an integer times a power of two, so no denominator ever appears.
+//!
+//! In: a scene's numbers as doubles, taken as exact. Out: the double nearest to each exact value. Fraction-free
+//! elimination as in `exact`, on integers of fixed width on the stack; where they do not fit, `None`, and the caller
+//! takes the way over fractions.
+
+use super::exact::{Cramer, Whole, cramer};
+use super::given::Given;
+use super::number::Number;
+use super::system::{System, assemble};
+use super::wide::Wide;
+use crate::expr::{Function, Rational, Scalar};
+
+/// Words of the numbers the equations are assembled in.
+const ENTRY: usize = 8;
+/// Words of the numbers elimination runs in.
+const MINOR: usize = 24;
+
+/// An integer times 2^exponent; `None` where it did not fit.
+#[derive(Clone, Copy, Debug)]
+pub struct Dyadic(Option<(Wide<ENTRY>, i64)>);
+
+impl Dyadic {
+    /// A double, exactly; nothing for infinities and NaN.
+    pub fn exact(value: f64) -> Dyadic {
+        if value == 0.0 {
+            return Dyadic(Some((Wide::ZERO, 0)));
+        }
+        if !value.is_finite() {
+            return Dyadic(None);
+        }
+        let bits = value.to_bits();
+        let (raw, fraction) = ((bits >> 52 & 0x7ff) as i64, bits & ((1 << 52) - 1));
+        let (size, exponent) = if raw == 0 { (fraction, -1074) } else { (fraction | 1 << 52, raw - 1075) };
+        let twos = size.trailing_zeros();
+        Dyadic(Some((Wide::small(value < 0.0, size >> twos), exponent + i64::from(twos))))
+    }
+}
+
+/// Correctly rounded values of a determined scene; `None` where the system is not determined, its rows contradict each
+/// other, a number is not finite, or the integers outgrow their width.
+pub fn solve_dyadic(given: &Given<f64>) -> Option<Vec<f64>> {
+    let system = assemble(&given.map(|v| Dyadic::exact(*v)));
+    let (m, n) = (system.laws.len(), system.unknowns.len());
+    let (rows, columns) = integers(&system)?;
+    let Cramer::Solved { numerators, determinant } = cramer(rows, m, n)? else { return None };
+    numerators.iter().zip(columns).map(|(x, scale)| x.ratio(&determinant, scale)).collect()
+}
+
+/// Rows scaled to integers by powers of two, right-hand side last; and the exponent by which each unknown is to be
+/// raised, for columns are scaled too, to keep numbers of different sizes from making each other long.
+fn integers(system: &System<Dyadic>) -> Option<(Vec<Wide<MINOR>>, Vec<i64>)> {
+    let (m, n) = (system.laws.len(), system.unknowns.len());
+    let mut columns = vec![None; n];
+    for i in 0..m {
+        for (cell, scale) in system.row(i).iter().zip(&mut columns) {
+            let (value, exponent) = cell.0?;
+            if !value.is_zero() {
+                *scale = Some(scale.map_or(exponent, |s: i64| s.min(exponent)));
+            }
+        }
+    }
+    let columns: Vec<i64> = columns.into_iter().map(|s| s.unwrap_or(0)).collect();
+    let mut rows = Vec::with_capacity(m * (n + 1));
+    for i in 0..m {
+        let shifts = columns.iter().copied().chain([0]);
+        let cells = system.row(i).iter().chain([&system.right[i]]).zip(shifts);
+        let lowest = cells.clone().filter_map(|(c, shift)| match c.0 {
+            Some((value, exponent)) if !value.is_zero() => Some(exponent - shift),
+            _ => None,
+        });
+        let lowest = lowest.min().unwrap_or(0);
+        for (cell, shift) in cells {
+            let (value, exponent) = cell.0?;
+            if value.is_zero() {
+                rows.push(Wide::ZERO);
+            } else {
+                let up = usize::try_from(exponent - shift - lowest).ok()?;
+                rows.push(value.resized::<MINOR>()?.shifted_up(up)?);
+            }
+        }
+    }
+    Some((rows, columns.into_iter().map(|s| -s).collect()))
+}
+
+impl<const N: usize> Whole for Wide<N> {
+    fn one() -> Wide<N> {
+        Wide::small(false, 1)
+    }
+    fn is_zero(&self) -> bool {
+        Wide::is_zero(self)
+    }
+    fn eliminate(p: &Wide<N>, a: &Wide<N>, q: &Wide<N>, b: &Wide<N>, d: &Wide<N>) -> Option<Wide<N>> {
+        let product = p.mul(a)?;
+        let difference = if q.is_zero() || b.is_zero() { product } else { product.add(&q.mul(b)?.negated())? };
+        Some(difference.divided_exactly(d))
+    }
+    fn raise(a: &Wide<N>, p: &Wide<N>, d: &Wide<N>) -> Option<Wide<N>> {
+        Some(a.mul(p)?.divided_exactly(d))
+    }
+}
+
+impl Scalar for Dyadic {
+    fn from_rational(value: &Rational) -> Dyadic {
+        // Assembly asks for nothing but small integers.
+        match value.denom().as_i64().zip(value.numer().as_i64()) {
+            Some((1, v)) => Dyadic(Some((Wide::small(v < 0, v.unsigned_abs()), 0))),
+            _ => Dyadic(None),
+        }
+    }
+    fn pi() -> Option<Dyadic> {
+        None
+    }
+    fn plus(&self, other: &Dyadic) -> Dyadic {
+        let (Some((a, i)), Some((b, j))) = (self.0, other.0) else { return Dyadic(None) };
+        if a.is_zero() {
+            return *other;
+        }
+        if b.is_zero() {
+            return *self;
+        }
+        let low = i.min(j);
+        let up = |v: Wide<ENTRY>, e: i64| v.shifted_up(usize::try_from(e - low).ok()?);
+        Dyadic(up(a, i).zip(up(b, j)).and_then(|(a, b)| a.add(&b)).map(|sum| (sum, low)))
+    }
+    fn times(&self, other: &Dyadic) -> Dyadic {
+        let (Some((a, i)), Some((b, j))) = (self.0, other.0) else { return Dyadic(None) };
+        Dyadic(a.mul(&b).map(|product| (product, i + j)))
+    }
+    fn recip(&self) -> Option<Dyadic> {
+        None
+    }
+    fn sqrt(&self) -> Option<Dyadic> {
+        None
+    }
+    fn pow(&self, _: &Dyadic) -> Option<Dyadic> {
+        None
+    }
+    fn call(&self, _: Function) -> Option<Dyadic> {
+        None
+    }
+}
+
+impl Number for Dyadic {
+    fn zero() -> Dyadic {
+        Dyadic(Some((Wide::ZERO, 0)))
+    }
+    fn one() -> Dyadic {
+        Dyadic(Some((Wide::small(false, 1), 0)))
+    }
+    fn is_zero(&self) -> bool {
+        self.0.is_some_and(|(value, _)| value.is_zero())
+    }
+    fn minus(&self, other: &Dyadic) -> Dyadic {
+        self.plus(&other.negated())
+    }
+    fn negated(&self) -> Dyadic {
+        Dyadic(self.0.map(|(value, exponent)| (value.negated(), exponent)))
+    }
+    fn halved(&self) -> Dyadic {
+        Dyadic(self.0.map(|(value, exponent)| (value, exponent - 1)))
+    }
+    fn size(&self) -> f64 {
+        self.0.map_or(f64::NAN, |(value, exponent)| 2f64.powi((value.bits() as i64 + exponent) as i32))
+    }
+}

@@ -1,0 +1,349 @@
+//! Integers of a fixed greatest width on the stack, for exact elimination without allocation.
+//!
+//! Sign and magnitude in words of 64 bits, lowest first. What does not fit gives `None`, and the caller turns to integers
+//! without limit.
+
+use std::cmp::Ordering;
+
+use num_bigint::{BigInt, Sign};
+
+/// An integer of at most 64·N bits. Words from `len` on are zero, the word before is not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wide<const N: usize> {
+    negative: bool,
+    len: usize,
+    words: [u64; N],
+}
+
+impl<const N: usize> Wide<N> {
+    /// Zero.
+    pub const ZERO: Wide<N> = Wide { negative: false, len: 0, words: [0; N] };
+
+    /// ± a machine word.
+    pub fn small(negative: bool, size: u64) -> Wide<N> {
+        let mut words = [0; N];
+        words[0] = size;
+        Wide { negative: negative && size != 0, len: usize::from(size != 0), words }
+    }
+
+    /// Whether it is zero.
+    pub fn is_zero(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Whether it is below zero.
+    pub fn is_negative(&self) -> bool {
+        self.negative
+    }
+
+    /// The integer with the other sign.
+    pub fn negated(mut self) -> Wide<N> {
+        self.negative = !self.negative && self.len != 0;
+        self
+    }
+
+    /// Bits of the absolute value.
+    pub fn bits(&self) -> usize {
+        match self.len {
+            0 => 0,
+            len => 64 * len - self.words[len - 1].leading_zeros() as usize,
+        }
+    }
+
+    /// How often 2 divides it; 0 for zero.
+    pub fn twos(&self) -> usize {
+        match self.words[..self.len].iter().position(|w| *w != 0) {
+            Some(i) => 64 * i + self.words[i].trailing_zeros() as usize,
+            None => 0,
+        }
+    }
+
+    /// The same integer in another width.
+    pub fn resized<const M: usize>(&self) -> Option<Wide<M>> {
+        if self.len > M {
+            return None;
+        }
+        let mut words = [0; M];
+        words[..self.len].copy_from_slice(&self.words[..self.len]);
+        Some(Wide { negative: self.negative, len: self.len, words })
+    }
+
+    /// The integer without limit of size.
+    pub fn to_bigint(&self) -> BigInt {
+        let halves = self.words[..self.len].iter().flat_map(|w| [*w as u32, (w >> 32) as u32]);
+        let sign = if self.negative { Sign::Minus } else { Sign::Plus };
+        BigInt::new(sign, halves.collect())
+    }
+
+    fn trim(mut self) -> Wide<N> {
+        while self.len > 0 && self.words[self.len - 1] == 0 {
+            self.len -= 1;
+        }
+        self.negative &= self.len != 0;
+        self
+    }
+
+    fn compare_sizes(&self, other: &Wide<N>) -> Ordering {
+        let words = || self.words[..self.len].iter().rev().cmp(other.words[..other.len].iter().rev());
+        self.len.cmp(&other.len).then_with(words)
+    }
+
+    /// Sum.
+    pub fn add(&self, other: &Wide<N>) -> Option<Wide<N>> {
+        if self.negative != other.negative {
+            return Some(match self.compare_sizes(other) {
+                Ordering::Less => other.less(self),
+                _ => self.less(other),
+            });
+        }
+        let (long, short) = if self.len >= other.len { (self, other) } else { (other, self) };
+        let mut sum = *long;
+        let mut carry = false;
+        for i in 0..long.len {
+            let (a, c) = long.words[i].overflowing_add(short.words[i]);
+            let (b, d) = a.overflowing_add(u64::from(carry));
+            sum.words[i] = b;
+            carry = c | d;
+            if i >= short.len && !carry {
+                break;
+            }
+        }
+        if carry {
+            *sum.words.get_mut(long.len)? = 1;
+            sum.len += 1;
+        }
+        Some(sum)
+    }
+
+    /// Difference of sizes with the sign of `self`, whose size is not smaller.
+    fn less(&self, other: &Wide<N>) -> Wide<N> {
+        let mut rest = *self;
+        let mut borrow = false;
+        for i in 0..self.len {
+            let (a, c) = self.words[i].overflowing_sub(other.words[i]);
+            let (b, d) = a.overflowing_sub(u64::from(borrow));
+            rest.words[i] = b;
+            borrow = c | d;
+            if i >= other.len && !borrow {
+                break;
+            }
+        }
+        rest.trim()
+    }
+
+    /// Product.
+    #[inline]
+    pub fn mul(&self, other: &Wide<N>) -> Option<Wide<N>> {
+        let mut product = Wide::ZERO;
+        if self.len == 0 || other.len == 0 {
+            return Some(product);
+        }
+        // Two numbers of k and l bits make one of k + l − 1 bits at least.
+        if self.len + other.len > N && self.bits() + other.bits() > 64 * N {
+            return None;
+        }
+        for (i, &a) in self.words[..self.len].iter().enumerate() {
+            let mut carry = 0u64;
+            for (j, &b) in other.words[..other.len].iter().enumerate() {
+                let Some(cell) = product.words.get_mut(i + j) else { break };
+                let wide = u128::from(a) * u128::from(b) + u128::from(*cell) + u128::from(carry);
+                *cell = wide as u64;
+                carry = (wide >> 64) as u64;
+            }
+            if carry != 0 {
+                *product.words.get_mut(i + other.len)? = carry;
+            }
+        }
+        product.len = (self.len + other.len).min(N);
+        product.negative = self.negative != other.negative;
+        Some(product.trim())
+    }
+
+    /// 2^by times the integer.
+    pub fn shifted_up(&self, by: usize) -> Option<Wide<N>> {
+        if self.len == 0 || by == 0 {
+            return Some(*self);
+        }
+        if self.bits() + by > 64 * N {
+            return None;
+        }
+        let (words, bits) = (by / 64, by % 64);
+        let mut up = Wide { negative: self.negative, ..Wide::ZERO };
+        for i in 0..self.len {
+            up.words[i + words] |= self.words[i] << bits;
+            if bits != 0 {
+                let spill = self.words[i] >> (64 - bits);
+                if spill != 0 {
+                    up.words[i + words + 1] = spill;
+                }
+            }
+        }
+        up.len = (self.len + words + 1).min(N);
+        Some(up.trim())
+    }
+
+    /// The integer divided by 2^by, towards zero.
+    pub fn shifted_down(&self, by: usize) -> Wide<N> {
+        if by == 0 {
+            return *self;
+        }
+        let (words, bits) = (by / 64, by % 64);
+        let mut down = Wide { negative: self.negative, ..Wide::ZERO };
+        for i in words..self.len {
+            let above = if bits == 0 || i + 1 >= self.len { 0 } else { self.words[i + 1] << (64 - bits) };
+            down.words[i - words] = self.words[i] >> bits | above;
+        }
+        down.len = self.len.saturating_sub(words);
+        down.trim()
+    }
+
+    /// The quotient where `divisor` is known to divide the integer: from the lowest word up (Jebelean 1993).
+    pub fn divided_exactly(&self, divisor: &Wide<N>) -> Wide<N> {
+        if self.len == 0 || divisor.len == 0 {
+            return Wide::ZERO;
+        }
+        if divisor.len == 1 && divisor.words[0] == 1 {
+            return if divisor.negative { self.negated() } else { *self };
+        }
+        let twos = divisor.twos();
+        let odd = divisor.shifted_down(twos);
+        let mut rest = self.shifted_down(twos);
+        let count = (rest.len + 1).saturating_sub(odd.len);
+        let inverse = inverse_word(odd.words[0]);
+        let mut quotient = Wide { negative: self.negative != divisor.negative, len: count, words: [0; N] };
+        for i in 0..count {
+            let q = rest.words[i].wrapping_mul(inverse);
+            quotient.words[i] = q;
+            if q == 0 {
+                continue;
+            }
+            // Only the words that later quotient words depend on.
+            let mut borrow = 0u64;
+            for j in 0..odd.len.min(count - i) {
+                let wide = u128::from(q) * u128::from(odd.words[j]) + u128::from(borrow);
+                let (word, under) = rest.words[i + j].overflowing_sub(wide as u64);
+                rest.words[i + j] = word;
+                borrow = (wide >> 64) as u64 + u64::from(under);
+            }
+            for word in &mut rest.words[(i + odd.len).min(count)..count] {
+                if borrow == 0 {
+                    break;
+                }
+                let (less, under) = word.overflowing_sub(borrow);
+                *word = less;
+                borrow = u64::from(under);
+            }
+        }
+        quotient.trim()
+    }
+
+    /// The double nearest to self/divisor·2^scale, ties to even; `None` where it would leave the normal doubles.
+    pub fn ratio(&self, divisor: &Wide<N>, scale: i64) -> Option<f64> {
+        if self.len == 0 {
+            return Some(0.0);
+        }
+        // Shifted so that the quotient has 64 or 65 bits and the divisor a whole leading word.
+        let mut below = *divisor;
+        let power = 64 + below.bits() as i64 - self.bits() as i64;
+        let mut shift = power;
+        let mut above = *self;
+        if below.bits() < 64 {
+            let up = 64 - below.bits();
+            below = below.shifted_up(up)?;
+            shift += up as i64;
+        }
+        if shift >= 0 {
+            above = above.shifted_up(shift as usize)?;
+        } else {
+            below = below.shifted_up(shift.unsigned_abs() as usize)?;
+        }
+        (above.negative, below.negative) = (false, false);
+        let drop = below.bits() - 64;
+        let lead = above.shifted_down(drop);
+        let lead = u128::from(lead.words[0]) | u128::from(*lead.words.get(1)?) << 64;
+        let mut quotient = lead / u128::from(below.shifted_down(drop).words[0]);
+        // The cut divisor makes the quotient too large by a few at most.
+        let mut whole = Wide::small(false, quotient as u64);
+        whole.words[1] = (quotient >> 64) as u64;
+        whole.len = 2;
+        let mut rest = above.add(&whole.trim().mul(&below)?.negated())?;
+        while rest.negative {
+            rest = rest.add(&below)?;
+            quotient -= 1;
+        }
+        let sticky = u128::from(!rest.is_zero());
+        let exponent = scale - power;
+        if !(-1080..=950).contains(&exponent) {
+            return None;
+        }
+        let rounded = (quotient | sticky) as f64;
+        let half = exponent / 2;
+        let value = rounded * 2f64.powi(half as i32) * 2f64.powi((exponent - half) as i32);
+        let normal = (4.0 * f64::MIN_POSITIVE..=f64::MAX).contains(&value);
+        normal.then_some(if self.negative != divisor.negative { -value } else { value })
+    }
+}
+
+/// The inverse of an odd word modulo 2⁶⁴, by Newton's iteration.
+fn inverse_word(odd: u64) -> u64 {
+    let mut inverse = odd.wrapping_mul(3) ^ 2;
+    for _ in 0..4 {
+        inverse = inverse.wrapping_mul(2u64.wrapping_sub(odd.wrapping_mul(inverse)));
+    }
+    inverse
+}
+
+#[cfg(test)]
+mod tests {
+    use num_traits::Zero;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::expr::Rational;
+    use crate::expr::number::to_f64;
+
+    type W = Wide<12>;
+
+    fn any_wide() -> impl Strategy<Value = W> {
+        let word = prop_oneof![4 => any::<u64>(), 1 => Just(0), 1 => Just(u64::MAX), 1 => 0u64..4];
+        (any::<bool>(), prop::collection::vec(word, 0..6)).prop_map(|(negative, list)| {
+            let mut words = [0; 12];
+            words[..list.len()].copy_from_slice(&list);
+            Wide { negative, len: list.len(), words }.trim()
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn arithmetic_is_that_of_integers(a in any_wide(), b in any_wide(), by in 0usize..300) {
+            let (x, y) = (a.to_bigint(), b.to_bigint());
+            prop_assert_eq!(a.add(&b).map(|v| v.to_bigint()), Some(&x + &y));
+            let product = a.mul(&b);
+            prop_assert_eq!(product.map(|v| v.to_bigint()), Some(&x * &y));
+            prop_assert_eq!(a.shifted_up(by).map(|v| v.to_bigint()), Some(&x << by));
+            prop_assert_eq!(a.shifted_down(by).to_bigint(), &x / (BigInt::from(1) << by));
+            if !b.is_zero() {
+                prop_assert_eq!(product.map(|p| p.divided_exactly(&b).to_bigint()), Some(x.clone()));
+                let exact = Rational::new(x.clone().into(), y.clone().into());
+                if let Some(near) = a.ratio(&b, 0) {
+                    prop_assert_eq!(near, to_f64(&exact));
+                } else {
+                    prop_assert!(!x.is_zero());
+                }
+            }
+        }
+
+        #[test]
+        fn what_does_not_fit_is_refused(a in any::<[u64; 3]>(), b in any::<[u64; 3]>()) {
+            let wide = |w: [u64; 3]| Wide::<3> { negative: false, len: 3, words: w }.trim();
+            let (a, b) = (wide(a), wide(b));
+            let (x, y) = (a.to_bigint(), b.to_bigint());
+            for (found, right) in [(a.mul(&b), &x * &y), (a.add(&b), &x + &y)] {
+                match found {
+                    Some(v) => prop_assert_eq!(v.to_bigint(), right),
+                    None => prop_assert!(right.bits() >= 192),
+                }
+            }
+        }
+    }
+}
