@@ -3,9 +3,87 @@
 //! Coordinates are absolute: x to the right, y up, counterclockwise positive. A contact normal points out of the first
 //! body into the second; the impulse of a contact is the one on the second body.
 
-use crate::dimension::Dimension;
+mod body;
+mod check;
+mod fault;
+mod file;
+mod formulas;
+mod geometry;
+mod json;
+mod parameters;
+mod question;
+mod record;
+mod resolve;
+mod sample;
+
+use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector};
+
+pub use fault::{Fault, Faults, Span};
+
+/// Longest text of a scene file, in bytes.
+const LONGEST: usize = 1 << 20;
+
+/// Reads a scene file, JSON with comments. What is wrong with it comes back as faults, all that one pass can find.
+pub fn read(text: &str) -> Result<Scene, Faults> {
+    if text.len() > LONGEST {
+        let message = format!("{} bytes; a scene has at most {LONGEST}", text.len());
+        return Err(Faults::gather(vec![Fault::new(Span::default(), message)], text));
+    }
+    let root = json::parse(text).map_err(|fault| Faults::gather(vec![fault], text))?;
+    let mut faults = Vec::new();
+    let file: Option<file::SceneFile> = record::Read::read(&root, &mut faults);
+    let mut scene = Scene::default();
+    if let Some(file) = &file {
+        let (resolved, more) = resolve::resolve(file);
+        scene = resolved;
+        faults.extend(more);
+    }
+    if faults.is_empty() {
+        return Ok(scene);
+    }
+    for fault in &mut faults {
+        fault.pointer = root.pointer_to(fault.span);
+    }
+    Err(Faults::gather(faults, text))
+}
+
+/// The JSON Schema of scene files, for editors.
+pub fn schema() -> String {
+    let schema = schemars::schema_for!(file::SceneFile);
+    serde_json::to_string_pretty(schema.as_value()).unwrap_or_default()
+}
+
+/// Gives a parameter a value in its unit, such as `2`, `1/3` or `acos(3/5)`; the scene is checked at the new value.
+/// On a fault the scene is as before. The fault's place counts in `value`.
+pub fn set(scene: &mut Scene, name: &str, value: &str) -> Result<(), Fault> {
+    let all = Span::new(0, value.len());
+    let Some(index) = scene.parameters.iter().position(|p| *p.name == *name) else {
+        let fault = Fault::new(all, format!("there is no parameter `{name}`"));
+        return Err(match fault::nearest(name, scene.parameters.iter().map(|p| &*p.name)) {
+            Some(near) => fault.hint(format!("did you mean `{near}`?")),
+            None => fault,
+        });
+    };
+    let parameter = &scene.parameters[index];
+    let unit = dimension::unit(&parameter.unit).map_err(|trouble| Fault::new(all, trouble.message))?;
+    let mut faults = Vec::new();
+    let Some(read) = parameters::value(&parameters::whole(value), &unit, &mut faults) else {
+        return Err(faults.pop().unwrap_or_else(|| Fault::new(all, "this is no value")));
+    };
+    if let Some(domain) = scene.domains.symbols.get(&parameter.name) {
+        parameters::lies_in(&read, domain).map_err(|message| Fault::new(all, format!("{name} {message}")))?;
+    }
+    let before = scene.parameters[index].value.replace(read);
+    match check::at_values(scene, all) {
+        None => Ok(()),
+        Some(fault) => {
+            scene.parameters[index].value = before;
+            Err(fault)
+        }
+    }
+}
 
 /// Everything a scene file says, with names resolved to indices.
 #[derive(Clone, Debug, Default)]
@@ -36,6 +114,8 @@ pub struct Scene {
     pub forces: Vec<Force>,
     /// What is asked.
     pub questions: Vec<Question>,
+    /// What the reader noticed that is no fault, such as a parameter that nothing uses.
+    pub remarks: Vec<String>,
 }
 
 /// A given quantity.
@@ -49,10 +129,17 @@ pub struct Parameter {
     pub unit: String,
     /// Dimension of the unit.
     pub dimension: Dimension,
-    /// Value in the unit, exact; angles in degrees are converted to multiples of `pi`.
+    /// Value in SI units, exact: 30 mm is 3/100, 30 deg is a sixth of `pi`.
     pub value: Option<Expr>,
     /// What it is, in words.
     pub meaning: String,
+}
+
+impl Parameter {
+    /// SI value of one unit, such as 1/1000 for mm: a value divided by it is the number to write before the unit.
+    pub fn scale(&self) -> Expr {
+        dimension::unit(&self.unit).map_or_else(|_| Expr::one(), |unit| unit.value())
+    }
 }
 
 /// A point with a name.
@@ -205,6 +292,8 @@ pub enum BlowImpulse {
 /// Something known of the motion just after, in place of a law.
 #[derive(Clone, Debug)]
 pub struct Known {
+    /// Name under which a matrix question takes it as a row; may be empty.
+    pub name: String,
     /// Index of the body.
     pub body: usize,
     /// The quantity.
@@ -291,7 +380,7 @@ pub enum Ask {
     },
     /// The matrix form of the equations that determine these component unknowns.
     Matrix {
-        /// Names of balance questions, in order of rows.
+        /// Names of balance questions or of entries of [`Scene::after`], in order of rows.
         rows: Vec<String>,
         /// Names of component questions, in order of columns.
         unknowns: Vec<String>,

@@ -1,0 +1,243 @@
+//! What is wrong with a scene file, where, and what to do about it.
+//!
+//! In: places and messages, as the reader meets them. Out: text for people. It knows neither JSON nor mechanics, and it
+//! does no IO: the caller names the file.
+
+use std::fmt::Write;
+
+/// A stretch of the text, in bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub struct Span {
+    /// First byte.
+    pub start: usize,
+    /// Byte after the last.
+    pub end: usize,
+}
+
+impl Span {
+    /// The bytes from `start` up to `end`.
+    pub fn new(start: usize, end: usize) -> Span {
+        Span { start, end: end.max(start) }
+    }
+
+    /// From the start of this stretch to the end of `other`.
+    pub fn to(self, other: Span) -> Span {
+        Span::new(self.start, other.end)
+    }
+
+    /// Whether `other` lies inside.
+    pub fn contains(self, other: Span) -> bool {
+        self.start <= other.start && other.end <= self.end
+    }
+}
+
+/// One thing that is wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Where in the text.
+    pub span: Span,
+    /// JSON pointer of the innermost value around it; empty for the whole scene.
+    pub pointer: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// What is wrong.
+    pub message: String,
+    /// What to do about it.
+    pub hint: Option<String>,
+}
+
+impl Fault {
+    /// A fault at a place; pointer, line and column are found when reading ends.
+    pub(super) fn new(span: Span, message: impl Into<String>) -> Fault {
+        Fault { span, pointer: String::new(), line: 0, column: 0, message: message.into(), hint: None }
+    }
+
+    /// The same, shown at a smaller place.
+    pub(super) fn shown_at(mut self, span: Span) -> Fault {
+        self.span = span;
+        self
+    }
+
+    /// The same with advice.
+    pub(super) fn hint(mut self, hint: impl Into<String>) -> Fault {
+        self.hint = Some(hint.into());
+        self
+    }
+}
+
+/// Everything that is wrong with a scene, in the order of the text; never empty.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Faults {
+    /// The faults that are told.
+    pub list: Vec<Fault>,
+    /// How many more there are.
+    pub untold: usize,
+}
+
+/// As many faults as are told at once; more would bury the first.
+pub(super) const TOLD: usize = 20;
+
+impl Faults {
+    /// Sorts faults by place and gives each its line and column.
+    pub(super) fn gather(mut list: Vec<Fault>, text: &str) -> Faults {
+        list.sort_by(|a, b| a.span.cmp(&b.span));
+        list.dedup_by(|a, b| a.span == b.span && a.message == b.message);
+        let untold = list.len().saturating_sub(TOLD);
+        list.truncate(TOLD);
+        for fault in &mut list {
+            let before = &text[..floor(text, fault.span.start)];
+            let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+            fault.line = before.matches('\n').count() + 1;
+            fault.column = before[line_start..].chars().count() + 1;
+        }
+        Faults { list, untold }
+    }
+
+    /// The faults as text for a terminal: for each the file, the JSON pointer and the message, the line of the file with
+    /// the place underlined, and a hint. `text` is the text that was read.
+    pub fn render(&self, file: &str, text: &str) -> String {
+        let mut out = String::new();
+        for (i, fault) in self.list.iter().enumerate() {
+            if i > 0 {
+                out.push('\n');
+            }
+            let place = match fault.pointer.as_str() {
+                "" => format!("{}:{}", fault.line, fault.column),
+                pointer => pointer.to_owned(),
+            };
+            // Writing to a String cannot fail.
+            let _ = writeln!(out, "{}: {}: {}", visible(file), visible(&place), visible(&fault.message));
+            snippet(&mut out, fault, text);
+            if let Some(hint) = &fault.hint {
+                let _ = writeln!(out, "hint: {}", visible(hint));
+            }
+        }
+        if self.untold > 0 {
+            let _ = writeln!(out, "\nand {} more", self.untold);
+        }
+        out
+    }
+}
+
+/// Characters shown of a long line, before the place and from it on.
+const SHOWN: (usize, usize) = (50, 50);
+
+/// The line of the fault with the place underlined.
+fn snippet(out: &mut String, fault: &Fault, text: &str) {
+    let start = floor(text, fault.span.start);
+    let line_start = text[..start].rfind('\n').map_or(0, |at| at + 1);
+    let line_end = text[start..].find('\n').map_or(text.len(), |at| start + at);
+    let end = floor(text, fault.span.end).clamp(start, line_end);
+
+    let before: String = text[line_start..start].trim_start().into();
+    let skipped = before.chars().count().saturating_sub(SHOWN.0);
+    let before: String = before.chars().skip(skipped).collect();
+    let marked: String = text[start..end].trim_end().chars().take(SHOWN.1).collect();
+    let after: String = text[start..line_end].trim_end().chars().skip(marked.chars().count()).collect();
+    let room = SHOWN.1.saturating_sub(marked.chars().count());
+    let cut = after.chars().count() > room;
+    let after: String = after.chars().take(room).collect();
+
+    let before = format!("{}{}", if skipped > 0 { "…" } else { "" }, visible(&before));
+    let marked = visible(&marked);
+    let number = fault.line.to_string();
+    let pad = " ".repeat(number.len());
+    let _ = writeln!(out, "{number} | {before}{marked}{}{}", visible(&after), if cut { "…" } else { "" });
+    let blank = " ".repeat(before.chars().count());
+    let _ = writeln!(out, "{pad} | {blank}{}", "^".repeat(marked.chars().count().max(1)));
+}
+
+/// The text with characters that would act on the terminal, or hide, shown by their number.
+fn visible(text: &str) -> String {
+    let hides = |c: char| {
+        c.is_control()
+            || matches!(c, '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
+    };
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '\t' => out.push(' '),
+            c if hides(c) => {
+                let _ = write!(out, "<U+{:04X}>", u32::from(c));
+            }
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// The nearest character boundary at or below `at`.
+fn floor(text: &str, at: usize) -> usize {
+    let mut at = at.min(text.len());
+    while !text.is_char_boundary(at) {
+        at -= 1;
+    }
+    at
+}
+
+/// The candidate that differs from `name` least, if by little: what somebody who mistyped it meant.
+pub(super) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let length = name.chars().count();
+    if length == 0 || length > 60 {
+        return None;
+    }
+    let limit = length.div_ceil(3);
+    candidates
+        .into_iter()
+        .filter(|c| c.chars().count() <= 60)
+        .map(|c| (distance(name, c), c))
+        .filter(|(d, c)| *d <= limit && *d < length.max(c.chars().count()))
+        .min_by_key(|(d, _)| *d)
+        .map(|(_, c)| c)
+}
+
+/// Number of letters to change, add, drop or swap with their neighbor; a change of case counts nothing.
+fn distance(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.to_lowercase().chars().collect(), b.to_lowercase().chars().collect());
+    let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
+    for i in 0..=a.len() {
+        for j in 0..=b.len() {
+            rows[i][j] = if i == 0 || j == 0 {
+                i + j
+            } else {
+                let same = usize::from(a[i - 1] != b[j - 1]);
+                let mut best = (rows[i - 1][j - 1] + same).min(rows[i - 1][j] + 1).min(rows[i][j - 1] + 1);
+                if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                    best = best.min(rows[i - 2][j - 2] + 1);
+                }
+                best
+            };
+        }
+    }
+    rows[a.len()][b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_name_is_one_slip_away() {
+        let names = ["mass", "length", "velocity", "m1", "m2"];
+        assert_eq!(nearest("lenght", names), Some("length"));
+        assert_eq!(nearest("Mass", names), Some("mass"));
+        assert_eq!(nearest("m3", names), Some("m1"));
+        assert_eq!(nearest("zz", names), None);
+    }
+
+    #[test]
+    fn characters_that_turn_text_round_are_shown_and_not_obeyed() {
+        assert_eq!(visible("a\u{202e}b\u{1b}[0m"), "a<U+202E>b<U+001B>[0m");
+    }
+
+    #[test]
+    fn a_long_line_is_cut_around_the_place() {
+        let text = format!("{}X{}", "a".repeat(500), "b".repeat(500));
+        let faults = Faults::gather(vec![Fault::new(Span::new(500, 501), "here")], &text);
+        let shown = faults.render("f", &text);
+        assert!(shown.contains("1 | …aaaa") && shown.lines().all(|l| l.chars().count() < 120), "{shown}");
+        assert_eq!(faults.list[0].column, 501);
+    }
+}

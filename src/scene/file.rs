@@ -1,0 +1,436 @@
+//! The scene file as it is written: its fields, their meaning, and what may be left out.
+//!
+//! The doc comments are the format's documentation: `carom schema` prints them as a JSON Schema, from which an editor
+//! helps to write scenes. Nothing is resolved or checked here.
+
+use super::json::{Node, Value};
+use super::fault::Fault;
+use super::record::{Formula, Map, Pair, Read, Text, choice, record, unexpected};
+
+record! {
+    /// A planar collision: bodies, how they move just before, where and how they touch, and what is asked.
+    /// x points to the right, y up, counterclockwise is positive.
+    SceneFile {
+        /// Address of this schema, for editors; carom ignores it.
+        #[allow(dead_code, reason = "read so that it is no unknown field")]
+        schema as "$schema": Option<Text>,
+        /// Heading of the worked solution.
+        title: Option<Text>,
+        /// Where the problem comes from, such as "Sample 17.29".
+        source: Option<Text>,
+        /// The problem in words.
+        statement: Option<Text>,
+        /// The symbols of the formulas, by name. `pi` is known.
+        parameters: Option<Map<ParameterFile>>,
+        /// Pairs of parameters that are the components of a unit vector, such as ["nx", "ny"].
+        unit_vectors: Option<Vec<Pair<Text>>>,
+        /// Points by name.
+        points: Option<Map<PositionFile>>,
+        /// Bodies by name.
+        bodies: Map<BodyFile>,
+        /// Hinges by name. They hold before, during and after the collision.
+        hinges: Option<Map<HingeFile>>,
+        /// Contacts by name: where two bodies collide.
+        contacts: Option<Map<ContactFile>>,
+        /// Impulses from outside, by name.
+        blows: Option<Map<BlowFile>>,
+        /// What is known of the motion just after, in place of a law.
+        after: Option<Vec<KnownFile>>,
+        /// Finite forces that act too, such as weight. They have no impulse, and the solution says so.
+        forces: Option<Vec<ForceFile>>,
+        /// What is asked, under the name of the answer.
+        questions: Option<Map<QuestionFile>>,
+    }
+}
+
+record! {
+    /// A given quantity.
+    ParameterFile {
+        /// Unit, such as "kg", "m/s", "kg m^2", "mm", "deg" or "1". Missing: a number without unit.
+        unit: Option<Text>,
+        /// What it is, in words.
+        meaning: Option<Text>,
+        /// How it is typeset, such as "\\ell".
+        latex: Option<Text>,
+        /// Its value in the unit: a number, or a formula without symbols such as "1/3" or "acos(3/5)".
+        value: Option<Formula>,
+        /// Where it may lie. Missing: positive; for an angle any value; for a restitution from 0 to 1; for a component of a
+        /// unit vector from -1 to 1.
+        domain: Option<DomainFile>,
+    }
+}
+
+/// Where a parameter may lie.
+#[derive(Clone, Debug, schemars::JsonSchema)]
+#[schemars(untagged)]
+pub(super) enum DomainFile {
+    /// A known set.
+    Named(DomainName),
+    /// An interval.
+    Interval(IntervalFile),
+}
+
+impl Read for DomainFile {
+    fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
+        match node.value {
+            Value::Text(_) => DomainName::read(node, faults).map(DomainFile::Named),
+            Value::Object(_) => IntervalFile::read(node, faults).map(DomainFile::Interval),
+            _ => unexpected(node, "\"positive\", \"nonnegative\", \"real\" or {\"min\": …, \"max\": …}", faults),
+        }
+    }
+}
+
+choice! {
+    /// A known set of numbers.
+    DomainName {
+        /// Greater than 0.
+        Positive = "positive",
+        /// 0 or greater.
+        Nonnegative = "nonnegative",
+        /// Any number.
+        Real = "real",
+    }
+}
+
+record! {
+    /// An interval in the parameter's unit; a missing end is infinite.
+    IntervalFile {
+        /// Lower end: a number, or a multiple of pi.
+        min: Option<Formula>,
+        /// Upper end: a number, or a multiple of pi.
+        max: Option<Formula>,
+        /// Whether the lower end itself is excluded.
+        min_open: Option<bool>,
+        /// Whether the upper end itself is excluded.
+        max_open: Option<bool>,
+    }
+}
+
+/// A position: the name of a point or a body (its center), coordinates [x, y], or a step from another position.
+#[derive(Clone, Debug, schemars::JsonSchema)]
+#[schemars(untagged)]
+pub(super) enum PositionFile {
+    /// Name of a point, or of a body for its center of mass.
+    Name(Text),
+    /// Coordinates x and y.
+    At(Pair<Formula>),
+    /// A step from another position.
+    From(Box<StepFile>),
+}
+
+impl Read for PositionFile {
+    fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
+        match node.value {
+            Value::Text(_) => Text::read(node, faults).map(PositionFile::Name),
+            Value::List(_) => Pair::read(node, faults).map(PositionFile::At),
+            Value::Object(_) => Box::read(node, faults).map(PositionFile::From),
+            _ => unexpected(node, "a position: a name, [x, y], or {\"from\": …}", faults),
+        }
+    }
+}
+
+record! {
+    /// A step from a position: either `distance` and `angle`, or `by`.
+    StepFile {
+        /// Where the step starts.
+        from: PositionFile,
+        /// Length of the step.
+        distance: Option<Formula>,
+        /// Direction of the step, counterclockwise from x.
+        angle: Option<Formula>,
+        /// Components of the step along x and y.
+        by: Option<Pair<Formula>>,
+    }
+}
+
+/// A direction: the components [x, y] of a unit vector, or an angle counterclockwise from x.
+#[derive(Clone, Debug, schemars::JsonSchema)]
+#[schemars(untagged)]
+pub(super) enum DirectionFile {
+    /// Components of a unit vector.
+    Components(Pair<Formula>),
+    /// An angle.
+    Angle(AngleFile),
+}
+
+impl Read for DirectionFile {
+    fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
+        match node.value {
+            Value::List(_) => Pair::read(node, faults).map(DirectionFile::Components),
+            Value::Object(_) => AngleFile::read(node, faults).map(DirectionFile::Angle),
+            _ => unexpected(node, "a direction: [x, y] or {\"angle\": …}", faults),
+        }
+    }
+}
+
+record! {
+    /// A direction by its angle.
+    AngleFile {
+        /// Counterclockwise from x.
+        angle: Formula,
+    }
+}
+
+choice! {
+    /// What a body looks like.
+    ShapeName {
+        /// Ground, wall or peg; a `velocity` makes it a wall that moves steadily.
+        Fixed = "fixed",
+        /// A point mass.
+        Particle = "particle",
+        /// A uniform thin rod: `length`, along `angle`. Mass "0" makes it a massless link.
+        Rod = "rod",
+        /// A uniform disk: `radius`.
+        Disk = "disk",
+        /// A thin ring: `radius`.
+        Ring = "ring",
+        /// A uniform solid sphere: `radius`.
+        Sphere = "sphere",
+        /// A uniform rectangle: `width` along `angle`, `height` across.
+        Rectangle = "rectangle",
+        /// Any rigid body: `inertia` or `radius_of_gyration` about its center of mass.
+        Body = "body",
+        /// `parts` held together rigidly by massless bars; mass, center and inertia follow from them.
+        Composite = "composite",
+    }
+}
+
+record! {
+    /// A rigid body, a particle, or something immovable.
+    BodyFile {
+        /// What it looks like.
+        shape: ShapeName,
+        /// Mass.
+        mass: Option<Formula>,
+        /// Length of a rod.
+        length: Option<Formula>,
+        /// Radius of a disk, ring or sphere.
+        radius: Option<Formula>,
+        /// Side of a rectangle along `angle`.
+        width: Option<Formula>,
+        /// Side of a rectangle across `angle`.
+        height: Option<Formula>,
+        /// Moment of inertia about the center of mass; it may also replace that of a named shape.
+        inertia: Option<Formula>,
+        /// Radius of gyration about the center of mass.
+        radius_of_gyration: Option<Formula>,
+        /// Parts of a composite, by name.
+        parts: Option<Map<PartFile>>,
+        /// Position of the center of mass. A particle without it sits where it is touched.
+        center: Option<PositionFile>,
+        /// Orientation, counterclockwise from x. Missing: 0.
+        angle: Option<Formula>,
+        /// Velocity of the center of mass just before: [x, y], or {"about": point} for a body that turns about a point
+        /// with its spin. Missing: at rest.
+        velocity: Option<VelocityFile>,
+        /// Angular velocity just before, counterclockwise. Missing: 0.
+        spin: Option<Formula>,
+    }
+}
+
+record! {
+    /// A part of a composite body; the fields are those of a body.
+    PartFile {
+        /// What it looks like.
+        shape: ShapeName,
+        /// Mass.
+        mass: Option<Formula>,
+        /// Length of a rod.
+        length: Option<Formula>,
+        /// Radius of a disk, ring or sphere.
+        radius: Option<Formula>,
+        /// Side of a rectangle along `angle`.
+        width: Option<Formula>,
+        /// Side of a rectangle across `angle`.
+        height: Option<Formula>,
+        /// Moment of inertia about the part's own center of mass.
+        inertia: Option<Formula>,
+        /// Radius of gyration about the part's own center of mass.
+        radius_of_gyration: Option<Formula>,
+        /// Position of the part's center of mass.
+        center: PositionFile,
+        /// Orientation, counterclockwise from x. Missing: 0.
+        angle: Option<Formula>,
+    }
+}
+
+impl From<&PartFile> for BodyFile {
+    fn from(part: &PartFile) -> BodyFile {
+        let PartFile { span, shape, mass, length, radius, width, height, inertia, radius_of_gyration, center, angle } =
+            part.clone();
+        BodyFile {
+            span,
+            shape,
+            mass,
+            length,
+            radius,
+            width,
+            height,
+            inertia,
+            radius_of_gyration,
+            parts: None,
+            center: Some(center),
+            angle,
+            velocity: None,
+            spin: None,
+        }
+    }
+}
+
+/// A velocity just before.
+#[derive(Clone, Debug, schemars::JsonSchema)]
+#[schemars(untagged)]
+pub(super) enum VelocityFile {
+    /// Components of the velocity of the center of mass.
+    Components(Pair<Formula>),
+    /// Rotation about a point.
+    About(AboutFile),
+}
+
+impl Read for VelocityFile {
+    fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
+        match node.value {
+            Value::List(_) => Pair::read(node, faults).map(VelocityFile::Components),
+            Value::Object(_) => AboutFile::read(node, faults).map(VelocityFile::About),
+            _ => unexpected(node, "a velocity: [x, y] or {\"about\": …}", faults),
+        }
+    }
+}
+
+record! {
+    /// The body turns about a point at rest, with its spin.
+    AboutFile {
+        /// The point at rest.
+        about: PositionFile,
+    }
+}
+
+record! {
+    /// A frictionless hinge between two bodies.
+    HingeFile {
+        /// Names of the two bodies; one may be fixed. The reaction is the impulse on the second.
+        bodies: Pair<Text>,
+        /// Where it is.
+        at: PositionFile,
+    }
+}
+
+choice! {
+    /// What is assumed of a collision beyond momentum balance.
+    LawName {
+        /// The touching points have the same velocity after.
+        Sticking = "sticking",
+        /// The impulse is along the normal; the normal relative velocity after is -e times that before.
+        Frictionless = "frictionless",
+    }
+}
+
+record! {
+    /// A point where two bodies collide.
+    ContactFile {
+        /// Names of the two bodies; one may be fixed. The impulse is the one on the second.
+        bodies: Pair<Text>,
+        /// Where they touch.
+        at: PositionFile,
+        /// Unit normal, out of the first body into the second.
+        normal: Option<DirectionFile>,
+        /// The law that closes the equations. Missing: none, and carom tells what remains undetermined.
+        law: Option<LawName>,
+        /// Coefficient of restitution e of a frictionless contact, from 0 to 1.
+        restitution: Option<Formula>,
+    }
+}
+
+record! {
+    /// An impulse from outside: either given, or of unknown size along a direction.
+    BlowFile {
+        /// Name of the body it acts on.
+        on: Text,
+        /// Where it acts.
+        at: PositionFile,
+        /// Components of a given impulse.
+        impulse: Option<Pair<Formula>>,
+        /// Direction of an impulse of unknown size.
+        along: Option<DirectionFile>,
+    }
+}
+
+record! {
+    /// Something known just after: a velocity component, or a spin.
+    KnownFile {
+        /// Name under which a matrix question takes it as a row.
+        name: Option<Text>,
+        /// Name of the body whose velocity is known.
+        velocity: Option<Text>,
+        /// Point of that body. Missing: its center of mass.
+        at: Option<PositionFile>,
+        /// Direction of the known component.
+        along: Option<DirectionFile>,
+        /// Name of the body whose spin is known.
+        spin: Option<Text>,
+        /// The value.
+        is: Formula,
+    }
+}
+
+record! {
+    /// A finite force.
+    ForceFile {
+        /// What it is, such as "weight".
+        name: Text,
+        /// Name of the body it acts on.
+        on: Text,
+    }
+}
+
+choice! {
+    /// Which kinetic energy.
+    EnergyName {
+        /// Just before.
+        Before = "before",
+        /// Just after.
+        After = "after",
+        /// Before minus after.
+        Lost = "lost",
+    }
+}
+
+choice! {
+    /// Which balance.
+    BalanceName {
+        /// Linear momentum.
+        Momentum = "momentum",
+    }
+}
+
+record! {
+    /// Something asked: exactly one of velocity, spin, impulse, energy, balance and matrix, with what belongs to it.
+    QuestionFile {
+        /// How the answer's name is typeset.
+        latex: Option<Text>,
+        /// Velocity just after of this body (its center of mass), or of this point of the body named in `of`.
+        velocity: Option<Text>,
+        /// The body: to which the point of a velocity belongs, or of which the energy is asked (missing: of all).
+        of: Option<Text>,
+        /// Direction of the component asked of a velocity or an impulse, or in which momentum is balanced.
+        along: Option<DirectionFile>,
+        /// Angular velocity just after of this body.
+        spin: Option<Text>,
+        /// Counts a spin clockwise.
+        clockwise: Option<bool>,
+        /// Impulse at this contact, hinge or blow.
+        impulse: Option<Text>,
+        /// The body on which the impulse acts. Missing: the second body; the first, if the second is fixed.
+        on: Option<Text>,
+        /// Kinetic energy.
+        energy: Option<EnergyName>,
+        /// An equation: a quantity before equals that after, along `along`, for the bodies in `system`.
+        balance: Option<BalanceName>,
+        /// Bodies of a balance.
+        system: Option<Vec<Text>>,
+        /// A matrix: names of balance questions and of entries of `after`, one per row.
+        matrix: Option<Vec<Text>>,
+        /// Names of the questions whose answers are the unknowns of the matrix, one per column.
+        unknowns: Option<Vec<Text>>,
+    }
+}

@@ -1,0 +1,322 @@
+//! From JSON to the records of [`super::file`]: every field in its type, every piece with its place, all faults at once.
+//!
+//! In: a [`Node`]. Out: a record, in which whatever could not be read is missing and has been reported. It checks shape
+//! only: names, formulas and mechanics are the affair of [`super::resolve`].
+
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+
+use super::fault::{Fault, Span, nearest};
+use super::json::{Entry, Node, Value};
+
+/// What can be read from a JSON value.
+pub(super) trait Read: Sized {
+    /// The value; `None` where there is none, which has then been reported.
+    fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self>;
+
+    /// What stands for a missing field, if it may be missing.
+    fn absent() -> Option<Self> {
+        None
+    }
+}
+
+/// Reports that something else was expected.
+pub(super) fn unexpected<T>(node: &Node<'_>, expected: &str, faults: &mut Vec<Fault>) -> Option<T> {
+    faults.push(Fault::new(node.span, format!("expected {expected}, found {}", node.kind())));
+    None
+}
+
+impl<T: Read> Read for Option<T> {
+    fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
+        // A field that cannot be read is reported and then counts as missing, so that its neighbors are still read.
+        Some(T::read(node, faults))
+    }
+    fn absent() -> Option<Self> {
+        Some(None)
+    }
+}
+
+impl<T: Read> Read for Box<T> {
+    fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
+        T::read(node, faults).map(Box::new)
+    }
+}
+
+impl<T: Read> Read for Vec<T> {
+    fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
+        match &node.value {
+            Value::List(items) => Some(items.iter().filter_map(|item| T::read(item, faults)).collect()),
+            _ => unexpected(node, "a list", faults),
+        }
+    }
+}
+
+/// A pair, written as a list of two.
+#[derive(Clone, Debug)]
+pub(super) struct Pair<T> {
+    pub span: Span,
+    pub items: [T; 2],
+}
+
+impl<T: Read> Read for Pair<T> {
+    fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
+        match &node.value {
+            Value::List(items) => match items.as_slice() {
+                [a, b] => {
+                    let (a, b) = (T::read(a, faults), T::read(b, faults));
+                    Some(Pair { span: node.span, items: [a?, b?] })
+                }
+                _ => {
+                    let message = format!("expected a list of two, found {}", items.len());
+                    faults.push(Fault::new(node.span, message));
+                    None
+                }
+            },
+            _ => unexpected(node, "a list of two", faults),
+        }
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for Pair<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        format!("Pair_of_{}", T::schema_name()).into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let item = generator.subschema_for::<T>();
+        json_schema!({ "type": "array", "items": item, "minItems": 2, "maxItems": 2 })
+    }
+}
+
+/// A text with its place.
+#[derive(Clone, Debug)]
+pub(super) struct Text {
+    pub span: Span,
+    pub text: String,
+}
+
+impl Read for Text {
+    fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
+        match &node.value {
+            Value::Text(text) => Some(Text { span: node.span, text: text.to_string() }),
+            _ => unexpected(node, "a text in quotes", faults),
+        }
+    }
+}
+
+impl JsonSchema for Text {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "Text".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "string" })
+    }
+}
+
+impl Read for bool {
+    fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
+        match node.value {
+            Value::Bool(value) => Some(value),
+            _ => unexpected(node, "true or false", faults),
+        }
+    }
+}
+
+/// A formula, not yet read: a text, or a number as it was written.
+#[derive(Clone, Debug)]
+pub(super) struct Formula {
+    pub span: Span,
+    pub text: String,
+    /// Where the text of the formula starts in the file, when it stands there letter by letter, without escapes.
+    pub start: Option<usize>,
+}
+
+impl Read for Formula {
+    fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
+        match &node.value {
+            Value::Text(text) => {
+                let start = matches!(text, Cow::Borrowed(_)).then_some(node.span.start + 1);
+                Some(Formula { span: node.span, text: text.to_string(), start })
+            }
+            Value::Number(number) => {
+                Some(Formula { span: node.span, text: (*number).to_owned(), start: Some(node.span.start) })
+            }
+            _ => unexpected(node, "a formula in quotes, or a number", faults),
+        }
+    }
+}
+
+impl JsonSchema for Formula {
+    fn schema_name() -> Cow<'static, str> {
+        "Formula".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "A formula in the parameters, such as \"l/2*cos(theta)\" or \"2/5*m*r^2\", or a number. \
+                Numbers are exact (0.1 is 1/10) and count in SI units.",
+            "type": ["string", "number"]
+        })
+    }
+}
+
+/// Entries under names, in the order of the file. An entry that could not be read keeps its name.
+#[derive(Clone, Debug)]
+pub(super) struct Map<T>(pub Vec<(Text, Option<T>)>);
+
+impl<T: Read> Read for Map<T> {
+    fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
+        let Value::Object(entries) = &node.value else {
+            return unexpected(node, "an object of named entries", faults);
+        };
+        let entries = unique(entries, faults);
+        Some(Map(entries
+            .into_iter()
+            .map(|e| (Text { span: e.key_span, text: e.key.to_string() }, T::read(&e.node, faults)))
+            .collect()))
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for Map<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        format!("Map_of_{}", T::schema_name()).into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let item = generator.subschema_for::<T>();
+        json_schema!({ "type": "object", "additionalProperties": item })
+    }
+}
+
+/// The entries whose name has not come before; the others are reported.
+fn unique<'n, 't>(entries: &'n [Entry<'t>], faults: &mut Vec<Fault>) -> Vec<&'n Entry<'t>> {
+    let mut seen = BTreeSet::new();
+    let mut out = Vec::with_capacity(entries.len());
+    for entry in entries {
+        if seen.insert(&*entry.key) {
+            out.push(entry);
+        } else {
+            faults.push(Fault::new(entry.key_span, format!("`{}` stands here twice", entry.key)));
+        }
+    }
+    out
+}
+
+/// The known fields of an object; unknown and repeated ones are reported.
+pub(super) fn fields<'n, 't>(
+    node: &'n Node<'t>,
+    known: &[&str],
+    what: &str,
+    faults: &mut Vec<Fault>,
+) -> Option<Vec<&'n Entry<'t>>> {
+    let Value::Object(entries) = &node.value else {
+        return unexpected(node, &format!("an object, {what}"), faults);
+    };
+    let mut entries = unique(entries, faults);
+    entries.retain(|entry| {
+        let is_known = known.contains(&&*entry.key);
+        if !is_known {
+            let fault = Fault::new(entry.key_span, format!("unknown field `{}`", entry.key));
+            faults.push(match nearest(&entry.key, known.iter().copied()) {
+                Some(name) => fault.hint(format!("did you mean `{name}`?")),
+                None => fault.hint(format!("the fields here are {}", known.join(", "))),
+            });
+        }
+        is_known
+    });
+    Some(entries)
+}
+
+/// One field of an object.
+pub(super) fn field<T: Read>(node: &Node<'_>, entries: &[&Entry<'_>], name: &str, faults: &mut Vec<Fault>) -> Option<T> {
+    match entries.iter().find(|e| e.key == name) {
+        Some(entry) => T::read(&entry.node, faults),
+        None => {
+            let absent = T::absent();
+            if absent.is_none() {
+                let place = Span::new(node.span.start, node.span.start + 1);
+                faults.push(Fault::new(node.span, format!("the field `{name}` is missing")).shown_at(place));
+            }
+            absent
+        }
+    }
+}
+
+/// Declares a record of a scene file: a struct with its schema, and how it is read. `span` is the place of the whole.
+macro_rules! record {
+    ($(#[doc = $doc:literal])+ $name:ident { $($(#[$field_meta:meta])+ $field:ident $(as $key:literal)?: $type:ty,)+ }) => {
+        $(#[doc = $doc])+
+        #[derive(Clone, Debug, schemars::JsonSchema)]
+        #[schemars(deny_unknown_fields)]
+        pub(super) struct $name {
+            #[schemars(skip)]
+            #[allow(dead_code, reason = "not every record has faults that concern the whole of it")]
+            pub span: super::fault::Span,
+            $($(#[$field_meta])+ $(#[schemars(rename = $key)])? pub $field: $type,)+
+        }
+
+        impl super::record::Read for $name {
+            fn read(node: &super::json::Node<'_>, faults: &mut Vec<super::fault::Fault>) -> Option<Self> {
+                const FIELDS: &[&str] = &[$(super::record::key!($field $($key)?)),+];
+                let entries = super::record::fields(node, FIELDS, concat!($($doc),+).trim(), faults)?;
+                $(let $field = super::record::field(node, &entries, super::record::key!($field $($key)?), faults);)+
+                Some($name { span: node.span, $($field: $field?),+ })
+            }
+        }
+    };
+}
+
+/// The name of a field in the file.
+macro_rules! key {
+    ($field:ident $key:literal) => {
+        $key
+    };
+    ($field:ident) => {
+        stringify!($field)
+    };
+}
+
+/// Declares a choice among words.
+macro_rules! choice {
+    ($(#[doc = $doc:literal])+ $name:ident { $($(#[doc = $word_doc:literal])+ $variant:ident = $word:literal,)+ }) => {
+        $(#[doc = $doc])+
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, schemars::JsonSchema)]
+        pub(super) enum $name {
+            $($(#[doc = $word_doc])+ #[schemars(rename = $word)] $variant,)+
+        }
+
+        impl super::record::Read for $name {
+            fn read(node: &super::json::Node<'_>, faults: &mut Vec<super::fault::Fault>) -> Option<Self> {
+                const WORDS: &[(&str, $name)] = &[$(($word, $name::$variant)),+];
+                super::record::word(node, WORDS, faults)
+            }
+        }
+    };
+}
+
+pub(super) use {choice, key, record};
+
+/// One of a few words.
+pub(super) fn word<T: Copy>(node: &Node<'_>, words: &[(&str, T)], faults: &mut Vec<Fault>) -> Option<T> {
+    let all = || words.iter().map(|(w, _)| *w).collect::<Vec<_>>().join(", ");
+    let Value::Text(text) = &node.value else {
+        return unexpected(node, &format!("one of {}", all()), faults);
+    };
+    let found = words.iter().find(|(w, _)| w == text).map(|(_, value)| *value);
+    if found.is_none() {
+        let fault = Fault::new(node.span, format!("`{text}` is none of {}", all()));
+        faults.push(match nearest(text, words.iter().map(|(w, _)| *w)) {
+            Some(name) => fault.hint(format!("did you mean `{name}`?")),
+            None => fault,
+        });
+    }
+    found
+}

@@ -1,0 +1,588 @@
+//! From the file as written to the scene: names become indices, formulas expressions, shapes inertias.
+//!
+//! In: the records of [`super::file`]. Out: a [`Scene`] with the claims it rests on, or faults. Whatever cannot be read is
+//! reported and skipped, so that one pass reports independent faults together. Mechanics is checked in [`super::check`].
+
+use std::collections::HashMap;
+
+use super::body::{Solid, SolidReader};
+use super::check::{Claim, Claimed, check, unused};
+use super::fault::{Fault, Span, nearest};
+use super::file::{ContactFile, DirectionFile, KnownFile, LawName, PositionFile, SceneFile, ShapeName, StepFile, VelocityFile};
+use super::formulas::{Quantity, Symbols};
+use super::geometry;
+use super::record::{Map, Text};
+use super::{
+    Blow, BlowImpulse, Body, Contact, ContactLaw, Force, Hinge, Known, KnownQuantity, NamedPoint, Scene, Shape, parameters,
+    question,
+};
+use crate::expr::{Expr, Vector, minus};
+
+/// Most bodies, points or questions a scene may have.
+const ENTRIES: usize = 10_000;
+/// Longest chain of positions that refer to one another.
+const CHAIN: usize = 200;
+
+/// What is known while a scene is put together.
+pub(super) struct Resolver<'f> {
+    pub file: &'f SceneFile,
+    pub symbols: Symbols,
+    pub faults: Vec<Fault>,
+    /// What the scene claims of its formulas, to be checked when everything is read.
+    pub claims: Vec<Claimed>,
+    points: HashMap<&'f str, usize>,
+    bodies: HashMap<&'f str, usize>,
+    point_places: Vec<Place>,
+    body_places: Vec<Place>,
+    composites: HashMap<usize, Solid>,
+    chain: Vec<String>,
+}
+
+/// How far a position is known.
+#[derive(Clone)]
+enum Place {
+    Untouched,
+    Underway,
+    /// `None` if it cannot be found, which has been reported.
+    Done(Option<Vector>),
+}
+
+/// Puts the scene together and checks it.
+pub(super) fn resolve(file: &SceneFile) -> (Scene, Vec<Fault>) {
+    let mut faults = Vec::new();
+    let mut scene = Scene {
+        title: text(&file.title),
+        source: text(&file.source),
+        statement: text(&file.statement),
+        ..Scene::default()
+    };
+    let mut claims = Vec::new();
+    let symbols = parameters::resolve(file, &mut scene, &mut claims, &mut faults);
+    let points: HashMap<&str, usize> = names(file.points.as_ref());
+    let bodies: HashMap<&str, usize> = names(Some(&file.bodies));
+    let mut resolver = Resolver {
+        file,
+        symbols,
+        faults,
+        claims,
+        point_places: vec![Place::Untouched; points.len()],
+        body_places: vec![Place::Untouched; bodies.len()],
+        points,
+        bodies,
+        composites: HashMap::new(),
+        chain: Vec::new(),
+    };
+    resolver.sizes();
+    if resolver.faults.len() <= super::fault::TOLD {
+        resolver.fill(&mut scene);
+    }
+    let Resolver { symbols, mut faults, claims, .. } = resolver;
+    if faults.is_empty() {
+        faults = check(&scene, &claims);
+        scene.remarks = unused(&scene, |name| symbols.is_used(name));
+    }
+    (scene, faults)
+}
+
+fn names<T>(map: Option<&Map<T>>) -> HashMap<&str, usize> {
+    map.into_iter().flat_map(|m| &m.0).enumerate().map(|(i, (name, _))| (name.text.as_str(), i)).collect()
+}
+
+fn text(text: &Option<Text>) -> String {
+    text.as_ref().map(|t| t.text.clone()).unwrap_or_default()
+}
+
+/// The entries of a map that could be read.
+fn entries<T>(map: Option<&Map<T>>) -> impl Iterator<Item = (&Text, &T)> {
+    map.into_iter().flat_map(|m| &m.0).filter_map(|(name, entry)| Some((name, entry.as_ref()?)))
+}
+
+impl<'f> Resolver<'f> {
+    /// Reports absurd sizes and unusable names.
+    fn sizes(&mut self) {
+        let file = self.file;
+        let lists: [(&str, Vec<&Text>); 6] = [
+            ("points", keys(file.points.as_ref())),
+            ("bodies", keys(Some(&file.bodies))),
+            ("hinges", keys(file.hinges.as_ref())),
+            ("contacts", keys(file.contacts.as_ref())),
+            ("blows", keys(file.blows.as_ref())),
+            ("questions", keys(file.questions.as_ref())),
+        ];
+        let mut transmitters: HashMap<&str, &str> = HashMap::new();
+        for (what, keys) in &lists {
+            if keys.len() > ENTRIES {
+                let message = format!("{} {what}, more than {ENTRIES}", keys.len());
+                self.faults.push(Fault::new(keys[ENTRIES].span, message));
+            }
+            for key in keys {
+                let bad = key.text.trim() != key.text || key.text.is_empty() || key.text.chars().count() > 100;
+                if bad || key.text.chars().any(char::is_control) {
+                    let message = "a name has 1 to 100 characters and no blank at its ends";
+                    self.faults.push(Fault::new(key.span, message));
+                }
+                if matches!(*what, "hinges" | "contacts" | "blows") {
+                    if let Some(other) = transmitters.insert(&key.text, what) {
+                        let message = format!("`{}` is already the name of one of the {other}", key.text);
+                        self.faults.push(Fault::new(key.span, message).hint("an impulse is asked for by this name"));
+                    }
+                }
+            }
+        }
+    }
+
+    fn fill(&mut self, scene: &mut Scene) {
+        let file = self.file;
+        for (i, (name, _)) in file.points.iter().flat_map(|m| &m.0).enumerate() {
+            let at = self.point(i).unwrap_or_else(origin);
+            scene.points.push(NamedPoint { name: name.text.clone(), at });
+        }
+        for i in 0..file.bodies.0.len() {
+            let body = self.body(i);
+            scene.bodies.push(body);
+        }
+        if self.faults.is_empty() && scene.bodies.iter().all(Body::is_fixed) {
+            self.faults.push(Fault::new(file.span, "no body here can move").hint("add a body that is not fixed"));
+        }
+        for (name, hinge) in entries(file.hinges.as_ref()) {
+            let bodies = self.pair(&hinge.bodies.items, hinge.bodies.span, "hinge");
+            let at = self.position(&hinge.at);
+            if let (Some(bodies), Some(at)) = (bodies, at) {
+                self.reach(bodies, &at, name.span, &name.text);
+                self.claims.push(Claimed { span: name.span, claim: Claim::Hinge(scene.hinges.len()) });
+                scene.hinges.push(Hinge { name: name.text.clone(), bodies, at });
+            }
+        }
+        for (name, contact) in entries(file.contacts.as_ref()) {
+            self.contact(name, contact, scene);
+        }
+        for (name, blow) in entries(file.blows.as_ref()) {
+            let body = self.moving(&blow.on);
+            let at = self.position(&blow.at);
+            let impulse = match (&blow.impulse, &blow.along) {
+                (Some(given), None) => {
+                    self.symbols.vector(given, Quantity::IMPULSE, &mut self.faults).map(BlowImpulse::Given)
+                }
+                (None, Some(along)) => self.direction(along).map(BlowImpulse::Along),
+                _ => {
+                    let message = "a blow has either `impulse` or `along`";
+                    let fault = Fault::new(blow.span, message).shown_at(name.span);
+                    self.faults.push(fault.hint("`impulse` gives it; `along` only says in which direction it acts"));
+                    None
+                }
+            };
+            if let (Some(body), Some(at), Some(impulse)) = (body, at, impulse) {
+                self.reach([body, body], &at, name.span, &name.text);
+                scene.blows.push(Blow { name: name.text.clone(), body, at, impulse });
+            }
+        }
+        for known in file.after.iter().flatten() {
+            let known = self.known(known);
+            scene.after.extend(known);
+        }
+        for force in file.forces.iter().flatten() {
+            if let Some(body) = self.body_named(&force.on) {
+                scene.forces.push(Force { name: force.name.text.clone(), body });
+            }
+        }
+        question::resolve(self, scene);
+    }
+
+    /// The body as the scene holds it. Of a body that cannot be read only the name is right, and a fault tells.
+    fn body(&mut self, i: usize) -> Body {
+        let (name, entry) = &self.file.bodies.0[i];
+        let mut body = Body {
+            name: name.text.clone(),
+            shape: Shape::Other,
+            mass: Expr::zero(),
+            inertia: Expr::zero(),
+            center: self.center(i).unwrap_or_else(origin),
+            angle: Expr::zero(),
+            velocity: origin(),
+            spin: Expr::zero(),
+        };
+        let Some(entry) = entry else { return body };
+        let solid = match self.composites.remove(&i) {
+            Some(solid) => Some(solid),
+            None if entry.shape == ShapeName::Composite => None,
+            None => self.solids().read(entry),
+        };
+        if let Some(solid) = solid {
+            (body.shape, body.mass, body.inertia) = (solid.shape, solid.mass, solid.inertia);
+        }
+        if let Some(angle) = &entry.angle {
+            body.angle = self.symbols.read(angle, Quantity::ANGLE, &mut self.faults).unwrap_or_else(Expr::zero);
+        }
+        if let Some(spin) = &entry.spin {
+            body.spin = self.symbols.read(spin, Quantity::SPIN, &mut self.faults).unwrap_or_else(Expr::zero);
+        }
+        let velocity = match &entry.velocity {
+            None => None,
+            Some(VelocityFile::Components(v)) => self.symbols.vector(v, Quantity::VELOCITY, &mut self.faults),
+            Some(VelocityFile::About(turn)) => {
+                if body.is_particle() {
+                    let fault = Fault::new(turn.span, "a particle has no spin to turn with");
+                    self.faults.push(fault.hint("give its velocity as [x, y]"));
+                }
+                self.position(&turn.about).map(|about| geometry::turned(&body.spin, &minus(&body.center, &about)))
+            }
+        };
+        body.velocity = velocity.unwrap_or_else(origin);
+        body
+    }
+
+    fn solids(&mut self) -> SolidReader<'_> {
+        SolidReader { symbols: &self.symbols, claims: &mut self.claims, faults: &mut self.faults }
+    }
+
+    fn contact(&mut self, name: &Text, contact: &ContactFile, scene: &mut Scene) {
+        let bodies = self.pair(&contact.bodies.items, contact.bodies.span, "contact");
+        let at = self.position(&contact.at);
+        let normal = contact.normal.as_ref().map(|n| self.direction(n));
+        let restitution = contact.restitution.as_ref().map(|e| {
+            let value = self.symbols.read(e, Quantity::NUMBER, &mut self.faults);
+            if let Some(value) = &value {
+                self.claims.push(Claimed { span: e.span, claim: Claim::Fraction(value.clone()) });
+            }
+            value
+        });
+        let law = match contact.law {
+            Some(LawName::Frictionless) => {
+                for (missing, field, hint) in [
+                    (normal.is_none(), "normal", "the unit normal out of the first body into the second"),
+                    (restitution.is_none(), "restitution", "a number or a symbol from 0 to 1"),
+                ] {
+                    if missing {
+                        let message = format!("a frictionless contact needs `{field}`");
+                        self.faults.push(Fault::new(contact.span, message).shown_at(name.span).hint(hint));
+                    }
+                }
+                restitution.flatten().map(|restitution| ContactLaw::Frictionless { restitution })
+            }
+            law => {
+                if let Some(e) = &contact.restitution {
+                    let with = if law.is_some() { "a sticking contact" } else { "a contact without law" };
+                    let fault = Fault::new(e.span, format!("{with} has no restitution"));
+                    self.faults.push(fault.hint("restitution belongs to \"law\": \"frictionless\""));
+                }
+                Some(if law.is_some() { ContactLaw::Sticking } else { ContactLaw::None })
+            }
+        };
+        // A normal that was given but could not be read has been reported.
+        let normal = normal.map_or(Some(None), |n| n.map(Some));
+        if let (Some(bodies), Some(at), Some(normal), Some(law)) = (bodies, at, normal, law) {
+            self.reach(bodies, &at, name.span, &name.text);
+            if normal.is_some() {
+                self.claims.push(Claimed { span: name.span, claim: Claim::Approach(scene.contacts.len()) });
+            }
+            scene.contacts.push(Contact { name: name.text.clone(), bodies, at, normal, law });
+        }
+    }
+
+    fn known(&mut self, known: &KnownFile) -> Option<Known> {
+        let what = match (&known.velocity, &known.spin) {
+            (Some(body), None) => {
+                let body = self.moving(body);
+                let at = known.at.as_ref().map(|at| self.position(at));
+                let Some(along) = &known.along else {
+                    let fault = Fault::new(known.span, "a known velocity needs the direction `along` which it is known");
+                    let place = Span::new(known.span.start, known.span.start + 1);
+                    self.faults.push(fault.shown_at(place).hint("add \"along\": [\"1\", \"0\"]; a vector takes two entries"));
+                    return None;
+                };
+                let along = self.direction(along);
+                let at = match at {
+                    Some(at) => at,
+                    None => body.and_then(|b| self.center(b)),
+                };
+                (body?, KnownQuantity::Velocity { at: at?, along: along? }, Quantity::VELOCITY)
+            }
+            (None, Some(body)) => {
+                if let Some(span) = known.at.as_ref().map(|_| known.span).or(known.along.as_ref().map(|_| known.span)) {
+                    self.faults.push(Fault::new(span, "a known spin has neither `at` nor `along`"));
+                }
+                let index = self.moving(body)?;
+                if self.is_particle(index) {
+                    self.faults.push(Fault::new(body.span, format!("the particle `{}` has no spin", body.text)));
+                    return None;
+                }
+                (index, KnownQuantity::Spin, Quantity::SPIN)
+            }
+            _ => {
+                let fault = Fault::new(known.span, "something known after is either a `velocity` or a `spin`");
+                self.faults.push(fault.hint("its value is the body's name"));
+                return None;
+            }
+        };
+        let value = self.symbols.read(&known.is, what.2, &mut self.faults)?;
+        Some(Known { name: text(&known.name), body: what.0, what: what.1, value })
+    }
+
+    /// The two bodies of a hinge or contact: different, and not both immovable.
+    fn pair(&mut self, names: &[Text; 2], span: Span, what: &str) -> Option<[usize; 2]> {
+        let (a, b) = (self.body_named(&names[0]), self.body_named(&names[1]));
+        let (a, b) = (a?, b?);
+        if a == b {
+            self.faults.push(Fault::new(span, format!("a {what} is between two bodies, not `{}` and itself", names[0].text)));
+            return None;
+        }
+        if self.shape(a) == Some(ShapeName::Fixed) && self.shape(b) == Some(ShapeName::Fixed) {
+            let message = format!("`{}` and `{}` are both fixed: nothing can happen between them", names[0].text, names[1].text);
+            self.faults.push(Fault::new(span, message));
+            return None;
+        }
+        Some([a, b])
+    }
+
+    /// A particle can only be touched where it is.
+    fn reach(&mut self, bodies: [usize; 2], at: &Vector, span: Span, name: &str) {
+        for body in bodies {
+            if self.is_particle(body) {
+                if let Some(center) = self.center(body) {
+                    let claim = Claim::AtParticle { offset: minus(at, &center), at: name.to_owned(), body };
+                    self.claims.push(Claimed { span, claim });
+                }
+            }
+        }
+    }
+
+    fn shape(&self, body: usize) -> Option<ShapeName> {
+        self.file.bodies.0.get(body)?.1.as_ref().map(|b| b.shape)
+    }
+
+    /// Whether the body is a particle.
+    pub fn is_particle(&self, body: usize) -> bool {
+        self.shape(body) == Some(ShapeName::Particle)
+    }
+
+    /// Whether the body is fixed.
+    pub fn is_fixed(&self, body: usize) -> bool {
+        self.shape(body) == Some(ShapeName::Fixed)
+    }
+
+    /// Index of a body.
+    pub fn body_named(&mut self, name: &Text) -> Option<usize> {
+        let found = self.bodies.get(name.text.as_str()).copied();
+        if found.is_none() {
+            self.unknown(name, "body", self.bodies.keys().copied().collect());
+        }
+        found
+    }
+
+    /// Index of a body that can move.
+    pub fn moving(&mut self, name: &Text) -> Option<usize> {
+        let body = self.body_named(name)?;
+        if self.is_fixed(body) {
+            self.faults.push(Fault::new(name.span, format!("`{}` is fixed: the collision does not change its motion", name.text)));
+            return None;
+        }
+        Some(body)
+    }
+
+    /// Index of a body, if one has this name.
+    pub fn find_body(&self, name: &str) -> Option<usize> {
+        self.bodies.get(name).copied()
+    }
+
+    /// Position of a named point, if there is one of this name.
+    pub fn find_point(&mut self, name: &str) -> Option<Option<Vector>> {
+        let i = self.points.get(name).copied()?;
+        Some(self.point(i))
+    }
+
+    /// Reports a name that stands for nothing, with the nearest that does.
+    pub fn unknown(&mut self, name: &Text, what: &str, mut candidates: Vec<&str>) {
+        candidates.sort_unstable();
+        let fault = Fault::new(name.span, format!("there is no {what} `{}`", name.text));
+        self.faults.push(match nearest(&name.text, candidates.iter().copied()) {
+            Some(near) => fault.hint(format!("did you mean `{near}`?")),
+            None if (1..=12).contains(&candidates.len()) => fault.hint(format!("there is {}", candidates.join(", "))),
+            None => fault,
+        });
+    }
+
+    /// Names of all bodies and points.
+    pub fn positions(&self) -> Vec<&'f str> {
+        self.points.keys().chain(self.bodies.keys()).copied().collect()
+    }
+
+    fn point(&mut self, i: usize) -> Option<Vector> {
+        let (name, position) = &self.file.points.as_ref()?.0[i];
+        match &self.point_places[i] {
+            Place::Done(at) => return at.clone(),
+            Place::Underway => return self.circle(name),
+            Place::Untouched => {}
+        }
+        self.point_places[i] = Place::Underway;
+        let at = position.as_ref().and_then(|p| self.link(name, |this| this.position(p)));
+        self.point_places[i] = Place::Done(at.clone());
+        at
+    }
+
+    /// Center of mass of a body.
+    pub fn center(&mut self, i: usize) -> Option<Vector> {
+        let (name, body) = &self.file.bodies.0[i];
+        match &self.body_places[i] {
+            Place::Done(at) => return at.clone(),
+            Place::Underway => return self.circle(name),
+            Place::Untouched => {}
+        }
+        self.body_places[i] = Place::Underway;
+        let body = body.as_ref();
+        let at = body.and_then(|body| match (&body.center, body.shape) {
+            (Some(center), ShapeName::Composite) => {
+                let span = match center {
+                    PositionFile::Name(name) => name.span,
+                    PositionFile::At(pair) => pair.span,
+                    PositionFile::From(step) => step.span,
+                };
+                let fault = Fault::new(span, "the center of a composite follows from its parts");
+                self.faults.push(fault.hint("leave `center` out, and give each part its own"));
+                None
+            }
+            (Some(center), _) => self.link(name, |this| this.position(center)),
+            (None, ShapeName::Composite) => self.link(name, |this| this.composite(i)),
+            (None, ShapeName::Fixed) => Some(origin()),
+            (None, ShapeName::Particle) => match self.touched(&name.text) {
+                Some(at) => self.link(name, |this| this.position(at)),
+                None => Some(origin()),
+            },
+            (None, _) => {
+                let fault = Fault::new(body.span, "the field `center` is missing").shown_at(name.span);
+                self.faults.push(fault.hint("the position of its center of mass: a point's name, [x, y] or {\"from\": …}"));
+                None
+            }
+        });
+        self.body_places[i] = Place::Done(at.clone());
+        at
+    }
+
+    /// The first place where a hinge, contact or blow touches the body, unless that place is the body itself.
+    fn touched(&self, name: &str) -> Option<&'f PositionFile> {
+        let file = self.file;
+        let hinges = entries(file.hinges.as_ref()).map(|(_, h)| (&h.bodies.items[..], &h.at));
+        let contacts = entries(file.contacts.as_ref()).map(|(_, c)| (&c.bodies.items[..], &c.at));
+        let blows = entries(file.blows.as_ref()).map(|(_, b)| (std::slice::from_ref(&b.on), &b.at));
+        let is_itself = |at: &PositionFile| matches!(at, PositionFile::Name(n) if n.text == name && !self.points.contains_key(name));
+        hinges
+            .chain(contacts)
+            .chain(blows)
+            .find(|(bodies, at)| bodies.iter().any(|b| b.text == name) && !is_itself(at))
+            .map(|(_, at)| at)
+    }
+
+    fn composite(&mut self, i: usize) -> Option<Vector> {
+        let body = self.file.bodies.0[i].1.as_ref()?;
+        let mut parts = Vec::new();
+        for (name, part) in entries(body.parts.as_ref()) {
+            let center = self.position(&part.center);
+            let angle = part.angle.as_ref().map(|a| self.symbols.read(a, Quantity::ANGLE, &mut self.faults));
+            let entry = part.into();
+            let solid = self.solids().read_part(&entry);
+            parts.push((|| {
+                let Solid { shape, mass, inertia } = solid?;
+                Some(Body {
+                    name: name.text.clone(),
+                    shape,
+                    mass,
+                    inertia,
+                    center: center?,
+                    angle: angle.unwrap_or_else(|| Some(Expr::zero()))?,
+                    velocity: origin(),
+                    spin: Expr::zero(),
+                })
+            })());
+        }
+        let parts = parts.into_iter().collect::<Option<Vec<_>>>()?;
+        let (solid, center) = self.solids().join(body, parts)?;
+        self.composites.insert(i, solid);
+        Some(center)
+    }
+
+    /// Follows one reference further, within the bound on chains.
+    fn link<T>(&mut self, name: &Text, f: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+        if self.chain.len() >= CHAIN {
+            let message = format!("positions refer to one another more than {CHAIN} deep");
+            self.faults.push(Fault::new(name.span, message));
+            return None;
+        }
+        self.chain.push(name.text.clone());
+        let out = f(self);
+        self.chain.pop();
+        out
+    }
+
+    fn circle(&mut self, name: &Text) -> Option<Vector> {
+        let start = self.chain.iter().position(|n| *n == name.text).unwrap_or(0);
+        let mut round = self.chain[start..].join(" → ");
+        round.push_str(&format!(" → {}", name.text));
+        let fault = Fault::new(name.span, format!("positions refer to one another in a circle: {round}"));
+        self.faults.push(fault.hint("give one of them coordinates"));
+        None
+    }
+
+    /// A position.
+    pub fn position(&mut self, position: &PositionFile) -> Option<Vector> {
+        match position {
+            PositionFile::Name(name) => {
+                if let Some(i) = self.points.get(name.text.as_str()).copied() {
+                    self.point(i)
+                } else if let Some(i) = self.bodies.get(name.text.as_str()).copied() {
+                    self.center(i)
+                } else {
+                    let candidates = self.positions();
+                    self.unknown(name, "point or body", candidates);
+                    None
+                }
+            }
+            PositionFile::At(pair) => self.symbols.vector(pair, Quantity::LENGTH, &mut self.faults),
+            PositionFile::From(step) => {
+                let from = self.position(&step.from);
+                let by = self.step(step);
+                let (from, by) = (from?, by?);
+                Some([&from[0] + &by[0], &from[1] + &by[1]])
+            }
+        }
+    }
+
+    fn step(&mut self, step: &StepFile) -> Option<Vector> {
+        match (&step.distance, &step.angle, &step.by) {
+            (Some(distance), Some(angle), None) => {
+                let distance = self.symbols.read(distance, Quantity::LENGTH, &mut self.faults);
+                let angle = self.symbols.read(angle, Quantity::ANGLE, &mut self.faults);
+                let [x, y] = geometry::direction(&angle?);
+                let distance = distance?;
+                Some([&distance * &x, &distance * &y])
+            }
+            (None, None, Some(by)) => self.symbols.vector(by, Quantity::LENGTH, &mut self.faults),
+            _ => {
+                let fault = Fault::new(step.span, "a step has either `distance` and `angle`, or `by`");
+                self.faults.push(fault.hint("{\"from\": \"A\", \"distance\": \"l\", \"angle\": \"theta\"} or {\"from\": \"A\", \"by\": [\"l\", \"0\"]}"));
+                None
+            }
+        }
+    }
+
+    /// A direction, claimed to be a unit vector.
+    pub fn direction(&mut self, direction: &DirectionFile) -> Option<Vector> {
+        match direction {
+            DirectionFile::Components(pair) => {
+                let vector = self.symbols.vector(pair, Quantity::DIRECTION, &mut self.faults)?;
+                self.claims.push(Claimed { span: pair.span, claim: Claim::Unit(vector.clone()) });
+                Some(vector)
+            }
+            DirectionFile::Angle(angle) => {
+                self.symbols.read(&angle.angle, Quantity::ANGLE, &mut self.faults).map(|a| geometry::direction(&a))
+            }
+        }
+    }
+}
+
+fn keys<T>(map: Option<&Map<T>>) -> Vec<&Text> {
+    map.into_iter().flat_map(|m| &m.0).map(|(name, _)| name).collect()
+}
+
+/// The zero vector.
+pub(super) fn origin() -> Vector {
+    [Expr::zero(), Expr::zero()]
+}
