@@ -4,7 +4,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use carom::scene;
-use serde_json::Value;
 
 /// All scene files, the refused ones not among them.
 fn scenes() -> Vec<(PathBuf, String)> {

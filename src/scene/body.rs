@@ -43,7 +43,14 @@ fn fields_of(shape: ShapeName) -> (&'static [&'static str], &'static [&'static s
     }
 }
 
-const RIGID: &[&str] = &["inertia", "radius_of_gyration", "center", "angle", "velocity", "spin"];
+const RIGID: &[&str] = &[
+    "inertia",
+    "radius_of_gyration",
+    "center",
+    "angle",
+    "velocity",
+    "spin",
+];
 
 impl SolidReader<'_> {
     /// Reads a body that is no composite.
@@ -56,13 +63,18 @@ impl SolidReader<'_> {
         let own = self.own_inertia(body);
         let (shape, mass, own) = (shape?, mass?, own?);
         let inertia = own.unwrap_or_else(|| uniform(&shape, &mass));
-        Some(Solid { shape, mass, inertia })
+        Some(Solid {
+            shape,
+            mass,
+            inertia,
+        })
     }
 
     /// Reads a part of a composite.
     pub fn read_part(&mut self, part: &BodyFile) -> Option<Solid> {
         if matches!(part.shape, ShapeName::Fixed | ShapeName::Composite) {
-            let fault = Fault::new(part.span, "a part is neither fixed nor composite").shown_at(first(part.span));
+            let fault = Fault::new(part.span, "a part is neither fixed nor composite")
+                .shown_at(first(part.span));
             self.faults.push(fault.hint("list its own parts here"));
             return None;
         }
@@ -76,17 +88,26 @@ impl SolidReader<'_> {
         }
         let mass = Expr::sum(parts.iter().map(|p| p.mass.clone()));
         if mass.is_zero() {
-            let fault = Fault::new(body.span, "this composite has no mass").shown_at(first(body.span));
+            let fault =
+                Fault::new(body.span, "this composite has no mass").shown_at(first(body.span));
             self.faults.push(fault.hint("give one of its parts a mass"));
             return None;
         }
         let (mass, weights) = weights(&parts, mass);
-        let center = [0, 1].map(|axis| Expr::sum(parts.iter().zip(&weights).map(|(p, w)| w * &p.center[axis])));
+        let center = [0, 1]
+            .map(|axis| Expr::sum(parts.iter().zip(&weights).map(|(p, w)| w * &p.center[axis])));
         let inertia = Expr::sum(parts.iter().map(|p| {
             let r = minus(&p.center, &center);
             &p.inertia + &(&p.mass * &dot(&r, &r))
         }));
-        Some((Solid { shape: Shape::Composite { parts }, mass, inertia }, center))
+        Some((
+            Solid {
+                shape: Shape::Composite { parts },
+                mass,
+                inertia,
+            },
+            center,
+        ))
     }
 
     /// Whether the body has the fields of its shape and no others.
@@ -103,10 +124,13 @@ impl SolidReader<'_> {
             ("parts", body.parts.as_ref().map(|_| first(body.span))),
             ("center", body.center.as_ref().map(place)),
             ("angle", formula(&body.angle)),
-            ("velocity", body.velocity.as_ref().map(|v| match v {
-                VelocityFile::Components(pair) => pair.span,
-                VelocityFile::About(about) => about.span,
-            })),
+            (
+                "velocity",
+                body.velocity.as_ref().map(|v| match v {
+                    VelocityFile::Components(pair) => pair.span,
+                    VelocityFile::About(about) => about.span,
+                }),
+            ),
             ("spin", formula(&body.spin)),
         ];
         let (needed, allowed) = fields_of(body.shape);
@@ -117,7 +141,8 @@ impl SolidReader<'_> {
                 Some(span) if !needed.contains(&name) && !allowed.contains(&name) => {
                     let all: Vec<&str> = needed.iter().chain(allowed).copied().collect();
                     let fault = Fault::new(span, format!("{shape} has no `{name}`"));
-                    self.faults.push(fault.hint(format!("its fields are {}", all.join(", "))));
+                    self.faults
+                        .push(fault.hint(format!("its fields are {}", all.join(", "))));
                 }
                 None if needed.contains(&name) => {
                     let fault = Fault::new(body.span, format!("{shape} needs `{name}`"));
@@ -128,11 +153,16 @@ impl SolidReader<'_> {
         }
         match (&body.inertia, &body.radius_of_gyration) {
             (Some(_), Some(k)) => {
-                let fault = Fault::new(k.span, "`inertia` and `radius_of_gyration` both say how the mass is spread");
-                self.faults.push(fault.hint("keep one: inertia = mass × radius_of_gyration²"));
+                let fault = Fault::new(
+                    k.span,
+                    "`inertia` and `radius_of_gyration` both say how the mass is spread",
+                );
+                self.faults
+                    .push(fault.hint("keep one: inertia = mass × radius_of_gyration²"));
             }
             (None, None) if body.shape == ShapeName::Body => {
-                let fault = Fault::new(body.span, "a body needs `inertia` or `radius_of_gyration`").shown_at(first(body.span));
+                let fault = Fault::new(body.span, "a body needs `inertia` or `radius_of_gyration`")
+                    .shown_at(first(body.span));
                 self.faults.push(fault.hint(Quantity::INERTIA.hint()));
             }
             _ => {}
@@ -141,12 +171,21 @@ impl SolidReader<'_> {
     }
 
     fn mass(&mut self, body: &BodyFile) -> Option<Expr> {
-        let Some(formula) = &body.mass else { return Some(Expr::zero()) };
+        let Some(formula) = &body.mass else {
+            return Some(Expr::zero());
+        };
         let mass = self.symbols.read(formula, Quantity::MASS, self.faults)?;
         let is_link = matches!(body.shape, ShapeName::Rod | ShapeName::Body);
         if mass.is_zero() && !is_link {
-            let fault = Fault::new(formula.span, format!("{} without mass has no motion of its own", article(body.shape)));
-            self.faults.push(fault.hint("only a rod or a body may have mass \"0\": a massless link"));
+            let fault = Fault::new(
+                formula.span,
+                format!(
+                    "{} without mass has no motion of its own",
+                    article(body.shape)
+                ),
+            );
+            self.faults
+                .push(fault.hint("only a rod or a body may have mass \"0\": a massless link"));
             return None;
         }
         self.claim_size(formula, &mass, "mass", is_link);
@@ -154,8 +193,15 @@ impl SolidReader<'_> {
     }
 
     fn claim_size(&mut self, formula: &Formula, size: &Expr, what: &'static str, may_vanish: bool) {
-        let claim = Claim::Size { size: size.clone(), what, may_vanish };
-        self.claims.push(Claimed { span: formula.span, claim });
+        let claim = Claim::Size {
+            size: size.clone(),
+            what,
+            may_vanish,
+        };
+        self.claims.push(Claimed {
+            span: formula.span,
+            claim,
+        });
     }
 
     /// A length that belongs to the shape; present, as the fields have been checked.
@@ -170,14 +216,25 @@ impl SolidReader<'_> {
         Some(match body.shape {
             ShapeName::Fixed => Shape::Fixed,
             ShapeName::Particle => Shape::Particle,
-            ShapeName::Rod => Shape::Rod { length: self.length(&body.length, "length")? },
-            ShapeName::Disk => Shape::Disk { radius: self.length(&body.radius, "radius")? },
-            ShapeName::Ring => Shape::Ring { radius: self.length(&body.radius, "radius")? },
-            ShapeName::Sphere => Shape::Sphere { radius: self.length(&body.radius, "radius")? },
+            ShapeName::Rod => Shape::Rod {
+                length: self.length(&body.length, "length")?,
+            },
+            ShapeName::Disk => Shape::Disk {
+                radius: self.length(&body.radius, "radius")?,
+            },
+            ShapeName::Ring => Shape::Ring {
+                radius: self.length(&body.radius, "radius")?,
+            },
+            ShapeName::Sphere => Shape::Sphere {
+                radius: self.length(&body.radius, "radius")?,
+            },
             ShapeName::Rectangle => {
                 let width = self.length(&body.width, "width");
                 let height = self.length(&body.height, "height");
-                Shape::Rectangle { width: width?, height: height? }
+                Shape::Rectangle {
+                    width: width?,
+                    height: height?,
+                }
             }
             ShapeName::Body => Shape::Other,
             ShapeName::Composite => return None,
@@ -194,7 +251,9 @@ impl SolidReader<'_> {
         if let Some(formula) = &body.radius_of_gyration {
             let k = self.symbols.read(formula, Quantity::LENGTH, self.faults)?;
             self.claim_size(formula, &k, "radius of gyration", true);
-            let mass = self.symbols.read(body.mass.as_ref()?, Quantity::MASS, &mut Vec::new())?;
+            let mass = self
+                .symbols
+                .read(body.mass.as_ref()?, Quantity::MASS, &mut Vec::new())?;
             return Some(Some(mass * k.powi(2)));
         }
         Some(None)
@@ -203,7 +262,9 @@ impl SolidReader<'_> {
 
 /// Moment of inertia of a uniform body about its center of mass.
 fn uniform(shape: &Shape, mass: &Expr) -> Expr {
-    let of = |numerator, denominator, square: Expr| Expr::product([Expr::ratio(numerator, denominator), mass.clone(), square]);
+    let of = |numerator, denominator, square: Expr| {
+        Expr::product([Expr::ratio(numerator, denominator), mass.clone(), square])
+    };
     match shape {
         Shape::Rod { length } => of(1, 12, length.powi(2)),
         Shape::Disk { radius } => of(1, 2, radius.powi(2)),
@@ -219,7 +280,10 @@ fn uniform(shape: &Shape, mass: &Expr) -> Expr {
 fn weights(parts: &[Body], total: Expr) -> (Expr, Vec<Expr>) {
     let split: Vec<(Rational, Expr)> = parts.iter().map(|p| split_number(&p.mass)).collect();
     let mut with_mass = split.iter().filter(|(k, _)| !k.is_zero());
-    let unit = with_mass.next().map(|(_, unit)| unit.clone()).unwrap_or_else(Expr::one);
+    let unit = with_mass
+        .next()
+        .map(|(_, unit)| unit.clone())
+        .unwrap_or_else(Expr::one);
     let sum = split.iter().fold(Rational::zero(), |sum, (k, _)| sum + k);
     if with_mass.all(|(_, rest)| *rest == unit) && !sum.is_zero() {
         let weights = split.iter().map(|(k, _)| Expr::from(k / &sum)).collect();

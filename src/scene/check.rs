@@ -23,7 +23,11 @@ pub(super) enum Claim {
         may_vanish: bool,
     },
     /// What touches a particle touches it where it is.
-    AtParticle { offset: Vector, at: String, body: usize },
+    AtParticle {
+        offset: Vector,
+        at: String,
+        body: usize,
+    },
     /// The bodies of this contact approach at the given values.
     Approach(usize),
     /// Both bodies of this hinge move alike there.
@@ -45,10 +49,18 @@ pub(super) fn check(scene: &Scene, claims: &[Claimed]) -> Vec<Fault> {
     }
     let points = sample::points(scene);
     let given = sample::given(scene);
-    claims.iter().filter_map(|c| try_claim(scene, c, &points, given.as_ref())).collect()
+    claims
+        .iter()
+        .filter_map(|c| try_claim(scene, c, &points, given.as_ref()))
+        .collect()
 }
 
-fn try_claim(scene: &Scene, claimed: &Claimed, points: &Points, given: Option<&Point<f64>>) -> Option<Fault> {
+fn try_claim(
+    scene: &Scene,
+    claimed: &Claimed,
+    points: &Points,
+    given: Option<&Point<f64>>,
+) -> Option<Fault> {
     let fault = |message: String| Fault::new(claimed.span, message);
     match &claimed.claim {
         Claim::Unit(vector) => {
@@ -65,22 +77,42 @@ fn try_claim(scene: &Scene, claimed: &Claimed, points: &Points, given: Option<&P
         }
         Claim::Fraction(e) => {
             let wrong = out_of_range(e, points, given, |v| !(0.0..=1.0).contains(&v))?;
-            let why = if e.as_number().is_some() { "it is".to_owned() } else { format!("it can be {}", number_words(wrong)) };
+            let why = if e.as_number().is_some() {
+                "it is".to_owned()
+            } else {
+                format!("it can be {}", number_words(wrong))
+            };
             let message = match e.as_number() {
-                Some(_) => format!("a restitution is from 0 to 1, and this is {}", number_words(wrong)),
+                Some(_) => format!(
+                    "a restitution is from 0 to 1, and this is {}",
+                    number_words(wrong)
+                ),
                 None => format!("a restitution is from 0 to 1, and in its domain {why}"),
             };
-            Some(fault(message).hint("0: no rebound, 1: no loss; for a symbol give \"domain\": {\"min\": 0, \"max\": 1}"))
+            Some(fault(message).hint(
+                "0: no rebound, 1: no loss; for a symbol give \"domain\": {\"min\": 0, \"max\": 1}",
+            ))
         }
-        Claim::Size { size, what, may_vanish } => {
+        Claim::Size {
+            size,
+            what,
+            may_vanish,
+        } => {
             let wrong = out_of_range(size, points, given, |v| v < 0.0 || v == 0.0 && !may_vanish)?;
-            let bound = if *may_vanish { "is not negative" } else { "is positive" };
+            let bound = if *may_vanish {
+                "is not negative"
+            } else {
+                "is positive"
+            };
             let now = match (size.as_number(), wrong == 0.0) {
                 (_, true) => "this is 0".to_owned(),
                 (Some(_), _) => format!("this is {}", number_words(wrong)),
                 _ => format!("in its domain this can be {}", number_words(wrong)),
             };
-            Some(fault(format!("a {what} {bound}, and {now}").replace("a inertia", "an inertia")).hint("change the value, or the `domain` of its parameters"))
+            Some(
+                fault(format!("a {what} {bound}, and {now}").replace("a inertia", "an inertia"))
+                    .hint("change the value, or the `domain` of its parameters"),
+            )
         }
         Claim::AtParticle { offset, at, body } => {
             let is_elsewhere = offset.iter().any(|c| vanishes(c, points) == Some(false));
@@ -116,25 +148,58 @@ fn try_claim(scene: &Scene, claimed: &Claimed, points: &Points, given: Option<&P
 }
 
 /// A value of the expression that is wrong: at the given values, or at a point of the domain.
-fn out_of_range(e: &Expr, points: &Points, given: Option<&Point<f64>>, is_wrong: impl Fn(f64) -> bool) -> Option<f64> {
+fn out_of_range(
+    e: &Expr,
+    points: &Points,
+    given: Option<&Point<f64>>,
+    is_wrong: impl Fn(f64) -> bool,
+) -> Option<f64> {
     if let Some(number) = e.as_number() {
-        let value = if is_negative(e) { to_f64(number).min(-f64::MIN_POSITIVE) } else { to_f64(number) };
+        let value = if is_negative(e) {
+            to_f64(number).min(-f64::MIN_POSITIVE)
+        } else {
+            to_f64(number)
+        };
         return is_wrong(value).then_some(value);
     }
     let at_given = given.and_then(|at| e.evaluate(at)).filter(|v| is_wrong(*v));
-    at_given.or_else(|| points.iter().filter_map(|(_, at)| e.evaluate(at)).find(|v| is_wrong(*v)))
+    at_given.or_else(|| {
+        points
+            .iter()
+            .filter_map(|(_, at)| e.evaluate(at))
+            .find(|v| is_wrong(*v))
+    })
 }
 
 /// The fault that the values now given bring about at a contact, if there is one.
 pub(super) fn at_values(scene: &Scene, span: Span) -> Option<Fault> {
     let given = sample::given(scene)?;
-    let contacts = (0..scene.contacts.len()).map(|i| Claimed { span, claim: Claim::Approach(i) });
+    let contacts = (0..scene.contacts.len()).map(|i| Claimed {
+        span,
+        claim: Claim::Approach(i),
+    });
     let given_vectors = scene.domains.unit_vectors.iter().filter_map(|pair| {
-        let value = |name: &Symbol| scene.parameters.iter().find(|p| p.name == *name).and_then(|p| p.value.clone());
-        Some(Claimed { span, claim: Claim::Unit([value(&pair[0])?, value(&pair[1])?]) })
+        let value = |name: &Symbol| {
+            scene
+                .parameters
+                .iter()
+                .find(|p| p.name == *name)
+                .and_then(|p| p.value.clone())
+        };
+        Some(Claimed {
+            span,
+            claim: Claim::Unit([value(&pair[0])?, value(&pair[1])?]),
+        })
     });
     let claims: Vec<Claimed> = given_vectors.chain(contacts).collect();
-    claims.iter().find_map(|c| try_claim(scene, c, &[(Point::default(), Point::default())], Some(&given)))
+    claims.iter().find_map(|c| {
+        try_claim(
+            scene,
+            c,
+            &[(Point::default(), Point::default())],
+            Some(&given),
+        )
+    })
 }
 
 /// Velocity just before of the point of a body at a position.
@@ -155,18 +220,23 @@ pub(super) fn separation(scene: &Scene, contact: &Contact) -> Option<Expr> {
 
 /// Relative velocity at a hinge just before.
 fn gap(scene: &Scene, hinge: &Hinge) -> Vector {
-    let [a, b] = hinge.bodies.map(|i| velocity_at(&scene.bodies[i], &hinge.at));
+    let [a, b] = hinge
+        .bodies
+        .map(|i| velocity_at(&scene.bodies[i], &hinge.at));
     minus(&b, &a)
 }
 
 /// The largest speed in the scene, as a measure of rounding.
 fn speed_scale(scene: &Scene, at: &Point<f64>) -> f64 {
     let components = scene.bodies.iter().flat_map(|b| &b.velocity);
-    components.filter_map(|v| v.evaluate(at)).fold(0.0, |m: f64, v| m.max(v.abs()))
+    components
+        .filter_map(|v| v.evaluate(at))
+        .fold(0.0, |m: f64, v| m.max(v.abs()))
 }
 
 /// Remarks on what a scene declares without need.
 pub(super) fn unused(scene: &Scene, is_used: impl Fn(&str) -> bool) -> Vec<String> {
     let idle = scene.parameters.iter().filter(|p| !is_used(&p.name));
-    idle.map(|p| format!("the parameter `{}` is not used in this scene", p.name)).collect()
+    idle.map(|p| format!("the parameter `{}` is not used in this scene", p.name))
+        .collect()
 }

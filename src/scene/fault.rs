@@ -17,7 +17,10 @@ pub struct Span {
 impl Span {
     /// The bytes from `start` up to `end`.
     pub fn new(start: usize, end: usize) -> Span {
-        Span { start, end: end.max(start) }
+        Span {
+            start,
+            end: end.max(start),
+        }
     }
 
     /// From the start of this stretch to the end of `other`.
@@ -51,7 +54,14 @@ pub struct Fault {
 impl Fault {
     /// A fault at a place; pointer, line and column are found when reading ends.
     pub(super) fn new(span: Span, message: impl Into<String>) -> Fault {
-        Fault { span, pointer: String::new(), line: 0, column: 0, message: message.into(), hint: None }
+        Fault {
+            span,
+            pointer: String::new(),
+            line: 0,
+            column: 0,
+            message: message.into(),
+            hint: None,
+        }
     }
 
     /// The same, shown at a smaller place.
@@ -108,7 +118,13 @@ impl Faults {
                 pointer => pointer.to_owned(),
             };
             // Writing to a String cannot fail.
-            let _ = writeln!(out, "{}: {}: {}", visible(file), visible(&place), visible(&fault.message));
+            let _ = writeln!(
+                out,
+                "{}: {}: {}",
+                visible(file),
+                visible(&place),
+                visible(&fault.message)
+            );
             snippet(&mut out, fault, text);
             if let Some(hint) = &fault.hint {
                 let _ = writeln!(out, "hint: {}", visible(hint));
@@ -135,7 +151,11 @@ fn snippet(out: &mut String, fault: &Fault, text: &str) {
     let skipped = before.chars().count().saturating_sub(SHOWN.0);
     let before: String = before.chars().skip(skipped).collect();
     let marked: String = text[start..end].trim_end().chars().take(SHOWN.1).collect();
-    let after: String = text[start..line_end].trim_end().chars().skip(marked.chars().count()).collect();
+    let after: String = text[start..line_end]
+        .trim_end()
+        .chars()
+        .skip(marked.chars().count())
+        .collect();
     let room = SHOWN.1.saturating_sub(marked.chars().count());
     let cut = after.chars().count() > room;
     let after: String = after.chars().take(room).collect();
@@ -144,9 +164,18 @@ fn snippet(out: &mut String, fault: &Fault, text: &str) {
     let marked = visible(&marked);
     let number = fault.line.to_string();
     let pad = " ".repeat(number.len());
-    let _ = writeln!(out, "{number} | {before}{marked}{}{}", visible(&after), if cut { "…" } else { "" });
+    let _ = writeln!(
+        out,
+        "{number} | {before}{marked}{}{}",
+        visible(&after),
+        if cut { "…" } else { "" }
+    );
     let blank = " ".repeat(before.chars().count());
-    let _ = writeln!(out, "{pad} | {blank}{}", "^".repeat(marked.chars().count().max(1)));
+    let _ = writeln!(
+        out,
+        "{pad} | {blank}{}",
+        "^".repeat(marked.chars().count().max(1))
+    );
 }
 
 /// The text with characters that would act on the terminal, or hide, shown by their number.
@@ -178,7 +207,10 @@ fn floor(text: &str, at: usize) -> usize {
 }
 
 /// The candidate that differs from `name` least, if by little: what somebody who mistyped it meant.
-pub(super) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(super) fn nearest<'a>(
+    name: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
     let length = name.chars().count();
     if length == 0 || length > 60 {
         return None;
@@ -195,7 +227,10 @@ pub(super) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a s
 
 /// Number of letters to change, add, drop or swap with their neighbor; a change of case counts nothing.
 fn distance(a: &str, b: &str) -> usize {
-    let (a, b): (Vec<char>, Vec<char>) = (a.to_lowercase().chars().collect(), b.to_lowercase().chars().collect());
+    let (a, b): (Vec<char>, Vec<char>) = (
+        a.to_lowercase().chars().collect(),
+        b.to_lowercase().chars().collect(),
+    );
     let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
     for i in 0..=a.len() {
         for j in 0..=b.len() {
@@ -203,7 +238,9 @@ fn distance(a: &str, b: &str) -> usize {
                 i + j
             } else {
                 let same = usize::from(a[i - 1] != b[j - 1]);
-                let mut best = (rows[i - 1][j - 1] + same).min(rows[i - 1][j] + 1).min(rows[i][j - 1] + 1);
+                let mut best = (rows[i - 1][j - 1] + same)
+                    .min(rows[i - 1][j] + 1)
+                    .min(rows[i][j - 1] + 1);
                 if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
                     best = best.min(rows[i - 2][j - 2] + 1);
                 }
@@ -237,7 +274,10 @@ mod tests {
         let text = format!("{}X{}", "a".repeat(500), "b".repeat(500));
         let faults = Faults::gather(vec![Fault::new(Span::new(500, 501), "here")], &text);
         let shown = faults.render("f", &text);
-        assert!(shown.contains("1 | …aaaa") && shown.lines().all(|l| l.chars().count() < 120), "{shown}");
+        assert!(
+            shown.contains("1 | …aaaa") && shown.lines().all(|l| l.chars().count() < 120),
+            "{shown}"
+        );
         assert_eq!(faults.list[0].column, 501);
     }
 }

@@ -3,8 +3,8 @@
 //! The doc comments are the format's documentation: `carom schema` prints them as a JSON Schema, from which an editor
 //! helps to write scenes. Nothing is resolved or checked here.
 
-use super::json::{Node, Value};
 use super::fault::Fault;
+use super::json::{Node, Value};
 use super::record::{Formula, Map, Pair, Read, Text, choice, record, unexpected};
 
 record! {
@@ -75,7 +75,11 @@ impl Read for DomainFile {
         match node.value {
             Value::Text(_) => DomainName::read(node, faults).map(DomainFile::Named),
             Value::Object(_) => IntervalFile::read(node, faults).map(DomainFile::Interval),
-            _ => unexpected(node, "\"positive\", \"nonnegative\", \"real\" or {\"min\": …, \"max\": …}", faults),
+            _ => unexpected(
+                node,
+                "\"positive\", \"nonnegative\", \"real\" or {\"min\": …, \"max\": …}",
+                faults,
+            ),
         }
     }
 }
@@ -256,8 +260,19 @@ record! {
 
 impl From<&PartFile> for BodyFile {
     fn from(part: &PartFile) -> BodyFile {
-        let PartFile { span, shape, mass, length, radius, width, height, inertia, radius_of_gyration, center, angle } =
-            part.clone();
+        let PartFile {
+            span,
+            shape,
+            mass,
+            length,
+            radius,
+            width,
+            height,
+            inertia,
+            radius_of_gyration,
+            center,
+            angle,
+        } = part.clone();
         BodyFile {
             span,
             shape,

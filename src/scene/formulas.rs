@@ -5,11 +5,12 @@
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::fault::{Fault, Span, nearest};
+use super::fault::{Fault, Span};
 use super::record::{Formula, Pair};
 use crate::dimension::{self, Dimension};
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Node, Symbol, Vector};
+use crate::formula::{self, Content};
 
 /// What a field holds: its name, dimension and a remark that helps when the dimension is wrong.
 #[derive(Clone, Copy)]
@@ -21,18 +22,42 @@ pub(super) struct Quantity {
 }
 
 impl Quantity {
-    pub const NUMBER: Quantity = Quantity { exponents: [0, 0, 0], hint: "divide by a quantity of the same kind" };
-    pub const ANGLE: Quantity = Quantity { exponents: [0, 0, 0], hint: "an angle is in radians, or pi/180 times degrees" };
-    pub const DIRECTION: Quantity =
-        Quantity { exponents: [0, 0, 0], hint: "a direction has components without unit, such as [\"cos(theta)\", \"sin(theta)\"]" };
-    pub const MASS: Quantity = Quantity { exponents: [1, 0, 0], hint: "a mass, such as m or 3*m" };
-    pub const LENGTH: Quantity = Quantity { exponents: [0, 1, 0], hint: "a length, such as l/2 or d*cos(theta)" };
-    pub const VELOCITY: Quantity = Quantity { exponents: [0, 1, -1], hint: "a velocity, such as v or omega*l" };
-    pub const SPIN: Quantity =
-        Quantity { exponents: [0, 0, -1], hint: "a spin is an angle per time: of a point at speed v and distance l it is v/l" };
-    pub const INERTIA: Quantity =
-        Quantity { exponents: [1, 2, 0], hint: "a uniform rod of length l has inertia m l^2/12 about its center" };
-    pub const IMPULSE: Quantity = Quantity { exponents: [1, 1, -1], hint: "an impulse is a mass times a velocity" };
+    pub const NUMBER: Quantity = Quantity {
+        exponents: [0, 0, 0],
+        hint: "divide by a quantity of the same kind",
+    };
+    pub const ANGLE: Quantity = Quantity {
+        exponents: [0, 0, 0],
+        hint: "an angle is in radians, or pi/180 times degrees",
+    };
+    pub const DIRECTION: Quantity = Quantity {
+        exponents: [0, 0, 0],
+        hint: "a direction has components without unit, such as [\"cos(theta)\", \"sin(theta)\"]",
+    };
+    pub const MASS: Quantity = Quantity {
+        exponents: [1, 0, 0],
+        hint: "a mass, such as m or 3*m",
+    };
+    pub const LENGTH: Quantity = Quantity {
+        exponents: [0, 1, 0],
+        hint: "a length, such as l/2 or d*cos(theta)",
+    };
+    pub const VELOCITY: Quantity = Quantity {
+        exponents: [0, 1, -1],
+        hint: "a velocity, such as v or omega*l",
+    };
+    pub const SPIN: Quantity = Quantity {
+        exponents: [0, 0, -1],
+        hint: "a spin is an angle per time: of a point at speed v and distance l it is v/l",
+    };
+    pub const INERTIA: Quantity = Quantity {
+        exponents: [1, 2, 0],
+        hint: "a uniform rod of length l has inertia m l^2/12 about its center",
+    };
+    pub const IMPULSE: Quantity = Quantity {
+        exponents: [1, 1, -1],
+        hint: "an impulse is a mass times a velocity",
+    };
 
     /// Its dimension.
     pub fn dimension(self) -> Dimension {
@@ -48,13 +73,30 @@ impl Quantity {
 
 /// The symbols formulas may use, and which of them have been used.
 pub(super) struct Symbols {
+    names: formula::Symbols,
     dimensions: BTreeMap<Symbol, Dimension>,
     used: RefCell<BTreeSet<Symbol>>,
+    remarks: RefCell<Vec<String>>,
 }
 
 impl Symbols {
+    /// Symbols with their dimension; no others may occur.
     pub fn new(dimensions: BTreeMap<Symbol, Dimension>) -> Symbols {
-        Symbols { dimensions, used: RefCell::default() }
+        let mut names = formula::Symbols::strict();
+        for (name, dimension) in &dimensions {
+            names.declare_as(name, None, Some(dimension.clone()));
+        }
+        Symbols {
+            names,
+            dimensions,
+            used: RefCell::default(),
+            remarks: RefCell::default(),
+        }
+    }
+
+    /// What is to be told of formulas that can be read in two ways.
+    pub fn remarks(&self) -> Vec<String> {
+        self.remarks.borrow().clone()
     }
 
     /// Whether a formula read so far uses the symbol.
@@ -68,7 +110,12 @@ impl Symbols {
     }
 
     /// Reads a formula of the given dimension. A formula without symbols is a number in SI units, whatever the field.
-    pub fn read(&self, formula: &Formula, quantity: Quantity, faults: &mut Vec<Fault>) -> Option<Expr> {
+    pub fn read(
+        &self,
+        formula: &Formula,
+        quantity: Quantity,
+        faults: &mut Vec<Fault>,
+    ) -> Option<Expr> {
         let e = self.expression(formula, faults)?;
         let symbols = e.symbols();
         let is_number = symbols.is_empty();
@@ -78,7 +125,10 @@ impl Symbols {
         }
         match dimension::of(&e, &|name| self.dimensions.get(name).cloned()) {
             Err(clash) => {
-                faults.push(Fault::new(formula.span, clash.message(&|e| format!("{e:?}"))));
+                faults.push(Fault::new(
+                    formula.span,
+                    clash.message(&formula::write_plain),
+                ));
                 None
             }
             Ok(Some(found)) if found != quantity.dimension() => {
@@ -91,29 +141,55 @@ impl Symbols {
     }
 
     /// Reads both components of a vector.
-    pub fn vector(&self, pair: &Pair<Formula>, quantity: Quantity, faults: &mut Vec<Fault>) -> Option<Vector> {
+    pub fn vector(
+        &self,
+        pair: &Pair<Formula>,
+        quantity: Quantity,
+        faults: &mut Vec<Fault>,
+    ) -> Option<Vector> {
         let [x, y] = &pair.items;
-        let (x, y) = (self.read(x, quantity, faults), self.read(y, quantity, faults));
+        let (x, y) = (
+            self.read(x, quantity, faults),
+            self.read(y, quantity, faults),
+        );
         Some([x?, y?])
     }
 
     /// Reads a formula without regard to its dimension.
     pub fn expression(&self, formula: &Formula, faults: &mut Vec<Fault>) -> Option<Expr> {
-        let names: Vec<&str> = self.dimensions.keys().map(|k| &**k).collect();
-        match expression(&formula.text, &names) {
-            Ok(e) if is_finite(&e) => Some(e),
-            Ok(_) => {
-                faults.push(Fault::new(formula.span, "a number here is too large").hint("numbers go up to about 1e308"));
-                None
-            }
+        let reading = match formula::read(&formula.text, &self.names) {
+            Ok(reading) => reading,
             Err(trouble) => {
-                let span = formula.start.map_or(formula.span, |at| Span::new(at + trouble.start, at + trouble.end));
-                let mut fault = Fault::new(span, trouble.message);
-                fault.hint = trouble.hint;
-                faults.push(fault);
-                None
+                for part in std::iter::once(&trouble).chain(&trouble.also) {
+                    let span = formula
+                        .start
+                        .map_or(formula.span, |at| Span::new(at + part.start, at + part.end));
+                    let mut fault = Fault::new(span, &part.message);
+                    fault.hint = part.hint.clone();
+                    faults.push(fault);
+                }
+                return None;
             }
+        };
+        let Content::Scalar(e) = reading.content else {
+            faults.push(Fault::new(
+                formula.span,
+                "a single expression is expected here",
+            ));
+            return None;
+        };
+        if reading.choices > 0 {
+            let remark = format!("`{}` is read as {}", formula.text, formula::write_plain(&e));
+            self.remarks.borrow_mut().push(remark);
         }
+        if !is_finite(&e) {
+            faults.push(
+                Fault::new(formula.span, "a number here is too large")
+                    .hint("numbers go up to about 1e308"),
+            );
+            return None;
+        }
+        Some(e)
     }
 }
 
@@ -126,124 +202,4 @@ fn is_finite(e: &Expr) -> bool {
         }
     });
     finite
-}
-
-/// Why a formula could not be read, and where in it.
-struct Trouble {
-    start: usize,
-    end: usize,
-    message: String,
-    hint: Option<String>,
-}
-
-/// A stand-in until `formula::read` lands.
-fn expression(text: &str, names: &[&str]) -> Result<Expr, Trouble> {
-    let mut p = Stub { text, at: 0, names, depth: 0 };
-    let e = p.sum()?;
-    p.blank();
-    if p.at < text.len() { Err(p.trouble("unexpected")) } else { Ok(e) }
-}
-
-struct Stub<'a> {
-    text: &'a str,
-    at: usize,
-    names: &'a [&'a str],
-    depth: usize,
-}
-
-impl Stub<'_> {
-    fn trouble(&self, m: &str) -> Trouble {
-        Trouble { start: self.at, end: self.at, message: m.into(), hint: None }
-    }
-    fn blank(&mut self) {
-        while self.text[self.at..].starts_with(' ') {
-            self.at += 1;
-        }
-    }
-    fn eat(&mut self, c: char) -> bool {
-        self.blank();
-        let hit = self.text[self.at..].starts_with(c);
-        if hit {
-            self.at += 1;
-        }
-        hit
-    }
-    fn sum(&mut self) -> Result<Expr, Trouble> {
-        self.depth += 1;
-        if self.depth > 50 {
-            return Err(self.trouble("too deep"));
-        }
-        let mut e = self.product()?;
-        loop {
-            if self.eat('+') {
-                e = e + self.product()?;
-            } else if self.eat('-') {
-                e = e - self.product()?;
-            } else {
-                self.depth -= 1;
-                return Ok(e);
-            }
-        }
-    }
-    fn product(&mut self) -> Result<Expr, Trouble> {
-        let mut e = self.unary()?;
-        loop {
-            if self.eat('*') {
-                e = e * self.unary()?;
-            } else if self.eat('/') {
-                e = e / self.unary()?;
-            } else {
-                return Ok(e);
-            }
-        }
-    }
-    fn unary(&mut self) -> Result<Expr, Trouble> {
-        if self.eat('-') {
-            let e = self.atom()?;
-            return Ok(-e);
-        }
-        let e = self.atom()?;
-        if self.eat('^') { Ok(e.power(self.atom()?)) } else { Ok(e) }
-    }
-    fn atom(&mut self) -> Result<Expr, Trouble> {
-        if self.eat('(') {
-            let e = self.sum()?;
-            return if self.eat(')') { Ok(e) } else { Err(self.trouble(")")) };
-        }
-        let rest = &self.text[self.at..];
-        let digits = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
-        if digits > 0 {
-            let (i, f) = rest[..digits].split_once('.').unwrap_or((&rest[..digits], ""));
-            let n: i64 = format!("{i}{f}").parse().map_err(|_| self.trouble("number"))?;
-            let d = 10i64.checked_pow(f.len() as u32).ok_or_else(|| self.trouble("number"))?;
-            self.at += digits;
-            return Ok(Expr::ratio(n, d));
-        }
-        let letters = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
-        let word = &rest[..letters];
-        if let Some(f) = crate::expr::Function::ALL.iter().find(|f| f.name() == word) {
-            self.at += letters;
-            let a = self.atom()?;
-            return Ok(match word {
-                "sin" => a.sin(),
-                "cos" => a.cos(),
-                "tan" => a.tan(),
-                _ => Expr::call(*f, a),
-            });
-        }
-        if word == "sqrt" {
-            self.at += letters;
-            return Ok(self.atom()?.sqrt());
-        }
-        if word == "pi" || self.names.contains(&word) {
-            self.at += letters;
-            return Ok(Expr::symbol(word));
-        }
-        Err(Trouble {
-            start: self.at,
-            end: self.at + letters,
-            message: format!("unknown symbol `{word}`"),
-            hint: nearest(word, self.names.iter().copied()).map(|n| format!("did you mean `{n}`?")),
-        })
-    }
 }

@@ -9,12 +9,25 @@ use crate::expr::{Expr, Int, Rational, Vector, ratio};
 /// The unit vector at an angle counterclockwise from x. Multiples of π/2 are taken out, and of ±φ the one is used that
 /// does not start with a minus sign: the direction at π/2 + θ is (−sin θ, cos θ).
 pub(super) fn direction(e: &Expr) -> Vector {
-    let Some(read) = angle(e) else { return [e.cos(), e.sin()] };
+    let Some(read) = angle(e) else {
+        return [e.cos(), e.sin()];
+    };
     let quarters = (&read.pi * ratio(2, 1)).floor();
-    let rest = Angle { pi: &read.pi - &quarters / ratio(2, 1), symbols: read.symbols };
-    let is_turned = rest.symbols.values().next().is_some_and(Signed::is_negative);
+    let rest = Angle {
+        pi: &read.pi - &quarters / ratio(2, 1),
+        symbols: read.symbols,
+    };
+    let is_turned = rest
+        .symbols
+        .values()
+        .next()
+        .is_some_and(Signed::is_negative);
     let sign = if is_turned { ratio(-1, 1) } else { ratio(1, 1) };
-    let mut terms: Vec<Expr> = rest.symbols.iter().map(|(name, k)| Expr::from(k * &sign) * Expr::symbol(name)).collect();
+    let mut terms: Vec<Expr> = rest
+        .symbols
+        .iter()
+        .map(|(name, k)| Expr::from(k * &sign) * Expr::symbol(name))
+        .collect();
     if !rest.pi.is_zero() {
         terms.push(Expr::from(&rest.pi * &sign) * Expr::pi());
     }

@@ -51,16 +51,20 @@ impl Node<'_> {
         let mut node = self;
         loop {
             let inner = match &node.value {
-                Value::List(items) => {
-                    items.iter().enumerate().find(|(_, n)| n.span.contains(span)).map(|(i, n)| (i.to_string(), n))
-                }
+                Value::List(items) => items
+                    .iter()
+                    .enumerate()
+                    .find(|(_, n)| n.span.contains(span))
+                    .map(|(i, n)| (i.to_string(), n)),
                 Value::Object(entries) => entries
                     .iter()
                     .find(|e| e.key_span.to(e.node.span).contains(span))
                     .map(|e| (e.key.replace('~', "~0").replace('/', "~1"), &e.node)),
                 _ => None,
             };
-            let Some((step, next)) = inner else { return pointer };
+            let Some((step, next)) = inner else {
+                return pointer;
+            };
             pointer.push('/');
             pointer.push_str(&step);
             node = next;
@@ -140,7 +144,10 @@ impl<'t> Parser<'t> {
             Some(b'-' | b'0'..=b'9') => Value::Number(self.number()?),
             Some(_) => self.word()?,
         };
-        Ok(Node { span: Span::new(start, self.at), value })
+        Ok(Node {
+            span: Span::new(start, self.at),
+            value,
+        })
     }
 
     fn object(&mut self, depth: usize) -> Result<Value<'t>, Fault> {
@@ -165,7 +172,11 @@ impl<'t> Parser<'t> {
             self.at += 1;
             self.skip_blank()?;
             let node = self.value(depth + 1)?;
-            entries.push(Entry { key, key_span, node });
+            entries.push(Entry {
+                key,
+                key_span,
+                node,
+            });
             self.skip_blank()?;
             match self.peek() {
                 Some(b',') => self.at += 1,
@@ -208,7 +219,10 @@ impl<'t> Parser<'t> {
         let mut decoded: Option<String> = None;
         loop {
             let Some(c) = self.rest().chars().next() else {
-                return Err(Fault::new(Span::new(open, open + 1), "this text is never closed").hint("add a \" at its end"));
+                return Err(
+                    Fault::new(Span::new(open, open + 1), "this text is never closed")
+                        .hint("add a \" at its end"),
+                );
             };
             match c {
                 '"' => {
@@ -217,16 +231,23 @@ impl<'t> Parser<'t> {
                     return Ok(decoded.map_or(Cow::Borrowed(raw), Cow::Owned));
                 }
                 '\\' => {
-                    let mut text = decoded.take().unwrap_or_else(|| self.text[start..self.at].to_owned());
+                    let mut text = decoded
+                        .take()
+                        .unwrap_or_else(|| self.text[start..self.at].to_owned());
                     text.push(self.escape()?);
                     decoded = Some(text);
                     continue;
                 }
                 '\n' | '\r' => {
-                    return Err(Fault::new(Span::new(open, self.at), "this text does not end on its line")
-                        .hint("close it with \", or write \\n for a line break"));
+                    return Err(Fault::new(
+                        Span::new(open, self.at),
+                        "this text does not end on its line",
+                    )
+                    .hint("close it with \", or write \\n for a line break"));
                 }
-                c if c.is_control() && c != '\t' => return Err(self.fault_here("a control character stands in a text")),
+                c if c.is_control() && c != '\t' => {
+                    return Err(self.fault_here("a control character stands in a text"));
+                }
                 c => {
                     if let Some(text) = &mut decoded {
                         text.push(c);
@@ -259,12 +280,16 @@ impl<'t> Parser<'t> {
                     }
                     code => code,
                 };
-                return char::from_u32(code)
-                    .ok_or_else(|| Fault::new(Span::new(start, self.at), "this escape names no character"));
+                return char::from_u32(code).ok_or_else(|| {
+                    Fault::new(Span::new(start, self.at), "this escape names no character")
+                });
             }
             _ => {
-                return Err(Fault::new(Span::new(start, start + 1), "this backslash starts no known escape")
-                    .hint("a backslash in LaTeX is written twice: \"\\\\ell\""));
+                return Err(Fault::new(
+                    Span::new(start, start + 1),
+                    "this backslash starts no known escape",
+                )
+                .hint("a backslash in LaTeX is written twice: \"\\\\ell\""));
             }
         };
         self.at += 2;
@@ -274,9 +299,16 @@ impl<'t> Parser<'t> {
     /// The four hexadecimal digits after `\u` at `start`.
     fn hex(&mut self, start: usize) -> Result<u32, Fault> {
         let digits = self.text.get(start + 2..start + 6);
-        let code = digits.filter(|d| d.bytes().all(|b| b.is_ascii_hexdigit())).and_then(|d| u32::from_str_radix(d, 16).ok());
+        let code = digits
+            .filter(|d| d.bytes().all(|b| b.is_ascii_hexdigit()))
+            .and_then(|d| u32::from_str_radix(d, 16).ok());
         self.at = start + 6;
-        code.ok_or_else(|| Fault::new(Span::new(start, start + 2), "\\u needs four hexadecimal digits"))
+        code.ok_or_else(|| {
+            Fault::new(
+                Span::new(start, start + 2),
+                "\\u needs four hexadecimal digits",
+            )
+        })
     }
 
     fn number(&mut self) -> Result<&'t str, Fault> {
@@ -286,8 +318,10 @@ impl<'t> Parser<'t> {
         }
         let integer = self.digits()?;
         if integer.len() > 1 && integer.starts_with('0') {
-            return Err(Fault::new(Span::new(start, self.at), "a number does not start with 0")
-                .hint("JSON writes 7, not 07; formulas stand in quotes"));
+            return Err(
+                Fault::new(Span::new(start, self.at), "a number does not start with 0")
+                    .hint("JSON writes 7, not 07; formulas stand in quotes"),
+            );
         }
         if self.peek() == Some(b'.') {
             self.at += 1;
@@ -301,9 +335,17 @@ impl<'t> Parser<'t> {
             self.digits()?;
         }
         match self.rest().chars().next() {
-            Some(c) if c.is_alphanumeric() || "._+-*/^".contains(c) && !self.rest().starts_with("//") && !self.rest().starts_with("/*") => {
-                Err(Fault::new(Span::new(start, self.at + c.len_utf8()), "this is more than a number")
-                    .hint("formulas stand in quotes: \"2*l\", \"pi/6\""))
+            Some(c)
+                if c.is_alphanumeric()
+                    || "._+-*/^".contains(c)
+                        && !self.rest().starts_with("//")
+                        && !self.rest().starts_with("/*") =>
+            {
+                Err(Fault::new(
+                    Span::new(start, self.at + c.len_utf8()),
+                    "this is more than a number",
+                )
+                .hint("formulas stand in quotes: \"2*l\", \"pi/6\""))
             }
             _ => Ok(&self.text[start..self.at]),
         }
@@ -320,7 +362,10 @@ impl<'t> Parser<'t> {
     }
 
     fn word(&mut self) -> Result<Value<'t>, Fault> {
-        let length = self.rest().find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(self.rest().len());
+        let length = self
+            .rest()
+            .find(|c: char| !c.is_alphanumeric() && c != '_')
+            .unwrap_or(self.rest().len());
         let word = &self.rest()[..length];
         let value = match word {
             "true" => Value::Bool(true),
@@ -328,8 +373,11 @@ impl<'t> Parser<'t> {
             "null" => Value::Null,
             "" => return Err(self.fault_here("expected a value")),
             _ => {
-                return Err(Fault::new(Span::new(self.at, self.at + length), format!("`{word}` stands without quotes"))
-                    .hint(format!("write \"{word}\"")));
+                return Err(Fault::new(
+                    Span::new(self.at, self.at + length),
+                    format!("`{word}` stands without quotes"),
+                )
+                .hint(format!("write \"{word}\"")));
             }
         };
         self.at += length;
@@ -338,7 +386,11 @@ impl<'t> Parser<'t> {
 }
 
 fn never_closed(open: usize, bracket: &str, closing: &str) -> Fault {
-    Fault::new(Span::new(open, open + 1), format!("this {bracket} is never closed")).hint(format!("add the missing {closing}"))
+    Fault::new(
+        Span::new(open, open + 1),
+        format!("this {bracket} is never closed"),
+    )
+    .hint(format!("add the missing {closing}"))
 }
 
 #[cfg(test)]
@@ -348,7 +400,22 @@ mod tests {
     #[test]
     fn comments_and_trailing_commas_are_read_and_a_missing_comma_is_not() {
         assert!(parse("{ // c\n \"a\": [1, 2,], /* d */ \"b\": 0.1, }").is_ok());
-        for text in ["{\"a\": 1 \"b\": 2}", "[1 2]", "{\"a\" 1}", "{a: 1}", "[01]", "[1.]", "[--1]", "\"a", "{", "", "[1]x", "/*/", "[tru]", "[2*l]"] {
+        for text in [
+            "{\"a\": 1 \"b\": 2}",
+            "[1 2]",
+            "{\"a\" 1}",
+            "{a: 1}",
+            "[01]",
+            "[1.]",
+            "[--1]",
+            "\"a",
+            "{",
+            "",
+            "[1]x",
+            "/*/",
+            "[tru]",
+            "[2*l]",
+        ] {
             assert!(parse(text).is_err(), "{text}");
         }
     }
@@ -357,7 +424,11 @@ mod tests {
     fn escapes_are_decoded() {
         let node = parse(r#""\\ell \u03b8 \ud835\udc65""#);
         assert!(matches!(node.map(|n| n.value), Ok(Value::Text(t)) if t == "\\ell θ 𝑥"));
-        assert!(parse(r#""\ud835""#).is_err() && parse(r#""\ell""#).is_err() && parse("\"\\u12").is_err());
+        assert!(
+            parse(r#""\ud835""#).is_err()
+                && parse(r#""\ell""#).is_err()
+                && parse("\"\\u12").is_err()
+        );
     }
 
     #[test]

@@ -29,7 +29,10 @@ const LONGEST: usize = 1 << 20;
 pub fn read(text: &str) -> Result<Scene, Faults> {
     if text.len() > LONGEST {
         let message = format!("{} bytes; a scene has at most {LONGEST}", text.len());
-        return Err(Faults::gather(vec![Fault::new(Span::default(), message)], text));
+        return Err(Faults::gather(
+            vec![Fault::new(Span::default(), message)],
+            text,
+        ));
     }
     let root = json::parse(text).map_err(|fault| Faults::gather(vec![fault], text))?;
     let mut faults = Vec::new();
@@ -61,19 +64,25 @@ pub fn set(scene: &mut Scene, name: &str, value: &str) -> Result<(), Fault> {
     let all = Span::new(0, value.len());
     let Some(index) = scene.parameters.iter().position(|p| *p.name == *name) else {
         let fault = Fault::new(all, format!("there is no parameter `{name}`"));
-        return Err(match fault::nearest(name, scene.parameters.iter().map(|p| &*p.name)) {
-            Some(near) => fault.hint(format!("did you mean `{near}`?")),
-            None => fault,
-        });
+        return Err(
+            match fault::nearest(name, scene.parameters.iter().map(|p| &*p.name)) {
+                Some(near) => fault.hint(format!("did you mean `{near}`?")),
+                None => fault,
+            },
+        );
     };
     let parameter = &scene.parameters[index];
-    let unit = dimension::unit(&parameter.unit).map_err(|trouble| Fault::new(all, trouble.message))?;
+    let unit =
+        dimension::unit(&parameter.unit).map_err(|trouble| Fault::new(all, trouble.message))?;
     let mut faults = Vec::new();
     let Some(read) = parameters::value(&parameters::whole(value), &unit, &mut faults) else {
-        return Err(faults.pop().unwrap_or_else(|| Fault::new(all, "this is no value")));
+        return Err(faults
+            .pop()
+            .unwrap_or_else(|| Fault::new(all, "this is no value")));
     };
     if let Some(domain) = scene.domains.symbols.get(&parameter.name) {
-        parameters::lies_in(&read, domain).map_err(|message| Fault::new(all, format!("{name} {message}")))?;
+        parameters::lies_in(&read, domain)
+            .map_err(|message| Fault::new(all, format!("{name} {message}")))?;
     }
     let before = scene.parameters[index].value.replace(read);
     match check::at_values(scene, all) {

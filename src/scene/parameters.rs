@@ -21,10 +21,18 @@ use crate::expr::{Expr, Function, Point, Rational, ratio};
 const PARAMETERS: usize = 1000;
 
 /// Reads the parameters into the scene; gives the symbols formulas may use.
-pub(super) fn resolve(file: &SceneFile, scene: &mut Scene, claims: &mut Vec<Claimed>, faults: &mut Vec<Fault>) -> Symbols {
+pub(super) fn resolve(
+    file: &SceneFile,
+    scene: &mut Scene,
+    claims: &mut Vec<Claimed>,
+    faults: &mut Vec<Fault>,
+) -> Symbols {
     let all: &[(Text, Option<ParameterFile>)] = file.parameters.as_ref().map_or(&[], |m| &m.0);
     if let Some((name, _)) = all.get(PARAMETERS) {
-        faults.push(Fault::new(name.span, format!("{} parameters, more than {PARAMETERS}", all.len())));
+        faults.push(Fault::new(
+            name.span,
+            format!("{} parameters, more than {PARAMETERS}", all.len()),
+        ));
         return Symbols::new(BTreeMap::new());
     }
     let mut spellings: BTreeMap<String, &str> = BTreeMap::new();
@@ -32,34 +40,55 @@ pub(super) fn resolve(file: &SceneFile, scene: &mut Scene, claims: &mut Vec<Clai
     for (name, entry) in all {
         check_name(name, faults);
         if let Some(other) = spellings.insert(spelling(&name.text), &name.text) {
-            faults.push(Fault::new(name.span, format!("`{}` and `{other}` are one symbol in formulas", name.text)));
+            faults.push(Fault::new(
+                name.span,
+                format!("`{}` and `{other}` are one symbol in formulas", name.text),
+            ));
         }
         let unit = match entry.as_ref().and_then(|p| p.unit.as_ref()) {
             None => dimension::unit("1").ok(),
             Some(text) => read_unit(text, faults),
         };
-        let dimension = unit.as_ref().map(|u| u.dimension.clone()).unwrap_or_default();
+        let dimension = unit
+            .as_ref()
+            .map(|u| u.dimension.clone())
+            .unwrap_or_default();
         symbols.insert(name.text.as_str().into(), dimension.clone());
-        let (Some(entry), Some(unit)) = (entry, unit) else { continue };
+        let (Some(entry), Some(unit)) = (entry, unit) else {
+            continue;
+        };
         let parameter = Parameter {
             name: name.text.as_str().into(),
             latex: entry.latex.as_ref().map(|t| t.text.clone()),
-            unit: entry.unit.as_ref().map_or_else(|| "1".to_owned(), |t| t.text.clone()),
+            unit: entry
+                .unit
+                .as_ref()
+                .map_or_else(|| "1".to_owned(), |t| t.text.clone()),
             dimension,
             value: entry.value.as_ref().and_then(|v| value(v, &unit, faults)),
-            meaning: entry.meaning.as_ref().map(|t| t.text.clone()).unwrap_or_default(),
+            meaning: entry
+                .meaning
+                .as_ref()
+                .map(|t| t.text.clone())
+                .unwrap_or_default(),
         };
         let domain = match &entry.domain {
             Some(written) => domain(written, &unit, faults),
             None if is_restitution(file, &name.text) => Some(fraction()),
-            None if is_component(file, &name.text) => Some(Domain { low: Some(limit(-1, false)), ..fraction() }),
+            None if is_component(file, &name.text) => Some(Domain {
+                low: Some(limit(-1, false)),
+                ..fraction()
+            }),
             None if unit.angle && unit.dimension.is_none() => Some(Domain::default()),
             None => Some(positive()),
         };
         let Some(domain) = domain else { continue };
         if let (Some(value), Some(formula)) = (&parameter.value, &entry.value) {
             if let Err(message) = lies_in(value, &domain) {
-                faults.push(Fault::new(formula.span, format!("{} {message}", name.text)).hint("change the value, or its `domain`"));
+                faults.push(
+                    Fault::new(formula.span, format!("{} {message}", name.text))
+                        .hint("change the value, or its `domain`"),
+                );
             }
         }
         scene.domains.symbols.insert(parameter.name.clone(), domain);
@@ -74,7 +103,10 @@ pub(super) fn resolve(file: &SceneFile, scene: &mut Scene, claims: &mut Vec<Clai
 pub(super) fn value(formula: &Formula, unit: &Unit, faults: &mut Vec<Fault>) -> Option<Expr> {
     let e = Symbols::new(BTreeMap::new()).expression(formula, faults)?;
     let value = e * unit.value();
-    if !value.evaluate::<f64>(&Point::default()).is_some_and(f64::is_finite) {
+    if !value
+        .evaluate::<f64>(&Point::default())
+        .is_some_and(f64::is_finite)
+    {
         faults.push(Fault::new(formula.span, "this has no finite value"));
         return None;
     }
@@ -85,19 +117,31 @@ pub(super) fn value(formula: &Formula, unit: &Unit, faults: &mut Vec<Fault>) -> 
 pub(super) fn lies_in(value: &Expr, domain: &Domain) -> Result<(), String> {
     let number = value.evaluate::<f64>(&Point::default()).unwrap_or(f64::NAN);
     let compare = |limit: &Limit| {
-        let exact = if limit.of_pi { multiple_of_pi(value) } else { value.as_number().cloned() };
+        let exact = if limit.of_pi {
+            multiple_of_pi(value)
+        } else {
+            value.as_number().cloned()
+        };
         match exact {
             Some(exact) => Some(exact.cmp(&limit.value)),
             None => number.partial_cmp(&limit_f64(limit)),
         }
     };
     let is_fine = |limit: &Option<Limit>, inside: std::cmp::Ordering| {
-        limit.as_ref().is_none_or(|l| compare(l).is_some_and(|order| order == inside || order.is_eq() && !l.open))
+        limit.as_ref().is_none_or(|l| {
+            compare(l).is_some_and(|order| order == inside || order.is_eq() && !l.open)
+        })
     };
-    if is_fine(&domain.low, std::cmp::Ordering::Greater) && is_fine(&domain.high, std::cmp::Ordering::Less) {
+    if is_fine(&domain.low, std::cmp::Ordering::Greater)
+        && is_fine(&domain.high, std::cmp::Ordering::Less)
+    {
         return Ok(());
     }
-    Err(format!("is {}, outside its domain: {}", number_words(number), domain_words(domain)))
+    Err(format!(
+        "is {}, outside its domain: {}",
+        number_words(number),
+        domain_words(domain)
+    ))
 }
 
 /// A double as people write it.
@@ -106,7 +150,10 @@ pub(super) fn number_words(number: f64) -> String {
         return format!("{number:e}");
     }
     let rounded = format!("{number:.6}");
-    rounded.trim_end_matches('0').trim_end_matches('.').to_owned()
+    rounded
+        .trim_end_matches('0')
+        .trim_end_matches('.')
+        .to_owned()
 }
 
 /// The domain in words.
@@ -119,8 +166,16 @@ fn domain_words(domain: &Domain) -> String {
     match (&domain.low, &domain.high) {
         (None, None) => "any number".to_owned(),
         (Some(l), None) if l.value.is_zero() && l.open => "positive".to_owned(),
-        (Some(l), None) => format!("{}{}", if l.open { "greater than " } else { "at least " }, end(l)),
-        (None, Some(h)) => format!("{}{}", if h.open { "less than " } else { "at most " }, end(h)),
+        (Some(l), None) => format!(
+            "{}{}",
+            if l.open { "greater than " } else { "at least " },
+            end(l)
+        ),
+        (None, Some(h)) => format!(
+            "{}{}",
+            if h.open { "less than " } else { "at most " },
+            end(h)
+        ),
         (Some(l), Some(h)) => {
             let excluded = match (l.open, h.open) {
                 (true, true) => ", ends excluded",
@@ -136,7 +191,11 @@ fn domain_words(domain: &Domain) -> String {
 /// An end as a double.
 pub(super) fn limit_f64(limit: &Limit) -> f64 {
     let value = crate::expr::number::to_f64(&limit.value);
-    if limit.of_pi { value * std::f64::consts::PI } else { value }
+    if limit.of_pi {
+        value * std::f64::consts::PI
+    } else {
+        value
+    }
 }
 
 fn multiple_of_pi(e: &Expr) -> Option<Rational> {
@@ -145,26 +204,46 @@ fn multiple_of_pi(e: &Expr) -> Option<Rational> {
 }
 
 fn limit(value: i64, open: bool) -> Limit {
-    Limit { value: ratio(value, 1), of_pi: false, open }
+    Limit {
+        value: ratio(value, 1),
+        of_pi: false,
+        open,
+    }
 }
 
 fn positive() -> Domain {
-    Domain { low: Some(limit(0, true)), high: None }
+    Domain {
+        low: Some(limit(0, true)),
+        high: None,
+    }
 }
 
 /// From 0 to 1.
 fn fraction() -> Domain {
-    Domain { low: Some(limit(0, false)), high: Some(limit(1, false)) }
+    Domain {
+        low: Some(limit(0, false)),
+        high: Some(limit(1, false)),
+    }
 }
 
 fn check_name(name: &Text, faults: &mut Vec<Fault>) {
     let text = name.text.as_str();
-    let is_letter = |c: char| c.is_ascii_alphabetic() || ('α'..='ω').contains(&c) || ('Α'..='Ω').contains(&c) || c == 'ℓ';
+    let is_letter = |c: char| {
+        c.is_ascii_alphabetic() || ('α'..='ω').contains(&c) || ('Α'..='Ω').contains(&c) || c == 'ℓ'
+    };
     let mut letters = text.chars();
-    let is_identifier = letters.next().is_some_and(is_letter) && letters.all(|c| is_letter(c) || c.is_ascii_digit() || c == '_');
-    let is_word = text == "pi" || text == "π" || text == "sqrt" || Function::ALL.iter().any(|f| f.name() == text);
+    let is_identifier = letters.next().is_some_and(is_letter)
+        && letters.all(|c| is_letter(c) || c.is_ascii_digit() || c == '_');
+    let is_word = text == "pi"
+        || text == "π"
+        || text == "sqrt"
+        || Function::ALL.iter().any(|f| f.name() == text);
     let fault = if is_word {
-        Fault::new(name.span, format!("`{text}` has a meaning in formulas already")).hint("choose another name")
+        Fault::new(
+            name.span,
+            format!("`{text}` has a meaning in formulas already"),
+        )
+        .hint("choose another name")
     } else if !is_identifier || text.len() > 60 {
         let fault = Fault::new(name.span, format!("`{text}` cannot be a symbol"));
         fault.hint("a symbol is a letter followed by letters, digits and _, such as m1, v_G or theta; `latex` says how it looks")
@@ -199,18 +278,28 @@ fn read_unit(text: &Text, faults: &mut Vec<Fault>) -> Option<Unit> {
 fn domain(written: &DomainFile, unit: &Unit, faults: &mut Vec<Fault>) -> Option<Domain> {
     match written {
         DomainFile::Named(DomainName::Positive) => Some(positive()),
-        DomainFile::Named(DomainName::Nonnegative) => Some(Domain { low: Some(limit(0, false)), high: None }),
+        DomainFile::Named(DomainName::Nonnegative) => Some(Domain {
+            low: Some(limit(0, false)),
+            high: None,
+        }),
         DomainFile::Named(DomainName::Real) => Some(Domain::default()),
         DomainFile::Interval(interval) => interval_domain(interval, unit, faults),
     }
 }
 
-fn interval_domain(interval: &IntervalFile, unit: &Unit, faults: &mut Vec<Fault>) -> Option<Domain> {
+fn interval_domain(
+    interval: &IntervalFile,
+    unit: &Unit,
+    faults: &mut Vec<Fault>,
+) -> Option<Domain> {
     let mut end = |formula: &Option<Formula>, open: Option<bool>| match formula {
         None => Some(None),
         Some(formula) => interval_end(formula, open == Some(true), unit, faults).map(Some),
     };
-    let (low, high) = (end(&interval.min, interval.min_open), end(&interval.max, interval.max_open));
+    let (low, high) = (
+        end(&interval.min, interval.min_open),
+        end(&interval.max, interval.max_open),
+    );
     let (low, high) = (low?, high?);
     if let (Some(low), Some(high)) = (&low, &high) {
         let order = if low.of_pi == high.of_pi {
@@ -220,34 +309,63 @@ fn interval_domain(interval: &IntervalFile, unit: &Unit, faults: &mut Vec<Fault>
         };
         if order != Some(std::cmp::Ordering::Less) {
             let fault = Fault::new(interval.span, "`min` is not below `max`");
-            faults.push(fault.hint("a quantity with one possible value is a number: write it into the formulas"));
+            faults.push(fault.hint(
+                "a quantity with one possible value is a number: write it into the formulas",
+            ));
             return None;
         }
     }
     Some(Domain { low, high })
 }
 
-fn interval_end(formula: &Formula, open: bool, unit: &Unit, faults: &mut Vec<Fault>) -> Option<Limit> {
+fn interval_end(
+    formula: &Formula,
+    open: bool,
+    unit: &Unit,
+    faults: &mut Vec<Fault>,
+) -> Option<Limit> {
     let e = value(formula, unit, faults)?;
     if let Some(number) = e.as_number() {
-        return Some(Limit { value: number.clone(), of_pi: false, open });
+        return Some(Limit {
+            value: number.clone(),
+            of_pi: false,
+            open,
+        });
     }
     if let Some(multiple) = multiple_of_pi(&e) {
-        return Some(Limit { value: multiple, of_pi: true, open });
+        return Some(Limit {
+            value: multiple,
+            of_pi: true,
+            open,
+        });
     }
-    let fault = Fault::new(formula.span, "an end of a domain is a fraction or a fraction of pi");
+    let fault = Fault::new(
+        formula.span,
+        "an end of a domain is a fraction or a fraction of pi",
+    );
     faults.push(fault.hint("such as 3/2, 0.25 or pi/4"));
     None
 }
 
 /// Whether a contact uses this name, as it is, for its restitution.
 fn is_restitution(file: &SceneFile, name: &str) -> bool {
-    let mut contacts = file.contacts.iter().flat_map(|m| &m.0).filter_map(|(_, c)| c.as_ref());
-    contacts.any(|c| c.restitution.as_ref().is_some_and(|e| e.text.trim() == name))
+    let mut contacts = file
+        .contacts
+        .iter()
+        .flat_map(|m| &m.0)
+        .filter_map(|(_, c)| c.as_ref());
+    contacts.any(|c| {
+        c.restitution
+            .as_ref()
+            .is_some_and(|e| e.text.trim() == name)
+    })
 }
 
 fn is_component(file: &SceneFile, name: &str) -> bool {
-    file.unit_vectors.iter().flatten().any(|pair| pair.items.iter().any(|c| c.text == name))
+    file.unit_vectors
+        .iter()
+        .flatten()
+        .any(|pair| pair.items.iter().any(|c| c.text == name))
 }
 
 fn unit_vectors(
@@ -263,7 +381,11 @@ fn unit_vectors(
         for name in &pair.items {
             let Some(parameter) = scene.parameters.iter().find(|p| *p.name == *name.text) else {
                 is_fine = false;
-                let is_there = file.parameters.iter().flat_map(|m| &m.0).any(|(n, _)| n.text == name.text);
+                let is_there = file
+                    .parameters
+                    .iter()
+                    .flat_map(|m| &m.0)
+                    .any(|(n, _)| n.text == name.text);
                 if !is_there {
                     let fault = Fault::new(name.span, format!("`{}` is no parameter", name.text));
                     faults.push(fault.hint("declare both components under \"parameters\""));
@@ -272,21 +394,39 @@ fn unit_vectors(
             };
             if !parameter.dimension.is_none() {
                 is_fine = false;
-                let message = format!("expected {}, found {}", dimension::Dimension::none(), parameter.dimension);
-                faults.push(Fault::new(name.span, message).hint("the components of a unit vector have no unit"));
+                let message = format!(
+                    "expected {}, found {}",
+                    dimension::Dimension::none(),
+                    parameter.dimension
+                );
+                faults.push(
+                    Fault::new(name.span, message)
+                        .hint("the components of a unit vector have no unit"),
+                );
             }
             if !seen.insert(name.text.as_str()) {
                 is_fine = false;
-                faults.push(Fault::new(name.span, format!("`{}` is a component already", name.text)));
+                faults.push(Fault::new(
+                    name.span,
+                    format!("`{}` is a component already", name.text),
+                ));
             }
         }
         if !is_fine {
             continue;
         }
         let names = [0, 1].map(|i| pair.items[i].text.as_str().into());
-        let values: Vec<Expr> = scene.parameters.iter().filter(|p| names.contains(&p.name)).filter_map(|p| p.value.clone()).collect();
+        let values: Vec<Expr> = scene
+            .parameters
+            .iter()
+            .filter(|p| names.contains(&p.name))
+            .filter_map(|p| p.value.clone())
+            .collect();
         if let [a, b] = values.as_slice() {
-            claims.push(Claimed { span: pair.span, claim: Claim::Unit([a.clone(), b.clone()]) });
+            claims.push(Claimed {
+                span: pair.span,
+                claim: Claim::Unit([a.clone(), b.clone()]),
+            });
         }
         names.iter().for_each(|n| symbols.mark_used(n));
         scene.domains.unit_vectors.push(names);
@@ -295,13 +435,19 @@ fn unit_vectors(
 
 /// The place of a whole text, for values that come from outside a file.
 pub(super) fn whole(text: &str) -> Formula {
-    Formula { span: Span::new(0, text.len()), text: text.to_owned(), start: Some(0) }
+    Formula {
+        span: Span::new(0, text.len()),
+        text: text.to_owned(),
+        start: Some(0),
+    }
 }
 
 /// Whether the value is below zero for sure.
 pub(super) fn is_negative(value: &Expr) -> bool {
     match value.as_number() {
         Some(number) => number.is_negative(),
-        None => value.evaluate::<f64>(&Point::default()).is_some_and(|v| v < 0.0),
+        None => value
+            .evaluate::<f64>(&Point::default())
+            .is_some_and(|v| v < 0.0),
     }
 }

@@ -11,18 +11,39 @@ use super::{Ask, EnergyWhen, ImpulseAt, Question, Scene};
 /// Reads all questions.
 pub(super) fn resolve(resolver: &mut Resolver<'_>, scene: &mut Scene) {
     let file = resolver.file;
-    let all: Vec<(&Text, &QuestionFile)> =
-        file.questions.iter().flat_map(|m| &m.0).filter_map(|(name, q)| Some((name, q.as_ref()?))).collect();
-    let parameters: BTreeSet<&str> = file.parameters.iter().flat_map(|m| &m.0).map(|(name, _)| name.text.as_str()).collect();
+    let all: Vec<(&Text, &QuestionFile)> = file
+        .questions
+        .iter()
+        .flat_map(|m| &m.0)
+        .filter_map(|(name, q)| Some((name, q.as_ref()?)))
+        .collect();
+    let parameters: BTreeSet<&str> = file
+        .parameters
+        .iter()
+        .flat_map(|m| &m.0)
+        .map(|(name, _)| name.text.as_str())
+        .collect();
     for (name, question) in &all {
         if parameters.contains(name.text.as_str()) {
-            let fault = Fault::new(name.span, format!("the question `{0}` has the name of the parameter `{0}`", name.text));
-            resolver.faults.push(fault.hint("what is asked and what is given need different names"));
+            let fault = Fault::new(
+                name.span,
+                format!(
+                    "the question `{0}` has the name of the parameter `{0}`",
+                    name.text
+                ),
+            );
+            resolver
+                .faults
+                .push(fault.hint("what is asked and what is given need different names"));
         }
         let ask = ask(resolver, scene, name, question);
         if let Some(ask) = ask {
             let latex = question.latex.as_ref().map(|t| t.text.clone());
-            scene.questions.push(Question { name: name.text.clone(), latex, ask });
+            scene.questions.push(Question {
+                name: name.text.clone(),
+                latex,
+                ask,
+            });
         }
     }
     for (name, question) in &all {
@@ -30,9 +51,18 @@ pub(super) fn resolve(resolver: &mut Resolver<'_>, scene: &mut Scene) {
     }
 }
 
-fn ask(resolver: &mut Resolver<'_>, scene: &Scene, name: &Text, question: &QuestionFile) -> Option<Ask> {
+fn ask(
+    resolver: &mut Resolver<'_>,
+    scene: &Scene,
+    name: &Text,
+    question: &QuestionFile,
+) -> Option<Ask> {
     let kinds = [
-        ("velocity", question.velocity.is_some(), &["of", "along"][..]),
+        (
+            "velocity",
+            question.velocity.is_some(),
+            &["of", "along"][..],
+        ),
         ("spin", question.spin.is_some(), &["clockwise"]),
         ("impulse", question.impulse.is_some(), &["on", "along"]),
         ("energy", question.energy.is_some(), &["of"]),
@@ -45,11 +75,17 @@ fn ask(resolver: &mut Resolver<'_>, scene: &Scene, name: &Text, question: &Quest
             [] => "this question asks nothing".to_owned(),
             several => {
                 let names: Vec<&str> = several.iter().map(|(kind, ..)| *kind).collect();
-                format!("this question asks {} things: {}", names.len(), names.join(", "))
+                format!(
+                    "this question asks {} things: {}",
+                    names.len(),
+                    names.join(", ")
+                )
             }
         };
         let fault = Fault::new(name.span, message);
-        resolver.faults.push(fault.hint("give one of velocity, spin, impulse, energy, balance, matrix"));
+        resolver
+            .faults
+            .push(fault.hint("give one of velocity, spin, impulse, energy, balance, matrix"));
         return None;
     };
     let others = [
@@ -74,19 +110,33 @@ fn ask(resolver: &mut Resolver<'_>, scene: &Scene, name: &Text, question: &Quest
     };
     if let Some(of_velocity) = &question.velocity {
         let (body, point) = velocity(resolver, scene, of_velocity, question.of.as_ref())?;
-        return Some(Ask::Velocity { body, point, along: component()? });
+        return Some(Ask::Velocity {
+            body,
+            point,
+            along: component()?,
+        });
     }
     if let Some(body) = &question.spin {
         let index = resolver.moving(body)?;
         if resolver.is_particle(index) {
-            resolver.faults.push(Fault::new(body.span, format!("the particle `{}` has no spin", body.text)));
+            resolver.faults.push(Fault::new(
+                body.span,
+                format!("the particle `{}` has no spin", body.text),
+            ));
             return None;
         }
-        return Some(Ask::Spin { body: index, clockwise: question.clockwise == Some(true) });
+        return Some(Ask::Spin {
+            body: index,
+            clockwise: question.clockwise == Some(true),
+        });
     }
     if let Some(from) = &question.impulse {
         let (from, on) = impulse(resolver, scene, from, question.on.as_ref())?;
-        return Some(Ask::Impulse { from, on, along: component()? });
+        return Some(Ask::Impulse {
+            from,
+            on,
+            along: component()?,
+        });
     }
     if let Some(energy) = question.energy {
         let when = match energy {
@@ -103,21 +153,41 @@ fn ask(resolver: &mut Resolver<'_>, scene: &Scene, name: &Text, question: &Quest
     if question.balance.is_some() {
         let system = question.system.as_deref().unwrap_or_default();
         if system.is_empty() || along.is_none() {
-            let fault = Fault::new(name.span, "a balance needs its bodies, `system`, and its direction, `along`");
-            resolver.faults.push(fault.hint("\"system\": [\"ball\"], \"along\": [\"1\", \"0\"]"));
+            let fault = Fault::new(
+                name.span,
+                "a balance needs its bodies, `system`, and its direction, `along`",
+            );
+            resolver
+                .faults
+                .push(fault.hint("\"system\": [\"ball\"], \"along\": [\"1\", \"0\"]"));
             return None;
         }
         let bodies: Vec<Option<usize>> = system.iter().map(|body| resolver.moving(body)).collect();
         let system_indices = bodies.into_iter().collect::<Option<Vec<_>>>()?;
-        if let Some(twice) = (1..system.len()).find(|i| system[..*i].iter().any(|b| b.text == system[*i].text)) {
+        if let Some(twice) =
+            (1..system.len()).find(|i| system[..*i].iter().any(|b| b.text == system[*i].text))
+        {
             let message = format!("`{}` is in this system twice", system[twice].text);
-            resolver.faults.push(Fault::new(system[twice].span, message));
+            resolver
+                .faults
+                .push(Fault::new(system[twice].span, message));
             return None;
         }
-        return Some(Ask::Balance { system: system_indices, along: component()?? });
+        return Some(Ask::Balance {
+            system: system_indices,
+            along: component()??,
+        });
     }
-    let words = |list: &Option<Vec<Text>>| list.iter().flatten().map(|t| t.text.clone()).collect::<Vec<_>>();
-    Some(Ask::Matrix { rows: words(&question.matrix), unknowns: words(&question.unknowns) })
+    let words = |list: &Option<Vec<Text>>| {
+        list.iter()
+            .flatten()
+            .map(|t| t.text.clone())
+            .collect::<Vec<_>>()
+    };
+    Some(Ask::Matrix {
+        rows: words(&question.matrix),
+        unknowns: words(&question.unknowns),
+    })
 }
 
 type NamedPosition = (String, crate::expr::Vector);
@@ -140,7 +210,15 @@ fn velocity(
             return Some((resolver.moving(what)?, None));
         }
         let candidates = resolver.positions();
-        resolver.unknown(what, if of.is_some() { "point" } else { "body or point" }, candidates);
+        resolver.unknown(
+            what,
+            if of.is_some() {
+                "point"
+            } else {
+                "body or point"
+            },
+            candidates,
+        );
         return None;
     };
     let body = match of {
@@ -150,8 +228,13 @@ fn velocity(
             match (moving.next(), moving.next()) {
                 (Some(only), None) => only,
                 _ => {
-                    let fault = Fault::new(what.span, format!("the point `{}` may belong to several bodies", what.text));
-                    resolver.faults.push(fault.hint("say which: \"of\": the body's name"));
+                    let fault = Fault::new(
+                        what.span,
+                        format!("the point `{}` may belong to several bodies", what.text),
+                    );
+                    resolver
+                        .faults
+                        .push(fault.hint("say which: \"of\": the body's name"));
                     return None;
                 }
             }
@@ -161,7 +244,12 @@ fn velocity(
 }
 
 /// What transmits the impulse, and on which body it is asked.
-fn impulse(resolver: &mut Resolver<'_>, scene: &Scene, from: &Text, on: Option<&Text>) -> Option<(ImpulseAt, usize)> {
+fn impulse(
+    resolver: &mut Resolver<'_>,
+    scene: &Scene,
+    from: &Text,
+    on: Option<&Text>,
+) -> Option<(ImpulseAt, usize)> {
     let name = &from.text;
     let contact = scene.contacts.iter().position(|c| c.name == *name);
     let hinge = scene.hinges.iter().position(|h| h.name == *name);
@@ -173,9 +261,24 @@ fn impulse(resolver: &mut Resolver<'_>, scene: &Scene, from: &Text, on: Option<&
         _ => {
             let file = resolver.file;
             let mut names: Vec<&str> = Vec::new();
-            names.extend(file.contacts.iter().flat_map(|m| &m.0).map(|(n, _)| n.text.as_str()));
-            names.extend(file.hinges.iter().flat_map(|m| &m.0).map(|(n, _)| n.text.as_str()));
-            names.extend(file.blows.iter().flat_map(|m| &m.0).map(|(n, _)| n.text.as_str()));
+            names.extend(
+                file.contacts
+                    .iter()
+                    .flat_map(|m| &m.0)
+                    .map(|(n, _)| n.text.as_str()),
+            );
+            names.extend(
+                file.hinges
+                    .iter()
+                    .flat_map(|m| &m.0)
+                    .map(|(n, _)| n.text.as_str()),
+            );
+            names.extend(
+                file.blows
+                    .iter()
+                    .flat_map(|m| &m.0)
+                    .map(|(n, _)| n.text.as_str()),
+            );
             // A contact that is there but could not be read has been reported.
             if !names.contains(&name.as_str()) {
                 resolver.unknown(from, "contact, hinge or blow", names);
@@ -194,7 +297,11 @@ fn impulse(resolver: &mut Resolver<'_>, scene: &Scene, from: &Text, on: Option<&
             body
         }
         // Asked for is the impulse on something that moves.
-        None => bodies.iter().rev().copied().find(|b| !resolver.is_fixed(*b))?,
+        None => bodies
+            .iter()
+            .rev()
+            .copied()
+            .find(|b| !resolver.is_fixed(*b))?,
     };
     Some((from_what, on))
 }
@@ -203,18 +310,29 @@ fn impulse(resolver: &mut Resolver<'_>, scene: &Scene, from: &Text, on: Option<&
 fn matrix_names(resolver: &mut Resolver<'_>, scene: &Scene, name: &Text, question: &QuestionFile) {
     let Some(rows) = &question.matrix else { return };
     if rows.is_empty() || question.unknowns.as_ref().is_none_or(Vec::is_empty) {
-        let fault = Fault::new(name.span, "a matrix needs rows, `matrix`, and columns, `unknowns`");
-        resolver.faults.push(fault.hint("both are lists of names of questions"));
+        let fault = Fault::new(
+            name.span,
+            "a matrix needs rows, `matrix`, and columns, `unknowns`",
+        );
+        resolver
+            .faults
+            .push(fault.hint("both are lists of names of questions"));
         return;
     }
     let find = |n: &str| scene.questions.iter().find(|q| q.name == n);
     let mut wrong: Vec<(Span, String)> = Vec::new();
     let mut unknown: Vec<(&Text, &str)> = Vec::new();
     for row in rows {
-        let is_known = scene.after.iter().any(|k| k.name == row.text && !k.name.is_empty());
+        let is_known = scene
+            .after
+            .iter()
+            .any(|k| k.name == row.text && !k.name.is_empty());
         match find(&row.text) {
             Some(q) if !matches!(q.ask, Ask::Balance { .. }) => {
-                wrong.push((row.span, format!("the question `{}` is no equation", row.text)));
+                wrong.push((
+                    row.span,
+                    format!("the question `{}` is no equation", row.text),
+                ));
             }
             None if !is_known => unknown.push((row, "balance question or named entry of `after`")),
             _ => {}
@@ -222,18 +340,37 @@ fn matrix_names(resolver: &mut Resolver<'_>, scene: &Scene, name: &Text, questio
     }
     for column in question.unknowns.iter().flatten() {
         match find(&column.text).map(|q| &q.ask) {
-            Some(Ask::Spin { .. } | Ask::Velocity { along: Some(_), .. } | Ask::Impulse { along: Some(_), .. }) => {}
+            Some(
+                Ask::Spin { .. }
+                | Ask::Velocity { along: Some(_), .. }
+                | Ask::Impulse { along: Some(_), .. },
+            ) => {}
             Some(Ask::Velocity { .. } | Ask::Impulse { .. }) => {
-                wrong.push((column.span, format!("`{}` is a vector; an unknown of a matrix is a number", column.text)));
+                wrong.push((
+                    column.span,
+                    format!(
+                        "`{}` is a vector; an unknown of a matrix is a number",
+                        column.text
+                    ),
+                ));
             }
-            Some(_) => wrong.push((column.span, format!("the question `{}` is no unknown", column.text))),
+            Some(_) => wrong.push((
+                column.span,
+                format!("the question `{}` is no unknown", column.text),
+            )),
             None => unknown.push((column, "question")),
         }
     }
     for (span, message) in wrong {
         resolver.faults.push(Fault::new(span, message));
     }
-    let names: Vec<&str> = resolver.file.questions.iter().flat_map(|m| &m.0).map(|(n, _)| n.text.as_str()).collect();
+    let names: Vec<&str> = resolver
+        .file
+        .questions
+        .iter()
+        .flat_map(|m| &m.0)
+        .map(|(n, _)| n.text.as_str())
+        .collect();
     for (text, what) in unknown {
         // A question that is there but could not be read has been reported.
         if !names.contains(&text.text.as_str()) {

@@ -24,7 +24,10 @@ pub(super) trait Read: Sized {
 
 /// Reports that something else was expected.
 pub(super) fn unexpected<T>(node: &Node<'_>, expected: &str, faults: &mut Vec<Fault>) -> Option<T> {
-    faults.push(Fault::new(node.span, format!("expected {expected}, found {}", node.kind())));
+    faults.push(Fault::new(
+        node.span,
+        format!("expected {expected}, found {}", node.kind()),
+    ));
     None
 }
 
@@ -47,7 +50,12 @@ impl<T: Read> Read for Box<T> {
 impl<T: Read> Read for Vec<T> {
     fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
         match &node.value {
-            Value::List(items) => Some(items.iter().filter_map(|item| T::read(item, faults)).collect()),
+            Value::List(items) => Some(
+                items
+                    .iter()
+                    .filter_map(|item| T::read(item, faults))
+                    .collect(),
+            ),
             _ => unexpected(node, "a list", faults),
         }
     }
@@ -66,7 +74,10 @@ impl<T: Read> Read for Pair<T> {
             Value::List(items) => match items.as_slice() {
                 [a, b] => {
                     let (a, b) = (T::read(a, faults), T::read(b, faults));
-                    Some(Pair { span: node.span, items: [a?, b?] })
+                    Some(Pair {
+                        span: node.span,
+                        items: [a?, b?],
+                    })
                 }
                 _ => {
                     let message = format!("expected a list of two, found {}", items.len());
@@ -102,7 +113,10 @@ pub(super) struct Text {
 impl Read for Text {
     fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
         match &node.value {
-            Value::Text(text) => Some(Text { span: node.span, text: text.to_string() }),
+            Value::Text(text) => Some(Text {
+                span: node.span,
+                text: text.to_string(),
+            }),
             _ => unexpected(node, "a text in quotes", faults),
         }
     }
@@ -143,11 +157,17 @@ impl Read for Formula {
         match &node.value {
             Value::Text(text) => {
                 let start = matches!(text, Cow::Borrowed(_)).then_some(node.span.start + 1);
-                Some(Formula { span: node.span, text: text.to_string(), start })
+                Some(Formula {
+                    span: node.span,
+                    text: text.to_string(),
+                    start,
+                })
             }
-            Value::Number(number) => {
-                Some(Formula { span: node.span, text: (*number).to_owned(), start: Some(node.span.start) })
-            }
+            Value::Number(number) => Some(Formula {
+                span: node.span,
+                text: (*number).to_owned(),
+                start: Some(node.span.start),
+            }),
             _ => unexpected(node, "a formula in quotes, or a number", faults),
         }
     }
@@ -178,7 +198,15 @@ impl<T: Read> Read for Map<T> {
         let entries = unique(entries, faults);
         Some(Map(entries
             .into_iter()
-            .map(|e| (Text { span: e.key_span, text: e.key.to_string() }, T::read(&e.node, faults)))
+            .map(|e| {
+                (
+                    Text {
+                        span: e.key_span,
+                        text: e.key.to_string(),
+                    },
+                    T::read(&e.node, faults),
+                )
+            })
             .collect()))
     }
 }
@@ -204,7 +232,10 @@ fn unique<'n, 't>(entries: &'n [Entry<'t>], faults: &mut Vec<Fault>) -> Vec<&'n 
         if seen.insert(&*entry.key) {
             out.push(entry);
         } else {
-            faults.push(Fault::new(entry.key_span, format!("`{}` stands here twice", entry.key)));
+            faults.push(Fault::new(
+                entry.key_span,
+                format!("`{}` stands here twice", entry.key),
+            ));
         }
     }
     out
@@ -236,14 +267,21 @@ pub(super) fn fields<'n, 't>(
 }
 
 /// One field of an object.
-pub(super) fn field<T: Read>(node: &Node<'_>, entries: &[&Entry<'_>], name: &str, faults: &mut Vec<Fault>) -> Option<T> {
+pub(super) fn field<T: Read>(
+    node: &Node<'_>,
+    entries: &[&Entry<'_>],
+    name: &str,
+    faults: &mut Vec<Fault>,
+) -> Option<T> {
     match entries.iter().find(|e| e.key == name) {
         Some(entry) => T::read(&entry.node, faults),
         None => {
             let absent = T::absent();
             if absent.is_none() {
                 let place = Span::new(node.span.start, node.span.start + 1);
-                faults.push(Fault::new(node.span, format!("the field `{name}` is missing")).shown_at(place));
+                faults.push(
+                    Fault::new(node.span, format!("the field `{name}` is missing")).shown_at(place),
+                );
             }
             absent
         }
@@ -305,12 +343,19 @@ macro_rules! choice {
 pub(super) use {choice, key, record};
 
 /// One of a few words.
-pub(super) fn word<T: Copy>(node: &Node<'_>, words: &[(&str, T)], faults: &mut Vec<Fault>) -> Option<T> {
+pub(super) fn word<T: Copy>(
+    node: &Node<'_>,
+    words: &[(&str, T)],
+    faults: &mut Vec<Fault>,
+) -> Option<T> {
     let all = || words.iter().map(|(w, _)| *w).collect::<Vec<_>>().join(", ");
     let Value::Text(text) = &node.value else {
         return unexpected(node, &format!("one of {}", all()), faults);
     };
-    let found = words.iter().find(|(w, _)| w == text).map(|(_, value)| *value);
+    let found = words
+        .iter()
+        .find(|(w, _)| w == text)
+        .map(|(_, value)| *value);
     if found.is_none() {
         let fault = Fault::new(node.span, format!("`{text}` is none of {}", all()));
         faults.push(match nearest(text, words.iter().map(|(w, _)| *w)) {

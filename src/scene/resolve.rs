@@ -8,13 +8,16 @@ use std::collections::HashMap;
 use super::body::{Solid, SolidReader};
 use super::check::{Claim, Claimed, check, unused};
 use super::fault::{Fault, Span, nearest};
-use super::file::{ContactFile, DirectionFile, KnownFile, LawName, PositionFile, SceneFile, ShapeName, StepFile, VelocityFile};
+use super::file::{
+    ContactFile, DirectionFile, KnownFile, LawName, PositionFile, SceneFile, ShapeName, StepFile,
+    VelocityFile,
+};
 use super::formulas::{Quantity, Symbols};
 use super::geometry;
 use super::record::{Map, Text};
 use super::{
-    Blow, BlowImpulse, Body, Contact, ContactLaw, Force, Hinge, Known, KnownQuantity, NamedPoint, Scene, Shape, parameters,
-    question,
+    Blow, BlowImpulse, Body, Contact, ContactLaw, Force, Hinge, Known, KnownQuantity, NamedPoint,
+    Scene, Shape, parameters, question,
 };
 use crate::expr::{Expr, Vector, minus};
 
@@ -76,16 +79,28 @@ pub(super) fn resolve(file: &SceneFile) -> (Scene, Vec<Fault>) {
     if resolver.faults.len() <= super::fault::TOLD {
         resolver.fill(&mut scene);
     }
-    let Resolver { symbols, mut faults, claims, .. } = resolver;
+    let Resolver {
+        symbols,
+        mut faults,
+        claims,
+        ..
+    } = resolver;
     if faults.is_empty() {
         faults = check(&scene, &claims);
-        scene.remarks = unused(&scene, |name| symbols.is_used(name));
+        scene.remarks = symbols.remarks();
+        scene
+            .remarks
+            .extend(unused(&scene, |name| symbols.is_used(name)));
     }
     (scene, faults)
 }
 
 fn names<T>(map: Option<&Map<T>>) -> HashMap<&str, usize> {
-    map.into_iter().flat_map(|m| &m.0).enumerate().map(|(i, (name, _))| (name.text.as_str(), i)).collect()
+    map.into_iter()
+        .flat_map(|m| &m.0)
+        .enumerate()
+        .map(|(i, (name, _))| (name.text.as_str(), i))
+        .collect()
 }
 
 fn text(text: &Option<Text>) -> String {
@@ -94,7 +109,9 @@ fn text(text: &Option<Text>) -> String {
 
 /// The entries of a map that could be read.
 fn entries<T>(map: Option<&Map<T>>) -> impl Iterator<Item = (&Text, &T)> {
-    map.into_iter().flat_map(|m| &m.0).filter_map(|(name, entry)| Some((name, entry.as_ref()?)))
+    map.into_iter()
+        .flat_map(|m| &m.0)
+        .filter_map(|(name, entry)| Some((name, entry.as_ref()?)))
 }
 
 impl<'f> Resolver<'f> {
@@ -116,15 +133,21 @@ impl<'f> Resolver<'f> {
                 self.faults.push(Fault::new(keys[ENTRIES].span, message));
             }
             for key in keys {
-                let bad = key.text.trim() != key.text || key.text.is_empty() || key.text.chars().count() > 100;
+                let bad = key.text.trim() != key.text
+                    || key.text.is_empty()
+                    || key.text.chars().count() > 100;
                 if bad || key.text.chars().any(char::is_control) {
                     let message = "a name has 1 to 100 characters and no blank at its ends";
                     self.faults.push(Fault::new(key.span, message));
                 }
                 if matches!(*what, "hinges" | "contacts" | "blows") {
                     if let Some(other) = transmitters.insert(&key.text, what) {
-                        let message = format!("`{}` is already the name of one of the {other}", key.text);
-                        self.faults.push(Fault::new(key.span, message).hint("an impulse is asked for by this name"));
+                        let message =
+                            format!("`{}` is already the name of one of the {other}", key.text);
+                        self.faults.push(
+                            Fault::new(key.span, message)
+                                .hint("an impulse is asked for by this name"),
+                        );
                     }
                 }
             }
@@ -135,22 +158,34 @@ impl<'f> Resolver<'f> {
         let file = self.file;
         for (i, (name, _)) in file.points.iter().flat_map(|m| &m.0).enumerate() {
             let at = self.point(i).unwrap_or_else(origin);
-            scene.points.push(NamedPoint { name: name.text.clone(), at });
+            scene.points.push(NamedPoint {
+                name: name.text.clone(),
+                at,
+            });
         }
         for i in 0..file.bodies.0.len() {
             let body = self.body(i);
             scene.bodies.push(body);
         }
         if self.faults.is_empty() && scene.bodies.iter().all(Body::is_fixed) {
-            self.faults.push(Fault::new(file.span, "no body here can move").hint("add a body that is not fixed"));
+            self.faults.push(
+                Fault::new(file.span, "no body here can move").hint("add a body that is not fixed"),
+            );
         }
         for (name, hinge) in entries(file.hinges.as_ref()) {
             let bodies = self.pair(&hinge.bodies.items, hinge.bodies.span, "hinge");
             let at = self.position(&hinge.at);
             if let (Some(bodies), Some(at)) = (bodies, at) {
                 self.reach(bodies, &at, name.span, &name.text);
-                self.claims.push(Claimed { span: name.span, claim: Claim::Hinge(scene.hinges.len()) });
-                scene.hinges.push(Hinge { name: name.text.clone(), bodies, at });
+                self.claims.push(Claimed {
+                    span: name.span,
+                    claim: Claim::Hinge(scene.hinges.len()),
+                });
+                scene.hinges.push(Hinge {
+                    name: name.text.clone(),
+                    bodies,
+                    at,
+                });
             }
         }
         for (name, contact) in entries(file.contacts.as_ref()) {
@@ -159,21 +194,30 @@ impl<'f> Resolver<'f> {
         for (name, blow) in entries(file.blows.as_ref()) {
             let body = self.moving(&blow.on);
             let at = self.position(&blow.at);
-            let impulse = match (&blow.impulse, &blow.along) {
-                (Some(given), None) => {
-                    self.symbols.vector(given, Quantity::IMPULSE, &mut self.faults).map(BlowImpulse::Given)
-                }
-                (None, Some(along)) => self.direction(along).map(BlowImpulse::Along),
-                _ => {
-                    let message = "a blow has either `impulse` or `along`";
-                    let fault = Fault::new(blow.span, message).shown_at(name.span);
-                    self.faults.push(fault.hint("`impulse` gives it; `along` only says in which direction it acts"));
-                    None
-                }
-            };
+            let impulse =
+                match (&blow.impulse, &blow.along) {
+                    (Some(given), None) => self
+                        .symbols
+                        .vector(given, Quantity::IMPULSE, &mut self.faults)
+                        .map(BlowImpulse::Given),
+                    (None, Some(along)) => self.direction(along).map(BlowImpulse::Along),
+                    _ => {
+                        let message = "a blow has either `impulse` or `along`";
+                        let fault = Fault::new(blow.span, message).shown_at(name.span);
+                        self.faults.push(fault.hint(
+                            "`impulse` gives it; `along` only says in which direction it acts",
+                        ));
+                        None
+                    }
+                };
             if let (Some(body), Some(at), Some(impulse)) = (body, at, impulse) {
                 self.reach([body, body], &at, name.span, &name.text);
-                scene.blows.push(Blow { name: name.text.clone(), body, at, impulse });
+                scene.blows.push(Blow {
+                    name: name.text.clone(),
+                    body,
+                    at,
+                    impulse,
+                });
             }
         }
         for known in file.after.iter().flatten() {
@@ -182,7 +226,10 @@ impl<'f> Resolver<'f> {
         }
         for force in file.forces.iter().flatten() {
             if let Some(body) = self.body_named(&force.on) {
-                scene.forces.push(Force { name: force.name.text.clone(), body });
+                scene.forces.push(Force {
+                    name: force.name.text.clone(),
+                    body,
+                });
             }
         }
         question::resolve(self, scene);
@@ -211,20 +258,29 @@ impl<'f> Resolver<'f> {
             (body.shape, body.mass, body.inertia) = (solid.shape, solid.mass, solid.inertia);
         }
         if let Some(angle) = &entry.angle {
-            body.angle = self.symbols.read(angle, Quantity::ANGLE, &mut self.faults).unwrap_or_else(Expr::zero);
+            body.angle = self
+                .symbols
+                .read(angle, Quantity::ANGLE, &mut self.faults)
+                .unwrap_or_else(Expr::zero);
         }
         if let Some(spin) = &entry.spin {
-            body.spin = self.symbols.read(spin, Quantity::SPIN, &mut self.faults).unwrap_or_else(Expr::zero);
+            body.spin = self
+                .symbols
+                .read(spin, Quantity::SPIN, &mut self.faults)
+                .unwrap_or_else(Expr::zero);
         }
         let velocity = match &entry.velocity {
             None => None,
-            Some(VelocityFile::Components(v)) => self.symbols.vector(v, Quantity::VELOCITY, &mut self.faults),
+            Some(VelocityFile::Components(v)) => {
+                self.symbols.vector(v, Quantity::VELOCITY, &mut self.faults)
+            }
             Some(VelocityFile::About(turn)) => {
                 if body.is_particle() {
                     let fault = Fault::new(turn.span, "a particle has no spin to turn with");
                     self.faults.push(fault.hint("give its velocity as [x, y]"));
                 }
-                self.position(&turn.about).map(|about| geometry::turned(&body.spin, &minus(&body.center, &about)))
+                self.position(&turn.about)
+                    .map(|about| geometry::turned(&body.spin, &minus(&body.center, &about)))
             }
         };
         body.velocity = velocity.unwrap_or_else(origin);
@@ -232,7 +288,11 @@ impl<'f> Resolver<'f> {
     }
 
     fn solids(&mut self) -> SolidReader<'_> {
-        SolidReader { symbols: &self.symbols, claims: &mut self.claims, faults: &mut self.faults }
+        SolidReader {
+            symbols: &self.symbols,
+            claims: &mut self.claims,
+            faults: &mut self.faults,
+        }
     }
 
     fn contact(&mut self, name: &Text, contact: &ContactFile, scene: &mut Scene) {
@@ -242,30 +302,56 @@ impl<'f> Resolver<'f> {
         let restitution = contact.restitution.as_ref().map(|e| {
             let value = self.symbols.read(e, Quantity::NUMBER, &mut self.faults);
             if let Some(value) = &value {
-                self.claims.push(Claimed { span: e.span, claim: Claim::Fraction(value.clone()) });
+                self.claims.push(Claimed {
+                    span: e.span,
+                    claim: Claim::Fraction(value.clone()),
+                });
             }
             value
         });
         let law = match contact.law {
             Some(LawName::Frictionless) => {
                 for (missing, field, hint) in [
-                    (normal.is_none(), "normal", "the unit normal out of the first body into the second"),
-                    (restitution.is_none(), "restitution", "a number or a symbol from 0 to 1"),
+                    (
+                        normal.is_none(),
+                        "normal",
+                        "the unit normal out of the first body into the second",
+                    ),
+                    (
+                        restitution.is_none(),
+                        "restitution",
+                        "a number or a symbol from 0 to 1",
+                    ),
                 ] {
                     if missing {
                         let message = format!("a frictionless contact needs `{field}`");
-                        self.faults.push(Fault::new(contact.span, message).shown_at(name.span).hint(hint));
+                        self.faults.push(
+                            Fault::new(contact.span, message)
+                                .shown_at(name.span)
+                                .hint(hint),
+                        );
                     }
                 }
-                restitution.flatten().map(|restitution| ContactLaw::Frictionless { restitution })
+                restitution
+                    .flatten()
+                    .map(|restitution| ContactLaw::Frictionless { restitution })
             }
             law => {
                 if let Some(e) = &contact.restitution {
-                    let with = if law.is_some() { "a sticking contact" } else { "a contact without law" };
+                    let with = if law.is_some() {
+                        "a sticking contact"
+                    } else {
+                        "a contact without law"
+                    };
                     let fault = Fault::new(e.span, format!("{with} has no restitution"));
-                    self.faults.push(fault.hint("restitution belongs to \"law\": \"frictionless\""));
+                    self.faults
+                        .push(fault.hint("restitution belongs to \"law\": \"frictionless\""));
                 }
-                Some(if law.is_some() { ContactLaw::Sticking } else { ContactLaw::None })
+                Some(if law.is_some() {
+                    ContactLaw::Sticking
+                } else {
+                    ContactLaw::None
+                })
             }
         };
         // A normal that was given but could not be read has been reported.
@@ -273,9 +359,18 @@ impl<'f> Resolver<'f> {
         if let (Some(bodies), Some(at), Some(normal), Some(law)) = (bodies, at, normal, law) {
             self.reach(bodies, &at, name.span, &name.text);
             if normal.is_some() {
-                self.claims.push(Claimed { span: name.span, claim: Claim::Approach(scene.contacts.len()) });
+                self.claims.push(Claimed {
+                    span: name.span,
+                    claim: Claim::Approach(scene.contacts.len()),
+                });
             }
-            scene.contacts.push(Contact { name: name.text.clone(), bodies, at, normal, law });
+            scene.contacts.push(Contact {
+                name: name.text.clone(),
+                bodies,
+                at,
+                normal,
+                law,
+            });
         }
     }
 
@@ -285,9 +380,16 @@ impl<'f> Resolver<'f> {
                 let body = self.moving(body);
                 let at = known.at.as_ref().map(|at| self.position(at));
                 let Some(along) = &known.along else {
-                    let fault = Fault::new(known.span, "a known velocity needs the direction `along` which it is known");
+                    let fault = Fault::new(
+                        known.span,
+                        "a known velocity needs the direction `along` which it is known",
+                    );
                     let place = Span::new(known.span.start, known.span.start + 1);
-                    self.faults.push(fault.shown_at(place).hint("add \"along\": [\"1\", \"0\"]; a vector takes two entries"));
+                    self.faults.push(
+                        fault
+                            .shown_at(place)
+                            .hint("add \"along\": [\"1\", \"0\"]; a vector takes two entries"),
+                    );
                     return None;
                 };
                 let along = self.direction(along);
@@ -295,27 +397,53 @@ impl<'f> Resolver<'f> {
                     Some(at) => at,
                     None => body.and_then(|b| self.center(b)),
                 };
-                (body?, KnownQuantity::Velocity { at: at?, along: along? }, Quantity::VELOCITY)
+                (
+                    body?,
+                    KnownQuantity::Velocity {
+                        at: at?,
+                        along: along?,
+                    },
+                    Quantity::VELOCITY,
+                )
             }
             (None, Some(body)) => {
-                if let Some(span) = known.at.as_ref().map(|_| known.span).or(known.along.as_ref().map(|_| known.span)) {
-                    self.faults.push(Fault::new(span, "a known spin has neither `at` nor `along`"));
+                if let Some(span) = known
+                    .at
+                    .as_ref()
+                    .map(|_| known.span)
+                    .or(known.along.as_ref().map(|_| known.span))
+                {
+                    self.faults.push(Fault::new(
+                        span,
+                        "a known spin has neither `at` nor `along`",
+                    ));
                 }
                 let index = self.moving(body)?;
                 if self.is_particle(index) {
-                    self.faults.push(Fault::new(body.span, format!("the particle `{}` has no spin", body.text)));
+                    self.faults.push(Fault::new(
+                        body.span,
+                        format!("the particle `{}` has no spin", body.text),
+                    ));
                     return None;
                 }
                 (index, KnownQuantity::Spin, Quantity::SPIN)
             }
             _ => {
-                let fault = Fault::new(known.span, "something known after is either a `velocity` or a `spin`");
+                let fault = Fault::new(
+                    known.span,
+                    "something known after is either a `velocity` or a `spin`",
+                );
                 self.faults.push(fault.hint("its value is the body's name"));
                 return None;
             }
         };
         let value = self.symbols.read(&known.is, what.2, &mut self.faults)?;
-        Some(Known { name: text(&known.name), body: what.0, what: what.1, value })
+        Some(Known {
+            name: text(&known.name),
+            body: what.0,
+            what: what.1,
+            value,
+        })
     }
 
     /// The two bodies of a hinge or contact: different, and not both immovable.
@@ -323,11 +451,20 @@ impl<'f> Resolver<'f> {
         let (a, b) = (self.body_named(&names[0]), self.body_named(&names[1]));
         let (a, b) = (a?, b?);
         if a == b {
-            self.faults.push(Fault::new(span, format!("a {what} is between two bodies, not `{}` and itself", names[0].text)));
+            self.faults.push(Fault::new(
+                span,
+                format!(
+                    "a {what} is between two bodies, not `{}` and itself",
+                    names[0].text
+                ),
+            ));
             return None;
         }
         if self.shape(a) == Some(ShapeName::Fixed) && self.shape(b) == Some(ShapeName::Fixed) {
-            let message = format!("`{}` and `{}` are both fixed: nothing can happen between them", names[0].text, names[1].text);
+            let message = format!(
+                "`{}` and `{}` are both fixed: nothing can happen between them",
+                names[0].text, names[1].text
+            );
             self.faults.push(Fault::new(span, message));
             return None;
         }
@@ -339,7 +476,11 @@ impl<'f> Resolver<'f> {
         for body in bodies {
             if self.is_particle(body) {
                 if let Some(center) = self.center(body) {
-                    let claim = Claim::AtParticle { offset: minus(at, &center), at: name.to_owned(), body };
+                    let claim = Claim::AtParticle {
+                        offset: minus(at, &center),
+                        at: name.to_owned(),
+                        body,
+                    };
                     self.claims.push(Claimed { span, claim });
                 }
             }
@@ -373,7 +514,13 @@ impl<'f> Resolver<'f> {
     pub fn moving(&mut self, name: &Text) -> Option<usize> {
         let body = self.body_named(name)?;
         if self.is_fixed(body) {
-            self.faults.push(Fault::new(name.span, format!("`{}` is fixed: the collision does not change its motion", name.text)));
+            self.faults.push(Fault::new(
+                name.span,
+                format!(
+                    "`{}` is fixed: the collision does not change its motion",
+                    name.text
+                ),
+            ));
             return None;
         }
         Some(body)
@@ -394,16 +541,23 @@ impl<'f> Resolver<'f> {
     pub fn unknown(&mut self, name: &Text, what: &str, mut candidates: Vec<&str>) {
         candidates.sort_unstable();
         let fault = Fault::new(name.span, format!("there is no {what} `{}`", name.text));
-        self.faults.push(match nearest(&name.text, candidates.iter().copied()) {
-            Some(near) => fault.hint(format!("did you mean `{near}`?")),
-            None if (1..=12).contains(&candidates.len()) => fault.hint(format!("there is {}", candidates.join(", "))),
-            None => fault,
-        });
+        self.faults
+            .push(match nearest(&name.text, candidates.iter().copied()) {
+                Some(near) => fault.hint(format!("did you mean `{near}`?")),
+                None if (1..=12).contains(&candidates.len()) => {
+                    fault.hint(format!("there is {}", candidates.join(", ")))
+                }
+                None => fault,
+            });
     }
 
     /// Names of all bodies and points.
     pub fn positions(&self) -> Vec<&'f str> {
-        self.points.keys().chain(self.bodies.keys()).copied().collect()
+        self.points
+            .keys()
+            .chain(self.bodies.keys())
+            .copied()
+            .collect()
     }
 
     fn point(&mut self, i: usize) -> Option<Vector> {
@@ -414,7 +568,9 @@ impl<'f> Resolver<'f> {
             Place::Untouched => {}
         }
         self.point_places[i] = Place::Underway;
-        let at = position.as_ref().and_then(|p| self.link(name, |this| this.position(p)));
+        let at = position
+            .as_ref()
+            .and_then(|p| self.link(name, |this| this.position(p)));
         self.point_places[i] = Place::Done(at.clone());
         at
     }
@@ -437,7 +593,8 @@ impl<'f> Resolver<'f> {
                     PositionFile::From(step) => step.span,
                 };
                 let fault = Fault::new(span, "the center of a composite follows from its parts");
-                self.faults.push(fault.hint("leave `center` out, and give each part its own"));
+                self.faults
+                    .push(fault.hint("leave `center` out, and give each part its own"));
                 None
             }
             (Some(center), _) => self.link(name, |this| this.position(center)),
@@ -448,8 +605,11 @@ impl<'f> Resolver<'f> {
                 None => Some(origin()),
             },
             (None, _) => {
-                let fault = Fault::new(body.span, "the field `center` is missing").shown_at(name.span);
-                self.faults.push(fault.hint("the position of its center of mass: a point's name, [x, y] or {\"from\": …}"));
+                let fault =
+                    Fault::new(body.span, "the field `center` is missing").shown_at(name.span);
+                self.faults.push(fault.hint(
+                    "the position of its center of mass: a point's name, [x, y] or {\"from\": …}",
+                ));
                 None
             }
         });
@@ -476,11 +636,18 @@ impl<'f> Resolver<'f> {
         let mut parts = Vec::new();
         for (name, part) in entries(body.parts.as_ref()) {
             let center = self.position(&part.center);
-            let angle = part.angle.as_ref().map(|a| self.symbols.read(a, Quantity::ANGLE, &mut self.faults));
+            let angle = part
+                .angle
+                .as_ref()
+                .map(|a| self.symbols.read(a, Quantity::ANGLE, &mut self.faults));
             let entry = part.into();
             let solid = self.solids().read_part(&entry);
             parts.push((|| {
-                let Solid { shape, mass, inertia } = solid?;
+                let Solid {
+                    shape,
+                    mass,
+                    inertia,
+                } = solid?;
                 Some(Body {
                     name: name.text.clone(),
                     shape,
@@ -516,7 +683,10 @@ impl<'f> Resolver<'f> {
         let start = self.chain.iter().position(|n| *n == name.text).unwrap_or(0);
         let mut round = self.chain[start..].join(" → ");
         round.push_str(&format!(" → {}", name.text));
-        let fault = Fault::new(name.span, format!("positions refer to one another in a circle: {round}"));
+        let fault = Fault::new(
+            name.span,
+            format!("positions refer to one another in a circle: {round}"),
+        );
         self.faults.push(fault.hint("give one of them coordinates"));
         None
     }
@@ -535,7 +705,9 @@ impl<'f> Resolver<'f> {
                     None
                 }
             }
-            PositionFile::At(pair) => self.symbols.vector(pair, Quantity::LENGTH, &mut self.faults),
+            PositionFile::At(pair) => self
+                .symbols
+                .vector(pair, Quantity::LENGTH, &mut self.faults),
             PositionFile::From(step) => {
                 let from = self.position(&step.from);
                 let by = self.step(step);
@@ -548,7 +720,9 @@ impl<'f> Resolver<'f> {
     fn step(&mut self, step: &StepFile) -> Option<Vector> {
         match (&step.distance, &step.angle, &step.by) {
             (Some(distance), Some(angle), None) => {
-                let distance = self.symbols.read(distance, Quantity::LENGTH, &mut self.faults);
+                let distance = self
+                    .symbols
+                    .read(distance, Quantity::LENGTH, &mut self.faults);
                 let angle = self.symbols.read(angle, Quantity::ANGLE, &mut self.faults);
                 let [x, y] = geometry::direction(&angle?);
                 let distance = distance?;
@@ -556,7 +730,10 @@ impl<'f> Resolver<'f> {
             }
             (None, None, Some(by)) => self.symbols.vector(by, Quantity::LENGTH, &mut self.faults),
             _ => {
-                let fault = Fault::new(step.span, "a step has either `distance` and `angle`, or `by`");
+                let fault = Fault::new(
+                    step.span,
+                    "a step has either `distance` and `angle`, or `by`",
+                );
                 self.faults.push(fault.hint("{\"from\": \"A\", \"distance\": \"l\", \"angle\": \"theta\"} or {\"from\": \"A\", \"by\": [\"l\", \"0\"]}"));
                 None
             }
@@ -567,19 +744,28 @@ impl<'f> Resolver<'f> {
     pub fn direction(&mut self, direction: &DirectionFile) -> Option<Vector> {
         match direction {
             DirectionFile::Components(pair) => {
-                let vector = self.symbols.vector(pair, Quantity::DIRECTION, &mut self.faults)?;
-                self.claims.push(Claimed { span: pair.span, claim: Claim::Unit(vector.clone()) });
+                let vector = self
+                    .symbols
+                    .vector(pair, Quantity::DIRECTION, &mut self.faults)?;
+                self.claims.push(Claimed {
+                    span: pair.span,
+                    claim: Claim::Unit(vector.clone()),
+                });
                 Some(vector)
             }
-            DirectionFile::Angle(angle) => {
-                self.symbols.read(&angle.angle, Quantity::ANGLE, &mut self.faults).map(|a| geometry::direction(&a))
-            }
+            DirectionFile::Angle(angle) => self
+                .symbols
+                .read(&angle.angle, Quantity::ANGLE, &mut self.faults)
+                .map(|a| geometry::direction(&a)),
         }
     }
 }
 
 fn keys<T>(map: Option<&Map<T>>) -> Vec<&Text> {
-    map.into_iter().flat_map(|m| &m.0).map(|(name, _)| name).collect()
+    map.into_iter()
+        .flat_map(|m| &m.0)
+        .map(|(name, _)| name)
+        .collect()
 }
 
 /// The zero vector.

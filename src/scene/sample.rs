@@ -30,10 +30,14 @@ fn point(scene: &Scene, i: u64) -> (Point<Rational>, Point<f64>) {
         let name = &parameter.name;
         let domain = scene.domains.symbols.get(name).cloned().unwrap_or_default();
         let chance = hash(name, i);
-        let is_angle = parameter.dimension.is_none() && dimension::unit(&parameter.unit).is_ok_and(|u| u.angle);
+        let is_angle = parameter.dimension.is_none()
+            && dimension::unit(&parameter.unit).is_ok_and(|u| u.angle);
         if is_angle {
             let (phi, half) = angle(&domain, chance);
-            double.directions.insert(name.clone(), (DIVISOR, [to_f64(&half[0]), to_f64(&half[1])]));
+            double.directions.insert(
+                name.clone(),
+                (DIVISOR, [to_f64(&half[0]), to_f64(&half[1])]),
+            );
             double.values.insert(name.clone(), phi);
             exact.directions.insert(name.clone(), (DIVISOR, half));
         } else {
@@ -68,7 +72,9 @@ fn number(domain: &Domain, chance: u64) -> Rational {
     let end = |limit: &crate::domain::Limit| match limit.of_pi {
         false => limit.value.clone(),
         // A fraction close by; the share keeps clear of the ends.
-        true => from_f64((limit_f64(limit) * 4096.0).round() / 4096.0).unwrap_or_else(Rational::one),
+        true => {
+            from_f64((limit_f64(limit) * 4096.0).round() / 4096.0).unwrap_or_else(Rational::one)
+        }
     };
     match (&domain.low, &domain.high) {
         (Some(low), Some(high)) => {
@@ -77,7 +83,13 @@ fn number(domain: &Domain, chance: u64) -> Rational {
         }
         (Some(low), None) => end(low) + size,
         (None, Some(high)) => end(high) - size,
-        (None, None) => if chance / 7 % 2 == 0 { size } else { -size },
+        (None, None) => {
+            if chance / 7 % 2 == 0 {
+                size
+            } else {
+                -size
+            }
+        }
     }
 }
 
@@ -112,7 +124,9 @@ fn angle(domain: &Domain, chance: u64) -> (f64, [Rational; 2]) {
 /// FNV-1a, of a name and a counter.
 fn hash(name: &str, i: u64) -> u64 {
     let bytes = name.bytes().chain(i.to_le_bytes());
-    let mixed = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3));
+    let mixed = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |h, b| {
+        (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3)
+    });
     mixed >> 20
 }
 
@@ -120,7 +134,10 @@ fn hash(name: &str, i: u64) -> u64 {
 pub(super) fn given(scene: &Scene) -> Option<Point<f64>> {
     let mut point = Point::default();
     for parameter in &scene.parameters {
-        let value = parameter.value.as_ref()?.evaluate(&Point::<f64>::default())?;
+        let value = parameter
+            .value
+            .as_ref()?
+            .evaluate(&Point::<f64>::default())?;
         point.values.insert(parameter.name.clone(), value);
     }
     Some(point)
@@ -133,7 +150,9 @@ pub(super) fn vanishes(e: &Expr, points: &[(Point<Rational>, Point<f64>)]) -> Op
         let is_zero = match e.evaluate(exact) {
             Some(value) => Some(value == ratio(0, 1)),
             // A root or an angle outside sine and cosine: doubles decide, with a margin far above their rounding.
-            None => e.evaluate(double).map(|value| value.abs() <= 1e-9 * magnitude(e, double)),
+            None => e
+                .evaluate(double)
+                .map(|value| value.abs() <= 1e-9 * magnitude(e, double)),
         };
         match is_zero {
             Some(false) => return Some(false),
@@ -160,14 +179,29 @@ mod tests {
 
     #[test]
     fn angles_stay_in_their_interval_and_on_the_circle() {
-        let limit = |value: Rational, of_pi| Some(Limit { value, of_pi, open: true });
-        let narrow = Domain { low: limit(ratio(1, 2), true), high: limit(ratio(51, 100), true) };
+        let limit = |value: Rational, of_pi| {
+            Some(Limit {
+                value,
+                of_pi,
+                open: true,
+            })
+        };
+        let narrow = Domain {
+            low: limit(ratio(1, 2), true),
+            high: limit(ratio(51, 100), true),
+        };
         for chance in 0..200 {
             for domain in [Domain::default(), narrow.clone()] {
                 let (phi, [c, s]) = angle(&domain, chance);
                 assert_eq!(&c * &c + &s * &s, ratio(1, 1));
-                assert!((to_f64(&c) - (phi / 2.0).cos()).abs() < 1e-9 && (to_f64(&s) - (phi / 2.0).sin()).abs() < 1e-9);
-                assert!(domain.low.is_none() || (0.5..0.51).contains(&(phi / std::f64::consts::PI)), "{phi}");
+                assert!(
+                    (to_f64(&c) - (phi / 2.0).cos()).abs() < 1e-9
+                        && (to_f64(&s) - (phi / 2.0).sin()).abs() < 1e-9
+                );
+                assert!(
+                    domain.low.is_none() || (0.5..0.51).contains(&(phi / std::f64::consts::PI)),
+                    "{phi}"
+                );
             }
         }
     }
