@@ -8,3 +8,4 @@ pub mod formula;
 pub mod interval;
 pub mod numeric;
 pub mod scene;
+pub mod laws;

@@ -1,2 +1,7 @@
-//! The command line of carom.
-fn main() {}
+//! The command line of carom: reads files, calls the library, prints, and turns outcomes into exit codes.
+
+mod cli;
+
+fn main() -> std::process::ExitCode {
+    cli::run()
+}

@@ -1,0 +1,173 @@
+//! Commands: each reads its input, calls the library once, and prints.
+//!
+//! Results go to standard output, everything else to standard error. Exit status: 0 done and everything held; 1 a check
+//! failed or an answer was refuted; 2 unusable input; 3 undecided; 70 a fault of carom itself.
+
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand, ValueEnum};
+
+use carom::{derive, render, scene, verify};
+
+/// Collisions of rigid bodies in the plane: closed forms a teacher would reach, each one proved or marked.
+#[derive(Parser)]
+#[command(version, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Derive the closed forms a scene asks for, and prove them
+    Derive {
+        /// Scene file, `-` for standard input
+        scene: PathBuf,
+        /// Output format
+        #[arg(long, value_enum, default_value_t = Format::Text)]
+        format: Format,
+        /// Print the full system of equations in matrix form instead
+        #[arg(long)]
+        matrix: bool,
+        /// Give a parameter a value, such as v=2 or theta=acos(3/5); may be repeated
+        #[arg(long = "set", value_name = "NAME=VALUE")]
+        set: Vec<String>,
+    },
+    /// Print the JSON Schema of scene files
+    Schema,
+    /// List the scenes of a folder
+    List {
+        /// Folder to look in
+        #[arg(default_value = "derivations")]
+        folder: PathBuf,
+    },
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Text,
+    Json,
+}
+
+/// Why a command ended without a result.
+enum Failure {
+    /// Unusable input: the message is complete.
+    Input(String),
+    /// The output could not be written.
+    Output(std::io::Error),
+}
+
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Failure {
+        Failure::Output(error)
+    }
+}
+
+/// Runs the command line and gives the exit status.
+pub fn run() -> ExitCode {
+    let outcome = match Cli::parse().command {
+        Command::Derive { scene, format, matrix, set } => derive_command(&scene, format, matrix, &set),
+        Command::Schema => print(&scene::schema()).map(|()| 0),
+        Command::List { folder } => list(&folder),
+    };
+    match outcome {
+        Ok(status) => ExitCode::from(status),
+        Err(Failure::Input(message)) => {
+            eprintln!("{message}");
+            ExitCode::from(2)
+        }
+        // Whoever reads the output has seen enough; that is no fault.
+        Err(Failure::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(Failure::Output(error)) => {
+            eprintln!("carom: cannot write the output: {error}");
+            ExitCode::from(70)
+        }
+    }
+}
+
+fn derive_command(path: &Path, format: Format, matrix: bool, set: &[String]) -> Result<u8, Failure> {
+    let scene = read_scene(path, set)?;
+    let stopped = |stop: derive::Stop| Failure::Input(format!("{}: {stop}", path.display()));
+    if matrix {
+        let names = derive::Names::of(&scene);
+        let full = derive::full_matrix(&scene, &names).map_err(stopped)?;
+        print(&match format {
+            Format::Text => render::text::matrix(&scene, &full),
+            Format::Json => pretty(&render::json::matrix(&full)),
+        })?;
+        return Ok(0);
+    }
+    let derivation = derive::derive(&scene).map_err(stopped)?;
+    let proof = verify::prove(&scene, &derivation);
+    print(&match format {
+        Format::Text => render::text::derivation(&scene, &derivation, &proof),
+        Format::Json => pretty(&render::json::derivation(&scene, &derivation, &proof)),
+    })?;
+    Ok(u8::from(!proof.holds() || derivation.counting.contradictory))
+}
+
+fn list(folder: &Path) -> Result<u8, Failure> {
+    let mut files = Vec::new();
+    collect(folder, &mut files).map_err(|e| Failure::Input(format!("{}: {e}", folder.display())))?;
+    files.sort();
+    for file in files {
+        let Ok(text) = std::fs::read_to_string(&file) else { continue };
+        let words = match scene::read(&text) {
+            Ok(scene) => format!("{} · {}", scene.source, scene.title),
+            Err(_) => String::from("not a valid scene; `carom derive` tells why"),
+        };
+        print(&format!("{}\t{words}\n", file.display()))?;
+    }
+    Ok(0)
+}
+
+/// The scene files below a folder, refused examples aside.
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
+    for entry in std::fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() {
+            if path.file_name().is_none_or(|n| n != "refused") {
+                collect(&path, files)?;
+            }
+        } else if path.extension().is_some_and(|e| e == "json") {
+            files.push(path);
+        }
+    }
+    Ok(())
+}
+
+/// Reads a scene and puts in the values given on the command line.
+fn read_scene(path: &Path, set: &[String]) -> Result<scene::Scene, Failure> {
+    let name = path.display().to_string();
+    let mut text = String::new();
+    let read = if name == "-" {
+        std::io::stdin().read_to_string(&mut text).map(|_| ())
+    } else {
+        std::fs::read_to_string(path).map(|t| text = t)
+    };
+    read.map_err(|e| Failure::Input(format!("{name}: cannot be read: {e}")))?;
+    let mut scene = scene::read(&text).map_err(|faults| Failure::Input(faults.show(&name, &text)))?;
+    for assignment in set {
+        let Some((symbol, value)) = assignment.split_once('=') else {
+            return Err(Failure::Input(format!("--set {assignment}: expected NAME=VALUE, such as v=2")));
+        };
+        scene::set(&mut scene, symbol.trim(), value.trim())
+            .map_err(|message| Failure::Input(format!("--set {assignment}: {message}")))?;
+    }
+    Ok(scene)
+}
+
+fn print(text: &str) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    if !text.ends_with('\n') {
+        out.write_all(b"\n")?;
+    }
+    Ok(())
+}
+
+fn pretty(value: &serde_json::Value) -> String {
+    serde_json::to_string_pretty(value).unwrap_or_default()
+}

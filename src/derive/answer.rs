@@ -1,0 +1,446 @@
+//! Questions and their answers: velocities, spins, impulses, energies, projected balances and matrices.
+
+use super::{Names, Stop, Work};
+use crate::algebra::{self, Element, Row};
+use crate::derive::count::Counting;
+use crate::dimension::Dimension;
+use crate::expr::{Expr, Rational, Vector, ratio};
+use crate::laws::{self, Affine, Direction, Kinematics, Law, Place, Unknown};
+use crate::scene::{Ask, EnergyWhen, ImpulseAt, KnownQuantity, Question, Scene};
+
+/// The answer to a question, or to one component of it.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// Name of the question.
+    pub question: String,
+    /// Name of the answer: that of the question, with `_x` or `_y` for a component.
+    pub name: String,
+    /// The name typeset.
+    pub latex: String,
+    /// What it is, in words.
+    pub words: String,
+    /// The answer.
+    pub form: Form,
+    /// Dimension of the value; of either side of an equation.
+    pub dimension: Dimension,
+}
+
+/// What an answer looks like.
+#[derive(Clone, Debug)]
+pub enum Form {
+    /// A closed form.
+    Value {
+        /// In parameters alone.
+        closed: Expr,
+        /// The same, shorter, in parameters and the derivation's definitions; equal to `closed` where that is short.
+        short: Expr,
+    },
+    /// An equation.
+    Equation {
+        /// Left side: before.
+        left: Expr,
+        /// Right side: after.
+        right: Expr,
+    },
+    /// A system in matrix form, entries as the equations give them.
+    Matrix(Matrix),
+    /// Not determined by the laws; the unknowns it hangs on.
+    Open(Vec<Unknown>),
+}
+
+/// Entries × unknowns = right side.
+#[derive(Clone, Debug)]
+pub struct Matrix {
+    /// Which equation each row is, in words.
+    pub rows: Vec<String>,
+    /// Names of the unknowns.
+    pub unknowns: Vec<String>,
+    /// Entries, row by row.
+    pub entries: Vec<Vec<Expr>>,
+    /// Right sides.
+    pub rhs: Vec<Expr>,
+}
+
+/// Every formula a question brings along.
+pub fn formulas(question: &Question) -> Vec<Expr> {
+    match &question.ask {
+        Ask::Velocity { point, along, .. } => {
+            point.iter().map(|(_, at)| at).chain(along).flat_map(|v| v.iter().cloned()).collect()
+        }
+        Ask::Impulse { along, .. } => along.iter().flat_map(|v| v.iter().cloned()).collect(),
+        Ask::Balance { along, .. } => along.to_vec(),
+        Ask::Spin { .. } | Ask::Energy { .. } | Ask::Matrix { .. } => Vec::new(),
+    }
+}
+
+/// The full system of a scene, every law and every unknown, as a matrix.
+pub fn full_matrix(scene: &Scene, names: &Names) -> Result<Matrix, Stop> {
+    let mut work = Work::new(scene)?;
+    let full = Kinematics::full(scene, &work.g);
+    let unknowns = laws::unknowns(scene);
+    let mut matrix = Matrix {
+        rows: Vec::new(),
+        unknowns: unknowns.iter().map(|u| names.plain(*u).to_string()).collect(),
+        entries: Vec::new(),
+        rhs: Vec::new(),
+    };
+    for law in laws::of(scene) {
+        let Ok(linear) = laws::equation(scene, &work.g, &full, &law, |v: &Vector| Ok::<_, std::convert::Infallible>(v.clone()));
+        let mut row = vec![Expr::zero(); unknowns.len()];
+        for (unknown, k) in &linear.terms {
+            if let Some(i) = unknowns.iter().position(|u| u == unknown) {
+                row[i] = work.tidy(k)?;
+            }
+        }
+        matrix.rows.push(laws::describe(scene, &law));
+        matrix.entries.push(row);
+        matrix.rhs.push(work.tidy(&linear.known)?);
+    }
+    Ok(matrix)
+}
+
+/// What a question asks for, as forms that are affine in the unknowns.
+enum Asked {
+    /// Components with suffix and words.
+    Linear(Vec<(&'static str, Affine<Expr>)>),
+    Energy(EnergyWhen, Option<usize>),
+    Balance(Vec<usize>, Vector),
+    Matrix(Vec<String>, Vec<String>),
+}
+
+impl Work<'_> {
+    /// The unknowns a question hangs on.
+    pub(super) fn unknowns_of(&mut self, ask: &Ask) -> Result<Vec<Unknown>, Stop> {
+        let mut all: Vec<Unknown> = Vec::new();
+        match self.asked(ask, &self.reduced) {
+            Asked::Linear(forms) => {
+                for (_, form) in forms {
+                    all.extend(self.unknowns_in(&form)?);
+                }
+            }
+            Asked::Energy(EnergyWhen::Before, _) | Asked::Balance(..) | Asked::Matrix(..) => {}
+            Asked::Energy(_, of) => {
+                for b in self.moving(of) {
+                    let [x, y] = self.reduced.velocity[b].clone();
+                    for form in [x, y, self.reduced.spin[b].clone()] {
+                        all.extend(self.unknowns_in(&form)?);
+                    }
+                }
+            }
+        }
+        all.dedup();
+        Ok(all)
+    }
+
+    /// Answers a question, component by component.
+    pub(super) fn answer(&mut self, question: &Question, counting: &Counting, out: &mut Vec<Answer>) -> Result<(), Stop> {
+        let latex = question.latex.clone().unwrap_or_else(|| super::names::latex_name(&question.name));
+        let words = words(self.scene, &question.ask);
+        let dimension = dimension(&question.ask);
+        let make = |name: String, latex: String, words: String, form: Form| Answer {
+            question: question.name.clone(),
+            name,
+            latex,
+            words,
+            form,
+            dimension: dimension.clone(),
+        };
+        match self.asked(&question.ask, &self.reduced) {
+            Asked::Linear(forms) => {
+                for (suffix, form) in forms {
+                    let open: Vec<Unknown> =
+                        self.unknowns_in(&form)?.into_iter().filter(|u| !counting.is_unique(*u)).collect();
+                    let value = if open.is_empty() { self.element_of(&form)? } else { None };
+                    let form = match value {
+                        Some(value) => self.value(&value),
+                        None => Form::Open(open),
+                    };
+                    let (name, latex, words) = match suffix {
+                        "" => (question.name.clone(), latex.clone(), words.clone()),
+                        axis => (
+                            format!("{}_{axis}", question.name),
+                            super::names::with_subscript(&latex, axis),
+                            format!("{words}, along {axis}"),
+                        ),
+                    };
+                    out.push(make(name, latex, words, form));
+                }
+            }
+            Asked::Energy(when, of) => {
+                let form = match self.energy(when, of)? {
+                    Some(value) => self.value(&value),
+                    None => Form::Open(counting.open.clone()),
+                };
+                out.push(make(question.name.clone(), latex, words, form));
+            }
+            Asked::Balance(system, along) => {
+                let form = self.balance(&system, &along)?;
+                out.push(make(question.name.clone(), latex, words, form));
+            }
+            Asked::Matrix(rows, unknowns) => {
+                let form = Form::Matrix(self.matrix(&rows, &unknowns)?);
+                out.push(make(question.name.clone(), latex, words, form));
+            }
+        }
+        Ok(())
+    }
+
+    fn value(&mut self, value: &Element) -> Form {
+        let closed = self.field.expr(value);
+        Form::Value { short: closed.clone(), closed }
+    }
+
+    /// An expression as a person would write it.
+    pub(super) fn tidy(&mut self, e: &Expr) -> Result<Expr, Stop> {
+        let element = self.field.element(e)?;
+        Ok(self.field.expr(&element))
+    }
+
+    /// The affine forms behind a question, in the unknowns of a description of the motion.
+    pub(super) fn linear_forms(&self, ask: &Ask, motion: &Kinematics<Expr>) -> Option<Vec<(&'static str, Affine<Expr>)>> {
+        match self.asked(ask, motion) {
+            Asked::Linear(forms) => Some(forms),
+            _ => None,
+        }
+    }
+
+    fn asked(&self, ask: &Ask, motion: &Kinematics<Expr>) -> Asked {
+        match ask {
+            Ask::Velocity { body, point, along } => {
+                let at = point.as_ref().map_or(&self.scene.bodies[*body].center, |(_, at)| at);
+                Asked::Linear(components(motion.velocity_of(&self.g, *body, at), along.as_ref()))
+            }
+            Ask::Spin { body, clockwise } => {
+                let spin = &motion.spin[*body];
+                let sign = if *clockwise { Expr::from(-1) } else { Expr::one() };
+                Asked::Linear(vec![("", spin.times(&sign))])
+            }
+            Ask::Impulse { from, on, along } => {
+                let (place, second) = match from {
+                    ImpulseAt::Contact(c) => (Place::Contact(*c), self.scene.contacts[*c].bodies[1]),
+                    ImpulseAt::Hinge(h) => (Place::Hinge(*h), self.scene.hinges[*h].bodies[1]),
+                    ImpulseAt::Blow(b) => (Place::Blow(*b), self.scene.blows[*b].body),
+                };
+                let sign = if *on == second { Expr::one() } else { Expr::from(-1) };
+                let impulse = laws::impulse_at(self.scene, &self.g, place).map(|p| p.times(&sign));
+                Asked::Linear(components(impulse, along.as_ref()))
+            }
+            Ask::Energy { when, of } => Asked::Energy(*when, *of),
+            Ask::Balance { system, along } => Asked::Balance(system.clone(), along.clone()),
+            Ask::Matrix { rows, unknowns } => Asked::Matrix(rows.clone(), unknowns.clone()),
+        }
+    }
+
+    fn moving(&self, of: Option<usize>) -> Vec<usize> {
+        let bodies = 0..self.scene.bodies.len();
+        bodies.filter(|b| of.is_none_or(|o| o == *b) && !self.scene.bodies[*b].is_fixed()).collect()
+    }
+
+    /// Kinetic energy [J]; `None` where a velocity is not determined.
+    fn energy(&mut self, when: EnergyWhen, of: Option<usize>) -> Result<Option<Element>, Stop> {
+        let mut total = self.field.element(&Expr::zero())?;
+        for b in self.moving(of) {
+            let body = &self.scene.bodies[b];
+            let weights = [&body.mass, &body.mass, &body.inertia].map(|m| m * &Expr::ratio(1, 2));
+            let [vx, vy] = self.reduced.velocity[b].clone();
+            let after = [vx, vy, self.reduced.spin[b].clone()];
+            let before = [&body.velocity[0], &body.velocity[1], &body.spin];
+            for ((weight, after), before) in weights.iter().zip(&after).zip(before) {
+                if weight.is_zero() {
+                    continue;
+                }
+                let weight = self.field.element(weight)?;
+                let before = self.field.element(before)?;
+                let mut change = match when {
+                    EnergyWhen::Before | EnergyWhen::Lost => self.field.mul(&before, &before)?,
+                    EnergyWhen::After => self.field.element(&Expr::zero())?,
+                };
+                if when != EnergyWhen::Before {
+                    let Some(after) = self.element_of(after)? else { return Ok(None) };
+                    let square = self.field.mul(&after, &after)?;
+                    change = match when {
+                        EnergyWhen::Lost => self.field.sub(&change, &square)?,
+                        _ => square,
+                    };
+                }
+                let term = self.field.mul(&weight, &change)?;
+                total = self.field.add(&total, &term)?;
+            }
+        }
+        Ok(Some(total))
+    }
+
+    /// Linear momentum before = after along a direction, in the components the scene asks for.
+    fn balance(&mut self, system: &[usize], along: &Vector) -> Result<Form, Stop> {
+        let names = self.component_questions();
+        let (terms, known) = self.projected(&names, system, along)?;
+        let after = Expr::sum(terms.iter().map(|(name, k)| k * &Expr::symbol(name)));
+        Ok(Form::Equation { left: known, right: after })
+    }
+
+    /// The balance along a direction as Σ coefficient × named component = momentum before.
+    fn projected(&mut self, names: &[String], system: &[usize], along: &Vector) -> Result<(Vec<(String, Expr)>, Expr), Stop> {
+        let law = Law::LinearMomentum {
+            system: system.to_vec(),
+            along: Direction::Named(String::from("the given direction"), along.clone()),
+        };
+        self.in_components(names, &law)
+    }
+
+    /// A law with the velocities written in the components the scene names.
+    fn in_components(&mut self, names: &[String], law: &Law) -> Result<(Vec<(String, Expr)>, Expr), Stop> {
+        let full = Kinematics::full(self.scene, &self.g);
+        let direction = |v: &Vector| Ok::<_, std::convert::Infallible>(v.clone());
+        let Ok(linear) = laws::equation(self.scene, &self.g, &full, law, direction);
+        // left − right = Σ k·v − known, with every velocity replaced by its components
+        let mut total = -&linear.known;
+        for (unknown, k) in &linear.terms {
+            let value = match unknown {
+                Unknown::Velocity(b, axis) => self.velocity_in_components(*b)?[*axis].clone(),
+                other => Expr::symbol(self.names.plain(*other)),
+            };
+            total = total + k * &value;
+        }
+        let mut all: Vec<String> = names.to_vec();
+        all.extend(laws::unknowns(self.scene).iter().map(|u| self.names.plain(*u).to_string()));
+        let mut terms = Vec::new();
+        let mut rest = total.clone();
+        for name in all {
+            let k = self.tidy(&total.derivative(&name))?;
+            if !k.is_zero() {
+                rest = rest - &k * &Expr::symbol(&name);
+                terms.push((name, k));
+            }
+        }
+        let known = self.tidy(&-&rest)?;
+        Ok((terms, known))
+    }
+
+    /// Names of the questions that ask for a component of a body's velocity.
+    fn component_questions(&self) -> Vec<String> {
+        let is_component = |q: &&Question| matches!(&q.ask, Ask::Velocity { point: None, along: Some(_), .. });
+        self.scene.questions.iter().filter(is_component).map(|q| q.name.clone()).collect()
+    }
+
+    /// Velocity after of a body in the components that questions name, helped by what is given; x and y where they do not
+    /// suffice.
+    fn velocity_in_components(&mut self, body: usize) -> Result<Vector, Stop> {
+        let mut rows: Vec<(Vector, Expr)> = Vec::new();
+        for question in &self.scene.questions {
+            if let Ask::Velocity { body: b, point: None, along: Some(d) } = &question.ask {
+                if *b == body {
+                    rows.push((d.clone(), Expr::symbol(&question.name)));
+                }
+            }
+        }
+        if rows.len() < 2 {
+            for known in self.scene.after.iter().filter(|k| k.body == body) {
+                if let KnownQuantity::Velocity { along, .. } = &known.what {
+                    rows.push((along.clone(), known.value.clone()));
+                }
+            }
+        }
+        rows.truncate(2);
+        let mut linear = Vec::new();
+        for (d, value) in &rows {
+            let mut coeffs = Vec::new();
+            for (axis, k) in d.iter().enumerate() {
+                let k = self.field.element(k)?;
+                if !self.field.is_zero(&k) {
+                    coeffs.push((axis, k));
+                }
+            }
+            linear.push(Row { coeffs, rhs: self.field.element(value)? });
+        }
+        let own = [0, 1].map(|axis| Expr::symbol(self.names.plain(Unknown::Velocity(body, axis))));
+        if linear.len() < 2 {
+            return Ok(own);
+        }
+        let solution = algebra::solve(&mut self.field, &linear, 2)?;
+        match solution.values.as_slice() {
+            [Some(x), Some(y)] => Ok([self.field.expr(x), self.field.expr(y)]),
+            _ => Ok(own),
+        }
+    }
+
+    fn matrix(&mut self, rows: &[String], unknowns: &[String]) -> Result<Matrix, Stop> {
+        let mut matrix =
+            Matrix { rows: Vec::new(), unknowns: unknowns.to_vec(), entries: Vec::new(), rhs: Vec::new() };
+        let mut push = |words: String, terms: &[(String, Expr)], known: Expr| {
+            let entry = |name: &String| terms.iter().find(|(n, _)| n == name).map_or(Expr::zero(), |(_, k)| k.clone());
+            matrix.rows.push(words);
+            matrix.entries.push(unknowns.iter().map(entry).collect());
+            matrix.rhs.push(known);
+        };
+        for name in rows {
+            let Some(question) = self.scene.questions.iter().find(|q| q.name == *name) else { continue };
+            if let Ask::Balance { system, along } = question.ask.clone() {
+                let (terms, known) = self.projected(unknowns, &system, &along)?;
+                push(name.clone(), &terms, known);
+            }
+        }
+        for k in 0..self.scene.after.len() {
+            let law = Law::Given(k);
+            let (terms, known) = self.in_components(unknowns, &law)?;
+            if !terms.is_empty() {
+                push(laws::describe(self.scene, &law), &terms, known);
+            }
+        }
+        Ok(matrix)
+    }
+}
+
+fn components(v: [Affine<Expr>; 2], along: Option<&Vector>) -> Vec<(&'static str, Affine<Expr>)> {
+    match along {
+        Some(d) => vec![("", v[0].times(&d[0]).plus(&v[1].times(&d[1])))],
+        None => {
+            let [x, y] = v;
+            vec![("x", x), ("y", y)]
+        }
+    }
+}
+
+fn words(scene: &Scene, ask: &Ask) -> String {
+    let body = |b: usize| scene.bodies[b].name.as_str();
+    match ask {
+        Ask::Velocity { body: b, point: None, .. } => format!("velocity of the center of mass of {} just after", body(*b)),
+        Ask::Velocity { body: b, point: Some((name, _)), .. } => format!("velocity of point {name} of {} just after", body(*b)),
+        Ask::Spin { body: b, clockwise } => {
+            let sense = if *clockwise { "clockwise" } else { "counterclockwise" };
+            format!("angular velocity of {} just after, {sense} positive", body(*b))
+        }
+        Ask::Impulse { from, on, .. } => {
+            let at = match from {
+                ImpulseAt::Contact(c) => &scene.contacts[*c].name,
+                ImpulseAt::Hinge(h) => &scene.hinges[*h].name,
+                ImpulseAt::Blow(b) => &scene.blows[*b].name,
+            };
+            format!("impulse at {at} on {}", body(*on))
+        }
+        Ask::Energy { when, of } => {
+            let whose = of.map_or_else(|| String::from("all bodies"), |b| body(b).to_string());
+            match when {
+                EnergyWhen::Before => format!("kinetic energy of {whose} just before"),
+                EnergyWhen::After => format!("kinetic energy of {whose} just after"),
+                EnergyWhen::Lost => format!("kinetic energy lost by {whose}"),
+            }
+        }
+        Ask::Balance { system, .. } => {
+            format!("linear momentum of {} along the given direction, before = after", laws::body_list(scene, system))
+        }
+        Ask::Matrix { .. } => String::from("the equations in matrix form"),
+    }
+}
+
+fn dimension(ask: &Ask) -> Dimension {
+    let [zero, one, two] = [0, 1, 2].map(|k| ratio(k, 1));
+    let minus = |k: &Rational| -k.clone();
+    let (mass, length, time) = match ask {
+        Ask::Velocity { .. } => (zero, one.clone(), minus(&one)),
+        Ask::Spin { .. } => (zero.clone(), zero, minus(&one)),
+        Ask::Impulse { .. } | Ask::Balance { .. } => (one.clone(), one.clone(), minus(&one)),
+        Ask::Energy { .. } => (one, two.clone(), minus(&two)),
+        Ask::Matrix { .. } => (zero.clone(), zero.clone(), zero),
+    };
+    Dimension { mass, length, time }
+}

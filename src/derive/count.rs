@@ -1,0 +1,231 @@
+//! Counting: how many equations and unknowns the full system has, its rank, and which unknowns it determines.
+//!
+//! The rank is that of the exact matrix at one rational point of the domain. A point can only lower the rank, so "of full
+//! rank" and "determined" are proved by it; where the rank falls short, further points are tried, and the largest stands.
+
+use num_traits::{One, Zero};
+
+use crate::domain::sample::{Coordinate, roles, samples};
+use crate::expr::{Expr, Point, Rational, Vector, ratio};
+use crate::laws::{self, Geometry, Kinematics, Law, Linear, Place, Quantity, Unknown};
+use crate::scene::{ContactLaw, Scene};
+
+/// What counting says about the full system.
+#[derive(Clone, Debug)]
+pub struct Counting {
+    /// Number of scalar equations.
+    pub equations: usize,
+    /// Number of scalar unknowns.
+    pub unknowns: usize,
+    /// Rank of the coefficient matrix.
+    pub rank: usize,
+    /// Unknowns that the equations do not determine.
+    pub open: Vec<Unknown>,
+    /// Whether the equations contradict each other.
+    pub contradictory: bool,
+    /// Rank after balances of the whole system are added: never more, which is worth saying.
+    pub rank_with_system: usize,
+    /// Contact laws that would close the equations, in words.
+    pub closing_laws: Vec<String>,
+}
+
+impl Counting {
+    /// Whether every unknown is determined.
+    pub fn determined(&self) -> bool {
+        self.open.is_empty() && !self.contradictory
+    }
+
+    /// Whether one unknown is determined.
+    pub fn is_unique(&self, unknown: Unknown) -> bool {
+        !self.open.contains(&unknown)
+    }
+}
+
+/// Counts the full system of a scene.
+pub fn count(scene: &Scene) -> Counting {
+    let laws = laws::of(scene);
+    let unknowns = laws::unknowns(scene);
+    let system = system_balances(scene);
+    let mut best: Option<Counting> = None;
+    for attempt in 0..4 {
+        let Some(rows) = rational_rows(scene, &unknowns, laws.iter(), attempt) else { continue };
+        let echelon = eliminate(rows, unknowns.len());
+        let rank = echelon.pivots.len();
+        let full = rank == unknowns.len().min(laws.len());
+        let rank_with_system = if system.is_empty() || full && rank == unknowns.len() {
+            rank
+        } else {
+            rational_rows(scene, &unknowns, laws.iter().chain(&system), attempt)
+                .map_or(rank, |rows| eliminate(rows, unknowns.len()).pivots.len())
+        };
+        let counting = Counting {
+            equations: laws.len(),
+            unknowns: unknowns.len(),
+            rank,
+            open: echelon.open.iter().map(|&i| unknowns[i]).collect(),
+            contradictory: echelon.contradictory,
+            rank_with_system,
+            closing_laws: closing_laws(scene),
+        };
+        if full && !counting.contradictory {
+            return counting;
+        }
+        if best.as_ref().is_none_or(|b| b.rank < counting.rank || (b.contradictory && !counting.contradictory)) {
+            best = Some(counting);
+        }
+    }
+    best.unwrap_or(Counting {
+        equations: laws.len(),
+        unknowns: unknowns.len(),
+        rank: unknowns.len().min(laws.len()),
+        open: Vec::new(),
+        contradictory: false,
+        rank_with_system: unknowns.len().min(laws.len()),
+        closing_laws: closing_laws(scene),
+    })
+}
+
+/// Balances of all movable bodies together: combinations of those of the single bodies.
+fn system_balances(scene: &Scene) -> Vec<Law> {
+    let system: Vec<usize> = (0..scene.bodies.len()).filter(|&b| !scene.bodies[b].is_fixed()).collect();
+    if system.len() < 2 {
+        return Vec::new();
+    }
+    let mut laws = vec![
+        Law::LinearMomentum { system: system.clone(), along: laws::Direction::X },
+        Law::LinearMomentum { system: system.clone(), along: laws::Direction::Y },
+    ];
+    if !scene.contacts.is_empty() {
+        laws.push(Law::AngularMomentum { system, about: Place::Contact(0) });
+    }
+    laws
+}
+
+/// For every contact without a law, the two laws that are not controversial (section 17.5).
+fn closing_laws(scene: &Scene) -> Vec<String> {
+    let mut out = Vec::new();
+    for contact in scene.contacts.iter().filter(|c| c.law == ContactLaw::None) {
+        let at = &contact.name;
+        out.push(format!("sticking at {at}: 2 more equations, equal velocities of the touching points after"));
+        out.push(format!("frictionless at {at} with restitution e: 1 unknown less, impulse along the normal; 1 more equation"));
+    }
+    out
+}
+
+impl Quantity for Rational {
+    fn zero() -> Rational {
+        Zero::zero()
+    }
+    fn one() -> Rational {
+        One::one()
+    }
+    fn add(&self, other: &Rational) -> Rational {
+        self + other
+    }
+    fn mul(&self, other: &Rational) -> Rational {
+        self * other
+    }
+    fn neg(&self) -> Rational {
+        -self
+    }
+    fn vanishes(&self) -> bool {
+        self.is_zero()
+    }
+}
+
+/// The full system at a rational point; `None` where a formula of the scene has no rational value there.
+fn rational_rows<'a>(
+    scene: &Scene,
+    unknowns: &[Unknown],
+    laws: impl Iterator<Item = &'a Law>,
+    attempt: usize,
+) -> Option<Vec<Vec<Rational>>> {
+    let point = exact_point(scene, attempt)?;
+    let value = |e: &Expr| e.evaluate(&point).ok_or(());
+    let g = Geometry::<Rational>::of(scene, value).ok()?;
+    let motion = Kinematics::full(scene, &g);
+    laws.map(|law| {
+        let vector = |v: &Vector| Ok::<_, ()>([value(&v[0])?, value(&v[1])?]);
+        let linear = laws::equation(scene, &g, &motion, law, vector).ok()?;
+        Some(dense(&linear, unknowns))
+    })
+    .collect()
+}
+
+/// The sample point of the scene's domain with this number, exact.
+fn exact_point(scene: &Scene, number: usize) -> Option<Point<Rational>> {
+    let formulas = super::formulas(scene);
+    let roles = roles(&formulas.iter().collect::<Vec<_>>());
+    let (domains, _) = scene.domains.completed(&roles);
+    // The first sample gives every symbol the same simple value, which is not a general position.
+    let sample = samples(&roles, &domains, number + 2).into_iter().nth(number + 1)?;
+    let mut point = Point::default();
+    for (name, coordinate) in sample.coordinates {
+        match coordinate {
+            Coordinate::Number(value) => {
+                point.values.insert(name, value);
+            }
+            Coordinate::Direction { divisor, unit, .. } => {
+                point.directions.insert(name, (divisor, unit));
+            }
+            Coordinate::Pi(_) => return None,
+        }
+    }
+    Some(point)
+}
+
+fn dense(linear: &Linear<Rational>, unknowns: &[Unknown]) -> Vec<Rational> {
+    let mut row = vec![ratio(0, 1); unknowns.len() + 1];
+    for (unknown, k) in &linear.terms {
+        if let Some(i) = unknowns.iter().position(|u| u == unknown) {
+            row[i] = k.clone();
+        }
+    }
+    row[unknowns.len()] = linear.known.clone();
+    row
+}
+
+struct Echelon {
+    pivots: Vec<usize>,
+    open: Vec<usize>,
+    contradictory: bool,
+}
+
+/// Gauss-Jordan elimination; an unknown is determined when its row holds no other unknown.
+fn eliminate(mut rows: Vec<Vec<Rational>>, n: usize) -> Echelon {
+    let mut pivots: Vec<usize> = Vec::new();
+    for column in 0..n {
+        let top = pivots.len();
+        let Some(found) = (top..rows.len()).find(|&r| !rows[r][column].is_zero()) else { continue };
+        rows.swap(top, found);
+        let scale = rows[top][column].recip();
+        let pivot_row: Vec<(usize, Rational)> = rows[top]
+            .iter()
+            .enumerate()
+            .filter(|(_, k)| !k.is_zero())
+            .map(|(j, k)| (j, k * &scale))
+            .collect();
+        for (r, row) in rows.iter_mut().enumerate() {
+            if r != top && !row[column].is_zero() {
+                let factor = row[column].clone();
+                for (j, k) in &pivot_row {
+                    row[*j] -= &factor * k;
+                }
+            }
+        }
+        for (j, k) in pivot_row {
+            rows[top][j] = k;
+        }
+        pivots.push(column);
+    }
+    let free: Vec<usize> = (0..n).filter(|c| !pivots.contains(c)).collect();
+    let mut open = free.clone();
+    for (r, &column) in pivots.iter().enumerate() {
+        if free.iter().any(|&c| !rows[r][c].is_zero()) {
+            open.push(column);
+        }
+    }
+    open.sort_unstable();
+    let contradictory = rows[pivots.len()..].iter().any(|row| !row[n].is_zero());
+    Echelon { pivots, open, contradictory }
+}

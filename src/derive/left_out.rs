@@ -1,0 +1,115 @@
+//! What a scene did not need, and why: finite forces, impulses without a moment, motion that cannot change, equations.
+
+use super::Work;
+use super::count::Counting;
+use crate::laws::{self, Law, Unknown};
+use crate::scene::{ContactLaw, Scene};
+
+/// Something that was neither built nor printed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// What.
+    pub what: String,
+    /// Why.
+    pub why: String,
+}
+
+/// Lists what was left out of the first `asked` blocks.
+pub(super) fn list(work: &Work<'_>, counting: &Counting, asked: usize) -> Vec<LeftOut> {
+    let scene = work.scene;
+    let mut out = Vec::new();
+    let mut add = |what: String, why: String| out.push(LeftOut { what, why });
+    for force in &scene.forces {
+        add(
+            format!("{} of {}", force.name, scene.bodies[force.body].name),
+            String::from("a finite force has no impulse in the vanishing time of the collision"),
+        );
+    }
+    let blocks = &work.blocks[..asked];
+    let used = |u: Unknown| blocks.iter().any(|b| b.unknowns.contains(&u));
+    for (place, unknowns) in impulses(scene) {
+        if unknowns.iter().any(|u| used(*u)) || blocks.is_empty() {
+            continue;
+        }
+        add(format!("impulse at {place}"), why_not_needed(work, &unknowns, asked));
+    }
+    for body in &scene.bodies {
+        if body.is_fixed() {
+            add(format!("equations of {}", body.name), String::from("its motion is prescribed, so it needs none"));
+        } else if body.is_particle() {
+            add(format!("spin of {}", body.name), String::from("a particle has no extension: no spin, no moment equation"));
+        }
+    }
+    for contact in &scene.contacts {
+        if let ContactLaw::Frictionless { .. } = contact.law {
+            add(format!("tangential impulse at {}", contact.name), String::from("the contact is frictionless"));
+        }
+    }
+    let used_equations: usize = blocks.iter().map(|b| b.equations.len()).sum();
+    if used_equations > 0 && used_equations < counting.equations {
+        add(
+            format!("{} of the {} equations of the full system", counting.equations - used_equations, counting.equations),
+            String::from("what is asked does not depend on them"),
+        );
+    }
+    for parameter in &scene.parameters {
+        if !uses(scene, &parameter.name) {
+            add(format!("parameter {}", parameter.name), String::from("nothing in the scene depends on it"));
+        }
+    }
+    out
+}
+
+fn why_not_needed(work: &Work<'_>, unknowns: &[Unknown], asked: usize) -> String {
+    let mut reasons: Vec<String> = Vec::new();
+    let bodies = joined(work.scene, unknowns);
+    for equation in work.blocks[..asked].iter().flat_map(|b| &b.equations) {
+        let reason = match &equation.law {
+            Law::LinearMomentum { system, .. } | Law::AngularMomentum { system, .. }
+                if bodies.iter().all(|b| system.contains(b)) =>
+            {
+                format!("internal to the system of {}", laws::body_list(work.scene, system))
+            }
+            Law::AngularMomentum { system, about } if bodies.iter().any(|b| system.contains(b)) => {
+                format!("no moment about {}", laws::place_name(work.scene, *about))
+            }
+            _ => continue,
+        };
+        if !reasons.contains(&reason) {
+            reasons.push(reason);
+        }
+    }
+    reasons.push(String::from("not asked for"));
+    reasons.join("; ")
+}
+
+fn joined(scene: &Scene, unknowns: &[Unknown]) -> Vec<usize> {
+    match unknowns.first() {
+        Some(Unknown::Contact(c, _) | Unknown::Normal(c)) => scene.contacts[*c].bodies.to_vec(),
+        Some(Unknown::Hinge(h, _)) => scene.hinges[*h].bodies.to_vec(),
+        Some(Unknown::Blow(b)) => vec![scene.blows[*b].body],
+        _ => Vec::new(),
+    }
+}
+
+/// The unknown impulses by the place that transmits them.
+fn impulses(scene: &Scene) -> Vec<(String, Vec<Unknown>)> {
+    let mut all = Vec::new();
+    for (c, contact) in scene.contacts.iter().enumerate() {
+        let unknowns = match contact.law {
+            ContactLaw::Frictionless { .. } => vec![Unknown::Normal(c)],
+            ContactLaw::Sticking | ContactLaw::None => vec![Unknown::Contact(c, 0), Unknown::Contact(c, 1)],
+        };
+        all.push((contact.name.clone(), unknowns));
+    }
+    for (h, hinge) in scene.hinges.iter().enumerate() {
+        all.push((hinge.name.clone(), vec![Unknown::Hinge(h, 0), Unknown::Hinge(h, 1)]));
+    }
+    all
+}
+
+fn uses(scene: &Scene, name: &str) -> bool {
+    let mut found = super::formulas(scene).iter().any(|e| e.symbols().contains(name));
+    found |= scene.domains.unit_vectors.iter().any(|pair| pair.iter().any(|s| **s == *name));
+    found
+}

@@ -1,0 +1,407 @@
+//! From a scene to closed forms: picks the fewest laws that answer each question, solves them, and records every block
+//! of equations with its unknowns, what was divided by, and what was left out and why.
+//!
+//! Comes in: a [`Scene`]. Goes out: a [`Derivation`], which claims and does not prove; `verify` puts every closed form
+//! back into every law and holds it against the independent numeric solution. This module knows no numbers but exact ones
+//! (doubles plan, they never decide) and no output format.
+
+mod answer;
+mod compact;
+mod count;
+mod left_out;
+mod names;
+mod plan;
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+pub use answer::{Answer, Form};
+pub use count::{Counting, count};
+pub use left_out::LeftOut;
+pub use names::Names;
+
+use crate::algebra::{self, Element, Field, Row};
+use crate::expr::{Expr, Symbol, Vector};
+use crate::laws::{self, Affine, Geometry, Kinematics, Law, Unknown};
+use crate::scene::Scene;
+use plan::{Planner, Reduction};
+
+/// Everything found out about a scene, ready to be proved and printed.
+#[derive(Clone, Debug)]
+pub struct Derivation {
+    /// Equations, unknowns and rank of the full system.
+    pub counting: Counting,
+    /// Symbols of the unknowns.
+    pub names: Names,
+    /// The blocks of equations that answer the questions, in order of solution.
+    pub blocks: Vec<Block>,
+    /// Named common parts of long answers, each in terms of the ones before it.
+    pub definitions: Vec<Definition>,
+    /// Answers in the order of the questions, one per component.
+    pub answers: Vec<Answer>,
+    /// Closed form of every unknown that is determined, for the proof; those not asked for are not printed.
+    pub motion: BTreeMap<Unknown, Expr>,
+    /// What the scene did not need.
+    pub left_out: Vec<LeftOut>,
+    /// What must hold for the answers: expressions that must not vanish, and signs that were seen rather than proved.
+    pub assumptions: Vec<String>,
+}
+
+/// Some equations solved together.
+#[derive(Clone, Debug)]
+pub struct Block {
+    /// The equations.
+    pub equations: Vec<Equation>,
+    /// What they determine.
+    pub unknowns: Vec<Unknown>,
+    /// The solution, in the order of `unknowns`.
+    pub solution: Vec<Expr>,
+    /// Expressions divided by that are not known to keep away from zero.
+    pub divided_by: Vec<Expr>,
+    /// Name of the question that needed the block; `None` for the completion that only the proof uses.
+    pub asked_by: Option<String>,
+}
+
+/// A law written out: Σ coefficient × unknown = known.
+#[derive(Clone, Debug)]
+pub struct Equation {
+    /// The law.
+    pub law: Law,
+    /// Coefficients of the unknowns, as a person would write them.
+    pub terms: Vec<(Unknown, Expr)>,
+    /// Right side.
+    pub known: Expr,
+}
+
+/// A named part of a long answer.
+#[derive(Clone, Debug)]
+pub struct Definition {
+    /// Its symbol.
+    pub name: Symbol,
+    /// Its value, in parameters and earlier definitions.
+    pub value: Expr,
+    /// What it means.
+    pub meaning: String,
+}
+
+/// Why a derivation stopped.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stop {
+    /// A limit of the algebra was met.
+    Limit(String),
+    /// Laws and givens contradict each other; the words name the law at which it shows.
+    Contradiction(String),
+}
+
+impl fmt::Display for Stop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Stop::Limit(what) => write!(f, "stopped at a limit: {what}"),
+            Stop::Contradiction(law) => write!(f, "the laws contradict each other: {law} cannot hold together with the others"),
+        }
+    }
+}
+
+impl std::error::Error for Stop {}
+
+impl From<algebra::Stop> for Stop {
+    fn from(stop: algebra::Stop) -> Stop {
+        Stop::Limit(stop.to_string())
+    }
+}
+
+/// Answers every question of a scene. Unknowns that the laws do not determine have no closed form, and questions that
+/// need one are left without an answer; `counting` says so.
+pub fn derive(scene: &Scene) -> Result<Derivation, Stop> {
+    let counting = count(scene);
+    let mut work = Work::new(scene)?;
+    for question in &scene.questions {
+        let needed = work.unknowns_of(&question.ask)?;
+        if needed.iter().all(|u| counting.is_unique(*u)) {
+            work.determine(&needed, Some(&question.name))?;
+        }
+    }
+    let asked = work.blocks.len();
+    let rest: Vec<Unknown> = work.reduced_unknowns().into_iter().filter(|u| counting.is_unique(*u)).collect();
+    work.determine(&rest, None)?;
+    let mut answers = Vec::new();
+    let mut definitions = Vec::new();
+    for question in &scene.questions {
+        work.answer(question, &counting, &mut answers)?;
+    }
+    compact::shorten(&mut work, &mut answers, &mut definitions)?;
+    let motion = work.motion()?;
+    let left_out = left_out::list(&work, &counting, asked);
+    let assumptions = work.assumptions();
+    work.blocks.truncate(asked);
+    Ok(Derivation { counting, names: work.names, blocks: work.blocks, definitions, answers, motion, left_out, assumptions })
+}
+
+/// The state of a derivation under way.
+struct Work<'a> {
+    scene: &'a Scene,
+    field: Field,
+    names: Names,
+    reduction: Reduction,
+    g: Geometry<Expr>,
+    /// Motion after in terms of what the joints leave free.
+    reduced: Kinematics<Expr>,
+    planner: Option<Planner>,
+    values: BTreeMap<Unknown, Element>,
+    blocks: Vec<Block>,
+}
+
+impl<'a> Work<'a> {
+    fn new(scene: &'a Scene) -> Result<Work<'a>, Stop> {
+        let mut field = Field::new(&scene.domains);
+        let formulas = formulas(scene);
+        field.prepare(formulas.iter());
+        let Ok(g) = Geometry::of(scene, |e| Ok::<_, std::convert::Infallible>(e.clone()));
+        let reduction = plan::reduction(scene);
+        let reduced = reduction.kinematics(scene, &g);
+        let planner = Planner::new(scene, &reduction);
+        let names = Names::of(scene);
+        Ok(Work { scene, field, names, reduction, g, reduced, planner, values: BTreeMap::new(), blocks: Vec::new() })
+    }
+
+    /// The unknowns of the reduced description: free velocities and spins, then impulses.
+    fn reduced_unknowns(&self) -> Vec<Unknown> {
+        let attached = |b: usize| self.reduction.tree.iter().any(|link| link.body == b);
+        let mut all = laws::unknowns(self.scene);
+        all.retain(|u| !matches!(u, Unknown::Velocity(b, _) if attached(*b)));
+        all
+    }
+
+    /// Makes sure that all targets have a closed form.
+    fn determine(&mut self, targets: &[Unknown], asked_by: Option<&str>) -> Result<(), Stop> {
+        for &target in targets {
+            if self.values.contains_key(&target) {
+                continue;
+            }
+            for (laws, unknowns) in self.plans(target) {
+                if self.solve(&laws, &unknowns, asked_by)? {
+                    break;
+                }
+            }
+            if !self.values.contains_key(&target) {
+                self.solve_everything(asked_by)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Ways to determine a target, best first.
+    fn plans(&self, target: Unknown) -> Vec<(Vec<Law>, Vec<Unknown>)> {
+        let Some(planner) = &self.planner else { return Vec::new() };
+        let known = |u: Unknown| self.values.contains_key(&u);
+        let mut plans = Vec::new();
+        plans.extend(planner.closing(&[target], &known));
+        let impulse_first = planner.impulse_first(target, &known);
+        if let Some(plan) = impulse_first {
+            // With many equations either way, the impulse first and the rest in terms of it reads better.
+            let at = usize::from(plans.first().is_some_and(|p| p.0.len() < 4 && p.0.len() < plan.0.len()));
+            plans.insert(at.min(plans.len()), plan);
+        }
+        if !target.is_impulse() {
+            plans.extend(planner.without_impulses(&known));
+        }
+        plans
+    }
+
+    /// Solves laws for unknowns; false where they do not determine them all after all.
+    fn solve(&mut self, laws: &[Law], unknowns: &[Unknown], asked_by: Option<&str>) -> Result<bool, Stop> {
+        let mut rows = Vec::with_capacity(laws.len());
+        let mut equations = Vec::with_capacity(laws.len());
+        for law in laws {
+            let Some((row, equation)) = self.row(law, unknowns)? else { return Ok(false) };
+            rows.push(row);
+            equations.push((law.clone(), equation));
+        }
+        let solution = algebra::solve(&mut self.field, &rows, unknowns.len())?;
+        if let Some(row) = solution.contradiction {
+            return Err(Stop::Contradiction(laws::describe(self.scene, &laws[row])));
+        }
+        if solution.values.iter().any(Option::is_none) {
+            return Ok(false);
+        }
+        let mut printed = Vec::with_capacity(unknowns.len());
+        for (unknown, value) in unknowns.iter().zip(solution.values.into_iter().flatten()) {
+            printed.push(self.field.expr(&value));
+            self.values.insert(*unknown, value);
+        }
+        let divided_by = solution.pivots.iter().filter(|p| self.field.sign(p).is_none()).map(|p| self.field.expr(p)).collect();
+        let equations = equations
+            .into_iter()
+            .map(|(law, (terms, known))| Equation {
+                law,
+                terms: terms.iter().map(|(u, k)| (*u, self.field.expr(k))).collect(),
+                known: self.field.expr(&known),
+            })
+            .collect();
+        self.blocks.push(Block {
+            equations,
+            unknowns: unknowns.to_vec(),
+            solution: printed,
+            divided_by,
+            asked_by: asked_by.map(str::to_string),
+        });
+        Ok(true)
+    }
+
+    /// A law as a row over `unknowns`, with everything already solved put in; also as it stands before that, for
+    /// printing. `None` where it holds an unknown that is neither.
+    #[allow(clippy::type_complexity)]
+    fn row(&mut self, law: &Law, unknowns: &[Unknown]) -> Result<Option<(Row, (Vec<(Unknown, Element)>, Element))>, Stop> {
+        let direction = |v: &Vector| Ok::<_, std::convert::Infallible>(v.clone());
+        let Ok(linear) = laws::equation(self.scene, &self.g, &self.reduced, law, direction);
+        let mut rhs = self.field.element(&linear.known)?;
+        let known = rhs.clone();
+        let mut coeffs = Vec::with_capacity(linear.terms.len());
+        let mut terms = Vec::with_capacity(linear.terms.len());
+        for (unknown, k) in &linear.terms {
+            let k = self.field.element(k)?;
+            if self.field.is_zero(&k) {
+                continue;
+            }
+            terms.push((*unknown, k.clone()));
+            if let Some(value) = self.values.get(unknown) {
+                let moved = self.field.mul(&k, value)?;
+                rhs = self.field.sub(&rhs, &moved)?;
+            } else if let Some(column) = unknowns.iter().position(|u| u == unknown) {
+                coeffs.push((column, k));
+            } else {
+                return Ok(None);
+            }
+        }
+        Ok(Some((Row { coeffs, rhs }, (terms, known))))
+    }
+
+    /// The last resort: all laws of the reduced description at once.
+    fn solve_everything(&mut self, asked_by: Option<&str>) -> Result<(), Stop> {
+        let held: Vec<Law> = laws::of(self.scene)
+            .into_iter()
+            .filter(|law| match law {
+                Law::Hinged(..) | Law::Sticking(..) => self.reduction.loops.iter().any(|l| same_joint(l, law)),
+                _ => true,
+            })
+            .collect();
+        let unknowns: Vec<Unknown> =
+            self.reduced_unknowns().into_iter().filter(|u| !self.values.contains_key(u)).collect();
+        let mut rows = Vec::new();
+        let mut equations = Vec::new();
+        for law in held {
+            if let Some((row, (terms, known))) = self.row(&law, &unknowns)? {
+                if !row.coeffs.is_empty() {
+                    rows.push(row);
+                    equations.push(Equation {
+                        law,
+                        terms: terms.iter().map(|(u, k)| (*u, self.field.expr(k))).collect(),
+                        known: self.field.expr(&known),
+                    });
+                }
+            }
+        }
+        let solution = algebra::solve(&mut self.field, &rows, unknowns.len())?;
+        if let Some(row) = solution.contradiction {
+            return Err(Stop::Contradiction(laws::describe(self.scene, &equations[row].law)));
+        }
+        let divided_by = solution.pivots.iter().filter(|p| self.field.sign(p).is_none()).map(|p| self.field.expr(p)).collect();
+        let mut found = Vec::new();
+        let mut printed = Vec::new();
+        for (unknown, value) in unknowns.into_iter().zip(solution.values) {
+            if let Some(value) = value {
+                found.push(unknown);
+                printed.push(self.field.expr(&value));
+                self.values.insert(unknown, value);
+            }
+        }
+        self.blocks.push(Block {
+            equations,
+            unknowns: found,
+            solution: printed,
+            divided_by,
+            asked_by: asked_by.map(str::to_string),
+        });
+        Ok(())
+    }
+
+    /// An affine form with the closed forms put in.
+    fn element_of(&mut self, form: &Affine<Expr>) -> Result<Option<Element>, Stop> {
+        let mut total = self.field.element(&form.constant)?;
+        for (unknown, k) in &form.terms {
+            let k = self.field.element(k)?;
+            if self.field.is_zero(&k) {
+                continue;
+            }
+            let Some(value) = self.values.get(unknown) else { return Ok(None) };
+            let term = self.field.mul(&k, value)?;
+            total = self.field.add(&total, &term)?;
+        }
+        Ok(Some(total))
+    }
+
+    /// The unknowns that occur in a form with a coefficient that is not zero.
+    fn unknowns_in(&mut self, form: &Affine<Expr>) -> Result<Vec<Unknown>, Stop> {
+        let mut found = Vec::new();
+        for (unknown, k) in &form.terms {
+            let k = self.field.element(k)?;
+            if !self.field.is_zero(&k) {
+                found.push(*unknown);
+            }
+        }
+        Ok(found)
+    }
+
+    /// Closed form of every unknown of the full description that has one.
+    fn motion(&mut self) -> Result<BTreeMap<Unknown, Expr>, Stop> {
+        let mut motion = BTreeMap::new();
+        for unknown in laws::unknowns(self.scene) {
+            let value = match unknown {
+                Unknown::Velocity(b, axis) => {
+                    let form = self.reduced.velocity[b][axis].clone();
+                    self.element_of(&form)?
+                }
+                _ => self.values.get(&unknown).cloned(),
+            };
+            if let Some(value) = value {
+                motion.insert(unknown, self.field.expr(&value));
+            }
+        }
+        Ok(motion)
+    }
+
+    /// What the closed forms rest on: signs taken for roots, and conditions `… ≠ 0` under which the blocks were solved.
+    fn assumptions(&self) -> Vec<String> {
+        let sign = |a: &algebra::Assumption| match a {
+            algebra::Assumption::NotNegative(e) => format!("{} ≥ 0", crate::formula::write_plain(e)),
+        };
+        let mut all: Vec<String> = self.field.assumptions().iter().map(sign).collect();
+        for divisor in self.blocks.iter().flat_map(|b| &b.divided_by) {
+            let condition = format!("{} ≠ 0", crate::formula::write_plain(divisor));
+            if !all.contains(&condition) {
+                all.push(condition);
+            }
+        }
+        all
+    }
+}
+
+fn same_joint(a: &Law, b: &Law) -> bool {
+    match (a, b) {
+        (Law::Hinged(i, j), Law::Hinged(k, l)) | (Law::Sticking(i, j), Law::Sticking(k, l)) => (i, j) == (k, l),
+        _ => false,
+    }
+}
+
+/// Every formula of the scene that the laws use.
+fn formulas(scene: &Scene) -> Vec<Expr> {
+    let mut all: Vec<Expr> = Vec::new();
+    let Ok(_) = Geometry::of(scene, |e| {
+        all.push(e.clone());
+        Ok::<_, std::convert::Infallible>(e.clone())
+    });
+    for question in &scene.questions {
+        all.extend(answer::formulas(question));
+    }
+    all
+}

@@ -1,0 +1,134 @@
+//! Symbols for the unknowns: the scene's own names where a question gives one, else names made from those of the bodies.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::laws::{self, Unknown};
+use crate::scene::{Ask, ImpulseAt, Scene};
+
+/// Plain and LaTeX names of the unknowns; none collides with a parameter or with another unknown.
+#[derive(Clone, Debug, Default)]
+pub struct Names {
+    of: BTreeMap<Unknown, (String, String)>,
+    used: BTreeSet<String>,
+}
+
+impl Names {
+    /// Names for all unknowns of a scene.
+    pub fn of(scene: &Scene) -> Names {
+        let mut names = Names::default();
+        names.used.extend(scene.parameters.iter().map(|p| p.name.to_string()));
+        for unknown in laws::unknowns(scene) {
+            let (plain, latex) = asked_name(scene, unknown).unwrap_or_else(|| made_name(scene, unknown));
+            let plain = names.fresh(&plain);
+            names.of.insert(unknown, (plain, latex));
+        }
+        names
+    }
+
+    /// The symbol of an unknown, such as `omega` or `v_bar_x`.
+    pub fn plain(&self, unknown: Unknown) -> &str {
+        self.of.get(&unknown).map_or("?", |(plain, _)| plain)
+    }
+
+    /// The same, typeset.
+    pub fn latex(&self, unknown: Unknown) -> &str {
+        self.of.get(&unknown).map_or("?", |(_, latex)| latex)
+    }
+
+    /// A symbol near `wanted` that nothing else uses.
+    pub fn fresh(&mut self, wanted: &str) -> String {
+        let mut name = wanted.to_string();
+        let mut count = 1;
+        while !self.used.insert(name.clone()) {
+            count += 1;
+            name = format!("{wanted}_{count}");
+        }
+        name
+    }
+}
+
+const AXES: [&str; 2] = ["x", "y"];
+
+/// The name a question gives to an unknown, if one asks for exactly it.
+fn asked_name(scene: &Scene, unknown: Unknown) -> Option<(String, String)> {
+    for question in &scene.questions {
+        let latex = question.latex.clone().unwrap_or_else(|| latex_name(&question.name));
+        let component = |axis: usize| {
+            Some((format!("{}_{}", question.name, AXES[axis]), with_subscript(&latex, AXES[axis])))
+        };
+        let found = match (&question.ask, unknown) {
+            (Ask::Velocity { body, point: None, along: None }, Unknown::Velocity(b, axis)) if *body == b => component(axis),
+            (Ask::Spin { body, .. }, Unknown::Spin(b)) if *body == b => Some((question.name.clone(), latex)),
+            (Ask::Impulse { from: ImpulseAt::Contact(c), on, along }, Unknown::Normal(i)) if *c == i => {
+                let forward = scene.contacts[i].bodies[1] == *on;
+                (forward && along.is_none()).then(|| (question.name.clone(), latex))
+            }
+            (Ask::Impulse { from: ImpulseAt::Contact(c), on, along: None }, Unknown::Contact(i, axis))
+                if *c == i && scene.contacts[i].bodies[1] == *on =>
+            {
+                component(axis)
+            }
+            (Ask::Impulse { from: ImpulseAt::Hinge(h), on, along: None }, Unknown::Hinge(i, axis))
+                if *h == i && scene.hinges[i].bodies[1] == *on =>
+            {
+                component(axis)
+            }
+            _ => None,
+        };
+        if found.is_some() {
+            return found;
+        }
+    }
+    None
+}
+
+fn made_name(scene: &Scene, unknown: Unknown) -> (String, String) {
+    let body = |b: usize| identifier(&scene.bodies[b].name);
+    let made = |letter: &str, latex_letter: &str, of: &str, axis: Option<usize>, after: bool| {
+        let plus = if after { "^{+}" } else { "" };
+        match axis {
+            Some(axis) => {
+                let x = AXES[axis];
+                (format!("{letter}_{of}_{x}"), format!("{latex_letter}_{{\\mathrm{{{}}},{x}}}{plus}", escape(of)))
+            }
+            None => (format!("{letter}_{of}"), format!("{latex_letter}_{{\\mathrm{{{}}}}}{plus}", escape(of))),
+        }
+    };
+    match unknown {
+        Unknown::Velocity(b, axis) => made("v", "v", &body(b), Some(axis), true),
+        Unknown::Spin(b) => made("omega", "\\omega", &body(b), None, true),
+        Unknown::Contact(c, axis) => made("P", "P", &identifier(&scene.contacts[c].name), Some(axis), false),
+        Unknown::Normal(c) => made("P", "P", &identifier(&scene.contacts[c].name), None, false),
+        Unknown::Hinge(h, axis) => made("R", "R", &identifier(&scene.hinges[h].name), Some(axis), false),
+        Unknown::Blow(i) => made("P", "P", &identifier(&scene.blows[i].name), None, false),
+    }
+}
+
+/// A name reduced to letters, digits and underscores.
+fn identifier(name: &str) -> String {
+    let mut out: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+    if out.is_empty() {
+        out.push('_');
+    }
+    out
+}
+
+fn escape(name: &str) -> String {
+    name.replace('_', "\\_")
+}
+
+/// LaTeX for a plain symbol.
+pub fn latex_name(name: &str) -> String {
+    crate::formula::write_latex(&crate::expr::Expr::symbol(name), &|_| None)
+}
+
+/// A typeset symbol with one more subscript.
+pub fn with_subscript(latex: &str, axis: &str) -> String {
+    match latex.split_once("_{") {
+        Some((head, tail)) => match tail.split_once('}') {
+            Some((sub, rest)) => format!("{head}_{{{sub},{axis}}}{rest}"),
+            None => format!("{latex}_{{{axis}}}"),
+        },
+        None => format!("{latex}_{{{axis}}}"),
+    }
+}

@@ -1,0 +1,487 @@
+//! Which equations to use: the fewest that close on what is asked.
+//!
+//! Planning needs only the pattern of a scene, which unknowns occur in which equation, so it is done in doubles at one
+//! point in general position. Nothing found here is trusted: the chosen laws are written and solved symbolically
+//! afterwards, and a plan that does not close there is given up for the full system.
+
+use std::collections::BTreeMap;
+
+use crate::domain::{Domain, Domains, Limit};
+use crate::expr::number::to_f64;
+use crate::expr::{Expr, Point, Symbol, Vector};
+use crate::laws::{self, Direction, Geometry, Kinematics, Law, Place, Unknown};
+use crate::scene::{ContactLaw, Scene};
+
+/// Coefficients below this count as zero; in general position the others are of order one.
+const ZERO: f64 = 1e-9;
+/// Search steps before the planner falls back on a larger block; found by trying scenes of up to four bodies.
+const STEPS: usize = 30_000;
+/// Largest set of equations searched for.
+const LARGEST: usize = 6;
+
+/// A body that moves as if joined to another one.
+#[derive(Clone, Copy, Debug)]
+pub struct Attachment {
+    /// The body.
+    pub body: usize,
+    /// The joint.
+    pub at: Place,
+    /// The body that carries it.
+    pub to: usize,
+}
+
+/// What joints and sticking contacts leave free: a tree of attachments, and the joint conditions no tree can hold.
+#[derive(Clone, Debug, Default)]
+pub struct Reduction {
+    /// Attachments, carriers first.
+    pub tree: Vec<Attachment>,
+    /// Conditions of joints that close a loop.
+    pub loops: Vec<Law>,
+}
+
+/// Finds the tree, starting from the bodies that do not move.
+pub fn reduction(scene: &Scene) -> Reduction {
+    let mut joints: Vec<([usize; 2], Place)> = Vec::new();
+    joints.extend(scene.hinges.iter().enumerate().map(|(h, hinge)| (hinge.bodies, Place::Hinge(h))));
+    for (c, contact) in scene.contacts.iter().enumerate() {
+        if contact.law == ContactLaw::Sticking {
+            joints.push((contact.bodies, Place::Contact(c)));
+        }
+    }
+    let mut placed: Vec<bool> = scene.bodies.iter().map(|b| b.is_fixed()).collect();
+    let mut used = vec![false; joints.len()];
+    let mut reduction = Reduction::default();
+    let mut queue: Vec<usize> = (0..scene.bodies.len()).filter(|&b| placed[b]).collect();
+    let mut next_root = 0;
+    loop {
+        let mut at = 0;
+        while at < queue.len() {
+            let carrier = queue[at];
+            at += 1;
+            for (j, (bodies, place)) in joints.iter().enumerate() {
+                let Some(side) = bodies.iter().position(|&b| b == carrier) else { continue };
+                let body = bodies[1 - side];
+                if !used[j] && !placed[body] {
+                    used[j] = true;
+                    placed[body] = true;
+                    reduction.tree.push(Attachment { body, at: *place, to: carrier });
+                    queue.push(body);
+                }
+            }
+        }
+        match (next_root..scene.bodies.len()).find(|&b| !placed[b]) {
+            Some(root) => {
+                placed[root] = true;
+                next_root = root + 1;
+                queue = vec![root];
+            }
+            None => break,
+        }
+    }
+    for (j, (_, place)) in joints.iter().enumerate() {
+        if !used[j] {
+            reduction.loops.extend([0, 1].map(|axis| match place {
+                Place::Hinge(h) => Law::Hinged(*h, axis),
+                Place::Contact(c) => Law::Sticking(*c, axis),
+                Place::Center(_) | Place::Blow(_) => unreachable!("joints are hinges and contacts"),
+            }));
+        }
+    }
+    reduction
+}
+
+impl Reduction {
+    /// The motion after in terms of what is left free.
+    pub fn kinematics<T: laws::Quantity>(&self, scene: &Scene, g: &Geometry<T>) -> Kinematics<T> {
+        let mut motion = Kinematics::full(scene, g);
+        for link in &self.tree {
+            let at = g.place(link.at).clone();
+            let carrier = motion.velocity_of(g, link.to, &at);
+            motion.attach(scene, g, link.body, &at, carrier);
+        }
+        motion
+    }
+}
+
+/// An equation that could be used, by its pattern.
+#[derive(Clone, Debug)]
+struct Candidate {
+    law: Law,
+    row: Vec<(usize, f64)>,
+    mask: u128,
+    cost: usize,
+}
+
+/// The candidate equations of a scene.
+#[derive(Debug)]
+pub struct Planner {
+    unknowns: Vec<Unknown>,
+    candidates: Vec<Candidate>,
+    attached: Vec<Attachment>,
+}
+
+impl Planner {
+    /// Lists the candidates; `None` where the scene is too large for a search or has no value at the planning point.
+    pub fn new(scene: &Scene, reduction: &Reduction) -> Option<Planner> {
+        let point = generic_point(scene);
+        let value = |e: &Expr| e.evaluate(&point).ok_or(());
+        let g = Geometry::<f64>::of(scene, value).ok()?;
+        let motion = reduction.kinematics(scene, &g);
+        let mut planner = Planner { unknowns: Vec::new(), candidates: Vec::new(), attached: reduction.tree.clone() };
+        for (law, cost) in candidate_laws(scene, reduction, &g) {
+            let vector = |v: &Vector| Ok::<_, ()>([value(&v[0])?, value(&v[1])?]);
+            let equation = laws::equation(scene, &g, &motion, &law, vector).ok()?;
+            let mut row = Vec::new();
+            for (unknown, k) in equation.terms {
+                if k.abs() > ZERO {
+                    row.push((planner.index(unknown), k));
+                }
+            }
+            if planner.unknowns.len() > 128 {
+                return None;
+            }
+            if !row.is_empty() {
+                let mask = row.iter().fold(0, |m, (i, _)| m | 1 << i);
+                let cost = cost + 4 * row.len();
+                planner.candidates.push(Candidate { law, row, mask, cost });
+            }
+        }
+        Some(planner)
+    }
+
+    fn index(&mut self, unknown: Unknown) -> usize {
+        self.unknowns.iter().position(|u| *u == unknown).unwrap_or_else(|| {
+            self.unknowns.push(unknown);
+            self.unknowns.len() - 1
+        })
+    }
+
+    /// The fewest laws that, with the `known` unknowns given, determine all `targets`; of equally many the simplest.
+    pub fn closing(&self, targets: &[Unknown], known: &dyn Fn(Unknown) -> bool) -> Option<(Vec<Law>, Vec<Unknown>)> {
+        let known_mask = self.mask(self.unknowns.iter().copied().filter(|u| known(*u)));
+        let goal = self.mask(targets.iter().copied());
+        if goal.count_ones() as usize != targets.len() {
+            return None;
+        }
+        let mut search = Search { planner: self, known: known_mask, best: None, steps: 0, limit: 0 };
+        for k in goal.count_ones() as usize..=LARGEST {
+            search.limit = k;
+            search.extend(&mut Vec::new(), goal, 0);
+            if search.best.is_some() || search.steps > STEPS {
+                break;
+            }
+        }
+        let (_, chosen, union) = search.best?;
+        let laws = chosen.iter().map(|&c| self.candidates[c].law.clone()).collect();
+        let unknowns = bits(union).map(|i| self.unknowns[i]).collect();
+        Some((laws, unknowns))
+    }
+
+    /// As many independent laws without unknown impulses as there are free velocities; for scenes too large to search.
+    pub fn without_impulses(&self, known: &dyn Fn(Unknown) -> bool) -> Option<(Vec<Law>, Vec<Unknown>)> {
+        let known_mask = self.mask(self.unknowns.iter().copied().filter(|u| known(*u)));
+        let impulses = self.mask(self.unknowns.iter().copied().filter(|u| u.is_impulse()));
+        let free = self.mask(self.unknowns.iter().copied().filter(|u| !u.is_impulse())) & !known_mask;
+        let mut order: Vec<usize> = (0..self.candidates.len())
+            .filter(|&c| self.candidates[c].mask & impulses & !known_mask == 0 && self.candidates[c].mask & free != 0)
+            .collect();
+        order.sort_by_key(|&c| (self.candidates[c].mask.count_ones(), self.candidates[c].cost, c));
+        let wanted = free.count_ones() as usize;
+        let mut rows: Vec<Vec<f64>> = Vec::new();
+        let mut chosen = Vec::new();
+        for c in order {
+            if adds_rank(&mut rows, self.dense(c, free)) {
+                chosen.push(c);
+            }
+        }
+        (chosen.len() == wanted && wanted > 0).then(|| {
+            let laws = chosen.iter().map(|&c| self.candidates[c].law.clone()).collect();
+            (laws, bits(free).map(|i| self.unknowns[i]).collect())
+        })
+    }
+
+    /// The way with the impulse first: every unknown is paired with the balance of its own body, every contact impulse with
+    /// the law of its contact, until nothing new turns up. `None` where a hinge takes part or a pair is missing.
+    pub fn impulse_first(&self, target: Unknown, known: &dyn Fn(Unknown) -> bool) -> Option<(Vec<Law>, Vec<Unknown>)> {
+        let mut unknowns = vec![target];
+        let mut laws = Vec::new();
+        let mut at = 0;
+        while at < unknowns.len() {
+            let candidate = self.own_law(unknowns[at])?;
+            for (i, _) in &candidate.row {
+                let unknown = self.unknowns[*i];
+                if matches!(unknown, Unknown::Hinge(..)) {
+                    return None;
+                }
+                if !known(unknown) && !unknowns.contains(&unknown) {
+                    unknowns.push(unknown);
+                }
+            }
+            laws.push(candidate.law.clone());
+            at += 1;
+        }
+        Some((laws, unknowns))
+    }
+
+    /// The law a teacher writes for the sake of this unknown.
+    fn own_law(&self, unknown: Unknown) -> Option<&Candidate> {
+        self.candidates.iter().find(|c| match (&c.law, unknown) {
+            (Law::LinearMomentum { system, along: Direction::X }, Unknown::Velocity(b, 0))
+            | (Law::LinearMomentum { system, along: Direction::Y }, Unknown::Velocity(b, 1)) => *system == [b],
+            (Law::LinearMomentum { system, along: Direction::X }, Unknown::Contact(k, 0))
+            | (Law::LinearMomentum { system, along: Direction::Y }, Unknown::Contact(k, 1)) => {
+                self.attached.iter().any(|link| link.at == Place::Contact(k) && *system == [link.body])
+            }
+            (Law::AngularMomentum { system, about: Place::Center(g) }, Unknown::Spin(b)) => *system == [b] && *g == b,
+            (Law::Restitution(k), Unknown::Normal(c)) => *k == c,
+            _ => false,
+        })
+    }
+
+    fn mask(&self, unknowns: impl Iterator<Item = Unknown>) -> u128 {
+        unknowns
+            .filter_map(|u| self.unknowns.iter().position(|v| *v == u))
+            .fold(0, |m, i| m | 1 << i)
+    }
+
+    fn dense(&self, candidate: usize, columns: u128) -> Vec<f64> {
+        bits(columns)
+            .map(|i| self.candidates[candidate].row.iter().find(|(j, _)| *j == i).map_or(0.0, |(_, k)| *k))
+            .collect()
+    }
+}
+
+/// Depth-first search for a set of equations that has as many unknowns as equations. Every unknown of the set is matched
+/// with one of its equations, so each nonsingular set is reached.
+struct Search<'a> {
+    planner: &'a Planner,
+    known: u128,
+    best: Option<(usize, Vec<usize>, u128)>,
+    steps: usize,
+    limit: usize,
+}
+
+impl Search<'_> {
+    fn extend(&mut self, chosen: &mut Vec<usize>, union: u128, matched: u128) {
+        self.steps += 1;
+        if union.count_ones() as usize > self.limit || self.steps > STEPS {
+            return;
+        }
+        let open = union & !matched;
+        if open == 0 {
+            return self.record(chosen, union);
+        }
+        let unknown = open & open.wrapping_neg();
+        for c in 0..self.planner.candidates.len() {
+            let mask = self.planner.candidates[c].mask;
+            if mask & unknown != 0 && !chosen.contains(&c) {
+                chosen.push(c);
+                self.extend(chosen, union | (mask & !self.known), matched | unknown);
+                chosen.pop();
+            }
+        }
+    }
+
+    fn record(&mut self, chosen: &[usize], union: u128) {
+        let cost = chosen.iter().map(|&c| self.planner.candidates[c].cost).sum();
+        if self.best.as_ref().is_some_and(|(best, ..)| *best <= cost) {
+            return;
+        }
+        let mut rows = Vec::new();
+        if chosen.iter().all(|&c| adds_rank(&mut rows, self.planner.dense(c, union))) {
+            let mut laws = chosen.to_vec();
+            laws.sort_unstable();
+            self.best = Some((cost, laws, union));
+        }
+    }
+}
+
+fn bits(mask: u128) -> impl Iterator<Item = usize> {
+    (0..128).filter(move |i| mask >> i & 1 == 1)
+}
+
+/// Reduces `row` by the echelon rows collected so far and keeps it if something is left.
+fn adds_rank(rows: &mut Vec<Vec<f64>>, mut row: Vec<f64>) -> bool {
+    for r in rows.iter() {
+        let lead = r.iter().position(|k| *k != 0.0).unwrap_or(0);
+        let factor = row[lead] / r[lead];
+        for (a, b) in row.iter_mut().zip(r) {
+            *a -= factor * b;
+        }
+        row[lead] = 0.0;
+    }
+    let Some(lead) = (0..row.len()).max_by(|&a, &b| row[a].abs().total_cmp(&row[b].abs())) else { return false };
+    if row[lead].abs() < ZERO {
+        return false;
+    }
+    // What is negligible must not become a lead.
+    for k in row.iter_mut() {
+        if k.abs() < ZERO {
+            *k = 0.0;
+        }
+    }
+    rows.push(row);
+    true
+}
+
+/// Every law worth considering, with a cost that prefers what a reader finds simplest.
+fn candidate_laws(scene: &Scene, reduction: &Reduction, g: &Geometry<f64>) -> Vec<(Law, usize)> {
+    let mut laws: Vec<(Law, usize)> = Vec::new();
+    for system in systems(scene, reduction) {
+        let size = system.len();
+        for along in [Direction::X, Direction::Y] {
+            laws.push((Law::LinearMomentum { system: system.clone(), along }, 2 * (size - 1)));
+        }
+        for (c, contact) in scene.contacts.iter().enumerate() {
+            let touches = contact.bodies.iter().filter(|b| system.contains(b)).count() == 1;
+            if let (Some([nx, ny]), true) = (&contact.normal, touches) {
+                let is_axis = nx.as_number().is_some() && ny.as_number().is_some();
+                if matches!(scene.contacts[c].law, ContactLaw::Frictionless { .. }) && !is_axis {
+                    let along = Direction::Named(format!("the tangent at {}", contact.name), [-ny, nx.clone()]);
+                    laws.push((Law::LinearMomentum { system: system.clone(), along }, 2 * (size - 1) + 1));
+                }
+            }
+        }
+        if system.iter().all(|&b| scene.bodies[b].is_particle()) && size == 1 {
+            continue;
+        }
+        for about in moment_points(scene, g, &system) {
+            let own_center = matches!(about, Place::Center(_));
+            laws.push((Law::AngularMomentum { system: system.clone(), about }, 2 * (size - 1) + 1 + usize::from(own_center)));
+        }
+    }
+    for (c, contact) in scene.contacts.iter().enumerate() {
+        if let ContactLaw::Frictionless { .. } = contact.law {
+            laws.push((Law::Restitution(c), 0));
+        }
+    }
+    laws.extend(reduction.loops.iter().map(|law| (law.clone(), 0)));
+    laws.extend((0..scene.after.len()).map(|k| (Law::Given(k), 0)));
+    laws
+}
+
+/// Connected systems of movable bodies: all of them in small scenes; else single bodies, the two sides of every joint of
+/// the tree, and whole components.
+fn systems(scene: &Scene, reduction: &Reduction) -> Vec<Vec<usize>> {
+    let free: Vec<usize> = (0..scene.bodies.len()).filter(|&b| !scene.bodies[b].is_fixed()).collect();
+    let mut edges: Vec<[usize; 2]> = scene.hinges.iter().map(|h| h.bodies).collect();
+    edges.extend(scene.contacts.iter().map(|c| c.bodies));
+    let mut systems: Vec<Vec<usize>> = free.iter().map(|&b| vec![b]).collect();
+    if free.len() <= 4 {
+        for subset in 1_u32..1 << free.len() {
+            let bodies: Vec<usize> = (0..free.len()).filter(|i| subset >> i & 1 == 1).map(|i| free[i]).collect();
+            if bodies.len() > 1 && is_connected(&bodies, &edges) {
+                systems.push(bodies);
+            }
+        }
+        return systems;
+    }
+    for link in &reduction.tree {
+        let mut side = vec![link.body];
+        // Attachments come carriers first, so one pass collects everything carried.
+        for other in &reduction.tree {
+            if side.contains(&other.to) && !side.contains(&other.body) {
+                side.push(other.body);
+            }
+        }
+        side.sort_unstable();
+        if side.len() > 1 {
+            systems.push(side);
+        }
+    }
+    for &root in &free {
+        let mut whole = vec![root];
+        let mut at = 0;
+        while at < whole.len() {
+            for edge in &edges {
+                if let Some(side) = edge.iter().position(|b| *b == whole[at]) {
+                    let other = edge[1 - side];
+                    if free.contains(&other) && !whole.contains(&other) {
+                        whole.push(other);
+                    }
+                }
+            }
+            at += 1;
+        }
+        whole.sort_unstable();
+        if whole[0] == root && whole.len() > 1 && !systems.contains(&whole) {
+            systems.push(whole);
+        }
+    }
+    systems
+}
+
+fn is_connected(bodies: &[usize], edges: &[[usize; 2]]) -> bool {
+    let mut reached = vec![bodies[0]];
+    let mut at = 0;
+    while at < reached.len() {
+        for edge in edges {
+            if let Some(side) = edge.iter().position(|b| *b == reached[at]) {
+                let other = edge[1 - side];
+                if bodies.contains(&other) && !reached.contains(&other) {
+                    reached.push(other);
+                }
+            }
+        }
+        at += 1;
+    }
+    reached.len() == bodies.len()
+}
+
+/// Points about which moments of a system are worth taking: where impulses act on it, then the center of a single body.
+fn moment_points(scene: &Scene, g: &Geometry<f64>, system: &[usize]) -> Vec<Place> {
+    let touches = |bodies: &[usize; 2]| bodies.iter().any(|b| system.contains(b));
+    let mut places: Vec<Place> = Vec::new();
+    places.extend((0..scene.contacts.len()).filter(|&c| touches(&scene.contacts[c].bodies)).map(Place::Contact));
+    places.extend((0..scene.hinges.len()).filter(|&h| touches(&scene.hinges[h].bodies)).map(Place::Hinge));
+    places.extend((0..scene.blows.len()).filter(|&b| system.contains(&scene.blows[b].body)).map(Place::Blow));
+    places.extend(system.iter().filter(|&&b| !scene.bodies[b].is_particle()).map(|&b| Place::Center(b)));
+    let mut distinct: Vec<Place> = Vec::new();
+    for place in places {
+        let p = g.place(place);
+        let same = |q: &Place| {
+            let q = g.place(*q);
+            (p[0] - q[0]).abs() + (p[1] - q[1]).abs() < ZERO
+        };
+        if !distinct.iter().any(same) {
+            distinct.push(place);
+        }
+    }
+    distinct
+}
+
+/// Values in general position inside the domain; the golden ratio keeps them apart.
+fn generic_point(scene: &Scene) -> Point<f64> {
+    let mut point = Point::default();
+    let mut fraction = 0.371_943_1_f64;
+    let mut next = || {
+        fraction = (fraction + 0.618_033_988_749_895).fract();
+        0.15 + 0.7 * fraction
+    };
+    let names: Vec<Symbol> = scene.parameters.iter().map(|p| p.name.clone()).collect();
+    for name in names {
+        let value = within(scene.domains.symbols.get(&name), next());
+        point.values.insert(name, value);
+    }
+    on_unit_circles(&scene.domains, &mut point.values, next);
+    point
+}
+
+fn on_unit_circles(domains: &Domains, values: &mut BTreeMap<Symbol, f64>, mut next: impl FnMut() -> f64) {
+    for [a, b] in &domains.unit_vectors {
+        let angle = next();
+        values.insert(a.clone(), angle.cos());
+        values.insert(b.clone(), angle.sin());
+    }
+}
+
+fn within(domain: Option<&Domain>, fraction: f64) -> f64 {
+    let number = |l: &Limit| to_f64(&l.value) * if l.of_pi { std::f64::consts::PI } else { 1.0 };
+    match domain.map(|d| (d.low.as_ref().map(number), d.high.as_ref().map(number))) {
+        None => 0.6 + fraction,
+        Some((Some(low), Some(high))) => low + fraction * (high - low),
+        Some((Some(low), None)) => low + 0.6 + fraction,
+        Some((None, Some(high))) => high - 0.6 - fraction,
+        Some((None, None)) => 0.6 + fraction,
+    }
+}

@@ -1,0 +1,456 @@
+//! The laws a scene obeys, as named linear equations in what is unknown just after the collision.
+//!
+//! Signs, told once: x to the right, y up, counterclockwise positive. A contact normal points out of the first body into
+//! the second; the impulse of a contact or hinge is the one **on the second body**, its opposite acts on the first.
+//! Positions are frozen during the collision, so the same arms stand on both sides; finite forces have no impulse.
+//!
+//! Balance of linear momentum of a system along d:         Σ m (v⁺ − v⁻)·d = Σ P·d
+//! Balance of angular momentum of a system about O:        Σ [ I (ω⁺ − ω⁻) + r_{G/O} × m (v⁺ − v⁻) ] = Σ r_{Q/O} × P
+//! with the impulses P from outside the system (17.57). Contact laws and joints add conditions on velocities after.
+//!
+//! Every equation is written over any [`Quantity`]: symbolically for the derivation, in doubles for planning it. This
+//! module solves nothing and chooses nothing.
+
+mod quantity;
+mod words;
+
+pub use quantity::{Affine, Linear, Quantity};
+pub use words::{body_list, describe, place as place_name};
+
+use crate::expr::{Expr, Vector};
+use crate::scene::{BlowImpulse, ContactLaw, KnownQuantity, Scene};
+
+/// One scalar that is not known before the equations are solved.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Unknown {
+    /// Component (0: x, 1: y) of the velocity of a body's center of mass just after, v_G⁺ [m/s].
+    Velocity(usize, usize),
+    /// Angular velocity of a body just after, ω⁺ [rad/s].
+    Spin(usize),
+    /// Component of the impulse of a contact on its second body [N s].
+    Contact(usize, usize),
+    /// Size of the impulse of a frictionless contact along its normal [N s].
+    Normal(usize),
+    /// Component of the impulse of a hinge on its second body [N s].
+    Hinge(usize, usize),
+    /// Size of a blow of known direction [N s].
+    Blow(usize),
+}
+
+impl Unknown {
+    /// Whether it is an impulse rather than a velocity.
+    pub fn is_impulse(self) -> bool {
+        !matches!(self, Unknown::Velocity(..) | Unknown::Spin(_))
+    }
+}
+
+/// A law applied to a body or system, at a point or along a direction.
+#[derive(Clone, Debug)]
+pub enum Law {
+    /// Balance of linear momentum of the bodies along a direction.
+    LinearMomentum {
+        /// Indices of the bodies.
+        system: Vec<usize>,
+        /// Direction, a unit vector.
+        along: Direction,
+    },
+    /// Balance of angular momentum of the bodies about a point.
+    AngularMomentum {
+        /// Indices of the bodies.
+        system: Vec<usize>,
+        /// Moment point.
+        about: Place,
+    },
+    /// Normal relative velocity after = −e × before, at a contact.
+    Restitution(usize),
+    /// Equal velocities after of the touching points of a contact, component 0 or 1.
+    Sticking(usize, usize),
+    /// Equal velocities after of the two points joined by a hinge, component 0 or 1.
+    Hinged(usize, usize),
+    /// Something known of the motion after, by its index in the scene.
+    Given(usize),
+}
+
+/// A direction with a name.
+#[derive(Clone, Debug)]
+pub enum Direction {
+    /// The x axis.
+    X,
+    /// The y axis.
+    Y,
+    /// A direction named in the scene or by a contact.
+    Named(String, Vector),
+}
+
+impl Direction {
+    /// The unit vector.
+    pub fn vector(&self) -> Vector {
+        match self {
+            Direction::X => [Expr::one(), Expr::zero()],
+            Direction::Y => [Expr::zero(), Expr::one()],
+            Direction::Named(_, v) => v.clone(),
+        }
+    }
+}
+
+/// A moment point with a name.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Place {
+    /// Center of mass of a body.
+    Center(usize),
+    /// Point of a contact.
+    Contact(usize),
+    /// Axis of a hinge.
+    Hinge(usize),
+    /// Point where a blow acts.
+    Blow(usize),
+}
+
+/// The numbers of a scene in one number type.
+#[derive(Clone, Debug)]
+pub struct Geometry<T> {
+    mass: Vec<T>,
+    inertia: Vec<T>,
+    center: Vec<[T; 2]>,
+    velocity: Vec<[T; 2]>,
+    spin: Vec<T>,
+    contact: Vec<[T; 2]>,
+    normal: Vec<Option<[T; 2]>>,
+    restitution: Vec<Option<T>>,
+    hinge: Vec<[T; 2]>,
+    blow: Vec<[T; 2]>,
+    blow_impulse: Vec<[T; 2]>,
+    known: Vec<(Option<([T; 2], [T; 2])>, T)>,
+}
+
+impl<T: Quantity> Geometry<T> {
+    /// Every formula of the scene turned into a number by `value`; the first failure is returned.
+    pub fn of<E>(scene: &Scene, mut value: impl FnMut(&Expr) -> Result<T, E>) -> Result<Geometry<T>, E> {
+        let mut vector = |v: &Vector| -> Result<[T; 2], E> { Ok([value(&v[0])?, value(&v[1])?]) };
+        let center = scene.bodies.iter().map(|b| vector(&b.center)).collect::<Result<_, E>>()?;
+        let velocity = scene.bodies.iter().map(|b| vector(&b.velocity)).collect::<Result<_, E>>()?;
+        let contact = scene.contacts.iter().map(|c| vector(&c.at)).collect::<Result<_, E>>()?;
+        let normal = scene
+            .contacts
+            .iter()
+            .map(|c| match (&c.law, &c.normal) {
+                (ContactLaw::Frictionless { .. }, Some(n)) => vector(n).map(Some),
+                _ => Ok(None),
+            })
+            .collect::<Result<_, E>>()?;
+        let hinge = scene.hinges.iter().map(|h| vector(&h.at)).collect::<Result<_, E>>()?;
+        let blow = scene.blows.iter().map(|b| vector(&b.at)).collect::<Result<_, E>>()?;
+        let blow_impulse = scene
+            .blows
+            .iter()
+            .map(|b| match &b.impulse {
+                BlowImpulse::Given(p) | BlowImpulse::Along(p) => vector(p),
+            })
+            .collect::<Result<_, E>>()?;
+        let known_at = scene
+            .after
+            .iter()
+            .map(|k| match &k.what {
+                KnownQuantity::Velocity { at, along } => Ok(Some((vector(at)?, vector(along)?))),
+                KnownQuantity::Spin => Ok(None),
+            })
+            .collect::<Result<Vec<_>, E>>()?;
+        let mass = scene.bodies.iter().map(|b| value(&b.mass)).collect::<Result<_, E>>()?;
+        let inertia = scene.bodies.iter().map(|b| value(&b.inertia)).collect::<Result<_, E>>()?;
+        let spin = scene.bodies.iter().map(|b| value(&b.spin)).collect::<Result<_, E>>()?;
+        let restitution = scene
+            .contacts
+            .iter()
+            .map(|c| match &c.law {
+                ContactLaw::Frictionless { restitution } => value(restitution).map(Some),
+                _ => Ok(None),
+            })
+            .collect::<Result<_, E>>()?;
+        let known = known_at
+            .into_iter()
+            .zip(&scene.after)
+            .map(|(at, k)| Ok((at, value(&k.value)?)))
+            .collect::<Result<_, E>>()?;
+        Ok(Geometry {
+            mass, inertia, center, velocity, spin, contact, normal, restitution, hinge, blow, blow_impulse, known,
+        })
+    }
+
+    /// Position of a moment point [m].
+    pub fn place(&self, place: Place) -> &[T; 2] {
+        match place {
+            Place::Center(b) => &self.center[b],
+            Place::Contact(c) => &self.contact[c],
+            Place::Hinge(h) => &self.hinge[h],
+            Place::Blow(b) => &self.blow[b],
+        }
+    }
+
+    /// Velocity just before of the point of body `b` at `at`, v⁻ [m/s].
+    pub fn velocity_before(&self, b: usize, at: &[T; 2]) -> [T; 2] {
+        let r = minus(at, &self.center[b]);
+        [
+            self.velocity[b][0].sub(&self.spin[b].mul(&r[1])),
+            self.velocity[b][1].add(&self.spin[b].mul(&r[0])),
+        ]
+    }
+
+    /// Mass of body `b` [kg].
+    pub fn mass(&self, b: usize) -> &T {
+        &self.mass[b]
+    }
+
+    /// Moment of inertia of body `b` about its center of mass [kg m²].
+    pub fn inertia(&self, b: usize) -> &T {
+        &self.inertia[b]
+    }
+
+    /// Velocity of the center of mass [m/s] and spin [rad/s] of body `b` just before.
+    pub fn before(&self, b: usize) -> (&[T; 2], &T) {
+        (&self.velocity[b], &self.spin[b])
+    }
+}
+
+/// How every body moves after, as an affine function of the unknowns.
+#[derive(Clone, Debug)]
+pub struct Kinematics<T> {
+    /// Velocity of the center of mass after, v_G⁺.
+    pub velocity: Vec<[Affine<T>; 2]>,
+    /// Angular velocity after, ω⁺.
+    pub spin: Vec<Affine<T>>,
+}
+
+impl<T: Quantity> Kinematics<T> {
+    /// Every free body has its own unknown velocity and spin; fixed bodies keep the prescribed motion.
+    pub fn full(scene: &Scene, g: &Geometry<T>) -> Kinematics<T> {
+        let bodies = 0..scene.bodies.len();
+        Kinematics {
+            velocity: bodies.clone().map(|b| own_velocity(scene, g, b)).collect(),
+            spin: bodies.map(|b| own_spin(scene, g, b)).collect(),
+        }
+    }
+
+    /// Velocity after of the point of body `b` at `at`, v⁺ = v_G⁺ + ω⁺ × r.
+    pub fn velocity_of(&self, g: &Geometry<T>, b: usize, at: &[T; 2]) -> [Affine<T>; 2] {
+        let r = minus(at, &g.center[b]);
+        [
+            self.velocity[b][0].plus(&self.spin[b].times(&r[1].neg())),
+            self.velocity[b][1].plus(&self.spin[b].times(&r[0])),
+        ]
+    }
+
+    /// Lets body `b` move as a body joined at `at` to a point of velocity `carrier`: only its spin is left of its own.
+    pub fn attach(&mut self, scene: &Scene, g: &Geometry<T>, b: usize, at: &[T; 2], carrier: [Affine<T>; 2]) {
+        let spin = own_spin(scene, g, b);
+        let r = minus(&g.center[b], at);
+        let [x, y] = carrier;
+        self.velocity[b] = [x.plus(&spin.times(&r[1].neg())), y.plus(&spin.times(&r[0]))];
+        self.spin[b] = spin;
+    }
+}
+
+fn own_velocity<T: Quantity>(scene: &Scene, g: &Geometry<T>, b: usize) -> [Affine<T>; 2] {
+    [0, 1].map(|axis| {
+        if scene.bodies[b].is_fixed() {
+            Affine::constant(g.velocity[b][axis].clone())
+        } else {
+            Affine::unknown(Unknown::Velocity(b, axis))
+        }
+    })
+}
+
+fn own_spin<T: Quantity>(scene: &Scene, g: &Geometry<T>, b: usize) -> Affine<T> {
+    if scene.bodies[b].is_fixed() {
+        Affine::constant(g.spin[b].clone())
+    } else if scene.bodies[b].is_particle() {
+        // A point has no spin; its velocity is all there is to say.
+        Affine::constant(T::zero())
+    } else {
+        Affine::unknown(Unknown::Spin(b))
+    }
+}
+
+/// All unknowns of the scene: velocities and spins of the bodies that can move, then the impulses.
+pub fn unknowns(scene: &Scene) -> Vec<Unknown> {
+    let mut all = Vec::new();
+    for (b, body) in scene.bodies.iter().enumerate() {
+        if !body.is_fixed() {
+            all.extend([Unknown::Velocity(b, 0), Unknown::Velocity(b, 1)]);
+            if !body.is_particle() {
+                all.push(Unknown::Spin(b));
+            }
+        }
+    }
+    for (c, contact) in scene.contacts.iter().enumerate() {
+        match contact.law {
+            ContactLaw::Frictionless { .. } => all.push(Unknown::Normal(c)),
+            ContactLaw::Sticking | ContactLaw::None => all.extend([Unknown::Contact(c, 0), Unknown::Contact(c, 1)]),
+        }
+    }
+    all.extend((0..scene.hinges.len()).flat_map(|h| [Unknown::Hinge(h, 0), Unknown::Hinge(h, 1)]));
+    for (i, blow) in scene.blows.iter().enumerate() {
+        if let BlowImpulse::Along(_) = blow.impulse {
+            all.push(Unknown::Blow(i));
+        }
+    }
+    all
+}
+
+/// The full set of laws: two or three balances for every body that can move, then joints, contact laws and givens.
+pub fn of(scene: &Scene) -> Vec<Law> {
+    let mut laws = Vec::new();
+    for (b, body) in scene.bodies.iter().enumerate() {
+        if !body.is_fixed() {
+            laws.push(Law::LinearMomentum { system: vec![b], along: Direction::X });
+            laws.push(Law::LinearMomentum { system: vec![b], along: Direction::Y });
+            if !body.is_particle() {
+                laws.push(Law::AngularMomentum { system: vec![b], about: Place::Center(b) });
+            }
+        }
+    }
+    laws.extend((0..scene.hinges.len()).flat_map(|h| [Law::Hinged(h, 0), Law::Hinged(h, 1)]));
+    for (c, contact) in scene.contacts.iter().enumerate() {
+        match contact.law {
+            ContactLaw::None => {}
+            ContactLaw::Sticking => laws.extend([Law::Sticking(c, 0), Law::Sticking(c, 1)]),
+            ContactLaw::Frictionless { .. } => laws.push(Law::Restitution(c)),
+        }
+    }
+    laws.extend((0..scene.after.len()).map(Law::Given));
+    laws
+}
+
+/// Writes a law as a linear equation. `direction` turns the vector of a named direction into the number type.
+pub fn equation<T: Quantity, E>(
+    scene: &Scene,
+    g: &Geometry<T>,
+    motion: &Kinematics<T>,
+    law: &Law,
+    mut direction: impl FnMut(&Vector) -> Result<[T; 2], E>,
+) -> Result<Linear<T>, E> {
+    Ok(match law {
+        Law::LinearMomentum { system, along } => {
+            let d = match along {
+                Direction::X => [T::one(), T::zero()],
+                Direction::Y => [T::zero(), T::one()],
+                Direction::Named(_, v) => direction(v)?,
+            };
+            let mut total = Affine::constant(T::zero());
+            for &b in system {
+                let change = change(&motion.velocity[b], &g.velocity[b]);
+                total = total.plus(&along_direction(&change, &d).times(&g.mass[b]));
+            }
+            for (_, impulse) in external(scene, g, system) {
+                total = total.plus(&along_direction(&impulse, &d).times(&T::one().neg()));
+            }
+            total.equals_zero()
+        }
+        Law::AngularMomentum { system, about } => {
+            let o = g.place(*about);
+            let mut total = Affine::constant(T::zero());
+            for &b in system {
+                if !scene.bodies[b].is_particle() {
+                    let turned = motion.spin[b].plus(&Affine::constant(g.spin[b].neg()));
+                    total = total.plus(&turned.times(&g.inertia[b]));
+                }
+                let change = change(&motion.velocity[b], &g.velocity[b]);
+                total = total.plus(&moment(&minus(&g.center[b], o), &change).times(&g.mass[b]));
+            }
+            for (at, impulse) in external(scene, g, system) {
+                total = total.plus(&moment(&minus(&at, o), &impulse).times(&T::one().neg()));
+            }
+            total.equals_zero()
+        }
+        Law::Restitution(c) => {
+            let contact = &scene.contacts[*c];
+            let (Some(n), Some(e)) = (&g.normal[*c], &g.restitution[*c]) else {
+                return Ok(Affine::constant(T::zero()).equals_zero());
+            };
+            let at = &g.contact[*c];
+            let [one, two] = contact.bodies;
+            let after = relative(&motion.velocity_of(g, one, at), &motion.velocity_of(g, two, at));
+            let before = minus(&g.velocity_before(two, at), &g.velocity_before(one, at));
+            let approach = before[0].mul(&n[0]).add(&before[1].mul(&n[1]));
+            along_direction(&after, n).plus(&Affine::constant(e.mul(&approach))).equals_zero()
+        }
+        Law::Sticking(c, axis) => {
+            let at = &g.contact[*c];
+            let [one, two] = scene.contacts[*c].bodies;
+            relative(&motion.velocity_of(g, one, at), &motion.velocity_of(g, two, at))[*axis].clone().equals_zero()
+        }
+        Law::Hinged(h, axis) => {
+            let at = &g.hinge[*h];
+            let [one, two] = scene.hinges[*h].bodies;
+            relative(&motion.velocity_of(g, one, at), &motion.velocity_of(g, two, at))[*axis].clone().equals_zero()
+        }
+        Law::Given(k) => {
+            let (place, value) = &g.known[*k];
+            let b = scene.after[*k].body;
+            let quantity = match place {
+                Some((at, along)) => along_direction(&motion.velocity_of(g, b, at), along),
+                None => motion.spin[b].clone(),
+            };
+            quantity.plus(&Affine::constant(value.neg())).equals_zero()
+        }
+    })
+}
+
+/// The impulse on the second body of a contact or hinge, or of a blow, as an affine function of the unknowns.
+pub fn impulse_at<T: Quantity>(scene: &Scene, g: &Geometry<T>, place: Place) -> [Affine<T>; 2] {
+    match place {
+        Place::Contact(c) => match &g.normal[c] {
+            Some(n) => [0, 1].map(|axis| Affine::unknown(Unknown::Normal(c)).times(&n[axis])),
+            None => [0, 1].map(|axis| Affine::unknown(Unknown::Contact(c, axis))),
+        },
+        Place::Hinge(h) => [0, 1].map(|axis| Affine::unknown(Unknown::Hinge(h, axis))),
+        Place::Blow(i) => match &scene.blows[i].impulse {
+            BlowImpulse::Given(_) => [0, 1].map(|axis| Affine::constant(g.blow_impulse[i][axis].clone())),
+            BlowImpulse::Along(_) => {
+                [0, 1].map(|axis| Affine::unknown(Unknown::Blow(i)).times(&g.blow_impulse[i][axis]))
+            }
+        },
+        Place::Center(_) => [Affine::constant(T::zero()), Affine::constant(T::zero())],
+    }
+}
+
+/// The impulses from outside on a system, each with its point of application.
+fn external<T: Quantity>(scene: &Scene, g: &Geometry<T>, system: &[usize]) -> Vec<([T; 2], [Affine<T>; 2])> {
+    let mut all = Vec::new();
+    let mut joint = |bodies: [usize; 2], place: Place| {
+        let inside = bodies.map(|b| system.contains(&b));
+        if inside[0] != inside[1] {
+            let on_second = impulse_at(scene, g, place);
+            let sign = if inside[1] { T::one() } else { T::one().neg() };
+            all.push((g.place(place).clone(), on_second.map(|p| p.times(&sign))));
+        }
+    };
+    scene.contacts.iter().enumerate().for_each(|(c, contact)| joint(contact.bodies, Place::Contact(c)));
+    scene.hinges.iter().enumerate().for_each(|(h, hinge)| joint(hinge.bodies, Place::Hinge(h)));
+    for (i, blow) in scene.blows.iter().enumerate() {
+        if system.contains(&blow.body) {
+            all.push((g.blow[i].clone(), impulse_at(scene, g, Place::Blow(i))));
+        }
+    }
+    all
+}
+
+fn minus<T: Quantity>(a: &[T; 2], b: &[T; 2]) -> [T; 2] {
+    [a[0].sub(&b[0]), a[1].sub(&b[1])]
+}
+
+fn change<T: Quantity>(after: &[Affine<T>; 2], before: &[T; 2]) -> [Affine<T>; 2] {
+    [0, 1].map(|axis| after[axis].plus(&Affine::constant(before[axis].neg())))
+}
+
+fn relative<T: Quantity>(one: &[Affine<T>; 2], two: &[Affine<T>; 2]) -> [Affine<T>; 2] {
+    [0, 1].map(|axis| two[axis].plus(&one[axis].times(&T::one().neg())))
+}
+
+fn along_direction<T: Quantity>(v: &[Affine<T>; 2], d: &[T; 2]) -> Affine<T> {
+    v[0].times(&d[0]).plus(&v[1].times(&d[1]))
+}
+
+/// z-component of r × v.
+fn moment<T: Quantity>(r: &[T; 2], v: &[Affine<T>; 2]) -> Affine<T> {
+    v[1].times(&r[0]).plus(&v[0].times(&r[1].neg()))
+}

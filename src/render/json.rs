@@ -1,0 +1,146 @@
+//! The answers of a scene as data, for programs. The shape is stable; fields are only ever added.
+
+use serde_json::{Map, Value, json};
+
+use super::latex;
+use crate::derive::{Answer, Derivation, Equation, Form, Matrix};
+use crate::expr::{Expr, Symbol};
+use crate::formula::write_plain;
+use crate::laws;
+use crate::scene::Scene;
+use crate::verify::{Check, Proof};
+
+/// Everything about a derivation and its proof.
+pub fn derivation(scene: &Scene, derivation: &Derivation, proof: &Proof) -> Value {
+    let counting = &derivation.counting;
+    let answers: Vec<Value> = derivation
+        .answers
+        .iter()
+        .zip(&proof.answers)
+        .map(|(a, checks)| answer(scene, derivation, a, checks, proof))
+        .collect();
+    let used: usize = derivation.blocks.iter().map(|b| b.equations.len()).sum();
+    json!({
+        "title": scene.title,
+        "source": scene.source,
+        "answers": answers,
+        "where": definitions(scene, derivation, None),
+        "equations_used": used,
+        "equations_full": counting.equations,
+        "unknowns_full": counting.unknowns,
+        "rank_full": counting.rank,
+        "rank_with_system_balances": counting.rank_with_system,
+        "determined": counting.determined(),
+        "contradictory": counting.contradictory,
+        "undetermined": counting.open.iter().map(|u| derivation.names.plain(*u)).collect::<Vec<_>>(),
+        "closing_laws": counting.closing_laws,
+        "blocks": derivation.blocks.iter().map(|b| json!({
+            "asked_by": b.asked_by,
+            "equations": b.equations.iter().map(|e| equation(scene, derivation, e)).collect::<Vec<_>>(),
+            "unknowns": b.unknowns.iter().map(|u| derivation.names.plain(*u)).collect::<Vec<_>>(),
+        })).collect::<Vec<_>>(),
+        "left_out": derivation.left_out.iter().map(|l| json!({"what": l.what, "why": l.why})).collect::<Vec<_>>(),
+        "assumptions": assumptions(scene, derivation, proof),
+        "checks": proof.scene.iter().map(check).collect::<Vec<_>>(),
+        "verified": proof.holds(),
+    })
+}
+
+/// A matrix with its unknowns and right sides.
+pub fn matrix(m: &Matrix) -> Value {
+    json!({
+        "rows": m.rows,
+        "unknowns": m.unknowns,
+        "entries": m.entries.iter().map(|r| r.iter().map(write_plain).collect::<Vec<_>>()).collect::<Vec<_>>(),
+        "rhs": m.rhs.iter().map(write_plain).collect::<Vec<_>>(),
+    })
+}
+
+fn answer(scene: &Scene, derivation: &Derivation, a: &Answer, checks: &[Check], proof: &Proof) -> Value {
+    let mut out = Map::new();
+    out.insert("name".into(), json!(a.name));
+    out.insert("question".into(), json!(a.question));
+    out.insert("words".into(), json!(a.words));
+    match &a.form {
+        Form::Value { closed, short } => {
+            out.insert("formula".into(), json!(write_plain(short)));
+            out.insert("latex".into(), json!(latex(scene, short)));
+            if short != closed {
+                out.insert("where".into(), json!(definitions(scene, derivation, Some(short))));
+                out.insert("closed".into(), json!(write_plain(closed)));
+            }
+            if let Some(value) = super::value(scene, closed) {
+                out.insert("value".into(), json!(value.approximate));
+                if let Some(exact) = value.exact {
+                    out.insert("value_exact".into(), json!(exact.to_string()));
+                }
+            }
+        }
+        Form::Equation { left, right } => {
+            out.insert("formula".into(), json!(format!("{} = {}", write_plain(left), write_plain(right))));
+            out.insert("latex".into(), json!(format!("{} = {}", latex(scene, left), latex(scene, right))));
+        }
+        Form::Matrix(m) => {
+            out.insert("formula".into(), Value::Null);
+            out.insert("latex".into(), json!(super::latex_matrix(scene, m)));
+            out.insert("matrix".into(), matrix(m));
+        }
+        Form::Open(unknowns) => {
+            out.insert("formula".into(), Value::Null);
+            out.insert("latex".into(), Value::Null);
+            let names: Vec<&str> = unknowns.iter().map(|u| derivation.names.plain(*u)).collect();
+            out.insert("undetermined".into(), json!(names));
+        }
+    }
+    out.insert("symbol".into(), json!(a.latex));
+    out.insert("dimension".into(), json!(a.dimension.to_string()));
+    out.insert("unit".into(), json!(a.dimension.unit()));
+    out.insert("assumptions".into(), json!(assumptions(scene, derivation, proof)));
+    let mut all: Vec<Value> = proof.scene.iter().filter(|c| c.kind == "identity").map(check).collect();
+    all.extend(checks.iter().map(check));
+    out.insert("checks".into(), json!(all));
+    Value::Object(out)
+}
+
+fn assumptions(scene: &Scene, derivation: &Derivation, proof: &Proof) -> Vec<String> {
+    super::assumptions(scene, derivation, proof)
+}
+
+fn check(check: &Check) -> Value {
+    json!({"kind": check.kind, "words": check.words, "holds": check.holds})
+}
+
+fn equation(scene: &Scene, derivation: &Derivation, equation: &Equation) -> Value {
+    let (left, right) = super::sides(derivation, equation);
+    json!({
+        "law": laws::describe(scene, &equation.law),
+        "formula": format!("{} = {}", write_plain(&left), write_plain(&right)),
+        "latex": format!("{} = {}", latex(scene, &left), latex(scene, &right)),
+    })
+}
+
+/// The definitions, or those that an expression needs, in order.
+fn definitions(scene: &Scene, derivation: &Derivation, used_by: Option<&Expr>) -> Vec<Value> {
+    let wanted: Option<std::collections::BTreeSet<Symbol>> = used_by.map(|e| {
+        let mut names = e.symbols();
+        for definition in derivation.definitions.iter().rev() {
+            if names.contains(&definition.name) {
+                names.extend(definition.value.symbols());
+            }
+        }
+        names
+    });
+    derivation
+        .definitions
+        .iter()
+        .filter(|d| wanted.as_ref().is_none_or(|w| w.contains(&d.name)))
+        .map(|d| {
+            json!({
+                "name": *d.name,
+                "formula": write_plain(&d.value),
+                "latex": latex(scene, &d.value),
+                "meaning": d.meaning,
+            })
+        })
+        .collect()
+}

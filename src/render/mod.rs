@@ -1,0 +1,107 @@
+//! Writes derivations, motions and verdicts in the formats people and programs read. Decides nothing: every number, verdict
+//! and reason comes in ready.
+
+pub mod json;
+pub mod text;
+
+use std::collections::BTreeMap;
+
+use crate::derive::{Derivation, Equation, Matrix};
+use crate::expr::{Expr, Point, Rational, Symbol};
+use crate::scene::Scene;
+use crate::verify::Proof;
+
+/// LaTeX of a scene's own symbols.
+pub fn latex_names(scene: &Scene) -> BTreeMap<String, String> {
+    let named = scene.parameters.iter().filter_map(|p| Some((p.name.to_string(), p.latex.clone()?)));
+    named.collect()
+}
+
+/// An expression in LaTeX with the scene's own symbols.
+pub fn latex(scene: &Scene, e: &Expr) -> String {
+    let names = latex_names(scene);
+    crate::formula::write_latex(e, &|name| names.get(name).cloned())
+}
+
+/// An expression for the terminal.
+pub fn unicode(scene: &Scene, e: &Expr) -> String {
+    let names = latex_names(scene);
+    crate::formula::write_unicode(e, &|name| names.get(name).cloned())
+}
+
+/// The two sides of an equation: Σ coefficient × unknown = known.
+pub fn sides(derivation: &Derivation, equation: &Equation) -> (Expr, Expr) {
+    let symbol = |u| Expr::symbol(derivation.names.plain(u));
+    let left = Expr::sum(equation.terms.iter().map(|(u, k)| k * &symbol(*u)));
+    (left, equation.known.clone())
+}
+
+/// Everything an answer rests on: the domains of the scene's symbols, what was divided by, what was seen and not proved.
+pub fn assumptions(scene: &Scene, derivation: &Derivation, proof: &Proof) -> Vec<String> {
+    let mut all: Vec<String> = Vec::new();
+    for (name, domain) in &scene.domains.symbols {
+        let words = domain.words(name);
+        if domain.low.is_some() || domain.high.is_some() {
+            all.push(words);
+        }
+    }
+    all.extend(scene.domains.unit_vectors.iter().map(|[a, b]| format!("{a}^2 + {b}^2 = 1")));
+    all.extend(derivation.assumptions.iter().cloned());
+    all.extend(proof.assumptions.iter().cloned());
+    all
+}
+
+/// A value in SI units.
+#[derive(Clone, Debug)]
+pub struct Value {
+    /// Nearest double, or close to it.
+    pub approximate: f64,
+    /// The exact value, where it is a fraction.
+    pub exact: Option<Rational>,
+}
+
+/// The value of a closed form at the scene's values; `None` where a symbol has none.
+pub fn value(scene: &Scene, e: &Expr) -> Option<Value> {
+    let values: BTreeMap<Symbol, Expr> =
+        scene.parameters.iter().filter_map(|p| Some((p.name.clone(), p.value.clone()?))).collect();
+    if !e.symbols().iter().all(|s| values.contains_key(s)) {
+        return None;
+    }
+    let put_in = e.substitute(&values);
+    let exact = put_in.evaluate(&Point::<Rational>::default());
+    let approximate = match &exact {
+        Some(exact) => crate::expr::number::to_f64(exact),
+        None => put_in.evaluate(&Point::<f64>::default())?,
+    };
+    Some(Value { approximate, exact })
+}
+
+/// A number with six significant digits, without trailing zeros.
+pub fn digits(value: f64) -> String {
+    if value == 0.0 {
+        return String::from("0");
+    }
+    let magnitude = value.abs().log10().floor();
+    if !(-4.0..6.0).contains(&magnitude) {
+        let text = format!("{value:.5e}");
+        return match text.split_once('e') {
+            Some((mantissa, exponent)) => format!("{}e{exponent}", trimmed(mantissa)),
+            None => text,
+        };
+    }
+    trimmed(&format!("{value:.*}", (5.0 - magnitude).max(0.0) as usize)).to_string()
+}
+
+fn trimmed(text: &str) -> &str {
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
+}
+
+/// A matrix equation in LaTeX.
+pub fn latex_matrix(scene: &Scene, m: &Matrix) -> String {
+    let rows: Vec<String> =
+        m.entries.iter().map(|r| r.iter().map(|e| latex(scene, e)).collect::<Vec<_>>().join(" & ")).collect();
+    let column = |cells: Vec<String>| format!("\\begin{{bmatrix}} {} \\end{{bmatrix}}", cells.join(" \\\\ "));
+    let names = m.unknowns.iter().map(|u| latex(scene, &Expr::symbol(u))).collect();
+    let rhs = m.rhs.iter().map(|e| latex(scene, e)).collect();
+    format!("{} {} = {}", column(rows), column(names), column(rhs))
+}

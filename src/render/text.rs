@@ -1,0 +1,144 @@
+//! A derivation for the terminal: the answers, the few equations they took, what was left out, how it was checked.
+
+use std::fmt::Write;
+
+use super::unicode;
+use crate::derive::{Derivation, Form, Matrix};
+use crate::laws;
+use crate::scene::Scene;
+use crate::verify::{Check, Proof};
+
+/// The whole derivation as plain text.
+pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof) -> String {
+    let mut out = String::new();
+    let title = [scene.title.as_str(), scene.source.as_str()];
+    let title: Vec<&str> = title.into_iter().filter(|t| !t.is_empty()).collect();
+    line(&mut out, "", &title.join(" · "));
+    counting(&mut out, d);
+    for block in &d.blocks {
+        let n = block.equations.len();
+        let heading = format!("{n} equation{} in {n} unknown{}:", plural(n), plural(n));
+        line(&mut out, "\n", &heading);
+        for equation in &block.equations {
+            let (left, right) = super::sides(d, equation);
+            line(&mut out, "  ", &laws::describe(scene, &equation.law));
+            line(&mut out, "      ", &format!("{} = {}", unicode(scene, &left), unicode(scene, &right)));
+        }
+        for (unknown, value) in block.unknowns.iter().zip(&block.solution) {
+            let value = unicode(scene, value);
+            if value.chars().count() <= 120 {
+                line(&mut out, "  ⇒   ", &format!("{} = {value}", d.names.plain(*unknown)));
+            }
+        }
+    }
+    line(&mut out, "\n", "answers:");
+    for answer in &d.answers {
+        match &answer.form {
+            Form::Value { closed, short } => {
+                let value = super::value(scene, closed).map_or(String::new(), |v| format!(" = {} {}", super::digits(v.approximate), answer.dimension.unit()));
+                line(&mut out, "  ", &format!("{} = {}{}", answer.name, unicode(scene, short), value));
+                line(&mut out, "      ", &format!("{} [{}]", answer.words, answer.dimension.unit()));
+            }
+            Form::Equation { left, right } => {
+                line(&mut out, "  ", &format!("{}: {} = {}", answer.name, unicode(scene, left), unicode(scene, right)));
+                line(&mut out, "      ", &answer.words);
+            }
+            Form::Matrix(m) => {
+                line(&mut out, "  ", &format!("{}: {}", answer.name, answer.words));
+                matrix_lines(&mut out, scene, m);
+            }
+            Form::Open(unknowns) => {
+                let names: Vec<&str> = unknowns.iter().map(|u| d.names.plain(*u)).collect();
+                line(&mut out, "  ", &format!("{}: not determined by the laws ({} open)", answer.name, names.join(", ")));
+            }
+        }
+    }
+    if !d.definitions.is_empty() {
+        line(&mut out, "\n", "where:");
+        for definition in &d.definitions {
+            line(&mut out, "  ", &format!("{} = {}", definition.name, unicode(scene, &definition.value)));
+            line(&mut out, "      ", &definition.meaning);
+        }
+    }
+    let under = super::assumptions(scene, d, proof);
+    if !under.is_empty() {
+        line(&mut out, "\nunder: ", &under.join(", "));
+    }
+    if !d.left_out.is_empty() {
+        line(&mut out, "\n", "left out:");
+        for left in &d.left_out {
+            line(&mut out, "  ", &format!("{}: {}", left.what, left.why));
+        }
+    }
+    line(&mut out, "\n", "checked:");
+    proof.scene.iter().for_each(|c| check(&mut out, "  ", c));
+    for (answer, checks) in d.answers.iter().zip(&proof.answers) {
+        for c in checks {
+            check(&mut out, &format!("  {}: ", answer.name), c);
+        }
+    }
+    out
+}
+
+/// A matrix, one row a line.
+pub fn matrix(scene: &Scene, m: &Matrix) -> String {
+    let mut out = String::new();
+    matrix_lines(&mut out, scene, m);
+    out
+}
+
+fn matrix_lines(out: &mut String, scene: &Scene, m: &Matrix) {
+    let cells: Vec<Vec<String>> = m.entries.iter().map(|row| row.iter().map(|e| unicode(scene, e)).collect()).collect();
+    let width = |j: usize| cells.iter().map(|row| row[j].chars().count()).chain([m.unknowns[j].chars().count()]).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..m.unknowns.len()).map(width).collect();
+    let row = |cells: &[String]| {
+        let padded: Vec<String> =
+            cells.iter().zip(&widths).map(|(c, w)| format!("{c}{}", " ".repeat(w - c.chars().count()))).collect();
+        padded.join("  ")
+    };
+    line(out, "      ", row(&m.unknowns).trim_end());
+    for (i, cells) in cells.iter().enumerate() {
+        line(out, "    [ ", &format!("{} | {} ]   {}", row(cells), unicode(scene, &m.rhs[i]), m.rows[i]));
+    }
+}
+
+fn counting(out: &mut String, d: &Derivation) {
+    let c = &d.counting;
+    let used: usize = d.blocks.iter().map(|b| b.equations.len()).sum();
+    line(
+        out,
+        "",
+        &format!("full system: {} equations, {} unknowns, rank {}; used here: {used}", c.equations, c.unknowns, c.rank),
+    );
+    if c.contradictory {
+        line(out, "", "the equations contradict each other");
+    }
+    if !c.open.is_empty() {
+        let names: Vec<&str> = c.open.iter().map(|u| d.names.plain(*u)).collect();
+        line(out, "", &format!("not determined: {}", names.join(", ")));
+        for law in &c.closing_laws {
+            line(out, "  would close it: ", law);
+        }
+        if c.rank_with_system == c.rank {
+            line(out, "  ", "balances of the whole system are sums of those of its bodies and add no rank");
+        }
+    }
+}
+
+fn check(out: &mut String, lead: &str, check: &Check) {
+    let mark = match check.holds {
+        Some(true) => "✓",
+        Some(false) => "✗ FAILED:",
+        None => "–",
+    };
+    line(out, lead, &format!("{mark} {}", check.words));
+}
+
+fn line(out: &mut String, lead: &str, text: &str) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(out, "{lead}{text}");
+}
+
+fn plural(n: usize) -> &'static str {
+    if n == 1 { "" } else { "s" }
+}

@@ -1,0 +1,300 @@
+//! Holds what was derived against everything it can be held against: the laws it came from, an independent numeric
+//! solution, and what any motion after a collision has to fulfil.
+//!
+//! A closed form is *proved* when, put into every equation of the full system, both sides are identical; that proof does
+//! not trust the way it was found. Exact points guard against a mistake shared by laws and derivation, since `numeric`
+//! writes its equations from the geometry alone; doubles tell how the formula behaves when used.
+
+use std::collections::BTreeMap;
+
+use num_traits::Zero;
+
+use crate::algebra::{Field, Stop};
+use crate::derive::{Answer, Derivation, Form};
+use crate::expr::{Expr, Point, Rational, Symbol, Vector};
+use crate::laws::{self, Geometry, Kinematics, Unknown};
+use crate::numeric::{self, Approach};
+use crate::scene::Scene;
+
+/// Exact points at which every answer is compared. The identity is the proof; these guard the laws themselves, and
+/// three in general position have caught every planted mistake.
+const POINTS: u64 = 3;
+
+/// One thing that was checked.
+#[derive(Clone, Debug)]
+pub struct Check {
+    /// Stable name of the kind of check.
+    pub kind: &'static str,
+    /// What was found, in words.
+    pub words: String,
+    /// Whether it held; `None` where it could not be carried out.
+    pub holds: Option<bool>,
+}
+
+/// The outcome of all checks.
+#[derive(Clone, Debug, Default)]
+pub struct Proof {
+    /// Checks of the motion as a whole.
+    pub scene: Vec<Check>,
+    /// Checks of each answer, in the order of the answers.
+    pub answers: Vec<Vec<Check>>,
+    /// Conditions of the collision itself that could not be shown from the domain, such as that the bodies approach.
+    pub assumptions: Vec<String>,
+}
+
+impl Proof {
+    /// Whether no check failed.
+    pub fn holds(&self) -> bool {
+        self.scene.iter().chain(self.answers.iter().flatten()).all(|c| c.holds != Some(false))
+    }
+}
+
+/// Checks a derivation against its scene.
+pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
+    let mut proof = Proof::default();
+    proof.scene.push(identity(scene, derivation));
+    let runs: Vec<Run> = (1..=POINTS).filter_map(|seed| run(scene, seed)).collect();
+    invariants(&runs, &mut proof);
+    admissible(&runs, &mut proof);
+    for answer in &derivation.answers {
+        let mut checks = Vec::new();
+        if let Form::Value { closed, short } = &answer.form {
+            if short != closed {
+                checks.push(same_value(scene, derivation, closed, short));
+            }
+            checks.push(exact_points(scene, answer, closed, &runs));
+            checks.push(doubles(scene, answer, closed, &runs));
+        }
+        proof.answers.push(checks);
+    }
+    proof
+}
+
+/// The motion put into every equation of the full system.
+fn identity(scene: &Scene, derivation: &Derivation) -> Check {
+    match identity_count(scene, derivation) {
+        Ok((held, failed)) if failed.is_empty() => Check {
+            kind: "identity",
+            words: format!("identity in all {held} equations of the full system"),
+            holds: Some(true),
+        },
+        Ok((_, failed)) => Check {
+            kind: "identity",
+            words: format!("does not satisfy {}", failed.join(", ")),
+            holds: Some(false),
+        },
+        Err(stop) => Check { kind: "identity", words: format!("not carried out: {stop}"), holds: None },
+    }
+}
+
+fn identity_count(scene: &Scene, derivation: &Derivation) -> Result<(usize, Vec<String>), Stop> {
+    let mut field = Field::new(&scene.domains);
+    let Ok(g) = Geometry::of(scene, |e| Ok::<_, std::convert::Infallible>(e.clone()));
+    let full = Kinematics::full(scene, &g);
+    let mut equations = Vec::new();
+    for law in laws::of(scene) {
+        let Ok(linear) = laws::equation(scene, &g, &full, &law, |v: &Vector| Ok::<_, std::convert::Infallible>(v.clone()));
+        equations.push((law, linear));
+    }
+    let mut all: Vec<&Expr> = derivation.motion.values().collect();
+    for (_, linear) in &equations {
+        all.push(&linear.known);
+        all.extend(linear.terms.iter().map(|(_, k)| k));
+    }
+    field.prepare(all);
+    let mut values = BTreeMap::new();
+    for unknown in laws::unknowns(scene) {
+        let value = match derivation.motion.get(&unknown) {
+            Some(value) => value.clone(),
+            // Not determined: whatever its value, the equations must hold.
+            None => Expr::symbol(derivation.names.plain(unknown)),
+        };
+        values.insert(unknown, field.element(&value)?);
+    }
+    let mut held = 0;
+    let mut failed = Vec::new();
+    for (law, linear) in equations {
+        let open = |u: &Unknown| !derivation.motion.contains_key(u);
+        if linear.terms.iter().any(|(u, _)| open(u)) {
+            continue;
+        }
+        let mut total = field.element(&-&linear.known)?;
+        for (unknown, k) in &linear.terms {
+            let k = field.element(k)?;
+            let term = field.mul(&k, &values[unknown])?;
+            total = field.add(&total, &term)?;
+        }
+        if field.is_zero(&total) {
+            held += 1;
+        } else {
+            failed.push(laws::describe(scene, &law));
+        }
+    }
+    Ok((held, failed))
+}
+
+/// The short form of an answer, with its definitions put in, against the closed form.
+fn same_value(scene: &Scene, derivation: &Derivation, closed: &Expr, short: &Expr) -> Check {
+    let outcome = (|| {
+        let expanded = expand(short, derivation);
+        let mut field = Field::new(&scene.domains);
+        field.prepare([closed, &expanded]);
+        let (a, b) = (field.element(closed)?, field.element(&expanded)?);
+        field.sub(&a, &b).map(|d| field.is_zero(&d))
+    })();
+    match outcome {
+        Ok(true) => Check { kind: "definitions", words: String::from("short form identical to the closed form"), holds: Some(true) },
+        Ok(false) => Check { kind: "definitions", words: String::from("short form differs from the closed form"), holds: Some(false) },
+        Err(stop) => Check { kind: "definitions", words: format!("not carried out: {stop}"), holds: None },
+    }
+}
+
+/// An expression with the definitions of a derivation put in.
+pub fn expand(e: &Expr, derivation: &Derivation) -> Expr {
+    let mut values: BTreeMap<Symbol, Expr> = BTreeMap::new();
+    for definition in &derivation.definitions {
+        let value = definition.value.substitute(&values);
+        values.insert(definition.name.clone(), value);
+    }
+    e.substitute(&values)
+}
+
+/// The independent solution at one exact point.
+struct Run {
+    point: Point<Rational>,
+    given: numeric::Given<Rational>,
+    motion: numeric::Motion<Rational>,
+}
+
+fn run(scene: &Scene, seed: u64) -> Option<Run> {
+    let point = numeric::random_point(&numeric::needed(scene), &scene.domains, seed);
+    let given = numeric::given(scene, &point).ok()?;
+    let system = numeric::assemble(&given);
+    let solution = numeric::solve_exact(&system).ok()?;
+    let motion = numeric::motion(&given, &system, &solution);
+    Some(Run { point, given, motion })
+}
+
+fn invariants(runs: &[Run], proof: &mut Proof) {
+    let mut count = 0;
+    let mut failed: Vec<String> = Vec::new();
+    for run in runs {
+        if !run.motion.loose.is_empty() {
+            continue;
+        }
+        for identity in numeric::identities(&run.given, &run.motion) {
+            count += 1;
+            if !identity.holds(0.0) {
+                failed.push(format!("{:?}", identity.what));
+            }
+        }
+    }
+    failed.dedup();
+    if count > 0 || !failed.is_empty() {
+        proof.scene.push(Check {
+            kind: "invariants",
+            words: match failed.as_slice() {
+                [] => format!("momentum, angular momentum and energy identities hold exactly ({count} over {} points)", runs.len()),
+                _ => format!("violated: {}", failed.join(", ")),
+            },
+            holds: Some(failed.is_empty()),
+        });
+    }
+}
+
+/// Approach, push and friction as the exact points show them.
+fn admissible(runs: &[Run], proof: &mut Proof) {
+    let mut separating = 0;
+    let mut friction: Option<Rational> = None;
+    for run in runs.iter().filter(|r| r.motion.loose.is_empty()) {
+        for report in numeric::contact_reports(&run.given, &run.motion).into_iter().flatten() {
+            separating += usize::from(report.approach == Approach::Separating);
+            if let Some(mu) = report.required_friction.filter(|mu| !mu.is_zero()) {
+                friction = Some(friction.map_or(mu.clone(), |f| if f < mu { mu } else { f }));
+            }
+        }
+    }
+    if separating > 0 {
+        proof.assumptions.push(String::from("the bodies approach each other at the contact"));
+    }
+    if let Some(mu) = friction {
+        proof.scene.push(Check {
+            kind: "friction",
+            words: format!("sticking needs friction |P_t|/P_n, at the points tried up to {:.3}", crate::expr::number::to_f64(&mu)),
+            holds: None,
+        });
+    }
+}
+
+/// The value of an answer's question in the independent solution, and the component it is.
+fn numeric_value<T: numeric::Number>(
+    scene: &Scene,
+    answer: &Answer,
+    point: &Point<T>,
+    given: &numeric::Given<T>,
+    motion: &numeric::Motion<T>,
+) -> Option<T> {
+    let question = scene.questions.iter().find(|q| q.name == answer.question)?;
+    match numeric::answer(&question.ask, point, given, motion).ok()? {
+        numeric::Answer::Scalar(value) => Some(value),
+        numeric::Answer::Vector([x, y]) => Some(if answer.name.ends_with("_x") { x } else { y }),
+    }
+}
+
+fn exact_points(scene: &Scene, answer: &Answer, closed: &Expr, runs: &[Run]) -> Check {
+    let mut equal = 0;
+    for run in runs {
+        let Some(expected) = numeric_value(scene, answer, &run.point, &run.given, &run.motion) else { continue };
+        match closed.evaluate(&run.point) {
+            Some(value) if value == expected => equal += 1,
+            Some(value) => {
+                return Check {
+                    kind: "exact points",
+                    words: format!("closed form gives {value}, the independent solution {expected}"),
+                    holds: Some(false),
+                };
+            }
+            None => {}
+        }
+    }
+    match equal {
+        0 => Check { kind: "exact points", words: String::from("no point of the domain has rational values"), holds: None },
+        n => Check {
+            kind: "exact points",
+            words: format!("equal to the independent exact solution at {n} random points"),
+            holds: Some(true),
+        },
+    }
+}
+
+/// The formula in doubles against nalgebra's solution in doubles, in units in the last place of the exact value.
+fn doubles(scene: &Scene, answer: &Answer, closed: &Expr, runs: &[Run]) -> Check {
+    let mut worst: f64 = 0.0;
+    let mut count = 0;
+    for run in runs {
+        let point = numeric::rounded(&run.point);
+        let Some(value) = closed.evaluate(&point) else { continue };
+        let Ok(given) = numeric::given(scene, &point) else { continue };
+        let system = numeric::assemble(&given);
+        let Ok(solution) = numeric::solve_f64(&system) else { continue };
+        let motion = numeric::motion(&given, &system, &solution);
+        let Some(expected) = numeric_value(scene, answer, &point, &given, &motion) else { continue };
+        let scale = value.abs().max(expected.abs()).max(f64::MIN_POSITIVE);
+        // A value that vanishes exactly has no relative error; what the solver leaves there is rounding of its terms.
+        if closed.is_zero() {
+            worst = worst.max((value - expected).abs() / f64::EPSILON);
+        } else {
+            worst = worst.max((value - expected).abs() / (scale * f64::EPSILON));
+        }
+        count += 1;
+    }
+    if count == 0 {
+        return Check { kind: "doubles", words: String::from("no value in doubles"), holds: None };
+    }
+    Check {
+        kind: "doubles",
+        words: format!("within {worst:.0} ulp of nalgebra's solution in doubles"),
+        // Doubles may lose digits for good reasons; only a loss of all of them is a contradiction.
+        holds: Some(worst < 1e12),
+    }
+}
