@@ -68,7 +68,12 @@ impl From<std::io::Error> for Failure {
 /// Runs the command line and gives the exit status.
 pub fn run() -> ExitCode {
     let outcome = match Cli::parse().command {
-        Command::Derive { scene, format, matrix, set } => derive_command(&scene, format, matrix, &set),
+        Command::Derive {
+            scene,
+            format,
+            matrix,
+            set,
+        } => derive_command(&scene, format, matrix, &set),
         Command::Schema => print(&scene::schema()).map(|()| 0),
         Command::List { folder } => list(&folder),
     };
@@ -79,7 +84,9 @@ pub fn run() -> ExitCode {
             ExitCode::from(2)
         }
         // Whoever reads the output has seen enough; that is no fault.
-        Err(Failure::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(Failure::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => {
+            ExitCode::SUCCESS
+        }
         Err(Failure::Output(error)) => {
             eprintln!("carom: cannot write the output: {error}");
             ExitCode::from(70)
@@ -87,7 +94,12 @@ pub fn run() -> ExitCode {
     }
 }
 
-fn derive_command(path: &Path, format: Format, matrix: bool, set: &[String]) -> Result<u8, Failure> {
+fn derive_command(
+    path: &Path,
+    format: Format,
+    matrix: bool,
+    set: &[String],
+) -> Result<u8, Failure> {
     let scene = read_scene(path, set)?;
     let stopped = |stop: derive::Stop| Failure::Input(format!("{}: {stop}", path.display()));
     if matrix {
@@ -105,15 +117,20 @@ fn derive_command(path: &Path, format: Format, matrix: bool, set: &[String]) -> 
         Format::Text => render::text::derivation(&scene, &derivation, &proof),
         Format::Json => pretty(&render::json::derivation(&scene, &derivation, &proof)),
     })?;
-    Ok(u8::from(!proof.holds() || derivation.counting.contradictory))
+    Ok(u8::from(
+        !proof.holds() || derivation.counting.contradictory,
+    ))
 }
 
 fn list(folder: &Path) -> Result<u8, Failure> {
     let mut files = Vec::new();
-    collect(folder, &mut files).map_err(|e| Failure::Input(format!("{}: {e}", folder.display())))?;
+    collect(folder, &mut files)
+        .map_err(|e| Failure::Input(format!("{}: {e}", folder.display())))?;
     files.sort();
     for file in files {
-        let Ok(text) = std::fs::read_to_string(&file) else { continue };
+        let Ok(text) = std::fs::read_to_string(&file) else {
+            continue;
+        };
         let words = match scene::read(&text) {
             Ok(scene) => format!("{} · {}", scene.source, scene.title),
             Err(_) => String::from("not a valid scene; `carom derive` tells why"),
@@ -148,15 +165,29 @@ fn read_scene(path: &Path, set: &[String]) -> Result<scene::Scene, Failure> {
         std::fs::read_to_string(path).map(|t| text = t)
     };
     read.map_err(|e| Failure::Input(format!("{name}: cannot be read: {e}")))?;
-    let mut scene = scene::read(&text).map_err(|faults| Failure::Input(faults.show(&name, &text)))?;
+    let mut scene =
+        scene::read(&text).map_err(|faults| Failure::Input(faults.render(&name, &text)))?;
     for assignment in set {
         let Some((symbol, value)) = assignment.split_once('=') else {
-            return Err(Failure::Input(format!("--set {assignment}: expected NAME=VALUE, such as v=2")));
+            return Err(Failure::Input(format!(
+                "--set {assignment}: expected NAME=VALUE, such as v=2"
+            )));
         };
-        scene::set(&mut scene, symbol.trim(), value.trim())
-            .map_err(|message| Failure::Input(format!("--set {assignment}: {message}")))?;
+        scene::set(&mut scene, symbol.trim(), value.trim()).map_err(|fault| {
+            Failure::Input(format!(
+                "--set {assignment}: {}",
+                with_hint(&fault.message, fault.hint.as_deref())
+            ))
+        })?;
     }
     Ok(scene)
+}
+
+fn with_hint(message: &str, hint: Option<&str>) -> String {
+    match hint {
+        Some(hint) => format!("{message}\nhint: {hint}"),
+        None => message.to_string(),
+    }
 }
 
 fn print(text: &str) -> Result<(), Failure> {

@@ -1,11 +1,29 @@
 //! carom: symbolic-numeric mechanics of planar rigid-body collisions.
-pub mod algebra;
-pub mod dimension;
-pub mod domain;
-pub mod equality;
+//!
+//! The modules below stand in reading order: each imports only what stands above it.
+
 pub mod expr;
-pub mod formula;
+
 pub mod interval;
-pub mod numeric;
+
+pub mod domain;
+
+pub mod dimension;
+
+pub mod algebra;
+
+pub mod equality;
+
+pub mod formula;
+
 pub mod scene;
+
 pub mod laws;
+
+pub mod numeric;
+
+pub mod derive;
+
+pub mod verify;
+
+pub mod render;

@@ -16,9 +16,47 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("scene", &["expr", "domain", "dimension", "formula"]),
     ("laws", &["expr", "scene"]),
     ("numeric", &["expr", "domain", "scene"]),
-    ("derive", &["expr", "domain", "dimension", "algebra", "formula", "scene", "laws"]),
-    ("verify", &["expr", "domain", "dimension", "algebra", "equality", "formula", "scene", "laws", "numeric", "derive"]),
-    ("render", &["expr", "domain", "dimension", "formula", "scene", "laws", "numeric", "derive", "verify"]),
+    (
+        "derive",
+        &[
+            "expr",
+            "domain",
+            "dimension",
+            "algebra",
+            "formula",
+            "scene",
+            "laws",
+        ],
+    ),
+    (
+        "verify",
+        &[
+            "expr",
+            "domain",
+            "dimension",
+            "algebra",
+            "equality",
+            "formula",
+            "scene",
+            "laws",
+            "numeric",
+            "derive",
+        ],
+    ),
+    (
+        "render",
+        &[
+            "expr",
+            "domain",
+            "dimension",
+            "formula",
+            "scene",
+            "laws",
+            "numeric",
+            "derive",
+            "verify",
+        ],
+    ),
 ];
 
 fn sources(folder: &Path, out: &mut Vec<PathBuf>) {
@@ -46,7 +84,11 @@ fn all_sources() -> Vec<(PathBuf, String)> {
 /// The module a file belongs to: the first name below `src`.
 fn module(file: &Path) -> String {
     let first = file.components().nth(1).expect("a path below src");
-    first.as_os_str().to_string_lossy().trim_end_matches(".rs").to_string()
+    first
+        .as_os_str()
+        .to_string_lossy()
+        .trim_end_matches(".rs")
+        .to_string()
 }
 
 /// Names after `crate::` in the code of a file, tests and comments aside.
@@ -55,7 +97,12 @@ fn imports(text: &str) -> Vec<String> {
     let mut found = Vec::new();
     for line in code.lines().filter(|l| !l.trim_start().starts_with("//")) {
         for after in line.split("crate::").skip(1) {
-            found.push(after.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect());
+            found.push(
+                after
+                    .chars()
+                    .take_while(|c| c.is_alphanumeric() || *c == '_')
+                    .collect(),
+            );
         }
     }
     found
@@ -67,25 +114,37 @@ fn a_module_imports_only_what_lies_below_it() {
     let mut wrong = Vec::new();
     for (file, text) in all_sources() {
         let own = module(&file);
-        if own == "lib" || own == "main" || own == "cli" || file.to_string_lossy().contains("tests") {
+        if own == "lib" || own == "main" || own == "cli" || file.to_string_lossy().contains("tests")
+        {
             continue;
         }
         let Some(below) = allowed.get(own.as_str()) else {
-            wrong.push(format!("{}: module {own} is missing in the table of layers", file.display()));
+            wrong.push(format!(
+                "{}: module {own} is missing in the table of layers",
+                file.display()
+            ));
             continue;
         };
         for name in imports(&text) {
-            if name != own && allowed.contains_key(name.as_str()) && !below.contains(&name.as_str()) {
+            if name != own && allowed.contains_key(name.as_str()) && !below.contains(&name.as_str())
+            {
                 wrong.push(format!("{} imports {name}", file.display()));
             }
         }
     }
-    assert!(wrong.is_empty(), "against the layers:\n{}", wrong.join("\n"));
+    assert!(
+        wrong.is_empty(),
+        "against the layers:\n{}",
+        wrong.join("\n")
+    );
 }
 
 #[test]
 fn the_numeric_side_never_sees_the_symbolic_one() {
-    for (file, text) in all_sources().into_iter().filter(|(f, _)| module(f) == "numeric") {
+    for (file, text) in all_sources()
+        .into_iter()
+        .filter(|(f, _)| module(f) == "numeric")
+    {
         for name in imports(&text) {
             assert!(
                 !["algebra", "laws", "derive", "verify"].contains(&name.as_str()),
@@ -98,14 +157,27 @@ fn the_numeric_side_never_sees_the_symbolic_one() {
 
 #[test]
 fn every_file_opens_by_saying_what_it_is_for() {
-    let mute: Vec<_> = all_sources().into_iter().filter(|(_, t)| !t.starts_with("//!")).map(|(f, _)| f).collect();
-    assert!(mute.is_empty(), "files without an opening //! line: {mute:?}");
+    let mute: Vec<_> = all_sources()
+        .into_iter()
+        .filter(|(_, t)| !t.starts_with("//!"))
+        .map(|(f, _)| f)
+        .collect();
+    assert!(
+        mute.is_empty(),
+        "files without an opening //! line: {mute:?}"
+    );
 }
 
 #[test]
 fn modules_are_declared_in_reading_order() {
     let lib = fs::read_to_string("src/lib.rs").expect("src/lib.rs");
-    let declared: Vec<&str> = lib.lines().filter_map(|l| l.strip_prefix("pub mod ")?.strip_suffix(';')).collect();
+    let declared: Vec<&str> = lib
+        .lines()
+        .filter_map(|l| l.strip_prefix("pub mod ")?.strip_suffix(';'))
+        .collect();
     let expected: Vec<&str> = LAYERS.iter().map(|(name, _)| *name).collect();
-    assert_eq!(declared, expected, "src/lib.rs lists the modules in the order of the table of layers");
+    assert_eq!(
+        declared, expected,
+        "src/lib.rs lists the modules in the order of the table of layers"
+    );
 }

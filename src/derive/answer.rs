@@ -64,9 +64,12 @@ pub struct Matrix {
 /// Every formula a question brings along.
 pub fn formulas(question: &Question) -> Vec<Expr> {
     match &question.ask {
-        Ask::Velocity { point, along, .. } => {
-            point.iter().map(|(_, at)| at).chain(along).flat_map(|v| v.iter().cloned()).collect()
-        }
+        Ask::Velocity { point, along, .. } => point
+            .iter()
+            .map(|(_, at)| at)
+            .chain(along)
+            .flat_map(|v| v.iter().cloned())
+            .collect(),
         Ask::Impulse { along, .. } => along.iter().flat_map(|v| v.iter().cloned()).collect(),
         Ask::Balance { along, .. } => along.to_vec(),
         Ask::Spin { .. } | Ask::Energy { .. } | Ask::Matrix { .. } => Vec::new(),
@@ -80,12 +83,17 @@ pub fn full_matrix(scene: &Scene, names: &Names) -> Result<Matrix, Stop> {
     let unknowns = laws::unknowns(scene);
     let mut matrix = Matrix {
         rows: Vec::new(),
-        unknowns: unknowns.iter().map(|u| names.plain(*u).to_string()).collect(),
+        unknowns: unknowns
+            .iter()
+            .map(|u| names.plain(*u).to_string())
+            .collect(),
         entries: Vec::new(),
         rhs: Vec::new(),
     };
     for law in laws::of(scene) {
-        let Ok(linear) = laws::equation(scene, &work.g, &full, &law, |v: &Vector| Ok::<_, std::convert::Infallible>(v.clone()));
+        let Ok(linear) = laws::equation(scene, &work.g, &full, &law, |v: &Vector| {
+            Ok::<_, std::convert::Infallible>(v.clone())
+        });
         let mut row = vec![Expr::zero(); unknowns.len()];
         for (unknown, k) in &linear.terms {
             if let Some(i) = unknowns.iter().position(|u| u == unknown) {
@@ -133,8 +141,16 @@ impl Work<'_> {
     }
 
     /// Answers a question, component by component.
-    pub(super) fn answer(&mut self, question: &Question, counting: &Counting, out: &mut Vec<Answer>) -> Result<(), Stop> {
-        let latex = question.latex.clone().unwrap_or_else(|| super::names::latex_name(&question.name));
+    pub(super) fn answer(
+        &mut self,
+        question: &Question,
+        counting: &Counting,
+        out: &mut Vec<Answer>,
+    ) -> Result<(), Stop> {
+        let latex = question
+            .latex
+            .clone()
+            .unwrap_or_else(|| super::names::latex_name(&question.name));
         let words = words(self.scene, &question.ask);
         let dimension = dimension(&question.ask);
         let make = |name: String, latex: String, words: String, form: Form| Answer {
@@ -148,9 +164,16 @@ impl Work<'_> {
         match self.asked(&question.ask, &self.reduced) {
             Asked::Linear(forms) => {
                 for (suffix, form) in forms {
-                    let open: Vec<Unknown> =
-                        self.unknowns_in(&form)?.into_iter().filter(|u| !counting.is_unique(*u)).collect();
-                    let value = if open.is_empty() { self.element_of(&form)? } else { None };
+                    let open: Vec<Unknown> = self
+                        .unknowns_in(&form)?
+                        .into_iter()
+                        .filter(|u| !counting.is_unique(*u))
+                        .collect();
+                    let value = if open.is_empty() {
+                        self.element_of(&form)?
+                    } else {
+                        None
+                    };
                     let form = match value {
                         Some(value) => self.value(&value),
                         None => Form::Open(open),
@@ -187,7 +210,10 @@ impl Work<'_> {
 
     fn value(&mut self, value: &Element) -> Form {
         let closed = self.field.expr(value);
-        Form::Value { short: closed.clone(), closed }
+        Form::Value {
+            short: closed.clone(),
+            closed,
+        }
     }
 
     /// An expression as a person would write it.
@@ -197,7 +223,11 @@ impl Work<'_> {
     }
 
     /// The affine forms behind a question, in the unknowns of a description of the motion.
-    pub(super) fn linear_forms(&self, ask: &Ask, motion: &Kinematics<Expr>) -> Option<Vec<(&'static str, Affine<Expr>)>> {
+    pub(super) fn linear_forms(
+        &self,
+        ask: &Ask,
+        motion: &Kinematics<Expr>,
+    ) -> Option<Vec<(&'static str, Affine<Expr>)>> {
         match self.asked(ask, motion) {
             Asked::Linear(forms) => Some(forms),
             _ => None,
@@ -207,21 +237,36 @@ impl Work<'_> {
     fn asked(&self, ask: &Ask, motion: &Kinematics<Expr>) -> Asked {
         match ask {
             Ask::Velocity { body, point, along } => {
-                let at = point.as_ref().map_or(&self.scene.bodies[*body].center, |(_, at)| at);
-                Asked::Linear(components(motion.velocity_of(&self.g, *body, at), along.as_ref()))
+                let at = point
+                    .as_ref()
+                    .map_or(&self.scene.bodies[*body].center, |(_, at)| at);
+                Asked::Linear(components(
+                    motion.velocity_of(&self.g, *body, at),
+                    along.as_ref(),
+                ))
             }
             Ask::Spin { body, clockwise } => {
                 let spin = &motion.spin[*body];
-                let sign = if *clockwise { Expr::from(-1) } else { Expr::one() };
+                let sign = if *clockwise {
+                    Expr::from(-1)
+                } else {
+                    Expr::one()
+                };
                 Asked::Linear(vec![("", spin.times(&sign))])
             }
             Ask::Impulse { from, on, along } => {
                 let (place, second) = match from {
-                    ImpulseAt::Contact(c) => (Place::Contact(*c), self.scene.contacts[*c].bodies[1]),
+                    ImpulseAt::Contact(c) => {
+                        (Place::Contact(*c), self.scene.contacts[*c].bodies[1])
+                    }
                     ImpulseAt::Hinge(h) => (Place::Hinge(*h), self.scene.hinges[*h].bodies[1]),
                     ImpulseAt::Blow(b) => (Place::Blow(*b), self.scene.blows[*b].body),
                 };
-                let sign = if *on == second { Expr::one() } else { Expr::from(-1) };
+                let sign = if *on == second {
+                    Expr::one()
+                } else {
+                    Expr::from(-1)
+                };
                 let impulse = laws::impulse_at(self.scene, &self.g, place).map(|p| p.times(&sign));
                 Asked::Linear(components(impulse, along.as_ref()))
             }
@@ -233,7 +278,9 @@ impl Work<'_> {
 
     fn moving(&self, of: Option<usize>) -> Vec<usize> {
         let bodies = 0..self.scene.bodies.len();
-        bodies.filter(|b| of.is_none_or(|o| o == *b) && !self.scene.bodies[*b].is_fixed()).collect()
+        bodies
+            .filter(|b| of.is_none_or(|o| o == *b) && !self.scene.bodies[*b].is_fixed())
+            .collect()
     }
 
     /// Kinetic energy [J]; `None` where a velocity is not determined.
@@ -256,7 +303,9 @@ impl Work<'_> {
                     EnergyWhen::After => self.field.element(&Expr::zero())?,
                 };
                 if when != EnergyWhen::Before {
-                    let Some(after) = self.element_of(after)? else { return Ok(None) };
+                    let Some(after) = self.element_of(after)? else {
+                        return Ok(None);
+                    };
                     let square = self.field.mul(&after, &after)?;
                     change = match when {
                         EnergyWhen::Lost => self.field.sub(&change, &square)?,
@@ -275,11 +324,19 @@ impl Work<'_> {
         let names = self.component_questions();
         let (terms, known) = self.projected(&names, system, along)?;
         let after = Expr::sum(terms.iter().map(|(name, k)| k * &Expr::symbol(name)));
-        Ok(Form::Equation { left: known, right: after })
+        Ok(Form::Equation {
+            left: known,
+            right: after,
+        })
     }
 
     /// The balance along a direction as Σ coefficient × named component = momentum before.
-    fn projected(&mut self, names: &[String], system: &[usize], along: &Vector) -> Result<(Vec<(String, Expr)>, Expr), Stop> {
+    fn projected(
+        &mut self,
+        names: &[String],
+        system: &[usize],
+        along: &Vector,
+    ) -> Result<(Vec<(String, Expr)>, Expr), Stop> {
         let law = Law::LinearMomentum {
             system: system.to_vec(),
             along: Direction::Named(String::from("the given direction"), along.clone()),
@@ -288,7 +345,11 @@ impl Work<'_> {
     }
 
     /// A law with the velocities written in the components the scene names.
-    fn in_components(&mut self, names: &[String], law: &Law) -> Result<(Vec<(String, Expr)>, Expr), Stop> {
+    fn in_components(
+        &mut self,
+        names: &[String],
+        law: &Law,
+    ) -> Result<(Vec<(String, Expr)>, Expr), Stop> {
         let full = Kinematics::full(self.scene, &self.g);
         let direction = |v: &Vector| Ok::<_, std::convert::Infallible>(v.clone());
         let Ok(linear) = laws::equation(self.scene, &self.g, &full, law, direction);
@@ -302,7 +363,11 @@ impl Work<'_> {
             total = total + k * &value;
         }
         let mut all: Vec<String> = names.to_vec();
-        all.extend(laws::unknowns(self.scene).iter().map(|u| self.names.plain(*u).to_string()));
+        all.extend(
+            laws::unknowns(self.scene)
+                .iter()
+                .map(|u| self.names.plain(*u).to_string()),
+        );
         let mut terms = Vec::new();
         let mut rest = total.clone();
         for name in all {
@@ -318,8 +383,22 @@ impl Work<'_> {
 
     /// Names of the questions that ask for a component of a body's velocity.
     fn component_questions(&self) -> Vec<String> {
-        let is_component = |q: &&Question| matches!(&q.ask, Ask::Velocity { point: None, along: Some(_), .. });
-        self.scene.questions.iter().filter(is_component).map(|q| q.name.clone()).collect()
+        let is_component = |q: &&Question| {
+            matches!(
+                &q.ask,
+                Ask::Velocity {
+                    point: None,
+                    along: Some(_),
+                    ..
+                }
+            )
+        };
+        self.scene
+            .questions
+            .iter()
+            .filter(is_component)
+            .map(|q| q.name.clone())
+            .collect()
     }
 
     /// Velocity after of a body in the components that questions name, helped by what is given; x and y where they do not
@@ -327,7 +406,12 @@ impl Work<'_> {
     fn velocity_in_components(&mut self, body: usize) -> Result<Vector, Stop> {
         let mut rows: Vec<(Vector, Expr)> = Vec::new();
         for question in &self.scene.questions {
-            if let Ask::Velocity { body: b, point: None, along: Some(d) } = &question.ask {
+            if let Ask::Velocity {
+                body: b,
+                point: None,
+                along: Some(d),
+            } = &question.ask
+            {
                 if *b == body {
                     rows.push((d.clone(), Expr::symbol(&question.name)));
                 }
@@ -350,7 +434,10 @@ impl Work<'_> {
                     coeffs.push((axis, k));
                 }
             }
-            linear.push(Row { coeffs, rhs: self.field.element(value)? });
+            linear.push(Row {
+                coeffs,
+                rhs: self.field.element(value)?,
+            });
         }
         let own = [0, 1].map(|axis| Expr::symbol(self.names.plain(Unknown::Velocity(body, axis))));
         if linear.len() < 2 {
@@ -364,16 +451,27 @@ impl Work<'_> {
     }
 
     fn matrix(&mut self, rows: &[String], unknowns: &[String]) -> Result<Matrix, Stop> {
-        let mut matrix =
-            Matrix { rows: Vec::new(), unknowns: unknowns.to_vec(), entries: Vec::new(), rhs: Vec::new() };
+        let mut matrix = Matrix {
+            rows: Vec::new(),
+            unknowns: unknowns.to_vec(),
+            entries: Vec::new(),
+            rhs: Vec::new(),
+        };
         let mut push = |words: String, terms: &[(String, Expr)], known: Expr| {
-            let entry = |name: &String| terms.iter().find(|(n, _)| n == name).map_or(Expr::zero(), |(_, k)| k.clone());
+            let entry = |name: &String| {
+                terms
+                    .iter()
+                    .find(|(n, _)| n == name)
+                    .map_or(Expr::zero(), |(_, k)| k.clone())
+            };
             matrix.rows.push(words);
             matrix.entries.push(unknowns.iter().map(entry).collect());
             matrix.rhs.push(known);
         };
         for name in rows {
-            let Some(question) = self.scene.questions.iter().find(|q| q.name == *name) else { continue };
+            let Some(question) = self.scene.questions.iter().find(|q| q.name == *name) else {
+                continue;
+            };
             if let Ask::Balance { system, along } = question.ask.clone() {
                 let (terms, known) = self.projected(unknowns, &system, &along)?;
                 push(name.clone(), &terms, known);
@@ -403,11 +501,26 @@ fn components(v: [Affine<Expr>; 2], along: Option<&Vector>) -> Vec<(&'static str
 fn words(scene: &Scene, ask: &Ask) -> String {
     let body = |b: usize| scene.bodies[b].name.as_str();
     match ask {
-        Ask::Velocity { body: b, point: None, .. } => format!("velocity of the center of mass of {} just after", body(*b)),
-        Ask::Velocity { body: b, point: Some((name, _)), .. } => format!("velocity of point {name} of {} just after", body(*b)),
+        Ask::Velocity {
+            body: b,
+            point: None,
+            ..
+        } => format!("velocity of the center of mass of {} just after", body(*b)),
+        Ask::Velocity {
+            body: b,
+            point: Some((name, _)),
+            ..
+        } => format!("velocity of point {name} of {} just after", body(*b)),
         Ask::Spin { body: b, clockwise } => {
-            let sense = if *clockwise { "clockwise" } else { "counterclockwise" };
-            format!("angular velocity of {} just after, {sense} positive", body(*b))
+            let sense = if *clockwise {
+                "clockwise"
+            } else {
+                "counterclockwise"
+            };
+            format!(
+                "angular velocity of {} just after, {sense} positive",
+                body(*b)
+            )
         }
         Ask::Impulse { from, on, .. } => {
             let at = match from {
@@ -426,7 +539,10 @@ fn words(scene: &Scene, ask: &Ask) -> String {
             }
         }
         Ask::Balance { system, .. } => {
-            format!("linear momentum of {} along the given direction, before = after", laws::body_list(scene, system))
+            format!(
+                "linear momentum of {} along the given direction, before = after",
+                laws::body_list(scene, system)
+            )
         }
         Ask::Matrix { .. } => String::from("the equations in matrix form"),
     }

@@ -21,18 +21,40 @@ const LONG: usize = 110;
 const NAMED: usize = 9;
 
 /// Shortens the answers that are long, adding the definitions they use.
-pub(super) fn shorten(work: &mut Work<'_>, answers: &mut [Answer], definitions: &mut Vec<Definition>) -> Result<(), Stop> {
+pub(super) fn shorten(
+    work: &mut Work<'_>,
+    answers: &mut [Answer],
+    definitions: &mut Vec<Definition>,
+) -> Result<(), Stop> {
     let is_long = |form: &Form| matches!(form, Form::Value { closed, .. } if write_plain(closed).len() > LONG);
     if !answers.iter().any(|a| is_long(&a.form)) {
         return Ok(());
     }
-    let mut parts = Parts { motion: work.reduced.clone(), work, definitions: Vec::new(), lost: None };
-    let Some(values) = parts.values()? else { return Ok(()) };
+    let mut parts = Parts {
+        motion: work.reduced.clone(),
+        work,
+        definitions: Vec::new(),
+        lost: None,
+    };
+    let Some(values) = parts.values()? else {
+        return Ok(());
+    };
     for answer in answers.iter_mut() {
-        let Some(question) = parts.work.scene.questions.iter().find(|q| q.name == answer.question).cloned() else { continue };
+        let Some(question) = parts
+            .work
+            .scene
+            .questions
+            .iter()
+            .find(|q| q.name == answer.question)
+            .cloned()
+        else {
+            continue;
+        };
         if let Form::Value { closed, short } = &mut answer.form {
             if let Some(written) = parts.rewritten(&question, &answer.name, &values)? {
-                if write_plain(&written).len() < write_plain(closed).len() && write_plain(closed).len() > LONG / 2 {
+                if write_plain(&written).len() < write_plain(closed).len()
+                    && write_plain(closed).len() > LONG / 2
+                {
                     *short = written;
                 }
             }
@@ -47,7 +69,10 @@ pub(super) fn shorten(work: &mut Work<'_>, answers: &mut [Answer], definitions: 
         .collect();
     let mut kept = Vec::new();
     for definition in parts.definitions.into_iter().rev() {
-        if needed.iter().any(|e| e.symbols().contains(&definition.name)) {
+        if needed
+            .iter()
+            .any(|e| e.symbols().contains(&definition.name))
+        {
             needed.push(definition.value.clone());
             kept.push(definition);
         }
@@ -70,10 +95,20 @@ impl Parts<'_, '_> {
     /// Each reduced unknown in terms of named parts; `None` where nothing is gained.
     fn values(&mut self) -> Result<Option<BTreeMap<Unknown, Expr>>, Stop> {
         let scene = self.work.scene;
-        let alone = scene.contacts.len() == 1 && scene.hinges.is_empty() && scene.blows.is_empty() && scene.after.is_empty();
+        let alone = scene.contacts.len() == 1
+            && scene.hinges.is_empty()
+            && scene.blows.is_empty()
+            && scene.after.is_empty();
         match (alone, scene.contacts.first().map(|c| &c.law)) {
-            (true, Some(ContactLaw::Frictionless { restitution })) => self.frictionless(&restitution.clone()).map(Some),
-            (true, Some(ContactLaw::Sticking)) if scene.contacts[0].bodies.iter().all(|&b| !scene.bodies[b].is_fixed()) => {
+            (true, Some(ContactLaw::Frictionless { restitution })) => {
+                self.frictionless(&restitution.clone()).map(Some)
+            }
+            (true, Some(ContactLaw::Sticking))
+                if scene.contacts[0]
+                    .bodies
+                    .iter()
+                    .all(|&b| !scene.bodies[b].is_fixed()) =>
+            {
                 self.sticking().map(Some)
             }
             _ => self.solved(),
@@ -84,7 +119,10 @@ impl Parts<'_, '_> {
     fn frictionless(&mut self, e: &Expr) -> Result<BTreeMap<Unknown, Expr>, Stop> {
         let scene = self.work.scene;
         let contact = &scene.contacts[0];
-        let normal = contact.normal.clone().unwrap_or([Expr::zero(), Expr::zero()]);
+        let normal = contact
+            .normal
+            .clone()
+            .unwrap_or([Expr::zero(), Expr::zero()]);
         let approach = approach(scene);
         let speed = &approach[0] * &normal[0] + &approach[1] * &normal[1];
         let speed = self.tidy(&speed)?;
@@ -97,7 +135,11 @@ impl Parts<'_, '_> {
             if body.is_fixed() {
                 continue;
             }
-            let sign = if side == 0 { Expr::from(-1) } else { Expr::one() };
+            let sign = if side == 0 {
+                Expr::from(-1)
+            } else {
+                Expr::one()
+            };
             inverse_mass.push(self.tidy(&body.mass.powi(-1))?);
             for axis in 0..2 {
                 let before = self.tidy(&body.velocity[axis])?;
@@ -106,7 +148,11 @@ impl Parts<'_, '_> {
             }
             if !body.is_particle() {
                 let arm = self.tidy(&cross(&minus(&contact.at, &body.center), &normal))?;
-                let arm = self.named(&format!("h{}", side + 1), arm, &format!("arm of the normal about the center of {}", body.name));
+                let arm = self.named(
+                    &format!("h{}", side + 1),
+                    arm,
+                    &format!("arm of the normal about the center of {}", body.name),
+                );
                 let inertia = self.tidy(&body.inertia)?;
                 if !arm.is_zero() {
                     inverse_mass.push(&arm.powi(2) / &inertia);
@@ -115,10 +161,18 @@ impl Parts<'_, '_> {
                 pending.push((Unknown::Spin(b), before, &sign * &arm / &inertia));
             }
         }
-        let speed = self.named("u_n", speed, "normal velocity of the second body relative to the first, at the contact, just before");
+        let speed = self.named(
+            "u_n",
+            speed,
+            "normal velocity of the second body relative to the first, at the contact, just before",
+        );
         let size = -((Expr::one() + e) * &speed) / Expr::sum(inverse_mass);
         self.lost = Some((e - &Expr::one()) * &speed * &impulse * Expr::ratio(1, 2));
-        self.define(&impulse, size, "impulse on the second body along the normal");
+        self.define(
+            &impulse,
+            size,
+            "impulse on the second body along the normal",
+        );
         values.insert(Unknown::Normal(0), impulse.clone());
         for (unknown, before, gain) in pending {
             values.insert(unknown, before + gain * &impulse);
@@ -133,7 +187,8 @@ impl Parts<'_, '_> {
         let approach = approach(scene);
         let [ux, uy] = [0, 1].map(|axis| approach[axis].clone());
         let (ux, uy) = (self.tidy(&ux)?, self.tidy(&uy)?);
-        let words = "velocity of the second body relative to the first, at the contact, just before";
+        let words =
+            "velocity of the second body relative to the first, at the contact, just before";
         let ux = self.named("u_x", ux, words);
         let uy = self.named("u_y", uy, words);
         let (mut a, mut b, mut c) = (Vec::new(), Vec::new(), Vec::new());
@@ -160,25 +215,48 @@ impl Parts<'_, '_> {
         let a = self.named("a_W", Expr::sum(a), words);
         let b = self.named("b_W", Expr::sum(b), words);
         let c = self.named("c_W", Expr::sum(c), words);
-        let det = self.named("D_W", &a * &c - b.powi(2), "determinant of the inverse effective mass");
-        let impulse = [0, 1].map(|axis| Expr::symbol(self.work.names.plain(Unknown::Contact(0, axis))));
-        self.define(&impulse[0], (&b * &uy - &c * &ux) / &det, "impulse on the second body along x");
-        self.define(&impulse[1], (&b * &ux - &a * &uy) / &det, "impulse on the second body along y");
+        let det = self.named(
+            "D_W",
+            &a * &c - b.powi(2),
+            "determinant of the inverse effective mass",
+        );
+        let impulse =
+            [0, 1].map(|axis| Expr::symbol(self.work.names.plain(Unknown::Contact(0, axis))));
+        self.define(
+            &impulse[0],
+            (&b * &uy - &c * &ux) / &det,
+            "impulse on the second body along x",
+        );
+        self.define(
+            &impulse[1],
+            (&b * &ux - &a * &uy) / &det,
+            "impulse on the second body along y",
+        );
         self.lost = Some(-(&impulse[0] * &ux + &impulse[1] * &uy) * Expr::ratio(1, 2));
         self.motion = Kinematics::full(scene, &self.work.g);
         let mut values = BTreeMap::new();
         for (side, &i) in contact.bodies.iter().enumerate() {
             let body = &scene.bodies[i];
-            let sign = if side == 0 { Expr::from(-1) } else { Expr::one() };
+            let sign = if side == 0 {
+                Expr::from(-1)
+            } else {
+                Expr::one()
+            };
             for axis in 0..2 {
                 let before = self.tidy(&body.velocity[axis])?;
-                values.insert(Unknown::Velocity(i, axis), before + &sign * &impulse[axis] / &body.mass);
+                values.insert(
+                    Unknown::Velocity(i, axis),
+                    before + &sign * &impulse[axis] / &body.mass,
+                );
                 values.insert(Unknown::Contact(0, axis), impulse[axis].clone());
             }
             if !body.is_particle() {
                 let before = self.tidy(&body.spin)?;
                 let moment = &arms[side][0] * &impulse[1] - &arms[side][1] * &impulse[0];
-                values.insert(Unknown::Spin(i), before + &sign * moment / self.tidy(&body.inertia)?);
+                values.insert(
+                    Unknown::Spin(i),
+                    before + &sign * moment / self.tidy(&body.inertia)?,
+                );
             }
         }
         Ok(values)
@@ -187,7 +265,12 @@ impl Parts<'_, '_> {
     /// Elsewhere: every unknown whose closed form is long stands for itself.
     fn solved(&mut self) -> Result<Option<BTreeMap<Unknown, Expr>>, Stop> {
         let mut values = BTreeMap::new();
-        let solved: Vec<(Unknown, Element)> = self.work.values.iter().map(|(u, v)| (*u, v.clone())).collect();
+        let solved: Vec<(Unknown, Element)> = self
+            .work
+            .values
+            .iter()
+            .map(|(u, v)| (*u, v.clone()))
+            .collect();
         for (unknown, value) in solved {
             let closed = self.work.field.expr(&value);
             let name = self.work.names.plain(unknown).to_string();
@@ -197,11 +280,22 @@ impl Parts<'_, '_> {
     }
 
     /// An answer with the unknowns replaced by their short values.
-    fn rewritten(&mut self, question: &Question, name: &str, values: &BTreeMap<Unknown, Expr>) -> Result<Option<Expr>, Stop> {
-        if let Ask::Energy { when: EnergyWhen::Lost, of: None } = question.ask {
+    fn rewritten(
+        &mut self,
+        question: &Question,
+        name: &str,
+        values: &BTreeMap<Unknown, Expr>,
+    ) -> Result<Option<Expr>, Stop> {
+        if let Ask::Energy {
+            when: EnergyWhen::Lost,
+            of: None,
+        } = question.ask
+        {
             return Ok(self.lost.clone());
         }
-        let Some(forms) = self.work.linear_forms(&question.ask, &self.motion) else { return Ok(None) };
+        let Some(forms) = self.work.linear_forms(&question.ask, &self.motion) else {
+            return Ok(None);
+        };
         let wanted = |suffix: &str| match suffix {
             "" => question.name == name,
             axis => format!("{}_{axis}", question.name) == name,
@@ -214,7 +308,9 @@ impl Parts<'_, '_> {
                     if k.is_zero() {
                         continue;
                     }
-                    let Some(value) = values.get(unknown) else { return Ok(None) };
+                    let Some(value) = values.get(unknown) else {
+                        return Ok(None);
+                    };
                     total = total + k * value;
                 }
                 return Ok(Some(total));
@@ -233,8 +329,16 @@ impl Parts<'_, '_> {
             return value;
         }
         let taken = self.definitions.iter().any(|d| *d.name == *wanted);
-        let own = self.work.values.keys().any(|u| self.work.names.plain(*u) == wanted);
-        let name = if own && !taken { wanted.to_string() } else { self.work.names.fresh(wanted) };
+        let own = self
+            .work
+            .values
+            .keys()
+            .any(|u| self.work.names.plain(*u) == wanted);
+        let name = if own && !taken {
+            wanted.to_string()
+        } else {
+            self.work.names.fresh(wanted)
+        };
         let symbol = Expr::symbol(&name);
         self.define(&symbol, value, meaning);
         symbol
@@ -242,7 +346,11 @@ impl Parts<'_, '_> {
 
     fn define(&mut self, symbol: &Expr, value: Expr, meaning: &str) {
         if let Some(name) = symbol.as_symbol() {
-            self.definitions.push(Definition { name: name.clone(), value, meaning: meaning.to_string() });
+            self.definitions.push(Definition {
+                name: name.clone(),
+                value,
+                meaning: meaning.to_string(),
+            });
         }
     }
 }
@@ -253,8 +361,10 @@ fn approach(scene: &Scene) -> Vector {
     let point = |b: usize| {
         let body = &scene.bodies[b];
         let r = minus(&contact.at, &body.center);
-        [&body.velocity[0] - &(&body.spin * &r[1]), &body.velocity[1] + &(&body.spin * &r[0])]
+        [
+            &body.velocity[0] - &(&body.spin * &r[1]),
+            &body.velocity[1] + &(&body.spin * &r[0]),
+        ]
     };
     minus(&point(contact.bodies[1]), &point(contact.bodies[0]))
 }
-

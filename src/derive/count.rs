@@ -48,7 +48,9 @@ pub fn count(scene: &Scene) -> Counting {
     let system = system_balances(scene);
     let mut best: Option<Counting> = None;
     for attempt in 0..4 {
-        let Some(rows) = rational_rows(scene, &unknowns, laws.iter(), attempt) else { continue };
+        let Some(rows) = rational_rows(scene, &unknowns, laws.iter(), attempt) else {
+            continue;
+        };
         let echelon = eliminate(rows, unknowns.len());
         let rank = echelon.pivots.len();
         let full = rank == unknowns.len().min(laws.len());
@@ -70,7 +72,10 @@ pub fn count(scene: &Scene) -> Counting {
         if full && !counting.contradictory {
             return counting;
         }
-        if best.as_ref().is_none_or(|b| b.rank < counting.rank || (b.contradictory && !counting.contradictory)) {
+        if best
+            .as_ref()
+            .is_none_or(|b| b.rank < counting.rank || (b.contradictory && !counting.contradictory))
+        {
             best = Some(counting);
         }
     }
@@ -87,16 +92,27 @@ pub fn count(scene: &Scene) -> Counting {
 
 /// Balances of all movable bodies together: combinations of those of the single bodies.
 fn system_balances(scene: &Scene) -> Vec<Law> {
-    let system: Vec<usize> = (0..scene.bodies.len()).filter(|&b| !scene.bodies[b].is_fixed()).collect();
+    let system: Vec<usize> = (0..scene.bodies.len())
+        .filter(|&b| !scene.bodies[b].is_fixed())
+        .collect();
     if system.len() < 2 {
         return Vec::new();
     }
     let mut laws = vec![
-        Law::LinearMomentum { system: system.clone(), along: laws::Direction::X },
-        Law::LinearMomentum { system: system.clone(), along: laws::Direction::Y },
+        Law::LinearMomentum {
+            system: system.clone(),
+            along: laws::Direction::X,
+        },
+        Law::LinearMomentum {
+            system: system.clone(),
+            along: laws::Direction::Y,
+        },
     ];
     if !scene.contacts.is_empty() {
-        laws.push(Law::AngularMomentum { system, about: Place::Contact(0) });
+        laws.push(Law::AngularMomentum {
+            system,
+            about: Place::Contact(0),
+        });
     }
     laws
 }
@@ -106,7 +122,9 @@ fn closing_laws(scene: &Scene) -> Vec<String> {
     let mut out = Vec::new();
     for contact in scene.contacts.iter().filter(|c| c.law == ContactLaw::None) {
         let at = &contact.name;
-        out.push(format!("sticking at {at}: 2 more equations, equal velocities of the touching points after"));
+        out.push(format!(
+            "sticking at {at}: 2 more equations, equal velocities of the touching points after"
+        ));
         out.push(format!("frictionless at {at} with restitution e: 1 unknown less, impulse along the normal; 1 more equation"));
     }
     out
@@ -158,7 +176,9 @@ fn exact_point(scene: &Scene, number: usize) -> Option<Point<Rational>> {
     let roles = roles(&formulas.iter().collect::<Vec<_>>());
     let (domains, _) = scene.domains.completed(&roles);
     // The first sample gives every symbol the same simple value, which is not a general position.
-    let sample = samples(&roles, &domains, number + 2).into_iter().nth(number + 1)?;
+    let sample = samples(&roles, &domains, number + 2)
+        .into_iter()
+        .nth(number + 1)?;
     let mut point = Point::default();
     for (name, coordinate) in sample.coordinates {
         match coordinate {
@@ -196,7 +216,9 @@ fn eliminate(mut rows: Vec<Vec<Rational>>, n: usize) -> Echelon {
     let mut pivots: Vec<usize> = Vec::new();
     for column in 0..n {
         let top = pivots.len();
-        let Some(found) = (top..rows.len()).find(|&r| !rows[r][column].is_zero()) else { continue };
+        let Some(found) = (top..rows.len()).find(|&r| !rows[r][column].is_zero()) else {
+            continue;
+        };
         rows.swap(top, found);
         let scale = rows[top][column].recip();
         let pivot_row: Vec<(usize, Rational)> = rows[top]
@@ -227,5 +249,9 @@ fn eliminate(mut rows: Vec<Vec<Rational>>, n: usize) -> Echelon {
     }
     open.sort_unstable();
     let contradictory = rows[pivots.len()..].iter().any(|row| !row[n].is_zero());
-    Echelon { pivots, open, contradictory }
+    Echelon {
+        pivots,
+        open,
+        contradictory,
+    }
 }

@@ -31,30 +31,49 @@ pub(super) fn list(work: &Work<'_>, counting: &Counting, asked: usize) -> Vec<Le
         if unknowns.iter().any(|u| used(*u)) || blocks.is_empty() {
             continue;
         }
-        add(format!("impulse at {place}"), why_not_needed(work, &unknowns, asked));
+        add(
+            format!("impulse at {place}"),
+            why_not_needed(work, &unknowns, asked),
+        );
     }
     for body in &scene.bodies {
         if body.is_fixed() {
-            add(format!("equations of {}", body.name), String::from("its motion is prescribed, so it needs none"));
+            add(
+                format!("equations of {}", body.name),
+                String::from("its motion is prescribed, so it needs none"),
+            );
         } else if body.is_particle() {
-            add(format!("spin of {}", body.name), String::from("a particle has no extension: no spin, no moment equation"));
+            add(
+                format!("spin of {}", body.name),
+                String::from("a particle has no extension: no spin, no moment equation"),
+            );
         }
     }
     for contact in &scene.contacts {
         if let ContactLaw::Frictionless { .. } = contact.law {
-            add(format!("tangential impulse at {}", contact.name), String::from("the contact is frictionless"));
+            add(
+                format!("tangential impulse at {}", contact.name),
+                String::from("the contact is frictionless"),
+            );
         }
     }
     let used_equations: usize = blocks.iter().map(|b| b.equations.len()).sum();
     if used_equations > 0 && used_equations < counting.equations {
         add(
-            format!("{} of the {} equations of the full system", counting.equations - used_equations, counting.equations),
+            format!(
+                "{} of the {} equations of the full system",
+                counting.equations - used_equations,
+                counting.equations
+            ),
             String::from("what is asked does not depend on them"),
         );
     }
     for parameter in &scene.parameters {
         if !uses(scene, &parameter.name) {
-            add(format!("parameter {}", parameter.name), String::from("nothing in the scene depends on it"));
+            add(
+                format!("parameter {}", parameter.name),
+                String::from("nothing in the scene depends on it"),
+            );
         }
     }
     out
@@ -68,7 +87,10 @@ fn why_not_needed(work: &Work<'_>, unknowns: &[Unknown], asked: usize) -> String
             Law::LinearMomentum { system, .. } | Law::AngularMomentum { system, .. }
                 if bodies.iter().all(|b| system.contains(b)) =>
             {
-                format!("internal to the system of {}", laws::body_list(work.scene, system))
+                format!(
+                    "internal to the system of {}",
+                    laws::body_list(work.scene, system)
+                )
             }
             Law::AngularMomentum { system, about } if bodies.iter().any(|b| system.contains(b)) => {
                 format!("no moment about {}", laws::place_name(work.scene, *about))
@@ -98,18 +120,29 @@ fn impulses(scene: &Scene) -> Vec<(String, Vec<Unknown>)> {
     for (c, contact) in scene.contacts.iter().enumerate() {
         let unknowns = match contact.law {
             ContactLaw::Frictionless { .. } => vec![Unknown::Normal(c)],
-            ContactLaw::Sticking | ContactLaw::None => vec![Unknown::Contact(c, 0), Unknown::Contact(c, 1)],
+            ContactLaw::Sticking | ContactLaw::None => {
+                vec![Unknown::Contact(c, 0), Unknown::Contact(c, 1)]
+            }
         };
         all.push((contact.name.clone(), unknowns));
     }
     for (h, hinge) in scene.hinges.iter().enumerate() {
-        all.push((hinge.name.clone(), vec![Unknown::Hinge(h, 0), Unknown::Hinge(h, 1)]));
+        all.push((
+            hinge.name.clone(),
+            vec![Unknown::Hinge(h, 0), Unknown::Hinge(h, 1)],
+        ));
     }
     all
 }
 
 fn uses(scene: &Scene, name: &str) -> bool {
-    let mut found = super::formulas(scene).iter().any(|e| e.symbols().contains(name));
-    found |= scene.domains.unit_vectors.iter().any(|pair| pair.iter().any(|s| **s == *name));
+    let mut found = super::formulas(scene)
+        .iter()
+        .any(|e| e.symbols().contains(name));
+    found |= scene
+        .domains
+        .unit_vectors
+        .iter()
+        .any(|pair| pair.iter().any(|s| **s == *name));
     found
 }

@@ -15,12 +15,12 @@ mod plan;
 use std::collections::BTreeMap;
 use std::fmt;
 
-pub use answer::{Answer, Form};
+pub use answer::{Answer, Form, Matrix, full_matrix};
 pub use count::{Counting, count};
 pub use left_out::LeftOut;
 pub use names::Names;
 
-use crate::algebra::{self, Element, Field, Row};
+use crate::algebra::{self, Element, Field, Row, Sign};
 use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Affine, Geometry, Kinematics, Law, Unknown};
 use crate::scene::Scene;
@@ -97,7 +97,10 @@ impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Stop::Limit(what) => write!(f, "stopped at a limit: {what}"),
-            Stop::Contradiction(law) => write!(f, "the laws contradict each other: {law} cannot hold together with the others"),
+            Stop::Contradiction(law) => write!(
+                f,
+                "the laws contradict each other: {law} cannot hold together with the others"
+            ),
         }
     }
 }
@@ -122,7 +125,11 @@ pub fn derive(scene: &Scene) -> Result<Derivation, Stop> {
         }
     }
     let asked = work.blocks.len();
-    let rest: Vec<Unknown> = work.reduced_unknowns().into_iter().filter(|u| counting.is_unique(*u)).collect();
+    let rest: Vec<Unknown> = work
+        .reduced_unknowns()
+        .into_iter()
+        .filter(|u| counting.is_unique(*u))
+        .collect();
     work.determine(&rest, None)?;
     let mut answers = Vec::new();
     let mut definitions = Vec::new();
@@ -134,7 +141,16 @@ pub fn derive(scene: &Scene) -> Result<Derivation, Stop> {
     let left_out = left_out::list(&work, &counting, asked);
     let assumptions = work.assumptions();
     work.blocks.truncate(asked);
-    Ok(Derivation { counting, names: work.names, blocks: work.blocks, definitions, answers, motion, left_out, assumptions })
+    Ok(Derivation {
+        counting,
+        names: work.names,
+        blocks: work.blocks,
+        definitions,
+        answers,
+        motion,
+        left_out,
+        assumptions,
+    })
 }
 
 /// The state of a derivation under way.
@@ -161,7 +177,17 @@ impl<'a> Work<'a> {
         let reduced = reduction.kinematics(scene, &g);
         let planner = Planner::new(scene, &reduction);
         let names = Names::of(scene);
-        Ok(Work { scene, field, names, reduction, g, reduced, planner, values: BTreeMap::new(), blocks: Vec::new() })
+        Ok(Work {
+            scene,
+            field,
+            names,
+            reduction,
+            g,
+            reduced,
+            planner,
+            values: BTreeMap::new(),
+            blocks: Vec::new(),
+        })
     }
 
     /// The unknowns of the reduced description: free velocities and spins, then impulses.
@@ -192,14 +218,20 @@ impl<'a> Work<'a> {
 
     /// Ways to determine a target, best first.
     fn plans(&self, target: Unknown) -> Vec<(Vec<Law>, Vec<Unknown>)> {
-        let Some(planner) = &self.planner else { return Vec::new() };
+        let Some(planner) = &self.planner else {
+            return Vec::new();
+        };
         let known = |u: Unknown| self.values.contains_key(&u);
         let mut plans = Vec::new();
         plans.extend(planner.closing(&[target], &known));
         let impulse_first = planner.impulse_first(target, &known);
         if let Some(plan) = impulse_first {
             // With many equations either way, the impulse first and the rest in terms of it reads better.
-            let at = usize::from(plans.first().is_some_and(|p| p.0.len() < 4 && p.0.len() < plan.0.len()));
+            let at = usize::from(
+                plans
+                    .first()
+                    .is_some_and(|p| p.0.len() < 4 && p.0.len() < plan.0.len()),
+            );
             plans.insert(at.min(plans.len()), plan);
         }
         if !target.is_impulse() {
@@ -209,11 +241,18 @@ impl<'a> Work<'a> {
     }
 
     /// Solves laws for unknowns; false where they do not determine them all after all.
-    fn solve(&mut self, laws: &[Law], unknowns: &[Unknown], asked_by: Option<&str>) -> Result<bool, Stop> {
+    fn solve(
+        &mut self,
+        laws: &[Law],
+        unknowns: &[Unknown],
+        asked_by: Option<&str>,
+    ) -> Result<bool, Stop> {
         let mut rows = Vec::with_capacity(laws.len());
         let mut equations = Vec::with_capacity(laws.len());
         for law in laws {
-            let Some((row, equation)) = self.row(law, unknowns)? else { return Ok(false) };
+            let Some((row, equation)) = self.row(law, unknowns)? else {
+                return Ok(false);
+            };
             rows.push(row);
             equations.push((law.clone(), equation));
         }
@@ -229,12 +268,15 @@ impl<'a> Work<'a> {
             printed.push(self.field.expr(&value));
             self.values.insert(*unknown, value);
         }
-        let divided_by = solution.pivots.iter().filter(|p| self.field.sign(p).is_none()).map(|p| self.field.expr(p)).collect();
+        let divided_by = self.divisors(&solution.pivots);
         let equations = equations
             .into_iter()
             .map(|(law, (terms, known))| Equation {
                 law,
-                terms: terms.iter().map(|(u, k)| (*u, self.field.expr(k))).collect(),
+                terms: terms
+                    .iter()
+                    .map(|(u, k)| (*u, self.field.expr(k)))
+                    .collect(),
                 known: self.field.expr(&known),
             })
             .collect();
@@ -251,7 +293,11 @@ impl<'a> Work<'a> {
     /// A law as a row over `unknowns`, with everything already solved put in; also as it stands before that, for
     /// printing. `None` where it holds an unknown that is neither.
     #[allow(clippy::type_complexity)]
-    fn row(&mut self, law: &Law, unknowns: &[Unknown]) -> Result<Option<(Row, (Vec<(Unknown, Element)>, Element))>, Stop> {
+    fn row(
+        &mut self,
+        law: &Law,
+        unknowns: &[Unknown],
+    ) -> Result<Option<(Row, (Vec<(Unknown, Element)>, Element))>, Stop> {
         let direction = |v: &Vector| Ok::<_, std::convert::Infallible>(v.clone());
         let Ok(linear) = laws::equation(self.scene, &self.g, &self.reduced, law, direction);
         let mut rhs = self.field.element(&linear.known)?;
@@ -281,12 +327,17 @@ impl<'a> Work<'a> {
         let held: Vec<Law> = laws::of(self.scene)
             .into_iter()
             .filter(|law| match law {
-                Law::Hinged(..) | Law::Sticking(..) => self.reduction.loops.iter().any(|l| same_joint(l, law)),
+                Law::Hinged(..) | Law::Sticking(..) => {
+                    self.reduction.loops.iter().any(|l| same_joint(l, law))
+                }
                 _ => true,
             })
             .collect();
-        let unknowns: Vec<Unknown> =
-            self.reduced_unknowns().into_iter().filter(|u| !self.values.contains_key(u)).collect();
+        let unknowns: Vec<Unknown> = self
+            .reduced_unknowns()
+            .into_iter()
+            .filter(|u| !self.values.contains_key(u))
+            .collect();
         let mut rows = Vec::new();
         let mut equations = Vec::new();
         for law in held {
@@ -295,7 +346,10 @@ impl<'a> Work<'a> {
                     rows.push(row);
                     equations.push(Equation {
                         law,
-                        terms: terms.iter().map(|(u, k)| (*u, self.field.expr(k))).collect(),
+                        terms: terms
+                            .iter()
+                            .map(|(u, k)| (*u, self.field.expr(k)))
+                            .collect(),
                         known: self.field.expr(&known),
                     });
                 }
@@ -303,9 +357,12 @@ impl<'a> Work<'a> {
         }
         let solution = algebra::solve(&mut self.field, &rows, unknowns.len())?;
         if let Some(row) = solution.contradiction {
-            return Err(Stop::Contradiction(laws::describe(self.scene, &equations[row].law)));
+            return Err(Stop::Contradiction(laws::describe(
+                self.scene,
+                &equations[row].law,
+            )));
         }
-        let divided_by = solution.pivots.iter().filter(|p| self.field.sign(p).is_none()).map(|p| self.field.expr(p)).collect();
+        let divided_by = self.divisors(&solution.pivots);
         let mut found = Vec::new();
         let mut printed = Vec::new();
         for (unknown, value) in unknowns.into_iter().zip(solution.values) {
@@ -333,7 +390,9 @@ impl<'a> Work<'a> {
             if self.field.is_zero(&k) {
                 continue;
             }
-            let Some(value) = self.values.get(unknown) else { return Ok(None) };
+            let Some(value) = self.values.get(unknown) else {
+                return Ok(None);
+            };
             let term = self.field.mul(&k, value)?;
             total = self.field.add(&total, &term)?;
         }
@@ -370,10 +429,27 @@ impl<'a> Work<'a> {
         Ok(motion)
     }
 
+    /// What was divided by and is not known to keep away from zero.
+    fn divisors(&self, pivots: &[algebra::Pivot]) -> Vec<Expr> {
+        let safe = |p: &&algebra::Pivot| {
+            !matches!(
+                self.field.sign(&p.value),
+                Some(Sign::Positive | Sign::Negative)
+            )
+        };
+        pivots
+            .iter()
+            .filter(safe)
+            .map(|p| self.field.expr(&p.value))
+            .collect()
+    }
+
     /// What the closed forms rest on: signs taken for roots, and conditions `… ≠ 0` under which the blocks were solved.
     fn assumptions(&self) -> Vec<String> {
         let sign = |a: &algebra::Assumption| match a {
-            algebra::Assumption::NotNegative(e) => format!("{} ≥ 0", crate::formula::write_plain(e)),
+            algebra::Assumption::NotNegative(e) => {
+                format!("{} ≥ 0", crate::formula::write_plain(e))
+            }
         };
         let mut all: Vec<String> = self.field.assumptions().iter().map(sign).collect();
         for divisor in self.blocks.iter().flat_map(|b| &b.divided_by) {
@@ -388,7 +464,9 @@ impl<'a> Work<'a> {
 
 fn same_joint(a: &Law, b: &Law) -> bool {
     match (a, b) {
-        (Law::Hinged(i, j), Law::Hinged(k, l)) | (Law::Sticking(i, j), Law::Sticking(k, l)) => (i, j) == (k, l),
+        (Law::Hinged(i, j), Law::Hinged(k, l)) | (Law::Sticking(i, j), Law::Sticking(k, l)) => {
+            (i, j) == (k, l)
+        }
         _ => false,
     }
 }

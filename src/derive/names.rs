@@ -16,9 +16,12 @@ impl Names {
     /// Names for all unknowns of a scene.
     pub fn of(scene: &Scene) -> Names {
         let mut names = Names::default();
-        names.used.extend(scene.parameters.iter().map(|p| p.name.to_string()));
+        names
+            .used
+            .extend(scene.parameters.iter().map(|p| p.name.to_string()));
         for unknown in laws::unknowns(scene) {
-            let (plain, latex) = asked_name(scene, unknown).unwrap_or_else(|| made_name(scene, unknown));
+            let (plain, latex) =
+                asked_name(scene, unknown).unwrap_or_else(|| made_name(scene, unknown));
             let plain = names.fresh(&plain);
             names.of.insert(unknown, (plain, latex));
         }
@@ -52,27 +55,55 @@ const AXES: [&str; 2] = ["x", "y"];
 /// The name a question gives to an unknown, if one asks for exactly it.
 fn asked_name(scene: &Scene, unknown: Unknown) -> Option<(String, String)> {
     for question in &scene.questions {
-        let latex = question.latex.clone().unwrap_or_else(|| latex_name(&question.name));
+        let latex = question
+            .latex
+            .clone()
+            .unwrap_or_else(|| latex_name(&question.name));
         let component = |axis: usize| {
-            Some((format!("{}_{}", question.name, AXES[axis]), with_subscript(&latex, AXES[axis])))
+            Some((
+                format!("{}_{}", question.name, AXES[axis]),
+                with_subscript(&latex, AXES[axis]),
+            ))
         };
         let found = match (&question.ask, unknown) {
-            (Ask::Velocity { body, point: None, along: None }, Unknown::Velocity(b, axis)) if *body == b => component(axis),
-            (Ask::Spin { body, .. }, Unknown::Spin(b)) if *body == b => Some((question.name.clone(), latex)),
-            (Ask::Impulse { from: ImpulseAt::Contact(c), on, along }, Unknown::Normal(i)) if *c == i => {
+            (
+                Ask::Velocity {
+                    body,
+                    point: None,
+                    along: None,
+                },
+                Unknown::Velocity(b, axis),
+            ) if *body == b => component(axis),
+            (Ask::Spin { body, .. }, Unknown::Spin(b)) if *body == b => {
+                Some((question.name.clone(), latex))
+            }
+            (
+                Ask::Impulse {
+                    from: ImpulseAt::Contact(c),
+                    on,
+                    along,
+                },
+                Unknown::Normal(i),
+            ) if *c == i => {
                 let forward = scene.contacts[i].bodies[1] == *on;
                 (forward && along.is_none()).then(|| (question.name.clone(), latex))
             }
-            (Ask::Impulse { from: ImpulseAt::Contact(c), on, along: None }, Unknown::Contact(i, axis))
-                if *c == i && scene.contacts[i].bodies[1] == *on =>
-            {
-                component(axis)
-            }
-            (Ask::Impulse { from: ImpulseAt::Hinge(h), on, along: None }, Unknown::Hinge(i, axis))
-                if *h == i && scene.hinges[i].bodies[1] == *on =>
-            {
-                component(axis)
-            }
+            (
+                Ask::Impulse {
+                    from: ImpulseAt::Contact(c),
+                    on,
+                    along: None,
+                },
+                Unknown::Contact(i, axis),
+            ) if *c == i && scene.contacts[i].bodies[1] == *on => component(axis),
+            (
+                Ask::Impulse {
+                    from: ImpulseAt::Hinge(h),
+                    on,
+                    along: None,
+                },
+                Unknown::Hinge(i, axis),
+            ) if *h == i && scene.hinges[i].bodies[1] == *on => component(axis),
             _ => None,
         };
         if found.is_some() {
@@ -89,24 +120,45 @@ fn made_name(scene: &Scene, unknown: Unknown) -> (String, String) {
         match axis {
             Some(axis) => {
                 let x = AXES[axis];
-                (format!("{letter}_{of}_{x}"), format!("{latex_letter}_{{\\mathrm{{{}}},{x}}}{plus}", escape(of)))
+                (
+                    format!("{letter}_{of}_{x}"),
+                    format!("{latex_letter}_{{\\mathrm{{{}}},{x}}}{plus}", escape(of)),
+                )
             }
-            None => (format!("{letter}_{of}"), format!("{latex_letter}_{{\\mathrm{{{}}}}}{plus}", escape(of))),
+            None => (
+                format!("{letter}_{of}"),
+                format!("{latex_letter}_{{\\mathrm{{{}}}}}{plus}", escape(of)),
+            ),
         }
     };
     match unknown {
         Unknown::Velocity(b, axis) => made("v", "v", &body(b), Some(axis), true),
         Unknown::Spin(b) => made("omega", "\\omega", &body(b), None, true),
-        Unknown::Contact(c, axis) => made("P", "P", &identifier(&scene.contacts[c].name), Some(axis), false),
+        Unknown::Contact(c, axis) => made(
+            "P",
+            "P",
+            &identifier(&scene.contacts[c].name),
+            Some(axis),
+            false,
+        ),
         Unknown::Normal(c) => made("P", "P", &identifier(&scene.contacts[c].name), None, false),
-        Unknown::Hinge(h, axis) => made("R", "R", &identifier(&scene.hinges[h].name), Some(axis), false),
+        Unknown::Hinge(h, axis) => made(
+            "R",
+            "R",
+            &identifier(&scene.hinges[h].name),
+            Some(axis),
+            false,
+        ),
         Unknown::Blow(i) => made("P", "P", &identifier(&scene.blows[i].name), None, false),
     }
 }
 
 /// A name reduced to letters, digits and underscores.
 fn identifier(name: &str) -> String {
-    let mut out: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+    let mut out: String = name
+        .chars()
+        .map(|c| if c.is_alphanumeric() { c } else { '_' })
+        .collect();
     if out.is_empty() {
         out.push('_');
     }

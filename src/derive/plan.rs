@@ -42,7 +42,13 @@ pub struct Reduction {
 /// Finds the tree, starting from the bodies that do not move.
 pub fn reduction(scene: &Scene) -> Reduction {
     let mut joints: Vec<([usize; 2], Place)> = Vec::new();
-    joints.extend(scene.hinges.iter().enumerate().map(|(h, hinge)| (hinge.bodies, Place::Hinge(h))));
+    joints.extend(
+        scene
+            .hinges
+            .iter()
+            .enumerate()
+            .map(|(h, hinge)| (hinge.bodies, Place::Hinge(h))),
+    );
     for (c, contact) in scene.contacts.iter().enumerate() {
         if contact.law == ContactLaw::Sticking {
             joints.push((contact.bodies, Place::Contact(c)));
@@ -59,12 +65,18 @@ pub fn reduction(scene: &Scene) -> Reduction {
             let carrier = queue[at];
             at += 1;
             for (j, (bodies, place)) in joints.iter().enumerate() {
-                let Some(side) = bodies.iter().position(|&b| b == carrier) else { continue };
+                let Some(side) = bodies.iter().position(|&b| b == carrier) else {
+                    continue;
+                };
                 let body = bodies[1 - side];
                 if !used[j] && !placed[body] {
                     used[j] = true;
                     placed[body] = true;
-                    reduction.tree.push(Attachment { body, at: *place, to: carrier });
+                    reduction.tree.push(Attachment {
+                        body,
+                        at: *place,
+                        to: carrier,
+                    });
                     queue.push(body);
                 }
             }
@@ -127,7 +139,11 @@ impl Planner {
         let value = |e: &Expr| e.evaluate(&point).ok_or(());
         let g = Geometry::<f64>::of(scene, value).ok()?;
         let motion = reduction.kinematics(scene, &g);
-        let mut planner = Planner { unknowns: Vec::new(), candidates: Vec::new(), attached: reduction.tree.clone() };
+        let mut planner = Planner {
+            unknowns: Vec::new(),
+            candidates: Vec::new(),
+            attached: reduction.tree.clone(),
+        };
         for (law, cost) in candidate_laws(scene, reduction, &g) {
             let vector = |v: &Vector| Ok::<_, ()>([value(&v[0])?, value(&v[1])?]);
             let equation = laws::equation(scene, &g, &motion, &law, vector).ok()?;
@@ -143,27 +159,45 @@ impl Planner {
             if !row.is_empty() {
                 let mask = row.iter().fold(0, |m, (i, _)| m | 1 << i);
                 let cost = cost + 4 * row.len();
-                planner.candidates.push(Candidate { law, row, mask, cost });
+                planner.candidates.push(Candidate {
+                    law,
+                    row,
+                    mask,
+                    cost,
+                });
             }
         }
         Some(planner)
     }
 
     fn index(&mut self, unknown: Unknown) -> usize {
-        self.unknowns.iter().position(|u| *u == unknown).unwrap_or_else(|| {
-            self.unknowns.push(unknown);
-            self.unknowns.len() - 1
-        })
+        self.unknowns
+            .iter()
+            .position(|u| *u == unknown)
+            .unwrap_or_else(|| {
+                self.unknowns.push(unknown);
+                self.unknowns.len() - 1
+            })
     }
 
     /// The fewest laws that, with the `known` unknowns given, determine all `targets`; of equally many the simplest.
-    pub fn closing(&self, targets: &[Unknown], known: &dyn Fn(Unknown) -> bool) -> Option<(Vec<Law>, Vec<Unknown>)> {
+    pub fn closing(
+        &self,
+        targets: &[Unknown],
+        known: &dyn Fn(Unknown) -> bool,
+    ) -> Option<(Vec<Law>, Vec<Unknown>)> {
         let known_mask = self.mask(self.unknowns.iter().copied().filter(|u| known(*u)));
         let goal = self.mask(targets.iter().copied());
         if goal.count_ones() as usize != targets.len() {
             return None;
         }
-        let mut search = Search { planner: self, known: known_mask, best: None, steps: 0, limit: 0 };
+        let mut search = Search {
+            planner: self,
+            known: known_mask,
+            best: None,
+            steps: 0,
+            limit: 0,
+        };
         for k in goal.count_ones() as usize..=LARGEST {
             search.limit = k;
             search.extend(&mut Vec::new(), goal, 0);
@@ -172,20 +206,36 @@ impl Planner {
             }
         }
         let (_, chosen, union) = search.best?;
-        let laws = chosen.iter().map(|&c| self.candidates[c].law.clone()).collect();
+        let laws = chosen
+            .iter()
+            .map(|&c| self.candidates[c].law.clone())
+            .collect();
         let unknowns = bits(union).map(|i| self.unknowns[i]).collect();
         Some((laws, unknowns))
     }
 
     /// As many independent laws without unknown impulses as there are free velocities; for scenes too large to search.
-    pub fn without_impulses(&self, known: &dyn Fn(Unknown) -> bool) -> Option<(Vec<Law>, Vec<Unknown>)> {
+    pub fn without_impulses(
+        &self,
+        known: &dyn Fn(Unknown) -> bool,
+    ) -> Option<(Vec<Law>, Vec<Unknown>)> {
         let known_mask = self.mask(self.unknowns.iter().copied().filter(|u| known(*u)));
         let impulses = self.mask(self.unknowns.iter().copied().filter(|u| u.is_impulse()));
-        let free = self.mask(self.unknowns.iter().copied().filter(|u| !u.is_impulse())) & !known_mask;
+        let free =
+            self.mask(self.unknowns.iter().copied().filter(|u| !u.is_impulse())) & !known_mask;
         let mut order: Vec<usize> = (0..self.candidates.len())
-            .filter(|&c| self.candidates[c].mask & impulses & !known_mask == 0 && self.candidates[c].mask & free != 0)
+            .filter(|&c| {
+                self.candidates[c].mask & impulses & !known_mask == 0
+                    && self.candidates[c].mask & free != 0
+            })
             .collect();
-        order.sort_by_key(|&c| (self.candidates[c].mask.count_ones(), self.candidates[c].cost, c));
+        order.sort_by_key(|&c| {
+            (
+                self.candidates[c].mask.count_ones(),
+                self.candidates[c].cost,
+                c,
+            )
+        });
         let wanted = free.count_ones() as usize;
         let mut rows: Vec<Vec<f64>> = Vec::new();
         let mut chosen = Vec::new();
@@ -195,14 +245,21 @@ impl Planner {
             }
         }
         (chosen.len() == wanted && wanted > 0).then(|| {
-            let laws = chosen.iter().map(|&c| self.candidates[c].law.clone()).collect();
+            let laws = chosen
+                .iter()
+                .map(|&c| self.candidates[c].law.clone())
+                .collect();
             (laws, bits(free).map(|i| self.unknowns[i]).collect())
         })
     }
 
     /// The way with the impulse first: every unknown is paired with the balance of its own body, every contact impulse with
     /// the law of its contact, until nothing new turns up. `None` where a hinge takes part or a pair is missing.
-    pub fn impulse_first(&self, target: Unknown, known: &dyn Fn(Unknown) -> bool) -> Option<(Vec<Law>, Vec<Unknown>)> {
+    pub fn impulse_first(
+        &self,
+        target: Unknown,
+        known: &dyn Fn(Unknown) -> bool,
+    ) -> Option<(Vec<Law>, Vec<Unknown>)> {
         let mut unknowns = vec![target];
         let mut laws = Vec::new();
         let mut at = 0;
@@ -226,13 +283,44 @@ impl Planner {
     /// The law a teacher writes for the sake of this unknown.
     fn own_law(&self, unknown: Unknown) -> Option<&Candidate> {
         self.candidates.iter().find(|c| match (&c.law, unknown) {
-            (Law::LinearMomentum { system, along: Direction::X }, Unknown::Velocity(b, 0))
-            | (Law::LinearMomentum { system, along: Direction::Y }, Unknown::Velocity(b, 1)) => *system == [b],
-            (Law::LinearMomentum { system, along: Direction::X }, Unknown::Contact(k, 0))
-            | (Law::LinearMomentum { system, along: Direction::Y }, Unknown::Contact(k, 1)) => {
-                self.attached.iter().any(|link| link.at == Place::Contact(k) && *system == [link.body])
-            }
-            (Law::AngularMomentum { system, about: Place::Center(g) }, Unknown::Spin(b)) => *system == [b] && *g == b,
+            (
+                Law::LinearMomentum {
+                    system,
+                    along: Direction::X,
+                },
+                Unknown::Velocity(b, 0),
+            )
+            | (
+                Law::LinearMomentum {
+                    system,
+                    along: Direction::Y,
+                },
+                Unknown::Velocity(b, 1),
+            ) => *system == [b],
+            (
+                Law::LinearMomentum {
+                    system,
+                    along: Direction::X,
+                },
+                Unknown::Contact(k, 0),
+            )
+            | (
+                Law::LinearMomentum {
+                    system,
+                    along: Direction::Y,
+                },
+                Unknown::Contact(k, 1),
+            ) => self
+                .attached
+                .iter()
+                .any(|link| link.at == Place::Contact(k) && *system == [link.body]),
+            (
+                Law::AngularMomentum {
+                    system,
+                    about: Place::Center(g),
+                },
+                Unknown::Spin(b),
+            ) => *system == [b] && *g == b,
             (Law::Restitution(k), Unknown::Normal(c)) => *k == c,
             _ => false,
         })
@@ -246,7 +334,13 @@ impl Planner {
 
     fn dense(&self, candidate: usize, columns: u128) -> Vec<f64> {
         bits(columns)
-            .map(|i| self.candidates[candidate].row.iter().find(|(j, _)| *j == i).map_or(0.0, |(_, k)| *k))
+            .map(|i| {
+                self.candidates[candidate]
+                    .row
+                    .iter()
+                    .find(|(j, _)| *j == i)
+                    .map_or(0.0, |(_, k)| *k)
+            })
             .collect()
     }
 }
@@ -283,12 +377,18 @@ impl Search<'_> {
     }
 
     fn record(&mut self, chosen: &[usize], union: u128) {
-        let cost = chosen.iter().map(|&c| self.planner.candidates[c].cost).sum();
+        let cost = chosen
+            .iter()
+            .map(|&c| self.planner.candidates[c].cost)
+            .sum();
         if self.best.as_ref().is_some_and(|(best, ..)| *best <= cost) {
             return;
         }
         let mut rows = Vec::new();
-        if chosen.iter().all(|&c| adds_rank(&mut rows, self.planner.dense(c, union))) {
+        if chosen
+            .iter()
+            .all(|&c| adds_rank(&mut rows, self.planner.dense(c, union)))
+        {
             let mut laws = chosen.to_vec();
             laws.sort_unstable();
             self.best = Some((cost, laws, union));
@@ -310,7 +410,9 @@ fn adds_rank(rows: &mut Vec<Vec<f64>>, mut row: Vec<f64>) -> bool {
         }
         row[lead] = 0.0;
     }
-    let Some(lead) = (0..row.len()).max_by(|&a, &b| row[a].abs().total_cmp(&row[b].abs())) else { return false };
+    let Some(lead) = (0..row.len()).max_by(|&a, &b| row[a].abs().total_cmp(&row[b].abs())) else {
+        return false;
+    };
     if row[lead].abs() < ZERO {
         return false;
     }
@@ -330,15 +432,30 @@ fn candidate_laws(scene: &Scene, reduction: &Reduction, g: &Geometry<f64>) -> Ve
     for system in systems(scene, reduction) {
         let size = system.len();
         for along in [Direction::X, Direction::Y] {
-            laws.push((Law::LinearMomentum { system: system.clone(), along }, 2 * (size - 1)));
+            laws.push((
+                Law::LinearMomentum {
+                    system: system.clone(),
+                    along,
+                },
+                2 * (size - 1),
+            ));
         }
         for (c, contact) in scene.contacts.iter().enumerate() {
             let touches = contact.bodies.iter().filter(|b| system.contains(b)).count() == 1;
             if let (Some([nx, ny]), true) = (&contact.normal, touches) {
                 let is_axis = nx.as_number().is_some() && ny.as_number().is_some();
                 if matches!(scene.contacts[c].law, ContactLaw::Frictionless { .. }) && !is_axis {
-                    let along = Direction::Named(format!("the tangent at {}", contact.name), [-ny, nx.clone()]);
-                    laws.push((Law::LinearMomentum { system: system.clone(), along }, 2 * (size - 1) + 1));
+                    let along = Direction::Named(
+                        format!("the tangent at {}", contact.name),
+                        [-ny, nx.clone()],
+                    );
+                    laws.push((
+                        Law::LinearMomentum {
+                            system: system.clone(),
+                            along,
+                        },
+                        2 * (size - 1) + 1,
+                    ));
                 }
             }
         }
@@ -347,7 +464,13 @@ fn candidate_laws(scene: &Scene, reduction: &Reduction, g: &Geometry<f64>) -> Ve
         }
         for about in moment_points(scene, g, &system) {
             let own_center = matches!(about, Place::Center(_));
-            laws.push((Law::AngularMomentum { system: system.clone(), about }, 2 * (size - 1) + 1 + usize::from(own_center)));
+            laws.push((
+                Law::AngularMomentum {
+                    system: system.clone(),
+                    about,
+                },
+                2 * (size - 1) + 1 + usize::from(own_center),
+            ));
         }
     }
     for (c, contact) in scene.contacts.iter().enumerate() {
@@ -363,13 +486,18 @@ fn candidate_laws(scene: &Scene, reduction: &Reduction, g: &Geometry<f64>) -> Ve
 /// Connected systems of movable bodies: all of them in small scenes; else single bodies, the two sides of every joint of
 /// the tree, and whole components.
 fn systems(scene: &Scene, reduction: &Reduction) -> Vec<Vec<usize>> {
-    let free: Vec<usize> = (0..scene.bodies.len()).filter(|&b| !scene.bodies[b].is_fixed()).collect();
+    let free: Vec<usize> = (0..scene.bodies.len())
+        .filter(|&b| !scene.bodies[b].is_fixed())
+        .collect();
     let mut edges: Vec<[usize; 2]> = scene.hinges.iter().map(|h| h.bodies).collect();
     edges.extend(scene.contacts.iter().map(|c| c.bodies));
     let mut systems: Vec<Vec<usize>> = free.iter().map(|&b| vec![b]).collect();
     if free.len() <= 4 {
         for subset in 1_u32..1 << free.len() {
-            let bodies: Vec<usize> = (0..free.len()).filter(|i| subset >> i & 1 == 1).map(|i| free[i]).collect();
+            let bodies: Vec<usize> = (0..free.len())
+                .filter(|i| subset >> i & 1 == 1)
+                .map(|i| free[i])
+                .collect();
             if bodies.len() > 1 && is_connected(&bodies, &edges) {
                 systems.push(bodies);
             }
@@ -432,10 +560,27 @@ fn is_connected(bodies: &[usize], edges: &[[usize; 2]]) -> bool {
 fn moment_points(scene: &Scene, g: &Geometry<f64>, system: &[usize]) -> Vec<Place> {
     let touches = |bodies: &[usize; 2]| bodies.iter().any(|b| system.contains(b));
     let mut places: Vec<Place> = Vec::new();
-    places.extend((0..scene.contacts.len()).filter(|&c| touches(&scene.contacts[c].bodies)).map(Place::Contact));
-    places.extend((0..scene.hinges.len()).filter(|&h| touches(&scene.hinges[h].bodies)).map(Place::Hinge));
-    places.extend((0..scene.blows.len()).filter(|&b| system.contains(&scene.blows[b].body)).map(Place::Blow));
-    places.extend(system.iter().filter(|&&b| !scene.bodies[b].is_particle()).map(|&b| Place::Center(b)));
+    places.extend(
+        (0..scene.contacts.len())
+            .filter(|&c| touches(&scene.contacts[c].bodies))
+            .map(Place::Contact),
+    );
+    places.extend(
+        (0..scene.hinges.len())
+            .filter(|&h| touches(&scene.hinges[h].bodies))
+            .map(Place::Hinge),
+    );
+    places.extend(
+        (0..scene.blows.len())
+            .filter(|&b| system.contains(&scene.blows[b].body))
+            .map(Place::Blow),
+    );
+    places.extend(
+        system
+            .iter()
+            .filter(|&&b| !scene.bodies[b].is_particle())
+            .map(|&b| Place::Center(b)),
+    );
     let mut distinct: Vec<Place> = Vec::new();
     for place in places {
         let p = g.place(place);
@@ -467,7 +612,11 @@ fn generic_point(scene: &Scene) -> Point<f64> {
     point
 }
 
-fn on_unit_circles(domains: &Domains, values: &mut BTreeMap<Symbol, f64>, mut next: impl FnMut() -> f64) {
+fn on_unit_circles(
+    domains: &Domains,
+    values: &mut BTreeMap<Symbol, f64>,
+    mut next: impl FnMut() -> f64,
+) {
     for [a, b] in &domains.unit_vectors {
         let angle = next();
         values.insert(a.clone(), angle.cos());

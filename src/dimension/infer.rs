@@ -44,15 +44,35 @@ impl Clash {
     pub fn message(&self, write: &dyn Fn(&Expr) -> String) -> String {
         match self {
             Clash::Unknown(name) => format!("the dimension of {name} is not known"),
-            Clash::Sum { left, left_is, right, right_is } => {
-                let parts = format!("{} + {}: {left_is} against {right_is}", write(left), write(right));
+            Clash::Sum {
+                left,
+                left_is,
+                right,
+                right_is,
+            } => {
+                let parts = format!(
+                    "{} + {}: {left_is} against {right_is}",
+                    write(left),
+                    write(right)
+                );
                 format!("{parts}; {}", missing(left_is, right_is, &write(right)))
             }
-            Clash::NotANumber { whole, argument, is } => {
-                format!("in {}, {} should be a number and is {is}", write(whole), write(argument))
+            Clash::NotANumber {
+                whole,
+                argument,
+                is,
+            } => {
+                format!(
+                    "in {}, {} should be a number and is {is}",
+                    write(whole),
+                    write(argument)
+                )
             }
             Clash::OpenPower { whole, base_is } => {
-                format!("{} raises {base_is} to a power that is no fixed number", write(whole))
+                format!(
+                    "{} raises {base_is} to a power that is no fixed number",
+                    write(whole)
+                )
             }
         }
     }
@@ -60,25 +80,40 @@ impl Clash {
 
 /// Tells which factor would bring `found` to `expected`.
 fn missing(expected: &Dimension, found: &Dimension, name: &str) -> String {
-    format!("a factor of dimension {} is missing in {name}", expected.over(found).plain())
+    format!(
+        "a factor of dimension {} is missing in {name}",
+        expected.over(found).plain()
+    )
 }
 
 /// The dimension of an expression; `None` for a literal 0, which fits everything. Numbers and angles have no dimension.
-pub fn of(e: &Expr, symbols: &dyn Fn(&str) -> Option<Dimension>) -> Result<Option<Dimension>, Clash> {
+pub fn of(
+    e: &Expr,
+    symbols: &dyn Fn(&str) -> Option<Dimension>,
+) -> Result<Option<Dimension>, Clash> {
     match e.node() {
         Node::Number(_) if e.is_zero() => Ok(None),
         Node::Number(_) => Ok(Some(Dimension::none())),
         Node::Symbol(name) if &**name == "pi" => Ok(Some(Dimension::none())),
-        Node::Symbol(name) => symbols(name).map(Some).ok_or_else(|| Clash::Unknown(name.clone())),
+        Node::Symbol(name) => symbols(name)
+            .map(Some)
+            .ok_or_else(|| Clash::Unknown(name.clone())),
         Node::Sum(terms) => {
             let mut known: Option<(&Expr, Dimension)> = None;
             for term in terms {
-                let Some(found) = of(term, symbols)? else { continue };
+                let Some(found) = of(term, symbols)? else {
+                    continue;
+                };
                 match &known {
                     None => known = Some((term, found)),
                     Some((left, left_is)) if *left_is != found => {
                         let (left, left_is) = ((*left).clone(), left_is.clone());
-                        return Err(Clash::Sum { left, left_is, right: term.clone(), right_is: found });
+                        return Err(Clash::Sum {
+                            left,
+                            left_is,
+                            right: term.clone(),
+                            right_is: found,
+                        });
                     }
                     Some(_) => {}
                 }
@@ -95,12 +130,17 @@ pub fn of(e: &Expr, symbols: &dyn Fn(&str) -> Option<Dimension>) -> Result<Optio
         }
         Node::Power(base, exponent) => {
             number(e, exponent, symbols)?;
-            let Some(below) = of(base, symbols)? else { return Ok(None) };
+            let Some(below) = of(base, symbols)? else {
+                return Ok(None);
+            };
             match exponent.as_number() {
                 Some(k) if k.is_one() => Ok(Some(below)),
                 Some(k) => Ok(Some(below.power(k))),
                 None if below.is_none() => Ok(Some(below)),
-                None => Err(Clash::OpenPower { whole: e.clone(), base_is: below }),
+                None => Err(Clash::OpenPower {
+                    whole: e.clone(),
+                    base_is: below,
+                }),
             }
         }
         Node::Call(crate::expr::Function::Abs, argument) => of(argument, symbols),
@@ -111,9 +151,17 @@ pub fn of(e: &Expr, symbols: &dyn Fn(&str) -> Option<Dimension>) -> Result<Optio
     }
 }
 
-fn number(whole: &Expr, argument: &Expr, symbols: &dyn Fn(&str) -> Option<Dimension>) -> Result<(), Clash> {
+fn number(
+    whole: &Expr,
+    argument: &Expr,
+    symbols: &dyn Fn(&str) -> Option<Dimension>,
+) -> Result<(), Clash> {
     match of(argument, symbols)? {
-        Some(is) if !is.is_none() => Err(Clash::NotANumber { whole: whole.clone(), argument: argument.clone(), is }),
+        Some(is) if !is.is_none() => Err(Clash::NotANumber {
+            whole: whole.clone(),
+            argument: argument.clone(),
+            is,
+        }),
         _ => Ok(()),
     }
 }
@@ -137,11 +185,23 @@ mod tests {
     #[test]
     fn a_product_a_root_and_a_zero_have_the_dimension_they_should() {
         let [m, l, v, omega, t] = ["m", "l", "v", "omega", "t"].map(Expr::symbol);
-        assert_eq!(of(&(&m * &v), &mechanics), Ok(Some(Dimension::new(1, 1, -1))));
-        assert_eq!(of(&(&v.powi(2) + &(&l * &omega).powi(2)).sqrt(), &mechanics), Ok(Some(Dimension::new(0, 1, -1))));
-        assert_eq!(of(&(&omega * &t).sin(), &mechanics), Ok(Some(Dimension::none())));
+        assert_eq!(
+            of(&(&m * &v), &mechanics),
+            Ok(Some(Dimension::new(1, 1, -1)))
+        );
+        assert_eq!(
+            of(&(&v.powi(2) + &(&l * &omega).powi(2)).sqrt(), &mechanics),
+            Ok(Some(Dimension::new(0, 1, -1)))
+        );
+        assert_eq!(
+            of(&(&omega * &t).sin(), &mechanics),
+            Ok(Some(Dimension::none()))
+        );
         assert_eq!(of(&Expr::zero(), &mechanics), Ok(None));
-        assert_eq!(of(&Expr::symbol("q"), &mechanics), Err(Clash::Unknown("q".into())));
+        assert_eq!(
+            of(&Expr::symbol("q"), &mechanics),
+            Err(Clash::Unknown("q".into()))
+        );
     }
 
     #[test]
@@ -149,9 +209,21 @@ mod tests {
         let [m, l, v] = ["m", "l", "v"].map(Expr::symbol);
         let clash = of(&(&m * &v + &l), &mechanics).unwrap_err();
         let told = clash.message(&|e| format!("{e:?}"));
-        assert_eq!(told, "(* m v) + l: mass × length/time against length; a factor of dimension mass/time is missing in l");
-        assert!(matches!(of(&l.sin(), &mechanics), Err(Clash::NotANumber { .. })));
-        assert!(matches!(of(&l.power(m), &mechanics), Err(Clash::NotANumber { .. })));
-        assert!(matches!(of(&l.power(Expr::symbol("e")), &mechanics), Err(Clash::OpenPower { .. })));
+        assert_eq!(
+            told,
+            "(* m v) + l: mass × length/time against length; a factor of dimension mass/time is missing in l"
+        );
+        assert!(matches!(
+            of(&l.sin(), &mechanics),
+            Err(Clash::NotANumber { .. })
+        ));
+        assert!(matches!(
+            of(&l.power(m), &mechanics),
+            Err(Clash::NotANumber { .. })
+        ));
+        assert!(matches!(
+            of(&l.power(Expr::symbol("e")), &mechanics),
+            Err(Clash::OpenPower { .. })
+        ));
     }
 }

@@ -30,7 +30,11 @@ impl Dimension {
     /// The dimension mass^`mass` · length^`length` · time^`time`.
     pub fn new(mass: i64, length: i64, time: i64) -> Dimension {
         let whole = |k| crate::expr::ratio(k, 1);
-        Dimension { mass: whole(mass), length: whole(length), time: whole(time) }
+        Dimension {
+            mass: whole(mass),
+            length: whole(length),
+            time: whole(time),
+        }
     }
 
     /// No dimension: a number or an angle.
@@ -63,13 +67,21 @@ impl Dimension {
 
     /// Dimension of a power.
     pub fn power(&self, exponent: &Rational) -> Dimension {
-        Dimension { mass: &self.mass * exponent, length: &self.length * exponent, time: &self.time * exponent }
+        Dimension {
+            mass: &self.mass * exponent,
+            length: &self.length * exponent,
+            time: &self.time * exponent,
+        }
     }
 
     /// In plain characters, such as `mass*length^2/time`; `1` without dimension.
     pub fn plain(&self) -> String {
         self.spell(["mass", "length", "time"], "*", |k| {
-            if k.is_integer() { format!("^{k}") } else { format!("^({k})") }
+            if k.is_integer() {
+                format!("^{k}")
+            } else {
+                format!("^({k})")
+            }
         })
     }
 
@@ -84,13 +96,21 @@ impl Dimension {
             for (name, k) in names.iter().zip([&self.mass, &self.length, &self.time]) {
                 if !k.is_zero() && k.is_positive() == positive {
                     let size = k.abs();
-                    parts.push(if size.is_one() { (*name).to_string() } else { format!("{name}{}", raise(&size)) });
+                    parts.push(if size.is_one() {
+                        (*name).to_string()
+                    } else {
+                        format!("{name}{}", raise(&size))
+                    });
                 }
             }
             parts
         };
         let (above, below) = (part(true), part(false));
-        let numerator = if above.is_empty() { "1".to_string() } else { above.join(times) };
+        let numerator = if above.is_empty() {
+            "1".to_string()
+        } else {
+            above.join(times)
+        };
         match below.as_slice() {
             [] => numerator,
             [one] => format!("{numerator}/{one}"),
@@ -142,6 +162,9 @@ mod tests {
         assert_eq!(momentum.si(), "kg m²/s");
         assert_eq!(Dimension::none().to_string(), "a number");
         assert_eq!(Dimension::new(0, 0, -1).plain(), "1/time");
-        assert_eq!(Dimension::new(0, 1, 0).power(&ratio(1, 2)).plain(), "length^(1/2)");
+        assert_eq!(
+            Dimension::new(0, 1, 0).power(&ratio(1, 2)).plain(),
+            "length^(1/2)"
+        );
     }
 }

@@ -29,7 +29,12 @@ impl Unit {
     }
 
     fn number() -> Unit {
-        Unit { dimension: Dimension::none(), factor: Rational::one(), pi: Rational::zero(), angle: false }
+        Unit {
+            dimension: Dimension::none(),
+            factor: Rational::one(),
+            pi: Rational::zero(),
+            angle: false,
+        }
     }
 
     fn times(&self, other: &Unit, power: i64) -> Unit {
@@ -62,7 +67,11 @@ const HIGHEST: i64 = 12;
 /// Reads a unit; the whole text is consumed or it is a fault. `1` and the empty text are the unit of a pure number.
 pub fn unit(text: &str) -> Result<Unit, UnitFault> {
     if text.len() > LONGEST {
-        return Err(fault(format!("a unit has at most {LONGEST} bytes"), 0, text.len()));
+        return Err(fault(
+            format!("a unit has at most {LONGEST} bytes"),
+            0,
+            text.len(),
+        ));
     }
     let mut reader = Reader { text, at: 0 };
     reader.product(0)
@@ -86,7 +95,11 @@ impl<'a> Reader<'a> {
             match c {
                 ')' if depth > 0 => break,
                 '*' | '·' | '⋅' | '.' | '×' | '/' if waiting || before == 0 => {
-                    return Err(fault(format!("a unit is missing before `{c}`"), self.at, self.at + c.len_utf8()));
+                    return Err(fault(
+                        format!("a unit is missing before `{c}`"),
+                        self.at,
+                        self.at + c.len_utf8(),
+                    ));
                 }
                 '*' | '·' | '⋅' | '.' | '×' => {
                     self.at += c.len_utf8();
@@ -99,7 +112,11 @@ impl<'a> Reader<'a> {
                 }
                 '/' => {
                     if over {
-                        return Err(fault("two slashes in a unit are read in two ways; use brackets".into(), self.at, self.at + 1));
+                        return Err(fault(
+                            "two slashes in a unit are read in two ways; use brackets".into(),
+                            self.at,
+                            self.at + 1,
+                        ));
                     }
                     self.at += 1;
                     (over, waiting) = (true, true);
@@ -124,7 +141,11 @@ impl<'a> Reader<'a> {
             waiting = false;
         }
         if waiting {
-            return Err(fault("the unit ends where another one is expected".into(), self.text.len(), self.text.len()));
+            return Err(fault(
+                "the unit ends where another one is expected".into(),
+                self.text.len(),
+                self.text.len(),
+            ));
         }
         Ok(total)
     }
@@ -141,7 +162,11 @@ impl<'a> Reader<'a> {
                 self.at += 1;
                 let inner = self.product(depth + 1)?;
                 if self.peek() != Some(')') {
-                    return Err(fault("the bracket is not closed".into(), start, self.text.len()));
+                    return Err(fault(
+                        "the bracket is not closed".into(),
+                        start,
+                        self.text.len(),
+                    ));
                 }
                 self.at += 1;
                 Ok(inner)
@@ -156,12 +181,18 @@ impl<'a> Reader<'a> {
             }
             _ => {
                 let rest = &self.text[start..];
-                let length = rest.find(|c: char| !(c.is_ascii_alphabetic() || c == 'µ' || c == 'μ')).unwrap_or(rest.len());
+                let length = rest
+                    .find(|c: char| !(c.is_ascii_alphabetic() || c == 'µ' || c == 'μ'))
+                    .unwrap_or(rest.len());
                 let word = &rest[..length];
                 let end = start + length.max(rest.chars().next().map_or(0, char::len_utf8));
                 let read = named(word).ok_or_else(|| {
                     let shown = &self.text[start..end];
-                    fault(format!("`{shown}` is no unit of mechanics I know"), start, end)
+                    fault(
+                        format!("`{shown}` is no unit of mechanics I know"),
+                        start,
+                        end,
+                    )
                 })?;
                 self.at = end;
                 Ok(read)
@@ -216,7 +247,11 @@ impl<'a> Reader<'a> {
         self.at += length.min(rest.len());
         match digits.parse::<i64>() {
             Ok(k) if k.abs() <= HIGHEST && k != 0 => Ok(k),
-            _ => Err(fault(format!("the exponent of a unit is a whole number up to {HIGHEST}"), start, self.at)),
+            _ => Err(fault(
+                format!("the exponent of a unit is a whole number up to {HIGHEST}"),
+                start,
+                self.at,
+            )),
         }
     }
 
@@ -235,7 +270,11 @@ impl<'a> Reader<'a> {
 }
 
 fn fault(message: String, start: usize, end: usize) -> UnitFault {
-    UnitFault { message, start, end }
+    UnitFault {
+        message,
+        start,
+        end,
+    }
 }
 
 fn raise(value: &Rational, power: i64) -> Rational {
@@ -245,7 +284,12 @@ fn raise(value: &Rational, power: i64) -> Rational {
 }
 
 fn angle(factor: Rational, pi: i64) -> Unit {
-    Unit { dimension: Dimension::none(), factor, pi: ratio(pi, 1), angle: true }
+    Unit {
+        dimension: Dimension::none(),
+        factor,
+        pi: ratio(pi, 1),
+        angle: true,
+    }
 }
 
 /// A unit by its name, with a prefix where the SI allows one.
@@ -253,7 +297,9 @@ fn named(word: &str) -> Option<Unit> {
     if let Some(found) = plain(word) {
         return Some(found);
     }
-    let (prefix, power) = PREFIXES.iter().find(|(prefix, _)| word.starts_with(prefix) && word.len() > prefix.len())?;
+    let (prefix, power) = PREFIXES
+        .iter()
+        .find(|(prefix, _)| word.starts_with(prefix) && word.len() > prefix.len())?;
     let base = &word[prefix.len()..];
     if !TAKES_PREFIX.contains(&base) {
         return None;
@@ -284,7 +330,11 @@ const PREFIXES: [(&str, i64); 13] = [
 const TAKES_PREFIX: [&str; 9] = ["g", "m", "s", "N", "J", "W", "Pa", "Hz", "rad"];
 
 fn plain(word: &str) -> Option<Unit> {
-    let si = |mass, length, time, factor| Unit { dimension: Dimension::new(mass, length, time), factor, ..Unit::number() };
+    let si = |mass, length, time, factor| Unit {
+        dimension: Dimension::new(mass, length, time),
+        factor,
+        ..Unit::number()
+    };
     let one = Rational::one;
     Some(match word {
         "kg" => si(1, 0, 0, one()),
@@ -304,12 +354,25 @@ fn plain(word: &str) -> Option<Unit> {
         "rad" => angle(one(), 0),
         "deg" | "degree" | "degrees" => angle(ratio(1, 180), 1),
         "rev" | "turn" => angle(ratio(2, 1), 1),
-        "rpm" => Unit { dimension: Dimension::new(0, 0, -1), ..angle(ratio(1, 30), 1) },
+        "rpm" => Unit {
+            dimension: Dimension::new(0, 0, -1),
+            ..angle(ratio(1, 30), 1)
+        },
         "in" => si(0, 1, 0, ratio(127, 5000)),
         "ft" => si(0, 1, 0, ratio(381, 1250)),
         "lb" | "lbm" => si(1, 0, 0, ratio(45_359_237, 100_000_000)),
-        "lbf" => si(1, 1, -2, ratio(45_359_237, 100_000_000) * ratio(980_665, 100_000)),
-        "slug" => si(1, 0, 0, ratio(45_359_237, 100_000_000) * ratio(980_665, 100_000) * ratio(1250, 381)),
+        "lbf" => si(
+            1,
+            1,
+            -2,
+            ratio(45_359_237, 100_000_000) * ratio(980_665, 100_000),
+        ),
+        "slug" => si(
+            1,
+            0,
+            0,
+            ratio(45_359_237, 100_000_000) * ratio(980_665, 100_000) * ratio(1250, 381),
+        ),
         "mph" => si(0, 1, -1, ratio(1397, 3125)),
         _ => return None,
     })
@@ -348,19 +411,35 @@ mod tests {
         ];
         for (text, dimension, (n, d)) in table {
             let read = unit(text).unwrap_or_else(|fault| panic!("{text}: {}", fault.message));
-            assert_eq!((read.dimension, read.factor), (dimension, ratio(n, d)), "{text}");
+            assert_eq!(
+                (read.dimension, read.factor),
+                (dimension, ratio(n, d)),
+                "{text}"
+            );
         }
-        assert_eq!(unit("deg").map(|u| u.value()), Ok(Expr::pi() * Expr::ratio(1, 180)));
-        assert_eq!(unit("rpm").map(|u| u.value()), Ok(Expr::pi() * Expr::ratio(1, 30)));
+        assert_eq!(
+            unit("deg").map(|u| u.value()),
+            Ok(Expr::pi() * Expr::ratio(1, 180))
+        );
+        assert_eq!(
+            unit("rpm").map(|u| u.value()),
+            Ok(Expr::pi() * Expr::ratio(1, 30))
+        );
     }
 
     #[test]
     fn what_is_no_unit_is_refused_with_its_place() {
-        for text in ["Kg", "kg m^", "kg/m/s", "kg/m s", "m^99999", "v", "m/", "/s", "m··s", "(m", "m)", "kkg", "^2", "m^0", "é"] {
+        for text in [
+            "Kg", "kg m^", "kg/m/s", "kg/m s", "m^99999", "v", "m/", "/s", "m··s", "(m", "m)",
+            "kkg", "^2", "m^0", "é",
+        ] {
             let found = unit(text);
             assert!(found.is_err(), "{text} was read as {found:?}");
             let fault = found.unwrap_err();
-            assert!(fault.start <= fault.end && fault.end <= text.len(), "{text}: {fault:?}");
+            assert!(
+                fault.start <= fault.end && fault.end <= text.len(),
+                "{text}: {fault:?}"
+            );
         }
     }
 }

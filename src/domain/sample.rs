@@ -170,7 +170,9 @@ pub fn samples(roles: &Roles, domains: &Domains, count: usize) -> Vec<Sample> {
             for (name, domain, list) in &axes {
                 let drawn = random_number(domain, &mut random).filter(|v| domain.contains(v));
                 if let (Coordinate::Number(_), Some(value)) = (&list[0], drawn) {
-                    point.coordinates.insert((*name).clone(), Coordinate::Number(value));
+                    point
+                        .coordinates
+                        .insert((*name).clone(), Coordinate::Number(value));
                 }
             }
         }

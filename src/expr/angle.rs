@@ -18,7 +18,10 @@ pub struct Angle {
 /// Reads an expression as an angle: `None` where it is not a rational combination of symbols and π (a bare number, a
 /// product of symbols, a root).
 pub fn angle(e: &Expr) -> Option<Angle> {
-    let mut out = Angle { symbols: BTreeMap::new(), pi: Rational::zero() };
+    let mut out = Angle {
+        symbols: BTreeMap::new(),
+        pi: Rational::zero(),
+    };
     let terms = match e.node() {
         Node::Sum(terms) => terms.as_slice(),
         _ => std::slice::from_ref(e),
@@ -38,10 +41,14 @@ fn add_term(term: &Expr, factor: Rational, out: &mut Angle) -> Option<()> {
             Some(())
         }
         Node::Symbol(name) => {
-            *out.symbols.entry(name.clone()).or_insert_with(Rational::zero) += factor;
+            *out.symbols
+                .entry(name.clone())
+                .or_insert_with(Rational::zero) += factor;
             Some(())
         }
-        Node::Sum(terms) => terms.iter().try_for_each(|t| add_term(t, factor.clone(), out)),
+        Node::Sum(terms) => terms
+            .iter()
+            .try_for_each(|t| add_term(t, factor.clone(), out)),
         Node::Product(factors) => match factors.as_slice() {
             [number, rest] => add_term(rest, factor * number.as_number()?, out),
             _ => None,

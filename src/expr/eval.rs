@@ -42,7 +42,10 @@ pub struct Point<T> {
 
 impl<T> Default for Point<T> {
     fn default() -> Self {
-        Point { values: BTreeMap::new(), directions: BTreeMap::new() }
+        Point {
+            values: BTreeMap::new(),
+            directions: BTreeMap::new(),
+        }
     }
 }
 
@@ -78,10 +81,18 @@ fn power<T: Scalar>(base: &T, exponent: &Expr, at: &Point<T>) -> Option<T> {
         let twice = k * Rational::from(Int::from(2));
         if twice.is_integer() {
             let n = twice.numer().as_i64()?;
-            let root = if n % 2 == 0 { base.clone() } else { base.sqrt()? };
+            let root = if n % 2 == 0 {
+                base.clone()
+            } else {
+                base.sqrt()?
+            };
             let times = if n % 2 == 0 { n / 2 } else { n };
             let raised = integer_power(&root, times.unsigned_abs());
-            return if times < 0 { raised.recip() } else { Some(raised) };
+            return if times < 0 {
+                raised.recip()
+            } else {
+                Some(raised)
+            };
         }
     }
     base.pow(&exponent.evaluate(at)?)
@@ -143,7 +154,13 @@ fn quarter_turns<T: Scalar>(pi: &Rational) -> Option<[T; 2]> {
     }
     let (one, zero) = (Rational::one(), Rational::zero());
     let k = quarters.numer().mod_floor(&Int::from(4)).as_i64()?;
-    let [c, s] = [[&one, &zero], [&zero, &one], [&-&one, &zero], [&zero, &-&one]][k as usize].map(T::from_rational);
+    let [c, s] = [
+        [&one, &zero],
+        [&zero, &one],
+        [&-&one, &zero],
+        [&zero, &-&one],
+    ][k as usize]
+        .map(T::from_rational);
     Some([c, s])
 }
 
@@ -238,7 +255,9 @@ impl Scalar for Rational {
     fn call(&self, function: Function) -> Option<Rational> {
         match function {
             Function::Abs => Some(self.abs()),
-            Function::Sin | Function::Tan | Function::Asin | Function::Atan if self.is_zero() => Some(Rational::zero()),
+            Function::Sin | Function::Tan | Function::Asin | Function::Atan if self.is_zero() => {
+                Some(Rational::zero())
+            }
             Function::Cos if self.is_zero() => Some(Rational::one()),
             _ => None,
         }
@@ -254,7 +273,8 @@ mod tests {
     fn a_rational_point_of_the_circle_makes_multiple_angles_exact() {
         let theta = Expr::symbol("theta");
         let mut at = Point::<Rational>::default();
-        at.directions.insert("theta".into(), (1, [ratio(3, 5), ratio(4, 5)]));
+        at.directions
+            .insert("theta".into(), (1, [ratio(3, 5), ratio(4, 5)]));
         let cos2 = (&theta * &Expr::from(2)).cos();
         assert_eq!(cos2.evaluate(&at), Some(ratio(-7, 25)));
         let shifted = (&theta + &(Expr::pi() * Expr::ratio(1, 2))).sin();
@@ -263,7 +283,15 @@ mod tests {
 
     #[test]
     fn a_fraction_has_no_irrational_root() {
-        assert_eq!(Expr::from(2).sqrt().evaluate(&Point::<Rational>::default()), None);
-        assert_eq!(Expr::from(0).powi(-1).evaluate(&Point::<Rational>::default()), None);
+        assert_eq!(
+            Expr::from(2).sqrt().evaluate(&Point::<Rational>::default()),
+            None
+        );
+        assert_eq!(
+            Expr::from(0)
+                .powi(-1)
+                .evaluate(&Point::<Rational>::default()),
+            None
+        );
     }
 }

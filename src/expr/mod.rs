@@ -63,8 +63,18 @@ pub enum Function {
 impl Function {
     /// Every function, in the order of declaration.
     pub const ALL: [Function; 12] = [
-        Function::Sin, Function::Cos, Function::Tan, Function::Asin, Function::Acos, Function::Atan,
-        Function::Sinh, Function::Cosh, Function::Tanh, Function::Exp, Function::Ln, Function::Abs,
+        Function::Sin,
+        Function::Cos,
+        Function::Tan,
+        Function::Asin,
+        Function::Acos,
+        Function::Atan,
+        Function::Sinh,
+        Function::Cosh,
+        Function::Tanh,
+        Function::Exp,
+        Function::Ln,
+        Function::Abs,
     ];
 
     /// The name in plain infix notation.
@@ -210,10 +220,14 @@ impl Expr {
             if power.is_one() {
                 return self.clone();
             }
-            if power.is_zero() && (self.as_symbol().is_some() || self.as_number().is_some_and(|b| !b.is_zero())) {
+            if power.is_zero()
+                && (self.as_symbol().is_some() || self.as_number().is_some_and(|b| !b.is_zero()))
+            {
                 return Expr::one();
             }
-            if let (Some(base), true, Some(k)) = (self.as_number(), power.is_integer(), power.numer().as_i64()) {
+            if let (Some(base), true, Some(k)) =
+                (self.as_number(), power.is_integer(), power.numer().as_i64())
+            {
                 // 64 bits per unit of exponent at most: a number a person could have written.
                 if k.unsigned_abs() <= 64 && !(base.is_zero() && k <= 0) {
                     let k32 = k.unsigned_abs() as u32;
@@ -254,17 +268,29 @@ impl Expr {
 
     /// Sine; sin 0 is 0.
     pub fn sin(&self) -> Expr {
-        if self.is_zero() { Expr::zero() } else { Expr::call(Function::Sin, self.clone()) }
+        if self.is_zero() {
+            Expr::zero()
+        } else {
+            Expr::call(Function::Sin, self.clone())
+        }
     }
 
     /// Cosine; cos 0 is 1.
     pub fn cos(&self) -> Expr {
-        if self.is_zero() { Expr::one() } else { Expr::call(Function::Cos, self.clone()) }
+        if self.is_zero() {
+            Expr::one()
+        } else {
+            Expr::call(Function::Cos, self.clone())
+        }
     }
 
     /// Tangent; tan 0 is 0.
     pub fn tan(&self) -> Expr {
-        if self.is_zero() { Expr::zero() } else { Expr::call(Function::Tan, self.clone()) }
+        if self.is_zero() {
+            Expr::zero()
+        } else {
+            Expr::call(Function::Tan, self.clone())
+        }
     }
 
     /// Calls `visit` for this expression and everything inside it, outer before inner.
@@ -327,15 +353,30 @@ impl Expr {
     pub fn derivative(&self, by: &str) -> Expr {
         match self.node() {
             Node::Number(_) => Expr::zero(),
-            Node::Symbol(name) => if &**name == by { Expr::one() } else { Expr::zero() },
+            Node::Symbol(name) => {
+                if &**name == by {
+                    Expr::one()
+                } else {
+                    Expr::zero()
+                }
+            }
             Node::Sum(terms) => Expr::sum(terms.iter().map(|t| t.derivative(by))),
             Node::Product(factors) => Expr::sum((0..factors.len()).map(|i| {
-                Expr::product(factors.iter().enumerate().map(|(j, f)| if i == j { f.derivative(by) } else { f.clone() }))
+                Expr::product(
+                    factors
+                        .iter()
+                        .enumerate()
+                        .map(|(j, f)| if i == j { f.derivative(by) } else { f.clone() }),
+                )
             })),
             Node::Power(base, exponent) => {
                 let outer = exponent * &base.power(exponent - &Expr::one()) * base.derivative(by);
                 let inner = exponent.derivative(by);
-                if inner.is_zero() { outer } else { outer + self * &Expr::call(Function::Ln, base.clone()) * inner }
+                if inner.is_zero() {
+                    outer
+                } else {
+                    outer + self * &Expr::call(Function::Ln, base.clone()) * inner
+                }
             }
             Node::Call(function, x) => {
                 let one = Expr::one;
@@ -363,10 +404,15 @@ impl Expr {
         let mut total = true;
         self.walk(&mut |e| match e.node() {
             Node::Power(_, exponent) => {
-                total &= exponent.as_number().is_some_and(|k| k.is_integer() && k.is_positive());
+                total &= exponent
+                    .as_number()
+                    .is_some_and(|k| k.is_integer() && k.is_positive());
             }
             Node::Call(f, _) => {
-                total &= !matches!(f, Function::Tan | Function::Asin | Function::Acos | Function::Ln);
+                total &= !matches!(
+                    f,
+                    Function::Tan | Function::Asin | Function::Acos | Function::Ln
+                );
             }
             _ => {}
         });
@@ -457,7 +503,9 @@ impl fmt::Debug for Expr {
             Node::Sum(parts) => list(f, "+", parts),
             Node::Product(parts) => list(f, "*", parts),
             Node::Power(base, exponent) => list(f, "^", &[base.clone(), exponent.clone()]),
-            Node::Call(function, argument) => list(f, function.name(), std::slice::from_ref(argument)),
+            Node::Call(function, argument) => {
+                list(f, function.name(), std::slice::from_ref(argument))
+            }
         }
     }
 }
@@ -489,7 +537,10 @@ mod tests {
         let x = Expr::symbol("x");
         assert_eq!(Expr::from(2) * &x * Expr::ratio(1, 2), x);
         assert_eq!(&x + &Expr::zero(), x);
-        assert_eq!(&x - &x + Expr::from(1) - Expr::from(1), Expr::sum([x.clone(), -&x]));
+        assert_eq!(
+            &x - &x + Expr::from(1) - Expr::from(1),
+            Expr::sum([x.clone(), -&x])
+        );
     }
 
     #[test]

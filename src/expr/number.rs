@@ -5,7 +5,9 @@
 
 use std::cmp::Ordering;
 use std::fmt;
-use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign};
+use std::ops::{
+    Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign,
+};
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -165,8 +167,20 @@ impl Ord for Int {
         match (&self.0, &other.0) {
             (Small(a), Small(b)) => a.cmp(b),
             // A big value lies outside the range of every small one, so its sign alone decides.
-            (Big(a), Small(_)) => if a.is_negative() { Ordering::Less } else { Ordering::Greater },
-            (Small(_), Big(b)) => if b.is_negative() { Ordering::Greater } else { Ordering::Less },
+            (Big(a), Small(_)) => {
+                if a.is_negative() {
+                    Ordering::Less
+                } else {
+                    Ordering::Greater
+                }
+            }
+            (Small(_), Big(b)) => {
+                if b.is_negative() {
+                    Ordering::Greater
+                } else {
+                    Ordering::Less
+                }
+            }
             (Big(a), Big(b)) => a.cmp(b),
         }
     }
@@ -205,10 +219,18 @@ impl Num for Int {
 
 impl Signed for Int {
     fn abs(&self) -> Int {
-        if self.is_negative() { -self } else { self.clone() }
+        if self.is_negative() {
+            -self
+        } else {
+            self.clone()
+        }
     }
     fn abs_sub(&self, other: &Int) -> Int {
-        if self <= other { Int::zero() } else { self - other }
+        if self <= other {
+            Int::zero()
+        } else {
+            self - other
+        }
     }
     fn signum(&self) -> Int {
         Int(Small(match self.cmp(&Int::zero()) {
@@ -255,7 +277,11 @@ impl Integer for Int {
         self.is_multiple_of(other)
     }
     fn is_multiple_of(&self, other: &Int) -> bool {
-        if other.is_zero() { self.is_zero() } else { (self % other).is_zero() }
+        if other.is_zero() {
+            self.is_zero()
+        } else {
+            (self % other).is_zero()
+        }
     }
     fn is_even(&self) -> bool {
         match &self.0 {
@@ -325,13 +351,18 @@ pub fn to_f64(value: &Rational) -> f64 {
         }
     }
     // num-rational rounds correctly for big integers.
-    num_rational::BigRational::new_raw(n.to_bigint(), d.to_bigint()).to_f64().unwrap_or(f64::NAN)
+    num_rational::BigRational::new_raw(n.to_bigint(), d.to_bigint())
+        .to_f64()
+        .unwrap_or(f64::NAN)
 }
 
 /// The exact value of a double; `None` for infinities and NaN.
 pub fn from_f64(value: f64) -> Option<Rational> {
     let exact = num_rational::BigRational::from_float(value)?;
-    Some(Rational::new_raw(Int::from(exact.numer().clone()), Int::from(exact.denom().clone())))
+    Some(Rational::new_raw(
+        Int::from(exact.numer().clone()),
+        Int::from(exact.denom().clone()),
+    ))
 }
 
 #[cfg(test)]
@@ -342,9 +373,15 @@ mod tests {
     fn arithmetic_leaves_machine_words_without_wrapping() {
         let max = Int::from(i64::MAX);
         assert_eq!((&max + &Int::one()).to_string(), "9223372036854775808");
-        assert_eq!((&max * &max).to_string(), "85070591730234615847396907784232501249");
+        assert_eq!(
+            (&max * &max).to_string(),
+            "85070591730234615847396907784232501249"
+        );
         assert_eq!(-Int::from(i64::MIN), &max + &Int::one());
-        assert_eq!(Int::from(i64::MIN).gcd(&Int::from(i64::MIN)), &max + &Int::one());
+        assert_eq!(
+            Int::from(i64::MIN).gcd(&Int::from(i64::MIN)),
+            &max + &Int::one()
+        );
     }
 
     #[test]

@@ -41,15 +41,23 @@ pub(crate) fn value(w: &Written, upper: bool) -> Faulty<Value> {
                 None => return scalar(one(inner, upper)?.sqrt()),
                 Some(index) => one(index, upper)?,
             };
-            let k = index.as_number().filter(|k| k.is_integer() && k.is_positive());
+            let k = index
+                .as_number()
+                .filter(|k| k.is_integer() && k.is_positive());
             match k.and_then(|k| k.numer().as_i64()) {
                 Some(2) => scalar(one(inner, upper)?.sqrt()),
                 Some(k) if k <= 64 => scalar(one(inner, upper)?.power(Expr::ratio(1, k))),
-                _ => Err(Fault::new("the index of a root is a whole number from 1 to 64", w.start, w.end)),
+                _ => Err(Fault::new(
+                    "the index of a root is a whole number from 1 to 64",
+                    w.start,
+                    w.end,
+                )),
             }
         }
         Shape::Call(function, argument) => scalar(call(*function, one(argument, upper)?)),
-        Shape::Reciprocal(function, argument) => scalar(call(*function, one(argument, upper)?).powi(-1)),
+        Shape::Reciprocal(function, argument) => {
+            scalar(call(*function, one(argument, upper)?).powi(-1))
+        }
         Shape::Bracket(inner) => value(inner, upper),
         Shape::Abs(inner) => scalar(Expr::call(Function::Abs, one(inner, upper)?)),
         Shape::Degrees(inner) => scalar(one(inner, upper)? * Expr::pi() * Expr::ratio(1, 180)),
@@ -67,7 +75,11 @@ pub(crate) fn value(w: &Written, upper: bool) -> Faulty<Value> {
 pub(crate) fn one(w: &Written, upper: bool) -> Faulty<Expr> {
     match value(w, upper)? {
         Value::Scalar(e) => Ok(e),
-        Value::Vector(_) => Err(Fault::new("a vector stands where a number is expected", w.start, w.end)),
+        Value::Vector(_) => Err(Fault::new(
+            "a vector stands where a number is expected",
+            w.start,
+            w.end,
+        )),
     }
 }
 
@@ -100,7 +112,11 @@ fn sum(w: &Written, terms: &[(Sign, Written)], upper: bool) -> Faulty<Value> {
         return bounded(&total, w).map(|()| Value::Scalar(total));
     }
     if scalars.iter().any(|e| !e.is_zero()) {
-        return Err(Fault::new("a vector and a number are added", w.start, w.end));
+        return Err(Fault::new(
+            "a vector and a number are added",
+            w.start,
+            w.end,
+        ));
     }
     let along = |k: usize| Expr::sum(vectors.iter().map(|v| v[k].clone()));
     Ok(Value::Vector([along(0), along(1), along(2)]))
@@ -129,12 +145,20 @@ fn multiply(w: &Written, values: impl IntoIterator<Item = Value>) -> Faulty<Valu
             }
             Value::Vector(v) if vector.is_none() => vector = Some(v),
             Value::Vector(_) => {
-                return Err(Fault::new("a product of two vectors is not read", w.start, w.end));
+                return Err(Fault::new(
+                    "a product of two vectors is not read",
+                    w.start,
+                    w.end,
+                ));
             }
         }
     }
     if bits > MAX_BITS {
-        return Err(Fault::new("the numbers in this product are too large", w.start, w.end));
+        return Err(Fault::new(
+            "the numbers in this product are too large",
+            w.start,
+            w.end,
+        ));
     }
     let scale = Expr::product(scalars);
     Ok(match vector {
@@ -157,10 +181,18 @@ fn power(w: &Written, base: &Written, exponent: Expr, upper: bool) -> Faulty<Exp
     if let Some(k) = exponent.as_number() {
         let most = Rational::from(crate::expr::Int::from(MAX_POWER));
         if k.abs() > most {
-            return Err(Fault::new(format!("an exponent is at most {MAX_POWER}"), w.start, w.end));
+            return Err(Fault::new(
+                format!("an exponent is at most {MAX_POWER}"),
+                w.start,
+                w.end,
+            ));
         }
         if below.is_zero() && !k.is_positive() {
-            return Err(Fault::new("zero to a power that is not positive has no value", w.start, w.end));
+            return Err(Fault::new(
+                "zero to a power that is not positive has no value",
+                w.start,
+                w.end,
+            ));
         }
         let times = k.numer().as_i64().unwrap_or(0).unsigned_abs();
         let folds = k.is_integer() && times <= 64;
@@ -170,7 +202,11 @@ fn power(w: &Written, base: &Written, exponent: Expr, upper: bool) -> Faulty<Exp
         // Towers such as ((x^100)^100)^100 multiply their exponents.
         if let crate::expr::Node::Power(_, inner) = below.node() {
             if inner.as_number().is_some_and(|a| (a * k).abs() > most) {
-                return Err(Fault::new(format!("an exponent is at most {MAX_POWER}"), w.start, w.end));
+                return Err(Fault::new(
+                    format!("an exponent is at most {MAX_POWER}"),
+                    w.start,
+                    w.end,
+                ));
             }
         }
         if *k == crate::expr::ratio(1, 2) {
@@ -188,7 +224,9 @@ fn leading_bits(e: &Expr) -> u64 {
     let of = |n: &Rational| n.numer().bits() + n.denom().bits();
     match e.node() {
         crate::expr::Node::Number(n) => of(n),
-        crate::expr::Node::Product(factors) => factors.first().and_then(Expr::as_number).map_or(0, of),
+        crate::expr::Node::Product(factors) => {
+            factors.first().and_then(Expr::as_number).map_or(0, of)
+        }
         _ => 0,
     }
 }
@@ -199,7 +237,11 @@ fn bounded(e: &Expr, w: &Written) -> Faulty<()> {
         _ => std::slice::from_ref(e),
     };
     match terms.iter().any(|t| leading_bits(t) > MAX_BITS) {
-        true => Err(Fault::new("the numbers in this sum are too large", w.start, w.end)),
+        true => Err(Fault::new(
+            "the numbers in this sum are too large",
+            w.start,
+            w.end,
+        )),
         false => Ok(()),
     }
 }

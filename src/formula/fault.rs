@@ -22,7 +22,13 @@ pub(crate) type Faulty<T> = Result<T, Box<Fault>>;
 
 impl Fault {
     pub(crate) fn new(message: impl Into<String>, start: usize, end: usize) -> Box<Fault> {
-        Box::new(Fault { message: message.into(), start, end: end.max(start), hint: None, also: Vec::new() })
+        Box::new(Fault {
+            message: message.into(),
+            start,
+            end: end.max(start),
+            hint: None,
+            also: Vec::new(),
+        })
     }
 
     pub(crate) fn hint(mut self: Box<Fault>, hint: impl Into<String>) -> Box<Fault> {
@@ -67,15 +73,44 @@ const AROUND: usize = 30;
 /// Two lines: the surroundings of the place, and carets below it. Invisible characters are shown as `�`.
 fn caret(text: &str, start: usize, end: usize) -> String {
     let (start, end) = (floor(text, start), floor(text, end));
-    let before: Vec<char> = text[..start].chars().rev().take_while(|c| *c != '\n').take(AROUND).collect();
-    let inside: Vec<char> = text[start..end].chars().take_while(|c| *c != '\n').take(2 * AROUND).collect();
+    let before: Vec<char> = text[..start]
+        .chars()
+        .rev()
+        .take_while(|c| *c != '\n')
+        .take(AROUND)
+        .collect();
+    let inside: Vec<char> = text[start..end]
+        .chars()
+        .take_while(|c| *c != '\n')
+        .take(2 * AROUND)
+        .collect();
     let after: Vec<char> = match text[start..end].contains('\n') {
         true => Vec::new(),
-        false => text[end..].chars().take_while(|c| *c != '\n').take(AROUND).collect(),
+        false => text[end..]
+            .chars()
+            .take_while(|c| *c != '\n')
+            .take(AROUND)
+            .collect(),
     };
-    let shown = |c: &char| if c.is_control() || is_invisible(*c) { '\u{fffd}' } else { *c };
-    let line: String = before.iter().rev().chain(&inside).chain(&after).map(shown).collect();
-    format!("  {line}\n  {}{}", " ".repeat(before.len()), "^".repeat(inside.len().max(1)))
+    let shown = |c: &char| {
+        if c.is_control() || is_invisible(*c) {
+            '\u{fffd}'
+        } else {
+            *c
+        }
+    };
+    let line: String = before
+        .iter()
+        .rev()
+        .chain(&inside)
+        .chain(&after)
+        .map(shown)
+        .collect();
+    format!(
+        "  {line}\n  {}{}",
+        " ".repeat(before.len()),
+        "^".repeat(inside.len().max(1))
+    )
 }
 
 fn floor(text: &str, mut at: usize) -> usize {

@@ -3,13 +3,13 @@
 //! Names are resolved here against the symbols in play, because where one ends depends on them. Nothing is expanded:
 //! a LaTeX command outside the list below is a fault.
 
+use super::Relation;
 use super::fault::{Fault, Faulty, is_invisible};
 use super::name;
 use super::note::{Note, Remark};
 use super::number::{self, Exponent};
 use super::symbols::{Parts, Symbols, greek_name, is_angle_name, is_greek};
 use super::written::Literal;
-use super::Relation;
 use crate::dimension::{self, Unit};
 use crate::expr::{Function, Rational, Symbol, ratio};
 
@@ -110,7 +110,12 @@ impl<'a> Lexer<'a> {
 
     pub fn note(&mut self, remark: Remark, start: usize, middle: usize, end: usize) {
         if self.notes.len() < 32 {
-            self.notes.push(Note { remark, start, middle, end });
+            self.notes.push(Note {
+                remark,
+                start,
+                middle,
+                end,
+            });
         }
     }
 
@@ -121,12 +126,19 @@ impl<'a> Lexer<'a> {
         let start = self.pos;
         let tok = self.token(single)?;
         self.before = match &tok {
-            Tok::Number(literal) => Before::Number { decimal: literal.decimal },
+            Tok::Number(literal) => Before::Number {
+                decimal: literal.decimal,
+            },
             Tok::Vulgar(..) | Tok::Close(_) | Tok::Raised(_) | Tok::Degree => Before::Value,
             Tok::Name(name) if &**name == "pi" => Before::Value,
             _ => Before::Nothing,
         };
-        Ok(Token { tok, start, end: self.pos, spaced })
+        Ok(Token {
+            tok,
+            start,
+            end: self.pos,
+            spaced,
+        })
     }
 
     /// Passes over spaces and what only decorates.
@@ -136,15 +148,25 @@ impl<'a> Lexer<'a> {
             let rest = &self.text[self.pos..];
             let Some(c) = rest.chars().next() else { break };
             let length = match c {
-                ' ' | '\t' | '\n' | '\r' | '~' | '$' | '\u{a0}' | '\u{2000}'..='\u{200a}' | '\u{202f}' | '\u{205f}' | '\u{3000}' => {
-                    c.len_utf8()
-                }
+                ' '
+                | '\t'
+                | '\n'
+                | '\r'
+                | '~'
+                | '$'
+                | '\u{a0}'
+                | '\u{2000}'..='\u{200a}'
+                | '\u{202f}'
+                | '\u{205f}'
+                | '\u{3000}' => c.len_utf8(),
                 '\\' => match decoration(&rest[1..]) {
                     Some(length) => 1 + length,
                     None => break,
                 },
                 // An empty group: `{}^{2}`.
-                '{' if rest[1..].trim_start_matches(' ').starts_with('}') && self.before != Before::Nothing => {
+                '{' if rest[1..].trim_start_matches(' ').starts_with('}')
+                    && self.before != Before::Nothing =>
+                {
                     rest.find('}').map_or(1, |at| at + 1)
                 }
                 _ => break,
@@ -157,27 +179,44 @@ impl<'a> Lexer<'a> {
     fn token(&mut self, single: bool) -> Faulty<Tok> {
         let rest = &self.text[self.pos..];
         let bytes = rest.as_bytes();
-        let Some(&first) = bytes.first() else { return Ok(Tok::End) };
+        let Some(&first) = bytes.first() else {
+            return Ok(Tok::End);
+        };
         let second = bytes.get(1).copied().unwrap_or(0);
         let (length, tok) = match first {
             b'0'..=b'9' if single => {
                 let digit = i64::from(first - b'0');
                 self.pos += 1;
-                return Ok(Tok::Number(Literal { value: ratio(digit, 1), digits: 1, place: 0, decimal: false }));
+                return Ok(Tok::Number(Literal {
+                    value: ratio(digit, 1),
+                    digits: 1,
+                    place: 0,
+                    decimal: false,
+                }));
             }
             b'0'..=b'9' => return self.number(),
             b'.' if second.is_ascii_digit() => return self.number(),
             b'a'..=b'z' | b'A'..=b'Z' => return self.word(single),
             b'\\' => return self.command(single),
-            b'+' if second == b'-' || rest[1..].starts_with("/-") => (if second == b'-' { 2 } else { 3 }, Tok::PlusMinus),
+            b'+' if second == b'-' || rest[1..].starts_with("/-") => {
+                (if second == b'-' { 2 } else { 3 }, Tok::PlusMinus)
+            }
             b'+' => (1, Tok::Plus),
-            b'-' if rest.starts_with("->") => return Err(Fault::new("an arrow is no part of a formula", self.pos, self.pos + 2)),
+            b'-' if rest.starts_with("->") => {
+                return Err(Fault::new(
+                    "an arrow is no part of a formula",
+                    self.pos,
+                    self.pos + 2,
+                ));
+            }
             b'-' => (1, Tok::Minus),
             b'*' if second == b'*' => (2, Tok::Caret),
             b'*' => (1, Tok::Times),
             b'/' if second == b'=' => (2, Tok::Relation(Relation::NotEqual)),
             b'/' => (1, Tok::Slash),
-            b'^' if degree_mark(&rest[1..]).is_some() => (1 + degree_mark(&rest[1..]).unwrap_or(0), Tok::Degree),
+            b'^' if degree_mark(&rest[1..]).is_some() => {
+                (1 + degree_mark(&rest[1..]).unwrap_or(0), Tok::Degree)
+            }
             b'^' => (1, Tok::Caret),
             b'(' | b'[' => (1, Tok::Open(first as char)),
             b')' | b']' | b'}' => (1, Tok::Close(first as char)),
@@ -190,7 +229,8 @@ impl<'a> Lexer<'a> {
             b',' | b';' => (1, Tok::Comma),
             b'=' if second == b'<' => (2, Tok::Relation(Relation::LessEqual)),
             b'=' if second == b'>' => {
-                return Err(Fault::new("`=>` is no relation", self.pos, self.pos + 2).hint("write >= for `at least`"));
+                return Err(Fault::new("`=>` is no relation", self.pos, self.pos + 2)
+                    .hint("write >= for `at least`"));
             }
             b'=' if second == b'=' => (2, Tok::Relation(Relation::Equal)),
             b'=' => (1, Tok::Relation(Relation::Equal)),
@@ -209,7 +249,9 @@ impl<'a> Lexer<'a> {
 
     fn other(&mut self) -> Faulty<Tok> {
         let rest = &self.text[self.pos..];
-        let Some(c) = rest.chars().next() else { return Ok(Tok::End) };
+        let Some(c) = rest.chars().next() else {
+            return Ok(Tok::End);
+        };
         let tok = match c {
             '−' | '–' | '﹣' | '－' => Tok::Minus,
             '＋' => Tok::Plus,
@@ -251,7 +293,9 @@ impl<'a> Lexer<'a> {
                 let message = "a raised letter is not read here";
                 return Err(Fault::new(message, self.pos, self.pos + c.len_utf8()).hint("write ^n"));
             }
-            _ if greek_name(c).is_some() || matches!(c, 'î' | 'ĵ' | 'ŷ') => return self.name(self.pos, self.pos + c.len_utf8()),
+            _ if greek_name(c).is_some() || matches!(c, 'î' | 'ĵ' | 'ŷ') => {
+                return self.name(self.pos, self.pos + c.len_utf8());
+            }
             '\'' | '′' => {
                 let message = "a prime belongs right behind a name";
                 return Err(Fault::new(message, self.pos, self.pos + c.len_utf8()));
@@ -260,9 +304,24 @@ impl<'a> Lexer<'a> {
                 let message = "an index belongs right behind a name";
                 return Err(Fault::new(message, self.pos, self.pos + 1).hint("write v_1 or v_{G1}"));
             }
-            '.' => return Err(Fault::new("a point without digits", self.pos, self.pos + 1).hint("write * for a product")),
-            '!' => return Err(Fault::new("a factorial has no place in these formulas", self.pos, self.pos + 1)),
-            '&' => return Err(Fault::new("`&` is no part of a formula", self.pos, self.pos + 1)),
+            '.' => {
+                return Err(Fault::new("a point without digits", self.pos, self.pos + 1)
+                    .hint("write * for a product"));
+            }
+            '!' => {
+                return Err(Fault::new(
+                    "a factorial has no place in these formulas",
+                    self.pos,
+                    self.pos + 1,
+                ));
+            }
+            '&' => {
+                return Err(Fault::new(
+                    "`&` is no part of a formula",
+                    self.pos,
+                    self.pos + 1,
+                ));
+            }
             c => return Err(strange(c, self.pos)),
         };
         self.pos += c.len_utf8();
@@ -292,14 +351,25 @@ impl<'a> Lexer<'a> {
             self.pos += c.len_utf8();
             count += 1;
             if count > 4 {
-                return Err(Fault::new("an exponent has at most four raised digits", start, self.pos));
+                return Err(Fault::new(
+                    "an exponent has at most four raised digits",
+                    start,
+                    self.pos,
+                ));
             }
             digits = digits * 10 + digit;
         }
         if count == 0 {
-            return Err(Fault::new("a raised sign without digits belongs right behind a name", start, self.pos));
+            return Err(Fault::new(
+                "a raised sign without digits belongs right behind a name",
+                start,
+                self.pos,
+            ));
         }
-        Ok(Tok::Raised(ratio(if negative { -digits } else { digits }, 1)))
+        Ok(Tok::Raised(ratio(
+            if negative { -digits } else { digits },
+            1,
+        )))
     }
 
     fn number(&mut self) -> Faulty<Tok> {
@@ -307,7 +377,10 @@ impl<'a> Lexer<'a> {
         let bytes = self.text.as_bytes();
         let mut digits_end = start;
         let mut dot = false;
-        while bytes.get(digits_end).is_some_and(|b| b.is_ascii_digit() || (*b == b'.' && !dot)) {
+        while bytes
+            .get(digits_end)
+            .is_some_and(|b| b.is_ascii_digit() || (*b == b'.' && !dot))
+        {
             dot |= bytes[digits_end] == b'.';
             digits_end += 1;
         }
@@ -320,8 +393,17 @@ impl<'a> Lexer<'a> {
                 // 2e-1 with e declared is 2e minus 1; 1.5e-3 is a number to everybody.
                 let ten = !(declared && signed && !dot);
                 let usual = self.usual();
-                self.note(Remark::PowerOfTen { ten: ten == usual }, start, digits_end, stop);
-                exponent = if ten == usual { Exponent::Ten } else { Exponent::Symbol };
+                self.note(
+                    Remark::PowerOfTen { ten: ten == usual },
+                    start,
+                    digits_end,
+                    stop,
+                );
+                exponent = if ten == usual {
+                    Exponent::Ten
+                } else {
+                    Exponent::Symbol
+                };
             }
         }
         let (literal, end) = number::literal(self.text, start, exponent)?;
@@ -382,7 +464,10 @@ impl<'a> Lexer<'a> {
             }
         }
         if self.symbols.is_open() {
-            if run > 3 && self.before == Before::Nothing && !self.notes.iter().any(|n| n.end >= start + run) {
+            if run > 3
+                && self.before == Before::Nothing
+                && !self.notes.iter().any(|n| n.end >= start + run)
+            {
                 self.note(Remark::Letters, start, start, start + run);
             }
             return self.name(start, start + 1);
@@ -396,14 +481,29 @@ impl<'a> Lexer<'a> {
             return true;
         }
         let usual = self.usual();
-        self.note(Remark::ArcOrFactor { arc: usual }, start, start + 1, start + word.len());
+        self.note(
+            Remark::ArcOrFactor { arc: usual },
+            start,
+            start + 1,
+            start + word.len(),
+        );
         usual
     }
 
     fn unknown_word(&mut self, start: usize, run: usize) -> Faulty<Tok> {
-        let mut parts = Parts { base: self.text[start..start + run].to_string(), ..Parts::default() };
+        let mut parts = Parts {
+            base: self.text[start..start + run].to_string(),
+            ..Parts::default()
+        };
         let mut took = false;
-        let end = name::tail(self.text, start + run, &mut parts, self.symbols, false, &mut took);
+        let end = name::tail(
+            self.text,
+            start + run,
+            &mut parts,
+            self.symbols,
+            false,
+            &mut took,
+        );
         self.refuse(&parts.key(), start, end)
     }
 
@@ -427,7 +527,10 @@ impl<'a> Lexer<'a> {
 
     /// A declared name whose base is these bytes.
     fn declared_name(&mut self, start: usize, end: usize) -> Option<Tok> {
-        let mut parts = Parts { base: self.text[start..end].to_string(), ..Parts::default() };
+        let mut parts = Parts {
+            base: self.text[start..end].to_string(),
+            ..Parts::default()
+        };
         let at = name::combining(self.text, end, &mut parts);
         let mut took = false;
         let stop = name::tail(self.text, at, &mut parts, self.symbols, false, &mut took);
@@ -439,7 +542,9 @@ impl<'a> Lexer<'a> {
     /// A name whose base starts here; `end` bounds a base of plain letters.
     fn name(&mut self, start: usize, end: usize) -> Faulty<Tok> {
         let mut parts = Parts::default();
-        let plain = self.text[start..end].bytes().all(|b| b.is_ascii_alphabetic());
+        let plain = self.text[start..end]
+            .bytes()
+            .all(|b| b.is_ascii_alphabetic());
         let at = if plain {
             parts.base = self.text[start..end].to_string();
             if parts.base == "ell" {
@@ -493,7 +598,9 @@ impl<'a> Lexer<'a> {
         let mut parts = Parts::default();
         let at = name::base(self.text, start, &mut parts, 0)?;
         let behind = self.text[at..].chars().next();
-        if !matches!(behind, Some('_' | '\'' | '′')) || parts.base.len() > 1 && !is_greek(&parts.base) {
+        if !matches!(behind, Some('_' | '\'' | '′'))
+            || parts.base.len() > 1 && !is_greek(&parts.base)
+        {
             return None;
         }
         self.finish(start, at, parts).ok()
@@ -503,7 +610,9 @@ impl<'a> Lexer<'a> {
     fn unit(&mut self, marked: bool) -> Option<Tok> {
         let start = self.pos;
         let rest = &self.text[start..];
-        let stop = rest.find(['=', '<', '>', '≤', '≥', '≠', '≈']).unwrap_or(rest.len());
+        let stop = rest
+            .find(['=', '<', '>', '≤', '≥', '≠', '≈'])
+            .unwrap_or(rest.len());
         let side = &rest[..stop];
         if side.len() > 120 || (!marked && !starts_like_a_unit(side)) {
             return None;
@@ -511,15 +620,44 @@ impl<'a> Lexer<'a> {
         let plain = plain_unit(side)?;
         let read = dimension::unit(&plain).ok()?;
         if !marked {
-            let words = || plain.split(|c: char| !c.is_ascii_alphabetic()).filter(|w| !w.is_empty());
+            let words = || {
+                plain
+                    .split(|c: char| !c.is_ascii_alphabetic())
+                    .filter(|w| !w.is_empty())
+            };
             if !self.units_first {
-                if !self.symbols.is_open() || words().any(|w| w.chars().any(|c| self.symbols.find(c.encode_utf8(&mut [0; 4])).is_some())) {
+                if !self.symbols.is_open()
+                    || words().any(|w| {
+                        w.chars()
+                            .any(|c| self.symbols.find(c.encode_utf8(&mut [0; 4])).is_some())
+                    })
+                {
                     return None;
                 }
                 // Without declarations 3 m g is a force more often than a unit.
                 let telling = words().any(|w| {
-                    matches!(w, "kg" | "rad" | "deg" | "rpm" | "cm" | "mm" | "km" | "Hz" | "Nm" | "Ns" | "kN" | "kJ" | "MJ" | "mph" | "ft" | "J" | "N")
-                }) || plain.contains("/s") || plain.contains("s^-") || plain.contains("s⁻");
+                    matches!(
+                        w,
+                        "kg" | "rad"
+                            | "deg"
+                            | "rpm"
+                            | "cm"
+                            | "mm"
+                            | "km"
+                            | "Hz"
+                            | "Nm"
+                            | "Ns"
+                            | "kN"
+                            | "kJ"
+                            | "MJ"
+                            | "mph"
+                            | "ft"
+                            | "J"
+                            | "N"
+                    )
+                }) || plain.contains("/s")
+                    || plain.contains("s^-")
+                    || plain.contains("s⁻");
                 let unit_first = telling || self.before == Before::Number { decimal: true };
                 let usual = self.usual();
                 if unit_first != usual {
@@ -535,7 +673,9 @@ impl<'a> Lexer<'a> {
     fn command(&mut self, single: bool) -> Faulty<Tok> {
         let start = self.pos;
         let rest = &self.text[start + 1..];
-        let length = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
+        let length = rest
+            .find(|c: char| !c.is_ascii_alphabetic())
+            .unwrap_or(rest.len());
         let word = &rest[..length];
         let end = start + 1 + length;
         self.pos = end;
@@ -574,19 +714,35 @@ impl<'a> Lexer<'a> {
                     Tok::Close('}')
                 }
                 Some(c) => {
-                    let shown = if is_invisible(c) || c.is_control() { '\u{fffd}' } else { c };
-                    return Err(Fault::new(format!("`\\{shown}` is no command I read"), start, end + c.len_utf8()));
+                    let shown = if is_invisible(c) || c.is_control() {
+                        '\u{fffd}'
+                    } else {
+                        c
+                    };
+                    return Err(Fault::new(
+                        format!("`\\{shown}` is no command I read"),
+                        start,
+                        end + c.len_utf8(),
+                    ));
                 }
                 None => return Err(Fault::new("a lone backslash", start, end)),
             },
             "operatorname" => return self.operator(start),
-            "mathrm" | "text" | "textrm" | "mathsf" | "mathbf" | "mathit" | "textbf" | "textit" | "boldsymbol" | "bm" | "mathcal" => {
+            "mathrm" | "text" | "textrm" | "mathsf" | "mathbf" | "mathit" | "textbf" | "textit"
+            | "boldsymbol" | "bm" | "mathcal" => {
                 return self.font(start, word);
             }
             "over" | "atop" => {
-                return Err(Fault::new(format!("`\\{word}` is not read"), start, end).hint("write \\frac{…}{…}"));
+                return Err(Fault::new(format!("`\\{word}` is not read"), start, end)
+                    .hint("write \\frac{…}{…}"));
             }
-            "infty" => return Err(Fault::new("infinity is no value of a formula here", start, end)),
+            "infty" => {
+                return Err(Fault::new(
+                    "infinity is no value of a formula here",
+                    start,
+                    end,
+                ));
+            }
             word => match function(word).filter(|_| word.chars().all(|c| c.is_ascii_lowercase())) {
                 Some(tok) => {
                     if word == "log" {
@@ -598,7 +754,8 @@ impl<'a> Lexer<'a> {
                     let mut parts = Parts::default();
                     let Some(at) = name::base(self.text, start, &mut parts, 0) else {
                         let shown: String = word.chars().take(24).collect();
-                        let fault = Fault::new(format!("`\\{shown}` is no command I read"), start, end);
+                        let fault =
+                            Fault::new(format!("`\\{shown}` is no command I read"), start, end);
                         return Err(match function(word).or_else(|| nearest_command(word)) {
                             Some(_) => fault.hint("commands are written in lower case and in full, as in \\sin"),
                             None => fault.hint("known are \\frac, \\sqrt, \\sin and the like, \\cdot, Greek letters, accents and \\mathrm"),
@@ -620,14 +777,19 @@ impl<'a> Lexer<'a> {
         self.pos = end;
         match function(&word) {
             Some(tok) => Ok(tok),
-            None => Err(Fault::new(format!("`{word}` is no function I know"), start, end)),
+            None => Err(Fault::new(
+                format!("`{word}` is no function I know"),
+                start,
+                end,
+            )),
         }
     }
 
     /// A piece in another font: a unit behind a number, a function, or a name.
     fn font(&mut self, start: usize, word: &str) -> Faulty<Tok> {
         self.pos = start;
-        if self.before != Before::Nothing && matches!(word, "mathrm" | "text" | "textrm" | "mathsf") {
+        if self.before != Before::Nothing && matches!(word, "mathrm" | "text" | "textrm" | "mathsf")
+        {
             if let Some(tok) = self.unit(true) {
                 return Ok(tok);
             }
@@ -653,14 +815,19 @@ impl<'a> Lexer<'a> {
             Some(at) => self.finish(start, at, parts),
             None => {
                 let end = self.group(start).map_or(self.pos, |(_, end)| end);
-                Err(Fault::new("this text is neither a unit, a function nor a name", start, end))
+                Err(Fault::new(
+                    "this text is neither a unit, a function nor a name",
+                    start,
+                    end,
+                ))
             }
         }
     }
 
     /// The text of the brace group that starts at the current place, and the byte after it.
     fn group(&self, start: usize) -> Faulty<(&'a str, usize)> {
-        let blanks = self.text[self.pos..].len() - self.text[self.pos..].trim_start_matches([' ', '*']).len();
+        let blanks = self.text[self.pos..].len()
+            - self.text[self.pos..].trim_start_matches([' ', '*']).len();
         let at = self.pos + blanks;
         let inside = self.text[at..].strip_prefix('{');
         let length = inside.and_then(|inside| inside.find('}'));
@@ -680,7 +847,9 @@ impl<'a> Lexer<'a> {
 
     /// Whether nothing but spaces is left.
     pub fn at_end(&self) -> bool {
-        self.text[self.pos..].chars().all(|c| c.is_whitespace() || c == '$')
+        self.text[self.pos..]
+            .chars()
+            .all(|c| c.is_whitespace() || c == '$')
     }
 }
 
@@ -723,13 +892,42 @@ fn nearest_command(word: &str) -> Option<Tok> {
 /// Length of a command that only decorates, without its backslash.
 fn decoration(rest: &str) -> Option<usize> {
     let first = rest.chars().next()?;
-    if matches!(first, ',' | ';' | ':' | '!' | ' ' | '(' | ')' | '[' | ']' | '>') {
+    if matches!(
+        first,
+        ',' | ';' | ':' | '!' | ' ' | '(' | ')' | '[' | ']' | '>'
+    ) {
         return Some(1);
     }
-    let length = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
-    let known = matches!(&rest[..length],
-        "left" | "right" | "big" | "Big" | "bigg" | "Bigg" | "bigl" | "bigr" | "Bigl" | "Bigr" | "biggl" | "biggr" | "Biggl" | "Biggr"
-        | "displaystyle" | "textstyle" | "scriptstyle" | "quad" | "qquad" | "limits" | "thinspace" | "medspace" | "nonumber" | "mathstrut");
+    let length = rest
+        .find(|c: char| !c.is_ascii_alphabetic())
+        .unwrap_or(rest.len());
+    let known = matches!(
+        &rest[..length],
+        "left"
+            | "right"
+            | "big"
+            | "Big"
+            | "bigg"
+            | "Bigg"
+            | "bigl"
+            | "bigr"
+            | "Bigl"
+            | "Bigr"
+            | "biggl"
+            | "biggr"
+            | "Biggl"
+            | "Biggr"
+            | "displaystyle"
+            | "textstyle"
+            | "scriptstyle"
+            | "quad"
+            | "qquad"
+            | "limits"
+            | "thinspace"
+            | "medspace"
+            | "nonumber"
+            | "mathstrut"
+    );
     known.then_some(length)
 }
 
@@ -737,13 +935,28 @@ fn decoration(rest: &str) -> Option<usize> {
 fn degree_mark(rest: &str) -> Option<usize> {
     let blanks = rest.len() - rest.trim_start_matches(' ').len();
     let body = &rest[blanks..];
-    let marks = ["{\\circ}", "\\circ", "{∘}", "{°}", "∘", "°", "{\\degree}", "\\degree"];
-    marks.iter().find(|mark| body.starts_with(**mark)).map(|mark| blanks + mark.len())
+    let marks = [
+        "{\\circ}",
+        "\\circ",
+        "{∘}",
+        "{°}",
+        "∘",
+        "°",
+        "{\\degree}",
+        "\\degree",
+    ];
+    marks
+        .iter()
+        .find(|mark| body.starts_with(**mark))
+        .map(|mark| blanks + mark.len())
 }
 
 /// Whether the text starts with a word that is a unit, so that trying is worth it.
 fn starts_like_a_unit(side: &str) -> bool {
-    let word = side.split(|c: char| !c.is_ascii_alphabetic()).next().unwrap_or("");
+    let word = side
+        .split(|c: char| !c.is_ascii_alphabetic())
+        .next()
+        .unwrap_or("");
     word.len() <= 7 && dimension::unit(word).is_ok()
 }
 
@@ -755,7 +968,9 @@ fn plain_unit(side: &str) -> Option<String> {
         rest = &rest[c.len_utf8()..];
         match c {
             '\\' => {
-                let length = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
+                let length = rest
+                    .find(|c: char| !c.is_ascii_alphabetic())
+                    .unwrap_or(rest.len());
                 let word = &rest[..length];
                 rest = &rest[length..];
                 match word {
@@ -807,11 +1022,18 @@ fn plain_unit(side: &str) -> Option<String> {
 fn strange(c: char, at: usize) -> Box<Fault> {
     let end = at + c.len_utf8();
     if is_invisible(c) {
-        let message = format!("an invisible character (U+{:04X}) stands here", u32::from(c));
+        let message = format!(
+            "an invisible character (U+{:04X}) stands here",
+            u32::from(c)
+        );
         return Fault::new(message, at, end).hint("type the formula anew");
     }
     if c.is_control() {
-        return Fault::new(format!("a control character (U+{:04X}) stands here", u32::from(c)), at, end);
+        return Fault::new(
+            format!("a control character (U+{:04X}) stands here", u32::from(c)),
+            at,
+            end,
+        );
     }
     Fault::new(format!("`{c}` has no place in a formula"), at, end)
 }

@@ -101,8 +101,13 @@ impl Content {
     pub fn answer(&self) -> &Content {
         match self {
             Content::Relations(sides, signs) => {
-                let defines = signs.iter().all(|s| matches!(s, Relation::Equal | Relation::Approximately));
-                let named = sides.first().and_then(Content::expr).is_some_and(|e| e.as_symbol().is_some());
+                let defines = signs
+                    .iter()
+                    .all(|s| matches!(s, Relation::Equal | Relation::Approximately));
+                let named = sides
+                    .first()
+                    .and_then(Content::expr)
+                    .is_some_and(|e| e.as_symbol().is_some());
                 match sides.last() {
                     Some(last) if defines && named => last,
                     _ => self,
@@ -163,7 +168,11 @@ pub fn read_expr(text: &str, symbols: &Symbols) -> Result<Expr, Fault> {
     let reading = read(text, symbols)?;
     match reading.content {
         Content::Scalar(e) => Ok(e),
-        _ => Err(*Fault::new("a single expression is expected", 0, text.len())),
+        _ => Err(*Fault::new(
+            "a single expression is expected",
+            0,
+            text.len(),
+        )),
     }
 }
 
@@ -173,13 +182,16 @@ const MAX_READINGS: u32 = 16;
 /// The other plausible readings of a text that was read with [`Reading::choices`] above 0: each choice turned round
 /// alone, and all of them together. The same content is given once; a turned reading that fails is left out.
 pub fn other_readings(text: &str, symbols: &Symbols) -> Vec<Reading> {
-    let Ok(usual) = read(text, symbols) else { return Vec::new() };
+    let Ok(usual) = read(text, symbols) else {
+        return Vec::new();
+    };
     let mut out: Vec<Reading> = Vec::new();
     let count = usual.choices.min(MAX_READINGS);
     let all = (count > 1).then_some(u64::MAX);
     for flips in (0..count).map(|site| 1u64 << site).chain(all) {
         if let Ok(reading) = read_as(text, symbols, flips) {
-            let known = reading.content == usual.content || out.iter().any(|r| r.content == reading.content);
+            let known = reading.content == usual.content
+                || out.iter().any(|r| r.content == reading.content);
             if !known {
                 out.push(reading);
             }
@@ -190,7 +202,10 @@ pub fn other_readings(text: &str, symbols: &Symbols) -> Vec<Reading> {
 
 fn read_as(text: &str, symbols: &Symbols, flips: u64) -> Faulty<Reading> {
     if text.len() > MAX_BYTES {
-        let message = format!("a formula has at most {MAX_BYTES} bytes, this one has {}", text.len());
+        let message = format!(
+            "a formula has at most {MAX_BYTES} bytes, this one has {}",
+            text.len()
+        );
         return Err(Fault::new(message, 0, 0));
     }
     let (text, offset) = boxed(text)?;
@@ -243,7 +258,13 @@ fn read_inner(text: &str, symbols: &Symbols, units_first: bool, flips: u64) -> F
         None => return Err(Fault::new("the formula is empty", 0, 0)),
     };
     let written = sides.into_iter().map(|side| side.written).collect();
-    Ok(Reading { content, written, literal, notes: lexer.notes, choices: lexer.sites })
+    Ok(Reading {
+        content,
+        written,
+        literal,
+        notes: lexer.notes,
+        choices: lexer.sites,
+    })
 }
 
 fn content(side: &Side, text: &str, lexer: &mut lexer::Lexer) -> Faulty<Content> {
@@ -272,12 +293,16 @@ fn content(side: &Side, text: &str, lexer: &mut lexer::Lexer) -> Faulty<Content>
 
 fn has_both_signs(w: &Written) -> bool {
     match &w.shape {
-        Shape::Sum(terms) => {
-            terms.iter().any(|(sign, term)| matches!(sign, Sign::PlusMinus | Sign::MinusPlus) || has_both_signs(term))
-        }
+        Shape::Sum(terms) => terms.iter().any(|(sign, term)| {
+            matches!(sign, Sign::PlusMinus | Sign::MinusPlus) || has_both_signs(term)
+        }),
         Shape::Product(factors) => factors.iter().any(|(_, f)| has_both_signs(f)),
         Shape::Fraction(a, b) | Shape::Power(a, b) => has_both_signs(a) || has_both_signs(b),
-        Shape::Root(_, a) | Shape::Call(_, a) | Shape::Reciprocal(_, a) | Shape::Bracket(a) | Shape::Abs(a) => has_both_signs(a),
+        Shape::Root(_, a)
+        | Shape::Call(_, a)
+        | Shape::Reciprocal(_, a)
+        | Shape::Bracket(a)
+        | Shape::Abs(a) => has_both_signs(a),
         Shape::Degrees(a) => has_both_signs(a),
         Shape::List(parts) => parts.iter().any(has_both_signs),
         Shape::Number(_) | Shape::Symbol(_) => false,
@@ -287,7 +312,9 @@ fn has_both_signs(w: &Written) -> bool {
 /// The inside of the last `\boxed{}` and where it starts; without one the whole text.
 fn boxed(text: &str) -> Faulty<(&str, usize)> {
     const OPEN: &str = "\\boxed";
-    let Some(at) = text.rfind(OPEN) else { return Ok((text, 0)) };
+    let Some(at) = text.rfind(OPEN) else {
+        return Ok((text, 0));
+    };
     let behind = &text[at + OPEN.len()..];
     let blanks = behind.len() - behind.trim_start().len();
     let start = at + OPEN.len() + blanks;
@@ -301,13 +328,19 @@ fn boxed(text: &str) -> Faulty<(&str, usize)> {
             _ => {}
         }
     }
-    Err(Fault::new("\\boxed needs a group in braces that is closed", at, at + OPEN.len()))
+    Err(Fault::new(
+        "\\boxed needs a group in braces that is closed",
+        at,
+        at + OPEN.len(),
+    ))
 }
 
 /// The text without a full stop or comma behind it, and the place of that; `4.` keeps its point.
 fn unpunctuated(text: &str) -> (&str, Option<(usize, usize)>) {
     let trimmed = text.trim_end_matches(|c: char| c.is_whitespace() || c == '$');
-    let Some(body) = trimmed.strip_suffix(['.', ',', ';']) else { return (text, None) };
+    let Some(body) = trimmed.strip_suffix(['.', ',', ';']) else {
+        return (text, None);
+    };
     let number = trimmed.ends_with('.') && body.ends_with(|c: char| c.is_ascii_digit());
     match number || body.trim().is_empty() || body.ends_with(['.', ',', ';', '\\']) {
         true => (text, None),

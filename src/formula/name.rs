@@ -32,11 +32,14 @@ fn index_text(written: &str) -> Option<String> {
             '−' => out.push('-'),
             '′' | '’' => out.push('\''),
             '\\' => {
-                let length = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
+                let length = rest
+                    .find(|c: char| !c.is_ascii_alphabetic())
+                    .unwrap_or(rest.len());
                 let word = &rest[..length];
                 rest = &rest[length..];
                 match word {
-                    "mathrm" | "text" | "rm" | "mathit" | "textrm" | "mathbf" | "mathsf" | "operatorname" | "it" => {}
+                    "mathrm" | "text" | "rm" | "mathit" | "textrm" | "mathbf" | "mathsf"
+                    | "operatorname" | "it" => {}
                     "prime" => out.push('\''),
                     "ell" => out.push('l'),
                     "" if rest.starts_with([',', ' ', ';', '!']) => rest = &rest[1..],
@@ -88,26 +91,46 @@ pub(crate) struct Index {
 }
 
 /// Finds where an index without braces ends, asking `declared` which longer or shorter index gives a declared name.
-pub(crate) fn bare_index(text: &str, at: usize, after_sign: bool, declared: &dyn Fn(&str) -> bool, split: bool) -> Option<Index> {
+pub(crate) fn bare_index(
+    text: &str,
+    at: usize,
+    after_sign: bool,
+    declared: &dyn Fn(&str) -> bool,
+    split: bool,
+) -> Option<Index> {
     let bytes = text.as_bytes();
-    let run = bytes[at..].iter().take_while(|b| b.is_ascii_alphanumeric()).take(LONGEST).count();
+    let run = bytes[at..]
+        .iter()
+        .take_while(|b| b.is_ascii_alphanumeric())
+        .take(LONGEST)
+        .count();
     if run == 0 {
         return None;
     }
-    let index = |length: usize, took_letter| Index { text: text[at..at + length].to_string(), end: at + length, took_letter };
-    let digits = bytes[at..at + run].iter().take_while(|b| b.is_ascii_digit()).count();
+    let index = |length: usize, took_letter| Index {
+        text: text[at..at + length].to_string(),
+        end: at + length,
+        took_letter,
+    };
+    let digits = bytes[at..at + run]
+        .iter()
+        .take_while(|b| b.is_ascii_digit())
+        .count();
     if !after_sign && digits == 0 {
         return None;
     }
     for length in (1..=run).rev() {
         // Digits stay together: 12 is never 1 and 2.
-        let splits_digits = bytes[at + length - 1].is_ascii_digit() && length < run && bytes[at + length].is_ascii_digit();
+        let splits_digits = bytes[at + length - 1].is_ascii_digit()
+            && length < run
+            && bytes[at + length].is_ascii_digit();
         if !splits_digits && declared(&text[at..at + length]) {
             return Some(index(length, false));
         }
     }
     if digits > 0 {
-        let component = !split && run == digits + 1 && matches!(bytes[at + digits], b'x' | b'y' | b'z');
+        let component =
+            !split && run == digits + 1 && matches!(bytes[at + digits], b'x' | b'y' | b'z');
         return Some(index(digits + usize::from(component), component));
     }
     Some(index(run, false))
@@ -115,38 +138,57 @@ pub(crate) fn bare_index(text: &str, at: usize, after_sign: bool, declared: &dyn
 
 /// Whether the text behind a raised sign makes it the sign of an exponent: `x^-2`, `x^-(a+b)`, `x^-n`.
 fn starts_exponent(rest: &str) -> bool {
-    rest.starts_with(|c: char| c.is_ascii_alphanumeric() || matches!(c, '(' | '{' | '[' | '.')) || rest.starts_with("\\frac")
+    rest.starts_with(|c: char| c.is_ascii_alphanumeric() || matches!(c, '(' | '{' | '[' | '.'))
+        || rest.starts_with("\\frac")
 }
 
 /// Reads index and marks behind a base that ends at byte `at`; gives the byte after them.
-pub(crate) fn tail(text: &str, mut at: usize, parts: &mut Parts, symbols: &Symbols, split: bool, took: &mut bool) -> usize {
+pub(crate) fn tail(
+    text: &str,
+    mut at: usize,
+    parts: &mut Parts,
+    symbols: &Symbols,
+    split: bool,
+    took: &mut bool,
+) -> usize {
     // Digits right behind a letter are an index in any order with marks; each kind is read once.
     loop {
         let rest = &text[at..];
-        let Some(c) = rest.chars().next() else { return at };
+        let Some(c) = rest.chars().next() else {
+            return at;
+        };
         match c {
             '0'..='9' if parts.index.is_empty() && parts.marks.is_empty() => {
-                let Some(found) = declared_index(text, at, false, parts, symbols, split) else { return at };
+                let Some(found) = declared_index(text, at, false, parts, symbols, split) else {
+                    return at;
+                };
                 *took |= found.took_letter;
                 (parts.index, at) = (found.text, found.end);
             }
             '_' if parts.index.is_empty() || parts.accent.is_empty() => {
                 let next = at + 1 + rest[1..].len() - rest[1..].trim_start_matches(' ').len();
                 if let Some((inside, end)) = braced(text, next) {
-                    let Some(index) = index_text(inside) else { return at };
+                    let Some(index) = index_text(inside) else {
+                        return at;
+                    };
                     put_index(parts, &index);
                     at = end;
                 } else if let Some(word) = text[next..].strip_prefix('\\') {
-                    let length = word.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(word.len());
+                    let length = word
+                        .find(|c: char| !c.is_ascii_alphabetic())
+                        .unwrap_or(word.len());
                     let font = matches!(&word[..length], "mathrm" | "text" | "textrm" | "rm");
                     let (inside, end) = match braced(text, next + 1 + length) {
                         Some((inside, end)) if font => (inside, end),
                         _ => (&text[next..next + 1 + length], next + 1 + length),
                     };
-                    let Some(index) = index_text(inside) else { return at };
+                    let Some(index) = index_text(inside) else {
+                        return at;
+                    };
                     put_index(parts, &index);
                     at = end;
-                } else if let Some(found) = declared_index(text, next, true, parts, symbols, split) {
+                } else if let Some(found) = declared_index(text, next, true, parts, symbols, split)
+                {
                     *took |= found.took_letter;
                     put_index(parts, &found.text);
                     at = found.end;
@@ -165,7 +207,10 @@ pub(crate) fn tail(text: &str, mut at: usize, parts: &mut Parts, symbols: &Symbo
                 parts.marks.push_str("''");
                 at += c.len_utf8();
             }
-            '⁺' | '⁻' if !rest[c.len_utf8()..].starts_with(['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹']) => {
+            '⁺' | '⁻'
+                if !rest[c.len_utf8()..]
+                    .starts_with(['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹']) =>
+            {
                 parts.marks.push_str(if c == '⁺' { "^+" } else { "^-" });
                 at += c.len_utf8();
             }
@@ -194,15 +239,28 @@ pub(crate) fn tail(text: &str, mut at: usize, parts: &mut Parts, symbols: &Symbo
 }
 
 fn put_index(parts: &mut Parts, index: &str) {
-    match super::symbols::ACCENTS.iter().find(|accent| **accent == index) {
+    match super::symbols::ACCENTS
+        .iter()
+        .find(|accent| **accent == index)
+    {
         Some(accent) if parts.accent.is_empty() => parts.accent = accent,
         _ => parts.index.push_str(index),
     }
 }
 
-fn declared_index(text: &str, at: usize, after_sign: bool, parts: &Parts, symbols: &Symbols, split: bool) -> Option<Index> {
+fn declared_index(
+    text: &str,
+    at: usize,
+    after_sign: bool,
+    parts: &Parts,
+    symbols: &Symbols,
+    split: bool,
+) -> Option<Index> {
     let declared = |index: &str| {
-        let tried = Parts { index: format!("{}{index}", parts.index), ..parts.clone() };
+        let tried = Parts {
+            index: format!("{}{index}", parts.index),
+            ..parts.clone()
+        };
         find(&tried, symbols).is_some()
             || tried.index.len() > 1 && symbols.find(&format!("{}_{}", parts.base, index)).is_some()
     };
@@ -225,7 +283,10 @@ fn raised(text: &str, at: usize, parts: &Parts, symbols: &Symbols) -> Option<(St
             _ => {
                 let index = index_text(mark)?;
                 let worded = mark.starts_with("\\text") || mark.starts_with("\\mathrm");
-                let marked = Parts { marks: format!("{}^{index}", parts.marks), ..parts.clone() };
+                let marked = Parts {
+                    marks: format!("{}^{index}", parts.marks),
+                    ..parts.clone()
+                };
                 if !worded && find(&marked, symbols).is_none() {
                     return None;
                 }
@@ -249,7 +310,10 @@ fn raised(text: &str, at: usize, parts: &Parts, symbols: &Symbols) -> Option<(St
         _ => return None,
     };
     let behind = &rest[c.len_utf8()..];
-    let marked = Parts { marks: format!("{}{mark}", parts.marks), ..parts.clone() };
+    let marked = Parts {
+        marks: format!("{}{mark}", parts.marks),
+        ..parts.clone()
+    };
     let digit = behind.starts_with(|c: char| c.is_ascii_digit() || c == '(' || c == '{');
     if starts_exponent(behind) && (digit || find(&marked, symbols).is_none()) {
         return None;
@@ -258,7 +322,10 @@ fn raised(text: &str, at: usize, parts: &Parts, symbols: &Symbols) -> Option<(St
 }
 
 /// The declared name these parts spell.
-pub(crate) fn find<'s>(parts: &Parts, symbols: &'s Symbols) -> Option<&'s super::symbols::Declared> {
+pub(crate) fn find<'s>(
+    parts: &Parts,
+    symbols: &'s Symbols,
+) -> Option<&'s super::symbols::Declared> {
     if symbols.declared().is_empty() {
         return None;
     }
@@ -266,7 +333,10 @@ pub(crate) fn find<'s>(parts: &Parts, symbols: &'s Symbols) -> Option<&'s super:
         return Some(found);
     }
     for other in variants(&parts.base) {
-        let tried = Parts { base: (*other).to_string(), ..parts.clone() };
+        let tried = Parts {
+            base: (*other).to_string(),
+            ..parts.clone()
+        };
         if let Some(found) = symbols.find(&tried.key()) {
             return Some(found);
         }
@@ -306,16 +376,21 @@ pub(crate) fn base(text: &str, at: usize, parts: &mut Parts, depth: u32) -> Opti
     }
     let end = match c {
         '\\' => {
-            let length = rest[1..].find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len() - 1);
+            let length = rest[1..]
+                .find(|c: char| !c.is_ascii_alphabetic())
+                .unwrap_or(rest.len() - 1);
             let word = &rest[1..1 + length];
             let behind = at + 1 + length;
             match word {
-                "hat" | "widehat" | "dot" | "ddot" | "bar" | "overline" | "vec" | "overrightarrow" | "tilde" => {
+                "hat" | "widehat" | "dot" | "ddot" | "bar" | "overline" | "vec"
+                | "overrightarrow" | "tilde" => {
                     parts.accent = match word {
                         "widehat" => "hat",
                         "overline" => "bar",
                         "overrightarrow" => "vec",
-                        other => super::symbols::ACCENTS.iter().find(|accent| **accent == other)?,
+                        other => super::symbols::ACCENTS
+                            .iter()
+                            .find(|accent| **accent == other)?,
                     };
                     let accent = parts.accent;
                     let end = argument(text, behind, parts, depth)?;
@@ -325,8 +400,8 @@ pub(crate) fn base(text: &str, at: usize, parts: &mut Parts, depth: u32) -> Opti
                     }
                     end
                 }
-                "mathrm" | "mathbf" | "mathit" | "boldsymbol" | "bm" | "textbf" | "mathsf" | "text" | "textit" | "textrm"
-                | "mathcal" => argument(text, behind, parts, depth)?,
+                "mathrm" | "mathbf" | "mathit" | "boldsymbol" | "bm" | "textbf" | "mathsf"
+                | "text" | "textit" | "textrm" | "mathcal" => argument(text, behind, parts, depth)?,
                 "ell" => {
                     parts.base.push('l');
                     behind
@@ -370,7 +445,9 @@ pub(crate) fn base(text: &str, at: usize, parts: &mut Parts, depth: u32) -> Opti
 
 /// An accent as a combining character behind the letter.
 pub(crate) fn combining(text: &str, at: usize, parts: &mut Parts) -> usize {
-    let Some(c) = text[at..].chars().next() else { return at };
+    let Some(c) = text[at..].chars().next() else {
+        return at;
+    };
     parts.accent = match c {
         '\u{302}' => "hat",
         '\u{307}' => "dot",
@@ -386,7 +463,9 @@ pub(crate) fn combining(text: &str, at: usize, parts: &mut Parts) -> usize {
 /// The base in braces, or the next single one, behind an accent or a font.
 fn argument(text: &str, at: usize, parts: &mut Parts, depth: u32) -> Option<usize> {
     let at = at + text[at..].len() - text[at..].trim_start_matches(' ').len();
-    let Some((inside, end)) = braced(text, at) else { return base(text, at, parts, depth + 1) };
+    let Some((inside, end)) = braced(text, at) else {
+        return base(text, at, parts, depth + 1);
+    };
     let trimmed = inside.trim();
     let used = base(trimmed, 0, parts, depth + 1)?;
     if used == trimmed.len() {
@@ -398,7 +477,8 @@ fn argument(text: &str, at: usize, parts: &mut Parts, depth: u32) -> Option<usiz
     if inner == trimmed.len() {
         return Some(end);
     }
-    if depth == 0 && trimmed.len() <= LONGEST && trimmed.bytes().all(|b| b.is_ascii_alphanumeric()) {
+    if depth == 0 && trimmed.len() <= LONGEST && trimmed.bytes().all(|b| b.is_ascii_alphanumeric())
+    {
         parts.base = trimmed.to_string();
         return Some(end);
     }

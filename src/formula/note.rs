@@ -68,7 +68,13 @@ impl Note {
         use Remark::*;
         matches!(
             self.remark,
-            Slash { .. } | Argument { .. } | Root { .. } | PowerOfTen { .. } | Component { .. } | ArcOrFactor { .. } | UnitNotSymbols
+            Slash { .. }
+                | Argument { .. }
+                | Root { .. }
+                | PowerOfTen { .. }
+                | Component { .. }
+                | ArcOrFactor { .. }
+                | UnitNotSymbols
         )
     }
 
@@ -85,24 +91,51 @@ impl Note {
             Remark::Slash { tight } => {
                 let (above, below) = first.split_once(['/', '÷']).unwrap_or((first, ""));
                 let (above, below) = (above.trim(), below.trim());
-                pick(tight, format!("{above}/({below} {second})"), format!("({above}/{below})·{second}"))
+                pick(
+                    tight,
+                    format!("{above}/({below} {second})"),
+                    format!("({above}/{below})·{second}"),
+                )
             }
-            Remark::Argument { long } => {
-                pick(long, format!("the function of all of it, ({whole})"), format!("({first})·{second}").replace("·/", "/"))
-            }
-            Remark::Root { long } => pick(long, "the root of all of it".into(), format!("({first})·{second}")),
-            Remark::PowerOfTen { ten } => {
-                pick(ten, "a power of ten".into(), format!("{first} times the symbol {}", &second[..second.len().min(1)]))
-            }
+            Remark::Argument { long } => pick(
+                long,
+                format!("the function of all of it, ({whole})"),
+                format!("({first})·{second}").replace("·/", "/"),
+            ),
+            Remark::Root { long } => pick(
+                long,
+                "the root of all of it".into(),
+                format!("({first})·{second}"),
+            ),
+            Remark::PowerOfTen { ten } => pick(
+                ten,
+                "a power of ten".into(),
+                format!(
+                    "{first} times the symbol {}",
+                    &second[..second.len().min(1)]
+                ),
+            ),
             Remark::Component { one } => pick(one, "one name".into(), "a product".into()),
-            Remark::ArcOrFactor { arc } => pick(arc, format!("the inverse of {second}"), format!("a times {second}")),
-            Remark::UnitNotSymbols => format!("I read {whole} as a unit; the other reading is a product of symbols"),
+            Remark::ArcOrFactor { arc } => pick(
+                arc,
+                format!("the inverse of {second}"),
+                format!("a times {second}"),
+            ),
+            Remark::UnitNotSymbols => {
+                format!("I read {whole} as a unit; the other reading is a product of symbols")
+            }
             Remark::Letters => format!("I read {whole} letter by letter, as a product"),
             Remark::NaturalLogarithm => "I read log as the natural logarithm".into(),
-            Remark::Inverse => format!("I read {whole} as the inverse function, not as a reciprocal"),
-            Remark::Radians => format!("{whole} under the function counts as radians; degrees are written {whole}°"),
+            Remark::Inverse => {
+                format!("I read {whole} as the inverse function, not as a reciprocal")
+            }
+            Remark::Radians => format!(
+                "{whole} under the function counts as radians; degrees are written {whole}°"
+            ),
             Remark::Punctuation => format!("I passed over the {whole} behind the formula"),
-            Remark::UnitOfSymbols => format!("a formula in symbols has the unit of its symbols; {whole} was not used"),
+            Remark::UnitOfSymbols => {
+                format!("a formula in symbols has the unit of its symbols; {whole} was not used")
+            }
         }
     }
 }

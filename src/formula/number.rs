@@ -39,22 +39,36 @@ pub(crate) fn literal(text: &str, at: usize, exponent: Exponent) -> Faulty<(Lite
     comma(text, at, end)?;
     if bytes.get(end) == Some(&b'.') {
         let mut stop = end;
-        while bytes.get(stop).is_some_and(|b| b.is_ascii_digit() || *b == b'.') {
+        while bytes
+            .get(stop)
+            .is_some_and(|b| b.is_ascii_digit() || *b == b'.')
+        {
             stop += 1;
         }
         let shown = &text[at..stop];
-        return Err(Fault::new(format!("`{shown}` is no number: it has two decimal points"), at, stop));
+        return Err(Fault::new(
+            format!("`{shown}` is no number: it has two decimal points"),
+            at,
+            stop,
+        ));
     }
     let digits = (whole_end - at) + fraction.len();
     if digits > MAX_DIGITS {
-        return Err(Fault::new(format!("a number has at most {MAX_DIGITS} digits, this one has {digits}"), at, end));
+        return Err(Fault::new(
+            format!("a number has at most {MAX_DIGITS} digits, this one has {digits}"),
+            at,
+            end,
+        ));
     }
     let mut power = 0i64;
     let mut scientific = false;
     if exponent == Exponent::Ten {
         if let Some((digits_at, stop, negative)) = exponent_at(bytes, end) {
             scientific = true;
-            power = text[digits_at..stop].trim_start_matches('0').parse().unwrap_or(if stop > digits_at { 0 } else { i64::MAX });
+            power = text[digits_at..stop]
+                .trim_start_matches('0')
+                .parse()
+                .unwrap_or(if stop > digits_at { 0 } else { i64::MAX });
             let too_long = text[digits_at..stop].trim_start_matches('0').len() > 6;
             if too_long || power > MAX_EXPONENT {
                 let message = format!("the power of ten of a number is at most {MAX_EXPONENT}");
@@ -69,19 +83,28 @@ pub(crate) fn literal(text: &str, at: usize, exponent: Exponent) -> Faulty<(Lite
     let mut all = 0i64;
     let mut fits = digits <= 18;
     for b in bytes[at..whole_end].iter().chain(&bytes[fraction.clone()]) {
-        all = if fits { all * 10 + i64::from(b - b'0') } else { all };
+        all = if fits {
+            all * 10 + i64::from(b - b'0')
+        } else {
+            all
+        };
     }
     let value = if fits {
         Int::from(all)
     } else {
         fits = true;
         let joined = format!("{}{}", &text[at..whole_end], &text[fraction.clone()]);
-        <Int as num_traits::Num>::from_str_radix(&joined, 10).map_err(|_| Fault::new("this is no number", at, end))?
+        <Int as num_traits::Num>::from_str_radix(&joined, 10)
+            .map_err(|_| Fault::new("this is no number", at, end))?
     };
     let _ = fits;
     let place = power - fraction.len() as i64;
     let scale = ten_to(place);
-    let zeros = text[at..end].bytes().take_while(|b| matches!(b, b'0' | b'.')).filter(|b| *b == b'0').count();
+    let zeros = text[at..end]
+        .bytes()
+        .take_while(|b| matches!(b, b'0' | b'.'))
+        .filter(|b| *b == b'0')
+        .count();
     let significant = digits.saturating_sub(zeros).max(usize::from(digits > 0));
     let found = Literal {
         value: Rational::from(value) * scale,
@@ -99,14 +122,21 @@ pub(crate) fn exponent_at(bytes: &[u8], at: usize) -> Option<(usize, usize, bool
     }
     let negative = bytes.get(at + 1) == Some(&b'-');
     let digits_at = at + 1 + usize::from(negative || bytes.get(at + 1) == Some(&b'+'));
-    let count = bytes[digits_at.min(bytes.len())..].iter().take_while(|b| b.is_ascii_digit()).count();
+    let count = bytes[digits_at.min(bytes.len())..]
+        .iter()
+        .take_while(|b| b.is_ascii_digit())
+        .count();
     (count > 0).then_some((digits_at, digits_at + count, negative))
 }
 
 /// Ten to a power that has been checked.
 pub(crate) fn ten_to(power: i64) -> Rational {
     let raised = Int::from(10).pow(power.unsigned_abs() as u32);
-    if power < 0 { Rational::new_raw(Int::from(1), raised) } else { Rational::from(raised) }
+    if power < 0 {
+        Rational::new_raw(Int::from(1), raised)
+    } else {
+        Rational::from(raised)
+    }
 }
 
 /// A comma between digits is asked back: it could be a decimal sign, a thousands separator or a list.
@@ -116,7 +146,10 @@ fn comma(text: &str, at: usize, end: usize) -> Faulty<()> {
     if !(rest.starts_with("{,}") || rest.starts_with(',')) {
         return Ok(());
     }
-    let digits = rest[length..].bytes().take_while(u8::is_ascii_digit).count();
+    let digits = rest[length..]
+        .bytes()
+        .take_while(u8::is_ascii_digit)
+        .count();
     if digits == 0 {
         return Ok(());
     }
@@ -125,7 +158,13 @@ fn comma(text: &str, at: usize, end: usize) -> Faulty<()> {
     if digits == 3 {
         hint.push_str(&format!(", {whole}{part} for thousands"));
     }
-    hint.push_str(&format!(", or {whole}, {part} with a space for two components"));
-    let fault = Fault::new("a comma between digits could mean several things", end, end + length);
+    hint.push_str(&format!(
+        ", or {whole}, {part} with a space for two components"
+    ));
+    let fault = Fault::new(
+        "a comma between digits could mean several things",
+        end,
+        end + length,
+    );
     Err(fault.hint(hint))
 }

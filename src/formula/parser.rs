@@ -3,12 +3,12 @@
 //! From loose to tight: sums; products and quotients with a sign; products without a sign; functions without brackets;
 //! powers. Where people's habits differ the decision is a numbered site, see [`super::other_readings`].
 
+use super::Relation;
 use super::fault::{Fault, Faulty};
 use super::lexer::{Lexer, Tok, Token};
 use super::note::Remark;
 use super::symbols::Symbols;
 use super::written::{Link, Literal, Shape, Sign, Written};
-use super::Relation;
 use crate::dimension::Unit;
 use crate::expr::{Function, ratio};
 
@@ -31,7 +31,12 @@ pub(crate) struct Parser<'a> {
 
 impl<'a> Parser<'a> {
     pub fn new(text: &'a str, symbols: &'a Symbols, units_first: bool, flips: u64) -> Parser<'a> {
-        Parser { lexer: Lexer::new(text, symbols, units_first, flips), peeked: None, depth: 0, bars: 0 }
+        Parser {
+            lexer: Lexer::new(text, symbols, units_first, flips),
+            peeked: None,
+            depth: 0,
+            bars: 0,
+        }
     }
 
     /// The whole input: one side, or sides with relations between them.
@@ -44,13 +49,18 @@ impl<'a> Parser<'a> {
                 Tok::End => return Ok((sides, relations)),
                 Tok::Relation(relation) => {
                     if relations.len() >= 32 {
-                        return Err(Fault::new("at most 32 relations in one line", token.start, token.end));
+                        return Err(Fault::new(
+                            "at most 32 relations in one line",
+                            token.start,
+                            token.end,
+                        ));
                     }
                     relations.push(relation);
                     sides.push(self.side()?);
                 }
                 Tok::Comma if self.lexer.at_end() => {
-                    self.lexer.note(Remark::Punctuation, token.start, token.start, token.end);
+                    self.lexer
+                        .note(Remark::Punctuation, token.start, token.start, token.end);
                 }
                 _ => return Err(self.unexpected(&token)),
             }
@@ -62,10 +72,16 @@ impl<'a> Parser<'a> {
         if let Tok::Unit(_) = self.peek()?.tok {
             let token = self.next()?;
             if let Tok::Unit(unit) = token.tok {
-                return Ok(Side { written, unit: Some((*unit, token.start, token.end)) });
+                return Ok(Side {
+                    written,
+                    unit: Some((*unit, token.start, token.end)),
+                });
             }
         }
-        Ok(Side { written, unit: None })
+        Ok(Side {
+            written,
+            unit: None,
+        })
     }
 
     fn peek(&mut self) -> Faulty<&Token> {
@@ -88,7 +104,11 @@ impl<'a> Parser<'a> {
     fn deeper<T>(&mut self, work: impl FnOnce(&mut Self) -> Faulty<T>) -> Faulty<T> {
         if self.depth >= MAX_DEPTH {
             let at = self.peeked.as_ref().map_or(self.lexer.pos, |t| t.start);
-            return Err(Fault::new(format!("nested more than {MAX_DEPTH} deep"), at, at));
+            return Err(Fault::new(
+                format!("nested more than {MAX_DEPTH} deep"),
+                at,
+                at,
+            ));
         }
         self.depth += 1;
         let result = work(self);
@@ -97,7 +117,10 @@ impl<'a> Parser<'a> {
     }
 
     fn unexpected(&self, token: &Token) -> Box<Fault> {
-        let shown: String = self.lexer.text[token.start..token.end].chars().take(24).collect();
+        let shown: String = self.lexer.text[token.start..token.end]
+            .chars()
+            .take(24)
+            .collect();
         let message = match &token.tok {
             Tok::End => "the formula ends here, and something is missing".to_string(),
             Tok::Close(_) => format!("`{shown}` closes a bracket that was not opened"),
@@ -113,10 +136,15 @@ impl<'a> Parser<'a> {
 
     /// The fault where a value should start.
     fn missing(&self, token: &Token) -> Box<Fault> {
-        let shown: String = self.lexer.text[token.start..token.end].chars().take(24).collect();
+        let shown: String = self.lexer.text[token.start..token.end]
+            .chars()
+            .take(24)
+            .collect();
         let message = match &token.tok {
             Tok::End if self.lexer.text.trim().is_empty() => "the formula is empty".to_string(),
-            Tok::End => "a number, a name or a bracket is expected, and the formula ends".to_string(),
+            Tok::End => {
+                "a number, a name or a bracket is expected, and the formula ends".to_string()
+            }
             _ => format!("a number, a name or a bracket is expected before `{shown}`"),
         };
         Fault::new(message, token.start, token.end)
@@ -184,7 +212,11 @@ impl<'a> Parser<'a> {
                 }
                 _ => None,
             };
-            let (mut factor, rest) = if link == Link::Over { self.below(&factors)? } else { (self.group()?, None) };
+            let (mut factor, rest) = if link == Link::Over {
+                self.below(&factors)?
+            } else {
+                (self.group()?, None)
+            };
             if let Some(at) = negative {
                 let stop = factor.end;
                 factor = Written::new(Shape::Sum(vec![(Sign::Minus, factor)]), at, stop);
@@ -212,7 +244,9 @@ impl<'a> Parser<'a> {
         let spaced = self.peek()?.spaced;
         let whole = |w: &Written| matches!(&w.shape, Shape::Number(n) if !n.decimal);
         let half = match above {
-            [(_, number)] => whole(number) && whole(&first) && first.start == number.end + 1 && spaced,
+            [(_, number)] => {
+                whole(number) && whole(&first) && first.start == number.end + 1 && spaced
+            }
             _ => false,
         };
         let usual = self.lexer.usual();
@@ -220,9 +254,14 @@ impl<'a> Parser<'a> {
         let from = above.last().map_or(first.start, |(_, w)| w.start);
         let (middle, start) = (first.end, first.start);
         let rest = self.group_from(if tight { Some(first.clone()) } else { None })?;
-        self.lexer.note(Remark::Slash { tight }, from, middle, rest.end);
+        self.lexer
+            .note(Remark::Slash { tight }, from, middle, rest.end);
         let _ = start;
-        Ok(if tight { (rest, None) } else { (first, Some(rest)) })
+        Ok(if tight {
+            (rest, None)
+        } else {
+            (first, Some(rest))
+        })
     }
 
     /// Factors side by side.
@@ -242,7 +281,17 @@ impl<'a> Parser<'a> {
         let (start, mut end) = (first.start, first.end);
         let mut factors = vec![(Link::Beside, first)];
         while self.starts_factor()? {
-            if let (Tok::Number(_), Some((_, Written { shape: Shape::Number(_), .. }))) = (&self.peek()?.tok, factors.last()) {
+            if let (
+                Tok::Number(_),
+                Some((
+                    _,
+                    Written {
+                        shape: Shape::Number(_),
+                        ..
+                    },
+                )),
+            ) = (&self.peek()?.tok, factors.last())
+            {
                 let token = self.next()?;
                 return Err(self.unexpected(&token).hint("write * for a product"));
             }
@@ -256,7 +305,12 @@ impl<'a> Parser<'a> {
     fn starts_factor(&mut self) -> Faulty<bool> {
         let bars = self.bars;
         Ok(match self.peek()?.tok {
-            Tok::Number(_) | Tok::Name(_) | Tok::Call(_) | Tok::Reciprocal(_) | Tok::Root(_) | Tok::Fraction => true,
+            Tok::Number(_)
+            | Tok::Name(_)
+            | Tok::Call(_)
+            | Tok::Reciprocal(_)
+            | Tok::Root(_)
+            | Tok::Fraction => true,
             Tok::Open(_) | Tok::OpenBar | Tok::Vulgar(..) => true,
             Tok::Bar => bars == 0,
             _ => false,
@@ -276,20 +330,32 @@ impl<'a> Parser<'a> {
                     self.next()?;
                     let exponent = self.exponent()?;
                     let (start, end) = (base.start, exponent.end);
-                    base = Written::new(Shape::Power(Box::new(base), Box::new(exponent)), start, end);
+                    base =
+                        Written::new(Shape::Power(Box::new(base), Box::new(exponent)), start, end);
                     if let Tok::Caret | Tok::Raised(_) = self.peek()?.tok {
                         let token = self.next()?;
-                        return Err(Fault::new("two exponents on one base", token.start, token.end).hint("write brackets"));
+                        return Err(Fault::new(
+                            "two exponents on one base",
+                            token.start,
+                            token.end,
+                        )
+                        .hint("write brackets"));
                     }
                 }
                 Tok::Raised(_) => {
                     let token = self.next()?;
                     let exponent = raised_number(&token);
                     let (start, end) = (base.start, token.end);
-                    base = Written::new(Shape::Power(Box::new(base), Box::new(exponent)), start, end);
+                    base =
+                        Written::new(Shape::Power(Box::new(base), Box::new(exponent)), start, end);
                     if let Tok::Caret | Tok::Raised(_) = self.peek()?.tok {
                         let token = self.next()?;
-                        return Err(Fault::new("two exponents on one base", token.start, token.end).hint("write brackets"));
+                        return Err(Fault::new(
+                            "two exponents on one base",
+                            token.start,
+                            token.end,
+                        )
+                        .hint("write brackets"));
                     }
                 }
                 Tok::Degree => {
@@ -349,7 +415,9 @@ impl<'a> Parser<'a> {
                 self.bars = outer;
                 let close = self.next()?;
                 match close.tok {
-                    Tok::CloseBar => Ok(Written::new(Shape::Abs(Box::new(inner)), start, close.end)),
+                    Tok::CloseBar => {
+                        Ok(Written::new(Shape::Abs(Box::new(inner)), start, close.end))
+                    }
                     _ => Err(self.unclosed("|", start, end, &close)),
                 }
             }
@@ -357,7 +425,11 @@ impl<'a> Parser<'a> {
                 let above = p.argument("the numerator")?;
                 let below = p.argument("the denominator")?;
                 let stop = below.end;
-                Ok(Written::new(Shape::Fraction(Box::new(above), Box::new(below)), start, stop))
+                Ok(Written::new(
+                    Shape::Fraction(Box::new(above), Box::new(below)),
+                    start,
+                    stop,
+                ))
             }),
             Tok::Root(index) => self.deeper(|p| p.root(index, start, end)),
             Tok::Call(function) => self.deeper(|p| p.call(function, false, start, end)),
@@ -368,10 +440,16 @@ impl<'a> Parser<'a> {
 
     fn unclosed(&self, open: &str, start: usize, end: usize, at: &Token) -> Box<Fault> {
         match at.tok {
-            Tok::End => Fault::new(format!("`{open}` is opened here and never closed"), start, end),
+            Tok::End => Fault::new(
+                format!("`{open}` is opened here and never closed"),
+                start,
+                end,
+            ),
             _ => {
                 let shown: String = self.lexer.text[at.start..at.end].chars().take(24).collect();
-                let message = format!("`{shown}` stands where the `{open}` opened at byte {start} should be closed");
+                let message = format!(
+                    "`{shown}` stands where the `{open}` opened at byte {start} should be closed"
+                );
                 Fault::new(message, at.start, at.end)
             }
         }
@@ -383,7 +461,11 @@ impl<'a> Parser<'a> {
         let mut token = self.next()?;
         while token.tok == Tok::Comma && open != '{' {
             if parts.len() >= 3 {
-                return Err(Fault::new("a vector has at most three components", token.start, token.end));
+                return Err(Fault::new(
+                    "a vector has at most three components",
+                    token.start,
+                    token.end,
+                ));
             }
             parts.push(self.sum()?);
             token = self.next()?;
@@ -416,10 +498,19 @@ impl<'a> Parser<'a> {
         }
         let token = self.peek()?;
         match token.tok {
-            Tok::Number(_) | Tok::Name(_) | Tok::Open('{' | '(') | Tok::Fraction | Tok::Root(_) | Tok::Vulgar(..) => self.primary(),
+            Tok::Number(_)
+            | Tok::Name(_)
+            | Tok::Open('{' | '(')
+            | Tok::Fraction
+            | Tok::Root(_)
+            | Tok::Vulgar(..) => self.primary(),
             _ => {
                 let token = self.next()?;
-                Err(Fault::new(format!("{what} is expected here"), token.start, token.end))
+                Err(Fault::new(
+                    format!("{what} is expected here"),
+                    token.start,
+                    token.end,
+                ))
             }
         }
     }
@@ -442,7 +533,10 @@ impl<'a> Parser<'a> {
             None if tex => self.argument("what stands under the root")?,
             None => self.primary()?,
         };
-        let bracketed = matches!(inner.shape, Shape::Bracket(_) | Shape::Call(..) | Shape::Root(..) | Shape::Fraction(..));
+        let bracketed = matches!(
+            inner.shape,
+            Shape::Bracket(_) | Shape::Call(..) | Shape::Root(..) | Shape::Fraction(..)
+        );
         let shown = !tex && !bracketed && self.starts_factor()?;
         let mut inner = inner;
         if shown {
@@ -450,18 +544,30 @@ impl<'a> Parser<'a> {
             let middle = inner.end;
             if usual {
                 let stop = self.peek()?.end;
-                self.lexer.note(Remark::Root { long: false }, start, middle, stop);
+                self.lexer
+                    .note(Remark::Root { long: false }, start, middle, stop);
             } else {
                 inner = self.group_from(Some(inner))?;
-                self.lexer.note(Remark::Root { long: true }, start, middle, inner.end);
+                self.lexer
+                    .note(Remark::Root { long: true }, start, middle, inner.end);
             }
         }
         let stop = inner.end;
-        Ok(Written::new(Shape::Root(degree, Box::new(inner)), start, stop))
+        Ok(Written::new(
+            Shape::Root(degree, Box::new(inner)),
+            start,
+            stop,
+        ))
     }
 
     /// A function: its own exponent, then its argument.
-    fn call(&mut self, function: Function, reciprocal: bool, start: usize, end: usize) -> Faulty<Written> {
+    fn call(
+        &mut self,
+        function: Function,
+        reciprocal: bool,
+        start: usize,
+        end: usize,
+    ) -> Faulty<Written> {
         let mut exponent = None;
         match self.peek()?.tok {
             Tok::Caret => {
@@ -475,27 +581,49 @@ impl<'a> Parser<'a> {
         let in_bars = self.bars > 0;
         let first = self.peek()?;
         let argument = match first.tok {
-            Tok::Open(_) | Tok::Bar | Tok::OpenBar if first.tok != Tok::Bar || !in_bars => self.primary()?,
+            Tok::Open(_) | Tok::Bar | Tok::OpenBar if first.tok != Tok::Bar || !in_bars => {
+                self.primary()?
+            }
             Tok::Minus | Tok::Plus => {
                 let (at, sign) = (first.start, self.sign()?);
                 let inner = self.bare_argument()?;
                 let stop = inner.end;
-                Written::new(Shape::Sum(vec![(sign.unwrap_or(Sign::Plus), inner)]), at, stop)
+                Written::new(
+                    Shape::Sum(vec![(sign.unwrap_or(Sign::Plus), inner)]),
+                    at,
+                    stop,
+                )
             }
-            Tok::Number(_) | Tok::Name(_) | Tok::Vulgar(..) | Tok::Fraction | Tok::Root(_) | Tok::Call(_) | Tok::Reciprocal(_) => {
-                self.bare_argument()?
-            }
+            Tok::Number(_)
+            | Tok::Name(_)
+            | Tok::Vulgar(..)
+            | Tok::Fraction
+            | Tok::Root(_)
+            | Tok::Call(_)
+            | Tok::Reciprocal(_) => self.bare_argument()?,
             _ => {
                 let token = self.next()?;
-                return Err(Fault::new(format!("{name} needs an argument"), start, end.max(token.start)));
+                return Err(Fault::new(
+                    format!("{name} needs an argument"),
+                    start,
+                    end.max(token.start),
+                ));
             }
         };
         let trigonometric = matches!(function, Function::Sin | Function::Cos | Function::Tan);
         if trigonometric && plain_number(&argument) {
-            self.lexer.note(Remark::Radians, argument.start, argument.start, argument.end);
+            self.lexer.note(
+                Remark::Radians,
+                argument.start,
+                argument.start,
+                argument.end,
+            );
         }
         let stop = argument.end;
-        let minus_one = exponent.as_ref().and_then(Written::literal).is_some_and(|k| k.value == ratio(-1, 1));
+        let minus_one = exponent
+            .as_ref()
+            .and_then(Written::literal)
+            .is_some_and(|k| k.value == ratio(-1, 1));
         let inverse = match function {
             Function::Sin => Some(Function::Asin),
             Function::Cos => Some(Function::Acos),
@@ -505,13 +633,25 @@ impl<'a> Parser<'a> {
         if let (true, Some(inverse), false) = (minus_one, inverse, reciprocal) {
             let raised_end = exponent.map_or(end, |e| e.end);
             self.lexer.note(Remark::Inverse, start, start, raised_end);
-            return Ok(Written::new(Shape::Call(inverse, Box::new(argument)), start, stop));
+            return Ok(Written::new(
+                Shape::Call(inverse, Box::new(argument)),
+                start,
+                stop,
+            ));
         }
         let argument = Box::new(argument);
-        let shape = if reciprocal { Shape::Reciprocal(function, argument) } else { Shape::Call(function, argument) };
+        let shape = if reciprocal {
+            Shape::Reciprocal(function, argument)
+        } else {
+            Shape::Call(function, argument)
+        };
         let called = Written::new(shape, start, stop);
         Ok(match exponent {
-            Some(exponent) => Written::new(Shape::Power(Box::new(called), Box::new(exponent)), start, stop),
+            Some(exponent) => Written::new(
+                Shape::Power(Box::new(called), Box::new(exponent)),
+                start,
+                stop,
+            ),
             None => called,
         })
     }
@@ -541,20 +681,29 @@ impl<'a> Parser<'a> {
                     let both = angle && self.lexer.is_angle(name);
                     let usual = self.lexer.usual();
                     let long = (!angle || both) == usual;
-                    self.lexer.note(Remark::Argument { long }, start, end, token.end);
+                    self.lexer
+                        .note(Remark::Argument { long }, start, end, token.end);
                     long
                 }
                 Tok::Slash if named => {
                     // sinθ/2: half of the sine, unless somebody meant the half angle.
-                    let digit = self.lexer.text[self.lexer.pos..].trim_start().starts_with(|c: char| c.is_ascii_digit());
+                    let digit = self.lexer.text[self.lexer.pos..]
+                        .trim_start()
+                        .starts_with(|c: char| c.is_ascii_digit());
                     if digit && !self.lexer.usual() {
                         self.next()?;
                         let below = self.factor()?;
-                        self.lexer.note(Remark::Argument { long: true }, start, end, below.end);
+                        self.lexer
+                            .note(Remark::Argument { long: true }, start, end, below.end);
                         end = below.end;
                         factors.push((Link::Over, below));
                     } else if digit {
-                        self.lexer.note(Remark::Argument { long: false }, start, end, token.end + 1);
+                        self.lexer.note(
+                            Remark::Argument { long: false },
+                            start,
+                            end,
+                            token.end + 1,
+                        );
                     }
                     false
                 }
@@ -612,7 +761,12 @@ fn plain_number(written: &Written) -> bool {
 }
 
 fn whole_number(value: i64, start: usize, end: usize) -> Written {
-    let literal = Literal { value: ratio(value, 1), digits: 1, place: 0, decimal: false };
+    let literal = Literal {
+        value: ratio(value, 1),
+        digits: 1,
+        place: 0,
+        decimal: false,
+    };
     Written::new(Shape::Number(literal), start, end)
 }
 
@@ -621,7 +775,12 @@ fn raised_number(token: &Token) -> Written {
         Tok::Raised(value) => value.clone(),
         _ => ratio(1, 1),
     };
-    let literal = Literal { value, digits: 1, place: 0, decimal: false };
+    let literal = Literal {
+        value,
+        digits: 1,
+        place: 0,
+        decimal: false,
+    };
     Written::new(Shape::Number(literal), token.start, token.end)
 }
 

@@ -34,7 +34,10 @@ impl Symbols {
 
     /// Whatever is not declared is collected: letters with their indices, and Greek names.
     pub fn open() -> Symbols {
-        Symbols { open: true, ..Symbols::default() }
+        Symbols {
+            open: true,
+            ..Symbols::default()
+        }
     }
 
     /// Whether undeclared names are collected rather than refused.
@@ -50,8 +53,17 @@ impl Symbols {
     /// Declares a name with its LaTeX spelling and dimension, where there are such.
     pub fn declare_as(&mut self, name: &str, latex: Option<&str>, dimension: Option<Dimension>) {
         let index = self.declared.len();
-        self.declared.push(Declared { name: Symbol::from(name), dimension });
-        for key in [Some(key_of(name)), latex.and_then(super::name::key_of_latex)].into_iter().flatten() {
+        self.declared.push(Declared {
+            name: Symbol::from(name),
+            dimension,
+        });
+        for key in [
+            Some(key_of(name)),
+            latex.and_then(super::name::key_of_latex),
+        ]
+        .into_iter()
+        .flatten()
+        {
             let base: String = key.chars().take_while(char::is_ascii_alphabetic).collect();
             if base.len() > 1 {
                 self.bases.insert(base);
@@ -82,8 +94,14 @@ impl Symbols {
     /// The declared name that looks most like `name`, when one is near.
     pub fn nearest(&self, name: &str) -> Option<&Symbol> {
         let limit = 1 + name.chars().count() / 3;
-        let distances = self.declared.iter().map(|d| (distance(name, &d.name), &d.name));
-        distances.filter(|(far, _)| *far <= limit).min_by_key(|(far, _)| *far).map(|(_, name)| name)
+        let distances = self
+            .declared
+            .iter()
+            .map(|d| (distance(name, &d.name), &d.name));
+        distances
+            .filter(|(far, _)| *far <= limit)
+            .min_by_key(|(far, _)| *far)
+            .map(|(_, name)| name)
     }
 }
 
@@ -134,7 +152,9 @@ pub(crate) fn parts_of(name: &str) -> Parts {
     let marks_at = name.find(['\'', '^']).unwrap_or(name.len());
     let (plain, marks) = name.split_at(marks_at);
     parts.marks = marks.replace(['{', '}'], "");
-    let base_end = plain.find(|c: char| c == '_' || c.is_ascii_digit()).unwrap_or(plain.len());
+    let base_end = plain
+        .find(|c: char| c == '_' || c.is_ascii_digit())
+        .unwrap_or(plain.len());
     parts.base = plain[..base_end].to_string();
     for piece in plain[base_end..].split('_') {
         match ACCENTS.iter().find(|accent| **accent == piece) {
@@ -168,10 +188,45 @@ pub(crate) fn variants(base: &str) -> &'static [&'static str] {
 
 /// Names of Greek letters, as words and as macros.
 pub(crate) fn is_greek(word: &str) -> bool {
-    matches!(word,
-        "alpha" | "beta" | "gamma" | "delta" | "epsilon" | "varepsilon" | "zeta" | "eta" | "theta" | "vartheta" | "iota"
-        | "kappa" | "lambda" | "mu" | "nu" | "xi" | "rho" | "varrho" | "sigma" | "tau" | "upsilon" | "phi" | "varphi" | "chi"
-        | "psi" | "omega" | "Gamma" | "Delta" | "Theta" | "Lambda" | "Xi" | "Sigma" | "Upsilon" | "Phi" | "Psi" | "Omega")
+    matches!(
+        word,
+        "alpha"
+            | "beta"
+            | "gamma"
+            | "delta"
+            | "epsilon"
+            | "varepsilon"
+            | "zeta"
+            | "eta"
+            | "theta"
+            | "vartheta"
+            | "iota"
+            | "kappa"
+            | "lambda"
+            | "mu"
+            | "nu"
+            | "xi"
+            | "rho"
+            | "varrho"
+            | "sigma"
+            | "tau"
+            | "upsilon"
+            | "phi"
+            | "varphi"
+            | "chi"
+            | "psi"
+            | "omega"
+            | "Gamma"
+            | "Delta"
+            | "Theta"
+            | "Lambda"
+            | "Xi"
+            | "Sigma"
+            | "Upsilon"
+            | "Phi"
+            | "Psi"
+            | "Omega"
+    )
 }
 
 /// The name of a Greek letter or a letter that stands for one; π is not among them.
@@ -233,8 +288,23 @@ pub(crate) fn greek_letter(name: &str) -> Option<char> {
 pub(crate) fn is_angle_name(name: &str) -> bool {
     let base = name.find(['_', '\'', '^']).map_or(name, |end| &name[..end]);
     let base = base.trim_end_matches(|c: char| c.is_ascii_digit());
-    let accented = ACCENTS.iter().any(|accent| name[base.len()..].starts_with(&format!("_{accent}")));
-    !accented && matches!(base, "alpha" | "beta" | "gamma" | "theta" | "vartheta" | "phi" | "varphi" | "psi" | "Theta" | "Phi")
+    let accented = ACCENTS
+        .iter()
+        .any(|accent| name[base.len()..].starts_with(&format!("_{accent}")));
+    !accented
+        && matches!(
+            base,
+            "alpha"
+                | "beta"
+                | "gamma"
+                | "theta"
+                | "vartheta"
+                | "phi"
+                | "varphi"
+                | "psi"
+                | "Theta"
+                | "Phi"
+        )
 }
 
 /// Number of single-character edits from one word to another; swapping case counts as one.

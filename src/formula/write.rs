@@ -40,7 +40,11 @@ struct Writer<'a> {
 }
 
 fn write(e: &Expr, style: Style, names: Names) -> String {
-    let mut writer = Writer { style, names, out: String::new() };
+    let mut writer = Writer {
+        style,
+        names,
+        out: String::new(),
+    };
     writer.sum(e);
     writer.out
 }
@@ -53,7 +57,11 @@ struct Quotient {
 }
 
 fn quotient(e: &Expr) -> Quotient {
-    let mut q = Quotient { negative: false, above: Vec::new(), below: Vec::new() };
+    let mut q = Quotient {
+        negative: false,
+        above: Vec::new(),
+        below: Vec::new(),
+    };
     let factors = match e.node() {
         Node::Product(factors) => factors.as_slice(),
         _ => std::slice::from_ref(e),
@@ -63,7 +71,10 @@ fn quotient(e: &Expr) -> Quotient {
             Node::Number(value) => {
                 q.negative ^= value.is_negative();
                 let size = value.abs();
-                let (n, d) = (Rational::from(size.numer().clone()), Rational::from(size.denom().clone()));
+                let (n, d) = (
+                    Rational::from(size.numer().clone()),
+                    Rational::from(size.denom().clone()),
+                );
                 if !n.is_one() {
                     q.above.push(Expr::from(n));
                 }
@@ -89,7 +100,9 @@ fn class(e: &Expr) -> u8 {
     match e.node() {
         Node::Number(_) => 0,
         Node::Symbol(_) => 1,
-        Node::Power(base, exponent) if !exponent.as_number().is_some_and(Rational::is_integer) => class(base).max(2),
+        Node::Power(base, exponent) if !exponent.as_number().is_some_and(Rational::is_integer) => {
+            class(base).max(2)
+        }
         Node::Power(base, _) => class(base),
         Node::Product(_) => 2,
         Node::Sum(_) => 3,
@@ -107,9 +120,17 @@ impl Writer<'_> {
         for (i, term) in terms.iter().enumerate() {
             let q = quotient(term);
             match (i, q.negative) {
-                (0, true) => self.out.push_str(if self.style == Style::Unicode { "−" } else { "-" }),
+                (0, true) => self.out.push_str(if self.style == Style::Unicode {
+                    "−"
+                } else {
+                    "-"
+                }),
                 (0, false) => {}
-                (_, true) => self.out.push_str(if self.style == Style::Unicode { " − " } else { " - " }),
+                (_, true) => self.out.push_str(if self.style == Style::Unicode {
+                    " − "
+                } else {
+                    " - "
+                }),
                 (_, false) => self.out.push_str(" + "),
             }
             self.quotient(&q);
@@ -176,7 +197,9 @@ impl Writer<'_> {
 
     fn factor(&mut self, e: &Expr) {
         match e.node() {
-            Node::Number(value) if value.is_integer() && !value.is_negative() => self.out.push_str(&value.to_string()),
+            Node::Number(value) if value.is_integer() && !value.is_negative() => {
+                self.out.push_str(&value.to_string())
+            }
             Node::Number(_) | Node::Sum(_) | Node::Product(_) => self.bracketed(e),
             Node::Symbol(name) => self.name(name),
             Node::Call(function, argument) => self.call(*function, argument, None),
@@ -207,8 +230,12 @@ impl Writer<'_> {
             }
             return;
         }
-        let raised = exponent.as_number().filter(|k| k.is_integer() && k.is_positive());
-        if let (Node::Call(function, argument), true, Some(k)) = (base.node(), self.style != Style::Plain, raised) {
+        let raised = exponent
+            .as_number()
+            .filter(|k| k.is_integer() && k.is_positive());
+        if let (Node::Call(function, argument), true, Some(k)) =
+            (base.node(), self.style != Style::Plain, raised)
+        {
             if *function != Function::Abs {
                 return self.call(*function, argument, Some(k));
             }
@@ -225,7 +252,9 @@ impl Writer<'_> {
             self.bracketed(base);
         }
         match (self.style, raised) {
-            (Style::Unicode, Some(k)) if k.numer().bits() < 16 => self.out.push_str(&superscript(&k.to_string())),
+            (Style::Unicode, Some(k)) if k.numer().bits() < 16 => {
+                self.out.push_str(&superscript(&k.to_string()))
+            }
             (Style::Latex, _) => {
                 self.out.push_str("^{");
                 self.sum(exponent);
@@ -245,9 +274,17 @@ impl Writer<'_> {
 
     fn call(&mut self, function: Function, argument: &Expr, power: Option<&Rational>) {
         if function == Function::Abs && self.style != Style::Plain {
-            self.out.push_str(if self.style == Style::Latex { "\\left|" } else { "|" });
+            self.out.push_str(if self.style == Style::Latex {
+                "\\left|"
+            } else {
+                "|"
+            });
             self.sum(argument);
-            self.out.push_str(if self.style == Style::Latex { "\\right|" } else { "|" });
+            self.out.push_str(if self.style == Style::Latex {
+                "\\right|"
+            } else {
+                "|"
+            });
             return;
         }
         match self.style {
@@ -266,8 +303,11 @@ impl Writer<'_> {
             Node::Symbol(name) => !name.contains(['^', '\'']),
             Node::Product(factors) => match factors.as_slice() {
                 [k, name] => {
-                    k.as_number().is_some_and(|k| k.is_integer() && k.is_positive())
-                        && name.as_symbol().is_some_and(|n| greek_letter(n).is_some() && &**n != "pi")
+                    k.as_number()
+                        .is_some_and(|k| k.is_integer() && k.is_positive())
+                        && name
+                            .as_symbol()
+                            .is_some_and(|n| greek_letter(n).is_some() && &**n != "pi")
                 }
                 _ => false,
             },
@@ -276,8 +316,13 @@ impl Writer<'_> {
         if self.style == Style::Plain || !bare {
             return self.bracketed(argument);
         }
-        let greek = argument.as_symbol().is_some_and(|n| greek_letter(&parts_of(n).base).is_some());
-        if !greek || (self.style == Style::Latex && (self.names)(argument.as_symbol().map_or("", |n| n)).is_some()) {
+        let greek = argument
+            .as_symbol()
+            .is_some_and(|n| greek_letter(&parts_of(n).base).is_some());
+        if !greek
+            || (self.style == Style::Latex
+                && (self.names)(argument.as_symbol().map_or("", |n| n)).is_some())
+        {
             self.out.push(' ');
         }
         match argument.node() {
@@ -306,7 +351,9 @@ impl Writer<'_> {
 /// The factor a written product would start with.
 fn leading(e: &Expr) -> &Expr {
     match e.node() {
-        Node::Power(base, exponent) if exponent.as_number().is_none_or(|k| *k != ratio(1, 2)) => leading(base),
+        Node::Power(base, exponent) if exponent.as_number().is_none_or(|k| *k != ratio(1, 2)) => {
+            leading(base)
+        }
         _ => e,
     }
 }
@@ -316,7 +363,11 @@ fn is_tall(e: &Expr) -> bool {
     let mut tall = false;
     e.walk(&mut |part| match part.node() {
         Node::Number(value) => tall |= !value.is_integer(),
-        Node::Power(_, exponent) => tall |= exponent.as_number().is_none_or(|k| !k.is_integer() || k.is_negative()),
+        Node::Power(_, exponent) => {
+            tall |= exponent
+                .as_number()
+                .is_none_or(|k| !k.is_integer() || k.is_negative())
+        }
         _ => {}
     });
     tall
@@ -324,7 +375,11 @@ fn is_tall(e: &Expr) -> bool {
 
 fn superscript(digits: &str) -> String {
     const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    digits.chars().filter_map(|c| c.to_digit(10)).map(|d| RAISED[d as usize]).collect()
+    digits
+        .chars()
+        .filter_map(|c| c.to_digit(10))
+        .map(|d| RAISED[d as usize])
+        .collect()
 }
 
 fn latex_function(function: Function) -> &'static str {
@@ -379,7 +434,11 @@ pub fn latex_name(name: &str) -> String {
 }
 
 fn latex_index(index: &str) -> String {
-    if is_greek(index) { format!("\\{index}") } else { index.to_string() }
+    if is_greek(index) {
+        format!("\\{index}")
+    } else {
+        index.to_string()
+    }
 }
 
 /// The name in Unicode: `theta` → `θ`, `omega1` → `ω₁`, `v_G1` → `v_G1`, `v1^+` → `v₁⁺`.
@@ -426,7 +485,11 @@ fn unicode_of_latex(name: &str, latex: &str) -> String {
     match super::name::key_of_latex(latex) {
         Some(key) => {
             let written = unicode_name(&key);
-            if latex.starts_with("\\ell") { written.replacen('l', "ℓ", 1) } else { written }
+            if latex.starts_with("\\ell") {
+                written.replacen('l', "ℓ", 1)
+            } else {
+                written
+            }
         }
         None => unicode_name(name),
     }

@@ -93,7 +93,9 @@ impl Written {
             Shape::Symbol(name) => &**name == "pi",
             Shape::Fraction(a, b) | Shape::Power(a, b) => a.is_numeric() && b.is_numeric(),
             Shape::Product(factors) => factors.iter().all(|(_, f)| f.is_numeric()),
-            Shape::Root(_, inner) | Shape::Bracket(inner) | Shape::Degrees(inner) => inner.is_numeric(),
+            Shape::Root(_, inner) | Shape::Bracket(inner) | Shape::Degrees(inner) => {
+                inner.is_numeric()
+            }
             _ => false,
         }
     }
@@ -107,21 +109,37 @@ impl Written {
                 [(Sign::Plus, inner)] => inner.literal(),
                 [(Sign::Minus, inner)] => {
                     let found = inner.literal()?;
-                    Some(Literal { value: -found.value.clone(), ..found })
+                    Some(Literal {
+                        value: -found.value.clone(),
+                        ..found
+                    })
                 }
                 _ => None,
             },
             Shape::Product(factors) => match factors.as_slice() {
                 [(_, number), (Link::Times | Link::Beside, ten)] => {
                     let found = number.literal()?;
-                    let Shape::Power(base, exponent) = &ten.shape else { return None };
+                    let Shape::Power(base, exponent) = &ten.shape else {
+                        return None;
+                    };
                     let (base, exponent) = (base.literal()?, exponent.literal()?);
-                    let k = exponent.value.is_integer().then(|| exponent.value.numer().as_i64()).flatten()?;
-                    if base.value != crate::expr::ratio(10, 1) || k.abs() > super::number::MAX_EXPONENT {
+                    let k = exponent
+                        .value
+                        .is_integer()
+                        .then(|| exponent.value.numer().as_i64())
+                        .flatten()?;
+                    if base.value != crate::expr::ratio(10, 1)
+                        || k.abs() > super::number::MAX_EXPONENT
+                    {
                         return None;
                     }
                     let scaled = &found.value * &super::number::ten_to(k);
-                    Some(Literal { value: scaled, digits: found.digits, place: found.place + k as i32, decimal: true })
+                    Some(Literal {
+                        value: scaled,
+                        digits: found.digits,
+                        place: found.place + k as i32,
+                        decimal: true,
+                    })
                 }
                 _ => None,
             },

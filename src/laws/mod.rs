@@ -125,11 +125,26 @@ pub struct Geometry<T> {
 
 impl<T: Quantity> Geometry<T> {
     /// Every formula of the scene turned into a number by `value`; the first failure is returned.
-    pub fn of<E>(scene: &Scene, mut value: impl FnMut(&Expr) -> Result<T, E>) -> Result<Geometry<T>, E> {
+    pub fn of<E>(
+        scene: &Scene,
+        mut value: impl FnMut(&Expr) -> Result<T, E>,
+    ) -> Result<Geometry<T>, E> {
         let mut vector = |v: &Vector| -> Result<[T; 2], E> { Ok([value(&v[0])?, value(&v[1])?]) };
-        let center = scene.bodies.iter().map(|b| vector(&b.center)).collect::<Result<_, E>>()?;
-        let velocity = scene.bodies.iter().map(|b| vector(&b.velocity)).collect::<Result<_, E>>()?;
-        let contact = scene.contacts.iter().map(|c| vector(&c.at)).collect::<Result<_, E>>()?;
+        let center = scene
+            .bodies
+            .iter()
+            .map(|b| vector(&b.center))
+            .collect::<Result<_, E>>()?;
+        let velocity = scene
+            .bodies
+            .iter()
+            .map(|b| vector(&b.velocity))
+            .collect::<Result<_, E>>()?;
+        let contact = scene
+            .contacts
+            .iter()
+            .map(|c| vector(&c.at))
+            .collect::<Result<_, E>>()?;
         let normal = scene
             .contacts
             .iter()
@@ -138,8 +153,16 @@ impl<T: Quantity> Geometry<T> {
                 _ => Ok(None),
             })
             .collect::<Result<_, E>>()?;
-        let hinge = scene.hinges.iter().map(|h| vector(&h.at)).collect::<Result<_, E>>()?;
-        let blow = scene.blows.iter().map(|b| vector(&b.at)).collect::<Result<_, E>>()?;
+        let hinge = scene
+            .hinges
+            .iter()
+            .map(|h| vector(&h.at))
+            .collect::<Result<_, E>>()?;
+        let blow = scene
+            .blows
+            .iter()
+            .map(|b| vector(&b.at))
+            .collect::<Result<_, E>>()?;
         let blow_impulse = scene
             .blows
             .iter()
@@ -155,9 +178,21 @@ impl<T: Quantity> Geometry<T> {
                 KnownQuantity::Spin => Ok(None),
             })
             .collect::<Result<Vec<_>, E>>()?;
-        let mass = scene.bodies.iter().map(|b| value(&b.mass)).collect::<Result<_, E>>()?;
-        let inertia = scene.bodies.iter().map(|b| value(&b.inertia)).collect::<Result<_, E>>()?;
-        let spin = scene.bodies.iter().map(|b| value(&b.spin)).collect::<Result<_, E>>()?;
+        let mass = scene
+            .bodies
+            .iter()
+            .map(|b| value(&b.mass))
+            .collect::<Result<_, E>>()?;
+        let inertia = scene
+            .bodies
+            .iter()
+            .map(|b| value(&b.inertia))
+            .collect::<Result<_, E>>()?;
+        let spin = scene
+            .bodies
+            .iter()
+            .map(|b| value(&b.spin))
+            .collect::<Result<_, E>>()?;
         let restitution = scene
             .contacts
             .iter()
@@ -172,7 +207,18 @@ impl<T: Quantity> Geometry<T> {
             .map(|(at, k)| Ok((at, value(&k.value)?)))
             .collect::<Result<_, E>>()?;
         Ok(Geometry {
-            mass, inertia, center, velocity, spin, contact, normal, restitution, hinge, blow, blow_impulse, known,
+            mass,
+            inertia,
+            center,
+            velocity,
+            spin,
+            contact,
+            normal,
+            restitution,
+            hinge,
+            blow,
+            blow_impulse,
+            known,
         })
     }
 
@@ -240,7 +286,14 @@ impl<T: Quantity> Kinematics<T> {
     }
 
     /// Lets body `b` move as a body joined at `at` to a point of velocity `carrier`: only its spin is left of its own.
-    pub fn attach(&mut self, scene: &Scene, g: &Geometry<T>, b: usize, at: &[T; 2], carrier: [Affine<T>; 2]) {
+    pub fn attach(
+        &mut self,
+        scene: &Scene,
+        g: &Geometry<T>,
+        b: usize,
+        at: &[T; 2],
+        carrier: [Affine<T>; 2],
+    ) {
         let spin = own_spin(scene, g, b);
         let r = minus(&g.center[b], at);
         let [x, y] = carrier;
@@ -284,7 +337,9 @@ pub fn unknowns(scene: &Scene) -> Vec<Unknown> {
     for (c, contact) in scene.contacts.iter().enumerate() {
         match contact.law {
             ContactLaw::Frictionless { .. } => all.push(Unknown::Normal(c)),
-            ContactLaw::Sticking | ContactLaw::None => all.extend([Unknown::Contact(c, 0), Unknown::Contact(c, 1)]),
+            ContactLaw::Sticking | ContactLaw::None => {
+                all.extend([Unknown::Contact(c, 0), Unknown::Contact(c, 1)])
+            }
         }
     }
     all.extend((0..scene.hinges.len()).flat_map(|h| [Unknown::Hinge(h, 0), Unknown::Hinge(h, 1)]));
@@ -301,10 +356,19 @@ pub fn of(scene: &Scene) -> Vec<Law> {
     let mut laws = Vec::new();
     for (b, body) in scene.bodies.iter().enumerate() {
         if !body.is_fixed() {
-            laws.push(Law::LinearMomentum { system: vec![b], along: Direction::X });
-            laws.push(Law::LinearMomentum { system: vec![b], along: Direction::Y });
+            laws.push(Law::LinearMomentum {
+                system: vec![b],
+                along: Direction::X,
+            });
+            laws.push(Law::LinearMomentum {
+                system: vec![b],
+                along: Direction::Y,
+            });
             if !body.is_particle() {
-                laws.push(Law::AngularMomentum { system: vec![b], about: Place::Center(b) });
+                laws.push(Law::AngularMomentum {
+                    system: vec![b],
+                    about: Place::Center(b),
+                });
             }
         }
     }
@@ -368,20 +432,35 @@ pub fn equation<T: Quantity, E>(
             };
             let at = &g.contact[*c];
             let [one, two] = contact.bodies;
-            let after = relative(&motion.velocity_of(g, one, at), &motion.velocity_of(g, two, at));
+            let after = relative(
+                &motion.velocity_of(g, one, at),
+                &motion.velocity_of(g, two, at),
+            );
             let before = minus(&g.velocity_before(two, at), &g.velocity_before(one, at));
             let approach = before[0].mul(&n[0]).add(&before[1].mul(&n[1]));
-            along_direction(&after, n).plus(&Affine::constant(e.mul(&approach))).equals_zero()
+            along_direction(&after, n)
+                .plus(&Affine::constant(e.mul(&approach)))
+                .equals_zero()
         }
         Law::Sticking(c, axis) => {
             let at = &g.contact[*c];
             let [one, two] = scene.contacts[*c].bodies;
-            relative(&motion.velocity_of(g, one, at), &motion.velocity_of(g, two, at))[*axis].clone().equals_zero()
+            relative(
+                &motion.velocity_of(g, one, at),
+                &motion.velocity_of(g, two, at),
+            )[*axis]
+                .clone()
+                .equals_zero()
         }
         Law::Hinged(h, axis) => {
             let at = &g.hinge[*h];
             let [one, two] = scene.hinges[*h].bodies;
-            relative(&motion.velocity_of(g, one, at), &motion.velocity_of(g, two, at))[*axis].clone().equals_zero()
+            relative(
+                &motion.velocity_of(g, one, at),
+                &motion.velocity_of(g, two, at),
+            )[*axis]
+                .clone()
+                .equals_zero()
         }
         Law::Given(k) => {
             let (place, value) = &g.known[*k];
@@ -404,7 +483,9 @@ pub fn impulse_at<T: Quantity>(scene: &Scene, g: &Geometry<T>, place: Place) -> 
         },
         Place::Hinge(h) => [0, 1].map(|axis| Affine::unknown(Unknown::Hinge(h, axis))),
         Place::Blow(i) => match &scene.blows[i].impulse {
-            BlowImpulse::Given(_) => [0, 1].map(|axis| Affine::constant(g.blow_impulse[i][axis].clone())),
+            BlowImpulse::Given(_) => {
+                [0, 1].map(|axis| Affine::constant(g.blow_impulse[i][axis].clone()))
+            }
             BlowImpulse::Along(_) => {
                 [0, 1].map(|axis| Affine::unknown(Unknown::Blow(i)).times(&g.blow_impulse[i][axis]))
             }
@@ -414,7 +495,11 @@ pub fn impulse_at<T: Quantity>(scene: &Scene, g: &Geometry<T>, place: Place) -> 
 }
 
 /// The impulses from outside on a system, each with its point of application.
-fn external<T: Quantity>(scene: &Scene, g: &Geometry<T>, system: &[usize]) -> Vec<([T; 2], [Affine<T>; 2])> {
+fn external<T: Quantity>(
+    scene: &Scene,
+    g: &Geometry<T>,
+    system: &[usize],
+) -> Vec<([T; 2], [Affine<T>; 2])> {
     let mut all = Vec::new();
     let mut joint = |bodies: [usize; 2], place: Place| {
         let inside = bodies.map(|b| system.contains(&b));
@@ -424,8 +509,16 @@ fn external<T: Quantity>(scene: &Scene, g: &Geometry<T>, system: &[usize]) -> Ve
             all.push((g.place(place).clone(), on_second.map(|p| p.times(&sign))));
         }
     };
-    scene.contacts.iter().enumerate().for_each(|(c, contact)| joint(contact.bodies, Place::Contact(c)));
-    scene.hinges.iter().enumerate().for_each(|(h, hinge)| joint(hinge.bodies, Place::Hinge(h)));
+    scene
+        .contacts
+        .iter()
+        .enumerate()
+        .for_each(|(c, contact)| joint(contact.bodies, Place::Contact(c)));
+    scene
+        .hinges
+        .iter()
+        .enumerate()
+        .for_each(|(h, hinge)| joint(hinge.bodies, Place::Hinge(h)));
     for (i, blow) in scene.blows.iter().enumerate() {
         if system.contains(&blow.body) {
             all.push((g.blow[i].clone(), impulse_at(scene, g, Place::Blow(i))));

@@ -55,7 +55,11 @@ impl Quantity for Expr {
         self + other
     }
     fn mul(&self, other: &Expr) -> Expr {
-        if self.is_zero() || other.is_zero() { Expr::zero() } else { self * other }
+        if self.is_zero() || other.is_zero() {
+            Expr::zero()
+        } else {
+            self * other
+        }
     }
     fn neg(&self) -> Expr {
         -self
@@ -77,12 +81,18 @@ pub struct Affine<T> {
 impl<T: Quantity> Affine<T> {
     /// A known value.
     pub fn constant(value: T) -> Affine<T> {
-        Affine { terms: Vec::new(), constant: value }
+        Affine {
+            terms: Vec::new(),
+            constant: value,
+        }
     }
 
     /// One unknown.
     pub fn unknown(name: Unknown) -> Affine<T> {
-        Affine { terms: vec![(name, T::one())], constant: T::zero() }
+        Affine {
+            terms: vec![(name, T::one())],
+            constant: T::zero(),
+        }
     }
 
     /// Sum of two forms.
@@ -105,7 +115,10 @@ impl<T: Quantity> Affine<T> {
         }
         terms.extend(left.cloned());
         terms.extend(right.cloned());
-        Affine { terms, constant: self.constant.add(&other.constant) }
+        Affine {
+            terms,
+            constant: self.constant.add(&other.constant),
+        }
     }
 
     /// The form times a known factor.
@@ -114,14 +127,21 @@ impl<T: Quantity> Affine<T> {
             return Affine::constant(T::zero());
         }
         Affine {
-            terms: self.terms.iter().map(|(u, c)| (*u, c.mul(factor))).collect(),
+            terms: self
+                .terms
+                .iter()
+                .map(|(u, c)| (*u, c.mul(factor)))
+                .collect(),
             constant: self.constant.mul(factor),
         }
     }
 
     /// The equation `self = 0`, with the constant brought to the right side.
     pub fn equals_zero(self) -> Linear<T> {
-        Linear { terms: self.terms, known: self.constant.neg() }
+        Linear {
+            terms: self.terms,
+            known: self.constant.neg(),
+        }
     }
 }
 

@@ -7,13 +7,24 @@ use crate::scene::{KnownQuantity, Scene};
 pub fn describe(scene: &Scene, law: &Law) -> String {
     match law {
         Law::LinearMomentum { system, along } => {
-            format!("linear momentum of {} along {}", body_list(scene, system), direction(along))
+            format!(
+                "linear momentum of {} along {}",
+                body_list(scene, system),
+                direction(along)
+            )
         }
         Law::AngularMomentum { system, about } => {
-            format!("angular momentum of {} about {}", body_list(scene, system), place(scene, *about))
+            format!(
+                "angular momentum of {} about {}",
+                body_list(scene, system),
+                place(scene, *about)
+            )
         }
         Law::Restitution(c) => format!("restitution at {}", scene.contacts[*c].name),
-        Law::Sticking(c, axis) => format!("sticking at {} along {}", scene.contacts[*c].name, AXES[*axis]),
+        Law::Sticking(c, axis) => format!(
+            "sticking at {} along {}",
+            scene.contacts[*c].name, AXES[*axis]
+        ),
         Law::Hinged(h, axis) => format!("hinge {} along {}", scene.hinges[*h].name, AXES[*axis]),
         Law::Given(k) => {
             let known = &scene.after[*k];
@@ -28,7 +39,10 @@ pub fn describe(scene: &Scene, law: &Law) -> String {
 
 /// `bar`, `ball and bar`, `rod1, rod2 and rod3`.
 pub fn body_list(scene: &Scene, system: &[usize]) -> String {
-    let names: Vec<&str> = system.iter().map(|&b| scene.bodies[b].name.as_str()).collect();
+    let names: Vec<&str> = system
+        .iter()
+        .map(|&b| scene.bodies[b].name.as_str())
+        .collect();
     match names.as_slice() {
         [] => String::from("nothing"),
         [one] => (*one).to_string(),

@@ -32,7 +32,10 @@ impl Ball {
     /// A double, exactly.
     #[inline]
     pub fn exact(value: f64) -> Ball {
-        Ball { middle: Dd::exact(value), error: 0.0 }
+        Ball {
+            middle: Dd::exact(value),
+            error: 0.0,
+        }
     }
 
     /// Largest absolute value inside.
@@ -73,7 +76,9 @@ impl Ball {
 impl Scalar for Ball {
     fn from_rational(value: &Rational) -> Ball {
         let middle = Dd::from_rational(value);
-        let stored = from_f64(middle.high).zip(from_f64(middle.low)).map(|(h, l)| h + l);
+        let stored = from_f64(middle.high)
+            .zip(from_f64(middle.low))
+            .map(|(h, l)| h + l);
         let exact = stored.as_ref() == Some(value);
         let error = match (exact, middle.high.is_finite()) {
             (true, _) => 0.0,
@@ -83,16 +88,25 @@ impl Scalar for Ball {
         Ball { middle, error }
     }
     fn pi() -> Option<Ball> {
-        Some(Ball { middle: super::dd::PI, error: 4.0 * STEP })
+        Some(Ball {
+            middle: super::dd::PI,
+            error: 4.0 * STEP,
+        })
     }
     #[inline]
     fn plus(&self, other: &Ball) -> Ball {
         if self.middle.low == 0.0 && other.middle.low == 0.0 {
             let middle = two_sum(self.middle.high, other.middle.high);
-            return Ball { middle, error: (self.error + other.error) * UP };
+            return Ball {
+                middle,
+                error: (self.error + other.error) * UP,
+            };
         }
         let middle = self.middle.add(other.middle);
-        Ball { middle, error: (self.error + other.error + STEP * middle.high.abs()) * UP }
+        Ball {
+            middle,
+            error: (self.error + other.error + STEP * middle.high.abs()) * UP,
+        }
     }
     #[inline]
     fn times(&self, other: &Ball) -> Ball {
@@ -103,12 +117,19 @@ impl Scalar for Ball {
         if a.low == 0.0 && b.low == 0.0 && self.error == 0.0 && other.error == 0.0 {
             let middle = two_product(a.high, b.high);
             let exact = middle.high.abs() > 1e-280;
-            return Ball { middle, error: if exact { 0.0 } else { FLOOR } };
+            return Ball {
+                middle,
+                error: if exact { 0.0 } else { FLOOR },
+            };
         }
         let middle = a.mul(b);
-        let spread = a.high.abs() * other.error + b.high.abs() * self.error + self.error * other.error;
+        let spread =
+            a.high.abs() * other.error + b.high.abs() * self.error + self.error * other.error;
         // The middles may exceed their leading doubles by one unit in the last place, which UP covers.
-        Ball { middle, error: (spread + STEP * middle.high.abs() + FLOOR) * UP }
+        Ball {
+            middle,
+            error: (spread + STEP * middle.high.abs() + FLOOR) * UP,
+        }
     }
     #[inline]
     fn recip(&self) -> Option<Ball> {
@@ -118,7 +139,10 @@ impl Scalar for Ball {
         }
         let middle = self.middle.inverse();
         let value = middle.high.abs();
-        Some(Ball { middle, error: (self.error * value / least + LONG_STEP * value + FLOOR) * UP })
+        Some(Ball {
+            middle,
+            error: (self.error * value / least + LONG_STEP * value + FLOOR) * UP,
+        })
     }
     fn sqrt(&self) -> Option<Ball> {
         if self.error == 0.0 && self.middle.high == 0.0 {
@@ -137,7 +161,10 @@ impl Scalar for Ball {
     }
     fn call(&self, function: Function) -> Option<Ball> {
         // Slope at most 1, absolute error of the series below 2⁻⁹⁸.
-        let wave = |middle: Dd| Ball { middle, error: (self.error + LONG_STEP) * UP };
+        let wave = |middle: Dd| Ball {
+            middle,
+            error: (self.error + LONG_STEP) * UP,
+        };
         if self.is_zero() && matches!(function, Function::Sin | Function::Tan) {
             return Some(*self);
         }
@@ -174,12 +201,18 @@ impl Number for Ball {
     }
     #[inline]
     fn negated(&self) -> Ball {
-        Ball { middle: self.middle.neg(), error: self.error }
+        Ball {
+            middle: self.middle.neg(),
+            error: self.error,
+        }
     }
     fn halved(&self) -> Ball {
         let middle = self.middle.halved();
         let exact = middle.high.abs() > 1e-280 || middle.high == 0.0;
-        Ball { middle, error: 0.5 * self.error + if exact { 0.0 } else { FLOOR } }
+        Ball {
+            middle,
+            error: 0.5 * self.error + if exact { 0.0 } else { FLOOR },
+        }
     }
     fn size(&self) -> f64 {
         self.reach()

@@ -55,10 +55,22 @@ pub fn certify(given: &Given<f64>) -> Result<Certified, Uncertified> {
     let balls = assemble(&given.map(|v| Ball::exact(*v)));
     let enclosure = eliminate(&balls);
     if let Some(values) = &enclosure {
-        if let Some(rounded) = values.iter().map(Ball::rounded).collect::<Option<Vec<f64>>>() {
+        if let Some(rounded) = values
+            .iter()
+            .map(Ball::rounded)
+            .collect::<Option<Vec<f64>>>()
+        {
             let n = rounded.len();
-            let solution = Solution { values: rounded, unique: vec![true; n], rank: n };
-            return Ok(Certified { unknowns: balls.unknowns, solution, tiers: vec![Tier::Ball; n] });
+            let solution = Solution {
+                values: rounded,
+                unique: vec![true; n],
+                rank: n,
+            };
+            return Ok(Certified {
+                unknowns: balls.unknowns,
+                solution,
+                tiers: vec![Tier::Ball; n],
+            });
         }
     }
     finish(solve_exactly(given)?, balls.unknowns, enclosure)
@@ -66,14 +78,31 @@ pub fn certify(given: &Given<f64>) -> Result<Certified, Uncertified> {
 
 /// Certifies the motion after of a scene at a point. Formulas are evaluated in balls, and exactly where that is not enough.
 pub fn certify_scene(scene: &Scene, at: &Point<f64>) -> Result<Certified, Uncertified> {
-    let balls = assemble(&given(scene, &map_point(at, |v| Some(Ball::exact(*v))).ok_or(Uncertified::NotFinite)?)
-        .map_err(Uncertified::Undefined)?);
+    let balls = assemble(
+        &given(
+            scene,
+            &map_point(at, |v| Some(Ball::exact(*v))).ok_or(Uncertified::NotFinite)?,
+        )
+        .map_err(Uncertified::Undefined)?,
+    );
     let enclosure = eliminate(&balls);
     if let Some(values) = &enclosure {
-        if let Some(rounded) = values.iter().map(Ball::rounded).collect::<Option<Vec<f64>>>() {
+        if let Some(rounded) = values
+            .iter()
+            .map(Ball::rounded)
+            .collect::<Option<Vec<f64>>>()
+        {
             let n = rounded.len();
-            let solution = Solution { values: rounded, unique: vec![true; n], rank: n };
-            return Ok(Certified { unknowns: balls.unknowns, solution, tiers: vec![Tier::Ball; n] });
+            let solution = Solution {
+                values: rounded,
+                unique: vec![true; n],
+                rank: n,
+            };
+            return Ok(Certified {
+                unknowns: balls.unknowns,
+                solution,
+                tiers: vec![Tier::Ball; n],
+            });
         }
     }
     let exact = map_point(at, |v| from_f64(*v)).ok_or(Uncertified::NotFinite)?;
@@ -83,32 +112,51 @@ pub fn certify_scene(scene: &Scene, at: &Point<f64>) -> Result<Certified, Uncert
             finish(rounded(solution), balls.unknowns, enclosure)
         }
         Err(undefined) => Err(match enclosure {
-            Some(values) => {
-                Uncertified::TooClose(values.iter().map(|b| (b.middle.high, b.error + b.middle.low.abs())).collect())
-            }
+            Some(values) => Uncertified::TooClose(
+                values
+                    .iter()
+                    .map(|b| (b.middle.high, b.error + b.middle.low.abs()))
+                    .collect(),
+            ),
             None => Uncertified::Undefined(undefined),
         }),
     }
 }
 
 fn rounded(exact: Solution<Rational>) -> Solution<f64> {
-    Solution { values: exact.values.iter().map(to_f64).collect(), unique: exact.unique, rank: exact.rank }
+    Solution {
+        values: exact.values.iter().map(to_f64).collect(),
+        unique: exact.unique,
+        rank: exact.rank,
+    }
 }
 
 /// Exact values, marked by tier.
-fn finish(exact: Solution<f64>, unknowns: Vec<Unknown>, enclosure: Option<Vec<Ball>>) -> Result<Certified, Uncertified> {
+fn finish(
+    exact: Solution<f64>,
+    unknowns: Vec<Unknown>,
+    enclosure: Option<Vec<Ball>>,
+) -> Result<Certified, Uncertified> {
     let tier = |i: usize| match enclosure.as_ref().and_then(|e| e[i].rounded()) {
         Some(_) => Tier::Ball,
         None => Tier::Exact,
     };
     let tiers = (0..unknowns.len()).map(tier).collect();
-    Ok(Certified { unknowns, solution: exact, tiers })
+    Ok(Certified {
+        unknowns,
+        solution: exact,
+        tiers,
+    })
 }
 
 fn solve_exactly(given: &Given<f64>) -> Result<Solution<f64>, Uncertified> {
     if let Some(values) = solve_dyadic(given) {
         let n = values.len();
-        return Ok(Solution { values, unique: vec![true; n], rank: n });
+        return Ok(Solution {
+            values,
+            unique: vec![true; n],
+            rank: n,
+        });
     }
     let mut finite = true;
     let exact = given.map(|v| {
@@ -120,7 +168,9 @@ fn solve_exactly(given: &Given<f64>) -> Result<Solution<f64>, Uncertified> {
     if !finite {
         return Err(Uncertified::NotFinite);
     }
-    solve_exact(&assemble(&exact)).map(rounded).map_err(Uncertified::Contradiction)
+    solve_exact(&assemble(&exact))
+        .map(rounded)
+        .map_err(Uncertified::Contradiction)
 }
 
 fn map_point<T: Scalar>(at: &Point<f64>, f: impl Fn(&f64) -> Option<T>) -> Option<Point<T>> {
@@ -129,7 +179,9 @@ fn map_point<T: Scalar>(at: &Point<f64>, f: impl Fn(&f64) -> Option<T>) -> Optio
         point.values.insert(name.clone(), f(value)?);
     }
     for (name, (divisor, [c, s])) in &at.directions {
-        point.directions.insert(name.clone(), (*divisor, [f(c)?, f(s)?]));
+        point
+            .directions
+            .insert(name.clone(), (*divisor, [f(c)?, f(s)?]));
     }
     Some(point)
 }

@@ -22,14 +22,20 @@ pub struct Dd {
 pub fn two_sum(a: f64, b: f64) -> Dd {
     let high = a + b;
     let b_part = high - a;
-    Dd { high, low: (a - (high - b_part)) + (b - b_part) }
+    Dd {
+        high,
+        low: (a - (high - b_part)) + (b - b_part),
+    }
 }
 
 /// The same where |a| ≥ |b| (Dekker).
 #[inline]
 fn quick_two_sum(a: f64, b: f64) -> Dd {
     let high = a + b;
-    Dd { high, low: b - (high - a) }
+    Dd {
+        high,
+        low: b - (high - a),
+    }
 }
 
 /// a · b as nearest double and exact rest (Dekker); exact where neither overflows nor falls below 2⁻⁹⁶⁸.
@@ -38,7 +44,10 @@ pub fn two_product(a: f64, b: f64) -> Dd {
     let high = a * b;
     let (a1, a2) = split(a);
     let (b1, b2) = split(b);
-    Dd { high, low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2 }
+    Dd {
+        high,
+        low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2,
+    }
 }
 
 /// Halves of 26 bits each (Veltkamp).
@@ -53,7 +62,10 @@ impl Dd {
     /// A double, exactly.
     #[inline]
     pub fn exact(value: f64) -> Dd {
-        Dd { high: value, low: 0.0 }
+        Dd {
+            high: value,
+            low: 0.0,
+        }
     }
 
     /// Sum.
@@ -69,13 +81,19 @@ impl Dd {
     #[inline]
     pub fn mul(self, other: Dd) -> Dd {
         let p = two_product(self.high, other.high);
-        quick_two_sum(p.high, p.low + (self.high * other.low + self.low * other.high))
+        quick_two_sum(
+            p.high,
+            p.low + (self.high * other.low + self.low * other.high),
+        )
     }
 
     /// The number with the other sign.
     #[inline]
     pub fn neg(self) -> Dd {
-        Dd { high: -self.high, low: -self.low }
+        Dd {
+            high: -self.high,
+            low: -self.low,
+        }
     }
 
     /// Reciprocal by one Newton step from the double; infinite or not a number for zero.
@@ -152,7 +170,10 @@ impl Number for Dd {
         self.neg()
     }
     fn halved(&self) -> Dd {
-        Dd { high: 0.5 * self.high, low: 0.5 * self.low }
+        Dd {
+            high: 0.5 * self.high,
+            low: 0.5 * self.low,
+        }
     }
     fn size(&self) -> f64 {
         self.high.abs()
@@ -160,10 +181,17 @@ impl Number for Dd {
 }
 
 /// π.
-pub const PI: Dd = Dd { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
+pub const PI: Dd = Dd {
+    high: std::f64::consts::PI,
+    low: 1.224_646_799_147_353_2e-16,
+};
 
 /// π/2 in three doubles; what is missing is below 2⁻¹⁶⁰.
-const QUARTER: [f64; 3] = [std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
+const QUARTER: [f64; 3] = [
+    std::f64::consts::FRAC_PI_2,
+    6.123_233_995_736_766e-17,
+    -1.497_384_904_859_169_8e-33,
+];
 
 /// (cos, sin) of an angle of at most 2²⁰ [rad], absolute error below 2⁻⁹⁸; `None` beyond.
 pub fn turned(angle: Dd) -> Option<[Dd; 2]> {

@@ -31,9 +31,16 @@ impl Dyadic {
         }
         let bits = value.to_bits();
         let (raw, fraction) = ((bits >> 52 & 0x7ff) as i64, bits & ((1 << 52) - 1));
-        let (size, exponent) = if raw == 0 { (fraction, -1074) } else { (fraction | 1 << 52, raw - 1075) };
+        let (size, exponent) = if raw == 0 {
+            (fraction, -1074)
+        } else {
+            (fraction | 1 << 52, raw - 1075)
+        };
         let twos = size.trailing_zeros();
-        Dyadic(Some((Wide::small(value < 0.0, size >> twos), exponent + i64::from(twos))))
+        Dyadic(Some((
+            Wide::small(value < 0.0, size >> twos),
+            exponent + i64::from(twos),
+        )))
     }
 }
 
@@ -43,8 +50,18 @@ pub fn solve_dyadic(given: &Given<f64>) -> Option<Vec<f64>> {
     let system = assemble(&given.map(|v| Dyadic::exact(*v)));
     let (m, n) = (system.laws.len(), system.unknowns.len());
     let (rows, columns) = integers(&system)?;
-    let Cramer::Solved { numerators, determinant } = cramer(rows, m, n)? else { return None };
-    numerators.iter().zip(columns).map(|(x, scale)| x.ratio(&determinant, scale)).collect()
+    let Cramer::Solved {
+        numerators,
+        determinant,
+    } = cramer(rows, m, n)?
+    else {
+        return None;
+    };
+    numerators
+        .iter()
+        .zip(columns)
+        .map(|(x, scale)| x.ratio(&determinant, scale))
+        .collect()
 }
 
 /// Rows scaled to integers by powers of two, right-hand side last; and the exponent by which each unknown is to be
@@ -90,9 +107,19 @@ impl<const N: usize> Whole for Wide<N> {
     fn is_zero(&self) -> bool {
         Wide::is_zero(self)
     }
-    fn eliminate(p: &Wide<N>, a: &Wide<N>, q: &Wide<N>, b: &Wide<N>, d: &Wide<N>) -> Option<Wide<N>> {
+    fn eliminate(
+        p: &Wide<N>,
+        a: &Wide<N>,
+        q: &Wide<N>,
+        b: &Wide<N>,
+        d: &Wide<N>,
+    ) -> Option<Wide<N>> {
         let product = p.mul(a)?;
-        let difference = if q.is_zero() || b.is_zero() { product } else { product.add(&q.mul(b)?.negated())? };
+        let difference = if q.is_zero() || b.is_zero() {
+            product
+        } else {
+            product.add(&q.mul(b)?.negated())?
+        };
         Some(difference.divided_exactly(d))
     }
     fn raise(a: &Wide<N>, p: &Wide<N>, d: &Wide<N>) -> Option<Wide<N>> {
@@ -112,7 +139,9 @@ impl Scalar for Dyadic {
         None
     }
     fn plus(&self, other: &Dyadic) -> Dyadic {
-        let (Some((a, i)), Some((b, j))) = (self.0, other.0) else { return Dyadic(None) };
+        let (Some((a, i)), Some((b, j))) = (self.0, other.0) else {
+            return Dyadic(None);
+        };
         if a.is_zero() {
             return *other;
         }
@@ -121,10 +150,17 @@ impl Scalar for Dyadic {
         }
         let low = i.min(j);
         let up = |v: Wide<ENTRY>, e: i64| v.shifted_up(usize::try_from(e - low).ok()?);
-        Dyadic(up(a, i).zip(up(b, j)).and_then(|(a, b)| a.add(&b)).map(|sum| (sum, low)))
+        Dyadic(
+            up(a, i)
+                .zip(up(b, j))
+                .and_then(|(a, b)| a.add(&b))
+                .map(|sum| (sum, low)),
+        )
     }
     fn times(&self, other: &Dyadic) -> Dyadic {
-        let (Some((a, i)), Some((b, j))) = (self.0, other.0) else { return Dyadic(None) };
+        let (Some((a, i)), Some((b, j))) = (self.0, other.0) else {
+            return Dyadic(None);
+        };
         Dyadic(a.mul(&b).map(|product| (product, i + j)))
     }
     fn recip(&self) -> Option<Dyadic> {
@@ -161,6 +197,8 @@ impl Number for Dyadic {
         Dyadic(self.0.map(|(value, exponent)| (value, exponent - 1)))
     }
     fn size(&self) -> f64 {
-        self.0.map_or(f64::NAN, |(value, exponent)| 2f64.powi((value.bits() as i64 + exponent) as i32))
+        self.0.map_or(f64::NAN, |(value, exponent)| {
+            2f64.powi((value.bits() as i64 + exponent) as i32)
+        })
     }
 }

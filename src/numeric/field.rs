@@ -69,7 +69,11 @@ pub fn eliminate<T: Number>(system: &System<T>) -> Option<Vec<T>> {
                 sum = sum.minus(&cells[row * n + c].times(&values[c]));
             }
         });
-        values[column] = if sum.is_zero() { sum } else { sum.times(&reciprocal) };
+        values[column] = if sum.is_zero() {
+            sum
+        } else {
+            sum.times(&reciprocal)
+        };
     }
     Some(values)
 }
@@ -84,7 +88,13 @@ fn each(mut bits: u64, mut f: impl FnMut(usize)) {
 }
 
 /// Place in `open` and column of the best pivot.
-fn pivot<T: Number>(cells: &[T], n: usize, open: &[usize], pattern: &[u64], in_column: &[u32; 64]) -> Option<(usize, usize)> {
+fn pivot<T: Number>(
+    cells: &[T],
+    n: usize,
+    open: &[usize],
+    pattern: &[u64],
+    in_column: &[u32; 64],
+) -> Option<(usize, usize)> {
     let mut best = None;
     let mut least = (u32::MAX, 0.0);
     for (place, &r) in open.iter().enumerate() {

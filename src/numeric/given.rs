@@ -30,41 +30,60 @@ impl<T> Given<T> {
             [f(x), f(y)]
         }
         fn joint<T, U>(f: &mut impl FnMut(&T) -> U, joint: &Joint<T>) -> Joint<U> {
-            Joint { bodies: joint.bodies, at: pair(f, &joint.at) }
+            Joint {
+                bodies: joint.bodies,
+                at: pair(f, &joint.at),
+            }
         }
         let f = &mut f;
         Given {
-            bodies: self.bodies.iter().map(|b| GivenBody {
-                freedom: b.freedom,
-                mass: f(&b.mass),
-                inertia: f(&b.inertia),
-                center: pair(f, &b.center),
-                velocity: pair(f, &b.velocity),
-                spin: f(&b.spin),
-            }).collect(),
+            bodies: self
+                .bodies
+                .iter()
+                .map(|b| GivenBody {
+                    freedom: b.freedom,
+                    mass: f(&b.mass),
+                    inertia: f(&b.inertia),
+                    center: pair(f, &b.center),
+                    velocity: pair(f, &b.velocity),
+                    spin: f(&b.spin),
+                })
+                .collect(),
             hinges: self.hinges.iter().map(|h| joint(f, h)).collect(),
-            contacts: self.contacts.iter().map(|c| GivenContact {
-                joint: joint(f, &c.joint),
-                normal: c.normal.as_ref().map(|n| pair(f, n)),
-                law: match &c.law {
-                    GivenLaw::None => GivenLaw::None,
-                    GivenLaw::Sticking => GivenLaw::Sticking,
-                    GivenLaw::Frictionless(e) => GivenLaw::Frictionless(f(e)),
-                },
-            }).collect(),
-            blows: self.blows.iter().map(|b| GivenBlow {
-                body: b.body,
-                at: pair(f, &b.at),
-                impulse: match &b.impulse {
-                    GivenImpulse::Whole(v) => GivenImpulse::Whole(pair(f, v)),
-                    GivenImpulse::Along(v) => GivenImpulse::Along(pair(f, v)),
-                },
-            }).collect(),
-            known: self.known.iter().map(|k| GivenKnown {
-                body: k.body,
-                component: k.component.as_ref().map(|[a, b]| [pair(f, a), pair(f, b)]),
-                value: f(&k.value),
-            }).collect(),
+            contacts: self
+                .contacts
+                .iter()
+                .map(|c| GivenContact {
+                    joint: joint(f, &c.joint),
+                    normal: c.normal.as_ref().map(|n| pair(f, n)),
+                    law: match &c.law {
+                        GivenLaw::None => GivenLaw::None,
+                        GivenLaw::Sticking => GivenLaw::Sticking,
+                        GivenLaw::Frictionless(e) => GivenLaw::Frictionless(f(e)),
+                    },
+                })
+                .collect(),
+            blows: self
+                .blows
+                .iter()
+                .map(|b| GivenBlow {
+                    body: b.body,
+                    at: pair(f, &b.at),
+                    impulse: match &b.impulse {
+                        GivenImpulse::Whole(v) => GivenImpulse::Whole(pair(f, v)),
+                        GivenImpulse::Along(v) => GivenImpulse::Along(pair(f, v)),
+                    },
+                })
+                .collect(),
+            known: self
+                .known
+                .iter()
+                .map(|k| GivenKnown {
+                    body: k.body,
+                    component: k.component.as_ref().map(|[a, b]| [pair(f, a), pair(f, b)]),
+                    value: f(&k.value),
+                })
+                .collect(),
         }
     }
 }

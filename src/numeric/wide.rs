@@ -17,13 +17,21 @@ pub struct Wide<const N: usize> {
 
 impl<const N: usize> Wide<N> {
     /// Zero.
-    pub const ZERO: Wide<N> = Wide { negative: false, len: 0, words: [0; N] };
+    pub const ZERO: Wide<N> = Wide {
+        negative: false,
+        len: 0,
+        words: [0; N],
+    };
 
     /// ± a machine word.
     pub fn small(negative: bool, size: u64) -> Wide<N> {
         let mut words = [0; N];
         words[0] = size;
-        Wide { negative: negative && size != 0, len: usize::from(size != 0), words }
+        Wide {
+            negative: negative && size != 0,
+            len: usize::from(size != 0),
+            words,
+        }
     }
 
     /// Whether it is zero.
@@ -65,13 +73,23 @@ impl<const N: usize> Wide<N> {
         }
         let mut words = [0; M];
         words[..self.len].copy_from_slice(&self.words[..self.len]);
-        Some(Wide { negative: self.negative, len: self.len, words })
+        Some(Wide {
+            negative: self.negative,
+            len: self.len,
+            words,
+        })
     }
 
     /// The integer without limit of size.
     pub fn to_bigint(&self) -> BigInt {
-        let halves = self.words[..self.len].iter().flat_map(|w| [*w as u32, (w >> 32) as u32]);
-        let sign = if self.negative { Sign::Minus } else { Sign::Plus };
+        let halves = self.words[..self.len]
+            .iter()
+            .flat_map(|w| [*w as u32, (w >> 32) as u32]);
+        let sign = if self.negative {
+            Sign::Minus
+        } else {
+            Sign::Plus
+        };
         BigInt::new(sign, halves.collect())
     }
 
@@ -84,7 +102,12 @@ impl<const N: usize> Wide<N> {
     }
 
     fn compare_sizes(&self, other: &Wide<N>) -> Ordering {
-        let words = || self.words[..self.len].iter().rev().cmp(other.words[..other.len].iter().rev());
+        let words = || {
+            self.words[..self.len]
+                .iter()
+                .rev()
+                .cmp(other.words[..other.len].iter().rev())
+        };
         self.len.cmp(&other.len).then_with(words)
     }
 
@@ -96,7 +119,11 @@ impl<const N: usize> Wide<N> {
                 _ => self.less(other),
             });
         }
-        let (long, short) = if self.len >= other.len { (self, other) } else { (other, self) };
+        let (long, short) = if self.len >= other.len {
+            (self, other)
+        } else {
+            (other, self)
+        };
         let mut sum = *long;
         let mut carry = false;
         for i in 0..long.len {
@@ -145,7 +172,9 @@ impl<const N: usize> Wide<N> {
         for (i, &a) in self.words[..self.len].iter().enumerate() {
             let mut carry = 0u64;
             for (j, &b) in other.words[..other.len].iter().enumerate() {
-                let Some(cell) = product.words.get_mut(i + j) else { break };
+                let Some(cell) = product.words.get_mut(i + j) else {
+                    break;
+                };
                 let wide = u128::from(a) * u128::from(b) + u128::from(*cell) + u128::from(carry);
                 *cell = wide as u64;
                 carry = (wide >> 64) as u64;
@@ -168,7 +197,10 @@ impl<const N: usize> Wide<N> {
             return None;
         }
         let (words, bits) = (by / 64, by % 64);
-        let mut up = Wide { negative: self.negative, ..Wide::ZERO };
+        let mut up = Wide {
+            negative: self.negative,
+            ..Wide::ZERO
+        };
         for i in 0..self.len {
             up.words[i + words] |= self.words[i] << bits;
             if bits != 0 {
@@ -188,9 +220,16 @@ impl<const N: usize> Wide<N> {
             return *self;
         }
         let (words, bits) = (by / 64, by % 64);
-        let mut down = Wide { negative: self.negative, ..Wide::ZERO };
+        let mut down = Wide {
+            negative: self.negative,
+            ..Wide::ZERO
+        };
         for i in words..self.len {
-            let above = if bits == 0 || i + 1 >= self.len { 0 } else { self.words[i + 1] << (64 - bits) };
+            let above = if bits == 0 || i + 1 >= self.len {
+                0
+            } else {
+                self.words[i + 1] << (64 - bits)
+            };
             down.words[i - words] = self.words[i] >> bits | above;
         }
         down.len = self.len.saturating_sub(words);
@@ -203,14 +242,22 @@ impl<const N: usize> Wide<N> {
             return Wide::ZERO;
         }
         if divisor.len == 1 && divisor.words[0] == 1 {
-            return if divisor.negative { self.negated() } else { *self };
+            return if divisor.negative {
+                self.negated()
+            } else {
+                *self
+            };
         }
         let twos = divisor.twos();
         let odd = divisor.shifted_down(twos);
         let mut rest = self.shifted_down(twos);
         let count = (rest.len + 1).saturating_sub(odd.len);
         let inverse = inverse_word(odd.words[0]);
-        let mut quotient = Wide { negative: self.negative != divisor.negative, len: count, words: [0; N] };
+        let mut quotient = Wide {
+            negative: self.negative != divisor.negative,
+            len: count,
+            words: [0; N],
+        };
         for i in 0..count {
             let q = rest.words[i].wrapping_mul(inverse);
             quotient.words[i] = q;
@@ -280,7 +327,11 @@ impl<const N: usize> Wide<N> {
         let half = exponent / 2;
         let value = rounded * 2f64.powi(half as i32) * 2f64.powi((exponent - half) as i32);
         let normal = (4.0 * f64::MIN_POSITIVE..=f64::MAX).contains(&value);
-        normal.then_some(if self.negative != divisor.negative { -value } else { value })
+        normal.then_some(if self.negative != divisor.negative {
+            -value
+        } else {
+            value
+        })
     }
 }
 
@@ -309,7 +360,12 @@ mod tests {
         (any::<bool>(), prop::collection::vec(word, 0..6)).prop_map(|(negative, list)| {
             let mut words = [0; 12];
             words[..list.len()].copy_from_slice(&list);
-            Wide { negative, len: list.len(), words }.trim()
+            Wide {
+                negative,
+                len: list.len(),
+                words,
+            }
+            .trim()
         })
     }
 

@@ -56,7 +56,13 @@ pub fn matrix(m: &Matrix) -> Value {
     })
 }
 
-fn answer(scene: &Scene, derivation: &Derivation, a: &Answer, checks: &[Check], proof: &Proof) -> Value {
+fn answer(
+    scene: &Scene,
+    derivation: &Derivation,
+    a: &Answer,
+    checks: &[Check],
+    proof: &Proof,
+) -> Value {
     let mut out = Map::new();
     out.insert("name".into(), json!(a.name));
     out.insert("question".into(), json!(a.question));
@@ -66,7 +72,10 @@ fn answer(scene: &Scene, derivation: &Derivation, a: &Answer, checks: &[Check], 
             out.insert("formula".into(), json!(write_plain(short)));
             out.insert("latex".into(), json!(latex(scene, short)));
             if short != closed {
-                out.insert("where".into(), json!(definitions(scene, derivation, Some(short))));
+                out.insert(
+                    "where".into(),
+                    json!(definitions(scene, derivation, Some(short))),
+                );
                 out.insert("closed".into(), json!(write_plain(closed)));
             }
             if let Some(value) = super::value(scene, closed) {
@@ -77,8 +86,14 @@ fn answer(scene: &Scene, derivation: &Derivation, a: &Answer, checks: &[Check], 
             }
         }
         Form::Equation { left, right } => {
-            out.insert("formula".into(), json!(format!("{} = {}", write_plain(left), write_plain(right))));
-            out.insert("latex".into(), json!(format!("{} = {}", latex(scene, left), latex(scene, right))));
+            out.insert(
+                "formula".into(),
+                json!(format!("{} = {}", write_plain(left), write_plain(right))),
+            );
+            out.insert(
+                "latex".into(),
+                json!(format!("{} = {}", latex(scene, left), latex(scene, right))),
+            );
         }
         Form::Matrix(m) => {
             out.insert("formula".into(), Value::Null);
@@ -88,15 +103,26 @@ fn answer(scene: &Scene, derivation: &Derivation, a: &Answer, checks: &[Check], 
         Form::Open(unknowns) => {
             out.insert("formula".into(), Value::Null);
             out.insert("latex".into(), Value::Null);
-            let names: Vec<&str> = unknowns.iter().map(|u| derivation.names.plain(*u)).collect();
+            let names: Vec<&str> = unknowns
+                .iter()
+                .map(|u| derivation.names.plain(*u))
+                .collect();
             out.insert("undetermined".into(), json!(names));
         }
     }
     out.insert("symbol".into(), json!(a.latex));
-    out.insert("dimension".into(), json!(a.dimension.to_string()));
-    out.insert("unit".into(), json!(a.dimension.unit()));
-    out.insert("assumptions".into(), json!(assumptions(scene, derivation, proof)));
-    let mut all: Vec<Value> = proof.scene.iter().filter(|c| c.kind == "identity").map(check).collect();
+    out.insert("dimension".into(), json!(a.dimension.plain()));
+    out.insert("unit".into(), json!(a.dimension.si()));
+    out.insert(
+        "assumptions".into(),
+        json!(assumptions(scene, derivation, proof)),
+    );
+    let mut all: Vec<Value> = proof
+        .scene
+        .iter()
+        .filter(|c| c.kind == "identity")
+        .map(check)
+        .collect();
     all.extend(checks.iter().map(check));
     out.insert("checks".into(), json!(all));
     Value::Object(out)

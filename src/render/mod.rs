@@ -13,7 +13,10 @@ use crate::verify::Proof;
 
 /// LaTeX of a scene's own symbols.
 pub fn latex_names(scene: &Scene) -> BTreeMap<String, String> {
-    let named = scene.parameters.iter().filter_map(|p| Some((p.name.to_string(), p.latex.clone()?)));
+    let named = scene
+        .parameters
+        .iter()
+        .filter_map(|p| Some((p.name.to_string(), p.latex.clone()?)));
     named.collect()
 }
 
@@ -45,7 +48,13 @@ pub fn assumptions(scene: &Scene, derivation: &Derivation, proof: &Proof) -> Vec
             all.push(words);
         }
     }
-    all.extend(scene.domains.unit_vectors.iter().map(|[a, b]| format!("{a}^2 + {b}^2 = 1")));
+    all.extend(
+        scene
+            .domains
+            .unit_vectors
+            .iter()
+            .map(|[a, b]| format!("{a}^2 + {b}^2 = 1")),
+    );
     all.extend(derivation.assumptions.iter().cloned());
     all.extend(proof.assumptions.iter().cloned());
     all
@@ -62,8 +71,11 @@ pub struct Value {
 
 /// The value of a closed form at the scene's values; `None` where a symbol has none.
 pub fn value(scene: &Scene, e: &Expr) -> Option<Value> {
-    let values: BTreeMap<Symbol, Expr> =
-        scene.parameters.iter().filter_map(|p| Some((p.name.clone(), p.value.clone()?))).collect();
+    let values: BTreeMap<Symbol, Expr> = scene
+        .parameters
+        .iter()
+        .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
+        .collect();
     if !e.symbols().iter().all(|s| values.contains_key(s)) {
         return None;
     }
@@ -93,15 +105,36 @@ pub fn digits(value: f64) -> String {
 }
 
 fn trimmed(text: &str) -> &str {
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        text
+    }
 }
 
 /// A matrix equation in LaTeX.
 pub fn latex_matrix(scene: &Scene, m: &Matrix) -> String {
-    let rows: Vec<String> =
-        m.entries.iter().map(|r| r.iter().map(|e| latex(scene, e)).collect::<Vec<_>>().join(" & ")).collect();
-    let column = |cells: Vec<String>| format!("\\begin{{bmatrix}} {} \\end{{bmatrix}}", cells.join(" \\\\ "));
-    let names = m.unknowns.iter().map(|u| latex(scene, &Expr::symbol(u))).collect();
+    let rows: Vec<String> = m
+        .entries
+        .iter()
+        .map(|r| {
+            r.iter()
+                .map(|e| latex(scene, e))
+                .collect::<Vec<_>>()
+                .join(" & ")
+        })
+        .collect();
+    let column = |cells: Vec<String>| {
+        format!(
+            "\\begin{{bmatrix}} {} \\end{{bmatrix}}",
+            cells.join(" \\\\ ")
+        )
+    };
+    let names = m
+        .unknowns
+        .iter()
+        .map(|u| latex(scene, &Expr::symbol(u)))
+        .collect();
     let rhs = m.rhs.iter().map(|e| latex(scene, e)).collect();
     format!("{} {} = {}", column(rows), column(names), column(rhs))
 }

@@ -22,12 +22,20 @@ pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof) -> String {
         for equation in &block.equations {
             let (left, right) = super::sides(d, equation);
             line(&mut out, "  ", &laws::describe(scene, &equation.law));
-            line(&mut out, "      ", &format!("{} = {}", unicode(scene, &left), unicode(scene, &right)));
+            line(
+                &mut out,
+                "      ",
+                &format!("{} = {}", unicode(scene, &left), unicode(scene, &right)),
+            );
         }
         for (unknown, value) in block.unknowns.iter().zip(&block.solution) {
             let value = unicode(scene, value);
             if value.chars().count() <= 120 {
-                line(&mut out, "  ⇒   ", &format!("{} = {value}", d.names.plain(*unknown)));
+                line(
+                    &mut out,
+                    "  ⇒   ",
+                    &format!("{} = {value}", d.names.plain(*unknown)),
+                );
             }
         }
     }
@@ -35,28 +43,71 @@ pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof) -> String {
     for answer in &d.answers {
         match &answer.form {
             Form::Value { closed, short } => {
-                let value = super::value(scene, closed).map_or(String::new(), |v| format!(" = {} {}", super::digits(v.approximate), answer.dimension.unit()));
-                line(&mut out, "  ", &format!("{} = {}{}", answer.name, unicode(scene, short), value));
-                line(&mut out, "      ", &format!("{} [{}]", answer.words, answer.dimension.unit()));
+                let value = super::value(scene, closed).map_or(String::new(), |v| {
+                    format!(
+                        " = {} {}",
+                        super::digits(v.approximate),
+                        answer.dimension.si()
+                    )
+                });
+                line(
+                    &mut out,
+                    "  ",
+                    &format!("{} = {}{}", answer.name, unicode(scene, short), value),
+                );
+                line(
+                    &mut out,
+                    "      ",
+                    &format!("{} [{}]", answer.words, answer.dimension.si()),
+                );
             }
             Form::Equation { left, right } => {
-                line(&mut out, "  ", &format!("{}: {} = {}", answer.name, unicode(scene, left), unicode(scene, right)));
+                line(
+                    &mut out,
+                    "  ",
+                    &format!(
+                        "{}: {} = {}",
+                        answer.name,
+                        unicode(scene, left),
+                        unicode(scene, right)
+                    ),
+                );
                 line(&mut out, "      ", &answer.words);
             }
             Form::Matrix(m) => {
-                line(&mut out, "  ", &format!("{}: {}", answer.name, answer.words));
+                line(
+                    &mut out,
+                    "  ",
+                    &format!("{}: {}", answer.name, answer.words),
+                );
                 matrix_lines(&mut out, scene, m);
             }
             Form::Open(unknowns) => {
                 let names: Vec<&str> = unknowns.iter().map(|u| d.names.plain(*u)).collect();
-                line(&mut out, "  ", &format!("{}: not determined by the laws ({} open)", answer.name, names.join(", ")));
+                line(
+                    &mut out,
+                    "  ",
+                    &format!(
+                        "{}: not determined by the laws ({} open)",
+                        answer.name,
+                        names.join(", ")
+                    ),
+                );
             }
         }
     }
     if !d.definitions.is_empty() {
         line(&mut out, "\n", "where:");
         for definition in &d.definitions {
-            line(&mut out, "  ", &format!("{} = {}", definition.name, unicode(scene, &definition.value)));
+            line(
+                &mut out,
+                "  ",
+                &format!(
+                    "{} = {}",
+                    definition.name,
+                    unicode(scene, &definition.value)
+                ),
+            );
             line(&mut out, "      ", &definition.meaning);
         }
     }
@@ -88,17 +139,40 @@ pub fn matrix(scene: &Scene, m: &Matrix) -> String {
 }
 
 fn matrix_lines(out: &mut String, scene: &Scene, m: &Matrix) {
-    let cells: Vec<Vec<String>> = m.entries.iter().map(|row| row.iter().map(|e| unicode(scene, e)).collect()).collect();
-    let width = |j: usize| cells.iter().map(|row| row[j].chars().count()).chain([m.unknowns[j].chars().count()]).max().unwrap_or(0);
+    let cells: Vec<Vec<String>> = m
+        .entries
+        .iter()
+        .map(|row| row.iter().map(|e| unicode(scene, e)).collect())
+        .collect();
+    let width = |j: usize| {
+        cells
+            .iter()
+            .map(|row| row[j].chars().count())
+            .chain([m.unknowns[j].chars().count()])
+            .max()
+            .unwrap_or(0)
+    };
     let widths: Vec<usize> = (0..m.unknowns.len()).map(width).collect();
     let row = |cells: &[String]| {
-        let padded: Vec<String> =
-            cells.iter().zip(&widths).map(|(c, w)| format!("{c}{}", " ".repeat(w - c.chars().count()))).collect();
+        let padded: Vec<String> = cells
+            .iter()
+            .zip(&widths)
+            .map(|(c, w)| format!("{c}{}", " ".repeat(w - c.chars().count())))
+            .collect();
         padded.join("  ")
     };
     line(out, "      ", row(&m.unknowns).trim_end());
     for (i, cells) in cells.iter().enumerate() {
-        line(out, "    [ ", &format!("{} | {} ]   {}", row(cells), unicode(scene, &m.rhs[i]), m.rows[i]));
+        line(
+            out,
+            "    [ ",
+            &format!(
+                "{} | {} ]   {}",
+                row(cells),
+                unicode(scene, &m.rhs[i]),
+                m.rows[i]
+            ),
+        );
     }
 }
 
@@ -108,7 +182,10 @@ fn counting(out: &mut String, d: &Derivation) {
     line(
         out,
         "",
-        &format!("full system: {} equations, {} unknowns, rank {}; used here: {used}", c.equations, c.unknowns, c.rank),
+        &format!(
+            "full system: {} equations, {} unknowns, rank {}; used here: {used}",
+            c.equations, c.unknowns, c.rank
+        ),
     );
     if c.contradictory {
         line(out, "", "the equations contradict each other");
@@ -120,7 +197,11 @@ fn counting(out: &mut String, d: &Derivation) {
             line(out, "  would close it: ", law);
         }
         if c.rank_with_system == c.rank {
-            line(out, "  ", "balances of the whole system are sums of those of its bodies and add no rank");
+            line(
+                out,
+                "  ",
+                "balances of the whole system are sums of those of its bodies and add no rank",
+            );
         }
     }
 }

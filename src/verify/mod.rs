@@ -45,7 +45,10 @@ pub struct Proof {
 impl Proof {
     /// Whether no check failed.
     pub fn holds(&self) -> bool {
-        self.scene.iter().chain(self.answers.iter().flatten()).all(|c| c.holds != Some(false))
+        self.scene
+            .iter()
+            .chain(self.answers.iter().flatten())
+            .all(|c| c.holds != Some(false))
     }
 }
 
@@ -83,7 +86,11 @@ fn identity(scene: &Scene, derivation: &Derivation) -> Check {
             words: format!("does not satisfy {}", failed.join(", ")),
             holds: Some(false),
         },
-        Err(stop) => Check { kind: "identity", words: format!("not carried out: {stop}"), holds: None },
+        Err(stop) => Check {
+            kind: "identity",
+            words: format!("not carried out: {stop}"),
+            holds: None,
+        },
     }
 }
 
@@ -93,7 +100,9 @@ fn identity_count(scene: &Scene, derivation: &Derivation) -> Result<(usize, Vec<
     let full = Kinematics::full(scene, &g);
     let mut equations = Vec::new();
     for law in laws::of(scene) {
-        let Ok(linear) = laws::equation(scene, &g, &full, &law, |v: &Vector| Ok::<_, std::convert::Infallible>(v.clone()));
+        let Ok(linear) = laws::equation(scene, &g, &full, &law, |v: &Vector| {
+            Ok::<_, std::convert::Infallible>(v.clone())
+        });
         equations.push((law, linear));
     }
     let mut all: Vec<&Expr> = derivation.motion.values().collect();
@@ -143,9 +152,21 @@ fn same_value(scene: &Scene, derivation: &Derivation, closed: &Expr, short: &Exp
         field.sub(&a, &b).map(|d| field.is_zero(&d))
     })();
     match outcome {
-        Ok(true) => Check { kind: "definitions", words: String::from("short form identical to the closed form"), holds: Some(true) },
-        Ok(false) => Check { kind: "definitions", words: String::from("short form differs from the closed form"), holds: Some(false) },
-        Err(stop) => Check { kind: "definitions", words: format!("not carried out: {stop}"), holds: None },
+        Ok(true) => Check {
+            kind: "definitions",
+            words: String::from("short form identical to the closed form"),
+            holds: Some(true),
+        },
+        Ok(false) => Check {
+            kind: "definitions",
+            words: String::from("short form differs from the closed form"),
+            holds: Some(false),
+        },
+        Err(stop) => Check {
+            kind: "definitions",
+            words: format!("not carried out: {stop}"),
+            holds: None,
+        },
     }
 }
 
@@ -172,7 +193,11 @@ fn run(scene: &Scene, seed: u64) -> Option<Run> {
     let system = numeric::assemble(&given);
     let solution = numeric::solve_exact(&system).ok()?;
     let motion = numeric::motion(&given, &system, &solution);
-    Some(Run { point, given, motion })
+    Some(Run {
+        point,
+        given,
+        motion,
+    })
 }
 
 fn invariants(runs: &[Run], proof: &mut Proof) {
@@ -207,7 +232,10 @@ fn admissible(runs: &[Run], proof: &mut Proof) {
     let mut separating = 0;
     let mut friction: Option<Rational> = None;
     for run in runs.iter().filter(|r| r.motion.loose.is_empty()) {
-        for report in numeric::contact_reports(&run.given, &run.motion).into_iter().flatten() {
+        for report in numeric::contact_reports(&run.given, &run.motion)
+            .into_iter()
+            .flatten()
+        {
             separating += usize::from(report.approach == Approach::Separating);
             if let Some(mu) = report.required_friction.filter(|mu| !mu.is_zero()) {
                 friction = Some(friction.map_or(mu.clone(), |f| if f < mu { mu } else { f }));
@@ -215,12 +243,17 @@ fn admissible(runs: &[Run], proof: &mut Proof) {
         }
     }
     if separating > 0 {
-        proof.assumptions.push(String::from("the bodies approach each other at the contact"));
+        proof.assumptions.push(String::from(
+            "the bodies approach each other at the contact",
+        ));
     }
     if let Some(mu) = friction {
         proof.scene.push(Check {
             kind: "friction",
-            words: format!("sticking needs friction |P_t|/P_n, at the points tried up to {:.3}", crate::expr::number::to_f64(&mu)),
+            words: format!(
+                "sticking needs friction |P_t|/P_n, at the points tried up to {:.3}",
+                crate::expr::number::to_f64(&mu)
+            ),
             holds: None,
         });
     }
@@ -244,13 +277,18 @@ fn numeric_value<T: numeric::Number>(
 fn exact_points(scene: &Scene, answer: &Answer, closed: &Expr, runs: &[Run]) -> Check {
     let mut equal = 0;
     for run in runs {
-        let Some(expected) = numeric_value(scene, answer, &run.point, &run.given, &run.motion) else { continue };
+        let Some(expected) = numeric_value(scene, answer, &run.point, &run.given, &run.motion)
+        else {
+            continue;
+        };
         match closed.evaluate(&run.point) {
             Some(value) if value == expected => equal += 1,
             Some(value) => {
                 return Check {
                     kind: "exact points",
-                    words: format!("closed form gives {value}, the independent solution {expected}"),
+                    words: format!(
+                        "closed form gives {value}, the independent solution {expected}"
+                    ),
                     holds: Some(false),
                 };
             }
@@ -258,7 +296,11 @@ fn exact_points(scene: &Scene, answer: &Answer, closed: &Expr, runs: &[Run]) -> 
         }
     }
     match equal {
-        0 => Check { kind: "exact points", words: String::from("no point of the domain has rational values"), holds: None },
+        0 => Check {
+            kind: "exact points",
+            words: String::from("no point of the domain has rational values"),
+            holds: None,
+        },
         n => Check {
             kind: "exact points",
             words: format!("equal to the independent exact solution at {n} random points"),
@@ -273,12 +315,20 @@ fn doubles(scene: &Scene, answer: &Answer, closed: &Expr, runs: &[Run]) -> Check
     let mut count = 0;
     for run in runs {
         let point = numeric::rounded(&run.point);
-        let Some(value) = closed.evaluate(&point) else { continue };
-        let Ok(given) = numeric::given(scene, &point) else { continue };
+        let Some(value) = closed.evaluate(&point) else {
+            continue;
+        };
+        let Ok(given) = numeric::given(scene, &point) else {
+            continue;
+        };
         let system = numeric::assemble(&given);
-        let Ok(solution) = numeric::solve_f64(&system) else { continue };
+        let Ok(solution) = numeric::solve_f64(&system) else {
+            continue;
+        };
         let motion = numeric::motion(&given, &system, &solution);
-        let Some(expected) = numeric_value(scene, answer, &point, &given, &motion) else { continue };
+        let Some(expected) = numeric_value(scene, answer, &point, &given, &motion) else {
+            continue;
+        };
         let scale = value.abs().max(expected.abs()).max(f64::MIN_POSITIVE);
         // A value that vanishes exactly has no relative error; what the solver leaves there is rounding of its terms.
         if closed.is_zero() {
@@ -289,7 +339,11 @@ fn doubles(scene: &Scene, answer: &Answer, closed: &Expr, runs: &[Run]) -> Check
         count += 1;
     }
     if count == 0 {
-        return Check { kind: "doubles", words: String::from("no value in doubles"), holds: None };
+        return Check {
+            kind: "doubles",
+            words: String::from("no value in doubles"),
+            holds: None,
+        };
     }
     Check {
         kind: "doubles",
