@@ -1,7 +1,5 @@
 //! How large a pair of formulas is, counted without walking further than the limit.
 
-use num_traits::Signed;
-
 use crate::expr::{Expr, Function, Node};
 
 /// Nodes of both formulas together beyond which no decision is attempted.
@@ -17,8 +15,6 @@ pub(super) struct Size {
     pub nodes: usize,
     /// Calls of functions and powers with exponents that are no small integers.
     pub calls: usize,
-    /// Whether every function and power has a value for every argument.
-    pub total_functions: bool,
     /// Whether roots, logarithms and the like occur, which lack values on whole parts of a domain.
     pub partial: bool,
     /// Whether roots or absolute values occur, whose branch depends on a sign.
@@ -30,7 +26,6 @@ pub(super) fn of(formulas: &[&Expr]) -> Option<Size> {
     let mut size = Size {
         nodes: 0,
         calls: 0,
-        total_functions: true,
         partial: false,
         branches: false,
     };
@@ -50,9 +45,8 @@ fn count(e: &Expr, depth: usize, size: &mut Size) -> bool {
         Node::Sum(parts) | Node::Product(parts) => parts.iter().all(|p| count(p, depth + 1, size)),
         Node::Power(base, exponent) => {
             match exponent.as_number() {
-                Some(k) if k.is_integer() => size.total_functions &= k.is_positive(),
+                Some(k) if k.is_integer() => {}
                 _ => {
-                    size.total_functions = false;
                     size.partial = true;
                     size.branches = true;
                     size.calls += 1;
@@ -63,10 +57,6 @@ fn count(e: &Expr, depth: usize, size: &mut Size) -> bool {
         Node::Call(function, argument) => {
             size.calls += 1;
             size.branches |= *function == Function::Abs;
-            size.total_functions &= !matches!(
-                function,
-                Function::Tan | Function::Asin | Function::Acos | Function::Ln
-            );
             size.partial |= matches!(function, Function::Asin | Function::Acos | Function::Ln);
             count(argument, depth + 1, size)
         }

@@ -4,14 +4,21 @@
 //! fractions at an exact point of the domain, or disjoint enclosures there. Proof is `algebra`'s normal form. Nothing here is
 //! probabilistic: agreement at points is evidence and is called that.
 
+mod branch;
 mod exact;
 mod measure;
+mod proof;
 mod refute;
 
 use crate::domain::{Domains, Roles, Sample, roles, samples};
 use crate::expr::{Expr, Rational};
 use crate::interval::Enclosure;
+use measure::Size;
+use proof::Proof;
 use refute::{Probe, Tally};
+
+/// Points tried before any proof.
+const FIRST: usize = 2;
 
 /// The answer with what it rests on.
 #[derive(Clone, PartialEq, Debug)]
@@ -53,16 +60,34 @@ pub enum Equality {
 pub enum How {
     /// The difference is zero in the normal form.
     Identity {
-        /// What the proof divided by or took the sign of, in words; empty for most pairs.
-        assumptions: Vec<String>,
+        /// What the proof took for granted; empty for most pairs.
+        assumptions: Vec<Assumption>,
     },
     /// Equal on a part of the domain only.
     OnBranch {
-        /// Where, in words: `v ≥ 0`.
-        condition: String,
+        /// Where.
+        condition: Condition,
         /// A point of the rest where the two part.
         elsewhere: Counterexample,
     },
+}
+
+/// What a proof took for granted.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Assumption {
+    /// The expression is ≥ 0 on the whole domain, which was seen at points but not proved.
+    NotNegative(Expr),
+    /// This isolated point is left out: one formula has no value there.
+    NotAt(Sample),
+}
+
+/// The part of a domain on which two formulas are equal.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Condition {
+    /// Where the expression is ≥ 0.
+    NotNegative(Expr),
+    /// Where both formulas have a value; elsewhere one of them has none.
+    BothDefined,
 }
 
 /// Which of the two formulas.
@@ -115,10 +140,12 @@ pub enum Reason {
     TooLarge,
     /// No point of the domain could be found or evaluated.
     NoPoint,
-    /// One formula has a value where the other has none, although they agree elsewhere.
-    DefinedApart(Side),
-    /// The normal form could not be reached, or it does not know some function's laws.
-    NotProved(String),
+    /// The normal forms differ, yet at every point tried the values agree to the precision reached.
+    NoPointApart,
+    /// The normal forms differ, but a function occurs whose laws they do not know.
+    UnknownLaws,
+    /// The limit named here was met.
+    Limit(String),
 }
 
 /// Decides whether two formulas have the same value everywhere on the domain.
@@ -143,50 +170,78 @@ pub fn decide(a: &Expr, b: &Expr, domains: &Domains) -> Decision {
     }
 }
 
-fn decide_on(
-    a: &Expr,
-    b: &Expr,
-    domains: &Domains,
-    roles: &Roles,
-    size: measure::Size,
-) -> Equality {
+fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -> Equality {
     let probe = Probe::new(a, b, roles);
     let mut tally = Tally::default();
+    let different = |found: Counterexample| {
+        let how = if size.branches {
+            branch::equal_where(a, b, domains, roles, &found)
+        } else {
+            None
+        };
+        how.map_or(Equality::Different(found), |how| Equality::Same { how })
+    };
     // The simplest points first: nearly every wrong formula fails there.
-    let first = samples(roles, domains, 2);
+    let first = samples(roles, domains, FIRST);
     if let Some(found) = probe.points(&first, &mut tally) {
-        return Equality::Different(found);
+        return different(found);
     }
-    let certain = size.total_functions && tally.both_defined > 0;
-    if certain && a == b {
-        return Equality::Same {
-            how: How::Identity {
-                assumptions: Vec::new(),
-            },
-        };
+    // Roots and logarithms lack values on whole parts of a domain; more points show it.
+    let mut points = first;
+    let mut extend = |tally: &mut Tally, count: usize| {
+        let more = samples(roles, domains, count);
+        let new: Vec<Sample> = more.into_iter().filter(|p| !points.contains(p)).collect();
+        let found = probe.points(&new, tally);
+        points.extend(new);
+        found
+    };
+    if size.partial || tally.both_defined == 0 {
+        if let Some(found) = extend(&mut tally, size.points().min(8)) {
+            return different(found);
+        }
     }
-    let more = samples(roles, domains, size.points());
-    let rest = more.get(first.len().min(more.len())..).unwrap_or_default();
-    if let Some(found) = probe.points(rest, &mut tally) {
-        return Equality::Different(found);
-    }
-    if let Some(verdict) = undefined(&tally) {
-        return verdict;
-    }
-    if a == b && tally.both_defined > 0 {
-        return Equality::Same {
-            how: How::Identity {
-                assumptions: Vec::new(),
-            },
-        };
-    }
-    if let Some(found) = probe.rising_precision(&more, size, &mut tally) {
-        return Equality::Different(found);
-    }
-    let reason = if more.is_empty() || tally.is_empty() {
-        Reason::NoPoint
+    let proof = if a == b {
+        Proof::Equal(Vec::new())
     } else {
-        Reason::NotProved("no proof was attempted".into())
+        proof::compare(a, b, domains)
+    };
+    match proof {
+        Proof::Invalid(side) => {
+            return Equality::Invalid {
+                side,
+                points: tally.undefined(side),
+            };
+        }
+        Proof::Equal(assumptions) if tally.both_defined > 0 => return same(assumptions, &tally),
+        _ => {}
+    }
+    if let Some(found) = extend(&mut tally, size.points()) {
+        return different(found);
+    }
+    for side in [Side::Left, Side::Right] {
+        if tally.undefined(side) >= 3 && tally.defined(side) == 0 {
+            return Equality::Invalid {
+                side,
+                points: tally.undefined(side),
+            };
+        }
+    }
+    if let Some(found) = probe.rising_precision(&points, size, &mut tally) {
+        return different(found);
+    }
+    let reason = match proof {
+        _ if tally.both_defined == 0 => Reason::NoPoint,
+        // A point at which both have a value was found only now.
+        Proof::Equal(assumptions) => return same(assumptions, &tally),
+        Proof::Unequal { settled: true } => Reason::NoPointApart,
+        Proof::Unequal { settled: false } => Reason::UnknownLaws,
+        Proof::Stopped(limit) => Reason::Limit(limit),
+        Proof::Invalid(side) => {
+            return Equality::Invalid {
+                side,
+                points: tally.undefined(side),
+            };
+        }
     };
     Equality::Undecided {
         reason,
@@ -194,24 +249,28 @@ fn decide_on(
     }
 }
 
-/// What undefined values say about the pair.
-fn undefined(tally: &Tally) -> Option<Equality> {
-    let never = |undefined: usize, defined: usize| {
-        undefined >= 4.min(tally.points) && undefined > 0 && defined == 0
+/// The verdict for a proved identity, with what was seen of points where only one side has a value.
+fn same(mut assumptions: Vec<Assumption>, tally: &Tally) -> Equality {
+    let how = match tally.apart.as_slice() {
+        [] => How::Identity { assumptions },
+        [(at, ..)] => {
+            assumptions.push(Assumption::NotAt(at.clone()));
+            How::Identity { assumptions }
+        }
+        [(at, left, right), ..] => {
+            let elsewhere = Counterexample {
+                at: at.clone(),
+                left: left.clone(),
+                right: right.clone(),
+                confirmed: true,
+            };
+            How::OnBranch {
+                condition: Condition::BothDefined,
+                elsewhere,
+            }
+        }
     };
-    if never(tally.left_undefined, tally.left_defined) {
-        return Some(Equality::Invalid {
-            side: Side::Left,
-            points: tally.left_undefined,
-        });
-    }
-    if never(tally.right_undefined, tally.right_defined) {
-        return Some(Equality::Invalid {
-            side: Side::Right,
-            points: tally.right_undefined,
-        });
-    }
-    None
+    Equality::Same { how }
 }
 
 impl Value {

@@ -3,7 +3,7 @@
 
 use super::exact::Exact;
 use super::measure::Size;
-use super::{Counterexample, Evidence, Value};
+use super::{Counterexample, Evidence, Side, Value};
 use crate::domain::{Coordinate, Roles, Sample};
 use crate::expr::{Expr, Symbol};
 use crate::interval::{Big, Certified, Enclosure, Interval, Outcome, evaluate};
@@ -20,13 +20,12 @@ pub(super) struct Probe<'a> {
 /// What the points tried so far have shown: counts of points.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tally {
-    pub points: usize,
     pub exact_equal: usize,
     pub both_defined: usize,
-    pub left_defined: usize,
-    pub left_undefined: usize,
-    pub right_defined: usize,
-    pub right_undefined: usize,
+    left_defined: usize,
+    left_undefined: usize,
+    right_defined: usize,
+    right_undefined: usize,
     /// Points where exactly one side has a value, with that side's value.
     pub apart: Vec<(Sample, Value, Value)>,
     /// Points where both are enclosed and overlap.
@@ -43,12 +42,23 @@ impl Tally {
         }
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.both_defined == 0
+    pub fn defined(&self, side: Side) -> usize {
+        if side == Side::Left {
+            self.left_defined
+        } else {
+            self.right_defined
+        }
+    }
+
+    pub fn undefined(&self, side: Side) -> usize {
+        if side == Side::Left {
+            self.left_undefined
+        } else {
+            self.right_undefined
+        }
     }
 
     fn note<T>(&mut self, left: &Outcome<T>, right: &Outcome<T>) {
-        self.points += 1;
         let defined = |o: &Outcome<T>| matches!(o, Outcome::Value(_));
         let undefined = |o: &Outcome<T>| matches!(o, Outcome::Undefined);
         self.left_defined += usize::from(defined(left));
@@ -249,5 +259,18 @@ fn enclosure(value: &Value) -> Option<Enclosure> {
         Value::Exact(v) => Some(Enclosure::of(v, 256)),
         Value::Within(e) => Some(e.clone()),
         Value::None => None,
+    }
+}
+
+/// The sign of an expression at a point, where enclosures tell it.
+pub(super) fn sign_at(e: &Expr, at: &Sample, radians: bool) -> Option<i32> {
+    let Outcome::Value(Big(value)) = evaluate::<Big<192>>(e, &at.point(radians)) else {
+        return None;
+    };
+    match (value.low.sign(), value.high.sign()) {
+        (1, _) => Some(1),
+        (_, -1) => Some(-1),
+        (0, 0) => Some(0),
+        _ => None,
     }
 }

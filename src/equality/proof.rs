@@ -1,0 +1,47 @@
+//! Proof of equality by the normal form of the difference.
+
+use super::{Assumption, Side};
+use crate::algebra::{self, Field, Stop};
+use crate::domain::Domains;
+use crate::expr::Expr;
+
+/// What the normal form says.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Proof {
+    /// The difference is zero.
+    Equal(Vec<Assumption>),
+    /// The difference is not zero in the normal form. Whether that settles the matter is told by `settled`: not if a
+    /// function occurs whose laws the normal form does not know.
+    Unequal { settled: bool },
+    /// A formula divides by zero identically, or takes an even root of something negative everywhere.
+    Invalid(Side),
+    /// A limit was met.
+    Stopped(String),
+}
+
+/// Compares the normal forms of two formulas whose symbols are all declared.
+pub(super) fn compare(a: &Expr, b: &Expr, domains: &Domains) -> Proof {
+    let mut field = Field::new(domains);
+    field.prepare([a, b]);
+    let mut read = |e: &Expr, side: Side| match field.element(e) {
+        Ok(element) => Ok(element),
+        Err(Stop::TooLarge(what)) => Err(Proof::Stopped(what.into())),
+        Err(Stop::DivisionByZero | Stop::NotReal) => Err(Proof::Invalid(side)),
+    };
+    let (left, right) = match (read(a, Side::Left), read(b, Side::Right)) {
+        (Ok(left), Ok(right)) => (left, right),
+        (Err(stop), _) | (_, Err(stop)) => return stop,
+    };
+    match field.sub(&left, &right) {
+        Ok(difference) if field.is_zero(&difference) => {
+            let seen = |algebra::Assumption::NotNegative(e): algebra::Assumption| {
+                Assumption::NotNegative(e)
+            };
+            Proof::Equal(field.assumptions().into_iter().map(seen).collect())
+        }
+        Ok(_) => Proof::Unequal {
+            settled: field.complete(),
+        },
+        Err(stop) => Proof::Stopped(stop.to_string()),
+    }
+}
