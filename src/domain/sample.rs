@@ -197,7 +197,7 @@ fn place_units(point: &mut Sample, domains: &Domains, k: usize) -> bool {
                 .zip(unit)
                 .all(|(s, v)| domains.symbols.get(s).is_none_or(|d| d.contains(v)))
         };
-        let all: Vec<[Rational; 2]> = circle().into_iter().filter(fits).collect();
+        let all: Vec<[Rational; 2]> = circle().filter(fits).collect();
         if all.is_empty() {
             return false;
         }
@@ -375,14 +375,15 @@ const TANGENTS: [(i64, i64); 20] = [
 ];
 
 /// Rational points of the whole circle, simplest first: four per tangent, then the four ends of the axes.
-fn circle() -> Vec<[Rational; 2]> {
-    let mut all = Vec::with_capacity(4 * TANGENTS.len() + 4);
-    for (n, d) in TANGENTS {
+fn circle() -> impl Iterator<Item = [Rational; 2]> {
+    let slanted = TANGENTS.into_iter().flat_map(|(n, d)| {
         let (c, s, h) = (d * d - n * n, 2 * n * d, d * d + n * n);
-        all.extend([(c, s), (-c, s), (c, -s), (-c, -s)].map(|(c, s)| [ratio(c, h), ratio(s, h)]));
-    }
-    all.extend([(1, 0), (0, 1), (-1, 0), (0, -1)].map(|(c, s)| [ratio(c, 1), ratio(s, 1)]));
-    all
+        [(c, s, h), (-c, s, h), (c, -s, h), (-c, -s, h)]
+    });
+    let axes = [(1, 0, 1), (0, 1, 1), (-1, 0, 1), (0, -1, 1)];
+    slanted
+        .chain(axes)
+        .map(|(c, s, h)| [ratio(c, h), ratio(s, h)])
 }
 
 /// Directions of φ/N that put φ inside the domain. Directions nearer than 10⁻⁹ to an end are left out, far more than

@@ -3,7 +3,7 @@
 use num_traits::Signed;
 
 use super::proof::{self, Proof};
-use super::refute::sign_at;
+use super::refute::{enclosure, sign_at};
 use super::{Condition, Counterexample, How};
 use crate::domain::{Domains, Roles, samples};
 use crate::expr::{Expr, Function, Node};
@@ -21,7 +21,13 @@ pub(super) fn equal_where(
 ) -> Option<How> {
     let condition = on_half(a, b, domains, roles)
         .or_else(|| on_sign(a, b, domains, roles))
-        .or_else(|| on_square(a, b, domains, roles))?;
+        .or_else(|| {
+            if opposite(elsewhere) {
+                on_square(a, b, domains, roles)
+            } else {
+                None
+            }
+        })?;
     if !parts_elsewhere(a, b, &condition, domains, roles) {
         return None;
     }
@@ -97,6 +103,14 @@ fn parts_elsewhere(a: &Expr, b: &Expr, condition: &Expr, domains: &Domains, role
 
 fn proved(a: &Expr, b: &Expr, domains: &Domains) -> bool {
     matches!(proof::compare(a, b, domains), Proof::Equal(assumed) if assumed.is_empty())
+}
+
+/// Whether the values at a point may be each other's negative, as those of √(f²) and f are.
+fn opposite(at: &Counterexample) -> bool {
+    match (enclosure(&at.left), enclosure(&at.right)) {
+        (Some(l), Some(r)) => !l.is_disjoint(&r.neg()),
+        _ => false,
+    }
 }
 
 /// Whether the condition f ≥ 0 holds at some point, so that it describes more than nothing.

@@ -5,7 +5,7 @@ use super::exact::Exact;
 use super::measure::Size;
 use super::{Counterexample, Evidence, Side, Value};
 use crate::domain::{Coordinate, Roles, Sample};
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Rational, Symbol};
 use crate::interval::{Big, Certified, Enclosure, Interval, Outcome, evaluate};
 
 /// A pair of formulas to be compared at points.
@@ -108,8 +108,7 @@ impl<'a> Probe<'a> {
                 tally.exact_equal += 1;
                 return None;
             }
-            let (left, right) = (Value::Exact(l.clone()), Value::Exact(r.clone()));
-            return Some(self.confirm(at, left, right));
+            return Some(self.confirm(at, l.clone(), r.clone()));
         }
         if let (Outcome::Undefined, Outcome::Undefined) = (&left, &right) {
             tally.note(&left, &right);
@@ -181,23 +180,27 @@ impl<'a> Probe<'a> {
         })
     }
 
-    /// A counterexample in fractions, checked by dyadic intervals.
-    fn confirm(&self, at: &Sample, left: Value, right: Value) -> Counterexample {
-        let (l, r) = self.values::<Big<192>>(at);
-        let inside = |value: &Value, outcome: &Outcome<Big<192>>| match (value, outcome) {
-            (Value::Exact(v), Outcome::Value(Big(e))) => e.contains(v),
-            _ => false,
-        };
-        let confirmed = inside(&left, &l)
-            && inside(&right, &r)
-            && match (&l, &r) {
-                (Outcome::Value(Big(l)), Outcome::Value(Big(r))) => l.is_disjoint(r),
+    /// A counterexample in fractions, checked by interval arithmetic: doubles first, dyadic numbers where these overlap.
+    fn confirm(&self, at: &Sample, left: Rational, right: Rational) -> Counterexample {
+        let smaller_left = left < right;
+        let confirmed = match self.values::<Interval>(at) {
+            (Outcome::Value(l), Outcome::Value(r)) if l.is_disjoint(&r) => {
+                (l.high < r.low) == smaller_left
+            }
+            _ => match self.values::<Big<192>>(at) {
+                (Outcome::Value(Big(l)), Outcome::Value(Big(r))) => {
+                    l.is_disjoint(&r)
+                        && (l.high < r.low) == smaller_left
+                        && l.contains(&left)
+                        && r.contains(&right)
+                }
                 _ => false,
-            };
+            },
+        };
         Counterexample {
             at: at.clone(),
-            left,
-            right,
+            left: Value::Exact(left),
+            right: Value::Exact(right),
             confirmed,
         }
     }
@@ -254,7 +257,8 @@ fn agreement(l: &Interval, r: &Interval) -> u32 {
     }
 }
 
-fn enclosure(value: &Value) -> Option<Enclosure> {
+/// The enclosure of a value, unless there is none.
+pub(super) fn enclosure(value: &Value) -> Option<Enclosure> {
     match value {
         Value::Exact(v) => Some(Enclosure::of(v, 256)),
         Value::Within(e) => Some(e.clone()),
