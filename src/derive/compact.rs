@@ -60,6 +60,18 @@ pub(super) fn shorten(
             }
         }
     }
+    // An answer that is nothing but a definition shows its value.
+    for answer in answers.iter_mut() {
+        if let Form::Value { short, .. } = &mut answer.form {
+            let defined = parts
+                .definitions
+                .iter()
+                .find(|d| short.as_symbol() == Some(&d.name));
+            if let Some(definition) = defined {
+                *short = definition.value.clone();
+            }
+        }
+    }
     let mut needed: Vec<Expr> = answers
         .iter()
         .filter_map(|a| match &a.form {
@@ -115,7 +127,7 @@ impl Parts<'_, '_> {
         }
     }
 
-    /// P = −(1+e) u / W with W = Σ (1/m + h²/I), u the approach velocity along n, h the arm of n about each center.
+    /// P = (1+e) u / W with W = Σ (1/m + h²/I), u the speed of approach along n, h the arm of n about each center.
     fn frictionless(&mut self, e: &Expr) -> Result<BTreeMap<Unknown, Expr>, Stop> {
         let scene = self.work.scene;
         let contact = &scene.contacts[0];
@@ -124,7 +136,7 @@ impl Parts<'_, '_> {
             .clone()
             .unwrap_or([Expr::zero(), Expr::zero()]);
         let approach = approach(scene);
-        let speed = &approach[0] * &normal[0] + &approach[1] * &normal[1];
+        let speed = -(&approach[0] * &normal[0] + &approach[1] * &normal[1]);
         let speed = self.tidy(&speed)?;
         let mut inverse_mass = Vec::new();
         let mut values = BTreeMap::new();
@@ -153,21 +165,22 @@ impl Parts<'_, '_> {
                     arm,
                     &format!("arm of the normal about the center of {}", body.name),
                 );
-                let inertia = self.tidy(&body.inertia)?;
-                if !arm.is_zero() {
-                    inverse_mass.push(&arm.powi(2) / &inertia);
+                let share = self.tidy(&(&arm.powi(2) / &body.inertia))?;
+                if !share.is_zero() {
+                    inverse_mass.push(share);
                 }
                 let before = self.tidy(&body.spin)?;
-                pending.push((Unknown::Spin(b), before, &sign * &arm / &inertia));
+                let gain = self.tidy(&(&sign * &arm / &body.inertia))?;
+                pending.push((Unknown::Spin(b), before, gain));
             }
         }
         let speed = self.named(
             "u_n",
             speed,
-            "normal velocity of the second body relative to the first, at the contact, just before",
+            "speed at which the touching points approach each other along the normal, just before",
         );
-        let size = -((Expr::one() + e) * &speed) / Expr::sum(inverse_mass);
-        self.lost = Some((e - &Expr::one()) * &speed * &impulse * Expr::ratio(1, 2));
+        let size = (Expr::one() + e) * &speed / Expr::sum(inverse_mass);
+        self.lost = Some((Expr::one() - e) * &speed * &impulse * Expr::ratio(1, 2));
         self.define(
             &impulse,
             size,
@@ -220,18 +233,11 @@ impl Parts<'_, '_> {
             &a * &c - b.powi(2),
             "determinant of the inverse effective mass",
         );
-        let impulse =
-            [0, 1].map(|axis| Expr::symbol(self.work.names.plain(Unknown::Contact(0, axis))));
-        self.define(
-            &impulse[0],
-            (&b * &uy - &c * &ux) / &det,
-            "impulse on the second body along x",
-        );
-        self.define(
-            &impulse[1],
-            (&b * &ux - &a * &uy) / &det,
-            "impulse on the second body along y",
-        );
+        let sizes = [(&b * &uy - &c * &ux) / &det, (&b * &ux - &a * &uy) / &det];
+        let impulse = [0, 1].map(|axis| {
+            let words = format!("impulse at the contact along {}", ["x", "y"][axis]);
+            self.define_unknown(Unknown::Contact(0, axis), sizes[axis].clone(), &words)
+        });
         self.lost = Some(-(&impulse[0] * &ux + &impulse[1] * &uy) * Expr::ratio(1, 2));
         self.motion = Kinematics::full(scene, &self.work.g);
         let mut values = BTreeMap::new();
@@ -273,8 +279,12 @@ impl Parts<'_, '_> {
             .collect();
         for (unknown, value) in solved {
             let closed = self.work.field.expr(&value);
-            let name = self.work.names.plain(unknown).to_string();
-            values.insert(unknown, self.named(&name, closed, "solved above"));
+            let value = if write_plain(&closed).len() > NAMED {
+                self.define_unknown(unknown, closed, "as solved above")
+            } else {
+                closed
+            };
+            values.insert(unknown, value);
         }
         Ok((!self.definitions.is_empty()).then_some(values))
     }
@@ -328,20 +338,22 @@ impl Parts<'_, '_> {
         if write_plain(&value).len() <= NAMED {
             return value;
         }
-        let taken = self.definitions.iter().any(|d| *d.name == *wanted);
-        let own = self
-            .work
-            .values
-            .keys()
-            .any(|u| self.work.names.plain(*u) == wanted);
-        let name = if own && !taken {
-            wanted.to_string()
-        } else {
-            self.work.names.fresh(wanted)
-        };
+        let name = self.work.names.fresh(wanted);
         let symbol = Expr::symbol(&name);
         self.define(&symbol, value, meaning);
         symbol
+    }
+
+    /// Defines an unknown's own symbol; gives the unknown in terms of it.
+    fn define_unknown(&mut self, unknown: Unknown, value: Expr, meaning: &str) -> Expr {
+        let symbol = Expr::symbol(self.work.names.plain(unknown));
+        if self.work.names.is_reversed(unknown) {
+            self.define(&symbol, -value, meaning);
+            -symbol
+        } else {
+            self.define(&symbol, value, meaning);
+            symbol
+        }
     }
 
     fn define(&mut self, symbol: &Expr, value: Expr, meaning: &str) {

@@ -23,7 +23,7 @@ pub use names::Names;
 use crate::algebra::{self, Element, Field, Row, Sign};
 use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Affine, Geometry, Kinematics, Law, Unknown};
-use crate::scene::Scene;
+use crate::scene::{ContactLaw, Scene};
 use plan::{Planner, Reduction};
 
 /// Everything found out about a scene, ready to be proved and printed.
@@ -33,6 +33,8 @@ pub struct Derivation {
     pub counting: Counting,
     /// Symbols of the unknowns.
     pub names: Names,
+    /// Values of unknowns' symbols that the scene gives outright.
+    pub given: Vec<(Unknown, Expr)>,
     /// The blocks of equations that answer the questions, in order of solution.
     pub blocks: Vec<Block>,
     /// Named common parts of long answers, each in terms of the ones before it.
@@ -54,7 +56,7 @@ pub struct Block {
     pub equations: Vec<Equation>,
     /// What they determine.
     pub unknowns: Vec<Unknown>,
-    /// The solution, in the order of `unknowns`.
+    /// The values of the unknowns' symbols, in the order of `unknowns`.
     pub solution: Vec<Expr>,
     /// Expressions divided by that are not known to keep away from zero.
     pub divided_by: Vec<Expr>,
@@ -62,12 +64,12 @@ pub struct Block {
     pub asked_by: Option<String>,
 }
 
-/// A law written out: Σ coefficient × unknown = known.
+/// A law written out: Σ coefficient × symbol = known, with the symbols of [`Names`].
 #[derive(Clone, Debug)]
 pub struct Equation {
     /// The law.
     pub law: Law,
-    /// Coefficients of the unknowns, as a person would write them.
+    /// Coefficients of the unknowns' symbols, as a person would write them.
     pub terms: Vec<(Unknown, Expr)>,
     /// Right side.
     pub known: Expr,
@@ -140,10 +142,16 @@ pub fn derive(scene: &Scene) -> Result<Derivation, Stop> {
     let motion = work.motion()?;
     let left_out = left_out::list(&work, &counting, asked);
     let assumptions = work.assumptions();
+    let given = work
+        .given
+        .iter()
+        .map(|u| (*u, work.symbol_value(*u, &work.values[u])))
+        .collect();
     work.blocks.truncate(asked);
     Ok(Derivation {
         counting,
         names: work.names,
+        given,
         blocks: work.blocks,
         definitions,
         answers,
@@ -164,6 +172,7 @@ struct Work<'a> {
     reduced: Kinematics<Expr>,
     planner: Option<Planner>,
     values: BTreeMap<Unknown, Element>,
+    given: Vec<Unknown>,
     blocks: Vec<Block>,
 }
 
@@ -177,7 +186,7 @@ impl<'a> Work<'a> {
         let reduced = reduction.kinematics(scene, &g);
         let planner = Planner::new(scene, &reduction);
         let names = Names::of(scene);
-        Ok(Work {
+        let mut work = Work {
             scene,
             field,
             names,
@@ -186,8 +195,27 @@ impl<'a> Work<'a> {
             reduced,
             planner,
             values: BTreeMap::new(),
+            given: Vec::new(),
             blocks: Vec::new(),
-        })
+        };
+        work.take_givens()?;
+        Ok(work)
+    }
+
+    /// What is given of the motion after and speaks of a single unknown is data, not an equation.
+    fn take_givens(&mut self) -> Result<(), Stop> {
+        let unknowns = self.reduced_unknowns();
+        for k in 0..self.scene.after.len() {
+            let Some((row, _)) = self.row(&Law::Given(k), &unknowns)? else {
+                continue;
+            };
+            if let [(column, factor)] = row.coeffs.as_slice() {
+                let value = self.field.div(&row.rhs, factor)?;
+                self.values.insert(unknowns[*column], value);
+                self.given.push(unknowns[*column]);
+            }
+        }
+        Ok(())
     }
 
     /// The unknowns of the reduced description: free velocities and spins, then impulses.
@@ -265,20 +293,13 @@ impl<'a> Work<'a> {
         }
         let mut printed = Vec::with_capacity(unknowns.len());
         for (unknown, value) in unknowns.iter().zip(solution.values.into_iter().flatten()) {
-            printed.push(self.field.expr(&value));
+            printed.push(self.symbol_value(*unknown, &value));
             self.values.insert(*unknown, value);
         }
-        let divided_by = self.divisors(&solution.pivots);
+        let divided_by = self.divisors(&solution.pivots)?;
         let equations = equations
             .into_iter()
-            .map(|(law, (terms, known))| Equation {
-                law,
-                terms: terms
-                    .iter()
-                    .map(|(u, k)| (*u, self.field.expr(k)))
-                    .collect(),
-                known: self.field.expr(&known),
-            })
+            .map(|(law, (terms, known))| self.written(law, &terms, &known))
             .collect();
         self.blocks.push(Block {
             equations,
@@ -344,14 +365,7 @@ impl<'a> Work<'a> {
             if let Some((row, (terms, known))) = self.row(&law, &unknowns)? {
                 if !row.coeffs.is_empty() {
                     rows.push(row);
-                    equations.push(Equation {
-                        law,
-                        terms: terms
-                            .iter()
-                            .map(|(u, k)| (*u, self.field.expr(k)))
-                            .collect(),
-                        known: self.field.expr(&known),
-                    });
+                    equations.push(self.written(law, &terms, &known));
                 }
             }
         }
@@ -362,13 +376,13 @@ impl<'a> Work<'a> {
                 &equations[row].law,
             )));
         }
-        let divided_by = self.divisors(&solution.pivots);
+        let divided_by = self.divisors(&solution.pivots)?;
         let mut found = Vec::new();
         let mut printed = Vec::new();
         for (unknown, value) in unknowns.into_iter().zip(solution.values) {
             if let Some(value) = value {
                 found.push(unknown);
-                printed.push(self.field.expr(&value));
+                printed.push(self.symbol_value(unknown, &value));
                 self.values.insert(unknown, value);
             }
         }
@@ -380,6 +394,51 @@ impl<'a> Work<'a> {
             asked_by: asked_by.map(str::to_string),
         });
         Ok(())
+    }
+
+    /// The value of an unknown's symbol.
+    fn symbol_value(&self, unknown: Unknown, value: &Element) -> Expr {
+        if self.names.is_reversed(unknown) {
+            self.field.expr(&self.field.neg(value))
+        } else {
+            self.field.expr(value)
+        }
+    }
+
+    /// An equation as a person writes it: in the scene's symbols, and not with a minus on both sides.
+    fn written(&self, law: Law, terms: &[(Unknown, Element)], known: &Element) -> Equation {
+        let symbols: Vec<(Unknown, Element)> = terms
+            .iter()
+            .map(|(u, k)| {
+                let reversed = self.names.is_reversed(*u);
+                (
+                    *u,
+                    if reversed {
+                        self.field.neg(k)
+                    } else {
+                        k.clone()
+                    },
+                )
+            })
+            .collect();
+        let print = |negate: bool, x: &Element| {
+            if negate {
+                self.field.expr(&self.field.neg(x))
+            } else {
+                self.field.expr(x)
+            }
+        };
+        let minus = |x: &Element| crate::formula::write_plain(&print(false, x)).starts_with('-');
+        let all_minus =
+            symbols.iter().all(|(_, k)| minus(k)) && (self.field.is_zero(known) || minus(known));
+        Equation {
+            law,
+            terms: symbols
+                .iter()
+                .map(|(u, k)| (*u, print(all_minus, k)))
+                .collect(),
+            known: print(all_minus, known),
+        }
     }
 
     /// An affine form with the closed forms put in.
@@ -429,19 +488,39 @@ impl<'a> Work<'a> {
         Ok(motion)
     }
 
-    /// What was divided by and is not known to keep away from zero.
-    fn divisors(&self, pivots: &[algebra::Pivot]) -> Vec<Expr> {
-        let safe = |p: &&algebra::Pivot| {
-            !matches!(
-                self.field.sign(&p.value),
-                Some(Sign::Positive | Sign::Negative)
-            )
-        };
-        pivots
+    /// The determinant of a block, where nothing shows that it keeps away from zero. Joints in a tree and one contact
+    /// need no such condition: their equations are those of a quadratic form, the kinetic energy, that is positive for
+    /// positive masses.
+    fn divisors(&self, pivots: &[algebra::Pivot]) -> Result<Vec<Expr>, Stop> {
+        let scene = self.scene;
+        let mut positive = true;
+        for body in scene.bodies.iter().filter(|b| !b.is_fixed()) {
+            positive &= self.is_positive(&body.mass)
+                && (body.is_particle() || self.is_positive(&body.inertia));
+        }
+        let contacts = scene
+            .contacts
             .iter()
-            .filter(safe)
-            .map(|p| self.field.expr(&p.value))
-            .collect()
+            .filter(|c| matches!(c.law, ContactLaw::Frictionless { .. }))
+            .count();
+        if positive && contacts <= 1 && self.reduction.loops.is_empty() && scene.after.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut determinant = self.field.integer(1);
+        for pivot in pivots {
+            determinant = self.field.mul(&determinant, &pivot.value)?;
+        }
+        Ok(match self.field.sign(&determinant) {
+            Some(Sign::Positive | Sign::Negative) => Vec::new(),
+            _ => vec![self.field.expr(&determinant)],
+        })
+    }
+
+    fn is_positive(&self, e: &Expr) -> bool {
+        let mut field = self.field.clone();
+        field
+            .element(e)
+            .is_ok_and(|x| field.sign(&x) == Some(Sign::Positive))
     }
 
     /// What the closed forms rest on: signs taken for roots, and conditions `… ≠ 0` under which the blocks were solved.

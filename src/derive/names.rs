@@ -3,13 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::laws::{self, Unknown};
-use crate::scene::{Ask, ImpulseAt, Scene};
+use crate::scene::{Ask, BlowImpulse, ImpulseAt, Scene};
 
 /// Plain and LaTeX names of the unknowns; none collides with a parameter or with another unknown.
 #[derive(Clone, Debug, Default)]
 pub struct Names {
     of: BTreeMap<Unknown, (String, String)>,
     used: BTreeSet<String>,
+    reversed: BTreeSet<Unknown>,
 }
 
 impl Names {
@@ -24,6 +25,9 @@ impl Names {
                 asked_name(scene, unknown).unwrap_or_else(|| made_name(scene, unknown));
             let plain = names.fresh(&plain);
             names.of.insert(unknown, (plain, latex));
+            if asked_reversed(scene, unknown) {
+                names.reversed.insert(unknown);
+            }
         }
         names
     }
@@ -36,6 +40,12 @@ impl Names {
     /// The same, typeset.
     pub fn latex(&self, unknown: Unknown) -> &str {
         self.of.get(&unknown).map_or("?", |(_, latex)| latex)
+    }
+
+    /// Whether the symbol stands for the opposite of the unknown: a spin that the scene counts clockwise, an impulse on the
+    /// first body.
+    pub fn is_reversed(&self, unknown: Unknown) -> bool {
+        self.reversed.contains(&unknown)
     }
 
     /// A symbol near `wanted` that nothing else uses.
@@ -52,65 +62,89 @@ impl Names {
 
 const AXES: [&str; 2] = ["x", "y"];
 
-/// The name a question gives to an unknown, if one asks for exactly it.
+/// The name a question gives to an unknown, if one asks for exactly it or its opposite.
 fn asked_name(scene: &Scene, unknown: Unknown) -> Option<(String, String)> {
-    for question in &scene.questions {
-        let latex = question
-            .latex
-            .clone()
-            .unwrap_or_else(|| latex_name(&question.name));
-        let component = |axis: usize| {
-            Some((
-                format!("{}_{}", question.name, AXES[axis]),
-                with_subscript(&latex, AXES[axis]),
-            ))
-        };
-        let found = match (&question.ask, unknown) {
-            (
-                Ask::Velocity {
-                    body,
-                    point: None,
-                    along: None,
-                },
-                Unknown::Velocity(b, axis),
-            ) if *body == b => component(axis),
-            (Ask::Spin { body, .. }, Unknown::Spin(b)) if *body == b => {
-                Some((question.name.clone(), latex))
-            }
-            (
-                Ask::Impulse {
-                    from: ImpulseAt::Contact(c),
-                    on,
-                    along,
-                },
-                Unknown::Normal(i),
-            ) if *c == i => {
-                let forward = scene.contacts[i].bodies[1] == *on;
-                (forward && along.is_none()).then(|| (question.name.clone(), latex))
-            }
-            (
-                Ask::Impulse {
-                    from: ImpulseAt::Contact(c),
-                    on,
-                    along: None,
-                },
-                Unknown::Contact(i, axis),
-            ) if *c == i && scene.contacts[i].bodies[1] == *on => component(axis),
-            (
-                Ask::Impulse {
-                    from: ImpulseAt::Hinge(h),
-                    on,
-                    along: None,
-                },
-                Unknown::Hinge(i, axis),
-            ) if *h == i && scene.hinges[i].bodies[1] == *on => component(axis),
-            _ => None,
-        };
-        if found.is_some() {
-            return found;
+    let (question, axis) = scene
+        .questions
+        .iter()
+        .find_map(|q| Some((q, asks_for(scene, &q.ask, unknown)?.0)))?;
+    let latex = question
+        .latex
+        .clone()
+        .unwrap_or_else(|| latex_name(&question.name));
+    Some(match axis {
+        Some(axis) => (
+            format!("{}_{}", question.name, AXES[axis]),
+            with_subscript(&latex, AXES[axis]),
+        ),
+        None => (question.name.clone(), latex),
+    })
+}
+
+fn asked_reversed(scene: &Scene, unknown: Unknown) -> bool {
+    scene
+        .questions
+        .iter()
+        .find_map(|q| asks_for(scene, &q.ask, unknown))
+        .is_some_and(|(_, reversed)| reversed)
+}
+
+/// Whether a question asks for an unknown: the component it is, if any, and whether the opposite is asked for.
+fn asks_for(scene: &Scene, ask: &Ask, unknown: Unknown) -> Option<(Option<usize>, bool)> {
+    match (ask, unknown) {
+        (
+            Ask::Velocity {
+                body,
+                point: None,
+                along: None,
+            },
+            Unknown::Velocity(b, axis),
+        ) if *body == b => Some((Some(axis), false)),
+        (Ask::Spin { body, clockwise }, Unknown::Spin(b)) if *body == b => Some((None, *clockwise)),
+        (
+            Ask::Impulse {
+                from: ImpulseAt::Contact(c),
+                on,
+                along,
+            },
+            Unknown::Normal(i),
+        ) if *c == i => {
+            // Asked as a vector or along the normal, the name is that of its size.
+            let contact = &scene.contacts[i];
+            let whole = along.is_none() || *along == contact.normal;
+            (whole && contact.bodies[1] == *on).then_some((None, false))
         }
+        (
+            Ask::Impulse {
+                from: ImpulseAt::Contact(c),
+                on,
+                along: None,
+            },
+            Unknown::Contact(i, axis),
+        ) if *c == i => Some((Some(axis), scene.contacts[i].bodies[1] != *on)),
+        (
+            Ask::Impulse {
+                from: ImpulseAt::Hinge(h),
+                on,
+                along: None,
+            },
+            Unknown::Hinge(i, axis),
+        ) if *h == i => Some((Some(axis), scene.hinges[i].bodies[1] != *on)),
+        (
+            Ask::Impulse {
+                from: ImpulseAt::Blow(b),
+                along,
+                ..
+            },
+            Unknown::Blow(i),
+        ) if *b == i => {
+            let direction = match &scene.blows[i].impulse {
+                BlowImpulse::Given(v) | BlowImpulse::Along(v) => v,
+            };
+            (along.as_ref() == Some(direction)).then_some((None, false))
+        }
+        _ => None,
     }
-    None
 }
 
 fn made_name(scene: &Scene, unknown: Unknown) -> (String, String) {

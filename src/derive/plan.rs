@@ -158,7 +158,6 @@ impl Planner {
             }
             if !row.is_empty() {
                 let mask = row.iter().fold(0, |m, (i, _)| m | 1 << i);
-                let cost = cost + 4 * row.len();
                 planner.candidates.push(Candidate {
                     law,
                     row,
@@ -376,11 +375,15 @@ impl Search<'_> {
         }
     }
 
+    /// What an equation costs the reader: mostly its unknowns, a little the terms already known, and its kind.
+    fn cost(&self, candidate: usize) -> usize {
+        let candidate = &self.planner.candidates[candidate];
+        let open = (candidate.mask & !self.known).count_ones() as usize;
+        candidate.cost + 4 * open + (candidate.row.len() - open)
+    }
+
     fn record(&mut self, chosen: &[usize], union: u128) {
-        let cost = chosen
-            .iter()
-            .map(|&c| self.planner.candidates[c].cost)
-            .sum();
+        let cost = chosen.iter().map(|&c| self.cost(c)).sum();
         if self.best.as_ref().is_some_and(|(best, ..)| *best <= cost) {
             return;
         }
@@ -469,7 +472,7 @@ fn candidate_laws(scene: &Scene, reduction: &Reduction, g: &Geometry<f64>) -> Ve
                     system: system.clone(),
                     about,
                 },
-                2 * (size - 1) + 1 + usize::from(own_center),
+                2 * (size - 1) + 3 + usize::from(own_center),
             ));
         }
     }

@@ -15,6 +15,14 @@ pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof) -> String {
     let title: Vec<&str> = title.into_iter().filter(|t| !t.is_empty()).collect();
     line(&mut out, "", &title.join(" · "));
     counting(&mut out, d);
+    for (unknown, value) in &d.given {
+        let name = d.names.plain(*unknown);
+        line(
+            &mut out,
+            "\ngiven: ",
+            &format!("{name} = {}", unicode(scene, value)),
+        );
+    }
     for block in &d.blocks {
         let n = block.equations.len();
         let heading = format!("{n} equation{} in {n} unknown{}:", plural(n), plural(n));

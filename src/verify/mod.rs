@@ -76,9 +76,16 @@ pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
 /// The motion put into every equation of the full system.
 fn identity(scene: &Scene, derivation: &Derivation) -> Check {
     match identity_count(scene, derivation) {
+        Ok((0, failed)) if failed.is_empty() => Check {
+            kind: "identity",
+            words: String::from("nothing is determined, so nothing can be put into the equations"),
+            holds: None,
+        },
         Ok((held, failed)) if failed.is_empty() => Check {
             kind: "identity",
-            words: format!("identity in all {held} equations of the full system"),
+            words: format!(
+                "identity in all {held} equations of the full system that are determined"
+            ),
             holds: Some(true),
         },
         Ok((_, failed)) => Check {
