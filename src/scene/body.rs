@@ -10,7 +10,7 @@ use super::fault::{Fault, Span};
 use super::file::{BodyFile, PositionFile, ShapeName, VelocityFile};
 use super::formulas::{Quantity, Symbols};
 use super::geometry::split_number;
-use super::record::Formula;
+use super::record::{Formula, is_sound};
 use super::{Body, Shape};
 use crate::expr::{Expr, Rational, Vector, dot, minus};
 
@@ -136,6 +136,8 @@ impl SolidReader<'_> {
         let (needed, allowed) = fields_of(body.shape);
         let shape = article(body.shape);
         let before = self.faults.len();
+        let mut complete = true;
+        let is_sound = is_sound(body.span, self.faults);
         for (name, span) in given {
             match span {
                 Some(span) if !needed.contains(&name) && !allowed.contains(&name) => {
@@ -145,6 +147,10 @@ impl SolidReader<'_> {
                         .push(fault.hint(format!("its fields are {}", all.join(", "))));
                 }
                 None if needed.contains(&name) => {
+                    complete = false;
+                    if !is_sound {
+                        continue;
+                    }
                     let fault = Fault::new(body.span, format!("{shape} needs `{name}`"));
                     self.faults.push(fault.shown_at(first(body.span)));
                 }
@@ -160,14 +166,14 @@ impl SolidReader<'_> {
                 self.faults
                     .push(fault.hint("keep one: inertia = mass × radius_of_gyration²"));
             }
-            (None, None) if body.shape == ShapeName::Body => {
+            (None, None) if body.shape == ShapeName::Body && is_sound => {
                 let fault = Fault::new(body.span, "a body needs `inertia` or `radius_of_gyration`")
                     .shown_at(first(body.span));
                 self.faults.push(fault.hint(Quantity::INERTIA.hint()));
             }
             _ => {}
         }
-        self.faults.len() == before
+        complete && self.faults.len() == before
     }
 
     fn mass(&mut self, body: &BodyFile) -> Option<Expr> {

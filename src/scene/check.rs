@@ -1,14 +1,15 @@
-//! Whether a scene is consistent: what its formulas claim, tried at exact points of the domain and at the given values.
+//! Whether a scene is consistent: what its formulas claim, decided on the whole domain and tried at the given values.
 //!
-//! In: a scene and the claims collected while it was put together. Out: faults, and remarks that are none. A claim is
-//! refused only where a point refutes it; what cannot be tried here is left to the layers that prove.
+//! In: a scene and the claims collected while it was put together. Out: faults, and remarks on what could not be decided.
+//! A claim is refused only where it is refuted.
 
 use super::fault::{Fault, Span};
-use super::parameters::{is_negative, number_words};
-use super::sample::{self, vanishes};
+use super::parameters::number_words;
+use super::proof::{Given, Zero, given, middle, sign, violation, zero};
 use super::{Body, Contact, Hinge, Scene, geometry};
-use crate::expr::number::to_f64;
-use crate::expr::{Expr, Point, Rational, Symbol, Vector, dot, minus};
+use crate::algebra::Sign;
+use crate::expr::{Expr, Function, Node, Symbol, Vector, dot, minus};
+use crate::interval::{Interval, Outcome, evaluate};
 
 /// Something a scene relies on.
 pub(super) enum Claim {
@@ -28,7 +29,7 @@ pub(super) enum Claim {
         at: String,
         body: usize,
     },
-    /// The bodies of this contact approach at the given values.
+    /// The bodies of this contact do not separate.
     Approach(usize),
     /// Both bodies of this hinge move alike there.
     Hinge(usize),
@@ -40,171 +41,246 @@ pub(super) struct Claimed {
     pub claim: Claim,
 }
 
-type Points = [(Point<Rational>, Point<f64>)];
-
-/// Tries every claim.
-pub(super) fn check(scene: &Scene, claims: &[Claimed]) -> Vec<Fault> {
-    if claims.is_empty() {
-        return Vec::new();
+/// Tries every claim; what cannot be decided becomes a remark of the scene.
+pub(super) fn check(scene: &mut Scene, claims: &[Claimed]) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    let given = given(scene);
+    for claimed in claims {
+        let (fault, remark) = try_claim(scene, claimed, &given);
+        faults.extend(fault);
+        scene.remarks.extend(remark);
     }
-    let points = sample::points(scene);
-    let given = sample::given(scene);
-    claims
-        .iter()
-        .filter_map(|c| try_claim(scene, c, &points, given.as_ref()))
-        .collect()
+    faults
 }
 
-fn try_claim(
-    scene: &Scene,
-    claimed: &Claimed,
-    points: &Points,
-    given: Option<&Point<f64>>,
-) -> Option<Fault> {
+/// The fault that the values now given bring about, if there is one.
+pub(super) fn at_values(scene: &Scene, span: Span) -> Option<Fault> {
+    let unit_vectors = scene.domains.unit_vectors.iter().filter_map(|pair| {
+        let value = |name: &Symbol| {
+            let parameter = scene.parameters.iter().find(|p| p.name == *name)?;
+            parameter.value.clone()
+        };
+        let claim = Claim::Unit([value(&pair[0])?, value(&pair[1])?]);
+        Some(Claimed { span, claim })
+    });
+    let approaches = (0..scene.contacts.len()).map(|i| Claimed {
+        span,
+        claim: Claim::Approach(i),
+    });
+    let given = given(scene);
+    unit_vectors
+        .chain(approaches)
+        .find_map(|claimed| try_claim(scene, &claimed, &given).0)
+}
+
+/// A fault if the claim is refuted, a remark if it stays open.
+fn try_claim(scene: &Scene, claimed: &Claimed, given: &Given) -> (Option<Fault>, Option<String>) {
     let fault = |message: String| Fault::new(claimed.span, message);
     match &claimed.claim {
         Claim::Unit(vector) => {
-            let excess = dot(vector, vector) - Expr::one();
-            (vanishes(&excess, points) == Some(false)).then(|| {
-                let length = match (vector[0].as_number(), vector[1].as_number()) {
-                    (Some(x), Some(y)) => format!(" but {}", number_words(to_f64(x).hypot(to_f64(y)))),
-                    _ => String::new(),
-                };
-                fault(format!("a direction has length 1, not this{length}")
-                    .replace("not this but", "not"))
-                .hint("divide by its length, give an {\"angle\": …}, or declare its components under \"unit_vectors\"")
-            })
+            if is_cosine_and_sine(vector) || is_declared_unit(vector, scene) {
+                return (None, None);
+            }
+            match zero(&(dot(vector, vector) - Expr::one()), &scene.domains) {
+                Zero::Yes => (None, None),
+                Zero::No(point) => {
+                    let message =
+                        format!("a direction has length 1, and this has not{}", at(&point));
+                    let hint = "divide by its length, give {\"angle\": …}, or declare its components under \"unit_vectors\"";
+                    (Some(fault(message).hint(hint)), None)
+                }
+                Zero::Unknown => (
+                    None,
+                    Some("whether a direction has length 1 could not be decided".to_owned()),
+                ),
+            }
         }
         Claim::Fraction(e) => {
-            let wrong = out_of_range(e, points, given, |v| !(0.0..=1.0).contains(&v))?;
-            let why = if e.as_number().is_some() {
-                "it is".to_owned()
-            } else {
-                format!("it can be {}", number_words(wrong))
+            if e.as_symbol().is_some_and(|name| is_within_one(name, scene)) {
+                return (None, None);
+            }
+            let Some((value, point)) = violation(e, scene, given, |v| v.high < 0.0 || v.low > 1.0)
+            else {
+                return (None, None);
             };
-            let message = match e.as_number() {
-                Some(_) => format!(
-                    "a restitution is from 0 to 1, and this is {}",
-                    number_words(wrong)
-                ),
-                None => format!("a restitution is from 0 to 1, and in its domain {why}"),
-            };
-            Some(fault(message).hint(
-                "0: no rebound, 1: no loss; for a symbol give \"domain\": {\"min\": 0, \"max\": 1}",
-            ))
+            let message = format!(
+                "a restitution is from 0 to 1, and this is {}{}",
+                number_words(value),
+                at(&point)
+            );
+            let hint =
+                "0: no rebound, 1: no loss; for a symbol give \"domain\": {\"min\": 0, \"max\": 1}";
+            (Some(fault(message).hint(hint)), None)
         }
         Claim::Size {
             size,
             what,
             may_vanish,
         } => {
-            let wrong = out_of_range(size, points, given, |v| v < 0.0 || v == 0.0 && !may_vanish)?;
+            if is_positive(size, scene) || *may_vanish && size.is_zero() {
+                return (None, None);
+            }
+            let is_wrong =
+                |v: &Interval| v.high < 0.0 || !may_vanish && v.low == 0.0 && v.high == 0.0;
+            let Some((value, point)) = violation(size, scene, given, is_wrong) else {
+                return (None, None);
+            };
             let bound = if *may_vanish {
                 "is not negative"
             } else {
                 "is positive"
             };
-            let now = match (size.as_number(), wrong == 0.0) {
-                (_, true) => "this is 0".to_owned(),
-                (Some(_), _) => format!("this is {}", number_words(wrong)),
-                _ => format!("in its domain this can be {}", number_words(wrong)),
-            };
-            Some(
-                fault(format!("a {what} {bound}, and {now}").replace("a inertia", "an inertia"))
-                    .hint("change the value, or the `domain` of its parameters"),
+            let message = format!(
+                "{what} {bound}, and this is {}{}",
+                number_words(value),
+                at(&point)
+            );
+            (
+                Some(fault(message).hint("change the value, or the `domain` of its parameters")),
+                None,
             )
         }
-        Claim::AtParticle { offset, at, body } => {
-            let is_elsewhere = offset.iter().any(|c| vanishes(c, points) == Some(false));
-            let name = &scene.bodies.get(*body)?.name;
-            is_elsewhere.then(|| {
-                fault(format!("`{at}` is not where the particle `{name}` is"))
-                    .hint(format!("leave the particle's `center` out, or put it at {at}; a body with extension is a disk, a rod, …"))
-            })
-        }
-        Claim::Approach(i) => {
-            let speed = separation(scene, scene.contacts.get(*i)?)?.evaluate(given?)?;
-            let noise = 1e-12 * speed_scale(scene, given?);
-            (speed > noise).then(|| {
-                fault(format!(
-                    "the bodies separate at `{}`, at {} m/s along the normal: they do not collide",
-                    scene.contacts[*i].name,
-                    number_words(speed)
-                ))
-                .hint("the normal points out of the first body into the second; check the order of `bodies`, and the velocities")
-            })
-        }
-        Claim::Hinge(i) => {
-            let hinge = scene.hinges.get(*i)?;
-            let gap = gap(scene, hinge);
-            let moves_apart = gap.iter().any(|c| vanishes(c, points) == Some(false));
-            let [a, b] = hinge.bodies.map(|b| &scene.bodies[b].name);
-            moves_apart.then(|| {
-                fault(format!("before the collision `{a}` and `{b}` move differently at the hinge `{}`", hinge.name))
-                    .hint(format!("a body that turns about it has \"velocity\": {{\"about\": \"{}\"}} and a `spin`", hinge.name))
-            })
-        }
-    }
-}
-
-/// A value of the expression that is wrong: at the given values, or at a point of the domain.
-fn out_of_range(
-    e: &Expr,
-    points: &Points,
-    given: Option<&Point<f64>>,
-    is_wrong: impl Fn(f64) -> bool,
-) -> Option<f64> {
-    if let Some(number) = e.as_number() {
-        let value = if is_negative(e) {
-            to_f64(number).min(-f64::MIN_POSITIVE)
-        } else {
-            to_f64(number)
-        };
-        return is_wrong(value).then_some(value);
-    }
-    let at_given = given.and_then(|at| e.evaluate(at)).filter(|v| is_wrong(*v));
-    at_given.or_else(|| {
-        points
-            .iter()
-            .filter_map(|(_, at)| e.evaluate(at))
-            .find(|v| is_wrong(*v))
-    })
-}
-
-/// The fault that the values now given bring about at a contact, if there is one.
-pub(super) fn at_values(scene: &Scene, span: Span) -> Option<Fault> {
-    let given = sample::given(scene)?;
-    let contacts = (0..scene.contacts.len()).map(|i| Claimed {
-        span,
-        claim: Claim::Approach(i),
-    });
-    let given_vectors = scene.domains.unit_vectors.iter().filter_map(|pair| {
-        let value = |name: &Symbol| {
-            scene
-                .parameters
+        Claim::AtParticle {
+            offset,
+            at: place,
+            body,
+        } => {
+            let is_elsewhere = offset
                 .iter()
-                .find(|p| p.name == *name)
-                .and_then(|p| p.value.clone())
-        };
-        Some(Claimed {
-            span,
-            claim: Claim::Unit([value(&pair[0])?, value(&pair[1])?]),
-        })
-    });
-    let claims: Vec<Claimed> = given_vectors.chain(contacts).collect();
-    claims.iter().find_map(|c| {
-        try_claim(
-            scene,
-            c,
-            &[(Point::default(), Point::default())],
-            Some(&given),
-        )
+                .any(|c| matches!(zero(c, &scene.domains), Zero::No(_)));
+            if !is_elsewhere {
+                return (None, None);
+            }
+            let name = scene.bodies.get(*body).map_or("", |b| &b.name);
+            let message = format!("`{place}` is not where the particle `{name}` is");
+            let hint = "leave the particle's `center` out, or put it there; a body with extension is a disk, a rod, …";
+            (Some(fault(message).hint(hint)), None)
+        }
+        Claim::Approach(i) => (approach(scene, *i, given, claimed.span), None),
+        Claim::Hinge(i) => {
+            let Some(hinge) = scene.hinges.get(*i) else {
+                return (None, None);
+            };
+            for component in gap(scene, hinge) {
+                match zero(&component, &scene.domains) {
+                    Zero::Yes => {}
+                    Zero::No(point) => {
+                        let [a, b] = hinge.bodies.map(|b| &scene.bodies[b].name);
+                        let name = &hinge.name;
+                        let message = format!(
+                            "before the collision `{a}` and `{b}` move differently at the hinge `{name}`{}",
+                            at(&point)
+                        );
+                        let hint = format!(
+                            "a body that turns about it has \"velocity\": {{\"about\": \"{name}\"}} and a `spin`"
+                        );
+                        return (Some(fault(message).hint(hint)), None);
+                    }
+                    Zero::Unknown => {
+                        let remark = format!(
+                            "whether the bodies move alike at the hinge `{}` could not be decided",
+                            hinge.name
+                        );
+                        return (None, Some(remark));
+                    }
+                }
+            }
+            (None, None)
+        }
+    }
+}
+
+/// The point at which something was seen, as the end of a sentence.
+fn at(point: &str) -> String {
+    if point.is_empty() {
+        String::new()
+    } else {
+        format!(" at {point}")
+    }
+}
+
+/// Whether the bodies of a contact separate, at the given values or at any.
+fn approach(scene: &Scene, i: usize, given: &Given, span: Span) -> Option<Fault> {
+    let contact = scene.contacts.get(i)?;
+    let speed = separation(scene, contact)?;
+    let name = &contact.name;
+    let hint = "the normal points out of the first body into the second; check the order of `bodies`, and the velocities";
+    if let Outcome::Value(value) = evaluate::<Interval>(&speed, given) {
+        if value.low <= 0.0 {
+            return None;
+        }
+        let speed = number_words(middle(&value));
+        let message = format!(
+            "the bodies separate at `{name}`, at {speed} m/s along the normal: they do not collide"
+        );
+        return Some(Fault::new(span, message).hint(hint));
+    }
+    (sign(&speed, &scene.domains) == Some(Sign::Positive)).then(|| {
+        let message = format!(
+            "the bodies separate at `{name}`, whatever the parameters: they do not collide"
+        );
+        Fault::new(span, message).hint(hint)
     })
+}
+
+/// Whether a vector is (cos φ, ± sin φ), or the same with its components exchanged or negated.
+fn is_cosine_and_sine(vector: &Vector) -> bool {
+    let split = |e: &Expr| {
+        let (factor, rest) = geometry::split_number(e);
+        let is_sign = factor.is_integer() && factor.numer().as_i64().is_some_and(|k| k.abs() == 1);
+        match rest.node() {
+            Node::Call(f @ (Function::Sin | Function::Cos), argument) if is_sign => {
+                Some((*f, argument.clone()))
+            }
+            _ => None,
+        }
+    };
+    let is_unit = |e: &Expr| {
+        e.as_number()
+            .is_some_and(|k| k.is_integer() && k.numer().as_i64().is_some_and(|k| k.abs() == 1))
+    };
+    match vector {
+        [a, b] if a.is_zero() => is_unit(b),
+        [a, b] if b.is_zero() => is_unit(a),
+        [a, b] => match (split(a), split(b)) {
+            (Some((f, x)), Some((g, y))) => f != g && x == y,
+            _ => false,
+        },
+    }
+}
+
+fn is_declared_unit(vector: &Vector, scene: &Scene) -> bool {
+    let names = vector.each_ref().map(|e| e.as_symbol());
+    let is_pair = |[x, y]: &[Symbol; 2]| names == [Some(x), Some(y)] || names == [Some(y), Some(x)];
+    scene.domains.unit_vectors.iter().any(is_pair)
+}
+
+/// Whether the domain of a symbol lies between 0 and 1.
+fn is_within_one(name: &Symbol, scene: &Scene) -> bool {
+    scene.domains.symbols.get(name).is_some_and(|domain| {
+        let low = domain.low.as_ref().is_some_and(|l| l.approximate() >= 0.0);
+        low && domain.high.as_ref().is_some_and(|h| h.approximate() <= 1.0)
+    })
+}
+
+/// Whether it is a positive number times symbols that are positive on their domain: most sizes are.
+fn is_positive(size: &Expr, scene: &Scene) -> bool {
+    let is_positive_symbol = |name: &Symbol| {
+        let low = scene.domains.symbols.get(name).and_then(|d| d.low.as_ref());
+        low.is_some_and(|l| l.approximate() > 0.0 || l.approximate() == 0.0 && l.open)
+    };
+    match size.node() {
+        Node::Number(value) => *value.numer() > 0.into(),
+        Node::Symbol(name) => is_positive_symbol(name),
+        Node::Sum(parts) | Node::Product(parts) => parts.iter().all(|p| is_positive(p, scene)),
+        Node::Power(base, exponent) => exponent.as_number().is_some() && is_positive(base, scene),
+        Node::Call(..) => false,
+    }
 }
 
 /// Velocity just before of the point of a body at a position.
 fn velocity_at(body: &Body, at: &Vector) -> Vector {
-    if body.is_particle() {
+    if body.is_particle() || body.spin.is_zero() {
         return body.velocity.clone();
     }
     let turn = geometry::turned(&body.spin, &minus(at, &body.center));
@@ -212,7 +288,7 @@ fn velocity_at(body: &Body, at: &Vector) -> Vector {
 }
 
 /// Normal relative velocity u_n⁻ just before [m/s]; positive where the bodies separate.
-pub(super) fn separation(scene: &Scene, contact: &Contact) -> Option<Expr> {
+fn separation(scene: &Scene, contact: &Contact) -> Option<Expr> {
     let [a, b] = contact.bodies.map(|i| scene.bodies.get(i));
     let relative = minus(&velocity_at(b?, &contact.at), &velocity_at(a?, &contact.at));
     Some(dot(&relative, contact.normal.as_ref()?))
@@ -224,14 +300,6 @@ fn gap(scene: &Scene, hinge: &Hinge) -> Vector {
         .bodies
         .map(|i| velocity_at(&scene.bodies[i], &hinge.at));
     minus(&b, &a)
-}
-
-/// The largest speed in the scene, as a measure of rounding.
-fn speed_scale(scene: &Scene, at: &Point<f64>) -> f64 {
-    let components = scene.bodies.iter().flat_map(|b| &b.velocity);
-    components
-        .filter_map(|v| v.evaluate(at))
-        .fold(0.0, |m: f64, v| m.max(v.abs()))
 }
 
 /// Remarks on what a scene declares without need.

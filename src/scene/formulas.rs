@@ -74,17 +74,17 @@ impl Quantity {
 /// The symbols formulas may use, and which of them have been used.
 pub(super) struct Symbols {
     names: formula::Symbols,
-    dimensions: BTreeMap<Symbol, Dimension>,
+    dimensions: BTreeMap<Symbol, Option<Dimension>>,
     used: RefCell<BTreeSet<Symbol>>,
     remarks: RefCell<Vec<String>>,
 }
 
 impl Symbols {
-    /// Symbols with their dimension; no others may occur.
-    pub fn new(dimensions: BTreeMap<Symbol, Dimension>) -> Symbols {
+    /// Symbols with their dimension, if their unit could be read; no others may occur.
+    pub fn new(dimensions: BTreeMap<Symbol, Option<Dimension>>) -> Symbols {
         let mut names = formula::Symbols::strict();
         for (name, dimension) in &dimensions {
-            names.declare_as(name, None, Some(dimension.clone()));
+            names.declare_as(name, None, dimension.clone());
         }
         Symbols {
             names,
@@ -119,11 +119,13 @@ impl Symbols {
         let e = self.expression(formula, faults)?;
         let symbols = e.symbols();
         let is_number = symbols.is_empty();
+        let is_known = |name: &Symbol| self.dimensions.get(name).is_some_and(Option::is_some);
+        let is_open = !symbols.iter().all(is_known);
         self.used.borrow_mut().extend(symbols);
-        if is_number {
+        if is_number || is_open {
             return Some(e);
         }
-        match dimension::of(&e, &|name| self.dimensions.get(name).cloned()) {
+        match dimension::of(&e, &|name| self.dimensions.get(name).cloned().flatten()) {
             Err(clash) => {
                 faults.push(Fault::new(
                     formula.span,

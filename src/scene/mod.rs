@@ -11,10 +11,10 @@ mod formulas;
 mod geometry;
 mod json;
 mod parameters;
+mod proof;
 mod question;
 mod record;
 mod resolve;
-mod sample;
 
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
@@ -39,17 +39,16 @@ pub fn read(text: &str) -> Result<Scene, Faults> {
     let file: Option<file::SceneFile> = record::Read::read(&root, &mut faults);
     let mut scene = Scene::default();
     if let Some(file) = &file {
-        let (resolved, more) = resolve::resolve(file);
-        scene = resolved;
-        faults.extend(more);
+        (scene, faults) = resolve::resolve(file, faults);
     }
     if faults.is_empty() {
         return Ok(scene);
     }
-    for fault in &mut faults {
+    let mut faults = Faults::gather(faults, text);
+    for fault in &mut faults.list {
         fault.pointer = root.pointer_to(fault.span);
     }
-    Err(Faults::gather(faults, text))
+    Err(faults)
 }
 
 /// The JSON Schema of scene files, for editors.
@@ -81,8 +80,7 @@ pub fn set(scene: &mut Scene, name: &str, value: &str) -> Result<(), Fault> {
             .unwrap_or_else(|| Fault::new(all, "this is no value")));
     };
     if let Some(domain) = scene.domains.symbols.get(&parameter.name) {
-        parameters::lies_in(&read, domain)
-            .map_err(|message| Fault::new(all, format!("{name} {message}")))?;
+        parameters::lies_in(name, &read, domain).map_err(|message| Fault::new(all, message))?;
     }
     let before = scene.parameters[index].value.replace(read);
     match check::at_values(scene, all) {

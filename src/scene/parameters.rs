@@ -2,9 +2,8 @@
 //!
 //! Values and ends of domains are kept in SI units, so that whoever puts them into formulas need not convert.
 
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
-
-use num_traits::{One, Signed, Zero};
 
 use super::check::{Claim, Claimed};
 use super::fault::{Fault, Span};
@@ -49,10 +48,7 @@ pub(super) fn resolve(
             None => dimension::unit("1").ok(),
             Some(text) => read_unit(text, faults),
         };
-        let dimension = unit
-            .as_ref()
-            .map(|u| u.dimension.clone())
-            .unwrap_or_default();
+        let dimension = unit.as_ref().map(|u| u.dimension.clone());
         symbols.insert(name.text.as_str().into(), dimension.clone());
         let (Some(entry), Some(unit)) = (entry, unit) else {
             continue;
@@ -64,7 +60,7 @@ pub(super) fn resolve(
                 .unit
                 .as_ref()
                 .map_or_else(|| "1".to_owned(), |t| t.text.clone()),
-            dimension,
+            dimension: dimension.unwrap_or_default(),
             value: entry.value.as_ref().and_then(|v| value(v, &unit, faults)),
             meaning: entry
                 .meaning
@@ -74,22 +70,21 @@ pub(super) fn resolve(
         };
         let domain = match &entry.domain {
             Some(written) => domain(written, &unit, faults),
-            None if is_restitution(file, &name.text) => Some(fraction()),
-            None if is_component(file, &name.text) => Some(Domain {
-                low: Some(limit(-1, false)),
-                ..fraction()
-            }),
-            None if unit.angle && unit.dimension.is_none() => Some(Domain::default()),
-            None => Some(positive()),
+            None if is_restitution(file, &name.text) => {
+                Some(Domain::between(ratio(0, 1), ratio(1, 1)))
+            }
+            None if is_component(file, &name.text) => {
+                Some(Domain::between(ratio(-1, 1), ratio(1, 1)))
+            }
+            None if unit.angle && unit.dimension.is_none() => Some(Domain::real()),
+            None => Some(Domain::positive()),
         };
         let Some(domain) = domain else { continue };
-        if let (Some(value), Some(formula)) = (&parameter.value, &entry.value) {
-            if let Err(message) = lies_in(value, &domain) {
-                faults.push(
-                    Fault::new(formula.span, format!("{} {message}", name.text))
-                        .hint("change the value, or its `domain`"),
-                );
-            }
+        if let (Some(value), Some(formula)) = (&parameter.value, &entry.value)
+            && let Err(message) = lies_in(&name.text, value, &domain)
+        {
+            faults
+                .push(Fault::new(formula.span, message).hint("change the value, or its `domain`"));
         }
         scene.domains.symbols.insert(parameter.name.clone(), domain);
         scene.parameters.push(parameter);
@@ -101,7 +96,14 @@ pub(super) fn resolve(
 
 /// The value of a quantity as a person writes it, in the parameter's unit, brought to SI units.
 pub(super) fn value(formula: &Formula, unit: &Unit, faults: &mut Vec<Fault>) -> Option<Expr> {
-    let e = Symbols::new(BTreeMap::new()).expression(formula, faults)?;
+    let before = faults.len();
+    let e = Symbols::new(BTreeMap::new()).expression(formula, faults);
+    for fault in &mut faults[before..] {
+        fault
+            .hint
+            .get_or_insert_with(|| "a value is a number, or a formula without symbols".to_owned());
+    }
+    let e = e?;
     let value = e * unit.value();
     if !value
         .evaluate::<f64>(&Point::default())
@@ -113,8 +115,8 @@ pub(super) fn value(formula: &Formula, unit: &Unit, faults: &mut Vec<Fault>) -> 
     Some(value)
 }
 
-/// Whether a value lies in a domain; otherwise what is wrong, to be read after the parameter's name.
-pub(super) fn lies_in(value: &Expr, domain: &Domain) -> Result<(), String> {
+/// Whether a value lies in the domain of its parameter; otherwise what is wrong.
+pub(super) fn lies_in(name: &str, value: &Expr, domain: &Domain) -> Result<(), String> {
     let number = value.evaluate::<f64>(&Point::default()).unwrap_or(f64::NAN);
     let compare = |limit: &Limit| {
         let exact = if limit.of_pi {
@@ -124,23 +126,22 @@ pub(super) fn lies_in(value: &Expr, domain: &Domain) -> Result<(), String> {
         };
         match exact {
             Some(exact) => Some(exact.cmp(&limit.value)),
-            None => number.partial_cmp(&limit_f64(limit)),
+            // A fraction against a multiple of pi, or a value like acos(3/5): never nearer than doubles can tell apart.
+            None => number.partial_cmp(&limit.approximate()),
         }
     };
-    let is_fine = |limit: &Option<Limit>, inside: std::cmp::Ordering| {
+    let is_fine = |limit: &Option<Limit>, inside: Ordering| {
         limit.as_ref().is_none_or(|l| {
             compare(l).is_some_and(|order| order == inside || order.is_eq() && !l.open)
         })
     };
-    if is_fine(&domain.low, std::cmp::Ordering::Greater)
-        && is_fine(&domain.high, std::cmp::Ordering::Less)
-    {
+    if is_fine(&domain.low, Ordering::Greater) && is_fine(&domain.high, Ordering::Less) {
         return Ok(());
     }
     Err(format!(
-        "is {}, outside its domain: {}",
+        "{name} is {}, outside its domain {}",
         number_words(number),
-        domain_words(domain)
+        domain.words(name)
     ))
 }
 
@@ -156,74 +157,9 @@ pub(super) fn number_words(number: f64) -> String {
         .to_owned()
 }
 
-/// The domain in words.
-fn domain_words(domain: &Domain) -> String {
-    let end = |l: &Limit| match (l.of_pi, l.value.is_zero()) {
-        (true, false) if l.value.is_one() => "pi".to_owned(),
-        (true, false) => format!("{} pi", l.value),
-        _ => number_words(limit_f64(l)),
-    };
-    match (&domain.low, &domain.high) {
-        (None, None) => "any number".to_owned(),
-        (Some(l), None) if l.value.is_zero() && l.open => "positive".to_owned(),
-        (Some(l), None) => format!(
-            "{}{}",
-            if l.open { "greater than " } else { "at least " },
-            end(l)
-        ),
-        (None, Some(h)) => format!(
-            "{}{}",
-            if h.open { "less than " } else { "at most " },
-            end(h)
-        ),
-        (Some(l), Some(h)) => {
-            let excluded = match (l.open, h.open) {
-                (true, true) => ", ends excluded",
-                (true, false) => ", lower end excluded",
-                (false, true) => ", upper end excluded",
-                (false, false) => "",
-            };
-            format!("from {} to {}{excluded}", end(l), end(h))
-        }
-    }
-}
-
-/// An end as a double.
-pub(super) fn limit_f64(limit: &Limit) -> f64 {
-    let value = crate::expr::number::to_f64(&limit.value);
-    if limit.of_pi {
-        value * std::f64::consts::PI
-    } else {
-        value
-    }
-}
-
 fn multiple_of_pi(e: &Expr) -> Option<Rational> {
     let read = angle(e)?;
     read.symbols.is_empty().then_some(read.pi)
-}
-
-fn limit(value: i64, open: bool) -> Limit {
-    Limit {
-        value: ratio(value, 1),
-        of_pi: false,
-        open,
-    }
-}
-
-fn positive() -> Domain {
-    Domain {
-        low: Some(limit(0, true)),
-        high: None,
-    }
-}
-
-/// From 0 to 1.
-fn fraction() -> Domain {
-    Domain {
-        low: Some(limit(0, false)),
-        high: Some(limit(1, false)),
-    }
 }
 
 fn check_name(name: &Text, faults: &mut Vec<Fault>) {
@@ -277,12 +213,9 @@ fn read_unit(text: &Text, faults: &mut Vec<Fault>) -> Option<Unit> {
 
 fn domain(written: &DomainFile, unit: &Unit, faults: &mut Vec<Fault>) -> Option<Domain> {
     match written {
-        DomainFile::Named(DomainName::Positive) => Some(positive()),
-        DomainFile::Named(DomainName::Nonnegative) => Some(Domain {
-            low: Some(limit(0, false)),
-            high: None,
-        }),
-        DomainFile::Named(DomainName::Real) => Some(Domain::default()),
+        DomainFile::Named(DomainName::Positive) => Some(Domain::positive()),
+        DomainFile::Named(DomainName::Nonnegative) => Some(Domain::nonnegative()),
+        DomainFile::Named(DomainName::Real) => Some(Domain::real()),
         DomainFile::Interval(interval) => interval_domain(interval, unit, faults),
     }
 }
@@ -305,9 +238,9 @@ fn interval_domain(
         let order = if low.of_pi == high.of_pi {
             Some(low.value.cmp(&high.value))
         } else {
-            limit_f64(low).partial_cmp(&limit_f64(high))
+            low.approximate().partial_cmp(&high.approximate())
         };
-        if order != Some(std::cmp::Ordering::Less) {
+        if order != Some(Ordering::Less) {
             let fault = Fault::new(interval.span, "`min` is not below `max`");
             faults.push(fault.hint(
                 "a quantity with one possible value is a number: write it into the formulas",
@@ -326,18 +259,10 @@ fn interval_end(
 ) -> Option<Limit> {
     let e = value(formula, unit, faults)?;
     if let Some(number) = e.as_number() {
-        return Some(Limit {
-            value: number.clone(),
-            of_pi: false,
-            open,
-        });
+        return Some(Limit::number(number.clone(), open));
     }
     if let Some(multiple) = multiple_of_pi(&e) {
-        return Some(Limit {
-            value: multiple,
-            of_pi: true,
-            open,
-        });
+        return Some(Limit::pi(multiple, open));
     }
     let fault = Fault::new(
         formula.span,
@@ -439,15 +364,5 @@ pub(super) fn whole(text: &str) -> Formula {
         span: Span::new(0, text.len()),
         text: text.to_owned(),
         start: Some(0),
-    }
-}
-
-/// Whether the value is below zero for sure.
-pub(super) fn is_negative(value: &Expr) -> bool {
-    match value.as_number() {
-        Some(number) => number.is_negative(),
-        None => value
-            .evaluate::<f64>(&Point::default())
-            .is_some_and(|v| v < 0.0),
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::fault::{Fault, Span};
 use super::file::{EnergyName, QuestionFile};
-use super::record::Text;
+use super::record::{Text, is_sound};
 use super::resolve::Resolver;
 use super::{Ask, EnergyWhen, ImpulseAt, Question, Scene};
 
@@ -71,6 +71,9 @@ fn ask(
     ];
     let asked: Vec<_> = kinds.iter().filter(|(_, given, _)| *given).collect();
     let [(kind, _, companions)] = asked.as_slice() else {
+        if asked.is_empty() && !is_sound(question.span, &resolver.faults) {
+            return None;
+        }
         let message = match asked.as_slice() {
             [] => "this question asks nothing".to_owned(),
             several => {
@@ -209,16 +212,12 @@ fn velocity(
         if of.is_some_and(|of| of.text == what.text) && resolver.find_body(&what.text).is_some() {
             return Some((resolver.moving(what)?, None));
         }
-        let candidates = resolver.positions();
-        resolver.unknown(
-            what,
-            if of.is_some() {
-                "point"
-            } else {
-                "body or point"
-            },
-            candidates,
-        );
+        let what_is_sought = if of.is_some() {
+            "point"
+        } else {
+            "body or point"
+        };
+        resolver.unknown(what, what_is_sought, Resolver::positions);
         return None;
     };
     let body = match of {
@@ -281,7 +280,7 @@ fn impulse(
             );
             // A contact that is there but could not be read has been reported.
             if !names.contains(&name.as_str()) {
-                resolver.unknown(from, "contact, hinge or blow", names);
+                resolver.unknown(from, "contact, hinge or blow", |_| names);
             }
             return None;
         }
@@ -374,7 +373,7 @@ fn matrix_names(resolver: &mut Resolver<'_>, scene: &Scene, name: &Text, questio
     for (text, what) in unknown {
         // A question that is there but could not be read has been reported.
         if !names.contains(&text.text.as_str()) {
-            resolver.unknown(text, what, names.clone());
+            resolver.unknown(text, what, |_| names.clone());
         }
     }
 }

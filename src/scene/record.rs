@@ -245,11 +245,10 @@ fn unique<'n, 't>(entries: &'n [Entry<'t>], faults: &mut Vec<Fault>) -> Vec<&'n 
 pub(super) fn fields<'n, 't>(
     node: &'n Node<'t>,
     known: &[&str],
-    what: &str,
     faults: &mut Vec<Fault>,
 ) -> Option<Vec<&'n Entry<'t>>> {
     let Value::Object(entries) = &node.value else {
-        return unexpected(node, &format!("an object, {what}"), faults);
+        return unexpected(node, "an object", faults);
     };
     let mut entries = unique(entries, faults);
     entries.retain(|entry| {
@@ -266,6 +265,11 @@ pub(super) fn fields<'n, 't>(
     Some(entries)
 }
 
+/// Whether nothing inside this place has been reported. Among very many faults the question is not worth its time.
+pub(super) fn is_sound(span: Span, faults: &[Fault]) -> bool {
+    faults.len() < 1000 && !faults.iter().any(|f| span.contains(f.span))
+}
+
 /// One field of an object.
 pub(super) fn field<T: Read>(
     node: &Node<'_>,
@@ -277,7 +281,8 @@ pub(super) fn field<T: Read>(
         Some(entry) => T::read(&entry.node, faults),
         None => {
             let absent = T::absent();
-            if absent.is_none() {
+            // An unreadable or misspelled neighbor may be this field.
+            if absent.is_none() && is_sound(node.span, faults) {
                 let place = Span::new(node.span.start, node.span.start + 1);
                 faults.push(
                     Fault::new(node.span, format!("the field `{name}` is missing")).shown_at(place),
@@ -304,7 +309,7 @@ macro_rules! record {
         impl super::record::Read for $name {
             fn read(node: &super::json::Node<'_>, faults: &mut Vec<super::fault::Fault>) -> Option<Self> {
                 const FIELDS: &[&str] = &[$(super::record::key!($field $($key)?)),+];
-                let entries = super::record::fields(node, FIELDS, concat!($($doc),+).trim(), faults)?;
+                let entries = super::record::fields(node, FIELDS, faults)?;
                 $(let $field = super::record::field(node, &entries, super::record::key!($field $($key)?), faults);)+
                 Some($name { span: node.span, $($field: $field?),+ })
             }

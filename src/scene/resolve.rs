@@ -7,14 +7,14 @@ use std::collections::HashMap;
 
 use super::body::{Solid, SolidReader};
 use super::check::{Claim, Claimed, check, unused};
-use super::fault::{Fault, Span, nearest};
+use super::fault::{Fault, Span, TOLD, nearest};
 use super::file::{
     ContactFile, DirectionFile, KnownFile, LawName, PositionFile, SceneFile, ShapeName, StepFile,
     VelocityFile,
 };
 use super::formulas::{Quantity, Symbols};
 use super::geometry;
-use super::record::{Map, Text};
+use super::record::{Map, Text, is_sound};
 use super::{
     Blow, BlowImpulse, Body, Contact, ContactLaw, Force, Hinge, Known, KnownQuantity, NamedPoint,
     Scene, Shape, parameters, question,
@@ -50,9 +50,8 @@ enum Place {
     Done(Option<Vector>),
 }
 
-/// Puts the scene together and checks it.
-pub(super) fn resolve(file: &SceneFile) -> (Scene, Vec<Fault>) {
-    let mut faults = Vec::new();
+/// Puts the scene together and checks it; `faults` are those of the file's shape, to which more are added.
+pub(super) fn resolve(file: &SceneFile, mut faults: Vec<Fault>) -> (Scene, Vec<Fault>) {
     let mut scene = Scene {
         title: text(&file.title),
         source: text(&file.source),
@@ -76,7 +75,7 @@ pub(super) fn resolve(file: &SceneFile) -> (Scene, Vec<Fault>) {
         chain: Vec::new(),
     };
     resolver.sizes();
-    if resolver.faults.len() <= super::fault::TOLD {
+    if resolver.faults.len() <= TOLD {
         resolver.fill(&mut scene);
     }
     let Resolver {
@@ -86,11 +85,10 @@ pub(super) fn resolve(file: &SceneFile) -> (Scene, Vec<Fault>) {
         ..
     } = resolver;
     if faults.is_empty() {
-        faults = check(&scene, &claims);
         scene.remarks = symbols.remarks();
-        scene
-            .remarks
-            .extend(unused(&scene, |name| symbols.is_used(name)));
+        faults = check(&mut scene, &claims);
+        let unused = unused(&scene, |name| symbols.is_used(name));
+        scene.remarks.extend(unused);
     }
     (scene, faults)
 }
@@ -323,7 +321,7 @@ impl<'f> Resolver<'f> {
                         "a number or a symbol from 0 to 1",
                     ),
                 ] {
-                    if missing {
+                    if missing && is_sound(contact.span, &self.faults) {
                         let message = format!("a frictionless contact needs `{field}`");
                         self.faults.push(
                             Fault::new(contact.span, message)
@@ -337,7 +335,8 @@ impl<'f> Resolver<'f> {
                     .map(|restitution| ContactLaw::Frictionless { restitution })
             }
             law => {
-                if let Some(e) = &contact.restitution {
+                let is_sound = law.is_some() || is_sound(contact.span, &self.faults);
+                if let (Some(e), true) = (&contact.restitution, is_sound) {
                     let with = if law.is_some() {
                         "a sticking contact"
                     } else {
@@ -505,7 +504,7 @@ impl<'f> Resolver<'f> {
     pub fn body_named(&mut self, name: &Text) -> Option<usize> {
         let found = self.bodies.get(name.text.as_str()).copied();
         if found.is_none() {
-            self.unknown(name, "body", self.bodies.keys().copied().collect());
+            self.unknown(name, "body", |this| this.bodies.keys().copied().collect());
         }
         found
     }
@@ -538,9 +537,20 @@ impl<'f> Resolver<'f> {
     }
 
     /// Reports a name that stands for nothing, with the nearest that does.
-    pub fn unknown(&mut self, name: &Text, what: &str, mut candidates: Vec<&str>) {
-        candidates.sort_unstable();
+    pub fn unknown<'a>(
+        &mut self,
+        name: &Text,
+        what: &str,
+        candidates: impl FnOnce(&Self) -> Vec<&'a str>,
+    ) {
         let fault = Fault::new(name.span, format!("there is no {what} `{}`", name.text));
+        // Searching for the nearest name takes time that is not worth it for faults nobody will be told.
+        let mut candidates = if self.faults.len() <= TOLD {
+            candidates(self)
+        } else {
+            Vec::new()
+        };
+        candidates.sort_unstable();
         self.faults
             .push(match nearest(&name.text, candidates.iter().copied()) {
                 Some(near) => fault.hint(format!("did you mean `{near}`?")),
@@ -700,8 +710,7 @@ impl<'f> Resolver<'f> {
                 } else if let Some(i) = self.bodies.get(name.text.as_str()).copied() {
                     self.center(i)
                 } else {
-                    let candidates = self.positions();
-                    self.unknown(name, "point or body", candidates);
+                    self.unknown(name, "point or body", Self::positions);
                     None
                 }
             }
