@@ -92,7 +92,7 @@ pub(super) const TOLD: usize = 20;
 impl Faults {
     /// Sorts faults by place and gives each its line and column.
     pub(super) fn gather(mut list: Vec<Fault>, text: &str) -> Faults {
-        list.sort_by(|a, b| a.span.cmp(&b.span));
+        list.sort_by_key(|fault| fault.span);
         list.dedup_by(|a, b| a.span == b.span && a.message == b.message);
         let untold = list.len().saturating_sub(TOLD);
         list.truncate(TOLD);

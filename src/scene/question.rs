@@ -202,11 +202,11 @@ fn velocity(
     what: &Text,
     of: Option<&Text>,
 ) -> Option<(usize, Option<NamedPosition>)> {
-    if of.is_none() {
-        if let Some(body) = resolver.find_body(&what.text) {
-            resolver.moving(what)?;
-            return Some((body, None));
-        }
+    if of.is_none()
+        && let Some(body) = resolver.find_body(&what.text)
+    {
+        resolver.moving(what)?;
+        return Some((body, None));
     }
     let Some(at) = resolver.find_point(&what.text) else {
         if of.is_some_and(|of| of.text == what.text) && resolver.find_body(&what.text).is_some() {

@@ -138,15 +138,14 @@ impl<'f> Resolver<'f> {
                     let message = "a name has 1 to 100 characters and no blank at its ends";
                     self.faults.push(Fault::new(key.span, message));
                 }
-                if matches!(*what, "hinges" | "contacts" | "blows") {
-                    if let Some(other) = transmitters.insert(&key.text, what) {
-                        let message =
-                            format!("`{}` is already the name of one of the {other}", key.text);
-                        self.faults.push(
-                            Fault::new(key.span, message)
-                                .hint("an impulse is asked for by this name"),
-                        );
-                    }
+                if matches!(*what, "hinges" | "contacts" | "blows")
+                    && let Some(other) = transmitters.insert(&key.text, what)
+                {
+                    let message =
+                        format!("`{}` is already the name of one of the {other}", key.text);
+                    let fault = Fault::new(key.span, message);
+                    self.faults
+                        .push(fault.hint("an impulse is asked for by this name"));
                 }
             }
         }
@@ -473,15 +472,15 @@ impl<'f> Resolver<'f> {
     /// A particle can only be touched where it is.
     fn reach(&mut self, bodies: [usize; 2], at: &Vector, span: Span, name: &str) {
         for body in bodies {
-            if self.is_particle(body) {
-                if let Some(center) = self.center(body) {
-                    let claim = Claim::AtParticle {
-                        offset: minus(at, &center),
-                        at: name.to_owned(),
-                        body,
-                    };
-                    self.claims.push(Claimed { span, claim });
-                }
+            if self.is_particle(body)
+                && let Some(center) = self.center(body)
+            {
+                let claim = Claim::AtParticle {
+                    offset: minus(at, &center),
+                    at: name.to_owned(),
+                    body,
+                };
+                self.claims.push(Claimed { span, claim });
             }
         }
     }

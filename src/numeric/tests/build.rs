@@ -126,6 +126,7 @@ pub fn blow(on: usize, place: Vector, impulse: Vector) -> Blow {
 
 pub fn known_velocity(on: usize, place: Vector, along: Vector, value: Expr) -> Known {
     Known {
+        name: String::new(),
         body: on,
         what: KnownQuantity::Velocity { at: place, along },
         value,
