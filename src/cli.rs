@@ -9,7 +9,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 
-use carom::{derive, render, scene, verify};
+use carom::{derive, numeric, render, scene, verify};
 
 /// Collisions of rigid bodies in the plane: closed forms a teacher would reach, each one proved or marked.
 #[derive(Parser)]
@@ -34,6 +34,20 @@ enum Command {
         /// Give a parameter a value, such as v=2 or theta=acos(3/5); may be repeated
         #[arg(long = "set", value_name = "NAME=VALUE")]
         set: Vec<String>,
+    },
+    /// Solve a scene in numbers, from its geometry alone
+    Solve {
+        /// Scene file, `-` for standard input
+        scene: PathBuf,
+        /// Output format
+        #[arg(long, value_enum, default_value_t = Format::Text)]
+        format: Format,
+        /// Give a parameter a value, such as v=2 or theta=acos(3/5); may be repeated
+        #[arg(long = "set", value_name = "NAME=VALUE")]
+        set: Vec<String>,
+        /// Exact fractions instead of doubles
+        #[arg(long)]
+        exact: bool,
     },
     /// Print the JSON Schema of scene files
     Schema,
@@ -74,6 +88,12 @@ pub fn run() -> ExitCode {
             matrix,
             set,
         } => derive_command(&scene, format, matrix, &set),
+        Command::Solve {
+            scene,
+            format,
+            set,
+            exact,
+        } => solve_command(&scene, format, &set, exact),
         Command::Schema => print(&scene::schema()).map(|()| 0),
         Command::List { folder } => list(&folder),
     };
@@ -120,6 +140,41 @@ fn derive_command(
     Ok(u8::from(
         !proof.holds() || derivation.counting.contradictory,
     ))
+}
+
+fn solve_command(path: &Path, format: Format, set: &[String], exact: bool) -> Result<u8, Failure> {
+    let scene = read_scene(path, set)?;
+    let name = path.display();
+    let no_point = |reason: numeric::NoPoint| {
+        Failure::Input(match reason {
+            numeric::NoPoint::Missing(symbols) => {
+                let list = symbols.join(", ");
+                format!(
+                    "{name}: no value for {list}\nhint: give values in the scene or with --set {}=…",
+                    symbols[0]
+                )
+            }
+            numeric::NoPoint::Irrational(symbol) => format!(
+                "{name}: the value of {symbol} has no exact fraction\nhint: leave out --exact, or take an angle with rational cosine and sine, such as --set {symbol}=acos(3/5)"
+            ),
+        })
+    };
+    let no_answer = |reason: numeric::NoAnswer| Failure::Input(format!("{name}: {reason}"));
+    let numbers = if exact {
+        let point = numeric::exact_values(&scene).map_err(no_point)?;
+        let answers = numeric::answers(&scene, &point, numeric::solve_exact).map_err(no_answer)?;
+        render::exact_numbers(answers)
+    } else {
+        let point = numeric::values(&scene).map_err(no_point)?;
+        render::double_numbers(
+            numeric::answers(&scene, &point, numeric::solve_f64).map_err(no_answer)?,
+        )
+    };
+    print(&match format {
+        Format::Text => render::text::numbers(&scene, &numbers),
+        Format::Json => pretty(&render::json::numbers(&scene, &numbers)),
+    })?;
+    Ok(0)
 }
 
 fn list(folder: &Path) -> Result<u8, Failure> {

@@ -469,19 +469,18 @@ impl Work<'_> {
             matrix.rhs.push(known);
         };
         for name in rows {
-            let Some(question) = self.scene.questions.iter().find(|q| q.name == *name) else {
-                continue;
-            };
-            if let Ask::Balance { system, along } = question.ask.clone() {
+            let question = self
+                .scene
+                .questions
+                .iter()
+                .find(|q| q.name == *name)
+                .map(|q| q.ask.clone());
+            if let Some(Ask::Balance { system, along }) = question {
                 let (terms, known) = self.projected(unknowns, &system, &along)?;
                 push(name.clone(), &terms, known);
-            }
-        }
-        for k in 0..self.scene.after.len() {
-            let law = Law::Given(k);
-            let (terms, known) = self.in_components(unknowns, &law)?;
-            if !terms.is_empty() {
-                push(laws::describe(self.scene, &law), &terms, known);
+            } else if let Some(k) = self.scene.after.iter().position(|k| k.name == *name) {
+                let (terms, known) = self.in_components(unknowns, &Law::Given(k))?;
+                push(name.clone(), &terms, known);
             }
         }
         Ok(matrix)
@@ -548,7 +547,8 @@ fn words(scene: &Scene, ask: &Ask) -> String {
     }
 }
 
-fn dimension(ask: &Ask) -> Dimension {
+/// The dimension of what a question asks for.
+pub fn dimension(ask: &Ask) -> Dimension {
     let [zero, one, two] = [0, 1, 2].map(|k| ratio(k, 1));
     let minus = |k: &Rational| -k.clone();
     let (mass, length, time) = match ask {

@@ -15,7 +15,7 @@ mod plan;
 use std::collections::BTreeMap;
 use std::fmt;
 
-pub use answer::{Answer, Form, Matrix, full_matrix};
+pub use answer::{Answer, Form, Matrix, dimension, full_matrix};
 pub use count::{Counting, count};
 pub use left_out::LeftOut;
 pub use names::Names;

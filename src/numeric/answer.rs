@@ -4,12 +4,14 @@
 //! itself brings (points and directions).
 
 use super::energy::{energy_after, energy_before, energy_lost, velocity_after};
-use super::given::{Given, GivenImpulse, GivenLaw, Reason, Undefined, vector};
+use std::fmt;
+
+use super::given::{Given, GivenImpulse, GivenLaw, Reason, Undefined, given, vector};
 use super::number::{Number, dot};
-use super::solution::Motion;
-use super::system::Unknown;
+use super::solution::{Contradiction, Motion, Solution, motion};
+use super::system::{Law, System, Unknown, assemble};
 use crate::expr::{Point, Vector};
-use crate::scene::{Ask, EnergyWhen, ImpulseAt};
+use crate::scene::{Ask, EnergyWhen, ImpulseAt, Scene};
 
 /// What a question is answered with.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +31,43 @@ pub enum NoAnswer {
     Undefined(Undefined),
     /// The question asks for equations rather than numbers.
     NotANumber,
+    /// These laws contradict each other, so there is no motion at all.
+    Contradiction(Vec<Law>),
+}
+
+impl fmt::Display for NoAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoAnswer::NotDetermined(_) => f.write_str("not determined by the laws"),
+            NoAnswer::Undefined(undefined) => write!(f, "{undefined}"),
+            NoAnswer::NotANumber => f.write_str("asks for an equation, not for a number"),
+            NoAnswer::Contradiction(_) => f.write_str("the laws contradict each other"),
+        }
+    }
+}
+
+impl std::error::Error for NoAnswer {}
+
+/// A scene's questions, each with its number or the reason why it has none.
+pub type Answered<T> = Vec<(String, Result<Answer<T>, NoAnswer>)>;
+
+/// Solves a scene at a point with the given solver and answers every question that asks for a number.
+pub fn answers<T: Number>(
+    scene: &Scene,
+    at: &Point<T>,
+    solve: impl Fn(&System<T>) -> Result<Solution<T>, Contradiction>,
+) -> Result<Answered<T>, NoAnswer> {
+    let given = given(scene, at).map_err(NoAnswer::Undefined)?;
+    let system = assemble(&given);
+    let solution = solve(&system).map_err(|c| NoAnswer::Contradiction(c.laws(&system)))?;
+    let motion = motion(&given, &system, &solution);
+    let numbers = scene
+        .questions
+        .iter()
+        .map(|q| (q.name.clone(), answer(&q.ask, at, &given, &motion)));
+    Ok(numbers
+        .filter(|(_, a)| !matches!(a, Err(NoAnswer::NotANumber)))
+        .collect())
 }
 
 /// The number or vector a question asks for.

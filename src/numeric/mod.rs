@@ -19,12 +19,13 @@ pub mod number;
 pub mod points;
 pub mod solution;
 pub mod system;
+pub mod values;
 pub mod wide;
 
 #[cfg(test)]
 mod tests;
 
-pub use answer::{Answer, NoAnswer, answer};
+pub use answer::{Answer, Answered, NoAnswer, answer, answers};
 pub use certify::{Certified, Tier, Uncertified, certify, certify_scene};
 pub use dyadic::solve_dyadic;
 pub use energy::{energy_after, energy_before, energy_lost};
@@ -37,3 +38,4 @@ pub use number::Number;
 pub use points::{needed, random_point, rounded};
 pub use solution::{Contradiction, Motion, Solution, motion};
 pub use system::{Law, System, Unknown, assemble};
+pub use values::{NoPoint, exact_values, values};

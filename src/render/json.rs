@@ -46,6 +46,23 @@ pub fn derivation(scene: &Scene, derivation: &Derivation, proof: &Proof) -> Valu
     })
 }
 
+/// The numbers of a numeric solution.
+pub fn numbers(scene: &Scene, numbers: &[super::Number]) -> Value {
+    let answers: Vec<Value> = numbers
+        .iter()
+        .map(|n| match &n.value {
+            Ok(value) => json!({
+                "name": n.name,
+                "value": value.approximate,
+                "value_exact": value.exact.as_ref().map(ToString::to_string),
+                "unit": super::unit_of(scene, &n.question),
+            }),
+            Err(reason) => json!({"name": n.name, "value": Value::Null, "reason": reason}),
+        })
+        .collect();
+    json!({"title": scene.title, "source": scene.source, "answers": answers})
+}
+
 /// A matrix with its unknowns and right sides.
 pub fn matrix(m: &Matrix) -> Value {
     json!({

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use crate::derive::{Derivation, Equation, Matrix};
 use crate::expr::{Expr, Point, Rational, Symbol};
+use crate::numeric::{self, Answered};
 use crate::scene::Scene;
 use crate::verify::Proof;
 
@@ -67,6 +68,56 @@ pub struct Value {
     pub approximate: f64,
     /// The exact value, where it is a fraction.
     pub exact: Option<Rational>,
+}
+
+/// One number of a numeric solution, or why there is none.
+#[derive(Clone, Debug)]
+pub struct Number {
+    /// Name of the question, with `_x` or `_y` for a component.
+    pub name: String,
+    /// The question.
+    pub question: String,
+    /// The value in SI units.
+    pub value: Result<Value, String>,
+}
+
+/// The numbers of an exact solution.
+pub fn exact_numbers(answers: Answered<Rational>) -> Vec<Number> {
+    let value = |v: Rational| Value {
+        approximate: crate::expr::number::to_f64(&v),
+        exact: Some(v),
+    };
+    numbers(answers, value)
+}
+
+/// The numbers of a solution in doubles.
+pub fn double_numbers(answers: Answered<f64>) -> Vec<Number> {
+    numbers(answers, |v| Value {
+        approximate: v,
+        exact: None,
+    })
+}
+
+fn numbers<T>(answers: Answered<T>, value: impl Fn(T) -> Value) -> Vec<Number> {
+    let mut out = Vec::new();
+    for (question, answer) in answers {
+        let mut push = |suffix: &str, value| {
+            out.push(Number {
+                name: format!("{question}{suffix}"),
+                question: question.clone(),
+                value,
+            });
+        };
+        match answer {
+            Ok(numeric::Answer::Scalar(v)) => push("", Ok(value(v))),
+            Ok(numeric::Answer::Vector([x, y])) => {
+                push("_x", Ok(value(x)));
+                push("_y", Ok(value(y)));
+            }
+            Err(reason) => push("", Err(reason.to_string())),
+        }
+    }
+    out
 }
 
 /// The value of a closed form at the scene's values; `None` where a symbol has none.
@@ -137,4 +188,10 @@ pub fn latex_matrix(scene: &Scene, m: &Matrix) -> String {
         .collect();
     let rhs = m.rhs.iter().map(|e| latex(scene, e)).collect();
     format!("{} {} = {}", column(rows), column(names), column(rhs))
+}
+
+/// The SI unit of what a question asks for.
+pub fn unit_of(scene: &Scene, question: &str) -> String {
+    let found = scene.questions.iter().find(|q| q.name == question);
+    found.map_or_else(String::new, |q| crate::derive::dimension(&q.ask).si())
 }

@@ -139,6 +139,23 @@ pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof) -> String {
     out
 }
 
+/// Numbers, one a line.
+pub fn numbers(scene: &Scene, numbers: &[super::Number]) -> String {
+    let mut out = String::new();
+    for number in numbers {
+        let unit = super::unit_of(scene, &number.question);
+        let text = match &number.value {
+            Ok(value) => match &value.exact {
+                Some(exact) => format!("{exact} {unit} ≈ {}", super::digits(value.approximate)),
+                None => format!("{} {unit}", value.approximate),
+            },
+            Err(reason) => reason.clone(),
+        };
+        line(&mut out, "", &format!("{} = {text}", number.name));
+    }
+    out
+}
+
 /// A matrix, one row a line.
 pub fn matrix(scene: &Scene, m: &Matrix) -> String {
     let mut out = String::new();
