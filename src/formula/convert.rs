@@ -221,7 +221,7 @@ fn power(w: &Written, base: &Written, exponent: Expr, upper: bool) -> Faulty<Exp
 
 /// Bits of the number an expression is or starts with.
 fn leading_bits(e: &Expr) -> u64 {
-    let of = |n: &Rational| n.numer().bits() + n.denom().bits();
+    let of = |n: &Rational| (n.numer().bits() + n.denom().bits()).saturating_sub(2);
     match e.node() {
         crate::expr::Node::Number(n) => of(n),
         crate::expr::Node::Product(factors) => {

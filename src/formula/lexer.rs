@@ -79,8 +79,16 @@ pub(crate) struct Lexer<'a> {
     pub unknown: Vec<Fault>,
     symbols: &'a Symbols,
     before: Before,
+    /// Whether a value stood before, so that an empty group is only a spacer.
+    after_value: bool,
+    /// Where the current run of letters starts, functions and Greek names apart.
+    run_from: usize,
 }
 
+/// Longest unit with its decoration, in bytes.
+const LONGEST_UNIT: usize = 120;
+/// Most different names in one formula.
+const MAX_NAMES: usize = 256;
 /// Most faults reported together.
 const MAX_FAULTS: usize = 8;
 
@@ -98,6 +106,8 @@ impl<'a> Lexer<'a> {
             unknown: Vec::new(),
             symbols,
             before: Before::Nothing,
+            after_value: false,
+            run_from: 0,
         }
     }
 
@@ -133,6 +143,10 @@ impl<'a> Lexer<'a> {
             Tok::Name(name) if &**name == "pi" => Before::Value,
             _ => Before::Nothing,
         };
+        self.after_value = self.before != Before::Nothing || matches!(tok, Tok::Name(_));
+        if let Tok::Call(_) | Tok::Reciprocal(_) | Tok::Root(_) = tok {
+            self.run_from = self.pos;
+        }
         Ok(Token {
             tok,
             start,
@@ -164,9 +178,7 @@ impl<'a> Lexer<'a> {
                     None => break,
                 },
                 // An empty group: `{}^{2}`.
-                '{' if rest[1..].trim_start_matches(' ').starts_with('}')
-                    && self.before != Before::Nothing =>
-                {
+                '{' if rest[1..].trim_start_matches(' ').starts_with('}') && self.after_value => {
                     rest.find('}').map_or(1, |at| at + 1)
                 }
                 _ => break,
@@ -224,7 +236,6 @@ impl<'a> Lexer<'a> {
                 Some(tok) => return Ok(tok),
                 None => (1, Tok::Open('{')),
             },
-            b'|' if second == b'|' => (1, Tok::Bar),
             b'|' => (1, Tok::Bar),
             b',' | b';' => (1, Tok::Comma),
             b'=' if second == b'<' => (2, Tok::Relation(Relation::LessEqual)),
@@ -416,20 +427,34 @@ impl<'a> Lexer<'a> {
         let start = self.pos;
         let rest = &self.text[start..];
         if single {
-            return self.name(start, start + 1);
+            let parts = Parts {
+                base: rest[..1].to_string(),
+                ..Parts::default()
+            };
+            return self.resolve(start, start + 1, parts);
         }
-        let run = rest.bytes().take_while(u8::is_ascii_alphabetic).count();
+        // A longer run is read in pieces.
+        let run = rest
+            .bytes()
+            .take(64)
+            .take_while(u8::is_ascii_alphabetic)
+            .count();
+        if !(start > 0 && self.text.as_bytes()[start - 1].is_ascii_alphabetic()) {
+            self.run_from = start;
+        }
         if self.before != Before::Nothing {
-            if let Some(tok) = self.unit(false) {
-                return Ok(tok);
-            }
             let word = &rest[..run];
-            if matches!(word, "deg" | "degree" | "degrees") && self.symbols.find(word).is_none() {
+            let degrees =
+                matches!(word, "deg" | "degree" | "degrees") && self.symbols.find(word).is_none();
+            if degrees && !rest[run..].trim_start().starts_with('/') {
                 self.pos += run;
                 return Ok(Tok::Degree);
             }
+            if let Some(tok) = self.unit(false) {
+                return Ok(tok);
+            }
         }
-        for length in (1..=run.min(24)).rev() {
+        for length in (1..=run.min(self.symbols.longest_word())).rev() {
             let word = &rest[..length];
             let base = length == 1 || self.symbols.has_base(word);
             if base {
@@ -491,6 +516,9 @@ impl<'a> Lexer<'a> {
     }
 
     fn unknown_word(&mut self, start: usize, run: usize) -> Faulty<Tok> {
+        // A word that starts with declared letters is one fault, not a product and a fault.
+        let from = self.run_from.min(start);
+        let (start, run) = (from, run + start - from);
         let mut parts = Parts {
             base: self.text[start..start + run].to_string(),
             ..Parts::default()
@@ -573,6 +601,11 @@ impl<'a> Lexer<'a> {
             }
             self.note(Remark::Component { one: usual }, start, start, stop);
         }
+        self.resolve(start, stop, whole)
+    }
+
+    /// Looks a complete name up.
+    fn resolve(&mut self, start: usize, stop: usize, whole: Parts) -> Faulty<Tok> {
         self.pos = stop;
         if let Some(found) = name::find(&whole, self.symbols) {
             return Ok(Tok::Name(found.name.clone()));
@@ -586,6 +619,13 @@ impl<'a> Lexer<'a> {
         }
         if let Some(known) = self.found.iter().find(|name| ***name == *key) {
             return Ok(Tok::Name(known.clone()));
+        }
+        if self.found.len() >= MAX_NAMES {
+            return Err(Fault::new(
+                format!("a formula has at most {MAX_NAMES} different names"),
+                start,
+                stop,
+            ));
         }
         let name = Symbol::from(key.as_str());
         self.found.push(name.clone());
@@ -610,11 +650,17 @@ impl<'a> Lexer<'a> {
     fn unit(&mut self, marked: bool) -> Option<Tok> {
         let start = self.pos;
         let rest = &self.text[start..];
+        if !marked && !starts_like_a_unit(rest) {
+            return None;
+        }
+        let ends = |c: char| matches!(c, '=' | '<' | '>' | '≤' | '≥' | '≠' | '≈');
         let stop = rest
-            .find(['=', '<', '>', '≤', '≥', '≠', '≈'])
-            .unwrap_or(rest.len());
+            .char_indices()
+            .take(LONGEST_UNIT)
+            .find(|(_, c)| ends(*c))
+            .map_or(rest.len(), |(at, _)| at);
         let side = &rest[..stop];
-        if side.len() > 120 || (!marked && !starts_like_a_unit(side)) {
+        if side.len() > LONGEST_UNIT {
             return None;
         }
         let plain = plain_unit(side)?;
@@ -761,10 +807,11 @@ impl<'a> Lexer<'a> {
                             None => fault.hint("known are \\frac, \\sqrt, \\sin and the like, \\cdot, Greek letters, accents and \\mathrm"),
                         });
                     };
-                    if single {
-                        self.pos = at;
-                    }
-                    return self.finish(start, at, parts);
+                    return if single {
+                        self.resolve(start, at, parts)
+                    } else {
+                        self.finish(start, at, parts)
+                    };
                 }
             },
         };
@@ -788,6 +835,14 @@ impl<'a> Lexer<'a> {
     /// A piece in another font: a unit behind a number, a function, or a name.
     fn font(&mut self, start: usize, word: &str) -> Faulty<Tok> {
         self.pos = start;
+        self.pos = start + 1 + word.len();
+        if let Ok((inside, end)) = self.group(start) {
+            if matches!(inside.trim(), "deg" | "degrees" | "°") && self.before != Before::Nothing {
+                self.pos = end;
+                return Ok(Tok::Degree);
+            }
+        }
+        self.pos = start;
         if self.before != Before::Nothing && matches!(word, "mathrm" | "text" | "textrm" | "mathsf")
         {
             if let Some(tok) = self.unit(true) {
@@ -804,10 +859,6 @@ impl<'a> Lexer<'a> {
             if trimmed == "pi" || trimmed == "\\pi" {
                 self.pos = end;
                 return Ok(Tok::Name("pi".into()));
-            }
-            if matches!(trimmed, "deg" | "°") && self.before != Before::Nothing {
-                self.pos = end;
-                return Ok(Tok::Degree);
             }
         }
         let mut parts = Parts::default();
@@ -953,11 +1004,12 @@ fn degree_mark(rest: &str) -> Option<usize> {
 
 /// Whether the text starts with a word that is a unit, so that trying is worth it.
 fn starts_like_a_unit(side: &str) -> bool {
-    let word = side
-        .split(|c: char| !c.is_ascii_alphabetic())
-        .next()
-        .unwrap_or("");
-    word.len() <= 7 && dimension::unit(word).is_ok()
+    let length = side
+        .bytes()
+        .take(8)
+        .take_while(u8::is_ascii_alphabetic)
+        .count();
+    (1..8).contains(&length) && dimension::unit(&side[..length]).is_ok()
 }
 
 /// The unit without LaTeX decoration.

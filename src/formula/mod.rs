@@ -347,6 +347,3 @@ fn unpunctuated(text: &str) -> (&str, Option<(usize, usize)>) {
         false => (body, Some((body.len(), trimmed.len()))),
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -96,6 +96,7 @@ pub(crate) fn bare_index(
     at: usize,
     after_sign: bool,
     declared: &dyn Fn(&str) -> bool,
+    any: bool,
     split: bool,
 ) -> Option<Index> {
     let bytes = text.as_bytes();
@@ -119,7 +120,7 @@ pub(crate) fn bare_index(
     if !after_sign && digits == 0 {
         return None;
     }
-    for length in (1..=run).rev() {
+    for length in (1..=run).rev().filter(|_| any) {
         // Digits stay together: 12 is never 1 and 2.
         let splits_digits = bytes[at + length - 1].is_ascii_digit()
             && length < run
@@ -200,26 +201,32 @@ pub(crate) fn tail(
                 }
             }
             '\'' | '′' | '’' | '‵' => {
-                parts.marks.push('\'');
+                put_prime(parts, 1);
                 at += c.len_utf8();
             }
             '″' => {
-                parts.marks.push_str("''");
+                put_prime(parts, 2);
                 at += c.len_utf8();
             }
             '⁺' | '⁻'
-                if !rest[c.len_utf8()..]
-                    .starts_with(['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹']) =>
+                if !parts.marks.contains('^')
+                    && !rest[c.len_utf8()..]
+                        .starts_with(['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹']) =>
             {
                 parts.marks.push_str(if c == '⁺' { "^+" } else { "^-" });
                 at += c.len_utf8();
             }
             '^' => match raised(text, at + 1, parts, symbols) {
-                Some((mark, end)) => {
+                Some((mark, end)) if mark.starts_with('\'') => {
+                    put_prime(parts, mark.len().min(2));
+                    at = end;
+                }
+                // One raised mark; a second is a fault that the parser names.
+                Some((mark, end)) if !parts.marks.contains('^') => {
                     parts.marks.push_str(&mark);
                     at = end;
                 }
-                None => return at,
+                _ => return at,
             },
             c => match lowered(c) {
                 Some(_) if parts.index.is_empty() => {
@@ -236,6 +243,12 @@ pub(crate) fn tail(
             return at;
         }
     }
+}
+
+/// Primes stand before a raised mark, in whatever order they were written.
+fn put_prime(parts: &mut Parts, count: usize) {
+    let at = parts.marks.find('^').unwrap_or(parts.marks.len());
+    parts.marks.insert_str(at, &"''"[..count]);
 }
 
 fn put_index(parts: &mut Parts, index: &str) {
@@ -264,7 +277,14 @@ fn declared_index(
         find(&tried, symbols).is_some()
             || tried.index.len() > 1 && symbols.find(&format!("{}_{}", parts.base, index)).is_some()
     };
-    bare_index(text, at, after_sign, &declared, split)
+    bare_index(
+        text,
+        at,
+        after_sign,
+        &declared,
+        !symbols.declared().is_empty(),
+        split,
+    )
 }
 
 /// A mark raised behind a name: `^+`, `^{-}`, `^\prime`, `^*`, or a raised word of a declared name (`I_{zz}^{cm}`).
@@ -295,8 +315,7 @@ fn raised(text: &str, at: usize, parts: &Parts, symbols: &Symbols) -> Option<(St
         };
         return Some((spelled, end));
     }
-    if let Some(behind) = rest.strip_prefix("\\prime") {
-        let _ = behind;
+    if rest.starts_with("\\prime") {
         return Some(("'".into(), at + 6));
     }
     if rest.starts_with("\\ast") {
@@ -354,8 +373,18 @@ pub(crate) fn find<'s>(
 /// The key of a name written in LaTeX; `None` where the text is not one name.
 pub(crate) fn key_of_latex(latex: &str) -> Option<String> {
     let open = Symbols::open();
-    let (parts, end, _) = whole(latex.trim(), 0, &open)?;
-    (end == latex.trim().len()).then(|| parts.key())
+    let text = latex.trim();
+    let (mut parts, mut end, _) = whole(text, 0, &open)?;
+    if let Some((word, stop)) = text[end..]
+        .strip_prefix('^')
+        .and_then(|_| braced(text, end + 1))
+    {
+        // I_{zz}^{cm}: as a spelling of one name the raised word is no exponent.
+        parts.marks.push('^');
+        parts.marks.push_str(&index_text(word)?);
+        end = tail(text, stop, &mut parts, &open, false, &mut false);
+    }
+    (end == text.len()).then(|| parts.key())
 }
 
 /// Reads a name that starts at byte `at` with a macro, a Greek letter, a letter or a brace, undeclared or not.

@@ -65,12 +65,12 @@ pub(crate) fn literal(text: &str, at: usize, exponent: Exponent) -> Faulty<(Lite
     if exponent == Exponent::Ten {
         if let Some((digits_at, stop, negative)) = exponent_at(bytes, end) {
             scientific = true;
-            power = text[digits_at..stop]
-                .trim_start_matches('0')
-                .parse()
-                .unwrap_or(if stop > digits_at { 0 } else { i64::MAX });
-            let too_long = text[digits_at..stop].trim_start_matches('0').len() > 6;
-            if too_long || power > MAX_EXPONENT {
+            let digits = text[digits_at..stop].trim_start_matches('0');
+            power = digits
+                .bytes()
+                .take(6)
+                .fold(0, |value, b| value * 10 + i64::from(b - b'0'));
+            if digits.len() > 6 || power > MAX_EXPONENT {
                 let message = format!("the power of ten of a number is at most {MAX_EXPONENT}");
                 return Err(Fault::new(message, end, stop));
             }
@@ -80,24 +80,14 @@ pub(crate) fn literal(text: &str, at: usize, exponent: Exponent) -> Faulty<(Lite
             end = stop;
         }
     }
-    let mut all = 0i64;
-    let mut fits = digits <= 18;
-    for b in bytes[at..whole_end].iter().chain(&bytes[fraction.clone()]) {
-        all = if fits {
-            all * 10 + i64::from(b - b'0')
-        } else {
-            all
-        };
-    }
-    let value = if fits {
-        Int::from(all)
+    let value = if digits <= 18 {
+        let all = bytes[at..whole_end].iter().chain(&bytes[fraction.clone()]);
+        Int::from(all.fold(0i64, |value, b| value * 10 + i64::from(b - b'0')))
     } else {
-        fits = true;
         let joined = format!("{}{}", &text[at..whole_end], &text[fraction.clone()]);
         <Int as num_traits::Num>::from_str_radix(&joined, 10)
             .map_err(|_| Fault::new("this is no number", at, end))?
     };
-    let _ = fits;
     let place = power - fraction.len() as i64;
     let scale = ten_to(place);
     let zeros = text[at..end]

@@ -252,11 +252,10 @@ impl<'a> Parser<'a> {
         let usual = self.lexer.usual();
         let tight = half != usual;
         let from = above.last().map_or(first.start, |(_, w)| w.start);
-        let (middle, start) = (first.end, first.start);
+        let middle = first.end;
         let rest = self.group_from(if tight { Some(first.clone()) } else { None })?;
         self.lexer
             .note(Remark::Slash { tight }, from, middle, rest.end);
-        let _ = start;
         Ok(if tight {
             (rest, None)
         } else {
@@ -687,9 +686,7 @@ impl<'a> Parser<'a> {
                 }
                 Tok::Slash if named => {
                     // sinθ/2: half of the sine, unless somebody meant the half angle.
-                    let digit = self.lexer.text[self.lexer.pos..]
-                        .trim_start()
-                        .starts_with(|c: char| c.is_ascii_digit());
+                    let digit = lone_number(&self.lexer.text[self.lexer.pos..]);
                     if digit && !self.lexer.usual() {
                         self.next()?;
                         let below = self.factor()?;
@@ -740,6 +737,14 @@ impl<'a> Parser<'a> {
             _ => false,
         }
     }
+}
+
+/// Whether the text goes on with a whole number that nothing multiplies.
+fn lone_number(text: &str) -> bool {
+    let rest = text.trim_start();
+    let behind = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+    let next = behind.trim_start().chars().next();
+    behind.len() < rest.len() && next.is_none_or(|c| "+-−±=<>)]}|,$".contains(c))
 }
 
 fn is_name(written: &Written) -> bool {

@@ -8,6 +8,9 @@ use std::collections::{HashMap, HashSet};
 use crate::dimension::Dimension;
 use crate::expr::Symbol;
 
+/// Letters of `varepsilon`, the longest word that is known undeclared.
+const LONGEST_KEYWORD: usize = 10;
+
 /// A declared name.
 #[derive(Clone, Debug)]
 pub struct Declared {
@@ -23,6 +26,7 @@ pub struct Symbols {
     declared: Vec<Declared>,
     keys: HashMap<String, usize>,
     bases: HashSet<String>,
+    longest_base: usize,
     open: bool,
 }
 
@@ -65,15 +69,25 @@ impl Symbols {
         .flatten()
         {
             let base: String = key.chars().take_while(char::is_ascii_alphabetic).collect();
-            if base.len() > 1 {
-                self.bases.insert(base);
-            }
+            self.add_base(&base);
             self.keys.entry(key).or_insert(index);
         }
         self.keys.insert(name.to_string(), index);
         if name.len() > 1 && name.bytes().all(|b| b.is_ascii_alphabetic()) {
-            self.bases.insert(name.to_string());
+            self.add_base(name);
         }
+    }
+
+    fn add_base(&mut self, base: &str) {
+        if base.len() > 1 {
+            self.longest_base = self.longest_base.max(base.len());
+            self.bases.insert(base.to_string());
+        }
+    }
+
+    /// Most letters a word can have that is a declared base, a function or a Greek name.
+    pub(crate) fn longest_word(&self) -> usize {
+        self.longest_base.max(LONGEST_KEYWORD)
     }
 
     /// The declared names in the order of declaration.

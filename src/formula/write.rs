@@ -244,6 +244,9 @@ impl Writer<'_> {
             Node::Number(value) => value.is_integer() && !value.is_negative(),
             Node::Symbol(name) => !name.contains(['^', '\'']),
             Node::Call(..) => self.style == Style::Plain,
+            Node::Power(_, k) => {
+                self.style == Style::Plain && k.as_number().is_some_and(|k| *k == ratio(1, 2))
+            }
             _ => false,
         };
         if simple {
@@ -263,6 +266,13 @@ impl Writer<'_> {
             (_, Some(k)) => {
                 self.out.push('^');
                 self.out.push_str(&k.to_string());
+            }
+            _ if exponent
+                .as_symbol()
+                .is_some_and(|n| !n.contains(['^', '\''])) =>
+            {
+                self.out.push('^');
+                self.factor(exponent);
             }
             _ => {
                 self.out.push_str("^(");
