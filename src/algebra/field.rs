@@ -7,6 +7,7 @@ use num_traits::One;
 
 use super::Stop;
 use super::element::{Den, Element};
+use super::gcd::Fuel;
 use super::poly::{
     Mono, Poly, exponent, mono_add, mono_div, mono_is_one, mono_max, mono_min, mono_of,
     mono_variables,
@@ -79,6 +80,7 @@ pub struct Field {
     pub(crate) complete: bool,
     /// Values of the generators at fixed points of the domain, made when first needed.
     pub(crate) samples: Vec<Vec<f64>>,
+    pub(crate) fuel: Fuel,
 }
 
 impl Field {
@@ -94,6 +96,7 @@ impl Field {
             assumed: Vec::new(),
             complete: true,
             samples: Vec::new(),
+            fuel: Fuel::new(),
         }
     }
 
@@ -255,6 +258,7 @@ impl Field {
     }
 
     pub(crate) fn mul_poly(&self, a: &Poly, b: &Poly) -> Result<Poly, Stop> {
+        self.fuel.burn(a.len() * b.len())?;
         self.reduce(a.mul(b)?)
     }
 

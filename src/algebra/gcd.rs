@@ -1,13 +1,15 @@
-//! Greatest common divisors of polynomials, and what follows from them: contents, squarefree parts, splitting.
+//! Greatest common divisors of polynomials.
 //!
 //! These only shorten what is printed and what roots are taken of. Whether an expression is zero never depends on them,
 //! so a limit met here may safely be read as "no common divisor found".
 
+use std::cell::Cell;
+
 use num_integer::Integer;
-use num_traits::{One, Zero};
+use num_traits::One;
 
 use super::Stop;
-use super::poly::{Mono, Poly, exponent, mono_is_one, mono_min, mono_variables};
+use super::poly::{Poly, exponent, mono_min};
 use crate::expr::Int;
 
 /// Most terms of a polynomial inside a remainder sequence.
@@ -16,7 +18,7 @@ const MOST_TERMS: usize = 4_000;
 const PRIME: u64 = (1 << 61) - 1;
 
 /// Greatest common divisor, with positive leading coefficient.
-pub(crate) fn gcd(a: &Poly, b: &Poly) -> Result<Poly, Stop> {
+pub(crate) fn gcd(a: &Poly, b: &Poly, fuel: &Fuel) -> Result<Poly, Stop> {
     if a.is_zero() || b.is_zero() {
         let other = if a.is_zero() { b } else { a };
         return Ok(if other.leading_is_negative() {
@@ -27,11 +29,50 @@ pub(crate) fn gcd(a: &Poly, b: &Poly) -> Result<Poly, Stop> {
     }
     let ((ca, ma, pa), (cb, mb, pb)) = (a.split(), b.split());
     let common = Poly::term(&mono_min(&ma, &mb), ca.gcd(&cb));
-    primitive_gcd(pa, pb)?.mul(&common)
+    primitive_gcd(pa, pb, fuel)?.mul(&common)
+}
+
+/// Work left, counted in products of terms. What needs more ends with [`Stop::TooLarge`], on every machine alike.
+#[derive(Clone, Debug)]
+pub(crate) struct Fuel(Cell<u64>);
+
+impl Fuel {
+    /// For one public operation: a few tenths of a second.
+    pub const FULL: u64 = 20_000_000;
+    /// For one factorization: shortening is worth that much at most.
+    const PORTION: u64 = 300_000;
+
+    pub fn new() -> Fuel {
+        Fuel(Cell::new(Fuel::FULL))
+    }
+
+    pub fn refill(&self) {
+        self.0.set(Fuel::FULL);
+    }
+
+    pub fn burn(&self, amount: usize) -> Result<(), Stop> {
+        match self.0.get().checked_sub(amount as u64) {
+            Some(left) => {
+                self.0.set(left);
+                Ok(())
+            }
+            None => {
+                self.0.set(0);
+                Err(Stop::TooLarge("work"))
+            }
+        }
+    }
+
+    /// Splits off a portion for one factorization, paid in advance by a fixed fee.
+    pub fn portion(&self) -> Fuel {
+        let portion = self.0.get().min(Fuel::PORTION);
+        self.0.set(self.0.get().saturating_sub(2_000));
+        Fuel(Cell::new(portion))
+    }
 }
 
 /// Of two polynomials without numeric or monomial content.
-fn primitive_gcd(mut a: Poly, mut b: Poly) -> Result<Poly, Stop> {
+fn primitive_gcd(mut a: Poly, mut b: Poly, fuel: &Fuel) -> Result<Poly, Stop> {
     loop {
         if a.is_constant() || b.is_constant() {
             return Ok(Poly::one());
@@ -42,14 +83,14 @@ fn primitive_gcd(mut a: Poly, mut b: Poly) -> Result<Poly, Stop> {
         // A variable that only one of them has cannot occur in the divisor.
         let (va, vb) = (a.variables(), b.variables());
         if let Some(v) = va.iter().find(|v| !vb.contains(v)) {
-            a = fold_coefficients(&a, *v, b.clone())?;
+            a = fold_coefficients(&a, *v, b.clone(), fuel)?;
             if a.is_constant() {
                 return Ok(Poly::one());
             }
             continue;
         }
         if let Some(v) = vb.iter().find(|v| !va.contains(v)) {
-            b = fold_coefficients(&b, *v, a.clone())?;
+            b = fold_coefficients(&b, *v, a.clone(), fuel)?;
             if b.is_constant() {
                 return Ok(Poly::one());
             }
@@ -70,7 +111,7 @@ fn primitive_gcd(mut a: Poly, mut b: Poly) -> Result<Poly, Stop> {
             return Ok(Poly::one());
         }
         if let Some((v, _)) = bounds.iter().find(|(_, d)| *d == Some(0)) {
-            let g = fold_coefficients(&a, *v, b.clone())?;
+            let g = fold_coefficients(&a, *v, b.clone(), fuel)?;
             return Ok(g);
         }
         let Some(v) = va
@@ -80,17 +121,20 @@ fn primitive_gcd(mut a: Poly, mut b: Poly) -> Result<Poly, Stop> {
         else {
             return Ok(Poly::one());
         };
-        return remainder_sequence(&a, &b, v);
+        if let Some(g) = by_values(&a, &b, fuel) {
+            return Ok(g);
+        }
+        return remainder_sequence(&a, &b, v, fuel);
     }
 }
 
 /// gcd of `seed` and all coefficients of p in v, without numeric content.
-fn fold_coefficients(p: &Poly, v: usize, seed: Poly) -> Result<Poly, Stop> {
+fn fold_coefficients(p: &Poly, v: usize, seed: Poly, fuel: &Fuel) -> Result<Poly, Stop> {
     let mut g = seed;
     let mut parts = p.by_power(v);
     parts.sort();
     for part in parts.iter().filter(|p| !p.is_zero()) {
-        g = gcd(&g, part)?;
+        g = gcd(&g, part, fuel)?;
         if g.is_constant() {
             return Ok(Poly::one());
         }
@@ -100,12 +144,12 @@ fn fold_coefficients(p: &Poly, v: usize, seed: Poly) -> Result<Poly, Stop> {
 }
 
 /// Content with respect to v: the greatest common divisor of the coefficients, numbers included.
-pub(crate) fn content_in(p: &Poly, v: usize) -> Result<Poly, Stop> {
+pub(crate) fn content_in(p: &Poly, v: usize, fuel: &Fuel) -> Result<Poly, Stop> {
     let mut parts = p.by_power(v);
     parts.sort();
     let mut g = Poly::zero();
     for part in parts.iter().filter(|p| !p.is_zero()) {
-        g = gcd(&g, part)?;
+        g = gcd(&g, part, fuel)?;
         if g.is_one() {
             break;
         }
@@ -113,16 +157,16 @@ pub(crate) fn content_in(p: &Poly, v: usize) -> Result<Poly, Stop> {
     Ok(g)
 }
 
-fn remainder_sequence(a: &Poly, b: &Poly, v: usize) -> Result<Poly, Stop> {
-    let (ca, cb) = (content_in(a, v)?, content_in(b, v)?);
-    let content = gcd(&ca, &cb)?;
+fn remainder_sequence(a: &Poly, b: &Poly, v: usize, fuel: &Fuel) -> Result<Poly, Stop> {
+    let (ca, cb) = (content_in(a, v, fuel)?, content_in(b, v, fuel)?);
+    let content = gcd(&ca, &cb, fuel)?;
     let divide = |p: &Poly, c: &Poly| p.try_div(c).ok_or(Stop::TooLarge("terms"));
     let (mut x, mut y) = (divide(a, &ca)?, divide(b, &cb)?);
     if x.degree(v) < y.degree(v) {
         std::mem::swap(&mut x, &mut y);
     }
     loop {
-        let r = pseudo_remainder(&x, &y, v)?;
+        let r = pseudo_remainder(&x, &y, v, fuel)?;
         if r.is_zero() {
             let (_, _, primitive) = y.split();
             return primitive.mul(&content);
@@ -130,12 +174,12 @@ fn remainder_sequence(a: &Poly, b: &Poly, v: usize) -> Result<Poly, Stop> {
         if r.degree(v) == 0 {
             return Ok(content);
         }
-        let c = content_in(&r, v)?;
+        let c = content_in(&r, v, fuel)?;
         (x, y) = (y, divide(&r, &c)?);
     }
 }
 
-fn pseudo_remainder(x: &Poly, y: &Poly, v: usize) -> Result<Poly, Stop> {
+fn pseudo_remainder(x: &Poly, y: &Poly, v: usize, fuel: &Fuel) -> Result<Poly, Stop> {
     let (mut rest, by) = (x.by_power(v), y.by_power(v));
     let Some(lead) = by.last() else {
         return Err(Stop::DivisionByZero);
@@ -146,13 +190,14 @@ fn pseudo_remainder(x: &Poly, y: &Poly, v: usize) -> Result<Poly, Stop> {
             continue;
         }
         // Only the quotient lead/top in lowest terms is needed: keeps coefficients short.
-        let g = gcd(&top, lead)?;
+        let g = gcd(&top, lead, fuel)?;
         let (p, q) = match (top.try_div(&g), lead.try_div(&g)) {
             (Some(p), Some(q)) => (p, q),
             _ => (top, lead.clone()),
         };
         let shift = rest.len() + 1 - by.len();
         for (k, part) in rest.iter_mut().enumerate() {
+            fuel.burn(part.len() * q.len() + by.len() * p.len() * 4)?;
             let mut next = if q.is_one() {
                 part.clone()
             } else {
@@ -255,165 +300,79 @@ fn image_degree(a: &Poly, b: &Poly, v: usize) -> Option<u32> {
     u32::try_from(x.len() - 1).ok()
 }
 
-/// A polynomial taken apart: content · mono · ∏ factorᵏ.
-#[derive(Clone, Debug)]
-pub(crate) struct Factored {
-    pub content: Int,
-    pub mono: Mono,
-    /// Pairwise different, primitive, positive leading coefficients, sorted.
-    pub factors: Vec<(Poly, u32)>,
-}
-
-/// Contents with respect to every variable, squarefree parts, and quadratics split by their discriminant.
-/// Where a limit is met, a factor stays whole.
-pub(crate) fn factor(p: &Poly) -> Factored {
-    let (content, mono, rest) = p.split();
-    let mut factors = Vec::new();
-    if !rest.is_constant() {
-        split_into(rest, 1, &mut factors);
-    }
-    factors.sort();
-    Factored {
-        content,
-        mono,
-        factors,
-    }
-}
-
-fn note(p: Poly, times: u32, out: &mut Vec<(Poly, u32)>) {
-    match out.iter_mut().find(|(f, _)| *f == p) {
-        Some((_, k)) => *k += times,
-        None => out.push((p, times)),
-    }
-}
-
-fn split_into(p: Poly, times: u32, out: &mut Vec<(Poly, u32)>) {
-    let (_, mono, p) = p.split();
-    for v in mono_variables(&mono) {
-        note(Poly::var(v), times * exponent(&mono, v), out);
-    }
-    if p.is_constant() {
-        return;
-    }
-    match divisor(&p) {
-        Some((d, q)) => {
-            split_into(d, times, out);
-            split_into(q, times, out);
-        }
-        None => note(p, times, out),
-    }
-}
-
-/// A proper divisor and its cofactor, when one is found.
-fn divisor(p: &Poly) -> Option<(Poly, Poly)> {
-    let degrees = p.degrees();
-    let mut variables = mono_variables(&degrees);
-    variables.sort_by_key(|v| exponent(&degrees, *v));
-    // Primitive and linear in a variable means irreducible.
-    for v in &variables {
-        if let Some(c) = content_in(p, *v).ok().filter(|c| !c.is_constant()) {
-            return p.try_div(&c).map(|q| (c, q));
-        }
-        if exponent(&degrees, *v) == 1 {
-            return None;
-        }
-    }
-    for v in &variables {
-        if let Some(g) = gcd(p, &p.derivative(*v)).ok().filter(|g| !g.is_constant()) {
-            return p.try_div(&g).map(|q| (g, q));
-        }
-    }
-    for v in &variables {
-        let found = match exponent(&degrees, *v) {
-            2 => split_quadratic(p, *v, 1),
-            4 => split_quadratic(p, *v, 2),
-            _ => None,
-        };
-        if found.is_some() {
-            return found;
-        }
-    }
-    difference_of_powers(p, &variables)
-}
-
-/// Splits a x²ᵏ + b xᵏ + c whose discriminant is a square.
-fn split_quadratic(p: &Poly, v: usize, k: usize) -> Option<(Poly, Poly)> {
-    let parts = p.by_power(v);
-    if k == 2 && (!parts[1].is_zero() || !parts[3].is_zero()) {
+/// The divisor read off its value at a large integer: gcd of the values, expanded in powers of that integer. A candidate
+/// that divides both is the greatest common divisor (Char, Geddes, Gonnet 1989); without one, `None`.
+fn by_values(a: &Poly, b: &Poly, fuel: &Fuel) -> Option<Poly> {
+    let size = |p: &Poly| {
+        p.variables()
+            .iter()
+            .map(|v| p.degree(*v) as usize + 1)
+            .product::<usize>()
+    };
+    let bits = |p: &Poly| p.terms().map(|(_, c)| c.bits()).max().unwrap_or(0) as usize;
+    if size(a)
+        .max(size(b))
+        .saturating_mul(bits(a).min(bits(b)) + 3)
+        > 12_000
+    {
         return None;
     }
-    let (a, b, c) = (&parts[2 * k], &parts[k], &parts[0]);
-    let discriminant = b.mul(b).ok()?.sub(&a.mul(c).ok()?.scale(&Int::from(4)));
-    let root = discriminant.sqrt()?;
-    let x = Poly::from_powers(&[vec![Poly::zero(); k], vec![Poly::one()]].concat(), v).ok()?;
-    let linear = a.scale(&Int::from(2)).mul(&x).ok()?.add(&b.sub(&root));
-    let g = gcd(p, &linear).ok()?;
-    let (_, _, g) = g.split();
-    if g.is_constant() || !mono_is_one(&g.mono_content()) {
-        return None;
-    }
-    let q = p.try_div(&g)?;
-    (!q.is_constant()).then_some((g, q))
+    let (_, _, g) = values_gcd(a, b, fuel)?.split();
+    Some(g)
 }
 
-/// Tries the rational roots x = ± (coefficient of the last over the first term): enough for xⁿ − aⁿ and its like.
-fn difference_of_powers(p: &Poly, variables: &[usize]) -> Option<(Poly, Poly)> {
-    if p.len() != 2 {
-        return None;
+/// Full divisor, numbers included.
+fn values_gcd(a: &Poly, b: &Poly, fuel: &Fuel) -> Option<Poly> {
+    if let (Some(x), Some(y)) = (a.as_constant(), b.as_constant()) {
+        return Some(Poly::constant(x.gcd(y)));
     }
-    let v = variables.first().copied()?;
-    for k in [3, 5, 7, 2] {
-        let root = |i: usize| -> Option<Poly> {
-            let magnitude = num_traits::Signed::abs(p.coeff(i));
-            let r = Int::from(magnitude.to_bigint().nth_root(k));
-            let exponents: Option<Vec<(usize, u32)>> = variables
-                .iter()
-                .map(|w| {
-                    let e = exponent(p.mono(i), *w);
-                    (e % k == 0).then_some((*w, e / k))
-                })
-                .collect();
-            (r.pow(k) == magnitude).then_some(())?;
-            let mut out = Poly::constant(r);
-            for (w, e) in exponents? {
-                out = out.mul(&Poly::var(w).pow(e).ok()?).ok()?;
+    if a.is_constant() || b.is_constant() {
+        return Some(Poly::constant(a.content().gcd(&b.content())));
+    }
+    let v = a.variables().into_iter().chain(b.variables()).min()?;
+    let (ca, cb) = (a.content(), b.content());
+    let (a, b) = (a.div_int(&ca), b.div_int(&cb));
+    let largest = |p: &Poly| {
+        p.terms()
+            .map(|(_, c)| num_traits::Signed::abs(c))
+            .max()
+            .unwrap_or_else(Int::one)
+    };
+    let mut x = largest(&a).min(largest(&b)) * Int::from(2) + Int::from(29);
+    for _ in 0..3 {
+        fuel.burn((a.len() + b.len()) * (1 + x.bits() as usize / 8))
+            .ok()?;
+        let (p, q) = (value_at(&a, v, &x), value_at(&b, v, &x));
+        if !p.is_zero() && !q.is_zero() {
+            let mut rest = values_gcd(&p, &q, fuel)?;
+            let mut parts = Vec::new();
+            while !rest.is_zero() && parts.len() < 128 {
+                let digit = symmetric_residue(&rest, &x);
+                rest = rest.sub(&digit).div_int(&x);
+                parts.push(digit);
             }
-            Some(out)
-        };
-        if let (Some(a), Some(b)) = (root(0), root(1)) {
-            for candidate in [a.sub(&b), a.add(&b)] {
-                if candidate.has(v) || !candidate.is_constant() {
-                    let (_, _, candidate) = candidate.split();
-                    if let Some(q) = p.try_div(&candidate).filter(|q| !q.is_constant()) {
-                        return Some((candidate, q));
-                    }
-                }
+            let (_, mono, candidate) = Poly::from_powers(&parts, v).ok()?.split();
+            let candidate = candidate.mul_term(&mono, &Int::one()).ok()?;
+            if a.try_div(&candidate).is_some() && b.try_div(&candidate).is_some() {
+                return Some(candidate.scale(&ca.gcd(&cb)));
             }
         }
+        x = &x * &Int::from(73_794) / Int::from(27_011) + Int::from(1);
     }
     None
 }
 
-/// The largest integer whose square divides the value (by small primes), and the cofactor.
-pub(crate) fn square_part(value: &Int) -> (Int, Int) {
-    let (mut root, mut rest) = (Int::one(), value.clone());
-    let mut p = 2i64;
-    while p < 2_000 {
-        let (prime, square) = (Int::from(p), Int::from(p * p));
-        if square > num_traits::Signed::abs(&rest) {
-            break;
-        }
-        while (&rest % &square).is_zero() {
-            rest /= &square;
-            root *= &prime;
-        }
-        p += if p == 2 { 1 } else { 2 };
-    }
-    if !num_traits::Signed::is_negative(&rest) {
-        let r = rest.sqrt();
-        if &r * &r == rest {
-            return (root * r, Int::one());
-        }
-    }
-    (root, rest)
+fn value_at(p: &Poly, v: usize, x: &Int) -> Poly {
+    p.by_power(v)
+        .iter()
+        .rev()
+        .fold(Poly::zero(), |total, part| total.scale(x).add(part))
+}
+
+/// Coefficients reduced to (−x/2, x/2].
+fn symmetric_residue(p: &Poly, x: &Int) -> Poly {
+    p.map_coefficients(|c| {
+        let r = c.mod_floor(x);
+        if &r + &r > *x { r - x } else { r }
+    })
 }

@@ -7,6 +7,7 @@
 //! element proves two formulas different is told by [`Field::complete`]. Nothing here knows of mechanics.
 
 mod element;
+mod factor;
 mod field;
 mod gcd;
 mod poly;

@@ -216,6 +216,22 @@ impl Poly {
         }
     }
 
+    /// The polynomial with changed coefficients; terms that become zero vanish.
+    pub fn map_coefficients(&self, f: impl Fn(&Int) -> Int) -> Poly {
+        let mut out = Poly {
+            stride: self.stride,
+            ..Poly::default()
+        };
+        for (mono, coeff) in self.terms() {
+            let value = f(coeff);
+            if !value.is_zero() {
+                out.exps.extend_from_slice(mono);
+                out.coeffs.push(value);
+            }
+        }
+        out
+    }
+
     pub fn mul_term(&self, mono: &[u64], coeff: &Int) -> Result<Poly, Stop> {
         if self.is_zero() || coeff.is_zero() {
             return Ok(Poly::zero());

@@ -21,6 +21,7 @@ type Direction = [Element; 2];
 impl Field {
     /// The normal form.
     pub fn element(&mut self, e: &Expr) -> Result<Element, Stop> {
+        self.fuel.refill();
         self.read(e, MOST_DEPTH)
     }
 

@@ -7,8 +7,8 @@
 use num_traits::{One, Signed, Zero};
 
 use super::element::Element;
+use super::factor::{factor, square_part};
 use super::field::{Field, Generator, Kind};
-use super::gcd::{factor, square_part};
 use super::poly::{Poly, exponent, mono_variables};
 use super::{Sign, Stop};
 use crate::expr::Int;
@@ -52,7 +52,7 @@ impl Field {
     }
 
     fn sqrt_poly(&mut self, p: &Poly) -> Result<Element, Stop> {
-        let parts = factor(p);
+        let parts = factor(p, &self.fuel);
         let (root, mut rest) = square_part(&parts.content);
         let mut outside = Element::from_poly(Poly::constant(root));
         let mut odd = Vec::new();
@@ -171,7 +171,7 @@ impl Field {
                 .variables()
                 .iter()
                 .any(|v| *v >= root && matches!(self.gens[*v].kind, Kind::Root));
-            if deeper || self.sign(&half) != Some(Sign::Positive) {
+            if deeper || self.sign_of(&half) != Some(Sign::Positive) {
                 continue;
             }
             let g = self.sqrt(&half)?;
@@ -313,14 +313,14 @@ impl Field {
 
     /// |x|.
     pub fn abs(&mut self, x: &Element) -> Result<Element, Stop> {
-        if let Some(sign) = self.sign(x) {
+        if let Some(sign) = self.sign_of(x) {
             return Ok(if sign.is_not_negative() {
                 x.clone()
             } else {
                 self.neg(x)
             });
         }
-        let parts = factor(&x.num);
+        let parts = factor(&x.num, &self.fuel);
         let mut total = Element::from_poly(Poly::constant(parts.content.abs()));
         let mut all: Vec<(Poly, u32)> = mono_variables(&parts.mono)
             .into_iter()
@@ -399,7 +399,7 @@ impl Field {
         let degree = n as usize;
         let mut total = self.integer(1);
         let mut together = self.integer(1);
-        let num = factor(&x.num);
+        let num = factor(&x.num, &self.fuel);
         let mut parts: Vec<(Poly, i64)> = Vec::new();
         for (value, sign) in [(num.content.clone(), 1), (x.den.int.clone(), -1)] {
             if value.is_negative() {

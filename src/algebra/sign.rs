@@ -6,8 +6,8 @@
 use num_traits::{One, Signed, Zero};
 
 use super::element::Element;
+use super::factor::factor;
 use super::field::{AngleOf, Field, Kind};
-use super::gcd::factor;
 use super::poly::{Poly, exponent, mono_of, mono_variables};
 use super::{Sign, Stop};
 use crate::domain::Limit;
@@ -38,6 +38,11 @@ enum Known {
 impl Field {
     /// The sign, where it is proved for the whole domain.
     pub fn sign(&self, x: &Element) -> Option<Sign> {
+        self.fuel.refill();
+        self.sign_of(x)
+    }
+
+    pub(crate) fn sign_of(&self, x: &Element) -> Option<Sign> {
         let mut sign = self.sign_poly(&x.num)?;
         for v in mono_variables(&x.den.mono) {
             if exponent(&x.den.mono, v) % 2 == 1 {
@@ -62,7 +67,7 @@ impl Field {
         if p.len() > MOST_TERMS {
             return None;
         }
-        let parts = factor(p);
+        let parts = factor(p, &self.fuel);
         let mut sign = if parts.content.is_negative() {
             Sign::Negative
         } else {
@@ -174,7 +179,7 @@ impl Field {
         if p.is_zero() {
             return Some(Sign::Zero);
         }
-        let parts = factor(p);
+        let parts = factor(p, &self.fuel);
         let mut sign = if parts.content.is_negative() {
             Sign::Negative
         } else {

@@ -46,6 +46,7 @@ pub struct Solution {
 
 /// Solves the rows for n unknowns. Coefficients of unknowns ≥ n are an error of the caller and are ignored.
 pub fn solve(field: &Field, rows: &[Row], n: usize) -> Result<Solution, Stop> {
+    field.fuel.refill();
     let mut work: Vec<Vec<(usize, Element)>> = rows
         .iter()
         .map(|row| {

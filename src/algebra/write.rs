@@ -4,14 +4,20 @@ use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
 use super::element::Element;
+use super::factor::factor;
 use super::field::{AngleOf, Field, Kind};
-use super::gcd::{factor, gcd};
+use super::gcd::{Fuel, gcd};
 use super::poly::{Mono, Poly, exponent, mono_of, mono_variables};
 use crate::expr::{Expr, Function, Int, Node, Rational, ratio};
 
 impl Field {
     /// The element as a person would write it. Read again, it gives the same element.
     pub fn expr(&self, x: &Element) -> Expr {
+        self.fuel.refill();
+        self.written(x)
+    }
+
+    fn written(&self, x: &Element) -> Expr {
         if x.num.is_zero() {
             return Expr::zero();
         }
@@ -32,19 +38,19 @@ impl Field {
         }
         self.gather_squares(&mut above);
         self.gather_squares(&mut below);
-        strike(&mut above, &mut below);
+        strike(&mut above, &mut below, &self.fuel);
         self.assemble(&above, &below)
     }
 
     /// Factors of the shorter of the forms without sin² and without cos².
     fn taken_apart(&self, p: &Poly) -> Parts {
-        let mut best = Parts::of(p);
+        let mut best = Parts::of(p, &self.fuel);
         for (c, s) in self.circles() {
             if !p.has(c) || p.degree(c) < 2 {
                 continue;
             }
             if let Some(other) = exchange(p, c, s) {
-                let candidate = Parts::of(&other);
+                let candidate = Parts::of(&other, &self.fuel);
                 if self.length(&candidate) < self.length(&best) {
                     best = candidate;
                 }
@@ -212,17 +218,17 @@ impl Field {
             Kind::Sin(base) => (self.angle(*base).sin(), one),
             Kind::Root => match &self.gens[v].relation {
                 Some((n, value)) => (
-                    self.expr(&Element::from_poly(value.clone())),
+                    self.written(&Element::from_poly(value.clone())),
                     ratio(1, i64::from(*n)),
                 ),
                 None => (Expr::zero(), one),
             },
             Kind::Abs(p) => (
-                Expr::call(Function::Abs, self.expr(&Element::from_poly(p.clone()))),
+                Expr::call(Function::Abs, self.written(&Element::from_poly(p.clone()))),
                 one,
             ),
-            Kind::Call(function, x) => (Expr::call(*function, self.expr(x)), one),
-            Kind::Power(base, exponent) => (self.expr(base).power(self.expr(exponent)), one),
+            Kind::Call(function, x) => (Expr::call(*function, self.written(x)), one),
+            Kind::Power(base, exponent) => (self.written(base).power(self.written(exponent)), one),
         }
     }
 
@@ -230,7 +236,7 @@ impl Field {
         let base = &self.bases[base];
         let whole = match &base.of {
             AngleOf::Symbol(name) => Expr::symbol(name),
-            AngleOf::Term(term) => self.expr(term),
+            AngleOf::Term(term) => self.written(term),
         };
         whole * Expr::ratio(1, i64::from(base.divisor))
     }
@@ -339,8 +345,8 @@ struct Parts {
 }
 
 impl Parts {
-    fn of(p: &Poly) -> Parts {
-        let found = factor(p);
+    fn of(p: &Poly, fuel: &Fuel) -> Parts {
+        let found = factor(p, fuel);
         let mut out = Parts {
             content: found.content,
             factors: Vec::new(),
@@ -363,7 +369,8 @@ impl Parts {
 }
 
 /// Removes what both have in common.
-fn strike(above: &mut Parts, below: &mut Parts) {
+fn strike(above: &mut Parts, below: &mut Parts, fuel: &Fuel) {
+    let fuel = &fuel.portion();
     let mut i = 0;
     while i < above.factors.len() {
         let mut j = 0;
@@ -374,7 +381,7 @@ fn strike(above: &mut Parts, below: &mut Parts) {
             } else if a.len() == 1 || b.len() == 1 {
                 Poly::one()
             } else {
-                gcd(&a, &b).unwrap_or_else(|_| Poly::one())
+                gcd(&a, &b, fuel).unwrap_or_else(|_| Poly::one())
             };
             if g.is_constant() {
                 j += 1;

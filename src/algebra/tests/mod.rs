@@ -1,3 +1,7 @@
+//! Tables of facts about the algebra.
+
+mod laws;
+
 use super::*;
 use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, ratio};

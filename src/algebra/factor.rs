@@ -1,0 +1,176 @@
+//! Taking polynomials apart: contents, squarefree parts, quadratics split by their discriminant.
+//!
+//! Enough to write results as a person would and to find squares under a root; a factor that is not found stays whole.
+
+use num_traits::{One, Zero};
+
+use super::gcd::{Fuel, content_in, gcd};
+use super::poly::{Mono, Poly, exponent, mono_is_one, mono_variables};
+use crate::expr::Int;
+
+/// A polynomial taken apart: content · mono · ∏ factorᵏ.
+#[derive(Clone, Debug)]
+pub(crate) struct Factored {
+    pub content: Int,
+    pub mono: Mono,
+    /// Pairwise different, primitive, positive leading coefficients, sorted.
+    pub factors: Vec<(Poly, u32)>,
+}
+
+/// Contents with respect to every variable, squarefree parts, and quadratics split by their discriminant.
+/// Where a limit is met, a factor stays whole.
+pub(crate) fn factor(p: &Poly, fuel: &Fuel) -> Factored {
+    let fuel = &fuel.portion();
+    let (content, mono, rest) = p.split();
+    let mut factors = Vec::new();
+    if !rest.is_constant() {
+        split_into(rest, 1, &mut factors, fuel);
+    }
+    factors.sort();
+    Factored {
+        content,
+        mono,
+        factors,
+    }
+}
+
+fn note(p: Poly, times: u32, out: &mut Vec<(Poly, u32)>) {
+    match out.iter_mut().find(|(f, _)| *f == p) {
+        Some((_, k)) => *k += times,
+        None => out.push((p, times)),
+    }
+}
+
+fn split_into(p: Poly, times: u32, out: &mut Vec<(Poly, u32)>, fuel: &Fuel) {
+    let (_, mono, p) = p.split();
+    for v in mono_variables(&mono) {
+        note(Poly::var(v), times * exponent(&mono, v), out);
+    }
+    if p.is_constant() {
+        return;
+    }
+    match divisor(&p, fuel) {
+        Some((d, q)) => {
+            split_into(d, times, out, fuel);
+            split_into(q, times, out, fuel);
+        }
+        None => note(p, times, out),
+    }
+}
+
+/// A proper divisor and its cofactor, when one is found.
+fn divisor(p: &Poly, fuel: &Fuel) -> Option<(Poly, Poly)> {
+    let degrees = p.degrees();
+    let mut variables = mono_variables(&degrees);
+    variables.sort_by_key(|v| exponent(&degrees, *v));
+    // Primitive and linear in a variable means irreducible.
+    for v in &variables {
+        if let Some(c) = content_in(p, *v, fuel).ok().filter(|c| !c.is_constant()) {
+            return p.try_div(&c).map(|q| (c, q));
+        }
+        if exponent(&degrees, *v) == 1 {
+            return None;
+        }
+    }
+    for v in &variables {
+        if let Some(g) = gcd(p, &p.derivative(*v), fuel)
+            .ok()
+            .filter(|g| !g.is_constant())
+        {
+            return p.try_div(&g).map(|q| (g, q));
+        }
+    }
+    for v in &variables {
+        let found = match exponent(&degrees, *v) {
+            2 => split_quadratic(p, *v, 1, fuel),
+            4 => split_quadratic(p, *v, 2, fuel),
+            _ => None,
+        };
+        if found.is_some() {
+            return found;
+        }
+    }
+    difference_of_powers(p, &variables)
+}
+
+/// Splits a x²ᵏ + b xᵏ + c whose discriminant is a square.
+fn split_quadratic(p: &Poly, v: usize, k: usize, fuel: &Fuel) -> Option<(Poly, Poly)> {
+    let parts = p.by_power(v);
+    if k == 2 && (!parts[1].is_zero() || !parts[3].is_zero()) {
+        return None;
+    }
+    let (a, b, c) = (&parts[2 * k], &parts[k], &parts[0]);
+    let discriminant = b.mul(b).ok()?.sub(&a.mul(c).ok()?.scale(&Int::from(4)));
+    let root = discriminant.sqrt()?;
+    let x = Poly::from_powers(&[vec![Poly::zero(); k], vec![Poly::one()]].concat(), v).ok()?;
+    let linear = a.scale(&Int::from(2)).mul(&x).ok()?.add(&b.sub(&root));
+    let g = gcd(p, &linear, fuel).ok()?;
+    let (_, _, g) = g.split();
+    if g.is_constant() || !mono_is_one(&g.mono_content()) {
+        return None;
+    }
+    let q = p.try_div(&g)?;
+    (!q.is_constant()).then_some((g, q))
+}
+
+/// Tries the rational roots x = ± (coefficient of the last over the first term): enough for xⁿ − aⁿ and its like.
+fn difference_of_powers(p: &Poly, variables: &[usize]) -> Option<(Poly, Poly)> {
+    if p.len() != 2 {
+        return None;
+    }
+    let v = variables.first().copied()?;
+    for k in [3, 5, 7, 2] {
+        let root = |i: usize| -> Option<Poly> {
+            let magnitude = num_traits::Signed::abs(p.coeff(i));
+            let r = Int::from(magnitude.to_bigint().nth_root(k));
+            let exponents: Option<Vec<(usize, u32)>> = variables
+                .iter()
+                .map(|w| {
+                    let e = exponent(p.mono(i), *w);
+                    (e % k == 0).then_some((*w, e / k))
+                })
+                .collect();
+            (r.pow(k) == magnitude).then_some(())?;
+            let mut out = Poly::constant(r);
+            for (w, e) in exponents? {
+                out = out.mul(&Poly::var(w).pow(e).ok()?).ok()?;
+            }
+            Some(out)
+        };
+        if let (Some(a), Some(b)) = (root(0), root(1)) {
+            for candidate in [a.sub(&b), a.add(&b)] {
+                if candidate.has(v) || !candidate.is_constant() {
+                    let (_, _, candidate) = candidate.split();
+                    if let Some(q) = p.try_div(&candidate).filter(|q| !q.is_constant()) {
+                        return Some((candidate, q));
+                    }
+                }
+            }
+        }
+    }
+    None
+}
+
+/// The largest integer whose square divides the value (by small primes), and the cofactor.
+pub(crate) fn square_part(value: &Int) -> (Int, Int) {
+    let (mut root, mut rest) = (Int::one(), value.clone());
+    let mut p = 2i64;
+    while p < 2_000 {
+        let (prime, square) = (Int::from(p), Int::from(p * p));
+        if square > num_traits::Signed::abs(&rest) {
+            break;
+        }
+        while (&rest % &square).is_zero() {
+            rest /= &square;
+            root *= &prime;
+        }
+        p += if p == 2 { 1 } else { 2 };
+    }
+    if !num_traits::Signed::is_negative(&rest) {
+        let r = rest.sqrt();
+        if &r * &r == rest {
+            return (root * r, Int::one());
+        }
+    }
+    (root, rest)
+}
