@@ -10,6 +10,7 @@ mod element;
 mod factor;
 mod field;
 mod gcd;
+mod parts;
 mod poly;
 mod read;
 mod roots;

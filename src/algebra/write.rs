@@ -4,11 +4,23 @@ use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
 use super::element::Element;
-use super::factor::factor;
 use super::field::{AngleOf, Field, Kind};
-use super::gcd::{Fuel, gcd};
-use super::poly::{Mono, Poly, exponent, mono_of, mono_variables};
+use super::parts::{Parts, letters, strike};
+use super::poly::{
+    Mono, Poly, cmp_mono, exponent, mono_add, mono_div, mono_divides, mono_of, mono_variables,
+};
 use crate::expr::{Expr, Function, Int, Node, Rational, ratio};
+
+/// Longest sum whose terms are grouped.
+const MOST_GROUPED: usize = 300;
+
+/// A term of a sum, with a factor cos(α ± β) or sin(α ± β) gathered from two terms.
+#[derive(Clone)]
+struct Term {
+    mono: Mono,
+    coeff: Int,
+    gathered: Option<Expr>,
+}
 
 impl Field {
     /// The element as a person would write it. Read again, it gives the same element.
@@ -36,110 +48,36 @@ impl Field {
                 below.note(g, e * k);
             }
         }
-        self.gather_squares(&mut above);
-        self.gather_squares(&mut below);
         strike(&mut above, &mut below, &self.fuel);
+        above.join_conjugates();
+        below.join_conjugates();
         self.assemble(&above, &below)
-    }
-
-    /// Factors of the shorter of the forms without sin² and without cos².
-    fn taken_apart(&self, p: &Poly) -> Parts {
-        let mut best = Parts::of(p, &self.fuel);
-        for (c, s) in self.circles() {
-            if !p.has(c) || p.degree(c) < 2 {
-                continue;
-            }
-            if let Some(other) = exchange(p, c, s) {
-                let candidate = Parts::of(&other, &self.fuel);
-                if self.length(&candidate) < self.length(&best) {
-                    best = candidate;
-                }
-            }
-        }
-        best
-    }
-
-    /// Pairs of generators with a² + b² = 1.
-    pub(crate) fn circles(&self) -> Vec<(usize, usize)> {
-        let mut out: Vec<(usize, usize)> = self.bases.iter().map(|b| (b.cos, b.sin)).collect();
-        for &g in &self.algebraic {
-            if let (Kind::Symbol(_), Some((2, value))) =
-                (&self.gens[g].kind, &self.gens[g].relation)
-            {
-                if let Some(a) = value.variables().first() {
-                    out.push((*a, g));
-                }
-            }
-        }
-        out
-    }
-
-    /// Printed length, roughly.
-    fn length(&self, parts: &Parts) -> usize {
-        let mut total = 0;
-        for (f, k) in &parts.factors {
-            let own: usize = f
-                .terms()
-                .map(|(m, c)| {
-                    let letters: u32 = mono_variables(m)
-                        .iter()
-                        .map(|v| if exponent(m, *v) > 1 { 3 } else { 2 })
-                        .sum();
-                    letters as usize
-                        + usize::from(!c.abs().is_one()) * 2
-                        + 2
-                        + usize::from(c.is_negative())
-                })
-                .sum();
-            total += own + usize::from(f.len() > 1) * 2 + usize::from(*k > 1);
-        }
-        total
-    }
-
-    /// Turns (1−c)(1+c) into s².
-    fn gather_squares(&self, parts: &mut Parts) {
-        for (c, s) in self.circles() {
-            for (c, s) in [(c, s), (s, c)] {
-                let (one, x) = (Poly::one(), Poly::var(c));
-                let (minus, plus) = (x.sub(&one), x.add(&one));
-                let times = |p: &Poly| {
-                    parts
-                        .factors
-                        .iter()
-                        .find(|(f, _)| f == p)
-                        .map_or(0, |(_, k)| *k)
-                };
-                let both = times(&minus).min(times(&plus));
-                if both == 0 {
-                    continue;
-                }
-                for (f, k) in &mut parts.factors {
-                    if *f == minus || *f == plus {
-                        *k -= both;
-                    }
-                }
-                parts.factors.retain(|(_, k)| *k > 0);
-                parts.note(Poly::var(s), 2 * both);
-                if both % 2 == 1 {
-                    parts.content = -parts.content.clone();
-                }
-            }
-        }
     }
 
     fn assemble(&self, above: &Parts, below: &Parts) -> Expr {
         let mut number = Rational::new(above.content.clone(), below.content.clone());
-        let mut factors: Vec<(bool, Expr, Rational)> = Vec::new();
+        let mut factors: Vec<Factor> = Vec::new();
         // Sums of mixed signs may be turned round to carry a minus sign.
         let mut turnable: Option<Expr> = None;
         for (parts, sign) in [(above, 1i64), (below, -1)] {
             for (f, k) in &parts.factors {
                 let mut power = ratio(i64::from(*k) * sign, 1);
-                let (sum, expr) = if f.len() == 1 {
+                let (expr, rank, joins) = if f.len() == 1 {
                     let v = f.variables()[0];
                     let (expr, own) = self.generator(v);
+                    let root = !own.is_one();
                     power *= own;
-                    (false, expr)
+                    let joins = root
+                        && self.gens[v].relation.as_ref().is_some_and(|(_, p)| {
+                            self.sign_poly(p).is_some_and(|s| s.is_not_negative())
+                        });
+                    let rank = match expr.node() {
+                        Node::Number(_) => Rank::Number,
+                        Node::Symbol(name) if name.starts_with(['m', 'M']) => Rank::Mass,
+                        Node::Symbol(_) => Rank::Symbol,
+                        _ => Rank::Other,
+                    };
+                    (expr, rank, joins)
                 } else {
                     let (expr, flipped, mixed) = self.sum(f);
                     if flipped && k % 2 == 1 {
@@ -148,65 +86,68 @@ impl Field {
                     if mixed && k % 2 == 1 && turnable.is_none() {
                         turnable = Some(expr.clone());
                     }
-                    (true, expr)
+                    (expr, Rank::Sum, false)
                 };
-                match factors.iter_mut().find(|(_, e, _)| *e == expr) {
-                    Some((_, _, total)) => *total += power,
-                    None => factors.push((sum, expr, power)),
+                match factors.iter_mut().find(|other| other.base == expr) {
+                    Some(other) => {
+                        other.power += power;
+                        other.joins |= joins;
+                    }
+                    None => factors.push(Factor {
+                        rank,
+                        base: expr,
+                        power,
+                        joins,
+                    }),
                 }
             }
         }
         if let (true, Some(sum)) = (number.is_negative(), turnable) {
-            if let Some(place) = factors
-                .iter_mut()
-                .find(|(_, e, k)| *e == sum && k.is_integer() && k.numer().is_odd())
-            {
-                place.1 = turned(&sum);
+            let odd =
+                |f: &&mut Factor| f.base == sum && f.power.is_integer() && f.power.numer().is_odd();
+            if let Some(place) = factors.iter_mut().find(odd) {
+                place.base = turned(&sum);
                 number = -number;
             }
         }
-        factors.retain(|(_, _, k)| !k.is_zero());
-        factors.sort_by(|a, b| (self.rank(&a.1, a.0), &a.1).cmp(&(self.rank(&b.1, b.0), &b.1)));
-        // A lone sum with a whole number in front stays bracketed; √a·√b is written √(ab).
-        let mut rooted: Vec<Expr> = Vec::new();
-        let mut below_root: Vec<Expr> = Vec::new();
+        factors.retain(|f| !f.power.is_zero());
+        factors.sort_by(|a, b| (a.rank, &a.base).cmp(&(b.rank, &b.base)));
+        // √a·√b/√c is written √(ab/c) where each of them is known to be real.
         let mut out = vec![Expr::from(number)];
-        for (_, e, k) in factors {
-            if *k.denom() == Int::from(2) && !k.is_integer() {
-                let whole = if k.is_negative() {
-                    (&k + ratio(1, 2)).to_integer()
-                } else {
-                    (&k - ratio(1, 2)).to_integer()
-                };
-                if !whole.is_zero() {
-                    out.push(e.power(Expr::from(Rational::from(whole))));
-                }
-                if k.is_negative() {
-                    below_root.push(e)
-                } else {
-                    rooted.push(e)
-                }
-            } else {
-                out.push(e.power(Expr::from(k)));
+        let mut rooted: Vec<Expr> = Vec::new();
+        let mut rooted_below = 0;
+        for Factor {
+            base, power, joins, ..
+        } in factors
+        {
+            if !joins || *power.denom() != Int::from(2) {
+                out.push(base.power(Expr::from(power)));
+                continue;
             }
+            let half = if power.is_negative() {
+                ratio(-1, 2)
+            } else {
+                ratio(1, 2)
+            };
+            let whole = &power - &half;
+            if !whole.is_zero() {
+                out.push(base.power(Expr::from(whole)));
+            }
+            rooted_below += usize::from(power.is_negative());
+            rooted.push(if power.is_negative() {
+                base.powi(-1)
+            } else {
+                base
+            });
         }
-        if !rooted.is_empty() {
+        if rooted_below == rooted.len() && rooted_below > 0 {
+            // Nothing above: 1/√(ab).
+            let inverse = rooted.iter().map(|e| e.powi(-1));
+            out.push(Expr::product(inverse).power(Expr::ratio(-1, 2)));
+        } else if !rooted.is_empty() {
             out.push(Expr::product(rooted).power(Expr::ratio(1, 2)));
         }
-        if !below_root.is_empty() {
-            out.push(Expr::product(below_root).power(Expr::ratio(-1, 2)));
-        }
         Expr::product(out)
-    }
-
-    /// Order of factors: symbols, then roots and calls, then sums.
-    fn rank(&self, e: &Expr, sum: bool) -> u8 {
-        match e.node() {
-            _ if sum => 3,
-            Node::Number(_) => 0,
-            Node::Symbol(_) => 1,
-            _ => 2,
-        }
     }
 
     /// A generator as base and exponent.
@@ -243,69 +184,233 @@ impl Field {
 
     /// A sum with a positive term in front, if it has one; whether its sign was turned; whether it has both signs.
     fn sum(&self, p: &Poly) -> (Expr, bool, bool) {
-        let mut terms: Vec<(Mono, Int)> = self.shortened(p);
-        let minus = terms.iter().filter(|(_, c)| c.is_negative()).count();
+        let mut terms = self.shortened(p);
+        let minus = terms.iter().filter(|t| t.coeff.is_negative()).count();
         let mixed = minus > 0 && minus < terms.len();
         // More minus than plus, or as many and a number that is negative: the other way round reads better.
-        let number_negative = terms
-            .iter()
-            .any(|(m, c)| c.is_negative() && mono_variables(m).is_empty());
+        let number_negative = terms.iter().any(|t| t.coeff.is_negative() && t.is_number());
         let flip = 2 * minus > terms.len() || (2 * minus == terms.len() && number_negative);
         if flip {
-            terms.iter_mut().for_each(|(_, c)| *c = -c.clone());
+            terms.iter_mut().for_each(|t| t.coeff = -t.coeff.clone());
         }
-        terms.sort_by_key(|(m, c)| (c.is_negative(), !mono_variables(m).is_empty()));
-        let exprs = terms.iter().map(|(m, c)| self.term(m, c));
-        (Expr::sum(exprs), flip, mixed)
+        let mut written = self.grouped(terms);
+        written.sort_by_key(|(first, e)| (is_negative(e), *first));
+        (Expr::sum(written.into_iter().map(|(_, e)| e)), flip, mixed)
     }
 
-    fn term(&self, mono: &[u64], coeff: &Int) -> Expr {
-        let parts = Parts {
-            content: coeff.clone(),
-            factors: mono_variables(mono)
-                .into_iter()
-                .map(|v| (Poly::var(v), exponent(mono, v)))
-                .collect(),
-        };
-        self.assemble(
-            &parts,
-            &Parts {
-                content: Int::one(),
-                factors: Vec::new(),
-            },
-        )
+    /// Writes the terms, those with a common factor under one bracket where that is shorter. Each comes with its place
+    /// in the natural order: numbers first, then by degree.
+    fn grouped(&self, mut terms: Vec<Term>) -> Vec<((u32, usize), Expr)> {
+        terms.sort_by_key(Term::degree);
+        let mut out = Vec::new();
+        let mut at = 0;
+        while terms.len() > 2 && terms.len() <= MOST_GROUPED {
+            let Some(group) = best_group(&terms) else {
+                break;
+            };
+            let mut total = Poly::zero();
+            let mut first = u32::MAX;
+            for i in group.into_iter().rev() {
+                let term = terms.remove(i);
+                first = first.min(term.degree());
+                total = total.add(&Poly::term(&term.mono, term.coeff));
+            }
+            out.push(((first, at), self.written(&Element::from_poly(total))));
+            at += 1;
+        }
+        for term in terms {
+            let parts = Parts {
+                content: term.coeff.clone(),
+                factors: mono_variables(&term.mono)
+                    .into_iter()
+                    .map(|v| (Poly::var(v), exponent(&term.mono, v)))
+                    .collect(),
+            };
+            let plain = self.assemble(&parts, &Parts::one());
+            let degree = term.degree();
+            out.push((
+                (degree, at),
+                match term.gathered {
+                    Some(e) => plain * e,
+                    None => plain,
+                },
+            ));
+            at += 1;
+        }
+        out
     }
 
-    /// Terms with a X − a X c² joined to a X s².
-    fn shortened(&self, p: &Poly) -> Vec<(Mono, Int)> {
-        let mut terms: Vec<(Mono, Int)> = p.terms().map(|(m, c)| (m.to_vec(), c.clone())).collect();
+    /// Terms a X − a X c² joined to a X s², and cos α cos β ± sin α sin β and the like to one function of α ± β.
+    fn shortened(&self, p: &Poly) -> Vec<Term> {
+        let mut terms: Vec<Term> = p
+            .terms()
+            .map(|(m, c)| Term {
+                mono: m.to_vec(),
+                coeff: c.clone(),
+                gathered: None,
+            })
+            .collect();
         for (c, s) in self.circles() {
+            if !p.has(c) && !p.has(s) {
+                continue;
+            }
             for (c, s) in [(c, s), (s, c)] {
-                let mut i = 0;
-                while i < terms.len() {
-                    let (mono, coeff) = terms[i].clone();
-                    let partner =
-                        super::poly::mono_add(&mono, &mono_of(c, 2))
-                            .ok()
-                            .and_then(|target| {
-                                terms.iter().position(|(m, k)| {
-                                    super::poly::cmp_mono(m, &target).is_eq() && *k == -&coeff
-                                })
-                            });
-                    if let (Some(j), Ok(joined)) =
-                        (partner, super::poly::mono_add(&mono, &mono_of(s, 2)))
-                    {
-                        terms[i] = (joined, coeff);
-                        terms.remove(j);
-                        i = 0;
-                        continue;
+                join(&mut terms, &mono_of(c, 0), &mono_of(c, 2), |same| {
+                    if same {
+                        None
+                    } else {
+                        Some((mono_of(s, 2), None))
                     }
-                    i += 1;
-                }
+                });
+            }
+        }
+        let present: Vec<usize> = (0..self.bases.len())
+            .filter(|i| p.has(self.bases[*i].cos) || p.has(self.bases[*i].sin))
+            .collect();
+        for (k, &i) in present.iter().enumerate() {
+            for &j in &present[k + 1..] {
+                let (a, b) = (&self.bases[i], &self.bases[j]);
+                let pair = |x: usize, y: usize| {
+                    mono_add(&mono_of(x, 1), &mono_of(y, 1)).unwrap_or_default()
+                };
+                let plus = || self.angle(i) + self.angle(j);
+                let minus = || self.angle(i) - self.angle(j);
+                join(
+                    &mut terms,
+                    &pair(a.cos, b.cos),
+                    &pair(a.sin, b.sin),
+                    |same| {
+                        Some((
+                            Mono::new(),
+                            Some(if same { minus().cos() } else { plus().cos() }),
+                        ))
+                    },
+                );
+                join(
+                    &mut terms,
+                    &pair(a.sin, b.cos),
+                    &pair(a.cos, b.sin),
+                    |same| {
+                        Some((
+                            Mono::new(),
+                            Some(if same { plus().sin() } else { minus().sin() }),
+                        ))
+                    },
+                );
             }
         }
         terms
     }
+}
+
+/// Joins k·X·first and ±k·X·second to k·X·(what `joined` gives for equal or opposite coefficients).
+fn join(
+    terms: &mut Vec<Term>,
+    first: &[u64],
+    second: &[u64],
+    joined: impl Fn(bool) -> Option<(Mono, Option<Expr>)>,
+) {
+    let mut i = 0;
+    while i < terms.len() {
+        let term = terms[i].clone();
+        i += 1;
+        if term.gathered.is_some() || !mono_divides(first, &term.mono) {
+            continue;
+        }
+        let common = mono_div(&term.mono, first);
+        let Ok(target) = mono_add(&common, second) else {
+            continue;
+        };
+        let partner = terms.iter().position(|t| {
+            t.gathered.is_none()
+                && cmp_mono(&t.mono, &target).is_eq()
+                && t.coeff.abs() == term.coeff.abs()
+        });
+        let Some(j) = partner else { continue };
+        let Some((extra, gathered)) = joined(terms[j].coeff == term.coeff) else {
+            continue;
+        };
+        let Ok(mono) = mono_add(&common, &extra) else {
+            continue;
+        };
+        terms[i - 1] = Term {
+            mono,
+            coeff: term.coeff,
+            gathered,
+        };
+        terms.remove(j);
+        i = 0;
+    }
+}
+
+/// The terms that are best written under one bracket, ascending; `None` where that saves nothing.
+fn best_group(terms: &[Term]) -> Option<Vec<usize>> {
+    let mut best: Option<(usize, usize, Vec<usize>)> = None;
+    let mut variables: Vec<usize> = terms.iter().flat_map(|t| mono_variables(&t.mono)).collect();
+    variables.sort_unstable();
+    variables.dedup();
+    for v in variables {
+        let group: Vec<usize> = (0..terms.len())
+            .filter(|i| terms[*i].gathered.is_none() && exponent(&terms[*i].mono, v) > 0)
+            .collect();
+        if group.len() < 2 || group.len() == terms.len() {
+            continue;
+        }
+        let mut common = terms[group[0]].mono.clone();
+        for i in &group {
+            common = super::poly::mono_min(&common, &terms[*i].mono);
+        }
+        let inside: usize = group
+            .iter()
+            .map(|i| letters(&mono_div(&terms[*i].mono, &common)).max(2))
+            .sum();
+        let outside = letters(&common) + 2;
+        let before: usize = group.iter().map(|i| letters(&terms[*i].mono)).sum();
+        if let Some(saving) = before.checked_sub(inside + outside).filter(|s| *s > 0) {
+            let weight = letters(&common);
+            if best
+                .as_ref()
+                .is_none_or(|(s, w, _)| (saving, weight) > (*s, *w))
+            {
+                best = Some((saving, weight, group));
+            }
+        }
+    }
+    best.map(|(_, _, group)| group)
+}
+
+impl Term {
+    fn is_number(&self) -> bool {
+        self.gathered.is_none() && mono_variables(&self.mono).is_empty()
+    }
+
+    fn degree(&self) -> u32 {
+        let own: u32 = mono_variables(&self.mono)
+            .iter()
+            .map(|v| exponent(&self.mono, *v))
+            .sum();
+        own + u32::from(self.gathered.is_some())
+    }
+}
+
+/// A factor of a written product.
+struct Factor {
+    rank: Rank,
+    base: Expr,
+    power: Rational,
+    /// Whether its square root may go under a common root sign.
+    joins: bool,
+}
+
+/// Order of factors.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Rank {
+    Number,
+    /// Masses stand before other symbols, as in m l².
+    Mass,
+    Symbol,
+    Other,
+    Sum,
 }
 
 /// The negative of a sum, its positive terms in front again.
@@ -323,88 +428,5 @@ fn is_negative(term: &Expr) -> bool {
         Node::Number(value) => value.is_negative(),
         Node::Product(factors) => factors[0].as_number().is_some_and(Signed::is_negative),
         _ => false,
-    }
-}
-
-/// c² → 1 − s² throughout; s may then occur squared.
-fn exchange(p: &Poly, c: usize, s: usize) -> Option<Poly> {
-    let value = Poly::one().sub(&Poly::var(s).mul(&Poly::var(s)).ok()?);
-    let mut total = Poly::zero();
-    for (q, chunk) in p.by_power(c).chunks(2).enumerate() {
-        let block = Poly::from_powers(chunk, c).ok()?;
-        total = total.add(&block.mul(&value.pow(q as u32).ok()?).ok()?);
-    }
-    Some(total)
-}
-
-/// content · ∏ factorᵏ; single generators are factors of one term.
-#[derive(Clone, Debug)]
-struct Parts {
-    content: Int,
-    factors: Vec<(Poly, u32)>,
-}
-
-impl Parts {
-    fn of(p: &Poly, fuel: &Fuel) -> Parts {
-        let found = factor(p, fuel);
-        let mut out = Parts {
-            content: found.content,
-            factors: Vec::new(),
-        };
-        for v in mono_variables(&found.mono) {
-            out.note(Poly::var(v), exponent(&found.mono, v));
-        }
-        for (f, k) in found.factors {
-            out.note(f, k);
-        }
-        out
-    }
-
-    fn note(&mut self, p: Poly, times: u32) {
-        match self.factors.iter_mut().find(|(f, _)| *f == p) {
-            Some((_, k)) => *k += times,
-            None => self.factors.push((p, times)),
-        }
-    }
-}
-
-/// Removes what both have in common.
-fn strike(above: &mut Parts, below: &mut Parts, fuel: &Fuel) {
-    let fuel = &fuel.portion();
-    let mut i = 0;
-    while i < above.factors.len() {
-        let mut j = 0;
-        while i < above.factors.len() && j < below.factors.len() {
-            let ((a, k), (b, l)) = (above.factors[i].clone(), below.factors[j].clone());
-            let g = if a == b {
-                a.clone()
-            } else if a.len() == 1 || b.len() == 1 {
-                Poly::one()
-            } else {
-                gcd(&a, &b, fuel).unwrap_or_else(|_| Poly::one())
-            };
-            if g.is_constant() {
-                j += 1;
-                continue;
-            }
-            let (Some(qa), Some(qb)) = (a.try_div(&g), b.try_div(&g)) else {
-                j += 1;
-                continue;
-            };
-            let both = k.min(l);
-            let split = |parts: &mut Parts, at: usize, q: Poly, k: u32| {
-                parts.factors.remove(at);
-                if !q.is_constant() {
-                    parts.note(q, k);
-                }
-                if k > both {
-                    parts.note(g.clone(), k - both);
-                }
-            };
-            split(above, i, qa, k);
-            split(below, j, qb, l);
-            (i, j) = (0, 0);
-        }
-        i += 1;
     }
 }

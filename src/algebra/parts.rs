@@ -1,0 +1,219 @@
+//! Products taken apart for writing: factors and their powers, the shorter of the trigonometric forms, lowest terms.
+
+use num_traits::{One, Signed};
+
+use super::factor::factor;
+use super::field::{Field, Kind};
+use super::gcd::{Fuel, gcd};
+use super::poly::{Poly, exponent, mono_variables};
+use crate::expr::Int;
+
+/// content · ∏ factorᵏ; single generators are factors of one term.
+#[derive(Clone, Debug)]
+pub(crate) struct Parts {
+    pub content: Int,
+    pub factors: Vec<(Poly, u32)>,
+}
+
+impl Parts {
+    pub fn one() -> Parts {
+        Parts {
+            content: Int::one(),
+            factors: Vec::new(),
+        }
+    }
+
+    fn of(p: &Poly, fuel: &Fuel) -> Parts {
+        let found = factor(p, fuel);
+        let mut out = Parts {
+            content: found.content,
+            factors: Vec::new(),
+        };
+        for v in mono_variables(&found.mono) {
+            out.note(Poly::var(v), exponent(&found.mono, v));
+        }
+        for (f, k) in found.factors {
+            out.note(f, k);
+        }
+        out
+    }
+
+    pub fn note(&mut self, p: Poly, times: u32) {
+        match self.factors.iter_mut().find(|(f, _)| *f == p) {
+            Some((_, k)) => *k += times,
+            None => self.factors.push((p, times)),
+        }
+    }
+
+    /// Joins (x − y)(x + y) to x² − y², which is shorter.
+    pub fn join_conjugates(&mut self) {
+        let mut i = 0;
+        while i < self.factors.len() {
+            let (f, k) = self.factors[i].clone();
+            let partner = (i + 1..self.factors.len()).find_map(|j| {
+                let (g, l) = &self.factors[j];
+                let product = if f.len() == 2 && g.len() == 2 && k == *l {
+                    f.mul(g).ok()?
+                } else {
+                    return None;
+                };
+                (product.len() == 2).then_some((j, product))
+            });
+            match partner {
+                Some((j, product)) => {
+                    self.factors.remove(j);
+                    self.factors[i].0 = product;
+                }
+                None => i += 1,
+            }
+        }
+    }
+}
+
+impl Field {
+    /// Factors of the shorter of the forms without sin² and without cos².
+    pub(crate) fn taken_apart(&self, p: &Poly) -> Parts {
+        let mut best = Parts::of(p, &self.fuel);
+        let mut form = p.clone();
+        for (c, s) in self.circles() {
+            if form.degree(c) < 2 {
+                continue;
+            }
+            let Some(other) = exchange(&form, c, s) else {
+                continue;
+            };
+            let candidate = Parts::of(&other, &self.fuel);
+            if self.length(&candidate) < self.length(&best) {
+                best = candidate;
+                form = other;
+            }
+        }
+        self.gather_squares(&mut best);
+        best
+    }
+
+    /// Pairs of generators with a² + b² = 1.
+    pub(crate) fn circles(&self) -> Vec<(usize, usize)> {
+        let mut out: Vec<(usize, usize)> = self.bases.iter().map(|b| (b.cos, b.sin)).collect();
+        for &g in &self.algebraic {
+            if let (Kind::Symbol(_), Some((2, value))) =
+                (&self.gens[g].kind, &self.gens[g].relation)
+            {
+                if let Some(a) = value.variables().first() {
+                    out.push((*a, g));
+                }
+            }
+        }
+        out
+    }
+
+    /// Printed length, roughly.
+    fn length(&self, parts: &Parts) -> usize {
+        let mut total = 0;
+        for (f, k) in &parts.factors {
+            let own: usize = f
+                .terms()
+                .map(|(m, c)| {
+                    letters(m)
+                        + usize::from(!c.abs().is_one()) * 2
+                        + 2
+                        + usize::from(c.is_negative())
+                })
+                .sum();
+            total += own + usize::from(f.len() > 1) * 2 + usize::from(*k > 1);
+        }
+        total
+    }
+
+    /// Turns (1−c)(1+c) into s².
+    fn gather_squares(&self, parts: &mut Parts) {
+        for (c, s) in self.circles() {
+            for (c, s) in [(c, s), (s, c)] {
+                let (one, x) = (Poly::one(), Poly::var(c));
+                let (minus, plus) = (x.sub(&one), x.add(&one));
+                let times = |p: &Poly| {
+                    parts
+                        .factors
+                        .iter()
+                        .find(|(f, _)| f == p)
+                        .map_or(0, |(_, k)| *k)
+                };
+                let both = times(&minus).min(times(&plus));
+                if both == 0 {
+                    continue;
+                }
+                for (f, k) in &mut parts.factors {
+                    if *f == minus || *f == plus {
+                        *k -= both;
+                    }
+                }
+                parts.factors.retain(|(_, k)| *k > 0);
+                parts.note(Poly::var(s), 2 * both);
+                if both % 2 == 1 {
+                    parts.content = -parts.content.clone();
+                }
+            }
+        }
+    }
+}
+
+/// Length of a written monomial, roughly: three characters a factor, two more for an exponent.
+pub(crate) fn letters(mono: &[u64]) -> usize {
+    mono_variables(mono)
+        .iter()
+        .map(|v| if exponent(mono, *v) > 1 { 5 } else { 3 })
+        .sum()
+}
+
+/// c² → 1 − s² throughout; s may then occur squared.
+fn exchange(p: &Poly, c: usize, s: usize) -> Option<Poly> {
+    let value = Poly::one().sub(&Poly::var(s).mul(&Poly::var(s)).ok()?);
+    let mut total = Poly::zero();
+    for (q, chunk) in p.by_power(c).chunks(2).enumerate() {
+        let block = Poly::from_powers(chunk, c).ok()?;
+        total = total.add(&block.mul(&value.pow(q as u32).ok()?).ok()?);
+    }
+    Some(total)
+}
+
+/// Removes what both have in common.
+pub(crate) fn strike(above: &mut Parts, below: &mut Parts, fuel: &Fuel) {
+    let fuel = &fuel.portion();
+    let mut i = 0;
+    while i < above.factors.len() {
+        let mut j = 0;
+        while i < above.factors.len() && j < below.factors.len() {
+            let ((a, k), (b, l)) = (above.factors[i].clone(), below.factors[j].clone());
+            let g = if a == b {
+                a.clone()
+            } else if a.len() == 1 || b.len() == 1 {
+                Poly::one()
+            } else {
+                gcd(&a, &b, fuel).unwrap_or_else(|_| Poly::one())
+            };
+            let quotients = if g.is_constant() {
+                None
+            } else {
+                a.try_div(&g).zip(b.try_div(&g))
+            };
+            let Some((qa, qb)) = quotients else {
+                j += 1;
+                continue;
+            };
+            let both = k.min(l);
+            let split = |parts: &mut Parts, at: usize, q: Poly, k: u32| {
+                parts.factors.remove(at);
+                if !q.is_constant() {
+                    parts.note(q, k);
+                }
+                if k > both {
+                    parts.note(g.clone(), k - both);
+                }
+            };
+            split(above, i, qa, k);
+            split(below, j, qb, l);
+            (i, j) = (0, 0);
+        }
+        i += 1;
+    }
+}
