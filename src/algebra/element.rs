@@ -1,8 +1,9 @@
 //! An element of a field: a reduced numerator over a denominator kept in factors.
 
+use num_integer::Integer;
 use num_traits::One;
 
-use super::poly::{Mono, Poly, mono_is_one};
+use super::poly::{Mono, Poly, cmp_mono, mono_is_one};
 use crate::expr::Int;
 
 /// A quotient in normal form; arithmetic is the [`super::Field`]'s. Zero exactly when the numerator is zero.
@@ -36,6 +37,46 @@ impl Element {
 
     pub(crate) fn var(v: usize) -> Element {
         Element::from_poly(Poly::var(v))
+    }
+
+    /// a ± b for multiples of the same monomial with small numbers: most coefficients of a chain of bodies are such.
+    pub(crate) fn plus_like_monomial(&self, other: &Element, minus: bool) -> Option<Element> {
+        if self.num.len() != 1
+            || other.num.len() != 1
+            || !self.den.factors.is_empty()
+            || !other.den.factors.is_empty()
+        {
+            return None;
+        }
+        let same = |a: &[u64], b: &[u64]| cmp_mono(a, b).is_eq();
+        if !same(self.num.mono(0), other.num.mono(0)) || !same(&self.den.mono, &other.den.mono) {
+            return None;
+        }
+        let word = |x: &Int| x.as_i64().map(i128::from);
+        let (na, da) = (word(self.num.coeff(0))?, word(&self.den.int)?);
+        let (nb, db) = (word(other.num.coeff(0))?, word(&other.den.int)?);
+        // Denominators p·g and q·g: only g can cancel. A sum of two products of 64-bit words fits 128 bits, but for one case.
+        let g = gcd(da, db);
+        let (left, right) = (na * (db / g), nb * (da / g));
+        let n = if minus {
+            left.checked_sub(right)?
+        } else {
+            left.checked_add(right)?
+        };
+        if n == 0 {
+            return Some(Element::zero());
+        }
+        let shared = gcd(n, g);
+        let int = Int::from((da / g).checked_mul(db / shared)?);
+        let num = Poly::term(self.num.mono(0), Int::from(n / shared));
+        Some(Element {
+            num,
+            den: Den {
+                int,
+                mono: self.den.mono.clone(),
+                factors: Vec::new(),
+            },
+        })
     }
 
     /// Length of the stored form, in terms; a measure for choosing the simpler of two.
@@ -87,5 +128,14 @@ impl PartialEq for Den {
         self.int == other.int
             && super::poly::cmp_mono(&self.mono, &other.mono).is_eq()
             && self.factors == other.factors
+    }
+}
+
+/// gcd of anything and a positive word: 64-bit steps after the first.
+fn gcd(n: i128, word: i128) -> i128 {
+    let rest = n.unsigned_abs() % word.unsigned_abs();
+    match (u64::try_from(rest), u64::try_from(word)) {
+        (Ok(a), Ok(b)) => i128::from(a.gcd(&b)),
+        _ => n.gcd(&word),
     }
 }

@@ -237,21 +237,10 @@ impl Field {
             let Some((degree, value)) = &self.gens[g].relation else {
                 continue;
             };
-            if p.degree(g) < *degree {
-                continue;
+            while let Some((low, high)) = p.divide_by_power(g, *degree) {
+                self.fuel.burn(high.len() * value.len())?;
+                p = low.add(&high.mul(value)?);
             }
-            let n = *degree as usize;
-            let parts = p.by_power(g);
-            let mut total = Poly::zero();
-            let mut power = Poly::one();
-            for (q, chunk) in parts.chunks(n).enumerate() {
-                if q > 0 {
-                    power = self.reduce(power.mul(value)?)?;
-                }
-                let block = Poly::from_powers(chunk, g)?;
-                total = total.add(&if q == 0 { block } else { block.mul(&power)? });
-            }
-            p = total;
         }
         // A value may bring back powers of generators adjoined earlier only; those come later in the loop above.
         Ok(p)
@@ -314,6 +303,9 @@ impl Field {
         }
         if a.num.is_zero() {
             return Ok(if minus { self.neg(b) } else { b.clone() });
+        }
+        if let Some(sum) = a.plus_like_monomial(b, minus) {
+            return Ok(sum);
         }
         let join = |x: &Poly, y: &Poly| if minus { x.sub(y) } else { x.add(y) };
         if a.den == b.den {

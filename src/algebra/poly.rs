@@ -410,9 +410,17 @@ impl Poly {
             return None;
         }
         let stride = self.stride.max(divisor.stride);
-        let (mut rest, divisor) = (self.widened(stride).into_owned(), divisor.widened(stride));
+        let (dividend, divisor) = (self.widened(stride), divisor.widened(stride));
+        let smallest = dividend.mono(self.len() - 1);
         let (mut exps, mut coeffs) = (Vec::new(), Vec::new());
-        let smallest = self.widened(stride).mono(self.len() - 1).to_vec();
+        // The remainder without its leading term is merged with the next multiple of the divisor, back and forth between
+        // two buffers.
+        let mut rest = dividend.clone().into_owned();
+        let mut next = Poly {
+            stride,
+            exps: Vec::with_capacity(rest.exps.len()),
+            coeffs: Vec::with_capacity(rest.len()),
+        };
         while !rest.is_zero() {
             let (quotient, remainder) = rest.coeffs[0].div_rem(&divisor.coeffs[0]);
             if !remainder.is_zero()
@@ -423,10 +431,30 @@ impl Poly {
             }
             let mono = mono_div(rest.mono(0), divisor.mono(0));
             // The quotient's terms times the divisor's last term stay above the dividend's last term.
-            if cmp_mono(&mono_add(&mono, divisor.mono(last)).ok()?, &smallest) == Ordering::Less {
+            if cmp_mono(&mono_add(&mono, divisor.mono(last)).ok()?, smallest) == Ordering::Less {
                 return None;
             }
-            rest = rest.sub(&divisor.mul_term(&mono, &quotient).ok()?);
+            next.exps.clear();
+            next.coeffs.clear();
+            let mut i = 1;
+            for j in 1..divisor.len() {
+                let shifted = mono_add(&mono, divisor.mono(j)).ok()?;
+                let taken = &quotient * &divisor.coeffs[j];
+                while i < rest.len() && rest.mono(i) > shifted.as_slice() {
+                    next.push(rest.mono(i), rest.coeffs[i].clone());
+                    i += 1;
+                }
+                if i < rest.len() && rest.mono(i) == shifted.as_slice() {
+                    next.push(&shifted, &rest.coeffs[i] - &taken);
+                    i += 1;
+                } else {
+                    next.push(&shifted, -taken);
+                }
+            }
+            for k in i..rest.len() {
+                next.push(rest.mono(k), rest.coeffs[k].clone());
+            }
+            std::mem::swap(&mut rest, &mut next);
             exps.extend_from_slice(&mono);
             coeffs.push(quotient);
         }
@@ -435,6 +463,14 @@ impl Poly {
             exps,
             coeffs,
         })
+    }
+
+    /// Appends a term below the last one, unless its coefficient is zero.
+    fn push(&mut self, mono: &[u64], coeff: Int) {
+        if !coeff.is_zero() {
+            self.exps.extend_from_slice(mono);
+            self.coeffs.push(coeff);
+        }
     }
 
     /// The square root with positive leading coefficient, when the polynomial is a square.
@@ -541,6 +577,32 @@ impl Poly {
             }
         }
         Ok(total)
+    }
+
+    /// p = low + high·vⁿ where low has degree below n; `None` when high is zero.
+    pub fn divide_by_power(&self, v: usize, n: u32) -> Option<(Poly, Poly)> {
+        let is_high = |mono: &[u64]| exponent(mono, v) >= n;
+        let count = self.terms().filter(|(m, _)| is_high(m)).count();
+        if count == 0 {
+            return None;
+        }
+        let (word, shift) = place(v);
+        let part = |n: usize| Poly {
+            stride: self.stride,
+            exps: Vec::with_capacity(n * self.stride),
+            coeffs: Vec::with_capacity(n),
+        };
+        let (mut low, mut high) = (part(self.len() - count), part(count));
+        for (mono, coeff) in self.terms() {
+            let target = if is_high(mono) { &mut high } else { &mut low };
+            let start = target.exps.len();
+            target.exps.extend_from_slice(mono);
+            if is_high(mono) {
+                target.exps[start + word] -= u64::from(n) << shift;
+            }
+            target.coeffs.push(coeff.clone());
+        }
+        Some((low, high))
     }
 
     pub fn derivative(&self, v: usize) -> Poly {
