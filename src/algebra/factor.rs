@@ -174,3 +174,29 @@ pub(crate) fn square_part(value: &Int) -> (Int, Int) {
     }
     (root, rest)
 }
+
+/// Prime factors as far as small primes reach; what is left counts as one.
+pub(crate) fn primes_with_powers(value: &Int) -> Vec<(Int, u32)> {
+    let mut rest = value.clone();
+    let mut out = Vec::new();
+    let mut p = 2i64;
+    while p < 2_000 && !rest.is_one() && !rest.is_zero() {
+        let prime = Int::from(p);
+        if &prime * &prime > rest {
+            break;
+        }
+        let mut k = 0;
+        while (&rest % &prime).is_zero() {
+            rest /= &prime;
+            k += 1;
+        }
+        if k > 0 {
+            out.push((prime, k));
+        }
+        p += if p == 2 { 1 } else { 2 };
+    }
+    if !rest.is_one() {
+        out.push((rest, 1));
+    }
+    out
+}

@@ -129,7 +129,13 @@ impl Field {
                 );
             }
         }
-        for (name, divisor) in found.angles {
+        // Arguments such as ω t: the plain ones first, those with functions inside once the angles of these are known.
+        found.others.sort_by_key(|e| (e.size(), e.clone()));
+        found.others.dedup();
+        let (nested, plain): (Vec<Expr>, Vec<Expr>) = found.others.into_iter().partition(has_call);
+        let mut terms = Vec::new();
+        self.note_terms(&plain, &mut found.angles, &mut terms);
+        for (name, divisor) in std::mem::take(&mut found.angles) {
             if !self
                 .bases
                 .iter()
@@ -138,21 +144,7 @@ impl Field {
                 self.add_base(AngleOf::Symbol(name), divisor);
             }
         }
-        // Arguments such as ω t: read them in order of their own size, so that inner ones come first.
-        found.others.sort_by_key(|e| (e.size(), e.clone()));
-        found.others.dedup();
-        let mut terms: Vec<(Element, Int)> = Vec::new();
-        for argument in &found.others {
-            let Ok(element) = self.element(argument) else {
-                continue;
-            };
-            for (term, factor) in self.angle_terms(&element) {
-                match terms.iter_mut().find(|(t, _)| self.equal(t, &term)) {
-                    Some((_, divisor)) => *divisor = divisor.lcm(factor.denom()),
-                    None => terms.push((term, factor.denom().clone())),
-                }
-            }
-        }
+        self.note_terms(&nested, &mut found.angles, &mut terms);
         for (term, divisor) in terms {
             let known = self
                 .bases
@@ -162,6 +154,36 @@ impl Field {
                 (known, divisor.as_i64().and_then(|d| u32::try_from(d).ok()))
             {
                 self.add_base(AngleOf::Term(term), divisor);
+            }
+        }
+    }
+
+    /// The terms of arguments with the least common denominators of their coefficients; bare symbols among the angles.
+    fn note_terms(
+        &mut self,
+        arguments: &[Expr],
+        angles: &mut BTreeMap<Symbol, u32>,
+        terms: &mut Vec<(Element, Int)>,
+    ) {
+        for argument in arguments {
+            let Ok(element) = self.element(argument) else {
+                continue;
+            };
+            for (term, factor) in self.angle_terms(&element) {
+                match self.as_symbol(&term) {
+                    Some(name) if &*name == "pi" => {}
+                    Some(name) => {
+                        let divisor = angles.entry(name).or_insert(1);
+                        if let Some(d) = factor.denom().as_i64().and_then(|d| u32::try_from(d).ok())
+                        {
+                            *divisor = divisor.lcm(&d.min(1_000)).min(1_000_000);
+                        }
+                    }
+                    None => match terms.iter_mut().find(|(t, _)| self.equal(t, &term)) {
+                        Some((_, divisor)) => *divisor = divisor.lcm(factor.denom()),
+                        None => terms.push((term, factor.denom().clone())),
+                    },
+                }
             }
         }
     }
@@ -620,6 +642,13 @@ impl Den {
         }
         Ok(total)
     }
+}
+
+/// Whether a function is called somewhere inside.
+fn has_call(e: &Expr) -> bool {
+    let mut found = false;
+    e.walk(&mut |part| found |= matches!(part.node(), Node::Call(..)));
+    found
 }
 
 /// Symbols and angles met in expressions.

@@ -3,10 +3,11 @@
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-use super::Stop;
 use super::element::{Den, Element};
-use super::field::{AngleOf, Field, Kind};
-use super::poly::{Poly, exponent};
+use super::factor::{factor, primes_with_powers};
+use super::field::{AngleOf, Field, Generator, Kind};
+use super::poly::{Poly, exponent, mono_variables};
+use super::{Sign, Stop};
 use crate::expr::angle::angle;
 use crate::expr::{Expr, Function, Int, Node, Rational, Symbol, ratio};
 
@@ -146,29 +147,42 @@ impl Field {
             return Ok(Element::zero());
         }
         self.complete = false;
+        match function {
+            Ln => {
+                if let Some(sum) = self.logarithm(&argument)? {
+                    return Ok(sum);
+                }
+            }
+            Exp => return self.exponential(&argument),
+            Acos => {
+                // acos x = π/2 − asin x would be a relation between two generators: keep only asin.
+                let asin = self.call(Asin, argument)?;
+                let pi = self.symbol(&Symbol::from("pi"));
+                let half = self.mul(&Element::var(pi), &self.number(&ratio(1, 2)))?;
+                return self.sub(&half, &asin);
+            }
+            _ => {}
+        }
         let odd = matches!(function, Sin | Tan | Asin | Atan | Sinh | Tanh);
         let even = matches!(function, Cos | Cosh);
         let flip = (odd || even) && argument.num.leading_is_negative();
         let argument = if flip { self.neg(&argument) } else { argument };
-        let known = self.gens.iter().position(|g| match &g.kind {
-            Kind::Call(f, x) => *f == function && self.equal(x, &argument),
-            _ => false,
-        });
-        if let (None, Acos) = (known, function) {
-            // acos x = π/2 − asin x would be a relation between two generators: keep only asin.
-            let asin = self.call(Asin, argument)?;
-            let pi = self.symbol(&Symbol::from("pi"));
-            let half = self.mul(&Element::var(pi), &self.number(&ratio(1, 2)))?;
-            return self.sub(&half, &asin);
-        }
-        let v = known.unwrap_or_else(|| self.adjoin(Kind::Call(function, argument)));
-        let value = Element::var(v);
+        let exact = if matches!(function, Asin | Atan) {
+            self.exact_angle(function, &argument)?
+        } else {
+            None
+        };
+        let value = match exact {
+            Some(value) => value,
+            None => self.opaque(function, argument),
+        };
         Ok(if flip && odd { self.neg(&value) } else { value })
     }
 
     /// Cosine and sine of an argument, when it is a combination of known base angles and of π.
     fn direction(&mut self, argument: &Expr, depth: u32) -> Result<Option<Direction>, Stop> {
         let mut parts: Vec<(usize, i64)> = Vec::new();
+        let mut units: Vec<(Direction, i64)> = Vec::new();
         let pi;
         match angle(argument) {
             Some(read) => {
@@ -192,12 +206,31 @@ impl Field {
                         turns = factor;
                         continue;
                     }
+                    if let Some(unit) = self.inverse_direction(&term)? {
+                        if let Some(k) = factor
+                            .is_integer()
+                            .then(|| factor.numer().as_i64())
+                            .flatten()
+                            .filter(|k| k.abs() <= MOST_TURNS)
+                        {
+                            units.push((unit, k));
+                            continue;
+                        }
+                    }
+                    // Sums of fractions with different denominators may depend on each other.
+                    if !term.den.factors.is_empty() {
+                        self.complete = false;
+                    }
+                    let of = match self.as_symbol(&term) {
+                        Some(name) => AngleOf::Symbol(name),
+                        None => AngleOf::Term(term.clone()),
+                    };
                     let same = |b: &AngleOf| match b {
                         AngleOf::Term(t) => self.equal(t, &term),
                         AngleOf::Symbol(name) => self.is_symbol(&term, name),
                     };
                     let known = self.bases.iter().position(|b| same(&b.of));
-                    let Some(part) = self.turns(known, AngleOf::Term(term), &factor)? else {
+                    let Some(part) = self.turns(known, of, &factor)? else {
                         return Ok(None);
                     };
                     parts.push(part);
@@ -209,10 +242,10 @@ impl Field {
             return Ok(None);
         };
         for (base, k) in parts {
-            let unit = [
-                Element::var(self.bases[base].cos),
-                Element::var(self.bases[base].sin),
-            ];
+            let base = &self.bases[base];
+            units.push(([Element::var(base.cos), Element::var(base.sin)], k));
+        }
+        for (unit, k) in units {
             let part = self.multiple(&unit, k)?;
             total = self.turn(&total, &part)?;
         }
@@ -249,13 +282,195 @@ impl Field {
         Ok(Some((base, k)))
     }
 
-    fn is_symbol(&self, x: &Element, name: &Symbol) -> bool {
-        x.den.is_one() && x.num.len() == 1 && x.num.coeff(0).is_one() && {
-            let variables = x.num.variables();
-            variables.len() == 1
-                && exponent(x.num.mono(0), variables[0]) == 1
-                && matches!(&self.gens[variables[0]].kind, Kind::Symbol(s) if s == name)
+    /// The name, when the element is a bare symbol.
+    pub(crate) fn as_symbol(&self, x: &Element) -> Option<Symbol> {
+        match &self.gens[self.as_generator(x)?].kind {
+            Kind::Symbol(name) => Some(name.clone()),
+            _ => None,
         }
+    }
+
+    /// The variable, when the element is a bare generator.
+    fn as_generator(&self, x: &Element) -> Option<usize> {
+        if !x.den.is_one() || x.num.len() != 1 || !x.num.coeff(0).is_one() {
+            return None;
+        }
+        match x.num.variables().as_slice() {
+            [v] if exponent(x.num.mono(0), *v) == 1 => Some(*v),
+            _ => None,
+        }
+    }
+
+    fn is_symbol(&self, x: &Element, name: &Symbol) -> bool {
+        self.as_symbol(x).is_some_and(|s| s == *name)
+    }
+
+    /// Cosine and sine of asin x or atan x.
+    fn inverse_direction(&mut self, term: &Element) -> Result<Option<Direction>, Stop> {
+        let Some(v) = self.as_generator(term) else {
+            return Ok(None);
+        };
+        let Kind::Call(function @ (Function::Asin | Function::Atan), x) = self.gens[v].kind.clone()
+        else {
+            return Ok(None);
+        };
+        let square = self.mul(&x, &x)?;
+        Ok(Some(if function == Function::Asin {
+            let rest = self.sub(&self.integer(1), &square)?;
+            [self.sqrt(&rest)?, x]
+        } else {
+            let rest = self.add(&self.integer(1), &square)?;
+            let root = self.sqrt(&rest)?;
+            [self.div(&self.integer(1), &root)?, self.div(&x, &root)?]
+        }))
+    }
+
+    /// asin and atan of the exact values of sine and tangent at multiples of π/6, π/4 and π/5.
+    fn exact_angle(&mut self, function: Function, x: &Element) -> Result<Option<Element>, Stop> {
+        let constant = x
+            .num
+            .variables()
+            .into_iter()
+            .chain(mono_variables(&x.den.mono))
+            .all(|v| matches!(self.gens[v].kind, Kind::Root));
+        if !constant || !x.den.factors.is_empty() || x.num.len() > 2 {
+            return Ok(None);
+        }
+        for (p, q) in [
+            (1, 6),
+            (1, 4),
+            (1, 3),
+            (1, 2),
+            (1, 5),
+            (2, 5),
+            (1, 10),
+            (3, 10),
+            (1, 8),
+            (3, 8),
+            (1, 12),
+            (5, 12),
+        ] {
+            if (q == 5 || q == 10) && function == Function::Atan
+                || (q == 2 && function == Function::Atan)
+                || (q >= 8 && x.num.len() < 2)
+            {
+                continue;
+            }
+            let Some([cos, sin]) = self.of_pi(&ratio(p, q))? else {
+                continue;
+            };
+            let value = if function == Function::Asin {
+                sin
+            } else {
+                self.div(&sin, &cos)?
+            };
+            if self.equal(&value, x) {
+                let pi = Element::var(self.symbol(&Symbol::from("pi")));
+                return self.mul(&pi, &self.number(&ratio(p, q))).map(Some);
+            }
+        }
+        Ok(None)
+    }
+
+    /// ln of a product as a sum, where every factor is known to be positive.
+    fn logarithm(&mut self, x: &Element) -> Result<Option<Element>, Stop> {
+        let found = factor(&x.num, &self.fuel);
+        if found.content.is_negative() {
+            return Ok(None);
+        }
+        let mut parts: Vec<(Poly, i64)> = Vec::new();
+        for (value, sign) in [(&found.content, 1), (&x.den.int, -1)] {
+            parts.extend(
+                primes_with_powers(value)
+                    .into_iter()
+                    .map(|(p, k)| (Poly::constant(p), i64::from(k) * sign)),
+            );
+        }
+        for (mono, sign) in [(&found.mono, 1), (&x.den.mono, -1)] {
+            parts.extend(
+                mono_variables(mono)
+                    .into_iter()
+                    .map(|v| (Poly::var(v), i64::from(exponent(mono, v)) * sign)),
+            );
+        }
+        parts.extend(
+            found
+                .factors
+                .iter()
+                .map(|(f, k)| (f.clone(), i64::from(*k))),
+        );
+        parts.extend(
+            x.den
+                .factors
+                .iter()
+                .map(|(f, k)| (f.clone(), -i64::from(*k))),
+        );
+        if parts
+            .iter()
+            .any(|(f, _)| self.sign_poly(f) != Some(Sign::Positive))
+        {
+            return Ok(None);
+        }
+        let mut total = Element::zero();
+        for (f, k) in parts {
+            // ln √p is half of ln p.
+            let (f, k) = match self
+                .as_generator(&Element::from_poly(f.clone()))
+                .map(|v| self.gens[v].clone())
+            {
+                Some(Generator {
+                    kind: Kind::Root,
+                    relation: Some((n, value)),
+                }) => (value, ratio(k, i64::from(n))),
+                _ => (f, ratio(k, 1)),
+            };
+            let ln = self.opaque(Function::Ln, Element::from_poly(f));
+            total = self.add(&total, &self.mul(&ln, &self.number(&k))?)?;
+        }
+        Ok(Some(total))
+    }
+
+    /// e raised to a sum as a product over its terms.
+    fn exponential(&mut self, x: &Element) -> Result<Element, Stop> {
+        let mut total = self.integer(1);
+        for (term, factor) in self.angle_terms(x) {
+            let known = self
+                .gens
+                .iter()
+                .enumerate()
+                .find_map(|(v, g)| match &g.kind {
+                    Kind::Call(Function::Exp, y) => {
+                        let ratio = self.div(&term, y).ok()?.as_number()? * &factor;
+                        ratio
+                            .is_integer()
+                            .then(|| ratio.numer().as_i64())
+                            .flatten()
+                            .map(|k| (v, k))
+                    }
+                    _ => None,
+                });
+            let (v, k) = match known {
+                Some(found) => found,
+                None => {
+                    let part = Rational::new(Int::one(), factor.denom().clone());
+                    let own = self.mul(&term, &self.number(&part))?;
+                    (
+                        self.adjoin(Kind::Call(Function::Exp, own)),
+                        factor.numer().as_i64().ok_or(Stop::TooLarge("degree"))?,
+                    )
+                }
+            };
+            total = self.mul(&total, &self.pow(&Element::var(v), k)?)?;
+        }
+        Ok(total)
+    }
+
+    fn opaque(&mut self, function: Function, argument: Element) -> Element {
+        let known = self.gens.iter().position(|g| match &g.kind {
+            Kind::Call(f, x) => *f == function && self.equal(x, &argument),
+            _ => false,
+        });
+        Element::var(known.unwrap_or_else(|| self.adjoin(Kind::Call(function, argument))))
     }
 
     fn is_pi(&self, x: &Element) -> bool {

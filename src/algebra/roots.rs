@@ -4,10 +4,10 @@
 //! square n² and (a ± n)/2 is; an element free of √d also when e·d is. Sines of base angles and second components of unit
 //! vectors take part as the quadratic extensions they are, so that √(1 − cos²θ) is found to be |sin θ|.
 
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Signed};
 
 use super::element::Element;
-use super::factor::{factor, square_part};
+use super::factor::{factor, primes_with_powers, square_part};
 use super::field::{Field, Generator, Kind};
 use super::poly::{Poly, exponent, mono_variables};
 use super::{Sign, Stop};
@@ -513,29 +513,4 @@ fn primes(value: &Int) -> Vec<Int> {
         .into_iter()
         .flat_map(|(p, k)| std::iter::repeat_n(p, k as usize))
         .collect()
-}
-
-fn primes_with_powers(value: &Int) -> Vec<(Int, u32)> {
-    let mut rest = value.clone();
-    let mut out = Vec::new();
-    let mut p = 2i64;
-    while p < 2_000 && !rest.is_one() && !rest.is_zero() {
-        let prime = Int::from(p);
-        if &prime * &prime > rest {
-            break;
-        }
-        let mut k = 0;
-        while (&rest % &prime).is_zero() {
-            rest /= &prime;
-            k += 1;
-        }
-        if k > 0 {
-            out.push((prime, k));
-        }
-        p += if p == 2 { 1 } else { 2 };
-    }
-    if !rest.is_one() {
-        out.push((rest, 1));
-    }
-    out
 }

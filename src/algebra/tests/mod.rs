@@ -4,10 +4,14 @@ mod laws;
 
 use super::*;
 use crate::domain::{Domain, Domains, Limit};
-use crate::expr::{Expr, ratio};
+use crate::expr::{Expr, Function, ratio};
 
 fn s(name: &str) -> Expr {
     Expr::symbol(name)
+}
+
+fn call(function: Function, x: Expr) -> Expr {
+    Expr::call(function, x)
 }
 
 fn n(value: i64) -> Expr {
@@ -161,6 +165,51 @@ fn identities() -> Vec<(&'static str, Expr, Expr)> {
             "opaque congruence",
             Expr::call(crate::expr::Function::Ln, &a + &b),
             Expr::call(crate::expr::Function::Ln, &b + &a),
+        ),
+        (
+            "sine of an arc tangent",
+            call(Function::Atan, &a / &b).sin(),
+            &a / &r,
+        ),
+        (
+            "sine of a sum with an arc tangent",
+            (&t + &call(Function::Atan, &a / &b)).cos(),
+            (&b * &t.cos() - &a * &t.sin()) / &r,
+        ),
+        (
+            "arc sine of a half",
+            call(Function::Asin, Expr::ratio(1, 2)),
+            &pi * &Expr::ratio(1, 6),
+        ),
+        (
+            "arc tangent of one",
+            call(Function::Atan, n(-1)),
+            &pi * &Expr::ratio(-1, 4),
+        ),
+        (
+            "sum in an exponent",
+            call(Function::Exp, &a - &b),
+            call(Function::Exp, a.clone()) / call(Function::Exp, b.clone()),
+        ),
+        (
+            "half in an exponent",
+            call(Function::Exp, half(&a)).powi(2),
+            call(Function::Exp, a.clone()),
+        ),
+        (
+            "logarithm of a product",
+            call(Function::Ln, a.powi(2) / &b),
+            n(2) * call(Function::Ln, a.clone()) - call(Function::Ln, b.clone()),
+        ),
+        (
+            "logarithm of a root",
+            call(Function::Ln, a.sqrt()),
+            half(&call(Function::Ln, a.clone())),
+        ),
+        (
+            "angle of products and symbols",
+            (&a * &b + &t).sin(),
+            (&a * &b).sin() * t.cos() + (&a * &b).cos() * t.sin(),
         ),
         ("pi is a number", &pi * &a - &a * &pi, n(0)),
         (
