@@ -100,3 +100,45 @@ fn normal_forms(bencher: divan::Bencher, name: &str) {
         field.sub(&left, &right).ok()
     });
 }
+
+/// Formulas made to waste time; each has to come back within 10 ms.
+#[divan::bench(args = ["nested_roots", "many_sines", "deep", "tower", "exponentials", "many_symbols", "long_product"], sample_count = 10)]
+fn hostile(bencher: divan::Bencher, name: &str) {
+    let [x, y] = ["x", "y"].map(Expr::symbol);
+    let numbers = |n: i64| (1..=n).map(Expr::from);
+    let exp = |e: Expr| Expr::call(carom::expr::Function::Exp, e);
+    let (a, b) = match name {
+        "nested_roots" => (
+            numbers(100).fold(x.clone(), |e, k| (e + k).sqrt()),
+            numbers(99).fold(y, |e, k| (e + k).sqrt()),
+        ),
+        "many_sines" => (
+            Expr::sum(numbers(1500).map(|k| (&k * &x * &y).sin())),
+            Expr::zero(),
+        ),
+        "deep" => (
+            numbers(180).fold(x.clone(), |e, k| Expr::one() / (e + k)),
+            numbers(180).fold(x.clone(), |e, k| Expr::one() / (k + e)),
+        ),
+        "tower" => (
+            Expr::from(9).powi(387_420_489) * &x,
+            Expr::from(9).powi(387_420_490) * &x / Expr::from(9),
+        ),
+        "exponentials" => (
+            exp(exp(exp(exp(exp(x.clone()))))),
+            exp(exp(exp(exp(exp(y))))),
+        ),
+        "many_symbols" => {
+            let all = |from: i64| {
+                Expr::sum((from..from + 3000).map(|k| Expr::symbol(&format!("x{k}")).powi(2)))
+            };
+            (all(0), all(0) + Expr::ratio(1, 1_000_000))
+        }
+        _ => (
+            Expr::product(numbers(2000).map(|k| &x + &k)),
+            Expr::product(numbers(2000).map(|k| k + &y)),
+        ),
+    };
+    let domains = reader::domains("-");
+    bencher.bench(|| decide(&a, &b, &domains));
+}

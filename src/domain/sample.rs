@@ -129,13 +129,10 @@ fn role<'a>(out: &'a mut Roles, name: &Symbol) -> &'a mut Role {
 /// different values, later ones are drawn from a fixed pseudo-random sequence. `domains` must declare every symbol of
 /// `roles`. Fewer points come out where a domain has no point that could be found.
 pub fn samples(roles: &Roles, domains: &Domains, count: usize) -> Vec<Sample> {
-    let wanted = if count <= 2 {
-        roles.symbols.len() + 2
-    } else {
-        24
-    };
     let mut axes: Vec<(&Symbol, &Domain, Vec<Coordinate>)> = Vec::new();
-    for (name, role) in &roles.symbols {
+    for (i, (name, role)) in roles.symbols.iter().enumerate() {
+        // The early points pick by place, the later ones at random.
+        let wanted = if count <= 2 { (i + 2).min(24) } else { 24 };
         let Some(domain) = domains.symbols.get(name) else {
             continue;
         };
@@ -247,11 +244,20 @@ const SIMPLE: [(i64, i64); 26] = [
 fn numbers(domain: &Domain, count: usize) -> Vec<Coordinate> {
     let mut inside = Vec::new();
     let mut ends = Vec::new();
+    let signs: &[i64] = if domain.low.as_ref().is_some_and(|l| !l.value.is_negative()) {
+        &[1]
+    } else {
+        &[1, -1]
+    };
+    let closed = [&domain.low, &domain.high]
+        .into_iter()
+        .flatten()
+        .any(|l| !l.open);
     for (n, d) in SIMPLE {
-        for n in [n, -n] {
-            let value = ratio(n, d);
+        for sign in signs {
+            let value = Rational::new_raw(Int::from(sign * n), Int::from(d));
             if domain.contains(&value) {
-                if domain.is_end(&value) {
+                if closed && domain.is_end(&value) {
                     ends.push(value)
                 } else {
                     inside.push(value)

@@ -28,7 +28,9 @@ pub(super) fn equal_where(
                 None
             }
         })?;
-    if !parts_elsewhere(a, b, &condition, domains, roles) {
+    if sign_at(&condition, &elsewhere.at, roles.radians) != Some(-1)
+        || !parts_elsewhere(a, b, &condition, domains, roles)
+    {
         return None;
     }
     Some(How::OnBranch {

@@ -9,7 +9,7 @@ use Outcome::{Undefined, Unknown, Value};
 
 /// Bits of numerator and denominator together beyond which a fraction is given up: greatest common divisors of longer
 /// numbers cost more than an enclosure of the same value.
-const LARGEST: u64 = 1024;
+const LARGEST: u64 = 512;
 
 /// A fraction that is known exactly.
 #[derive(Clone, PartialEq, Debug)]

@@ -1,9 +1,14 @@
 //! How large a pair of formulas is, counted without walking further than the limit.
 
+use crate::domain::Roles;
+use crate::expr::angle::angle;
 use crate::expr::{Expr, Function, Node};
 
 /// Nodes of both formulas together beyond which no decision is attempted.
 const NODES: usize = 20_000;
+
+/// Functions needing a series beyond which no decision is attempted; each takes some 15 µs per point.
+const SERIES: usize = 200;
 
 /// Nesting beyond which no decision is attempted; evaluation recurses once per level.
 const DEPTH: usize = 400;
@@ -13,8 +18,12 @@ const DEPTH: usize = 400;
 pub(super) struct Size {
     /// Nodes, shared parts counted as often as they occur.
     pub nodes: usize,
-    /// Calls of functions and powers with exponents that are no small integers.
-    pub calls: usize,
+    /// Functions and general powers, which need a series.
+    pub series: usize,
+    /// Sines, cosines and tangents of angles, which a rational direction makes exact.
+    pub turns: usize,
+    /// Square roots and their powers.
+    pub roots: usize,
     /// Whether roots, logarithms and the like occur, which lack values on whole parts of a domain.
     pub partial: bool,
     /// Whether roots or absolute values occur, whose branch depends on a sign.
@@ -25,7 +34,9 @@ pub(super) struct Size {
 pub(super) fn of(formulas: &[&Expr]) -> Option<Size> {
     let mut size = Size {
         nodes: 0,
-        calls: 0,
+        series: 0,
+        turns: 0,
+        roots: 0,
         partial: false,
         branches: false,
     };
@@ -45,17 +56,29 @@ fn count(e: &Expr, depth: usize, size: &mut Size) -> bool {
         Node::Sum(parts) | Node::Product(parts) => parts.iter().all(|p| count(p, depth + 1, size)),
         Node::Power(base, exponent) => {
             match exponent.as_number() {
-                Some(k) if k.is_integer() => {}
+                // Repeated squaring.
+                Some(k) if k.is_integer() => size.nodes += k.numer().bits() as usize,
                 _ => {
                     size.partial = true;
                     size.branches = true;
-                    size.calls += 1;
+                    let root = exponent.as_number().is_some_and(|k| (k + k).is_integer());
+                    if root {
+                        size.roots += 1
+                    } else {
+                        size.series += 1
+                    }
                 }
             }
             count(base, depth + 1, size) && count(exponent, depth + 1, size)
         }
         Node::Call(function, argument) => {
-            size.calls += 1;
+            match function {
+                Function::Abs => {}
+                Function::Sin | Function::Cos | Function::Tan if angle(argument).is_some() => {
+                    size.turns += 1
+                }
+                _ => size.series += 1,
+            }
             size.branches |= *function == Function::Abs;
             size.partial |= matches!(function, Function::Asin | Function::Acos | Function::Ln);
             count(argument, depth + 1, size)
@@ -64,18 +87,28 @@ fn count(e: &Expr, depth: usize, size: &mut Size) -> bool {
 }
 
 impl Size {
+    /// The size once it is known how symbols occur: sines need a series too where an angle has no direction. `None`
+    /// beyond the limit of series.
+    pub fn with(mut self, roles: &Roles) -> Option<Size> {
+        if roles.radians || roles.symbols.values().any(|r| r.turns && r.bare) {
+            self.series += self.turns;
+        }
+        (self.series <= SERIES).then_some(self)
+    }
+
     /// Points at which the pair is compared: fewer for long formulas.
     pub fn points(&self) -> usize {
-        (40_000 / (self.nodes + 8 * self.calls).max(1)).clamp(3, 24)
+        (40_000 / (self.nodes + 8 * self.turns + 80 * self.series).max(1)).clamp(3, 24)
     }
 
     /// How many evaluations of both formulas at a precision the work limit allows.
     pub fn evaluations(&self, bits: u32) -> usize {
-        // A product costs about (bits/64)^1.6 word operations, a function some (bits/64)^0.5·16 products.
+        // Counted in products of one word, about 40 ns; a product of w words costs about 8 + w^1.5 of them, a function some
+        // 16 + 4√w products, a root four.
         let words = u64::from(bits) / 64;
         let product = 8 + words * words.isqrt();
-        let cost =
-            self.nodes as u64 * product + self.calls as u64 * product * (16 + 4 * words.isqrt());
-        (8_000_000 / cost.max(1)).min(64) as usize
+        let [nodes, series, roots] = [self.nodes, self.series, self.roots].map(|n| n as u64);
+        let cost = product * (nodes + 4 * roots + series * (16 + 4 * words.isqrt()));
+        (150_000 / cost.max(1)).min(64) as usize
     }
 }

@@ -10,7 +10,7 @@ mod measure;
 mod proof;
 mod refute;
 
-use crate::domain::{Domains, Roles, Sample, roles, samples};
+use crate::domain::{Domain, Domains, Roles, Sample, roles, samples};
 use crate::expr::{Expr, Rational};
 use crate::interval::Enclosure;
 use measure::Size;
@@ -152,17 +152,20 @@ pub enum Reason {
 ///
 /// Same result on every machine: limits count points, nodes and bits.
 pub fn decide(a: &Expr, b: &Expr, domains: &Domains) -> Decision {
-    let Some(size) = measure::of(&[a, b]) else {
-        let equality = Equality::Undecided {
+    let too_large = || Decision {
+        equality: Equality::Undecided {
             reason: Reason::TooLarge,
             evidence: Evidence::default(),
-        };
-        return Decision {
-            equality,
-            assumed: Vec::new(),
-        };
+        },
+        assumed: Vec::new(),
+    };
+    let Some(size) = measure::of(&[a, b]) else {
+        return too_large();
     };
     let roles = roles(&[a, b]);
+    let Some(size) = size.with(&roles) else {
+        return too_large();
+    };
     let (domains, assumed) = domains.completed(&roles);
     Decision {
         equality: decide_on(a, b, &domains, &roles, size),
@@ -195,8 +198,14 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
         points.extend(new);
         found
     };
+    let signed = domains.symbols.values().any(Domain::changes_sign);
+    let seen = if signed || tally.both_defined == 0 {
+        8
+    } else {
+        5
+    };
     if size.partial || tally.both_defined == 0 {
-        if let Some(found) = extend(&mut tally, size.points().min(8)) {
+        if let Some(found) = extend(&mut tally, size.points().min(seen)) {
             return different(found);
         }
     }

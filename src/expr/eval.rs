@@ -130,7 +130,8 @@ fn call<T: Scalar>(function: Function, argument: &Expr, at: &Point<T>) -> Option
 
 /// (cos, sin) of an angle whose symbols all have directions that divide it.
 fn direction<T: Scalar>(angle: &Angle, at: &Point<T>) -> Option<[T; 2]> {
-    let mut total = quarter_turns(&angle.pi)?;
+    // Nothing to turn yet where no multiple of π is added.
+    let mut total = if angle.pi.is_zero() { None } else { Some(quarter_turns(&angle.pi)?) };
     for (name, factor) in &angle.symbols {
         let (divisor, unit) = at.directions.get(name)?;
         let turns = factor * Rational::from(Int::from(i64::from(*divisor)));
@@ -141,9 +142,13 @@ fn direction<T: Scalar>(angle: &Angle, at: &Point<T>) -> Option<[T; 2]> {
         if k.unsigned_abs() > 4096 {
             return None;
         }
-        total = turn(&total, &multiple(unit, k));
+        let turned = multiple(unit, k);
+        total = Some(match total {
+            Some(before) => turn(&before, &turned),
+            None => turned,
+        });
     }
-    Some(total)
+    total.or_else(|| quarter_turns(&angle.pi))
 }
 
 /// (cos, sin) of a multiple of π, for multiples of π/2.
@@ -177,16 +182,18 @@ fn multiple<T: Scalar>(unit: &[T; 2], k: i64) -> [T; 2] {
     if k < 0 {
         square[1] = T::from_rational(&-Rational::one()).times(&square[1]);
     }
-    let mut result = [Rational::one(), Rational::zero()].map(|v| T::from_rational(&v));
     let mut left = k.unsigned_abs();
-    while left > 0 {
+    let mut result = None;
+    loop {
         if left & 1 == 1 {
-            result = turn(&result, &square);
+            result = Some(result.map_or_else(|| square.clone(), |r| turn(&r, &square)));
         }
         left >>= 1;
+        if left == 0 {
+            return result.unwrap_or_else(|| [Rational::one(), Rational::zero()].map(|v| T::from_rational(&v)));
+        }
         square = turn(&square, &square);
     }
-    result
 }
 
 impl Scalar for f64 {
