@@ -193,7 +193,9 @@ proptest! {
                 }
                 let (a, b) = (e.evaluate(&point), other.evaluate(&point));
                 let (Some(a), Some(b)) = (a, b) else { return Err(TestCaseError::fail("no value")) };
-                prop_assert!((a - b).abs() > 1e-13 * (1.0 + a.abs()), "{e:?} {other:?} {a} {b}");
+                prop_assert!(found.confirmed, "{:?} {:?}", e, other);
+                // A slip in the ninth digit may change less than doubles resolve; the enclosures above still part.
+                prop_assert!(slip == 3 || (a - b).abs() > 1e-13 * (1.0 + a.abs()), "{:?} {:?} {} {}", e, other, a, b);
             }
             Equality::Same { .. } => {
                 // The slip may change nothing: a factor 0, a sign under a square. Then it is the same at any point.
