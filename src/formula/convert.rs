@@ -200,14 +200,14 @@ fn power(w: &Written, base: &Written, exponent: Expr, upper: bool) -> Faulty<Exp
             return Err(Fault::new("this power is too large", w.start, w.end));
         }
         // Towers such as ((x^100)^100)^100 multiply their exponents.
-        if let crate::expr::Node::Power(_, inner) = below.node() {
-            if inner.as_number().is_some_and(|a| (a * k).abs() > most) {
-                return Err(Fault::new(
-                    format!("an exponent is at most {MAX_POWER}"),
-                    w.start,
-                    w.end,
-                ));
-            }
+        if let crate::expr::Node::Power(_, inner) = below.node()
+            && inner.as_number().is_some_and(|a| (a * k).abs() > most)
+        {
+            return Err(Fault::new(
+                format!("an exponent is at most {MAX_POWER}"),
+                w.start,
+                w.end,
+            ));
         }
         if *k == crate::expr::ratio(1, 2) {
             return Ok(below.sqrt());

@@ -4,6 +4,7 @@
 //! [`Fault`] with its place. What could be read in two ways is noted, and the other readings can be asked for. This
 //! module never decides whether two formulas are equal.
 
+mod calls;
 mod convert;
 mod fault;
 mod lexer;
@@ -12,6 +13,9 @@ mod note;
 mod number;
 mod parser;
 mod symbols;
+mod tex;
+mod units;
+mod words;
 mod write;
 mod written;
 
@@ -82,7 +86,7 @@ pub enum Content {
     /// A vector along x, y and z.
     Vector([Expr; 3]),
     /// A value with a unit.
-    Quantity(Quantity),
+    Quantity(Box<Quantity>),
     /// Sides with relations between them; one side more than there are relations.
     Relations(Vec<Content>, Vec<Relation>),
 }
@@ -231,10 +235,10 @@ fn read_inner(text: &str, symbols: &Symbols, units_first: bool, flips: u64) -> F
     let mut lexer = parser.lexer;
     if !lexer.unknown.is_empty() {
         let mut faults = std::mem::take(&mut lexer.unknown);
-        if let Err(other) = parsed {
-            if !faults.iter().any(|f| f.start == other.start) {
-                faults.push(*other);
-            }
+        if let Err(other) = parsed
+            && !faults.iter().any(|f| f.start == other.start)
+        {
+            faults.push(*other);
         }
         let mut first = faults.remove(0);
         first.also = faults;
@@ -275,12 +279,12 @@ fn content(side: &Side, text: &str, lexer: &mut lexer::Lexer) -> Faulty<Content>
     };
     if let Some((unit, start, end)) = &side.unit {
         if plain.symbols().is_empty() {
-            return Ok(Content::Quantity(Quantity {
+            return Ok(Content::Quantity(Box::new(Quantity {
                 value: &plain * &unit.value(),
                 written: plain,
                 unit: unit.clone(),
                 unit_text: text[*start..*end].trim().to_string(),
-            }));
+            })));
         }
         lexer.note(Remark::UnitOfSymbols, *start, *start, *end);
     }

@@ -302,7 +302,11 @@ fn raised(text: &str, at: usize, parts: &Parts, symbols: &Symbols) -> Option<(St
             "''" | "″" | "\\prime\\prime" => "''".to_string(),
             _ => {
                 let index = index_text(mark)?;
-                let worded = mark.starts_with("\\text") || mark.starts_with("\\mathrm");
+                let center = matches!(
+                    index.trim_end_matches(|c: char| c.is_ascii_digit()),
+                    "cm" | "com"
+                );
+                let worded = center || mark.starts_with("\\text") || mark.starts_with("\\mathrm");
                 let marked = Parts {
                     marks: format!("{}^{index}", parts.marks),
                     ..parts.clone()

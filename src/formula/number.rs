@@ -62,23 +62,23 @@ pub(crate) fn literal(text: &str, at: usize, exponent: Exponent) -> Faulty<(Lite
     }
     let mut power = 0i64;
     let mut scientific = false;
-    if exponent == Exponent::Ten {
-        if let Some((digits_at, stop, negative)) = exponent_at(bytes, end) {
-            scientific = true;
-            let digits = text[digits_at..stop].trim_start_matches('0');
-            power = digits
-                .bytes()
-                .take(6)
-                .fold(0, |value, b| value * 10 + i64::from(b - b'0'));
-            if digits.len() > 6 || power > MAX_EXPONENT {
-                let message = format!("the power of ten of a number is at most {MAX_EXPONENT}");
-                return Err(Fault::new(message, end, stop));
-            }
-            if negative {
-                power = -power;
-            }
-            end = stop;
+    if exponent == Exponent::Ten
+        && let Some((digits_at, stop, negative)) = exponent_at(bytes, end)
+    {
+        scientific = true;
+        let digits = text[digits_at..stop].trim_start_matches('0');
+        power = digits
+            .bytes()
+            .take(6)
+            .fold(0, |value, b| value * 10 + i64::from(b - b'0'));
+        if digits.len() > 6 || power > MAX_EXPONENT {
+            let message = format!("the power of ten of a number is at most {MAX_EXPONENT}");
+            return Err(Fault::new(message, end, stop));
         }
+        if negative {
+            power = -power;
+        }
+        end = stop;
     }
     let value = if digits <= 18 {
         let all = bytes[at..whole_end].iter().chain(&bytes[fraction.clone()]);

@@ -10,7 +10,7 @@ use super::note::Remark;
 use super::symbols::Symbols;
 use super::written::{Link, Literal, Shape, Sign, Written};
 use crate::dimension::Unit;
-use crate::expr::{Function, ratio};
+use crate::expr::ratio;
 
 /// Deepest nesting of brackets, fractions, exponents and functions.
 pub(crate) const MAX_DEPTH: u32 = 60;
@@ -26,7 +26,7 @@ pub(crate) struct Parser<'a> {
     pub lexer: Lexer<'a>,
     peeked: Option<Token>,
     depth: u32,
-    bars: u32,
+    pub(super) bars: u32,
 }
 
 impl<'a> Parser<'a> {
@@ -84,7 +84,7 @@ impl<'a> Parser<'a> {
         })
     }
 
-    fn peek(&mut self) -> Faulty<&Token> {
+    pub(super) fn peek(&mut self) -> Faulty<&Token> {
         if self.peeked.is_none() {
             self.peeked = Some(self.lexer.next()?);
         }
@@ -94,14 +94,14 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn next(&mut self) -> Faulty<Token> {
+    pub(super) fn next(&mut self) -> Faulty<Token> {
         match self.peeked.take() {
             Some(token) => Ok(token),
             None => self.lexer.next(),
         }
     }
 
-    fn deeper<T>(&mut self, work: impl FnOnce(&mut Self) -> Faulty<T>) -> Faulty<T> {
+    pub(super) fn deeper<T>(&mut self, work: impl FnOnce(&mut Self) -> Faulty<T>) -> Faulty<T> {
         if self.depth >= MAX_DEPTH {
             let at = self.peeked.as_ref().map_or(self.lexer.pos, |t| t.start);
             return Err(Fault::new(
@@ -116,7 +116,7 @@ impl<'a> Parser<'a> {
         result
     }
 
-    fn unexpected(&self, token: &Token) -> Box<Fault> {
+    pub(super) fn unexpected(&self, token: &Token) -> Box<Fault> {
         let shown: String = self.lexer.text[token.start..token.end]
             .chars()
             .take(24)
@@ -135,7 +135,7 @@ impl<'a> Parser<'a> {
     }
 
     /// The fault where a value should start.
-    fn missing(&self, token: &Token) -> Box<Fault> {
+    pub(super) fn missing(&self, token: &Token) -> Box<Fault> {
         let shown: String = self.lexer.text[token.start..token.end]
             .chars()
             .take(24)
@@ -150,7 +150,7 @@ impl<'a> Parser<'a> {
         Fault::new(message, token.start, token.end)
     }
 
-    fn sum(&mut self) -> Faulty<Written> {
+    pub(super) fn sum(&mut self) -> Faulty<Written> {
         self.deeper(Self::sum_here)
     }
 
@@ -167,16 +167,17 @@ impl<'a> Parser<'a> {
                 break;
             }
         }
-        if terms.len() == 1 && !(signed && terms[0].0 != Sign::Plus) {
-            if let Some((_, term)) = terms.pop() {
-                return Ok(term);
-            }
+        if terms.len() == 1
+            && !(signed && terms[0].0 != Sign::Plus)
+            && let Some((_, term)) = terms.pop()
+        {
+            return Ok(term);
         }
         let end = terms.last().map_or(start, |(_, t)| t.end);
         Ok(Written::new(Shape::Sum(terms), start, end))
     }
 
-    fn sign(&mut self) -> Faulty<Option<Sign>> {
+    pub(super) fn sign(&mut self) -> Faulty<Option<Sign>> {
         let sign = match self.peek()?.tok {
             Tok::Plus => Sign::Plus,
             Tok::Minus => Sign::Minus,
@@ -249,18 +250,36 @@ impl<'a> Parser<'a> {
             }
             _ => false,
         };
+        // Brackets show where the divisor ends: `3v/(2l) cosθ`.
+        let enclosed = matches!(first.shape, Shape::Bracket(_));
+        let vector = matches!(&self.peek()?.tok, Tok::Name(name) if is_unit_vector(name));
+        if vector {
+            return Ok((first, Some(self.group()?)));
+        }
         let usual = self.lexer.usual();
-        let tight = half != usual;
+        let tight = (half || enclosed) != usual;
         let from = above.last().map_or(first.start, |(_, w)| w.start);
         let middle = first.end;
-        let rest = self.group_from(if tight { Some(first.clone()) } else { None })?;
+        let mut rest = self.group_from(if tight { Some(first.clone()) } else { None })?;
         self.lexer
             .note(Remark::Slash { tight }, from, middle, rest.end);
-        Ok(if tight {
-            (rest, None)
-        } else {
-            (first, Some(rest))
-        })
+        if !tight {
+            return Ok((first, Some(rest)));
+        }
+        // A unit vector never stands below: 3v/2ℓ k̂.
+        let last = match &mut rest.shape {
+            Shape::Product(factors)
+                if factors.last().is_some_and(|(_, f)| ends_in_unit_vector(f)) =>
+            {
+                factors.pop()
+            }
+            _ => None,
+        };
+        if let Some((_, vector)) = last {
+            rest.end = vector.start;
+            return Ok((rest, Some(vector)));
+        }
+        Ok((rest, None))
     }
 
     /// Factors side by side.
@@ -269,7 +288,7 @@ impl<'a> Parser<'a> {
         self.group_from(Some(first))
     }
 
-    fn group_from(&mut self, first: Option<Written>) -> Faulty<Written> {
+    pub(super) fn group_from(&mut self, first: Option<Written>) -> Faulty<Written> {
         let first = match first {
             Some(first) => first,
             None => self.factor()?,
@@ -301,7 +320,7 @@ impl<'a> Parser<'a> {
         Ok(Written::new(Shape::Product(factors), start, end))
     }
 
-    fn starts_factor(&mut self) -> Faulty<bool> {
+    pub(super) fn starts_factor(&mut self) -> Faulty<bool> {
         let bars = self.bars;
         Ok(match self.peek()?.tok {
             Tok::Number(_)
@@ -317,12 +336,12 @@ impl<'a> Parser<'a> {
     }
 
     /// A value with its exponents.
-    fn factor(&mut self) -> Faulty<Written> {
+    pub(super) fn factor(&mut self) -> Faulty<Written> {
         let primary = self.primary()?;
         self.raised(primary)
     }
 
-    fn raised(&mut self, mut base: Written) -> Faulty<Written> {
+    pub(super) fn raised(&mut self, mut base: Written) -> Faulty<Written> {
         loop {
             match self.peek()?.tok {
                 Tok::Caret => {
@@ -372,7 +391,7 @@ impl<'a> Parser<'a> {
     }
 
     /// An exponent behind `^`: a sign and one factor; a further `^` belongs to the exponent.
-    fn exponent(&mut self) -> Faulty<Written> {
+    pub(super) fn exponent(&mut self) -> Faulty<Written> {
         self.deeper(|p| {
             let (start, sign) = (p.peek()?.start, p.sign()?);
             let mut inner = p.primary()?;
@@ -390,7 +409,7 @@ impl<'a> Parser<'a> {
         })
     }
 
-    fn primary(&mut self) -> Faulty<Written> {
+    pub(super) fn primary(&mut self) -> Faulty<Written> {
         let token = self.next()?;
         let (start, end) = (token.start, token.end);
         match token.tok {
@@ -491,7 +510,7 @@ impl<'a> Parser<'a> {
     }
 
     /// One argument of a LaTeX command: a group, or a single digit, letter or command.
-    fn argument(&mut self, what: &str) -> Faulty<Written> {
+    pub(super) fn argument(&mut self, what: &str) -> Faulty<Written> {
         if self.peeked.is_none() {
             self.lexer.single = true;
         }
@@ -513,259 +532,17 @@ impl<'a> Parser<'a> {
             }
         }
     }
-
-    fn root(&mut self, index: i64, start: usize, end: usize) -> Faulty<Written> {
-        let tex = self.lexer.text[start..].starts_with('\\');
-        let mut degree = (index != 2).then(|| Box::new(whole_number(index, start, end)));
-        let mut inner = None;
-        if index == 2 && self.lexer.text[end..].starts_with('[') {
-            // `sqrt[3]{x}` has an index, `sqrt[x+1]` an argument.
-            let bracket = self.primary()?;
-            let braced = matches!(self.peek()?.tok, Tok::Open('{' | '('));
-            match bracket.shape {
-                Shape::Bracket(index) if tex || braced => degree = Some(index),
-                shape => inner = Some(Written::new(shape, bracket.start, bracket.end)),
-            }
-        }
-        let inner = match inner {
-            Some(inner) => inner,
-            None if tex => self.argument("what stands under the root")?,
-            None => self.primary()?,
-        };
-        let bracketed = matches!(
-            inner.shape,
-            Shape::Bracket(_) | Shape::Call(..) | Shape::Root(..) | Shape::Fraction(..)
-        );
-        let shown = !tex && !bracketed && self.starts_factor()?;
-        let mut inner = inner;
-        if shown {
-            let usual = self.lexer.usual();
-            let middle = inner.end;
-            if usual {
-                let stop = self.peek()?.end;
-                self.lexer
-                    .note(Remark::Root { long: false }, start, middle, stop);
-            } else {
-                inner = self.group_from(Some(inner))?;
-                self.lexer
-                    .note(Remark::Root { long: true }, start, middle, inner.end);
-            }
-        }
-        let stop = inner.end;
-        Ok(Written::new(
-            Shape::Root(degree, Box::new(inner)),
-            start,
-            stop,
-        ))
-    }
-
-    /// A function: its own exponent, then its argument.
-    fn call(
-        &mut self,
-        function: Function,
-        reciprocal: bool,
-        start: usize,
-        end: usize,
-    ) -> Faulty<Written> {
-        let mut exponent = None;
-        match self.peek()?.tok {
-            Tok::Caret => {
-                self.next()?;
-                exponent = Some(self.exponent()?);
-            }
-            Tok::Raised(_) => exponent = Some(raised_number(&self.next()?)),
-            _ => {}
-        }
-        let name = function.name();
-        let in_bars = self.bars > 0;
-        let first = self.peek()?;
-        let argument = match first.tok {
-            Tok::Open(_) | Tok::Bar | Tok::OpenBar if first.tok != Tok::Bar || !in_bars => {
-                self.primary()?
-            }
-            Tok::Minus | Tok::Plus => {
-                let (at, sign) = (first.start, self.sign()?);
-                let inner = self.bare_argument()?;
-                let stop = inner.end;
-                Written::new(
-                    Shape::Sum(vec![(sign.unwrap_or(Sign::Plus), inner)]),
-                    at,
-                    stop,
-                )
-            }
-            Tok::Number(_)
-            | Tok::Name(_)
-            | Tok::Vulgar(..)
-            | Tok::Fraction
-            | Tok::Root(_)
-            | Tok::Call(_)
-            | Tok::Reciprocal(_) => self.bare_argument()?,
-            _ => {
-                let token = self.next()?;
-                return Err(Fault::new(
-                    format!("{name} needs an argument"),
-                    start,
-                    end.max(token.start),
-                ));
-            }
-        };
-        let trigonometric = matches!(function, Function::Sin | Function::Cos | Function::Tan);
-        if trigonometric && plain_number(&argument) {
-            self.lexer.note(
-                Remark::Radians,
-                argument.start,
-                argument.start,
-                argument.end,
-            );
-        }
-        let stop = argument.end;
-        let minus_one = exponent
-            .as_ref()
-            .and_then(Written::literal)
-            .is_some_and(|k| k.value == ratio(-1, 1));
-        let inverse = match function {
-            Function::Sin => Some(Function::Asin),
-            Function::Cos => Some(Function::Acos),
-            Function::Tan => Some(Function::Atan),
-            _ => None,
-        };
-        if let (true, Some(inverse), false) = (minus_one, inverse, reciprocal) {
-            let raised_end = exponent.map_or(end, |e| e.end);
-            self.lexer.note(Remark::Inverse, start, start, raised_end);
-            return Ok(Written::new(
-                Shape::Call(inverse, Box::new(argument)),
-                start,
-                stop,
-            ));
-        }
-        let argument = Box::new(argument);
-        let shape = if reciprocal {
-            Shape::Reciprocal(function, argument)
-        } else {
-            Shape::Call(function, argument)
-        };
-        let called = Written::new(shape, start, stop);
-        Ok(match exponent {
-            Some(exponent) => Written::new(
-                Shape::Power(Box::new(called), Box::new(exponent)),
-                start,
-                stop,
-            ),
-            None => called,
-        })
-    }
-
-    /// The argument of a function without brackets: numbers, then one angle, or a product of names such as ω t.
-    fn bare_argument(&mut self) -> Faulty<Written> {
-        let first = self.factor()?;
-        if let Shape::Call(..) | Shape::Reciprocal(..) = first.shape {
-            return Ok(first);
-        }
-        let (start, mut end) = (first.start, first.end);
-        let mut numeric = first.is_numeric();
-        let mut angle = self.has_angle(&first);
-        let mut named = is_name(&first);
-        let mut factors = vec![(Link::Beside, first)];
-        loop {
-            let token = self.peek()?.clone();
-            let name = match &token.tok {
-                Tok::Name(name) => Some(name.clone()),
-                _ => None,
-            };
-            let hat = name.as_ref().is_some_and(|n| n.ends_with("_hat"));
-            let goes_on = match &token.tok {
-                Tok::Name(_) if hat => false,
-                Tok::Name(_) | Tok::Root(_) | Tok::Fraction | Tok::Open(_) if numeric => true,
-                Tok::Name(name) if named => {
-                    let both = angle && self.lexer.is_angle(name);
-                    let usual = self.lexer.usual();
-                    let long = (!angle || both) == usual;
-                    self.lexer
-                        .note(Remark::Argument { long }, start, end, token.end);
-                    long
-                }
-                Tok::Slash if named => {
-                    // sinθ/2: half of the sine, unless somebody meant the half angle.
-                    let digit = lone_number(&self.lexer.text[self.lexer.pos..]);
-                    if digit && !self.lexer.usual() {
-                        self.next()?;
-                        let below = self.factor()?;
-                        self.lexer
-                            .note(Remark::Argument { long: true }, start, end, below.end);
-                        end = below.end;
-                        factors.push((Link::Over, below));
-                    } else if digit {
-                        self.lexer.note(
-                            Remark::Argument { long: false },
-                            start,
-                            end,
-                            token.end + 1,
-                        );
-                    }
-                    false
-                }
-                _ => false,
-            };
-            if !goes_on {
-                break;
-            }
-            let factor = self.factor()?;
-            end = factor.end;
-            let still = factor.is_numeric();
-            angle |= self.has_angle(&factor);
-            named = is_name(&factor);
-            factors.push((Link::Beside, factor));
-            if numeric && !still && !named {
-                break;
-            }
-            numeric &= still;
-        }
-        match factors.pop() {
-            Some((_, only)) if factors.is_empty() => Ok(only),
-            Some(last) => {
-                factors.push(last);
-                Ok(Written::new(Shape::Product(factors), start, end))
-            }
-            None => Err(Fault::new("an argument is missing", start, end)),
-        }
-    }
-
-    fn has_angle(&self, written: &Written) -> bool {
-        match &written.shape {
-            Shape::Symbol(name) => self.lexer.is_angle(name),
-            Shape::Power(base, _) => self.has_angle(base),
-            _ => false,
-        }
-    }
 }
 
-/// Whether the text goes on with a whole number that nothing multiplies.
-fn lone_number(text: &str) -> bool {
-    let rest = text.trim_start();
-    let behind = rest.trim_start_matches(|c: char| c.is_ascii_digit());
-    let next = behind.trim_start().chars().next();
-    behind.len() < rest.len() && next.is_none_or(|c| "+-−±=<>)]}|,$".contains(c))
+fn is_unit_vector(name: &str) -> bool {
+    matches!(name, "i_hat" | "j_hat" | "k_hat")
 }
 
-fn is_name(written: &Written) -> bool {
-    match &written.shape {
-        Shape::Symbol(name) => &**name != "pi",
-        Shape::Power(base, _) => is_name(base),
-        _ => false,
-    }
+fn ends_in_unit_vector(written: &Written) -> bool {
+    matches!(&written.shape, Shape::Symbol(name) if is_unit_vector(name))
 }
 
-/// A whole number other than 0, with or without brackets and sign.
-fn plain_number(written: &Written) -> bool {
-    match &written.shape {
-        Shape::Number(n) => n.value != ratio(0, 1),
-        Shape::Bracket(inner) => plain_number(inner),
-        Shape::Sum(terms) => matches!(terms.as_slice(), [(_, inner)] if plain_number(inner)),
-        _ => false,
-    }
-}
-
-fn whole_number(value: i64, start: usize, end: usize) -> Written {
+pub(super) fn whole_number(value: i64, start: usize, end: usize) -> Written {
     let literal = Literal {
         value: ratio(value, 1),
         digits: 1,
@@ -775,7 +552,7 @@ fn whole_number(value: i64, start: usize, end: usize) -> Written {
     Written::new(Shape::Number(literal), start, end)
 }
 
-fn raised_number(token: &Token) -> Written {
+pub(super) fn raised_number(token: &Token) -> Written {
     let value = match &token.tok {
         Tok::Raised(value) => value.clone(),
         _ => ratio(1, 1),

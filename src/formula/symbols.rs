@@ -171,8 +171,13 @@ pub(crate) fn parts_of(name: &str) -> Parts {
         .unwrap_or(plain.len());
     parts.base = plain[..base_end].to_string();
     for piece in plain[base_end..].split('_') {
-        match ACCENTS.iter().find(|accent| **accent == piece) {
-            Some(accent) if parts.accent.is_empty() => parts.accent = accent,
+        // `x_dot1` is ẋ₁: digits may stand right behind an accent.
+        let letters = piece.trim_end_matches(|c: char| c.is_ascii_digit());
+        match ACCENTS.iter().find(|accent| **accent == letters) {
+            Some(accent) if parts.accent.is_empty() => {
+                parts.accent = accent;
+                parts.index.push_str(&piece[letters.len()..]);
+            }
             _ => parts.index.push_str(&piece.replace(['{', '}'], "")),
         }
     }

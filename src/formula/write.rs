@@ -66,6 +66,14 @@ fn quotient(e: &Expr) -> Quotient {
         Node::Product(factors) => factors.as_slice(),
         _ => std::slice::from_ref(e),
     };
+    divide(factors, &mut q);
+    q.above.sort_by_key(class);
+    q.below.sort_by_key(class);
+    q
+}
+
+/// Sorts factors into above and below; a product below is opened, so that its factors stand beside the others.
+fn divide(factors: &[Expr], q: &mut Quotient) {
     for factor in factors {
         match factor.node() {
             Node::Number(value) => {
@@ -84,15 +92,21 @@ fn quotient(e: &Expr) -> Quotient {
             }
             Node::Power(base, exponent) => match exponent.as_number() {
                 // A literal (1/2)^-1 would fold; only powers that stay powers are moved below.
+                Some(k) if *k == ratio(-1, 1) => {
+                    if let Node::Product(inner) = base.node() {
+                        std::mem::swap(&mut q.above, &mut q.below);
+                        divide(inner, q);
+                        std::mem::swap(&mut q.above, &mut q.below);
+                    } else {
+                        q.below.push(base.clone());
+                    }
+                }
                 Some(k) if k.is_negative() => q.below.push(base.power(Expr::from(-k))),
                 _ => q.above.push(factor.clone()),
             },
             _ => q.above.push(factor.clone()),
         }
     }
-    q.above.sort_by_key(class);
-    q.below.sort_by_key(class);
-    q
 }
 
 /// Numbers, then names, then roots, then sums, then functions.
@@ -235,10 +249,9 @@ impl Writer<'_> {
             .filter(|k| k.is_integer() && k.is_positive());
         if let (Node::Call(function, argument), true, Some(k)) =
             (base.node(), self.style != Style::Plain, raised)
+            && *function != Function::Abs
         {
-            if *function != Function::Abs {
-                return self.call(*function, argument, Some(k));
-            }
+            return self.call(*function, argument, Some(k));
         }
         let simple = match base.node() {
             Node::Number(value) => value.is_integer() && !value.is_negative(),
@@ -410,10 +423,24 @@ fn latex_function(function: Function) -> &'static str {
 }
 
 fn plain_name(name: &str) -> String {
-    match name.split_once('^') {
-        Some((base, mark)) => format!("{base}^{{{mark}}}"),
-        None => name.to_string(),
+    let (body, mark) = match name.split_once('^') {
+        Some((body, mark)) => (body, format!("^{{{mark}}}")),
+        None => (name, String::new()),
+    };
+    let parts = parts_of(body);
+    if parts.index.bytes().all(|b| b.is_ascii_alphanumeric()) {
+        return format!("{body}{mark}");
     }
+    // v_{C/G1}: without braces the index would end early.
+    let accent = if parts.accent.is_empty() {
+        String::new()
+    } else {
+        format!("_{}", parts.accent)
+    };
+    format!(
+        "{}{accent}_{{{}}}{}{mark}",
+        parts.base, parts.index, parts.marks
+    )
 }
 
 /// The LaTeX spelling of a name: `theta` → `\theta`, `omega1` → `\omega_{1}`, `v_G1` → `v_{G1}`, `v1^+` → `v_{1}^{+}`.

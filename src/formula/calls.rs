@@ -1,0 +1,260 @@
+//! Functions and roots, and how far they reach without brackets.
+
+use super::fault::{Fault, Faulty};
+use super::lexer::Tok;
+use super::note::Remark;
+use super::parser::{Parser, raised_number, whole_number};
+use super::written::{Link, Shape, Sign, Written};
+use crate::expr::{Function, ratio};
+
+impl Parser<'_> {
+    pub(super) fn root(&mut self, index: i64, start: usize, end: usize) -> Faulty<Written> {
+        let tex = self.lexer.text[start..].starts_with('\\');
+        let mut degree = (index != 2).then(|| Box::new(whole_number(index, start, end)));
+        let mut inner = None;
+        if index == 2 && self.lexer.text[end..].starts_with('[') {
+            // `sqrt[3]{x}` has an index, `sqrt[x+1]` an argument.
+            let bracket = self.primary()?;
+            let braced = matches!(self.peek()?.tok, Tok::Open('{' | '('));
+            match bracket.shape {
+                Shape::Bracket(index) if tex || braced => degree = Some(index),
+                shape => inner = Some(Written::new(shape, bracket.start, bracket.end)),
+            }
+        }
+        let inner = match inner {
+            Some(inner) => inner,
+            None if tex => self.argument("what stands under the root")?,
+            None => self.primary()?,
+        };
+        let bracketed = matches!(
+            inner.shape,
+            Shape::Bracket(_) | Shape::Call(..) | Shape::Root(..) | Shape::Fraction(..)
+        );
+        let shown = !tex && !bracketed && self.starts_factor()?;
+        let mut inner = inner;
+        if shown {
+            let usual = self.lexer.usual();
+            let middle = inner.end;
+            if usual {
+                let stop = self.peek()?.end;
+                self.lexer
+                    .note(Remark::Root { long: false }, start, middle, stop);
+            } else {
+                inner = self.group_from(Some(inner))?;
+                self.lexer
+                    .note(Remark::Root { long: true }, start, middle, inner.end);
+            }
+        }
+        let stop = inner.end;
+        Ok(Written::new(
+            Shape::Root(degree, Box::new(inner)),
+            start,
+            stop,
+        ))
+    }
+
+    /// A function: its own exponent, then its argument.
+    pub(super) fn call(
+        &mut self,
+        function: Function,
+        reciprocal: bool,
+        start: usize,
+        end: usize,
+    ) -> Faulty<Written> {
+        let mut exponent = None;
+        match self.peek()?.tok {
+            Tok::Caret => {
+                self.next()?;
+                exponent = Some(self.exponent()?);
+            }
+            Tok::Raised(_) => exponent = Some(raised_number(&self.next()?)),
+            _ => {}
+        }
+        let name = function.name();
+        let in_bars = self.bars > 0;
+        let first = self.peek()?;
+        let argument = match first.tok {
+            Tok::Open(_) | Tok::Bar | Tok::OpenBar if first.tok != Tok::Bar || !in_bars => {
+                self.primary()?
+            }
+            Tok::Minus | Tok::Plus => {
+                let (at, sign) = (first.start, self.sign()?);
+                let inner = self.bare_argument()?;
+                let stop = inner.end;
+                Written::new(
+                    Shape::Sum(vec![(sign.unwrap_or(Sign::Plus), inner)]),
+                    at,
+                    stop,
+                )
+            }
+            Tok::Number(_)
+            | Tok::Name(_)
+            | Tok::Vulgar(..)
+            | Tok::Fraction
+            | Tok::Root(_)
+            | Tok::Call(_)
+            | Tok::Reciprocal(_) => self.bare_argument()?,
+            _ => {
+                let token = self.next()?;
+                return Err(Fault::new(
+                    format!("{name} needs an argument"),
+                    start,
+                    end.max(token.start),
+                ));
+            }
+        };
+        let trigonometric = matches!(function, Function::Sin | Function::Cos | Function::Tan);
+        if trigonometric && plain_number(&argument) {
+            self.lexer.note(
+                Remark::Radians,
+                argument.start,
+                argument.start,
+                argument.end,
+            );
+        }
+        let stop = argument.end;
+        let minus_one = exponent
+            .as_ref()
+            .and_then(Written::literal)
+            .is_some_and(|k| k.value == ratio(-1, 1));
+        let inverse = match function {
+            Function::Sin => Some(Function::Asin),
+            Function::Cos => Some(Function::Acos),
+            Function::Tan => Some(Function::Atan),
+            _ => None,
+        };
+        if let (true, Some(inverse), false) = (minus_one, inverse, reciprocal) {
+            let raised_end = exponent.map_or(end, |e| e.end);
+            self.lexer.note(Remark::Inverse, start, start, raised_end);
+            return Ok(Written::new(
+                Shape::Call(inverse, Box::new(argument)),
+                start,
+                stop,
+            ));
+        }
+        let argument = Box::new(argument);
+        let shape = if reciprocal {
+            Shape::Reciprocal(function, argument)
+        } else {
+            Shape::Call(function, argument)
+        };
+        let called = Written::new(shape, start, stop);
+        Ok(match exponent {
+            Some(exponent) => Written::new(
+                Shape::Power(Box::new(called), Box::new(exponent)),
+                start,
+                stop,
+            ),
+            None => called,
+        })
+    }
+
+    /// The argument of a function without brackets: numbers, then one angle, or a product of names such as ω t.
+    pub(super) fn bare_argument(&mut self) -> Faulty<Written> {
+        let first = self.factor()?;
+        if let Shape::Call(..) | Shape::Reciprocal(..) = first.shape {
+            return Ok(first);
+        }
+        let (start, mut end) = (first.start, first.end);
+        let mut numeric = first.is_numeric();
+        let mut angle = self.has_angle(&first);
+        let mut named = is_name(&first);
+        let mut factors = vec![(Link::Beside, first)];
+        loop {
+            let token = self.peek()?.clone();
+            let name = match &token.tok {
+                Tok::Name(name) => Some(name.clone()),
+                _ => None,
+            };
+            let hat = name.as_ref().is_some_and(|n| n.ends_with("_hat"));
+            let goes_on = match &token.tok {
+                Tok::Name(_) if hat => false,
+                Tok::Name(_) | Tok::Root(_) | Tok::Fraction | Tok::Open(_) if numeric => true,
+                Tok::Name(name) if named => {
+                    let both = angle && self.lexer.is_angle(name);
+                    let usual = self.lexer.usual();
+                    let long = (!angle || both) == usual;
+                    self.lexer
+                        .note(Remark::Argument { long }, start, end, token.end);
+                    long
+                }
+                Tok::Slash if named => {
+                    // sinθ/2: half of the sine, unless somebody meant the half angle.
+                    let digit = lone_number(&self.lexer.text[self.lexer.pos..]);
+                    if digit && !self.lexer.usual() {
+                        self.next()?;
+                        let below = self.factor()?;
+                        self.lexer
+                            .note(Remark::Argument { long: true }, start, end, below.end);
+                        end = below.end;
+                        factors.push((Link::Over, below));
+                    } else if digit {
+                        self.lexer.note(
+                            Remark::Argument { long: false },
+                            start,
+                            end,
+                            token.end + 1,
+                        );
+                    }
+                    false
+                }
+                _ => false,
+            };
+            if !goes_on {
+                break;
+            }
+            let factor = self.factor()?;
+            end = factor.end;
+            let still = factor.is_numeric();
+            angle |= self.has_angle(&factor);
+            named = is_name(&factor);
+            factors.push((Link::Beside, factor));
+            if numeric && !still && !named {
+                break;
+            }
+            numeric &= still;
+        }
+        match factors.pop() {
+            Some((_, only)) if factors.is_empty() => Ok(only),
+            Some(last) => {
+                factors.push(last);
+                Ok(Written::new(Shape::Product(factors), start, end))
+            }
+            None => Err(Fault::new("an argument is missing", start, end)),
+        }
+    }
+
+    pub(super) fn has_angle(&self, written: &Written) -> bool {
+        match &written.shape {
+            Shape::Symbol(name) => self.lexer.is_angle(name),
+            Shape::Power(base, _) => self.has_angle(base),
+            _ => false,
+        }
+    }
+}
+
+/// Whether the text goes on with a whole number that nothing multiplies.
+fn lone_number(text: &str) -> bool {
+    let rest = text.trim_start();
+    let behind = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+    let next = behind.trim_start().chars().next();
+    behind.len() < rest.len() && next.is_none_or(|c| "+-−±=<>)]}|,$".contains(c))
+}
+
+fn is_name(written: &Written) -> bool {
+    match &written.shape {
+        Shape::Symbol(name) => &**name != "pi",
+        Shape::Power(base, _) => is_name(base),
+        _ => false,
+    }
+}
+
+/// A whole number other than 0, with or without brackets and sign.
+fn plain_number(written: &Written) -> bool {
+    match &written.shape {
+        Shape::Number(n) => n.value != ratio(0, 1),
+        Shape::Bracket(inner) => plain_number(inner),
+        Shape::Sum(terms) => matches!(terms.as_slice(), [(_, inner)] if plain_number(inner)),
+        _ => false,
+    }
+}

@@ -1,0 +1,259 @@
+//! The LaTeX commands that are read. Nothing is expanded; a command outside this list is a fault.
+
+use super::Relation;
+use super::fault::{Fault, Faulty, is_invisible};
+use super::lexer::{Before, Lexer, Tok};
+use super::name;
+use super::note::Remark;
+use super::symbols::Parts;
+use super::words::function;
+
+impl<'a> Lexer<'a> {
+    pub(super) fn command(&mut self, single: bool) -> Faulty<Tok> {
+        let start = self.pos;
+        let rest = &self.text[start + 1..];
+        let length = rest
+            .find(|c: char| !c.is_ascii_alphabetic())
+            .unwrap_or(rest.len());
+        let word = &rest[..length];
+        let end = start + 1 + length;
+        self.pos = end;
+        if word.ends_with("frac")
+            && (rest[length..].starts_with("{\\text{") || rest[length..].starts_with("{\\mathrm{"))
+        {
+            self.pos = start;
+            if let Some(tok) = self.unit(true).filter(|_| self.before != Before::Nothing) {
+                return Ok(tok);
+            }
+            self.pos = end;
+        }
+        let tok = match word {
+            "frac" | "dfrac" | "tfrac" | "cfrac" => Tok::Fraction,
+            "sqrt" | "surd" => Tok::Root(2),
+            "cdot" | "times" | "ast" | "bullet" => Tok::Times,
+            "div" => Tok::Slash,
+            "pm" => Tok::PlusMinus,
+            "mp" => Tok::MinusPlus,
+            "le" | "leq" | "leqslant" | "leqq" => Tok::Relation(Relation::LessEqual),
+            "ge" | "geq" | "geqslant" | "geqq" => Tok::Relation(Relation::GreaterEqual),
+            "lt" => Tok::Relation(Relation::Less),
+            "gt" => Tok::Relation(Relation::Greater),
+            "ne" | "neq" => Tok::Relation(Relation::NotEqual),
+            "approx" | "simeq" | "cong" => Tok::Relation(Relation::Approximately),
+            "equiv" => Tok::Relation(Relation::Equal),
+            "vert" | "mid" => Tok::Bar,
+            "lvert" => Tok::OpenBar,
+            "rvert" => Tok::CloseBar,
+            "langle" => Tok::Open('<'),
+            "rangle" => Tok::Close('>'),
+            "lbrace" => Tok::Open('{'),
+            "rbrace" => Tok::Close('}'),
+            "lbrack" => Tok::Open('['),
+            "rbrack" => Tok::Close(']'),
+            "pi" => Tok::Name("pi".into()),
+            "degree" => Tok::Degree,
+            "" => match rest.chars().next() {
+                Some('{') => {
+                    self.pos += 1;
+                    Tok::Open('{')
+                }
+                Some('}') => {
+                    self.pos += 1;
+                    Tok::Close('}')
+                }
+                Some(c) => {
+                    let shown = if is_invisible(c) || c.is_control() {
+                        '\u{fffd}'
+                    } else {
+                        c
+                    };
+                    return Err(Fault::new(
+                        format!("`\\{shown}` is no command I read"),
+                        start,
+                        end + c.len_utf8(),
+                    ));
+                }
+                None => return Err(Fault::new("a lone backslash", start, end)),
+            },
+            "operatorname" => return self.operator(start),
+            "mathrm" | "text" | "textrm" | "mathsf" | "mathbf" | "mathit" | "textbf" | "textit"
+            | "boldsymbol" | "bm" | "mathcal" => {
+                return self.font(start, word);
+            }
+            "over" | "atop" => {
+                return Err(Fault::new(format!("`\\{word}` is not read"), start, end)
+                    .hint("write \\frac{…}{…}"));
+            }
+            "infty" => {
+                return Err(Fault::new(
+                    "infinity is no value of a formula here",
+                    start,
+                    end,
+                ));
+            }
+            word => match function(word).filter(|_| word.chars().all(|c| c.is_ascii_lowercase())) {
+                Some(tok) => {
+                    if word == "log" {
+                        self.note(Remark::NaturalLogarithm, start, start, end);
+                    }
+                    tok
+                }
+                None => {
+                    let mut parts = Parts::default();
+                    let Some(at) = name::base(self.text, start, &mut parts, 0) else {
+                        let shown: String = word.chars().take(24).collect();
+                        let fault =
+                            Fault::new(format!("`\\{shown}` is no command I read"), start, end);
+                        return Err(match function(word).or_else(|| nearest_command(word)) {
+                            Some(_) => fault.hint("commands are written in lower case and in full, as in \\sin"),
+                            None => fault.hint("known are \\frac, \\sqrt, \\sin and the like, \\cdot, Greek letters, accents and \\mathrm"),
+                        });
+                    };
+                    return if single {
+                        self.resolve(start, at, parts)
+                    } else {
+                        self.finish(start, at, parts)
+                    };
+                }
+            },
+        };
+        Ok(tok)
+    }
+
+    pub(super) fn operator(&mut self, start: usize) -> Faulty<Tok> {
+        let (inside, end) = self.group(start)?;
+        let word: String = inside.chars().filter(|c| !c.is_whitespace()).collect();
+        self.pos = end;
+        match function(&word) {
+            Some(tok) => Ok(tok),
+            None => Err(Fault::new(
+                format!("`{word}` is no function I know"),
+                start,
+                end,
+            )),
+        }
+    }
+
+    /// A piece in another font: a unit behind a number, a function, or a name.
+    pub(super) fn font(&mut self, start: usize, word: &str) -> Faulty<Tok> {
+        self.pos = start;
+        self.pos = start + 1 + word.len();
+        if let Ok((inside, end)) = self.group(start)
+            && matches!(inside.trim(), "deg" | "degrees" | "°")
+            && self.before != Before::Nothing
+        {
+            self.pos = end;
+            return Ok(Tok::Degree);
+        }
+        self.pos = start;
+        if self.before != Before::Nothing
+            && matches!(word, "mathrm" | "text" | "textrm" | "mathsf")
+            && let Some(tok) = self.unit(true)
+        {
+            return Ok(tok);
+        }
+        self.pos = start + 1 + word.len();
+        if let Ok((inside, end)) = self.group(start) {
+            let trimmed = inside.trim();
+            if let Some(tok) = function(trimmed) {
+                self.pos = end;
+                return Ok(tok);
+            }
+            if trimmed == "pi" || trimmed == "\\pi" {
+                self.pos = end;
+                return Ok(Tok::Name("pi".into()));
+            }
+        }
+        let mut parts = Parts::default();
+        match name::base(self.text, start, &mut parts, 0) {
+            Some(at) => self.finish(start, at, parts),
+            None => {
+                let end = self.group(start).map_or(self.pos, |(_, end)| end);
+                Err(Fault::new(
+                    "this text is neither a unit, a function nor a name",
+                    start,
+                    end,
+                ))
+            }
+        }
+    }
+
+    /// The text of the brace group that starts at the current place, and the byte after it.
+    pub(super) fn group(&self, start: usize) -> Faulty<(&'a str, usize)> {
+        let blanks = self.text[self.pos..].len()
+            - self.text[self.pos..].trim_start_matches([' ', '*']).len();
+        let at = self.pos + blanks;
+        let inside = self.text[at..].strip_prefix('{');
+        let length = inside.and_then(|inside| inside.find('}'));
+        match (inside, length) {
+            (Some(inside), Some(length)) => Ok((&inside[..length], at + length + 2)),
+            _ => Err(Fault::new("a group in braces is expected here", start, at)),
+        }
+    }
+}
+
+fn nearest_command(word: &str) -> Option<Tok> {
+    function(&word.to_ascii_lowercase())
+}
+
+/// Length of a command that only decorates, without its backslash.
+pub(super) fn decoration(rest: &str) -> Option<usize> {
+    let first = rest.chars().next()?;
+    if matches!(
+        first,
+        ',' | ';' | ':' | '!' | ' ' | '(' | ')' | '[' | ']' | '>'
+    ) {
+        return Some(1);
+    }
+    let length = rest
+        .find(|c: char| !c.is_ascii_alphabetic())
+        .unwrap_or(rest.len());
+    let known = matches!(
+        &rest[..length],
+        "left"
+            | "right"
+            | "big"
+            | "Big"
+            | "bigg"
+            | "Bigg"
+            | "bigl"
+            | "bigr"
+            | "Bigl"
+            | "Bigr"
+            | "biggl"
+            | "biggr"
+            | "Biggl"
+            | "Biggr"
+            | "displaystyle"
+            | "textstyle"
+            | "scriptstyle"
+            | "quad"
+            | "qquad"
+            | "limits"
+            | "thinspace"
+            | "medspace"
+            | "nonumber"
+            | "mathstrut"
+    );
+    known.then_some(length)
+}
+
+/// Length of a degree sign behind `^`.
+pub(super) fn degree_mark(rest: &str) -> Option<usize> {
+    let blanks = rest.len() - rest.trim_start_matches(' ').len();
+    let body = &rest[blanks..];
+    let marks = [
+        "{\\circ}",
+        "\\circ",
+        "{∘}",
+        "{°}",
+        "∘",
+        "°",
+        "{\\degree}",
+        "\\degree",
+    ];
+    marks
+        .iter()
+        .find(|mark| body.starts_with(**mark))
+        .map(|mark| blanks + mark.len())
+}

@@ -1,0 +1,158 @@
+//! Units behind numbers, plain or in LaTeX.
+
+use super::lexer::{Before, Lexer, Tok};
+use super::note::Remark;
+use crate::dimension;
+
+/// Longest unit with its decoration, in bytes.
+const LONGEST_UNIT: usize = 120;
+
+impl Lexer<'_> {
+    /// A unit that fills the rest of this side, where one can stand.
+    pub(super) fn unit(&mut self, marked: bool) -> Option<Tok> {
+        let start = self.pos;
+        let rest = &self.text[start..];
+        if !marked && !starts_like_a_unit(rest) {
+            return None;
+        }
+        let ends = |c: char| matches!(c, '=' | '<' | '>' | '≤' | '≥' | '≠' | '≈');
+        let stop = rest
+            .char_indices()
+            .take(LONGEST_UNIT)
+            .find(|(_, c)| ends(*c))
+            .map_or(rest.len(), |(at, _)| at);
+        let side = &rest[..stop];
+        if side.len() > LONGEST_UNIT {
+            return None;
+        }
+        let plain = plain_unit(side)?;
+        let read = dimension::unit(&plain).ok()?;
+        if !marked {
+            let words = || {
+                plain
+                    .split(|c: char| !c.is_ascii_alphabetic())
+                    .filter(|w| !w.is_empty())
+            };
+            if !self.units_first {
+                if !self.symbols.is_open()
+                    || words().any(|w| {
+                        w.chars()
+                            .any(|c| self.symbols.find(c.encode_utf8(&mut [0; 4])).is_some())
+                    })
+                {
+                    return None;
+                }
+                // Without declarations 3 m g is a force more often than a unit.
+                let telling = words().any(|w| {
+                    matches!(
+                        w,
+                        "kg" | "rad"
+                            | "deg"
+                            | "rpm"
+                            | "cm"
+                            | "mm"
+                            | "km"
+                            | "Hz"
+                            | "Nm"
+                            | "Ns"
+                            | "kN"
+                            | "kJ"
+                            | "MJ"
+                            | "mph"
+                            | "ft"
+                            | "J"
+                            | "N"
+                    )
+                }) || plain.contains("/s")
+                    || plain.contains("s^-")
+                    || plain.contains("s⁻");
+                let unit_first = telling || self.before == Before::Number { decimal: true };
+                let usual = self.usual();
+                if unit_first != usual {
+                    return None;
+                }
+                self.note(Remark::UnitNotSymbols, start, start, start + stop);
+            }
+        }
+        self.pos = start + stop;
+        Some(Tok::Unit(Box::new(read)))
+    }
+}
+
+/// Whether the text starts with a word that is a unit, so that trying is worth it.
+fn starts_like_a_unit(side: &str) -> bool {
+    let length = side
+        .bytes()
+        .take(8)
+        .take_while(u8::is_ascii_alphabetic)
+        .count();
+    (1..8).contains(&length) && dimension::unit(&side[..length]).is_ok()
+}
+
+/// Stands for `\frac` until its groups are found.
+const FRACTION: char = '\u{1}';
+
+/// The unit without LaTeX decoration.
+fn plain_unit(side: &str) -> Option<String> {
+    let mut out = String::new();
+    let mut rest = side;
+    while let Some(c) = rest.chars().next() {
+        rest = &rest[c.len_utf8()..];
+        match c {
+            '\\' => {
+                let length = rest
+                    .find(|c: char| !c.is_ascii_alphabetic())
+                    .unwrap_or(rest.len());
+                let word = &rest[..length];
+                rest = &rest[length..];
+                match word {
+                    "mathrm" | "text" | "textrm" | "mathsf" | "rm" => {
+                        if !out.is_empty() {
+                            out.push(' ');
+                        }
+                    }
+                    "cdot" | "times" => out.push('·'),
+                    "circ" => out.push('°'),
+                    "mu" => out.push('µ'),
+                    "frac" | "dfrac" | "tfrac" => out.push(FRACTION),
+                    "" => {
+                        out.push(' ');
+                        rest = rest.strip_prefix([',', ';', ':', '!', ' '])?;
+                    }
+                    _ => return None,
+                }
+            }
+            '$' => {}
+            '~' => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    // Braces that grouped a font; those of an exponent stay.
+    let mut plain = String::new();
+    let mut open = Vec::new();
+    for c in out.chars() {
+        match c {
+            '{' => {
+                let group = match plain.chars().last() {
+                    Some('^') => "}",
+                    Some(FRACTION) => {
+                        plain.pop();
+                        ")/"
+                    }
+                    Some('/') => ")",
+                    _ => "",
+                };
+                open.push(group);
+                match group {
+                    "" => {}
+                    "}" => plain.push('{'),
+                    _ => plain.push('('),
+                }
+            }
+            '}' => plain.push_str(open.pop()?),
+            c => plain.push(c),
+        }
+    }
+    let trimmed = plain.trim().trim_end_matches(['.', ',', ';']).trim_end();
+    (open.is_empty() && !trimmed.is_empty()).then(|| trimmed.to_string())
+}

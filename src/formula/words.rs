@@ -1,0 +1,269 @@
+//! Runs of letters: functions, declared words, Greek names and single letters, resolved against the symbols in play.
+
+use super::fault::{Fault, Faulty};
+use super::lexer::{Before, Lexer, Tok};
+use super::name;
+use super::note::Remark;
+use super::symbols::{Parts, is_greek};
+use crate::expr::{Function, Symbol};
+
+/// Most different names in one formula.
+const MAX_NAMES: usize = 256;
+/// Most faults reported together.
+const MAX_FAULTS: usize = 8;
+
+impl Lexer<'_> {
+    /// A run of letters: a function, a declared word, a Greek name, or the first letter alone.
+    pub(super) fn word(&mut self, single: bool) -> Faulty<Tok> {
+        let start = self.pos;
+        let rest = &self.text[start..];
+        if single {
+            let parts = Parts {
+                base: rest[..1].to_string(),
+                ..Parts::default()
+            };
+            return self.resolve(start, start + 1, parts);
+        }
+        // A longer run is read in pieces.
+        let run = rest
+            .bytes()
+            .take(64)
+            .take_while(u8::is_ascii_alphabetic)
+            .count();
+        if !(start > 0 && self.text.as_bytes()[start - 1].is_ascii_alphabetic()) {
+            self.run_from = start;
+        }
+        if self.before != Before::Nothing {
+            let word = &rest[..run];
+            let degrees =
+                matches!(word, "deg" | "degree" | "degrees") && self.symbols.find(word).is_none();
+            if degrees && !rest[run..].trim_start().starts_with('/') {
+                self.pos += run;
+                return Ok(Tok::Degree);
+            }
+            if let Some(tok) = self.unit(false) {
+                return Ok(tok);
+            }
+        }
+        for length in (1..=run.min(self.symbols.longest_word())).rev() {
+            let word = &rest[..length];
+            let base = length == 1 || self.symbols.has_base(word);
+            if base && let Some(tok) = self.declared_name(start, start + length) {
+                return Ok(tok);
+            }
+            if length < 2 {
+                break;
+            }
+            if let Some(tok) = function(word) {
+                if !self.function_wanted(word, start) {
+                    continue;
+                }
+                self.pos = start + length;
+                if let ("log", Tok::Call(_)) = (word, &tok) {
+                    self.note(Remark::NaturalLogarithm, start, start, self.pos);
+                }
+                return Ok(tok);
+            }
+            if word == "pi" {
+                self.pos = start + length;
+                return Ok(Tok::Name("pi".into()));
+            }
+            if is_greek(word) || word == "ell" {
+                if let Some(tok) = self.declared_name(start, start + length) {
+                    return Ok(tok);
+                }
+                if self.symbols.is_open() {
+                    return self.name(start, start + length);
+                }
+            }
+        }
+        if self.symbols.is_open() {
+            if run > 3
+                && self.before == Before::Nothing
+                && !self.notes.iter().any(|n| n.end >= start + run)
+            {
+                self.note(Remark::Letters, start, start, start + run);
+            }
+            return self.name(start, start + 1);
+        }
+        self.unknown_word(start, run)
+    }
+
+    /// `asin` is the arcsine unless `a` is declared and the other reading is asked for.
+    pub(super) fn function_wanted(&mut self, word: &str, start: usize) -> bool {
+        if !matches!(word, "asin" | "acos" | "atan") || self.symbols.find("a").is_none() {
+            return true;
+        }
+        let usual = self.usual();
+        self.note(
+            Remark::ArcOrFactor { arc: usual },
+            start,
+            start + 1,
+            start + word.len(),
+        );
+        usual
+    }
+
+    pub(super) fn unknown_word(&mut self, start: usize, run: usize) -> Faulty<Tok> {
+        // A word that starts with declared letters is one fault, not a product and a fault.
+        let from = self.run_from.min(start);
+        let (start, run) = (from, run + start - from);
+        let mut parts = Parts {
+            base: self.text[start..start + run].to_string(),
+            ..Parts::default()
+        };
+        let mut took = false;
+        let end = name::tail(
+            self.text,
+            start + run,
+            &mut parts,
+            self.symbols,
+            false,
+            &mut took,
+        );
+        self.refuse(&parts.key(), start, end)
+    }
+
+    /// Notes an undeclared name and goes on with it, so that all are reported together.
+    pub(super) fn refuse(&mut self, key: &str, start: usize, end: usize) -> Faulty<Tok> {
+        let shown = &self.text[start..end];
+        let mut fault = Fault::new(format!("`{shown}` is not declared"), start, end);
+        if let Some(nearest) = self.symbols.nearest(key) {
+            fault = fault.hint(format!("did you mean {nearest}?"));
+        } else if !self.symbols.declared().is_empty() && self.symbols.declared().len() <= 24 {
+            let names: Vec<&str> = self.symbols.declared().iter().map(|d| &*d.name).collect();
+            fault = fault.hint(format!("declared are {}", names.join(", ")));
+        }
+        if self.unknown.len() >= MAX_FAULTS {
+            return Err(fault);
+        }
+        self.unknown.push(*fault);
+        self.pos = end;
+        Ok(Tok::Name(key.into()))
+    }
+
+    /// A declared name whose base is these bytes.
+    pub(super) fn declared_name(&mut self, start: usize, end: usize) -> Option<Tok> {
+        let mut parts = Parts {
+            base: self.text[start..end].to_string(),
+            ..Parts::default()
+        };
+        let at = name::combining(self.text, end, &mut parts);
+        let mut took = false;
+        let stop = name::tail(self.text, at, &mut parts, self.symbols, false, &mut took);
+        let found = name::find(&parts, self.symbols)?.name.clone();
+        self.pos = stop;
+        Some(Tok::Name(found))
+    }
+
+    /// A name whose base starts here; `end` bounds a base of plain letters.
+    pub(super) fn name(&mut self, start: usize, end: usize) -> Faulty<Tok> {
+        let mut parts = Parts::default();
+        let plain = self.text[start..end]
+            .bytes()
+            .all(|b| b.is_ascii_alphabetic());
+        let at = if plain {
+            parts.base = self.text[start..end].to_string();
+            if parts.base == "ell" {
+                parts.base = "l".into();
+            }
+            name::combining(self.text, end, &mut parts)
+        } else {
+            match name::base(self.text, start, &mut parts, 0) {
+                Some(at) => at,
+                None => return Err(Fault::new("this is no name I can read", start, end)),
+            }
+        };
+        self.finish(start, at, parts)
+    }
+
+    /// Reads index and marks behind a base and resolves the name.
+    pub(super) fn finish(&mut self, start: usize, at: usize, parts: Parts) -> Faulty<Tok> {
+        let mut whole = parts.clone();
+        let mut took = false;
+        let mut stop = name::tail(self.text, at, &mut whole, self.symbols, false, &mut took);
+        if took {
+            let usual = self.usual();
+            if !usual {
+                whole = parts;
+                stop = name::tail(self.text, at, &mut whole, self.symbols, true, &mut took);
+            }
+            self.note(Remark::Component { one: usual }, start, start, stop);
+        }
+        self.resolve(start, stop, whole)
+    }
+
+    /// Looks a complete name up.
+    pub(super) fn resolve(&mut self, start: usize, stop: usize, whole: Parts) -> Faulty<Tok> {
+        self.pos = stop;
+        if let Some(found) = name::find(&whole, self.symbols) {
+            return Ok(Tok::Name(found.name.clone()));
+        }
+        let key = whole.key();
+        if matches!(key.as_str(), "i_hat" | "j_hat" | "k_hat") {
+            return Ok(Tok::Name(key.as_str().into()));
+        }
+        if !self.symbols.is_open() {
+            return self.refuse(&key, start, stop);
+        }
+        if let Some(known) = self.found.iter().find(|name| ***name == *key) {
+            return Ok(Tok::Name(known.clone()));
+        }
+        if self.found.len() >= MAX_NAMES {
+            return Err(Fault::new(
+                format!("a formula has at most {MAX_NAMES} different names"),
+                start,
+                stop,
+            ));
+        }
+        let name = Symbol::from(key.as_str());
+        self.found.push(name.clone());
+        Ok(Tok::Name(name))
+    }
+
+    /// `{v}_{1}`: a name in braces whose index stands outside.
+    pub(super) fn braced_name(&mut self) -> Option<Tok> {
+        let start = self.pos;
+        let mut parts = Parts::default();
+        let at = name::base(self.text, start, &mut parts, 0)?;
+        let behind = self.text[at..].chars().next();
+        if !matches!(behind, Some('_' | '\'' | '′'))
+            || parts.base.len() > 1 && !is_greek(&parts.base)
+        {
+            return None;
+        }
+        self.finish(start, at, parts).ok()
+    }
+}
+
+/// A function by name; capitals are accepted.
+pub(super) fn function(word: &str) -> Option<Tok> {
+    if word.len() < 2 || word.len() > 7 {
+        return None;
+    }
+    let mut lower = [0u8; 7];
+    for (to, from) in lower.iter_mut().zip(word.bytes()) {
+        *to = from.to_ascii_lowercase();
+    }
+    use Function::*;
+    Some(match &lower[..word.len()] {
+        b"sin" => Tok::Call(Sin),
+        b"cos" => Tok::Call(Cos),
+        b"tan" => Tok::Call(Tan),
+        b"asin" | b"arcsin" => Tok::Call(Asin),
+        b"acos" | b"arccos" => Tok::Call(Acos),
+        b"atan" | b"arctan" => Tok::Call(Atan),
+        b"sinh" => Tok::Call(Sinh),
+        b"cosh" => Tok::Call(Cosh),
+        b"tanh" => Tok::Call(Tanh),
+        b"exp" => Tok::Call(Exp),
+        b"ln" | b"log" => Tok::Call(Ln),
+        b"abs" => Tok::Call(Abs),
+        b"sec" => Tok::Reciprocal(Cos),
+        b"csc" | b"cosec" => Tok::Reciprocal(Sin),
+        b"cot" => Tok::Reciprocal(Tan),
+        b"sqrt" => Tok::Root(2),
+        b"cbrt" => Tok::Root(3),
+        _ => return None,
+    })
+}
