@@ -60,6 +60,9 @@ fn split_into(p: Poly, times: u32, out: &mut Vec<(Poly, u32)>, fuel: &Fuel) {
 
 /// A proper divisor and its cofactor, when one is found.
 fn divisor(p: &Poly, fuel: &Fuel) -> Option<(Poly, Poly)> {
+    if let Some(root) = p.sqrt() {
+        return Some((root.clone(), root));
+    }
     let degrees = p.degrees();
     let mut variables = mono_variables(&degrees);
     variables.sort_by_key(|v| exponent(&degrees, *v));

@@ -5,7 +5,7 @@ use num_traits::{One, Signed};
 use super::factor::factor;
 use super::field::{Field, Kind};
 use super::gcd::{Fuel, gcd};
-use super::poly::{Poly, exponent, mono_variables};
+use super::poly::{Poly, exponent, mono_variables, powers};
 use crate::expr::Int;
 
 /// content · ∏ factorᵏ; single generators are factors of one term.
@@ -159,10 +159,7 @@ impl Field {
 
 /// Length of a written monomial, roughly: three characters a factor, two more for an exponent.
 pub(crate) fn letters(mono: &[u64]) -> usize {
-    mono_variables(mono)
-        .iter()
-        .map(|v| if exponent(mono, *v) > 1 { 5 } else { 3 })
-        .sum()
+    powers(mono).map(|(_, k)| if k > 1 { 5 } else { 3 }).sum()
 }
 
 /// c² → 1 − s² throughout; s may then occur squared.

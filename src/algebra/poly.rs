@@ -727,10 +727,28 @@ pub(crate) fn mono_is_one(mono: &[u64]) -> bool {
     mono.iter().all(|w| *w == 0)
 }
 
+/// The variables of a monomial, ascending.
 pub(crate) fn mono_variables(mono: &[u64]) -> Vec<usize> {
-    (0..mono.len() * FIELDS)
-        .filter(|v| exponent(mono, *v) > 0)
-        .collect()
+    powers(mono).map(|(v, _)| v).collect()
+}
+
+/// The variables of a monomial with their exponents, ascending.
+pub(crate) fn powers(mono: &[u64]) -> impl Iterator<Item = (usize, u32)> + '_ {
+    mono.iter()
+        .enumerate()
+        .filter(|(_, word)| **word != 0)
+        .flat_map(|(i, word)| {
+            let mut left = *word;
+            std::iter::from_fn(move || {
+                (left != 0).then(|| {
+                    let field = left.leading_zeros() as usize / 8;
+                    let shift = 56 - 8 * field;
+                    let k = (left >> shift & 0x7f) as u32;
+                    left &= !(0xff << shift);
+                    (i * FIELDS + field, k)
+                })
+            })
+        })
 }
 
 /// Compares monomials of any lengths.

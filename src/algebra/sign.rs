@@ -8,7 +8,7 @@ use num_traits::{One, Signed, Zero};
 use super::element::Element;
 use super::factor::factor;
 use super::field::{AngleOf, Field, Kind};
-use super::poly::{Poly, exponent, mono_of, mono_variables};
+use super::poly::{Poly, exponent, mono_of, mono_variables, powers};
 use super::{Sign, Stop};
 use crate::domain::Limit;
 use crate::expr::number::{self, to_f64};
@@ -233,7 +233,7 @@ impl Field {
                 return None;
             }
             let (mut strict, mut top) = (true, closed.len() == 1);
-            for v in mono_variables(mono) {
+            for (v, power) in powers(mono) {
                 let known = match weak.iter().find(|(w, _)| *w == v) {
                     Some((_, true)) => Known::NotNegative,
                     Some((_, false)) => Known::Positive,
@@ -245,7 +245,7 @@ impl Field {
                         strict = false;
                         top &= closed.contains(&v);
                     }
-                    Known::Unknown if exponent(mono, v) % 2 == 0 => {
+                    Known::Unknown if power % 2 == 0 => {
                         strict = false;
                         top = false;
                     }
@@ -489,8 +489,8 @@ impl Field {
         let (mut total, mut size) = (0.0, 0.0);
         for (mono, coeff) in p.terms() {
             let mut value = to_f64(&Rational::from(coeff.clone()));
-            for v in mono_variables(mono) {
-                value *= self.samples[v][k].powi(exponent(mono, v) as i32);
+            for (v, power) in powers(mono) {
+                value *= self.samples[v][k].powi(power as i32);
             }
             total += value;
             size += f64::abs(value);

@@ -7,7 +7,8 @@ use super::element::Element;
 use super::field::{AngleOf, Field, Kind};
 use super::parts::{Parts, letters, strike};
 use super::poly::{
-    Mono, Poly, cmp_mono, exponent, mono_add, mono_div, mono_divides, mono_of, mono_variables,
+    Mono, Poly, cmp_mono, exponent, mono_add, mono_div, mono_divides, mono_is_one, mono_of,
+    mono_variables, powers,
 };
 use crate::expr::{Expr, Function, Int, Node, Rational, ratio};
 
@@ -204,8 +205,8 @@ impl Field {
         terms.sort_by_key(Term::degree);
         let mut out = Vec::new();
         let mut at = 0;
-        while terms.len() > 2 && terms.len() <= MOST_GROUPED {
-            let Some(group) = best_group(&terms) else {
+        while terms.len() > usize::from(out.is_empty()) + 1 && terms.len() <= MOST_GROUPED {
+            let Some(group) = best_group(&terms, out.is_empty()) else {
                 break;
             };
             let mut total = Poly::zero();
@@ -343,17 +344,20 @@ fn join(
     }
 }
 
-/// The terms that are best written under one bracket, ascending; `None` where that saves nothing.
-fn best_group(terms: &[Term]) -> Option<Vec<usize>> {
+/// The terms that are best written under one bracket, ascending, not all of them if `proper`; `None` where that saves nothing.
+fn best_group(terms: &[Term], proper: bool) -> Option<Vec<usize>> {
     let mut best: Option<(usize, usize, Vec<usize>)> = None;
-    let mut variables: Vec<usize> = terms.iter().flat_map(|t| mono_variables(&t.mono)).collect();
+    let mut variables: Vec<usize> = terms
+        .iter()
+        .flat_map(|t| powers(&t.mono).map(|(v, _)| v))
+        .collect();
     variables.sort_unstable();
     variables.dedup();
     for v in variables {
         let group: Vec<usize> = (0..terms.len())
             .filter(|i| terms[*i].gathered.is_none() && exponent(&terms[*i].mono, v) > 0)
             .collect();
-        if group.len() < 2 || group.len() == terms.len() {
+        if group.len() < 2 || (proper && group.len() == terms.len()) {
             continue;
         }
         let mut common = terms[group[0]].mono.clone();
@@ -381,14 +385,11 @@ fn best_group(terms: &[Term]) -> Option<Vec<usize>> {
 
 impl Term {
     fn is_number(&self) -> bool {
-        self.gathered.is_none() && mono_variables(&self.mono).is_empty()
+        self.gathered.is_none() && mono_is_one(&self.mono)
     }
 
     fn degree(&self) -> u32 {
-        let own: u32 = mono_variables(&self.mono)
-            .iter()
-            .map(|v| exponent(&self.mono, *v))
-            .sum();
+        let own: u32 = powers(&self.mono).map(|(_, k)| k).sum();
         own + u32::from(self.gathered.is_some())
     }
 }
