@@ -28,7 +28,7 @@ pub(super) fn equal_where(
                 None
             }
         })?;
-    if sign_at(&condition, &elsewhere.at, roles.radians) != Some(-1)
+    if sign_at(&condition, &elsewhere.at) != Some(-1)
         || !parts_elsewhere(a, b, &condition, domains, roles)
     {
         return None;
@@ -97,10 +97,10 @@ fn on_square(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles) -> Option<Exp
 /// are equal where x ≥ 0, but that is not what sets them apart.
 fn parts_elsewhere(a: &Expr, b: &Expr, condition: &Expr, domains: &Domains, roles: &Roles) -> bool {
     let difference = a - b;
-    samples(roles, domains, 16)
+    samples(roles, domains, 10)
         .iter()
-        .filter(|at| sign_at(condition, at, roles.radians) == Some(-1))
-        .all(|at| sign_at(&difference, at, roles.radians).is_some_and(|s| s != 0))
+        .filter(|at| sign_at(condition, at) == Some(-1))
+        .all(|at| sign_at(&difference, at).is_some_and(|s| s != 0))
 }
 
 fn proved(a: &Expr, b: &Expr, domains: &Domains) -> bool {
@@ -119,7 +119,7 @@ fn opposite(at: &Counterexample) -> bool {
 fn occurs(f: &Expr, domains: &Domains, roles: &Roles) -> bool {
     samples(roles, domains, 8)
         .iter()
-        .any(|at| sign_at(f, at, roles.radians) == Some(1))
+        .any(|at| sign_at(f, at) == Some(1))
 }
 
 fn is_root(e: &Expr) -> bool {

@@ -228,7 +228,9 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
         return different(found);
     }
     for side in [Side::Left, Side::Right] {
-        if tally.undefined(side) >= 3 && tally.defined(side) == 0 {
+        // Constants have one point only.
+        let enough = if roles.symbols.is_empty() { 1 } else { 3 };
+        if tally.undefined(side) >= enough && tally.defined(side) == 0 {
             return Equality::Invalid {
                 side,
                 points: tally.undefined(side),

@@ -267,10 +267,14 @@ pub(super) fn enclosure(value: &Value) -> Option<Enclosure> {
 }
 
 /// The sign of an expression at a point, where enclosures tell it.
-pub(super) fn sign_at(e: &Expr, at: &Sample, radians: bool) -> Option<i32> {
-    let Outcome::Value(Big(value)) = evaluate::<Big<192>>(e, &at.point(radians)) else {
-        return None;
-    };
+pub(super) fn sign_at(e: &Expr, at: &Sample) -> Option<i32> {
+    // Arc tangents for the radians of known directions cost more than the rest; they are rarely needed.
+    let value = [false, true].into_iter().find_map(|radians| {
+        match evaluate::<Big<192>>(e, &at.point(radians)) {
+            Outcome::Value(Big(value)) => Some(value),
+            _ => None,
+        }
+    })?;
     match (value.low.sign(), value.high.sign()) {
         (1, _) => Some(1),
         (_, -1) => Some(-1),

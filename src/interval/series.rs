@@ -345,7 +345,7 @@ fn atan_point(x: &Dyadic, bits: u32) -> Enclosure {
         return atan_point(&x.neg(), bits).neg();
     }
     let halvings = if bits > 400 {
-        i64::from(bits.isqrt()) / 2
+        i64::from(bits.isqrt()) / 4
     } else {
         4
     };
