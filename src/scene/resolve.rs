@@ -19,12 +19,14 @@ use super::{
     Blow, BlowImpulse, Body, Contact, ContactLaw, Force, Hinge, Known, KnownQuantity, NamedPoint,
     Scene, Shape, parameters, question,
 };
-use crate::expr::{Expr, Vector, minus};
+use crate::expr::{Expr, Node, Vector, minus};
 
 /// Most bodies, points or questions a scene may have.
 const ENTRIES: usize = 10_000;
 /// Longest chain of positions that refer to one another.
 const CHAIN: usize = 200;
+/// Most terms of a coordinate.
+const TERMS: usize = 500;
 
 /// What is known while a scene is put together.
 pub(super) struct Resolver<'f> {
@@ -720,7 +722,13 @@ impl<'f> Resolver<'f> {
                 let from = self.position(&step.from);
                 let by = self.step(step);
                 let (from, by) = (from?, by?);
-                Some([&from[0] + &by[0], &from[1] + &by[1]])
+                let at = [&from[0] + &by[0], &from[1] + &by[1]];
+                if at.iter().any(|c| terms(c) > TERMS) {
+                    let message = format!("a coordinate here is a sum of more than {TERMS} terms");
+                    self.faults.push(Fault::new(step.span, message).hint("measure from a nearer point"));
+                    return None;
+                }
+                Some(at)
             }
         }
     }
@@ -774,6 +782,14 @@ fn keys<T>(map: Option<&Map<T>>) -> Vec<&Text> {
         .flat_map(|m| &m.0)
         .map(|(name, _)| name)
         .collect()
+}
+
+/// Number of terms of a sum.
+fn terms(e: &Expr) -> usize {
+    match e.node() {
+        Node::Sum(terms) => terms.len(),
+        _ => 1,
+    }
 }
 
 /// The zero vector.
