@@ -116,19 +116,6 @@ impl Field {
         for name in &found.symbols {
             self.symbol(name);
         }
-        for [a, b] in self.domains.unit_vectors.clone() {
-            let (Some(a), Some(b)) = (self.names.get(&a).copied(), self.names.get(&b).copied())
-            else {
-                continue;
-            };
-            if a != b && self.gens[b].relation.is_none() && self.gens[a].relation.is_none() {
-                self.relate(
-                    b,
-                    2,
-                    Poly::one().sub(&Poly::term(&mono_of(a, 2), Int::one())),
-                );
-            }
-        }
         // Arguments such as ω t: the plain ones first, those with functions inside once the angles of these are known.
         found.others.sort_by_key(|e| (e.size(), e.clone()));
         found.others.dedup();
@@ -195,7 +182,25 @@ impl Field {
             None => {
                 let v = self.adjoin(Kind::Symbol(name.clone()));
                 self.names.insert(name.clone(), v);
+                self.relate_units(name);
                 v
+            }
+        }
+    }
+
+    /// Components of a unit vector come together, with b² = 1 − a².
+    fn relate_units(&mut self, name: &Symbol) {
+        for [a, b] in self.domains.unit_vectors.clone() {
+            if a == b || (a != *name && b != *name) {
+                continue;
+            }
+            let (a, b) = (self.symbol(&a), self.symbol(&b));
+            let value = Poly::one().sub(&Poly::term(&mono_of(a, 2), Int::one()));
+            match &self.gens[b].relation {
+                None if self.gens[a].relation.is_none() => self.relate(b, 2, value),
+                Some((_, known)) if *known == value => {}
+                // A symbol in two pairs: the second relation is not used.
+                _ => self.complete = false,
             }
         }
     }
@@ -500,7 +505,7 @@ impl Den {
 
     fn power(&self, k: u32, field: &Field) -> Result<(Den, bool), Stop> {
         let mut out = Den::one();
-        if k as u64 * self.int.bits() > 20_000 {
+        if !self.int.is_one() && u64::from(k) * self.int.bits() > 20_000 {
             return Err(Stop::TooLarge("digits"));
         }
         out.int = self.int.pow(k);

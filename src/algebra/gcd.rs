@@ -38,7 +38,7 @@ pub(crate) struct Fuel(Cell<u64>);
 
 impl Fuel {
     /// For one public operation: a few tenths of a second.
-    pub const FULL: u64 = 20_000_000;
+    pub const FULL: u64 = 8_000_000;
     /// For one factorization: shortening is worth that much at most.
     const PORTION: u64 = 300_000;
 
@@ -80,6 +80,7 @@ fn primitive_gcd(mut a: Poly, mut b: Poly, fuel: &Fuel) -> Result<Poly, Stop> {
         if a == b {
             return Ok(a);
         }
+        fuel.burn((a.len() + b.len()) * 4)?;
         // A variable that only one of them has cannot occur in the divisor.
         let (va, vb) = (a.variables(), b.variables());
         if let Some(v) = va.iter().find(|v| !vb.contains(v)) {

@@ -21,6 +21,10 @@ const FIELDS: usize = 8;
 const MOST_PRODUCTS: usize = 400_000;
 /// Most terms kept.
 const MOST_TERMS: usize = 40_000;
+/// Most terms moved by one division; what needs more counts as not divisible.
+const MOST_COPIED: usize = 1_000_000;
+/// Most terms of a polynomial whose square root is looked for.
+pub(crate) const MOST_UNDER_ROOT: usize = 2_000;
 /// Most bits of a coefficient.
 const MOST_BITS: u64 = 20_000;
 
@@ -421,7 +425,12 @@ impl Poly {
             exps: Vec::with_capacity(rest.exps.len()),
             coeffs: Vec::with_capacity(rest.len()),
         };
+        let mut copied = 0;
         while !rest.is_zero() {
+            copied += rest.len();
+            if copied > MOST_COPIED {
+                return None;
+            }
             let (quotient, remainder) = rest.coeffs[0].div_rem(&divisor.coeffs[0]);
             if !remainder.is_zero()
                 || !mono_divides(divisor.mono(0), rest.mono(0))
@@ -475,6 +484,9 @@ impl Poly {
 
     /// The square root with positive leading coefficient, when the polynomial is a square.
     pub fn sqrt(&self) -> Option<Poly> {
+        if self.len() > MOST_UNDER_ROOT {
+            return None;
+        }
         if self.is_zero() {
             return Some(Poly::zero());
         }

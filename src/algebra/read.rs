@@ -12,7 +12,7 @@ use crate::expr::angle::angle;
 use crate::expr::{Expr, Function, Int, Node, Rational, Symbol, ratio};
 
 /// Deepest nesting of an expression.
-const MOST_DEPTH: u32 = 400;
+const MOST_DEPTH: u32 = 120;
 /// Largest multiple of a base angle.
 const MOST_TURNS: i64 = 100;
 

@@ -9,7 +9,7 @@ use num_traits::{One, Signed};
 use super::element::Element;
 use super::factor::{factor, primes_with_powers, square_part};
 use super::field::{Field, Generator, Kind};
-use super::poly::{Poly, exponent, mono_variables};
+use super::poly::{MOST_UNDER_ROOT, Poly, exponent, mono_variables};
 use super::{Sign, Stop};
 use crate::expr::Int;
 
@@ -208,7 +208,11 @@ impl Field {
         if p.is_zero() {
             return Some(Element::zero());
         }
-        *fuel = fuel.checked_sub(1)?;
+        *fuel = if p.len() > MOST_UNDER_ROOT {
+            0
+        } else {
+            fuel.checked_sub(1)?
+        };
         let Some((&g, below)) = tower.split_last() else {
             return rational_square(p);
         };

@@ -373,3 +373,75 @@ fn a_small_system_is_solved() {
     let x = field.expr(solution.values[0].as_ref().expect("unique"));
     assert_eq!(format!("{x:?}"), "(* 1/2 (+ a b))");
 }
+
+#[test]
+fn components_of_a_unit_vector_know_each_other() {
+    let mut domains = Domains::default();
+    domains.unit_vectors.push(["nx".into(), "ny".into()]);
+    let (x, y) = (s("nx"), s("ny"));
+    assert!(is_zero_on(&domains, &(x.powi(2) + y.powi(2) - n(1))));
+    assert!(
+        !is_zero_on(&domains, &((n(1) - y.powi(2)).sqrt() - &x)),
+        "nx may be negative"
+    );
+    assert!(is_zero_on(
+        &domains,
+        &((n(1) - y.powi(2)).sqrt() - call(Function::Abs, x.clone()))
+    ));
+    // Without preparation, too.
+    let mut field = Field::new(&domains);
+    let late = field.element(&(y.powi(2) - n(1))).expect("small");
+    let square = field.element(&x.powi(2)).expect("small");
+    assert!(field.is_zero(&field.add(&late, &square).expect("small")));
+}
+
+#[test]
+fn deep_nesting_ends_with_a_limit_and_no_overflow() {
+    for function in [
+        Function::Sin,
+        Function::Exp,
+        Function::Abs,
+        Function::Ln,
+        Function::Atan,
+    ] {
+        for depth in [100, 1_000] {
+            let mut e = s("x");
+            for _ in 0..depth {
+                e = call(function, n(1) + e);
+            }
+            let mut field = Field::new(&Domains::default());
+            match field.element(&e) {
+                Ok(x) => drop(field.expr(&x)),
+                Err(stop) => assert!(matches!(stop, Stop::TooLarge(_) | Stop::NotReal), "{stop}"),
+            }
+        }
+    }
+    let mut e = s("x");
+    for _ in 0..100 {
+        e = (n(1) + e).sqrt();
+    }
+    let mut field = Field::new(&Domains::default());
+    if let Ok(x) = field.element(&e) {
+        drop(field.expr(&x));
+    }
+}
+
+#[test]
+fn hostile_sums_stay_bounded() {
+    let sum = |k: usize| Expr::sum((0..k).map(|i| s(&format!("x{i}"))));
+    let e = Expr::product((0..40).map(|i| sum(12) + n(i)));
+    assert!(matches!(
+        Field::new(&Domains::default()).element(&e),
+        Err(Stop::TooLarge(_))
+    ));
+    let fractions = Expr::sum((0..40).map(|i| (s("x") + s("y").powi(i) + n(i)).powi(-1)));
+    assert!(matches!(
+        Field::new(&Domains::default()).element(&fractions),
+        Err(Stop::TooLarge(_)) | Ok(_)
+    ));
+    let roots = Expr::sum((0..30).map(|i| (s("x") + n(i)).sqrt()));
+    let mut field = Field::new(&Domains::default());
+    if let Ok(x) = field.element(&roots.powi(2)) {
+        drop(field.expr(&x));
+    }
+}
