@@ -11,6 +11,7 @@ mod formulas;
 mod geometry;
 mod json;
 mod parameters;
+mod place;
 mod proof;
 mod question;
 mod record;

@@ -1,0 +1,245 @@
+//! Where things are: positions given by names, coordinates and steps, followed through one another.
+//!
+//! In: positions as written. Out: coordinates as expressions. Circles, over-long chains and sums are faults; a center of
+//! mass may come from the parts of a composite, or from where a particle is touched.
+
+use super::Body;
+use super::body::Solid;
+use super::check::{Claim, Claimed};
+use super::fault::Fault;
+use super::file::{DirectionFile, PositionFile, ShapeName, StepFile};
+use super::formulas::Quantity;
+use super::geometry;
+use super::record::Text;
+use super::resolve::{Resolver, entries, origin};
+use crate::expr::{Expr, Node, Vector};
+
+/// Longest chain of positions that refer to one another.
+const CHAIN: usize = 200;
+/// Most terms of a coordinate.
+const TERMS: usize = 500;
+
+/// How far a position is known.
+#[derive(Clone)]
+pub(super) enum Place {
+    Untouched,
+    Underway,
+    /// `None` if it cannot be found, which has been reported.
+    Done(Option<Vector>),
+}
+
+impl<'f> Resolver<'f> {
+    pub fn point(&mut self, i: usize) -> Option<Vector> {
+        let (name, position) = &self.file.points.as_ref()?.0[i];
+        match &self.point_places[i] {
+            Place::Done(at) => return at.clone(),
+            Place::Underway => return self.circle(name),
+            Place::Untouched => {}
+        }
+        self.point_places[i] = Place::Underway;
+        let at = position
+            .as_ref()
+            .and_then(|p| self.link(name, |this| this.position(p)));
+        self.point_places[i] = Place::Done(at.clone());
+        at
+    }
+
+    /// Center of mass of a body.
+    pub fn center(&mut self, i: usize) -> Option<Vector> {
+        let (name, body) = &self.file.bodies.0[i];
+        match &self.body_places[i] {
+            Place::Done(at) => return at.clone(),
+            Place::Underway => return self.circle(name),
+            Place::Untouched => {}
+        }
+        self.body_places[i] = Place::Underway;
+        let body = body.as_ref();
+        let at = body.and_then(|body| match (&body.center, body.shape) {
+            (Some(center), ShapeName::Composite) => {
+                let span = match center {
+                    PositionFile::Name(name) => name.span,
+                    PositionFile::At(pair) => pair.span,
+                    PositionFile::From(step) => step.span,
+                };
+                let fault = Fault::new(span, "the center of a composite follows from its parts");
+                self.faults
+                    .push(fault.hint("leave `center` out, and give each part its own"));
+                None
+            }
+            (Some(center), _) => self.link(name, |this| this.position(center)),
+            (None, ShapeName::Composite) => self.link(name, |this| this.composite(i)),
+            (None, ShapeName::Fixed) => Some(origin()),
+            (None, ShapeName::Particle) => match self.touched(&name.text) {
+                Some(at) => self.link(name, |this| this.position(at)),
+                None => Some(origin()),
+            },
+            (None, _) => {
+                let fault =
+                    Fault::new(body.span, "the field `center` is missing").shown_at(name.span);
+                self.faults.push(fault.hint(
+                    "the position of its center of mass: a point's name, [x, y] or {\"from\": …}",
+                ));
+                None
+            }
+        });
+        self.body_places[i] = Place::Done(at.clone());
+        at
+    }
+
+    /// The first place where a hinge, contact or blow touches the body, unless that place is the body itself.
+    fn touched(&self, name: &str) -> Option<&'f PositionFile> {
+        let file = self.file;
+        let hinges = entries(file.hinges.as_ref()).map(|(_, h)| (&h.bodies.items[..], &h.at));
+        let contacts = entries(file.contacts.as_ref()).map(|(_, c)| (&c.bodies.items[..], &c.at));
+        let blows = entries(file.blows.as_ref()).map(|(_, b)| (std::slice::from_ref(&b.on), &b.at));
+        let is_itself = |at: &PositionFile| matches!(at, PositionFile::Name(n) if n.text == name && !self.points.contains_key(name));
+        hinges
+            .chain(contacts)
+            .chain(blows)
+            .find(|(bodies, at)| bodies.iter().any(|b| b.text == name) && !is_itself(at))
+            .map(|(_, at)| at)
+    }
+
+    fn composite(&mut self, i: usize) -> Option<Vector> {
+        let body = self.file.bodies.0[i].1.as_ref()?;
+        let mut parts = Vec::new();
+        for (name, part) in entries(body.parts.as_ref()) {
+            let center = self.position(&part.center);
+            let angle = part
+                .angle
+                .as_ref()
+                .map(|a| self.symbols.read(a, Quantity::ANGLE, &mut self.faults));
+            let entry = part.into();
+            let solid = self.solids().read_part(&entry);
+            parts.push((|| {
+                let Solid {
+                    shape,
+                    mass,
+                    inertia,
+                } = solid?;
+                Some(Body {
+                    name: name.text.clone(),
+                    shape,
+                    mass,
+                    inertia,
+                    center: center?,
+                    angle: angle.unwrap_or_else(|| Some(Expr::zero()))?,
+                    velocity: origin(),
+                    spin: Expr::zero(),
+                })
+            })());
+        }
+        let parts = parts.into_iter().collect::<Option<Vec<_>>>()?;
+        let (solid, center) = self.solids().join(body, parts)?;
+        self.composites.insert(i, solid);
+        Some(center)
+    }
+
+    /// Follows one reference further, within the bound on chains.
+    fn link<T>(&mut self, name: &Text, f: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+        if self.chain.len() >= CHAIN {
+            let message = format!("positions refer to one another more than {CHAIN} deep");
+            self.faults.push(Fault::new(name.span, message));
+            return None;
+        }
+        self.chain.push(name.text.clone());
+        let out = f(self);
+        self.chain.pop();
+        out
+    }
+
+    fn circle(&mut self, name: &Text) -> Option<Vector> {
+        let start = self.chain.iter().position(|n| *n == name.text).unwrap_or(0);
+        let mut round = self.chain[start..].join(" → ");
+        round.push_str(&format!(" → {}", name.text));
+        let fault = Fault::new(
+            name.span,
+            format!("positions refer to one another in a circle: {round}"),
+        );
+        self.faults.push(fault.hint("give one of them coordinates"));
+        None
+    }
+
+    /// A position.
+    pub fn position(&mut self, position: &PositionFile) -> Option<Vector> {
+        match position {
+            PositionFile::Name(name) => {
+                if let Some(i) = self.points.get(name.text.as_str()).copied() {
+                    self.point(i)
+                } else if let Some(i) = self.bodies.get(name.text.as_str()).copied() {
+                    self.center(i)
+                } else {
+                    self.unknown(name, "point or body", Self::positions);
+                    None
+                }
+            }
+            PositionFile::At(pair) => self
+                .symbols
+                .vector(pair, Quantity::LENGTH, &mut self.faults),
+            PositionFile::From(step) => {
+                let from = self.position(&step.from);
+                let by = self.step(step);
+                let (from, by) = (from?, by?);
+                let at = [&from[0] + &by[0], &from[1] + &by[1]];
+                if at.iter().any(|c| terms(c) > TERMS) {
+                    let message = format!("a coordinate here is a sum of more than {TERMS} terms");
+                    self.faults
+                        .push(Fault::new(step.span, message).hint("measure from a nearer point"));
+                    return None;
+                }
+                Some(at)
+            }
+        }
+    }
+
+    fn step(&mut self, step: &StepFile) -> Option<Vector> {
+        match (&step.distance, &step.angle, &step.by) {
+            (Some(distance), Some(angle), None) => {
+                let distance = self
+                    .symbols
+                    .read(distance, Quantity::LENGTH, &mut self.faults);
+                let angle = self.symbols.read(angle, Quantity::ANGLE, &mut self.faults);
+                let [x, y] = geometry::direction(&angle?);
+                let distance = distance?;
+                Some([&distance * &x, &distance * &y])
+            }
+            (None, None, Some(by)) => self.symbols.vector(by, Quantity::LENGTH, &mut self.faults),
+            _ => {
+                let fault = Fault::new(
+                    step.span,
+                    "a step has either `distance` and `angle`, or `by`",
+                );
+                self.faults.push(fault.hint("{\"from\": \"A\", \"distance\": \"l\", \"angle\": \"theta\"} or {\"from\": \"A\", \"by\": [\"l\", \"0\"]}"));
+                None
+            }
+        }
+    }
+
+    /// A direction, claimed to be a unit vector.
+    pub fn direction(&mut self, direction: &DirectionFile) -> Option<Vector> {
+        match direction {
+            DirectionFile::Components(pair) => {
+                let vector = self
+                    .symbols
+                    .vector(pair, Quantity::DIRECTION, &mut self.faults)?;
+                self.claims.push(Claimed {
+                    span: pair.span,
+                    claim: Claim::Unit(vector.clone()),
+                });
+                Some(vector)
+            }
+            DirectionFile::Angle(angle) => self
+                .symbols
+                .read(&angle.angle, Quantity::ANGLE, &mut self.faults)
+                .map(|a| geometry::direction(&a)),
+        }
+    }
+}
+
+/// Number of terms of a sum.
+fn terms(e: &Expr) -> usize {
+    match e.node() {
+        Node::Sum(terms) => terms.len(),
+        _ => 1,
+    }
+}
