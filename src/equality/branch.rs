@@ -63,10 +63,8 @@ fn on_sign(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles) -> Option<Expr>
     let mut inner = Vec::new();
     [a, b].iter().for_each(|e| {
         e.walk(&mut |part| {
-            if let Some(f) = folded(part) {
-                if !inner.contains(f) {
-                    inner.push(f.clone());
-                }
+            if let Some(f) = folded(part).filter(|f| !inner.contains(*f)) {
+                inner.push(f.clone());
             }
         })
     });

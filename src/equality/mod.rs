@@ -204,10 +204,9 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
     } else {
         5
     };
-    if size.partial || tally.both_defined == 0 {
-        if let Some(found) = extend(&mut tally, size.points().min(seen)) {
-            return different(found);
-        }
+    let look = size.partial || tally.both_defined == 0;
+    if look && let Some(found) = extend(&mut tally, size.points().min(seen)) {
+        return different(found);
     }
     let proof = if a == b {
         Proof::Equal(Vec::new())
