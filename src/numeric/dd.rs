@@ -101,10 +101,7 @@ impl Dd {
     pub fn inverse(self) -> Dd {
         let first = 1.0 / self.high;
         let rest = Dd::exact(1.0).add(self.mul(Dd::exact(first)).neg());
-        let next = rest.high * first;
-        let sum = quick_two_sum(first, next);
-        let rest = Dd::exact(1.0).add(self.mul(sum).neg());
-        sum.add(Dd::exact(rest.high * first))
+        quick_two_sum(first, rest.high * first)
     }
 
     /// Square root of a non-negative number.

@@ -65,39 +65,60 @@ pub fn solve_dyadic(given: &Given<f64>) -> Option<Vec<f64>> {
 }
 
 /// Rows scaled to integers by powers of two, right-hand side last; and the exponent by which each unknown is to be
-/// raised, for columns are scaled too, to keep numbers of different sizes from making each other long.
+/// raised, for the columns and above all the right-hand side, made of products, have powers of their own.
 fn integers(system: &System<Dyadic>) -> Option<(Vec<Wide<MINOR>>, Vec<i64>)> {
     let (m, n) = (system.laws.len(), system.unknowns.len());
-    let mut columns = vec![None; n];
+    let exponent = |cell: &Dyadic| {
+        cell.0
+            .filter(|(value, _)| !value.is_zero())
+            .map(|(_, exponent)| exponent)
+    };
+    let mut row_powers = Vec::with_capacity(m);
+    let mut column_powers = vec![i64::MAX; n + 1];
     for i in 0..m {
-        for (cell, scale) in system.row(i).iter().zip(&mut columns) {
-            let (value, exponent) = cell.0?;
-            if !value.is_zero() {
-                *scale = Some(scale.map_or(exponent, |s: i64| s.min(exponent)));
+        let lowest = system.row(i).iter().filter_map(exponent).min().unwrap_or(0);
+        for (cell, power) in system
+            .row(i)
+            .iter()
+            .chain([&system.right[i]])
+            .zip(&mut column_powers)
+        {
+            if let Some(exponent) = exponent(cell) {
+                *power = (*power).min(exponent - lowest);
             }
         }
+        row_powers.push(lowest);
     }
-    let columns: Vec<i64> = columns.into_iter().map(|s| s.unwrap_or(0)).collect();
-    let mut rows = Vec::with_capacity(m * (n + 1));
-    for i in 0..m {
-        let shifts = columns.iter().copied().chain([0]);
-        let cells = system.row(i).iter().chain([&system.right[i]]).zip(shifts);
-        let lowest = cells.clone().filter_map(|(c, shift)| match c.0 {
-            Some((value, exponent)) if !value.is_zero() => Some(exponent - shift),
-            _ => None,
-        });
-        let lowest = lowest.min().unwrap_or(0);
-        for (cell, shift) in cells {
+    column_powers
+        .iter_mut()
+        .filter(|p| **p == i64::MAX)
+        .for_each(|p| *p = 0);
+    let mut cells = Vec::with_capacity(m * (n + 1));
+    for (i, row_power) in row_powers.into_iter().enumerate() {
+        for (cell, column_power) in system
+            .row(i)
+            .iter()
+            .chain([&system.right[i]])
+            .zip(&column_powers)
+        {
             let (value, exponent) = cell.0?;
-            if value.is_zero() {
-                rows.push(Wide::ZERO);
-            } else {
-                let up = usize::try_from(exponent - shift - lowest).ok()?;
-                rows.push(value.resized::<MINOR>()?.shifted_up(up)?);
-            }
+            cells.push(match value.is_zero() {
+                true => Wide::ZERO,
+                false => {
+                    let up = usize::try_from(exponent - row_power - column_power).ok()?;
+                    value.resized::<MINOR>()?.shifted_up(up)?
+                }
+            });
         }
     }
-    Some((rows, columns.into_iter().map(|s| -s).collect()))
+    let right = column_powers.pop()?;
+    Some((
+        cells,
+        column_powers
+            .into_iter()
+            .map(|power| right - power)
+            .collect(),
+    ))
 }
 
 impl<const N: usize> Whole for Wide<N> {

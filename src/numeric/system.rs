@@ -92,11 +92,13 @@ impl<T> System<T> {
 /// The full system of a scene.
 pub fn assemble<T: Number>(given: &Given<T>) -> System<T> {
     let columns = Columns::of(given);
+    // A square system is what to expect.
+    let n = columns.unknowns.len();
     let mut rows = Rows {
-        columns: columns.unknowns.len(),
-        laws: Vec::new(),
-        matrix: Vec::new(),
-        right: Vec::new(),
+        columns: n,
+        laws: Vec::with_capacity(n),
+        matrix: Vec::with_capacity(n * n),
+        right: Vec::with_capacity(n),
     };
     balances(given, &columns, &mut rows);
     joints(given, &columns, &mut rows);
@@ -249,7 +251,10 @@ struct Columns {
 
 impl Columns {
     fn of<T>(given: &Given<T>) -> Columns {
-        let mut unknowns = Vec::new();
+        let most = given.bodies.len() * 3
+            + (given.hinges.len() + given.contacts.len()) * 2
+            + given.blows.len();
+        let mut unknowns = Vec::with_capacity(most);
         let mut take = |list: &[Unknown]| {
             unknowns.extend_from_slice(list);
             unknowns.len() - list.len()

@@ -2,6 +2,7 @@
 
 mod build;
 mod cases;
+mod certified;
 mod laws;
 mod random;
 
