@@ -1,7 +1,7 @@
 //! Double-double numbers: the unevaluated sum of two doubles, about 32 digits.
 //!
-//! Sums after Knuth, products after Dekker and Veltkamp (no fused multiply-add, which is slow where the processor's is
-//! not compiled in), with the error bounds of Joldes, Muller & Popescu (2017): at most 2⁻¹⁰³ relative for sums and
+//! Sums after Knuth, products after Dekker and Veltkamp (by fused multiply-add only where the compiler may use the
+//! processor's own; the library's is slow), with the error bounds of Joldes, Muller & Popescu (2017): at most 2⁻¹⁰³ relative for sums and
 //! products, 2⁻¹⁰⁰ for quotients and roots, as long as nothing under- or overflows.
 
 use super::number::Number;
@@ -42,6 +42,12 @@ fn quick_two_sum(a: f64, b: f64) -> Dd {
 #[inline]
 pub fn two_product(a: f64, b: f64) -> Dd {
     let high = a * b;
+    if cfg!(target_feature = "fma") {
+        return Dd {
+            high,
+            low: a.mul_add(b, -high),
+        };
+    }
     let (a1, a2) = split(a);
     let (b1, b2) = split(b);
     Dd {

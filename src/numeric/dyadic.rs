@@ -12,9 +12,10 @@ use super::wide::Wide;
 use crate::expr::{Function, Rational, Scalar};
 
 /// Words of the numbers the equations are assembled in.
-const ENTRY: usize = 8;
-/// Words of the numbers elimination runs in.
-const MINOR: usize = 24;
+const ENTRY: usize = 6;
+/// Words of the numbers elimination runs in: first narrow ones, which are quicker to carry about, then wide ones.
+const NARROW: usize = 14;
+const BROAD: usize = 40;
 
 /// An integer times 2^exponent; `None` where it did not fit.
 #[derive(Clone, Copy, Debug)]
@@ -48,8 +49,12 @@ impl Dyadic {
 /// other, a number is not finite, or the integers outgrow their width.
 pub fn solve_dyadic(given: &Given<f64>) -> Option<Vec<f64>> {
     let system = assemble(&given.map(|v| Dyadic::exact(*v)));
+    solve_in::<NARROW>(&system).or_else(|| solve_in::<BROAD>(&system))
+}
+
+fn solve_in<const N: usize>(system: &System<Dyadic>) -> Option<Vec<f64>> {
     let (m, n) = (system.laws.len(), system.unknowns.len());
-    let (rows, columns) = integers(&system)?;
+    let (rows, columns) = integers::<N>(system)?;
     let Cramer::Solved {
         numerators,
         determinant,
@@ -57,16 +62,15 @@ pub fn solve_dyadic(given: &Given<f64>) -> Option<Vec<f64>> {
     else {
         return None;
     };
-    numerators
-        .iter()
-        .zip(columns)
+    let values = numerators.iter().zip(columns);
+    values
         .map(|(x, scale)| x.ratio(&determinant, scale))
         .collect()
 }
 
 /// Rows scaled to integers by powers of two, right-hand side last; and the exponent by which each unknown is to be
 /// raised, for the columns and above all the right-hand side, made of products, have powers of their own.
-fn integers(system: &System<Dyadic>) -> Option<(Vec<Wide<MINOR>>, Vec<i64>)> {
+fn integers<const N: usize>(system: &System<Dyadic>) -> Option<(Vec<Wide<N>>, Vec<i64>)> {
     let (m, n) = (system.laws.len(), system.unknowns.len());
     let exponent = |cell: &Dyadic| {
         cell.0
@@ -106,7 +110,7 @@ fn integers(system: &System<Dyadic>) -> Option<(Vec<Wide<MINOR>>, Vec<i64>)> {
                 true => Wide::ZERO,
                 false => {
                     let up = usize::try_from(exponent - row_power - column_power).ok()?;
-                    value.resized::<MINOR>()?.shifted_up(up)?
+                    value.resized::<N>()?.shifted_up(up)?
                 }
             });
         }
@@ -135,13 +139,7 @@ impl<const N: usize> Whole for Wide<N> {
         b: &Wide<N>,
         d: &Wide<N>,
     ) -> Option<Wide<N>> {
-        let product = p.mul(a)?;
-        let difference = if q.is_zero() || b.is_zero() {
-            product
-        } else {
-            product.add(&q.mul(b)?.negated())?
-        };
-        Some(difference.divided_exactly(d))
+        Some(Wide::products(p, a, true, q, b)?.divided_exactly(d))
     }
     fn raise(a: &Wide<N>, p: &Wide<N>, d: &Wide<N>) -> Option<Wide<N>> {
         Some(a.mul(p)?.divided_exactly(d))

@@ -181,6 +181,7 @@ pub(super) fn cramer<I: Whole>(mut cells: Vec<I>, rows: usize, n: usize) -> Opti
             }
         }
         let pivot = cells[row * width + column].clone();
+        // The finished row is lifted out, so that the others can change beside it.
         let line = cells[row * width..(row + 1) * width].to_vec();
         for &r in &open_rows {
             let factor = cells[r * width + column].clone();

@@ -109,8 +109,8 @@ fn pivot<T: Number>(
                 (least, best) = ((fill, size), Some((place, c)));
             }
         });
-        // A row with one entry is as good as any that could follow.
-        if least.0 == 0 {
+        // One fill-in at most is as good as any that could follow.
+        if least.0 <= 1 {
             break;
         }
     }

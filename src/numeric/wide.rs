@@ -236,52 +236,112 @@ impl<const N: usize> Wide<N> {
         down.trim()
     }
 
+    /// a·b ± c·d on one accumulator, `None` where a product or the outcome does not fit.
+    pub fn products(
+        a: &Wide<N>,
+        b: &Wide<N>,
+        subtract: bool,
+        c: &Wide<N>,
+        d: &Wide<N>,
+    ) -> Option<Wide<N>> {
+        let mut sum = a.mul(b)?;
+        if c.len == 0 || d.len == 0 {
+            return Some(sum);
+        }
+        // One word is kept for the carry, or the borrow that tells the sign.
+        if c.len + d.len >= N || sum.len >= N {
+            let product = c.mul(d)?;
+            return sum.add(&if subtract { product.negated() } else { product });
+        }
+        let top = sum.len.max(c.len + d.len);
+        let sign = (c.negative != d.negative) != subtract;
+        if sum.len == 0 {
+            sum.negative = sign;
+        }
+        let alike = sign == sum.negative;
+        for (i, &x) in c.words[..c.len].iter().enumerate() {
+            let mut carry = 0u64;
+            for (cell, &y) in sum.words[i..].iter_mut().zip(&d.words[..d.len]) {
+                let wide = u128::from(x) * u128::from(y) + u128::from(carry);
+                let (word, over) = match alike {
+                    true => cell.overflowing_add(wide as u64),
+                    false => cell.overflowing_sub(wide as u64),
+                };
+                *cell = word;
+                carry = (wide >> 64) as u64 + u64::from(over);
+            }
+            for cell in &mut sum.words[i + d.len..=top] {
+                if carry == 0 {
+                    break;
+                }
+                let (word, over) = match alike {
+                    true => cell.overflowing_add(carry),
+                    false => cell.overflowing_sub(carry),
+                };
+                *cell = word;
+                carry = u64::from(over);
+            }
+        }
+        if !alike && sum.words[top] != 0 {
+            // Below zero: the complement is the size.
+            let mut carry = true;
+            for word in &mut sum.words[..=top] {
+                let (flipped, over) = (!*word).overflowing_add(u64::from(carry));
+                *word = flipped;
+                carry = over;
+            }
+            sum.negative = !sum.negative;
+        }
+        sum.len = top + 1;
+        Some(sum.trim())
+    }
+
     /// The quotient where `divisor` is known to divide the integer: from the lowest word up (Jebelean 1993).
-    pub fn divided_exactly(&self, divisor: &Wide<N>) -> Wide<N> {
+    pub fn divided_exactly(mut self, divisor: &Wide<N>) -> Wide<N> {
         if self.len == 0 || divisor.len == 0 {
             return Wide::ZERO;
         }
+        let negative = self.negative != divisor.negative;
         if divisor.len == 1 && divisor.words[0] == 1 {
-            return if divisor.negative {
-                self.negated()
-            } else {
-                *self
-            };
+            self.negative = negative;
+            return self;
         }
         let twos = divisor.twos();
-        let odd = divisor.shifted_down(twos);
-        let mut rest = self.shifted_down(twos);
-        let count = (rest.len + 1).saturating_sub(odd.len);
+        if twos != 0 {
+            return self
+                .shifted_down(twos)
+                .divided_by_odd(&divisor.shifted_down(twos), negative);
+        }
+        self.divided_by_odd(divisor, negative)
+    }
+
+    fn divided_by_odd(mut self, odd: &Wide<N>, negative: bool) -> Wide<N> {
+        let count = (self.len + 1).saturating_sub(odd.len);
         let inverse = inverse_word(odd.words[0]);
-        let mut quotient = Wide {
-            negative: self.negative != divisor.negative,
-            len: count,
-            words: [0; N],
-        };
         for i in 0..count {
-            let q = rest.words[i].wrapping_mul(inverse);
-            quotient.words[i] = q;
-            if q == 0 {
-                continue;
-            }
-            // Only the words that later quotient words depend on.
+            let q = self.words[i].wrapping_mul(inverse);
+            // Only the words that later quotient words depend on; word i itself makes room for the quotient.
             let mut borrow = 0u64;
-            for j in 0..odd.len.min(count - i) {
-                let wide = u128::from(q) * u128::from(odd.words[j]) + u128::from(borrow);
-                let (word, under) = rest.words[i + j].overflowing_sub(wide as u64);
-                rest.words[i + j] = word;
+            let (low, high) = self.words[i..count].split_at_mut(odd.len.min(count - i));
+            for (cell, &y) in low.iter_mut().zip(&odd.words) {
+                let wide = u128::from(q) * u128::from(y) + u128::from(borrow);
+                let (word, under) = cell.overflowing_sub(wide as u64);
+                *cell = word;
                 borrow = (wide >> 64) as u64 + u64::from(under);
             }
-            for word in &mut rest.words[(i + odd.len).min(count)..count] {
+            for cell in high {
                 if borrow == 0 {
                     break;
                 }
-                let (less, under) = word.overflowing_sub(borrow);
-                *word = less;
+                let (word, under) = cell.overflowing_sub(borrow);
+                *cell = word;
                 borrow = u64::from(under);
             }
+            self.words[i] = q;
         }
-        quotient.trim()
+        self.words[count..self.len].fill(0);
+        (self.len, self.negative) = (count, negative);
+        self.trim()
     }
 
     /// The double nearest to self/divisor·2^scale, ties to even; `None` where it would leave the normal doubles.
@@ -371,11 +431,16 @@ mod tests {
 
     proptest! {
         #[test]
-        fn arithmetic_is_that_of_integers(a in any_wide(), b in any_wide(), by in 0usize..300) {
-            let (x, y) = (a.to_bigint(), b.to_bigint());
+        fn arithmetic_is_that_of_integers(a in any_wide(), b in any_wide(), c in any_wide(), by in 0usize..300) {
+            let (x, y, z) = (a.to_bigint(), b.to_bigint(), c.to_bigint());
             prop_assert_eq!(a.add(&b).map(|v| v.to_bigint()), Some(&x + &y));
             let product = a.mul(&b);
             prop_assert_eq!(product.map(|v| v.to_bigint()), Some(&x * &y));
+            for subtract in [false, true] {
+                let right = &x * &y + if subtract { -1 } else { 1 } * &y * &z;
+                let found = W::products(&a, &b, subtract, &b, &c);
+                prop_assert_eq!(found.map(|v| v.to_bigint()), Some(right));
+            }
             prop_assert_eq!(a.shifted_up(by).map(|v| v.to_bigint()), Some(&x << by));
             prop_assert_eq!(a.shifted_down(by).to_bigint(), &x / (BigInt::from(1) << by));
             if !b.is_zero() {
@@ -394,10 +459,18 @@ mod tests {
             let wide = |w: [u64; 3]| Wide::<3> { negative: false, len: 3, words: w }.trim();
             let (a, b) = (wide(a), wide(b));
             let (x, y) = (a.to_bigint(), b.to_bigint());
-            for (found, right) in [(a.mul(&b), &x * &y), (a.add(&b), &x + &y)] {
+            let one = Wide::small(false, 1);
+            let rows = [
+                (a.mul(&b), &x * &y),
+                (a.add(&b), &x + &y),
+                (Wide::products(&a, &one, false, &b, &one), &x + &y),
+                (Wide::products(&a, &one, true, &b, &one), &x - &y),
+            ];
+            for (found, right) in rows {
                 match found {
                     Some(v) => prop_assert_eq!(v.to_bigint(), right),
-                    None => prop_assert!(right.bits() >= 192),
+                    // Refused too where only a part of the result, or a carry that does not come, would not fit.
+                    None => prop_assert!(x.bits().max(y.bits()) >= 191 || right.bits() >= 192),
                 }
             }
         }
