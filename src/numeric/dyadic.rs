@@ -4,7 +4,7 @@
 //! elimination as in `exact`, on integers of fixed width on the stack; where they do not fit, `None`, and the caller
 //! takes the way over fractions.
 
-use super::exact::{Cramer, Whole, cramer};
+use super::exact::{Cramer, Whole, cheapest_pivot, cramer};
 use super::given::Given;
 use super::number::Number;
 use super::system::{System, assemble};
@@ -14,7 +14,7 @@ use crate::expr::{Function, Rational, Scalar};
 /// Words of the numbers the equations are assembled in.
 const ENTRY: usize = 6;
 /// Words of the numbers elimination runs in: first narrow ones, which are quicker to carry about, then wide ones.
-const NARROW: usize = 14;
+const NARROW: usize = 10;
 const BROAD: usize = 40;
 
 /// An integer times 2^exponent; `None` where it did not fit.
@@ -49,12 +49,87 @@ impl Dyadic {
 /// other, a number is not finite, or the integers outgrow their width.
 pub fn solve_dyadic(given: &Given<f64>) -> Option<Vec<f64>> {
     let system = assemble(&given.map(|v| Dyadic::exact(*v)));
-    solve_in::<NARROW>(&system).or_else(|| solve_in::<BROAD>(&system))
+    solve_narrow(&system).or_else(|| solve_broad(&system))
 }
 
-fn solve_in<const N: usize>(system: &System<Dyadic>) -> Option<Vec<f64>> {
+/// By crosswise multiplication: shortest where few rows depend on each other, and numbers double in length with every
+/// further one.
+fn solve_narrow(system: &System<Dyadic>) -> Option<Vec<f64>> {
+    let (mut cells, powers) = integers::<NARROW>(system)?;
+    let n = system.unknowns.len();
+    let (numerators, denominator) = cross_multiply(&mut cells, system.laws.len(), n)?;
+    let values = numerators.iter().zip(powers);
+    values.map(|(x, power)| x.ratio(&denominator, power)).collect()
+}
+
+/// Numerators over one denominator; `None` where the system is not square and regular, or the integers outgrow.
+fn cross_multiply<const N: usize>(
+    cells: &mut [Wide<N>],
+    rows: usize,
+    n: usize,
+) -> Option<(Vec<Wide<N>>, Wide<N>)> {
+    if rows != n {
+        return None;
+    }
+    let (width, one) = (n + 1, Wide::small(false, 1));
+    let mut open_rows: Vec<usize> = (0..n).collect();
+    let mut open_columns = open_rows.clone();
+    let mut steps = Vec::with_capacity(n);
+    let mut line = vec![Wide::ZERO; width];
+    for _ in 0..n {
+        let (row, column) = cheapest_pivot(cells, width, &open_rows, &open_columns)?;
+        open_rows.retain(|r| *r != row);
+        open_columns.retain(|c| *c != column);
+        line.copy_from_slice(&cells[row * width..(row + 1) * width]);
+        let pivot = line[column];
+        for &r in &open_rows {
+            let factor = cells[r * width + column];
+            if factor.is_zero() {
+                continue;
+            }
+            let whole = factor.divided_if_exact(&pivot);
+            let (keep, take) = match &whole {
+                Some(times) => (&one, times),
+                None => (&pivot, &factor),
+            };
+            for &c in open_columns.iter().chain([&n]) {
+                let cell = &mut cells[r * width + c];
+                if !(line[c].is_zero() && (whole.is_some() || cell.is_zero())) {
+                    *cell = Wide::products(keep, cell, true, take, &line[c])?;
+                }
+            }
+        }
+        steps.push((row, column));
+    }
+    let mut denominator = one;
+    let mut numerators = vec![Wide::ZERO; n];
+    for (row, column) in steps.into_iter().rev() {
+        let line = &cells[row * width..(row + 1) * width];
+        let mut sum = line[n].mul(&denominator)?;
+        for &c in &open_columns {
+            if !line[c].is_zero() && !numerators[c].is_zero() {
+                sum = Wide::products(&sum, &one, true, &line[c], &numerators[c])?;
+            }
+        }
+        numerators[column] = match sum.divided_if_exact(&line[column]) {
+            Some(quotient) => quotient,
+            None => {
+                for &c in &open_columns {
+                    numerators[c] = numerators[c].mul(&line[column])?;
+                }
+                denominator = denominator.mul(&line[column])?;
+                sum
+            }
+        };
+        open_columns.push(column);
+    }
+    Some((numerators, denominator))
+}
+
+/// By Bareiss' scheme, whose numbers grow by one entry's length per row only.
+fn solve_broad(system: &System<Dyadic>) -> Option<Vec<f64>> {
     let (m, n) = (system.laws.len(), system.unknowns.len());
-    let (rows, columns) = integers::<N>(system)?;
+    let (rows, columns) = integers::<BROAD>(system)?;
     let Cramer::Solved {
         numerators,
         determinant,

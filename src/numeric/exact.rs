@@ -253,7 +253,7 @@ fn substitute<I: Whole>(
 }
 
 /// The entry with the fewest fill-ins among the open rows and columns; the first of equals.
-fn cheapest_pivot<I: Whole>(
+pub(super) fn cheapest_pivot<I: Whole>(
     cells: &[I],
     width: usize,
     rows: &[usize],

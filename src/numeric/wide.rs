@@ -315,6 +315,20 @@ impl<const N: usize> Wide<N> {
         self.divided_by_odd(divisor, negative)
     }
 
+    /// The quotient where `divisor` divides the integer, `None` where it does not.
+    pub fn divided_if_exact(&self, divisor: &Wide<N>) -> Option<Wide<N>> {
+        if self.bits() < divisor.bits() || self.twos() < divisor.twos() {
+            return self.is_zero().then_some(Wide::ZERO);
+        }
+        let quotient = self.divided_exactly(divisor);
+        // A quotient modulo 2⁶⁴ᵏ that is none is nearly always too long.
+        let bits = quotient.bits() + divisor.bits();
+        if bits != self.bits() && bits != self.bits() + 1 {
+            return None;
+        }
+        (quotient.mul(divisor)? == *self).then_some(quotient)
+    }
+
     fn divided_by_odd(mut self, odd: &Wide<N>, negative: bool) -> Wide<N> {
         let count = (self.len + 1).saturating_sub(odd.len);
         let inverse = inverse_word(odd.words[0]);
@@ -444,6 +458,9 @@ mod tests {
             prop_assert_eq!(a.shifted_up(by).map(|v| v.to_bigint()), Some(&x << by));
             prop_assert_eq!(a.shifted_down(by).to_bigint(), &x / (BigInt::from(1) << by));
             if !b.is_zero() {
+                let whole = (&x % &y).is_zero().then(|| &x / &y);
+                prop_assert_eq!(a.divided_if_exact(&b).map(|v| v.to_bigint()), whole);
+                prop_assert_eq!(product.and_then(|p| p.divided_if_exact(&b)), Some(a));
                 prop_assert_eq!(product.map(|p| p.divided_exactly(&b).to_bigint()), Some(x.clone()));
                 let exact = Rational::new(x.clone().into(), y.clone().into());
                 if let Some(near) = a.ratio(&b, 0) {
