@@ -4,6 +4,7 @@
 //! covers its own few roundings, and every product adds a floor that covers underflow.
 
 use std::cmp::Ordering;
+use std::ops::{Add, Mul, Neg};
 
 use super::dd::{Dd, turned, two_product, two_sum};
 use super::number::Number;

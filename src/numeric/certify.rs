@@ -54,24 +54,8 @@ pub enum Uncertified {
 pub fn certify(given: &Given<f64>) -> Result<Certified, Uncertified> {
     let balls = assemble(&given.map(|v| Ball::exact(*v)));
     let enclosure = eliminate(&balls);
-    if let Some(values) = &enclosure {
-        if let Some(rounded) = values
-            .iter()
-            .map(Ball::rounded)
-            .collect::<Option<Vec<f64>>>()
-        {
-            let n = rounded.len();
-            let solution = Solution {
-                values: rounded,
-                unique: vec![true; n],
-                rank: n,
-            };
-            return Ok(Certified {
-                unknowns: balls.unknowns,
-                solution,
-                tiers: vec![Tier::Ball; n],
-            });
-        }
+    if let Some(certified) = all_rounded(&balls.unknowns, enclosure.as_deref()) {
+        return Ok(certified);
     }
     finish(solve_exactly(given)?, balls.unknowns, enclosure)
 }
@@ -86,24 +70,8 @@ pub fn certify_scene(scene: &Scene, at: &Point<f64>) -> Result<Certified, Uncert
         .map_err(Uncertified::Undefined)?,
     );
     let enclosure = eliminate(&balls);
-    if let Some(values) = &enclosure {
-        if let Some(rounded) = values
-            .iter()
-            .map(Ball::rounded)
-            .collect::<Option<Vec<f64>>>()
-        {
-            let n = rounded.len();
-            let solution = Solution {
-                values: rounded,
-                unique: vec![true; n],
-                rank: n,
-            };
-            return Ok(Certified {
-                unknowns: balls.unknowns,
-                solution,
-                tiers: vec![Tier::Ball; n],
-            });
-        }
+    if let Some(certified) = all_rounded(&balls.unknowns, enclosure.as_deref()) {
+        return Ok(certified);
     }
     let exact = map_point(at, |v| from_f64(*v)).ok_or(Uncertified::NotFinite)?;
     match given::<Rational>(scene, &exact) {
@@ -121,6 +89,25 @@ pub fn certify_scene(scene: &Scene, at: &Point<f64>) -> Result<Certified, Uncert
             None => Uncertified::Undefined(undefined),
         }),
     }
+}
+
+/// The outcome where every ball is narrow enough.
+fn all_rounded(unknowns: &[Unknown], enclosure: Option<&[Ball]>) -> Option<Certified> {
+    let values: Vec<f64> = enclosure?
+        .iter()
+        .map(Ball::rounded)
+        .collect::<Option<_>>()?;
+    let n = values.len();
+    let solution = Solution {
+        values,
+        unique: vec![true; n],
+        rank: n,
+    };
+    Some(Certified {
+        unknowns: unknowns.to_vec(),
+        solution,
+        tiers: vec![Tier::Ball; n],
+    })
 }
 
 fn rounded(exact: Solution<Rational>) -> Solution<f64> {

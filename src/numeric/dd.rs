@@ -4,6 +4,8 @@
 //! processor's own; the library's is slow), with the error bounds of Joldes, Muller & Popescu (2017): at most 2⁻¹⁰³ relative for sums and
 //! products, 2⁻¹⁰⁰ for quotients and roots, as long as nothing under- or overflows.
 
+use std::ops::{Add, Mul, Neg};
+
 use super::number::Number;
 use crate::expr::number::{from_f64, to_f64};
 use crate::expr::{Function, Rational, Scalar};
@@ -74,34 +76,6 @@ impl Dd {
         }
     }
 
-    /// Sum.
-    #[inline]
-    pub fn add(self, other: Dd) -> Dd {
-        let s = two_sum(self.high, other.high);
-        let t = two_sum(self.low, other.low);
-        let v = quick_two_sum(s.high, s.low + t.high);
-        quick_two_sum(v.high, t.low + v.low)
-    }
-
-    /// Product.
-    #[inline]
-    pub fn mul(self, other: Dd) -> Dd {
-        let p = two_product(self.high, other.high);
-        quick_two_sum(
-            p.high,
-            p.low + (self.high * other.low + self.low * other.high),
-        )
-    }
-
-    /// The number with the other sign.
-    #[inline]
-    pub fn neg(self) -> Dd {
-        Dd {
-            high: -self.high,
-            low: -self.low,
-        }
-    }
-
     /// Reciprocal by one Newton step from the double; infinite or not a number for zero.
     #[inline]
     pub fn inverse(self) -> Dd {
@@ -118,6 +92,38 @@ impl Dd {
         let first = self.high.sqrt();
         let rest = self.add(two_product(first, first).neg());
         quick_two_sum(first, rest.high / (2.0 * first))
+    }
+}
+
+impl Add for Dd {
+    type Output = Dd;
+    #[inline]
+    fn add(self, other: Dd) -> Dd {
+        let s = two_sum(self.high, other.high);
+        let t = two_sum(self.low, other.low);
+        let v = quick_two_sum(s.high, s.low + t.high);
+        quick_two_sum(v.high, t.low + v.low)
+    }
+}
+
+impl Mul for Dd {
+    type Output = Dd;
+    #[inline]
+    fn mul(self, other: Dd) -> Dd {
+        let p = two_product(self.high, other.high);
+        let mixed = self.high * other.low + self.low * other.high;
+        quick_two_sum(p.high, p.low + mixed)
+    }
+}
+
+impl Neg for Dd {
+    type Output = Dd;
+    #[inline]
+    fn neg(self) -> Dd {
+        Dd {
+            high: -self.high,
+            low: -self.low,
+        }
     }
 }
 

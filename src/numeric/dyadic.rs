@@ -14,7 +14,7 @@ use crate::expr::{Function, Rational, Scalar};
 /// Words of the numbers the equations are assembled in.
 const ENTRY: usize = 6;
 /// Words of the numbers elimination runs in: first narrow ones, which are quicker to carry about, then wide ones.
-const NARROW: usize = 10;
+const NARROW: usize = 12;
 const BROAD: usize = 40;
 
 /// An integer times 2^exponent; `None` where it did not fit.
@@ -59,7 +59,9 @@ fn solve_narrow(system: &System<Dyadic>) -> Option<Vec<f64>> {
     let n = system.unknowns.len();
     let (numerators, denominator) = cross_multiply(&mut cells, system.laws.len(), n)?;
     let values = numerators.iter().zip(powers);
-    values.map(|(x, power)| x.ratio(&denominator, power)).collect()
+    values
+        .map(|(x, power)| x.ratio(&denominator, power))
+        .collect()
 }
 
 /// Numerators over one denominator; `None` where the system is not square and regular, or the integers outgrow.
@@ -294,5 +296,45 @@ impl Number for Dyadic {
         self.0.map_or(f64::NAN, |(value, exponent)| {
             2f64.powi((value.bits() as i64 + exponent) as i32)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::given::{Freedom, GivenBody, GivenContact, GivenLaw, Joint};
+
+    #[test]
+    fn two_bodies_with_ragged_doubles_need_narrow_integers_only() {
+        let body = |mass, inertia, center, velocity, spin| GivenBody {
+            freedom: Freedom::Rigid,
+            mass,
+            inertia,
+            center,
+            velocity,
+            spin,
+        };
+        let bodies = vec![
+            body(1.3, 0.07, [-0.31, 0.02], [1.1, -0.2], -5.3),
+            body(2.1, 0.83, [0.49, -0.81], [-10.7, 0.3], 0.9),
+        ];
+        let joint = Joint {
+            bodies: [0, 1],
+            at: [0.03, 0.01],
+        };
+        let contact = GivenContact {
+            joint,
+            normal: Some([0.8, 0.6]),
+            law: GivenLaw::Frictionless(0.9),
+        };
+        let given = Given {
+            bodies,
+            hinges: vec![],
+            contacts: vec![contact],
+            blows: vec![],
+            known: vec![],
+        };
+        let system = assemble(&given.map(|v| Dyadic::exact(*v)));
+        assert!(solve_narrow(&system).is_some());
     }
 }
