@@ -202,7 +202,7 @@ const QUARTER: [f64; 3] = [
     -1.497_384_904_859_169_8e-33,
 ];
 
-/// (cos, sin) of an angle of at most 2²⁰ [rad], absolute error below 2⁻⁹⁸; `None` beyond.
+/// (cos, sin) of an angle of at most 2²⁰ \[rad\], absolute error below 2⁻⁹⁸; `None` beyond.
 pub fn turned(angle: Dd) -> Option<[Dd; 2]> {
     let quarters = (angle.high / QUARTER[0]).round();
     if quarters.is_nan() || quarters.abs() > 1_048_576.0 {

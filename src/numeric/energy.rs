@@ -30,7 +30,7 @@ pub fn relative_velocities<T: Number>(
     [difference(&b, &a), difference(&d, &c)]
 }
 
-/// Kinetic energy just before of one free body, or of all [J]. Fixed bodies have none.
+/// Kinetic energy just before of one free body, or of all \[J\]. Fixed bodies have none.
 pub fn energy_before<T: Number>(given: &Given<T>, body: Option<usize>) -> T {
     chosen(given, body).fold(T::zero(), |sum, i| {
         let b = &given.bodies[i];
@@ -38,14 +38,14 @@ pub fn energy_before<T: Number>(given: &Given<T>, body: Option<usize>) -> T {
     })
 }
 
-/// Kinetic energy just after of one free body, or of all [J].
+/// Kinetic energy just after of one free body, or of all \[J\].
 pub fn energy_after<T: Number>(given: &Given<T>, motion: &Motion<T>, body: Option<usize>) -> T {
     chosen(given, body).fold(T::zero(), |sum, i| {
         sum.plus(&kinetic(given, i, &motion.velocity[i], &motion.spin[i]))
     })
 }
 
-/// Kinetic energy lost by one free body, or by all, before − after [J]: minus the work of the impulses,
+/// Kinetic energy lost by one free body, or by all, before − after \[J\]: minus the work of the impulses,
 /// each ½ J·(v⁻ + v⁺) at its point (Kelvin; Thomson & Tait).
 pub fn energy_lost<T: Number>(given: &Given<T>, motion: &Motion<T>, body: Option<usize>) -> T {
     match body {
@@ -118,7 +118,7 @@ fn work_on_fixed<T: Number>(
     on(two).minus(&on(one))
 }
 
-/// Work of all impulses on one free body, or on all free bodies: Σ ½ J·(v⁻ + v⁺) [J].
+/// Work of all impulses on one free body, or on all free bodies: Σ ½ J·(v⁻ + v⁺) \[J\].
 pub fn work<T: Number>(given: &Given<T>, motion: &Motion<T>, body: Option<usize>) -> T {
     let mut sum = T::zero();
     let mut on = |acted: usize, at: &[T; 2], impulse: &[T; 2], sign: bool| {
@@ -150,7 +150,7 @@ pub fn work<T: Number>(given: &Given<T>, motion: &Motion<T>, body: Option<usize>
     sum
 }
 
-/// Energy of the change of velocity of all free bodies, ½ (v⁺−v⁻)ᵀ M (v⁺−v⁻) [J].
+/// Energy of the change of velocity of all free bodies, ½ (v⁺−v⁻)ᵀ M (v⁺−v⁻) \[J\].
 pub fn energy_of_change<T: Number>(given: &Given<T>, motion: &Motion<T>) -> T {
     chosen(given, None).fold(T::zero(), |sum, i| {
         let b = &given.bodies[i];

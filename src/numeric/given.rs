@@ -104,11 +104,11 @@ pub enum Freedom {
 pub struct GivenBody<T> {
     /// Which unknowns it has.
     pub freedom: Freedom,
-    /// Mass m [kg]; zero for a fixed body, where it means nothing.
+    /// Mass m \[kg\]; zero for a fixed body, where it means nothing.
     pub mass: T,
     /// Moment of inertia about the center of mass I_G [kg m²]; zero for particles and fixed bodies.
     pub inertia: T,
-    /// Center of mass G [m].
+    /// Center of mass G \[m\].
     pub center: [T; 2],
     /// Velocity of G just before v_G⁻ [m/s].
     pub velocity: [T; 2],
@@ -117,7 +117,7 @@ pub struct GivenBody<T> {
 }
 
 impl<T: Number> GivenBody<T> {
-    /// Position of a point relative to G [m]; a particle has no arms.
+    /// Position of a point relative to G \[m\]; a particle has no arms.
     pub fn arm(&self, point: &[T; 2]) -> [T; 2] {
         match self.freedom {
             Freedom::Particle => [T::zero(), T::zero()],
@@ -136,7 +136,7 @@ impl<T: Number> GivenBody<T> {
 pub struct Joint<T> {
     /// Indices of the bodies; the impulse is the one on the second.
     pub bodies: [usize; 2],
-    /// Position [m].
+    /// Position \[m\].
     pub at: [T; 2],
 }
 
@@ -167,7 +167,7 @@ pub enum GivenLaw<T> {
 pub struct GivenBlow<T> {
     /// Index of the body.
     pub body: usize,
-    /// Point of application [m].
+    /// Point of application \[m\].
     pub at: [T; 2],
     /// The impulse, or its direction.
     pub impulse: GivenImpulse<T>,
@@ -176,7 +176,7 @@ pub struct GivenBlow<T> {
 /// What is given of a blow.
 #[derive(Clone, Debug, PartialEq)]
 pub enum GivenImpulse<T> {
-    /// Both components [N s].
+    /// Both components \[N s\].
     Whole([T; 2]),
     /// Unit vector along which it acts; its size is unknown.
     Along([T; 2]),

@@ -348,9 +348,9 @@ pub struct ContactReport<T> {
     pub normal_before: T,
     /// Normal relative velocity just after, u_n⁺ [m/s].
     pub normal_after: T,
-    /// Normal impulse P_n on the second body [N s].
+    /// Normal impulse P_n on the second body \[N s\].
     pub normal_impulse: T,
-    /// Tangential impulse P_t on the second body [N s], along the normal turned clockwise by 90°.
+    /// Tangential impulse P_t on the second body \[N s\], along the normal turned clockwise by 90°.
     pub tangent_impulse: T,
     /// How the bodies meet.
     pub approach: Approach,

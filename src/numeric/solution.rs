@@ -62,11 +62,11 @@ pub struct Motion<T> {
     pub velocity: Vec<[T; 2]>,
     /// Angular velocity of each body just after, ω⁺ [rad/s], counterclockwise.
     pub spin: Vec<T>,
-    /// Impulse of each hinge on its second body [N s].
+    /// Impulse of each hinge on its second body \[N s\].
     pub hinge: Vec<[T; 2]>,
-    /// Impulse of each contact on its second body [N s].
+    /// Impulse of each contact on its second body \[N s\].
     pub contact: Vec<[T; 2]>,
-    /// Impulse of each blow [N s].
+    /// Impulse of each blow \[N s\].
     pub blow: Vec<[T; 2]>,
     /// Unknowns the equations do not determine; the values above are then one of many and not to be shown.
     pub loose: Vec<Unknown>,

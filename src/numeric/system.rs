@@ -16,17 +16,17 @@ pub enum Unknown {
     VelocityY(usize),
     /// Angular velocity of a body just after [rad/s].
     Spin(usize),
-    /// x-component of a hinge's impulse on its second body [N s].
+    /// x-component of a hinge's impulse on its second body \[N s\].
     HingeX(usize),
-    /// y-component of a hinge's impulse on its second body [N s].
+    /// y-component of a hinge's impulse on its second body \[N s\].
     HingeY(usize),
-    /// x-component of a contact's impulse on its second body [N s].
+    /// x-component of a contact's impulse on its second body \[N s\].
     ContactX(usize),
-    /// y-component of a contact's impulse on its second body [N s].
+    /// y-component of a contact's impulse on its second body \[N s\].
     ContactY(usize),
-    /// A contact's impulse on its second body, along the normal [N s].
+    /// A contact's impulse on its second body, along the normal \[N s\].
     ContactNormal(usize),
-    /// Size of a blow along its direction [N s].
+    /// Size of a blow along its direction \[N s\].
     Blow(usize),
 }
 
