@@ -309,31 +309,53 @@ fn writing_and_reading_gives_the_same_element() {
 
 #[test]
 fn results_are_written_as_a_person_would() {
-    let (v, t, l, m, e, m1, m2) = (s("v"), s("theta"), s("l"), s("m"), s("e"), s("m1"), s("m2"));
+    let (v, t, u, l, m, e) = (s("v"), s("theta"), s("phi"), s("l"), s("m"), s("e"));
+    let (m1, m2, v1, v2) = (s("m1"), s("m2"), s("v1"), s("v2"));
+    let energy = &m * &v.powi(2) / n(4);
     for (from, expected) in [
         (&v * &(n(1) - t.cos().powi(2)), "(* v (^ (sin theta) 2))"),
         (
             n(3) * &v * t.cos() / (n(2) * &l),
-            "(* 3/2 v (^ l -1) (cos theta))",
+            "(* 3/2 (^ l -1) v (cos theta))",
         ),
         (
-            &m * &v.powi(2) * t.cos().powi(2) / n(4)
-                - e.powi(2) * &m * &v.powi(2) * t.cos().powi(2) / n(4),
-            "",
+            &energy - &e.powi(2) * &energy * t.cos().powi(2) - &energy * &t.sin().powi(2),
+            "(* 1/4 m (^ v 2) (^ (cos theta) 2) (+ 1 (* -1 (^ e 2))))",
         ),
         (
             &m1 + &(&m2 * &t.sin().powi(2)),
             "(+ m1 (* m2 (^ (sin theta) 2)))",
         ),
-        (&v - &(&v * &e), ""),
+        (
+            (&m1 + &m2) * t.cos().powi(2) + &m1 * &t.sin().powi(2),
+            "(+ m1 (* m2 (^ (cos theta) 2)))",
+        ),
+        (&v - &(&v * &e), "(* v (+ 1 (* -1 e)))"),
+        (&e - &n(1), "(+ e -1)"),
         (t.sin() / (n(1) - t.cos().powi(2)), "(^ (sin theta) -1)"),
-        ((n(2) * &l * &v).sqrt(), ""),
-        ((&m / &v).sqrt(), ""),
+        (
+            t.cos() * u.cos() + t.sin() * u.sin(),
+            "(cos (+ phi (* -1 theta)))",
+        ),
+        ((n(2) * &l * &v).sqrt(), "(^ (* 2 l v) 1/2)"),
+        (m.sqrt() / v.sqrt(), "(^ (* m (^ v -1)) 1/2)"),
+        (
+            (&m1 * &v1 + &m2 * &v2 + &e * &m2 * &v2 - &e * &m2 * &v1) / (&m1 + &m2),
+            "(* (^ (+ m1 m2) -1) (+ (* m1 v1) (* m2 v2) (* m2 e (+ v2 (* -1 v1)))))",
+        ),
+        (
+            (&v1.powi(2) - &v2.powi(2)) / (&v1 - &v2).powi(2),
+            "(* (+ v1 v2) (^ (+ v1 (* -1 v2)) -1))",
+        ),
+        (
+            (&v1 + &v2).powi(40) / (&v1 + &v2).powi(38),
+            "(^ (+ v1 v2) 2)",
+        ),
     ] {
         let mut field = Field::new(&Domains::default());
         field.prepare([&from]);
         let x = field.element(&from).expect("within limits");
-        eprintln!("{:?}", (field.expr(&x), expected));
+        assert_eq!(format!("{:?}", field.expr(&x)), expected, "from {from:?}");
     }
 }
 
