@@ -130,7 +130,7 @@ fn difference_of_powers(p: &Poly, variables: &[usize]) -> Option<(Poly, Poly)> {
                 .iter()
                 .map(|w| {
                     let e = exponent(p.mono(i), *w);
-                    (e % k == 0).then_some((*w, e / k))
+                    e.is_multiple_of(k).then_some((*w, e / k))
                 })
                 .collect();
             (r.pow(k) == magnitude).then_some(())?;

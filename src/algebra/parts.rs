@@ -98,10 +98,9 @@ impl Field {
         for &g in &self.algebraic {
             if let (Kind::Symbol(_), Some((2, value))) =
                 (&self.gens[g].kind, &self.gens[g].relation)
+                && let Some(a) = value.variables().first()
             {
-                if let Some(a) = value.variables().first() {
-                    out.push((*a, g));
-                }
+                out.push((*a, g));
             }
         }
         out

@@ -696,7 +696,7 @@ fn mul_sorting<const S: usize>(a: &Poly, b: &Poly) -> Result<Poly, Stop> {
             products.push((mono, i as u32, j as u32));
         }
     }
-    products.sort_unstable_by(|x, y| y.0.cmp(&x.0));
+    products.sort_unstable_by_key(|product| std::cmp::Reverse(product.0));
     let mut out = Poly {
         stride: S,
         exps: Vec::new(),

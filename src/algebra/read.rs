@@ -46,13 +46,13 @@ impl Field {
                 let mut total = self.read(&factors[0], depth)?;
                 for factor in &factors[1..] {
                     // A quotient is read as one, so that b/b never passes through 1/b.
-                    if let Node::Power(base, exponent) = factor.node() {
-                        if let Some(k) = whole(exponent).filter(|k| *k < 0) {
-                            let base = self.read(base, depth)?;
-                            let power = self.pow(&base, -k)?;
-                            total = self.div(&total, &power)?;
-                            continue;
-                        }
+                    if let Node::Power(base, exponent) = factor.node()
+                        && let Some(k) = whole(exponent).filter(|k| *k < 0)
+                    {
+                        let base = self.read(base, depth)?;
+                        let power = self.pow(&base, -k)?;
+                        total = self.div(&total, &power)?;
+                        continue;
                     }
                     let factor = self.read(factor, depth)?;
                     total = self.mul(&total, &factor)?;
@@ -206,16 +206,13 @@ impl Field {
                         turns = factor;
                         continue;
                     }
-                    if let Some(unit) = self.inverse_direction(&term)? {
-                        if let Some(k) = factor
-                            .is_integer()
-                            .then(|| factor.numer().as_i64())
-                            .flatten()
-                            .filter(|k| k.abs() <= MOST_TURNS)
-                        {
-                            units.push((unit, k));
-                            continue;
-                        }
+                    if let Some(unit) = self.inverse_direction(&term)?
+                        && factor.is_integer()
+                        && let Some(k) = factor.numer().as_i64()
+                        && k.abs() <= MOST_TURNS
+                    {
+                        units.push((unit, k));
+                        continue;
                     }
                     // Sums of fractions with different denominators may depend on each other.
                     if !term.den.factors.is_empty() {
@@ -350,10 +347,8 @@ impl Field {
             (1, 12),
             (5, 12),
         ] {
-            if (q == 5 || q == 10) && function == Function::Atan
-                || (q == 2 && function == Function::Atan)
-                || (q >= 8 && x.num.len() < 2)
-            {
+            let no_tangent = function == Function::Atan && matches!(q, 2 | 5 | 10);
+            if no_tangent || (q >= 8 && x.num.len() < 2) {
                 continue;
             }
             let Some([cos, sin]) = self.of_pi(&ratio(p, q))? else {

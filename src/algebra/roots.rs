@@ -43,7 +43,7 @@ impl Field {
 
     /// |f|ᵏ.
     fn abs_power(&mut self, f: &Poly, k: u32) -> Result<Element, Stop> {
-        let base = if k % 2 == 0 {
+        let base = if k.is_multiple_of(2) {
             Element::from_poly(f.clone())
         } else {
             self.abs_poly(f)?
@@ -77,11 +77,11 @@ impl Field {
         if product.is_one() {
             return Ok(outside);
         }
-        if odd.len() != 1 || !rest.is_one() {
-            if let Some(hidden) = self.hidden_square(&product) {
-                let hidden = self.abs(&hidden)?;
-                return self.mul(&outside, &hidden);
-            }
+        if (odd.len() != 1 || !rest.is_one())
+            && let Some(hidden) = self.hidden_square(&product)
+        {
+            let hidden = self.abs(&hidden)?;
+            return self.mul(&outside, &hidden);
         }
         // √(ab) = √a √b for factors known not to be negative; the others stay under one root.
         let mut together = Poly::one();

@@ -83,7 +83,7 @@ impl Field {
     }
 
     fn power_sign(&self, p: &Poly, k: u32) -> Option<Sign> {
-        match (self.sign_irreducible(p, 4), k % 2) {
+        match (self.sign_irreducible(p, 3), k % 2) {
             (Some(Sign::Positive | Sign::Negative), 0) => Some(Sign::Positive),
             (_, 0) => Some(Sign::NotNegative),
             (sign, _) => sign,
@@ -200,10 +200,9 @@ impl Field {
 
     /// A quadratic without real zeros has the sign of its leading coefficient.
     fn by_discriminant(&self, p: &Poly, depth: u32) -> Option<Sign> {
-        for v in p.variables() {
-            if p.degree(v) != 2 || self.gens[v].relation.is_some() {
-                continue;
-            }
+        let plain = |v: &usize| p.degree(*v) == 2 && self.gens[*v].relation.is_none();
+        // Three tries: each may look at discriminants of its own.
+        for v in p.variables().into_iter().filter(plain).take(3) {
             let parts = p.by_power(v);
             let [c, b, a] = parts.as_slice() else {
                 continue;
@@ -212,10 +211,10 @@ impl Field {
                 continue;
             };
             let discriminant = bb.sub(&ac.scale(&Int::from(4)));
-            if self.sign_sub(&discriminant, depth) == Some(Sign::Negative) {
-                if let Some(sign @ (Sign::Positive | Sign::Negative)) = self.sign_sub(a, depth) {
-                    return Some(sign);
-                }
+            if self.sign_sub(&discriminant, depth) == Some(Sign::Negative)
+                && let Some(sign @ (Sign::Positive | Sign::Negative)) = self.sign_sub(a, depth)
+            {
+                return Some(sign);
             }
         }
         None
@@ -532,7 +531,7 @@ impl Field {
                     let range = self.interval(name);
                     let positive = range.low.is_some_and(|(l, _)| !l.is_negative());
                     let negative = range.high.is_some_and(|(h, _)| !h.is_positive());
-                    if positive || (!negative && k % 2 == 0) {
+                    if positive || (!negative && k.is_multiple_of(2)) {
                         size
                     } else {
                         -size

@@ -91,7 +91,7 @@ pub fn solve(field: &Field, rows: &[Row], n: usize) -> Result<Solution, Stop> {
         .filter(|j| pivots.iter().all(|p| p.unknown != *j))
         .collect();
     // Back: every pivot unknown as constant + Σ coefficient·free unknown.
-    let mut affine: Vec<Option<(Element, Vec<(usize, Element)>)>> = vec![None; n];
+    let mut affine: Vec<Option<Affine>> = vec![None; n];
     for j in &free {
         affine[*j] = Some((Element::zero(), vec![(*j, field.integer(1))]));
     }
@@ -127,6 +127,12 @@ pub fn solve(field: &Field, rows: &[Row], n: usize) -> Result<Solution, Stop> {
         pivots,
     })
 }
+
+/// A constant and coefficients of free unknowns.
+type Affine = (Element, Vec<(usize, Element)>);
+
+/// Fill-in, length, whether symbolic, width of the row.
+type Cost = (usize, usize, usize, usize);
 
 fn coefficient(row: &[(usize, Element)], unknown: usize) -> Option<&Element> {
     row.iter().find(|(j, _)| *j == unknown).map(|(_, c)| c)
@@ -172,7 +178,7 @@ fn choose(work: &[Vec<(usize, Element)>], open: &[usize], n: usize) -> Option<(u
             column[*j] += 1;
         }
     }
-    let mut best: Option<((usize, usize, usize, usize), (usize, usize))> = None;
+    let mut best: Option<(Cost, (usize, usize))> = None;
     for &row in open {
         let width = work[row].len();
         for (j, c) in &work[row] {
