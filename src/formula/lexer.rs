@@ -86,10 +86,16 @@ pub(crate) struct Lexer<'a> {
 }
 
 impl<'a> Lexer<'a> {
-    pub fn new(text: &'a str, symbols: &'a Symbols, units_first: bool, flips: u64) -> Lexer<'a> {
+    pub fn new(
+        text: &'a str,
+        start: usize,
+        symbols: &'a Symbols,
+        units_first: bool,
+        flips: u64,
+    ) -> Lexer<'a> {
         Lexer {
             text,
-            pos: 0,
+            pos: start,
             single: false,
             units_first,
             sites: 0,

@@ -6,6 +6,7 @@
 
 mod calls;
 mod convert;
+mod echo;
 mod fault;
 mod lexer;
 mod name;
@@ -24,6 +25,7 @@ use std::collections::BTreeSet;
 use crate::dimension::Unit;
 use crate::expr::{Expr, Symbol};
 use convert::Value;
+pub use echo::echo_latex;
 pub use fault::Fault;
 use fault::Faulty;
 pub use note::{Note, Remark};
@@ -212,25 +214,24 @@ fn read_as(text: &str, symbols: &Symbols, flips: u64) -> Faulty<Reading> {
         );
         return Err(Fault::new(message, 0, 0));
     }
-    let (text, offset) = boxed(text)?;
-    let result = read_inner(text, symbols, false, flips).or_else(|first| match symbols.is_open() {
-        false => read_inner(text, symbols, true, flips).map_err(|_| first),
+    let (start, end) = boxed(text)?;
+    let inner = &text[..end];
+    read_inner(inner, start, symbols, false, flips).or_else(|first| match symbols.is_open() {
+        false => read_inner(inner, start, symbols, true, flips).map_err(|_| first),
         true => Err(first),
-    });
-    result.map_err(|mut fault| {
-        fault.start += offset;
-        fault.end += offset;
-        for other in &mut fault.also {
-            other.start += offset;
-            other.end += offset;
-        }
-        fault
     })
 }
 
-fn read_inner(text: &str, symbols: &Symbols, units_first: bool, flips: u64) -> Faulty<Reading> {
-    let (text, stop) = unpunctuated(text);
-    let mut parser = Parser::new(text, symbols, units_first, flips);
+/// Reads from byte `start` to the end of the text; places count from the start of the text.
+fn read_inner(
+    text: &str,
+    start: usize,
+    symbols: &Symbols,
+    units_first: bool,
+    flips: u64,
+) -> Faulty<Reading> {
+    let (text, stop) = unpunctuated(text, start);
+    let mut parser = Parser::new(text, start, symbols, units_first, flips);
     let parsed = parser.statement();
     let mut lexer = parser.lexer;
     if !lexer.unknown.is_empty() {
@@ -313,11 +314,11 @@ fn has_both_signs(w: &Written) -> bool {
     }
 }
 
-/// The inside of the last `\boxed{}` and where it starts; without one the whole text.
-fn boxed(text: &str) -> Faulty<(&str, usize)> {
+/// Start and end of the inside of the last `\boxed{}`; without one of the whole text.
+fn boxed(text: &str) -> Faulty<(usize, usize)> {
     const OPEN: &str = "\\boxed";
     let Some(at) = text.rfind(OPEN) else {
-        return Ok((text, 0));
+        return Ok((0, text.len()));
     };
     let behind = &text[at + OPEN.len()..];
     let blanks = behind.len() - behind.trim_start().len();
@@ -326,7 +327,7 @@ fn boxed(text: &str) -> Faulty<(&str, usize)> {
     for (i, b) in text.bytes().enumerate().skip(start) {
         match b {
             b'{' => depth += 1,
-            b'}' if depth == 1 => return Ok((&text[start + 1..i], start + 1)),
+            b'}' if depth == 1 => return Ok((start + 1, i)),
             b'}' => depth = depth.saturating_sub(1),
             _ if depth == 0 => break,
             _ => {}
@@ -340,13 +341,20 @@ fn boxed(text: &str) -> Faulty<(&str, usize)> {
 }
 
 /// The text without a full stop or comma behind it, and the place of that; `4.` keeps its point.
-fn unpunctuated(text: &str) -> (&str, Option<(usize, usize)>) {
+fn unpunctuated(text: &str, start: usize) -> (&str, Option<(usize, usize)>) {
     let trimmed = text.trim_end_matches(|c: char| c.is_whitespace() || c == '$');
-    let Some(body) = trimmed.strip_suffix(['.', ',', ';']) else {
+    let Some(body) = trimmed
+        .strip_suffix(['.', ',', ';'])
+        .filter(|b| b.len() >= start)
+    else {
         return (text, None);
     };
-    let number = trimmed.ends_with('.') && body.ends_with(|c: char| c.is_ascii_digit());
-    match number || body.trim().is_empty() || body.ends_with(['.', ',', ';', '\\']) {
+    // In `v1.` the digit belongs to a name, in `4.` the point belongs to the number.
+    let before = body.trim_end_matches(|c: char| c.is_ascii_digit());
+    let named = before.ends_with(|c: char| c.is_alphabetic() || c == '_');
+    let number = trimmed.ends_with('.') && before.len() < body.len() && !named;
+    let empty = body[start..].trim().is_empty();
+    match number || empty || body.ends_with(['.', ',', ';', '\\']) {
         true => (text, None),
         false => (body, Some((body.len(), trimmed.len()))),
     }

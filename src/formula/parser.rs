@@ -26,15 +26,24 @@ pub(crate) struct Parser<'a> {
     pub lexer: Lexer<'a>,
     peeked: Option<Token>,
     depth: u32,
+    /// Whether there is nothing but blanks to read.
+    empty: bool,
     pub(super) bars: u32,
 }
 
 impl<'a> Parser<'a> {
-    pub fn new(text: &'a str, symbols: &'a Symbols, units_first: bool, flips: u64) -> Parser<'a> {
+    pub fn new(
+        text: &'a str,
+        start: usize,
+        symbols: &'a Symbols,
+        units_first: bool,
+        flips: u64,
+    ) -> Parser<'a> {
         Parser {
-            lexer: Lexer::new(text, symbols, units_first, flips),
+            lexer: Lexer::new(text, start, symbols, units_first, flips),
             peeked: None,
             depth: 0,
+            empty: text[start..].trim().is_empty(),
             bars: 0,
         }
     }
@@ -141,7 +150,7 @@ impl<'a> Parser<'a> {
             .take(24)
             .collect();
         let message = match &token.tok {
-            Tok::End if self.lexer.text.trim().is_empty() => "the formula is empty".to_string(),
+            Tok::End if self.empty => "the formula is empty".to_string(),
             Tok::End => {
                 "a number, a name or a bracket is expected, and the formula ends".to_string()
             }

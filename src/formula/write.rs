@@ -405,7 +405,7 @@ fn superscript(digits: &str) -> String {
         .collect()
 }
 
-fn latex_function(function: Function) -> &'static str {
+pub(super) fn latex_function(function: Function) -> &'static str {
     match function {
         Function::Sin => "\\sin",
         Function::Cos => "\\cos",

@@ -86,7 +86,7 @@ impl Written {
         Written { shape, start, end }
     }
 
-    /// Whether it is made of numbers and π alone, without a sum.
+    /// Whether it is made of numbers and π alone, without a sum of several terms.
     pub(crate) fn is_numeric(&self) -> bool {
         match &self.shape {
             Shape::Number(_) => true,
@@ -96,6 +96,7 @@ impl Written {
             Shape::Root(_, inner) | Shape::Bracket(inner) | Shape::Degrees(inner) => {
                 inner.is_numeric()
             }
+            Shape::Sum(terms) => matches!(terms.as_slice(), [(_, only)] if only.is_numeric()),
             _ => false,
         }
     }
