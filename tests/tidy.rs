@@ -13,7 +13,18 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("algebra", &["expr", "domain"]),
     ("equality", &["expr", "interval", "domain", "algebra"]),
     ("formula", &["expr", "dimension"]),
-    ("scene", &["expr", "domain", "dimension", "formula"]),
+    (
+        "scene",
+        &[
+            "expr",
+            "interval",
+            "domain",
+            "dimension",
+            "algebra",
+            "equality",
+            "formula",
+        ],
+    ),
     ("laws", &["expr", "scene"]),
     ("numeric", &["expr", "domain", "scene"]),
     (
