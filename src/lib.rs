@@ -26,4 +26,6 @@ pub mod derive;
 
 pub mod verify;
 
+pub mod grade;
+
 pub mod render;

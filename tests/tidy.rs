@@ -55,6 +55,23 @@ const LAYERS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "grade",
+        &[
+            "expr",
+            "interval",
+            "domain",
+            "dimension",
+            "algebra",
+            "equality",
+            "formula",
+            "scene",
+            "laws",
+            "numeric",
+            "derive",
+            "verify",
+        ],
+    ),
+    (
         "render",
         &[
             "expr",
@@ -66,6 +83,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "numeric",
             "derive",
             "verify",
+            "grade",
         ],
     ),
 ];

@@ -1,0 +1,427 @@
+//! `carom grade` and `carom read`: one answer, a batch of answers, or how a formula is understood.
+
+use std::collections::HashMap;
+use std::io::{BufRead, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+
+use clap::{Args, ValueEnum};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use super::{Failure, Format, pretty, print, read_scene};
+use carom::grade::entry::{self, Entry, Keys};
+use carom::grade::sheet::{self, Sheet};
+use carom::grade::{Form, Given, Grade, Options, Question, Strength, Verdict};
+use carom::{dimension, formula, grade, render};
+
+/// Arguments of `carom grade`.
+#[derive(Args)]
+pub struct GradeArgs {
+    /// Scene file the answer belongs to
+    scene: Option<PathBuf>,
+    /// Which of the scene's questions is answered
+    #[arg(long)]
+    quantity: Option<String>,
+    /// The expected formula, where there is no scene
+    #[arg(long, conflicts_with = "scene")]
+    expected: Option<String>,
+    /// The answer to judge
+    #[arg(long, allow_hyphen_values = true, required_unless_present = "batch")]
+    answer: Option<String>,
+    /// Read JSON lines from standard input and write one JSON line for each
+    #[arg(long, conflicts_with_all = ["scene", "expected", "answer", "quantity"])]
+    batch: bool,
+    /// Threads of a batch; by default one per core
+    #[arg(long, requires = "batch")]
+    jobs: Option<usize>,
+    /// How strong a proof of equality has to be
+    #[arg(long, value_enum, default_value_t = ProofArg::Identity)]
+    proof: ProofArg,
+    /// How far a number may be off, such as 2%
+    #[arg(long)]
+    tolerance: Option<String>,
+    /// Demand on the form: simplified, factored, unit, digits=3, only=m,v; may be repeated
+    #[arg(long)]
+    form: Vec<String>,
+    /// Declare a symbol, such as v=real, e=0..1 or theta=0..pi/2; may be repeated
+    #[arg(long = "symbol", value_name = "NAME=DOMAIN")]
+    symbols: Vec<String>,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// Arguments of `carom read`.
+#[derive(Args)]
+pub struct ReadArgs {
+    /// The formula
+    #[arg(allow_hyphen_values = true)]
+    formula: String,
+    /// Scene whose symbols are in play
+    #[arg(long)]
+    scene: Option<PathBuf>,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ProofArg {
+    /// Random points modulo a prime where no root occurs; the bound of error is stated
+    Fast,
+    /// An identity
+    Identity,
+}
+
+/// Runs `carom grade`.
+pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
+    let options = options(args)?;
+    if args.batch {
+        return batch(args, &options);
+    }
+    let answer = args.answer.as_deref().unwrap_or_default();
+    let grade = match (&args.scene, &args.expected) {
+        (Some(path), _) => {
+            let sheet = open(path)?;
+            let name = args.quantity.clone().or_else(|| only_quantity(&sheet)).ok_or_else(|| {
+                Failure::Input(format!("--quantity is missing: one of {}", sheet.quantities().join(", ")))
+            })?;
+            let entry = sheet.entry(&name).map_err(Failure::Input)?;
+            sheet.judge(&entry, answer, &options)
+        }
+        (None, Some(expected)) => {
+            let grade = grade::judge(expected, answer, &question(args)?, &options);
+            if grade.note == "INVALID_EXPECTED" {
+                let shown = grade.error.as_ref().map_or(String::new(), |f| f.show(expected));
+                return Err(Failure::Input(format!("--expected: {shown}")));
+            }
+            grade
+        }
+        (None, None) => {
+            return Err(Failure::Input("give a scene and --quantity, or --expected".into()));
+        }
+    };
+    print(&match args.format {
+        Format::Text => render::grade::text(&grade, answer),
+        Format::Json => pretty(&render::grade::json(None, &grade, answer)),
+    })?;
+    Ok(match grade.verdict {
+        Verdict::Equivalent => 0,
+        Verdict::Different => 1,
+        Verdict::Invalid => 2,
+        Verdict::Undecided => 3,
+    })
+}
+
+fn only_quantity(sheet: &Sheet) -> Option<String> {
+    match sheet.scene.questions.as_slice() {
+        [one] => Some(one.name.clone()),
+        _ => None,
+    }
+}
+
+fn open(path: &Path) -> Result<Sheet, Failure> {
+    let scene = read_scene(path, &[])?;
+    sheet::sheet(scene).map_err(|stop| Failure::Input(format!("{}: {stop}", path.display())))
+}
+
+fn options(args: &GradeArgs) -> Result<Options, Failure> {
+    let mut options = Options {
+        strength: match args.proof {
+            ProofArg::Fast => Strength::Fast,
+            ProofArg::Identity => Strength::Identity,
+        },
+        ..Options::default()
+    };
+    if let Some(text) = &args.tolerance {
+        let read = grade::Tolerance::read(text);
+        options.tolerance = Some(read.ok_or_else(|| Failure::Input(format!("--tolerance {text}: expected a share such as 2%")))?);
+    }
+    for text in &args.form {
+        let form = Form::read(text).ok_or_else(|| {
+            Failure::Input(format!("--form {text}: expected simplified, factored, unit, digits=3 or only=m,v"))
+        })?;
+        options.forms.push(form);
+    }
+    Ok(options)
+}
+
+fn question(args: &GradeArgs) -> Result<Question, Failure> {
+    let mut question = Question::default();
+    for text in &args.symbols {
+        let wrong = |what: &str| Failure::Input(format!("--symbol {text}: {what}"));
+        let (name, domain) = text.split_once('=').ok_or_else(|| wrong("expected NAME=DOMAIN, such as e=0..1"))?;
+        let value = match domain.split_once("..") {
+            Some((low, high)) => {
+                let end = |t: &str| if t.is_empty() { Value::Null } else { json!(t) };
+                json!({"min": end(low), "max": end(high)})
+            }
+            None => json!(domain),
+        };
+        let read = entry::domain(&value).map_err(|what| wrong(&what))?;
+        question.domains.symbols.insert(name.into(), read);
+        question.symbols.push(Given { name: name.into(), latex: None, dimension: None });
+    }
+    Ok(question)
+}
+
+/// Lines handled by one task; keys are shared within it.
+const TASK: usize = 256;
+/// Lines read before they are handed out: memory stays bounded whatever comes in.
+const CHUNK: usize = 64 * TASK;
+
+fn batch(args: &GradeArgs, options: &Options) -> Result<u8, Failure> {
+    let mut pool = rayon::ThreadPoolBuilder::new();
+    if let Some(jobs) = args.jobs {
+        pool = pool.num_threads(jobs.clamp(1, 1024));
+    }
+    let pool = pool.build().map_err(|e| Failure::Input(format!("--jobs: {e}")))?;
+    let sheets = Sheets::default();
+    let progress = std::io::stderr().is_terminal().then(|| {
+        let bar = indicatif::ProgressBar::new_spinner();
+        bar.set_style(
+            indicatif::ProgressStyle::with_template("{human_pos} lines, {per_sec}, {elapsed}").unwrap_or_else(|_| indicatif::ProgressStyle::default_spinner()),
+        );
+        bar
+    });
+    let mut input = std::io::stdin().lock();
+    let mut out = std::io::BufWriter::with_capacity(1 << 16, std::io::stdout().lock());
+    // Small chunks first, so that whoever asks line by line does not wait for thousands.
+    let mut wanted = 1;
+    loop {
+        let lines = lines(&mut input, wanted)?;
+        if lines.is_empty() {
+            break;
+        }
+        let judged: Vec<String> = pool.install(|| {
+            lines
+                .par_chunks(TASK)
+                .map(|task| {
+                    let mut keys = Keys::default();
+                    let mut text = String::with_capacity(task.len() * 256);
+                    for line in task {
+                        one(line, options, &mut keys, &sheets, &mut text);
+                    }
+                    text
+                })
+                .collect()
+        });
+        for text in judged {
+            out.write_all(text.as_bytes())?;
+        }
+        out.flush()?;
+        if let Some(bar) = &progress {
+            bar.inc(lines.len() as u64);
+        }
+        wanted = (wanted * 4).min(CHUNK);
+    }
+    if let Some(bar) = progress {
+        bar.finish_and_clear();
+    }
+    Ok(0)
+}
+
+/// A line of input, or what is wrong with its bytes.
+type Line = Result<String, String>;
+
+/// Up to `count` lines that are not blank; what is already there is not made to wait for more.
+fn lines(input: &mut impl BufRead, count: usize) -> Result<Vec<Line>, Failure> {
+    let mut out = Vec::new();
+    while out.len() < count {
+        let mut line = Vec::new();
+        let mut long = false;
+        let mut ended = false;
+        loop {
+            let buffer = input.fill_buf().map_err(|e| Failure::Input(format!("standard input: {e}")))?;
+            if buffer.is_empty() {
+                break;
+            }
+            let (taken, done) = match buffer.iter().position(|b| *b == b'\n') {
+                Some(at) => (at + 1, true),
+                None => (buffer.len(), false),
+            };
+            // The rest of a line that is too long is read and forgotten.
+            if line.len() + taken <= entry::MAX_LINE + 1 {
+                line.extend_from_slice(&buffer[..taken]);
+            } else {
+                long = true;
+            }
+            input.consume(taken);
+            if done {
+                ended = true;
+                break;
+            }
+        }
+        if line.is_empty() && !long {
+            break;
+        }
+        if long {
+            out.push(Err(format!("a line has at most {} bytes", entry::MAX_LINE)));
+        } else if line.iter().any(|b| !b.is_ascii_whitespace()) {
+            out.push(String::from_utf8(line).map_err(|e| format!("no UTF-8 at byte {}", e.utf8_error().valid_up_to())));
+        }
+        if !ended {
+            break;
+        }
+    }
+    Ok(out)
+}
+
+fn one(line: &Line, options: &Options, keys: &mut Keys, sheets: &Sheets, out: &mut String) {
+    let read = match line {
+        Ok(line) => entry::entry(line, options),
+        Err(message) => Err(entry::BadLine { id: Value::Null, message: message.clone() }),
+    };
+    let value = match read {
+        Ok(entry) => {
+            let grade = entry::judge(&entry, keys, &|entry, scene| sheets.judge(entry, scene));
+            let text = match grade.note {
+                "INVALID_EXPECTED" => entry.expected.as_deref().unwrap_or_default(),
+                "INVALID_LINE" => "",
+                _ => &entry.answer,
+            };
+            render::grade::json(Some(&entry.id), &grade, text)
+        }
+        Err(bad) => render::grade::json(Some(&bad.id), &entry::refused(bad.message), ""),
+    };
+    out.push_str(&value.to_string());
+    out.push('\n');
+}
+
+/// Scenes named in a batch, each derived once.
+#[derive(Default)]
+struct Sheets {
+    known: Mutex<HashMap<String, Arc<Result<Sheet, String>>>>,
+}
+
+/// Scenes kept at a time.
+const SHEETS: usize = 256;
+
+impl Sheets {
+    fn judge(&self, entry: &Entry, path: &str) -> Result<Grade, String> {
+        let sheet = self.sheet(path);
+        let sheet = sheet.as_ref().as_ref().map_err(Clone::clone)?;
+        let name = entry
+            .quantity
+            .clone()
+            .or_else(|| only_quantity(sheet))
+            .ok_or_else(|| format!("\"quantity\" is missing: one of {}", sheet.quantities().join(", ")))?;
+        let found = sheet.entry(&name)?;
+        Ok(sheet.judge(&found, &entry.answer, &entry.options))
+    }
+
+    fn sheet(&self, path: &str) -> Arc<Result<Sheet, String>> {
+        let lock = |known: &Mutex<HashMap<String, Arc<Result<Sheet, String>>>>| match known.lock() {
+            Ok(map) => map.get(path).cloned(),
+            Err(poisoned) => poisoned.into_inner().get(path).cloned(),
+        };
+        if let Some(sheet) = lock(&self.known) {
+            return sheet;
+        }
+        let sheet = Arc::new(match open(Path::new(path)) {
+            Ok(sheet) => Ok(sheet),
+            Err(Failure::Input(message)) => Err(message),
+            Err(Failure::Output(error)) => Err(error.to_string()),
+        });
+        if let Ok(mut map) = self.known.lock() {
+            if map.len() >= SHEETS {
+                map.clear();
+            }
+            map.insert(path.to_string(), sheet.clone());
+        }
+        sheet
+    }
+}
+
+/// Runs `carom read`.
+pub fn read(args: &ReadArgs) -> Result<u8, Failure> {
+    let (symbols, question) = match &args.scene {
+        Some(path) => {
+            let sheet = open(path)?;
+            let question = sheet.question();
+            let mut symbols = formula::Symbols::strict();
+            for g in &question.symbols {
+                symbols.declare_as(&g.name, g.latex.as_deref(), g.dimension.clone());
+            }
+            for q in &sheet.scene.questions {
+                symbols.declare_as(&q.name, q.latex.as_deref(), None);
+            }
+            (symbols, question)
+        }
+        None => (formula::Symbols::open(), Question::default()),
+    };
+    let reading = match formula::read(&args.formula, &symbols) {
+        Ok(reading) => reading,
+        Err(fault) => {
+            if args.format == Format::Json {
+                print(&pretty(&json!({"error": render::grade::error(&fault, &args.formula)})))?;
+                return Ok(2);
+            }
+            return Err(Failure::Input(fault.show(&args.formula)));
+        }
+    };
+    let plain = grade::show(&reading.content);
+    let latex = latex(&reading.content, &question);
+    let known = |name: &str| question.symbols.iter().find(|g| *g.name == *name)?.dimension.clone();
+    let dimension = reading.content.answer().expr().and_then(|e| match dimension::of(e, &known) {
+        Ok(found) => found.map(|d| format!("{} ({d})", d.si())),
+        Err(dimension::Clash::Unknown(_)) => None,
+        Err(clash) => Some(format!("none: {}", clash.message(&formula::write_plain))),
+    });
+    let notes: Vec<String> = reading.notes.iter().map(|n| n.message(&args.formula)).collect();
+    let others: Vec<String> = match reading.choices {
+        0 => Vec::new(),
+        _ => formula::other_readings(&args.formula, &symbols).iter().map(|r| grade::show(&r.content)).collect(),
+    };
+    let names: Vec<String> = reading.symbols().iter().map(|s| s.to_string()).collect();
+    if args.format == Format::Json {
+        print(&pretty(&json!({
+            "plain": plain, "latex": latex, "symbols": names, "dimension": dimension, "notes": notes, "other_readings": others,
+        })))?;
+        return Ok(0);
+    }
+    let mut out = format!("plain     {plain}\nLaTeX     {latex}\nsymbols   {}\n", names.join(", "));
+    if let Some(d) = dimension {
+        out.push_str(&format!("dimension {d}\n"));
+    }
+    for note in notes {
+        out.push_str(&format!("note      {note}\n"));
+    }
+    for other in others {
+        out.push_str(&format!("or        {other}\n"));
+    }
+    print(&out)?;
+    Ok(0)
+}
+
+fn latex(content: &formula::Content, question: &Question) -> String {
+    let names: HashMap<&str, &str> = question.symbols.iter().filter_map(|g| Some((&*g.name, g.latex.as_deref()?))).collect();
+    let write = |e: &carom::expr::Expr| formula::write_latex(e, &|name| names.get(name).map(|l| (*l).to_string()));
+    match content {
+        formula::Content::Scalar(e) => write(e),
+        formula::Content::Either([a, b]) => format!("{} \\text{{ or }} {}", write(a), write(b)),
+        formula::Content::Vector([x, y, z]) => {
+            let parts = [(x, "\\hat{\\imath}"), (y, "\\hat{\\jmath}"), (z, "\\hat{k}")];
+            let terms: Vec<String> = parts.iter().filter(|(e, _)| !e.is_zero()).map(|(e, unit)| format!("\\left({}\\right) {unit}", write(e))).collect();
+            if terms.is_empty() { "\\vec{0}".into() } else { terms.join(" + ") }
+        }
+        formula::Content::Quantity(q) => format!("{}\\,\\mathrm{{{}}}", write(&q.written), q.unit_text),
+        formula::Content::Relations(sides, signs) => {
+            let mut out = sides.first().map(|s| latex(s, question)).unwrap_or_default();
+            for (side, sign) in sides.iter().skip(1).zip(signs) {
+                let sign = match sign {
+                    formula::Relation::Equal => "=",
+                    formula::Relation::NotEqual => "\\neq",
+                    formula::Relation::Less => "<",
+                    formula::Relation::LessEqual => "\\le",
+                    formula::Relation::Greater => ">",
+                    formula::Relation::GreaterEqual => "\\ge",
+                    formula::Relation::Approximately => "\\approx",
+                };
+                out.push_str(&format!(" {sign} {}", latex(side, question)));
+            }
+            out
+        }
+    }
+}

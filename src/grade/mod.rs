@@ -1,0 +1,401 @@
+//! Judges an answer against what is expected: equivalent, different, invalid or undecided, how that is known, and what is
+//! wrong with a wrong one.
+//!
+//! In: texts of formulas and what the question declares of its symbols. Out: a [`Grade`]. A verdict is proved or marked:
+//! undecided never counts as wrong, and what cannot be read is invalid rather than wrong. This module writes no format
+//! and knows no file.
+
+mod compare;
+pub mod entry;
+mod form;
+mod modular;
+mod number;
+mod partial;
+mod relation;
+pub mod sheet;
+
+use std::collections::BTreeSet;
+
+use crate::dimension::Dimension;
+use crate::domain::Domains;
+use crate::expr::{Expr, Node, Point, Rational, Symbol};
+use crate::formula::{self, Content, Fault, Note, Reading, Remark, Symbols};
+
+pub use form::Form;
+pub use number::Tolerance;
+
+/// What a question declares about its symbols.
+#[derive(Clone, Debug, Default)]
+pub struct Question {
+    /// The symbols in play.
+    pub symbols: Vec<Given>,
+    /// Where they live; see [`Domains`] for what is not declared.
+    pub domains: Domains,
+    /// Whether nothing but `symbols` may occur in an answer.
+    pub closed: bool,
+    /// Name of the quantity asked for, where it has one: an answer may begin with `name =`.
+    pub asked: Vec<Given>,
+    /// Dimension of what is asked for, where known.
+    pub dimension: Option<Dimension>,
+}
+
+/// A declared symbol.
+#[derive(Clone, Debug)]
+pub struct Given {
+    /// Its name.
+    pub name: Symbol,
+    /// How it is typeset.
+    pub latex: Option<String>,
+    /// Its dimension, where declared.
+    pub dimension: Option<Dimension>,
+}
+
+/// How a comparison is carried out.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// How strong a proof of equality has to be.
+    pub strength: Strength,
+    /// How far a number may be off.
+    pub tolerance: Option<Tolerance>,
+    /// Demands on the way the answer is written.
+    pub forms: Vec<Form>,
+}
+
+/// How strong a proof of equality has to be.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Strength {
+    /// An identity in the normal form, and a counterexample with every refutation.
+    #[default]
+    Identity,
+    /// Equal at random points modulo 2⁶¹ − 1 where no root occurs, with the bound of error stated; no diagnosis.
+    Fast,
+}
+
+/// The verdict on an answer with everything it rests on.
+#[derive(Clone, Debug)]
+pub struct Grade {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Stable code of the reason; it does not depend on points or texts.
+    pub note: &'static str,
+    /// How the verdict is known.
+    pub proof: Proof,
+    /// What was assumed, in words.
+    pub assumed: Vec<String>,
+    /// A point at which the two part.
+    pub counterexample: Option<Apart>,
+    /// Why the answer, or the expected formula, cannot be read.
+    pub error: Option<Fault>,
+    /// What is wrong, and how much is right.
+    pub diagnosis: Vec<Diagnosis>,
+    /// How the answer was read, in plain notation.
+    pub read_as: Option<String>,
+    /// The names in the answer.
+    pub symbols: Vec<Symbol>,
+}
+
+/// The four verdicts.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Verdict {
+    /// Same value on the whole domain.
+    Equivalent,
+    /// Not the same.
+    Different,
+    /// No readable answer.
+    Invalid,
+    /// Not known; never to be counted as wrong.
+    Undecided,
+}
+
+impl Verdict {
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Verdict::Equivalent => "equivalent",
+            Verdict::Different => "different",
+            Verdict::Invalid => "invalid",
+            Verdict::Undecided => "undecided",
+        }
+    }
+
+    /// 1 for equivalent, 0 for different, nothing for what is invalid or undecided.
+    pub fn reward(self) -> Option<u8> {
+        match self {
+            Verdict::Equivalent => Some(1),
+            Verdict::Different => Some(0),
+            Verdict::Invalid | Verdict::Undecided => None,
+        }
+    }
+}
+
+/// How a verdict is known.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Proof {
+    /// Stable name: `identity`, `modular`, `counterexample`, `solutions`, `kind`, `dimension`, `tolerance`, `branch`, `none`.
+    pub kind: &'static str,
+    /// The same in words.
+    pub words: String,
+    /// Largest probability of error, where the proof is probabilistic.
+    pub bound: Option<f64>,
+}
+
+impl Proof {
+    pub(crate) fn of(kind: &'static str, words: impl Into<String>) -> Proof {
+        Proof { kind, words: words.into(), bound: None }
+    }
+}
+
+/// A point at which two formulas differ, in words.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Apart {
+    /// The point.
+    pub at: String,
+    /// Value of the answer there.
+    pub yours: String,
+    /// Value of the expected formula there.
+    pub expected: String,
+}
+
+/// One thing found out about a wrong answer.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Diagnosis {
+    /// Stable code.
+    pub code: &'static str,
+    /// For the teacher.
+    pub message: String,
+    /// For the student: helps and does not give the answer away.
+    pub hint: String,
+}
+
+impl Diagnosis {
+    pub(crate) fn new(code: &'static str, message: impl Into<String>, hint: impl Into<String>) -> Diagnosis {
+        Diagnosis { code, message: message.into(), hint: hint.into() }
+    }
+}
+
+/// An expected formula, read once and compared many times.
+#[derive(Clone, Debug)]
+pub struct Key {
+    /// The formula.
+    pub reading: Reading,
+    /// What is asked, with the symbols of the formula among those in play.
+    pub question: Question,
+    /// Names an answer may use.
+    pub(crate) readable: Symbols,
+    /// Values modulo a prime, for the fast comparison.
+    pub(crate) residues: Option<modular::Residues>,
+}
+
+/// Reads an expected formula.
+pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
+    let mut symbols = if question.closed { Symbols::strict() } else { Symbols::open() };
+    declare(&mut symbols, question);
+    let reading = formula::read(expected, &symbols)?;
+    Ok(from_reading(reading, question))
+}
+
+/// A key from an expression that was derived rather than typed.
+pub fn key_of(content: Content, question: &Question) -> Key {
+    let reading = Reading { content, written: Vec::new(), literal: None, notes: Vec::new(), choices: 0 };
+    from_reading(reading, question)
+}
+
+fn from_reading(reading: Reading, question: &Question) -> Key {
+    let mut question = question.clone();
+    let known: BTreeSet<Symbol> =
+        question.symbols.iter().chain(&question.asked).map(|g| g.name.clone()).collect();
+    for name in reading.symbols() {
+        if !known.contains(&name) {
+            question.symbols.push(Given { name, latex: None, dimension: None });
+        }
+    }
+    let mut readable = if question.closed { Symbols::strict() } else { Symbols::open() };
+    declare(&mut readable, &question);
+    let residues = reading.expr().and_then(|e| modular::Residues::of(e, &question.domains));
+    Key { reading, question, readable, residues }
+}
+
+fn declare(symbols: &mut Symbols, question: &Question) {
+    for given in question.symbols.iter().chain(&question.asked) {
+        symbols.declare_as(&given.name, given.latex.as_deref(), given.dimension.clone());
+    }
+}
+
+/// Judges an answer against an expected formula.
+pub fn judge(expected: &str, answer: &str, question: &Question, options: &Options) -> Grade {
+    match key(expected, question) {
+        Ok(key) => judge_against(&key, answer, options),
+        Err(fault) => unreadable_key(fault),
+    }
+}
+
+/// The grade where the expected formula itself cannot be read.
+pub fn unreadable_key(fault: Fault) -> Grade {
+    Grade {
+        verdict: Verdict::Invalid,
+        note: "INVALID_EXPECTED",
+        proof: Proof::of("none", "the expected formula cannot be read"),
+        assumed: Vec::new(),
+        counterexample: None,
+        error: Some(fault),
+        diagnosis: Vec::new(),
+        read_as: None,
+        symbols: Vec::new(),
+    }
+}
+
+/// Judges an answer against an expected formula that was read before.
+pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
+    let reading = match read_answer(key, answer) {
+        Ok(reading) => reading,
+        Err(fault) => {
+            return Grade {
+                verdict: Verdict::Invalid,
+                note: "INVALID_SYNTAX",
+                error: Some(fault),
+                proof: Proof::of("none", "the answer cannot be read"),
+                ..unreadable_key(Fault {
+                    message: String::new(),
+                    start: 0,
+                    end: 0,
+                    hint: None,
+                    also: Vec::new(),
+                })
+            };
+        }
+    };
+    let mut finding = compare::contents(key, &reading, options);
+    if reading.choices > 0 {
+        ambiguity(key, answer, options, &reading, &mut finding);
+    }
+    if finding.verdict == Verdict::Equivalent {
+        if let Some((note, diagnosis)) = form::unmet(&options.forms, key, &reading) {
+            finding.verdict = Verdict::Different;
+            finding.note = note;
+            finding.diagnosis.insert(0, diagnosis);
+        }
+    }
+    if options.strength == Strength::Identity {
+        finding.diagnosis.extend(remarks(&reading, answer, finding.verdict));
+    }
+    Grade {
+        verdict: finding.verdict,
+        note: finding.note,
+        proof: finding.proof,
+        assumed: finding.assumed,
+        counterexample: finding.counterexample,
+        error: None,
+        diagnosis: finding.diagnosis,
+        read_as: Some(show(&reading.content)),
+        symbols: reading.symbols().into_iter().collect(),
+    }
+}
+
+/// Quantities of mechanics that students bring in although a collision does not know them.
+const STRANGERS: [&str; 6] = ["g", "t", "mu", "h", "dt", "F"];
+
+/// Reads an answer. Beside the declared symbols it may begin with a name of its own for the quantity asked for, and it
+/// may use what students wrongly bring in, so that the answer is wrong rather than unreadable.
+fn read_answer(key: &Key, answer: &str) -> Result<Reading, Fault> {
+    let fault = match formula::read(answer, &key.readable) {
+        Ok(reading) => return Ok(reading),
+        Err(fault) => fault,
+    };
+    if !key.question.closed {
+        return Err(fault);
+    }
+    let mut open = Symbols::open();
+    declare(&mut open, &key.question);
+    let Ok(reading) = formula::read(answer, &open) else {
+        return Err(fault);
+    };
+    let left = match &reading.content {
+        Content::Relations(sides, _) => sides[0].expr().and_then(|e| e.as_symbol().cloned()),
+        _ => None,
+    };
+    let declared = |name: &Symbol| key.question.symbols.iter().chain(&key.question.asked).any(|g| g.name == *name);
+    let strange = |name: &Symbol| STRANGERS.contains(&&**name) || left.as_ref() == Some(name);
+    let split = reading.notes.iter().any(|n| n.remark == Remark::Letters);
+    if !split && reading.symbols().iter().all(|name| declared(name) || strange(name)) {
+        Ok(reading)
+    } else {
+        Err(fault)
+    }
+}
+
+/// Where a text could be read in another way and that would be right, the grade says so; the usual reading decides.
+fn ambiguity(key: &Key, answer: &str, options: &Options, reading: &Reading, finding: &mut compare::Finding) {
+    if !matches!(finding.verdict, Verdict::Equivalent | Verdict::Different) {
+        return;
+    }
+    let plain = Options { forms: Vec::new(), ..options.clone() };
+    for other in formula::other_readings(answer, &key.readable) {
+        let verdict = compare::verdict_of(key, &other, &plain);
+        if verdict != finding.verdict && matches!(verdict, Verdict::Equivalent | Verdict::Different) {
+            let message = format!(
+                "read as {}; read as {} it would be {}",
+                show(&reading.content),
+                show(&other.content),
+                if verdict == Verdict::Equivalent { "right" } else { "wrong" },
+            );
+            let hint = "the formula can be read in two ways; use brackets to say which is meant";
+            finding.diagnosis.insert(0, Diagnosis::new("AMBIGUOUS", message, hint));
+            return;
+        }
+    }
+}
+
+/// What the reader decided that a student should know about.
+fn remarks(reading: &Reading, answer: &str, verdict: Verdict) -> Vec<Diagnosis> {
+    let wrong = verdict != Verdict::Equivalent;
+    let worth = |note: &&Note| match note.remark {
+        Remark::Letters | Remark::Radians | Remark::UnitOfSymbols | Remark::NaturalLogarithm => wrong,
+        Remark::Inverse | Remark::UnitNotSymbols => wrong,
+        _ => false,
+    };
+    let said = reading.notes.iter().filter(worth).map(|note| {
+        let words = note.message(answer);
+        Diagnosis::new("READING", words.clone(), words)
+    });
+    said.collect()
+}
+
+/// A content in plain notation.
+pub fn show(content: &Content) -> String {
+    match content {
+        Content::Scalar(e) => formula::write_plain(e),
+        Content::Either([a, b]) => format!("{} or {}", formula::write_plain(a), formula::write_plain(b)),
+        Content::Vector(v) => {
+            let parts: Vec<String> = v.iter().map(formula::write_plain).collect();
+            format!("[{}]", parts.join(", "))
+        }
+        Content::Quantity(q) => format!("{} {}", formula::write_plain(&q.written), q.unit_text),
+        Content::Relations(sides, signs) => {
+            let mut out = sides.first().map(show).unwrap_or_default();
+            for (side, sign) in sides.iter().skip(1).zip(signs) {
+                out.push_str(&format!(" {} {}", sign.sign(), show(side)));
+            }
+            out
+        }
+    }
+}
+
+/// The exact value of a number expression, where it is a fraction.
+pub(crate) fn fraction(e: &Expr) -> Option<Rational> {
+    if let Some(value) = e.as_number() {
+        return Some(value.clone());
+    }
+    // A tower of powers would be computed to the last digit.
+    let mut nodes = 0;
+    let mut tame = true;
+    e.walk(&mut |part| {
+        nodes += 1;
+        if let Node::Power(_, k) = part.node() {
+            tame &= k.as_number().is_some_and(|k| k.numer().as_i64().is_some_and(|k| k.abs() <= 64));
+        }
+    });
+    if tame && nodes <= 200 { e.evaluate(&Point::default()) } else { None }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,151 @@
+//! Numbers that need not be exact: tolerances, rounding, significant digits.
+//!
+//! Every comparison is made in exact fractions or certified enclosures, so the edge of a tolerance is the same everywhere.
+
+use num_traits::{Signed, Zero};
+
+use crate::expr::{Expr, Int, Point, Rational, ratio};
+use crate::interval::{Big, Outcome, evaluate};
+
+/// How far a number may be from the expected one.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Tolerance {
+    /// At most this share of the expected value: 1/50 for 2 %.
+    Relative(Rational),
+    /// At most this much, in the unit of the expected value.
+    Absolute(Rational),
+    /// Equal when rounded to this many significant digits, up to half a unit of the last one.
+    Significant(u32),
+}
+
+impl Tolerance {
+    /// Largest allowed distance from an expected value.
+    pub fn width(&self, expected: &Rational) -> Rational {
+        match self {
+            Tolerance::Relative(share) => expected.abs() * share,
+            Tolerance::Absolute(width) => width.clone(),
+            Tolerance::Significant(digits) => half_unit(expected, *digits),
+        }
+    }
+
+    /// In words, such as `within 2 %`.
+    pub fn words(&self) -> String {
+        match self {
+            Tolerance::Relative(share) => {
+                let percent = share * ratio(100, 1);
+                let shown = if percent.is_integer() {
+                    percent.to_string()
+                } else {
+                    format!("{}", crate::expr::number::to_f64(&percent))
+                };
+                format!("within {shown} % of the expected value")
+            }
+            Tolerance::Absolute(width) => format!("within {} of the expected value", crate::expr::number::to_f64(width)),
+            Tolerance::Significant(digits) => format!("equal to {digits} significant digits"),
+        }
+    }
+
+    /// Reads `2%`, `0.02` (relative); `None` for anything else.
+    pub fn read(text: &str) -> Option<Tolerance> {
+        let text = text.trim();
+        let (number, percent) = match text.strip_suffix('%') {
+            Some(number) => (number.trim(), true),
+            None => (text, false),
+        };
+        let value = decimal(number)?;
+        let share = if percent { value / ratio(100, 1) } else { value };
+        (!share.is_negative()).then_some(Tolerance::Relative(share))
+    }
+}
+
+/// An exact decimal number such as `0.02` or `1e-3`.
+pub fn decimal(text: &str) -> Option<Rational> {
+    if text.len() > 60 {
+        return None;
+    }
+    let reading = crate::formula::read(text, &crate::formula::Symbols::strict()).ok()?;
+    super::fraction(reading.expr()?)
+}
+
+/// Half a unit of the last of `digits` significant digits of a number.
+pub fn half_unit(value: &Rational, digits: u32) -> Rational {
+    if value.is_zero() {
+        return Rational::zero();
+    }
+    ten_to(magnitude(value) - digits as i32 + 1) * ratio(1, 2)
+}
+
+/// The power of ten of the first digit: 0 for 2.08, −2 for 0.03. The value must not be zero.
+pub fn magnitude(value: &Rational) -> i32 {
+    let size = value.abs();
+    let mut k = crate::expr::number::to_f64(&size).log10().floor().clamp(-4000.0, 4000.0) as i32;
+    while ten_to(k) > size {
+        k -= 1;
+    }
+    while ten_to(k + 1) <= size {
+        k += 1;
+    }
+    k
+}
+
+/// An integer power of ten.
+pub fn ten_to(k: i32) -> Rational {
+    let power = Rational::from(Int::from(10).pow(k.unsigned_abs()));
+    if k < 0 { power.recip() } else { power }
+}
+
+/// Fractions around the value of a constant expression, far closer than any tolerance in use; equal where it is a fraction.
+pub fn bounds(e: &Expr) -> Option<[Rational; 2]> {
+    if let Some(exact) = super::fraction(e) {
+        return Some([exact.clone(), exact]);
+    }
+    let point = Point::<Outcome<Big<200>>>::default();
+    match evaluate(e, &point) {
+        // Beyond these sizes a decimal tolerance has no meaning, and the fraction would be long.
+        Outcome::Value(Big(e)) if [&e.low, &e.high].iter().all(|d| d.exponent.abs() < 20_000) => {
+            Some([e.low.to_rational(), e.high.to_rational()])
+        }
+        _ => None,
+    }
+}
+
+/// Whether a constant lies within a tolerance of another; `None` where that hangs on digits beyond the precision used.
+pub fn within(answer: &Expr, expected: &Expr, tolerance: &Tolerance) -> Option<bool> {
+    let ([a, b], [low, high]) = (bounds(answer)?, bounds(expected)?);
+    let width = tolerance.width(&low);
+    let (least, most) = (least_distance([&a, &b], [&low, &high]), most_distance([&a, &b], [&low, &high]));
+    if most <= width {
+        Some(true)
+    } else if least > width {
+        Some(false)
+    } else {
+        None
+    }
+}
+
+fn most_distance([a, b]: [&Rational; 2], [low, high]: [&Rational; 2]) -> Rational {
+    (b - low).abs().max((a - high).abs())
+}
+
+fn least_distance([a, b]: [&Rational; 2], [low, high]: [&Rational; 2]) -> Rational {
+    if b < low {
+        low - b
+    } else if a > high {
+        a - high
+    } else {
+        Rational::zero()
+    }
+}
+
+/// To how many significant digits a decimal number is the rounding of an exact one; 0 where it is not even close.
+pub fn digits_shared(answer: &Rational, exact: &[Rational; 2]) -> u32 {
+    if exact[0].is_zero() {
+        return 0;
+    }
+    let middle = (&exact[0] + &exact[1]) * ratio(1, 2);
+    let off = (answer - &middle).abs();
+    if off.is_zero() {
+        return 100;
+    }
+    (1..=40).rev().find(|n| off <= half_unit(&middle, *n)).unwrap_or(0)
+}

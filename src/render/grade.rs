@@ -1,0 +1,87 @@
+//! Grades for programs (JSON) and for people.
+
+use serde_json::{Map, Value, json};
+
+use crate::formula::Fault;
+use crate::grade::{Diagnosis, Grade};
+
+/// A grade as data. `text` is the formula an error speaks of: its places are told in characters.
+pub fn json(id: Option<&Value>, grade: &Grade, text: &str) -> Value {
+    let mut out = Map::new();
+    if let Some(id) = id {
+        out.insert("id".into(), id.clone());
+    }
+    out.insert("verdict".into(), json!(grade.verdict.word()));
+    out.insert("reward".into(), json!(grade.verdict.reward()));
+    let mut proof = Map::new();
+    proof.insert("kind".into(), json!(grade.proof.kind));
+    proof.insert("words".into(), json!(grade.proof.words));
+    if let Some(bound) = grade.proof.bound {
+        proof.insert("error_bound".into(), json!(bound));
+    }
+    out.insert("proof".into(), Value::Object(proof));
+    out.insert("note".into(), json!(grade.note));
+    if !grade.assumed.is_empty() {
+        out.insert("assumed".into(), json!(grade.assumed));
+    }
+    if let Some(c) = &grade.counterexample {
+        out.insert("counterexample".into(), json!({"at": c.at, "yours": c.yours, "expected": c.expected}));
+    }
+    if let Some(fault) = &grade.error {
+        out.insert("error".into(), error(fault, text));
+    }
+    if !grade.diagnosis.is_empty() {
+        out.insert("diagnosis".into(), grade.diagnosis.iter().map(diagnosis).collect());
+    }
+    out.insert("read_as".into(), json!(grade.read_as));
+    out.insert("symbols".into(), grade.symbols.iter().map(|s| s.to_string()).collect());
+    Value::Object(out)
+}
+
+fn diagnosis(d: &Diagnosis) -> Value {
+    json!({"code": d.code, "message": d.message, "hint": d.hint})
+}
+
+/// A fault of a formula as data.
+pub fn error(fault: &Fault, text: &str) -> Value {
+    let characters = |byte: usize| text.char_indices().take_while(|(i, _)| *i < byte).count();
+    let mut out = json!({
+        "message": fault.message,
+        "start": characters(fault.start),
+        "end": characters(fault.end),
+    });
+    if let (Some(hint), Value::Object(fields)) = (&fault.hint, &mut out) {
+        fields.insert("hint".into(), json!(hint));
+    }
+    out
+}
+
+/// A grade for the terminal.
+pub fn text(grade: &Grade, answer: &str) -> String {
+    let mut out = format!("{} · {}\n", grade.verdict.word(), grade.note);
+    let mut line = |label: &str, words: &str| {
+        out.push_str(&format!("{label:<10}{words}\n"));
+    };
+    if let Some(read) = &grade.read_as {
+        line("read as", read);
+    }
+    if let Some(fault) = &grade.error {
+        line("error", &fault.show(answer).replace('\n', "\n          "));
+    }
+    let bound = grade.proof.bound.map_or(String::new(), |b| format!(" (error below {b:.0e})"));
+    line("because", &format!("{}{bound}", grade.proof.words));
+    if let Some(c) = &grade.counterexample {
+        let place = if c.at.is_empty() { String::new() } else { format!("with {}: ", c.at) };
+        line("at", &format!("{place}yours {}, expected {}", c.yours, c.expected));
+    }
+    for d in &grade.diagnosis {
+        line("finding", &format!("{} [{}]", d.message, d.code));
+        if d.hint != d.message {
+            line("  hint", &d.hint);
+        }
+    }
+    if !grade.assumed.is_empty() {
+        line("assumed", &grade.assumed.join(", "));
+    }
+    out
+}
