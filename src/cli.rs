@@ -3,6 +3,8 @@
 //! Results go to standard output, everything else to standard error. Exit status: 0 done and everything held; 1 a check
 //! failed or an answer was refuted; 2 unusable input; 3 undecided; 70 a fault of carom itself.
 
+mod grade;
+
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -49,6 +51,10 @@ enum Command {
         #[arg(long)]
         exact: bool,
     },
+    /// Judge a formula: is it equivalent, how is that known, and what is wrong with it
+    Grade(grade::GradeArgs),
+    /// Tell how a formula is understood
+    Read(grade::ReadArgs),
     /// Print the JSON Schema of scene files
     Schema,
     /// List the scenes of a folder
@@ -94,6 +100,8 @@ pub fn run() -> ExitCode {
             set,
             exact,
         } => solve_command(&scene, format, &set, exact),
+        Command::Grade(args) => grade::run(&args),
+        Command::Read(args) => grade::read(&args),
         Command::Schema => print(&scene::schema()).map(|()| 0),
         Command::List { folder } => list(&folder),
     };

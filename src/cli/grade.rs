@@ -24,7 +24,7 @@ pub struct GradeArgs {
     #[arg(long)]
     quantity: Option<String>,
     /// The expected formula, where there is no scene
-    #[arg(long, conflicts_with = "scene")]
+    #[arg(long, conflicts_with = "scene", allow_hyphen_values = true)]
     expected: Option<String>,
     /// The answer to judge
     #[arg(long, allow_hyphen_values = true, required_unless_present = "batch")]
@@ -84,22 +84,34 @@ pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
     let grade = match (&args.scene, &args.expected) {
         (Some(path), _) => {
             let sheet = open(path)?;
-            let name = args.quantity.clone().or_else(|| only_quantity(&sheet)).ok_or_else(|| {
-                Failure::Input(format!("--quantity is missing: one of {}", sheet.quantities().join(", ")))
-            })?;
+            let name = args
+                .quantity
+                .clone()
+                .or_else(|| only_quantity(&sheet))
+                .ok_or_else(|| {
+                    Failure::Input(format!(
+                        "--quantity is missing: one of {}",
+                        sheet.quantities().join(", ")
+                    ))
+                })?;
             let entry = sheet.entry(&name).map_err(Failure::Input)?;
             sheet.judge(&entry, answer, &options)
         }
         (None, Some(expected)) => {
             let grade = grade::judge(expected, answer, &question(args)?, &options);
             if grade.note == "INVALID_EXPECTED" {
-                let shown = grade.error.as_ref().map_or(String::new(), |f| f.show(expected));
+                let shown = grade
+                    .error
+                    .as_ref()
+                    .map_or(String::new(), |f| f.show(expected));
                 return Err(Failure::Input(format!("--expected: {shown}")));
             }
             grade
         }
         (None, None) => {
-            return Err(Failure::Input("give a scene and --quantity, or --expected".into()));
+            return Err(Failure::Input(
+                "give a scene and --quantity, or --expected".into(),
+            ));
         }
     };
     print(&match args.format {
@@ -136,11 +148,15 @@ fn options(args: &GradeArgs) -> Result<Options, Failure> {
     };
     if let Some(text) = &args.tolerance {
         let read = grade::Tolerance::read(text);
-        options.tolerance = Some(read.ok_or_else(|| Failure::Input(format!("--tolerance {text}: expected a share such as 2%")))?);
+        options.tolerance = Some(read.ok_or_else(|| {
+            Failure::Input(format!("--tolerance {text}: expected a share such as 2%"))
+        })?);
     }
     for text in &args.form {
         let form = Form::read(text).ok_or_else(|| {
-            Failure::Input(format!("--form {text}: expected simplified, factored, unit, digits=3 or only=m,v"))
+            Failure::Input(format!(
+                "--form {text}: expected simplified, factored, unit, digits=3 or only=m,v"
+            ))
         })?;
         options.forms.push(form);
     }
@@ -151,7 +167,9 @@ fn question(args: &GradeArgs) -> Result<Question, Failure> {
     let mut question = Question::default();
     for text in &args.symbols {
         let wrong = |what: &str| Failure::Input(format!("--symbol {text}: {what}"));
-        let (name, domain) = text.split_once('=').ok_or_else(|| wrong("expected NAME=DOMAIN, such as e=0..1"))?;
+        let (name, domain) = text
+            .split_once('=')
+            .ok_or_else(|| wrong("expected NAME=DOMAIN, such as e=0..1"))?;
         let value = match domain.split_once("..") {
             Some((low, high)) => {
                 let end = |t: &str| if t.is_empty() { Value::Null } else { json!(t) };
@@ -161,7 +179,11 @@ fn question(args: &GradeArgs) -> Result<Question, Failure> {
         };
         let read = entry::domain(&value).map_err(|what| wrong(&what))?;
         question.domains.symbols.insert(name.into(), read);
-        question.symbols.push(Given { name: name.into(), latex: None, dimension: None });
+        question.symbols.push(Given {
+            name: name.into(),
+            latex: None,
+            dimension: None,
+        });
     }
     Ok(question)
 }
@@ -176,12 +198,15 @@ fn batch(args: &GradeArgs, options: &Options) -> Result<u8, Failure> {
     if let Some(jobs) = args.jobs {
         pool = pool.num_threads(jobs.clamp(1, 1024));
     }
-    let pool = pool.build().map_err(|e| Failure::Input(format!("--jobs: {e}")))?;
+    let pool = pool
+        .build()
+        .map_err(|e| Failure::Input(format!("--jobs: {e}")))?;
     let sheets = Sheets::default();
     let progress = std::io::stderr().is_terminal().then(|| {
         let bar = indicatif::ProgressBar::new_spinner();
         bar.set_style(
-            indicatif::ProgressStyle::with_template("{human_pos} lines, {per_sec}, {elapsed}").unwrap_or_else(|_| indicatif::ProgressStyle::default_spinner()),
+            indicatif::ProgressStyle::with_template("{human_pos} lines, {per_sec}, {elapsed}")
+                .unwrap_or_else(|_| indicatif::ProgressStyle::default_spinner()),
         );
         bar
     });
@@ -233,7 +258,9 @@ fn lines(input: &mut impl BufRead, count: usize) -> Result<Vec<Line>, Failure> {
         let mut long = false;
         let mut ended = false;
         loop {
-            let buffer = input.fill_buf().map_err(|e| Failure::Input(format!("standard input: {e}")))?;
+            let buffer = input
+                .fill_buf()
+                .map_err(|e| Failure::Input(format!("standard input: {e}")))?;
             if buffer.is_empty() {
                 break;
             }
@@ -259,7 +286,10 @@ fn lines(input: &mut impl BufRead, count: usize) -> Result<Vec<Line>, Failure> {
         if long {
             out.push(Err(format!("a line has at most {} bytes", entry::MAX_LINE)));
         } else if line.iter().any(|b| !b.is_ascii_whitespace()) {
-            out.push(String::from_utf8(line).map_err(|e| format!("no UTF-8 at byte {}", e.utf8_error().valid_up_to())));
+            out.push(
+                String::from_utf8(line)
+                    .map_err(|e| format!("no UTF-8 at byte {}", e.utf8_error().valid_up_to())),
+            );
         }
         if !ended {
             break;
@@ -271,7 +301,10 @@ fn lines(input: &mut impl BufRead, count: usize) -> Result<Vec<Line>, Failure> {
 fn one(line: &Line, options: &Options, keys: &mut Keys, sheets: &Sheets, out: &mut String) {
     let read = match line {
         Ok(line) => entry::entry(line, options),
-        Err(message) => Err(entry::BadLine { id: Value::Null, message: message.clone() }),
+        Err(message) => Err(entry::BadLine {
+            id: Value::Null,
+            message: message.clone(),
+        }),
     };
     let value = match read {
         Ok(entry) => {
@@ -306,7 +339,12 @@ impl Sheets {
             .quantity
             .clone()
             .or_else(|| only_quantity(sheet))
-            .ok_or_else(|| format!("\"quantity\" is missing: one of {}", sheet.quantities().join(", ")))?;
+            .ok_or_else(|| {
+                format!(
+                    "\"quantity\" is missing: one of {}",
+                    sheet.quantities().join(", ")
+                )
+            })?;
         let found = sheet.entry(&name)?;
         Ok(sheet.judge(&found, &entry.answer, &entry.options))
     }
@@ -355,7 +393,9 @@ pub fn read(args: &ReadArgs) -> Result<u8, Failure> {
         Ok(reading) => reading,
         Err(fault) => {
             if args.format == Format::Json {
-                print(&pretty(&json!({"error": render::grade::error(&fault, &args.formula)})))?;
+                print(&pretty(
+                    &json!({"error": render::grade::error(&fault, &args.formula)}),
+                ))?;
                 return Ok(2);
             }
             return Err(Failure::Input(fault.show(&args.formula)));
@@ -363,16 +403,34 @@ pub fn read(args: &ReadArgs) -> Result<u8, Failure> {
     };
     let plain = grade::show(&reading.content);
     let latex = latex(&reading.content, &question);
-    let known = |name: &str| question.symbols.iter().find(|g| *g.name == *name)?.dimension.clone();
-    let dimension = reading.content.answer().expr().and_then(|e| match dimension::of(e, &known) {
-        Ok(found) => found.map(|d| format!("{} ({d})", d.si())),
-        Err(dimension::Clash::Unknown(_)) => None,
-        Err(clash) => Some(format!("none: {}", clash.message(&formula::write_plain))),
-    });
-    let notes: Vec<String> = reading.notes.iter().map(|n| n.message(&args.formula)).collect();
+    let known = |name: &str| {
+        question
+            .symbols
+            .iter()
+            .find(|g| *g.name == *name)?
+            .dimension
+            .clone()
+    };
+    let dimension = reading
+        .content
+        .answer()
+        .expr()
+        .and_then(|e| match dimension::of(e, &known) {
+            Ok(found) => found.map(|d| format!("{} ({d})", d.si())),
+            Err(clash) if matches!(*clash, dimension::Clash::Unknown(_)) => None,
+            Err(clash) => Some(format!("none: {}", clash.message(&formula::write_plain))),
+        });
+    let notes: Vec<String> = reading
+        .notes
+        .iter()
+        .map(|n| n.message(&args.formula))
+        .collect();
     let others: Vec<String> = match reading.choices {
         0 => Vec::new(),
-        _ => formula::other_readings(&args.formula, &symbols).iter().map(|r| grade::show(&r.content)).collect(),
+        _ => formula::other_readings(&args.formula, &symbols)
+            .iter()
+            .map(|r| grade::show(&r.content))
+            .collect(),
     };
     let names: Vec<String> = reading.symbols().iter().map(|s| s.to_string()).collect();
     if args.format == Format::Json {
@@ -381,7 +439,10 @@ pub fn read(args: &ReadArgs) -> Result<u8, Failure> {
         })))?;
         return Ok(0);
     }
-    let mut out = format!("plain     {plain}\nLaTeX     {latex}\nsymbols   {}\n", names.join(", "));
+    let mut out = format!(
+        "plain     {plain}\nLaTeX     {latex}\nsymbols   {}\n",
+        names.join(", ")
+    );
     if let Some(d) = dimension {
         out.push_str(&format!("dimension {d}\n"));
     }
@@ -396,19 +457,42 @@ pub fn read(args: &ReadArgs) -> Result<u8, Failure> {
 }
 
 fn latex(content: &formula::Content, question: &Question) -> String {
-    let names: HashMap<&str, &str> = question.symbols.iter().filter_map(|g| Some((&*g.name, g.latex.as_deref()?))).collect();
-    let write = |e: &carom::expr::Expr| formula::write_latex(e, &|name| names.get(name).map(|l| (*l).to_string()));
+    let names: HashMap<&str, &str> = question
+        .symbols
+        .iter()
+        .filter_map(|g| Some((&*g.name, g.latex.as_deref()?)))
+        .collect();
+    let write = |e: &carom::expr::Expr| {
+        formula::write_latex(e, &|name| names.get(name).map(|l| (*l).to_string()))
+    };
     match content {
         formula::Content::Scalar(e) => write(e),
         formula::Content::Either([a, b]) => format!("{} \\text{{ or }} {}", write(a), write(b)),
         formula::Content::Vector([x, y, z]) => {
-            let parts = [(x, "\\hat{\\imath}"), (y, "\\hat{\\jmath}"), (z, "\\hat{k}")];
-            let terms: Vec<String> = parts.iter().filter(|(e, _)| !e.is_zero()).map(|(e, unit)| format!("\\left({}\\right) {unit}", write(e))).collect();
-            if terms.is_empty() { "\\vec{0}".into() } else { terms.join(" + ") }
+            let parts = [
+                (x, "\\hat{\\imath}"),
+                (y, "\\hat{\\jmath}"),
+                (z, "\\hat{k}"),
+            ];
+            let terms: Vec<String> = parts
+                .iter()
+                .filter(|(e, _)| !e.is_zero())
+                .map(|(e, unit)| format!("\\left({}\\right) {unit}", write(e)))
+                .collect();
+            if terms.is_empty() {
+                "\\vec{0}".into()
+            } else {
+                terms.join(" + ")
+            }
         }
-        formula::Content::Quantity(q) => format!("{}\\,\\mathrm{{{}}}", write(&q.written), q.unit_text),
+        formula::Content::Quantity(q) => {
+            format!("{}\\,\\mathrm{{{}}}", write(&q.written), q.unit_text)
+        }
         formula::Content::Relations(sides, signs) => {
-            let mut out = sides.first().map(|s| latex(s, question)).unwrap_or_default();
+            let mut out = sides
+                .first()
+                .map(|s| latex(s, question))
+                .unwrap_or_default();
             for (side, sign) in sides.iter().skip(1).zip(signs) {
                 let sign = match sign {
                     formula::Relation::Equal => "=",

@@ -3,7 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::number::{self, Tolerance};
-use super::{Apart, Diagnosis, Key, Options, Proof, Strength, Verdict, fraction, modular, partial, relation, show};
+use super::{
+    Apart, Diagnosis, Key, Options, Proof, Strength, Verdict, fraction, modular, partial, relation,
+    show,
+};
 use crate::algebra::Field;
 use crate::dimension::{self, Dimension};
 use crate::equality::{self, Assumption, Condition, Equality, How, Reason, Side};
@@ -23,10 +26,21 @@ pub(crate) struct Finding {
 
 impl Finding {
     pub(crate) fn new(verdict: Verdict, note: &'static str, proof: Proof) -> Finding {
-        Finding { verdict, note, proof, assumed: Vec::new(), counterexample: None, diagnosis: Vec::new() }
+        Finding {
+            verdict,
+            note,
+            proof,
+            assumed: Vec::new(),
+            counterexample: None,
+            diagnosis: Vec::new(),
+        }
     }
 
-    pub(crate) fn different(note: &'static str, kind: &'static str, words: impl Into<String>) -> Finding {
+    pub(crate) fn different(
+        note: &'static str,
+        kind: &'static str,
+        words: impl Into<String>,
+    ) -> Finding {
         Finding::new(Verdict::Different, note, Proof::of(kind, words))
     }
 
@@ -48,7 +62,11 @@ impl Context<'_> {
     /// Dimension of a symbol, where the question declares it.
     pub fn dimension_of(&self, name: &str) -> Option<Dimension> {
         let question = &self.key.question;
-        let found = question.symbols.iter().chain(&question.asked).find(|g| *g.name == *name);
+        let found = question
+            .symbols
+            .iter()
+            .chain(&question.asked)
+            .find(|g| *g.name == *name);
         found.and_then(|g| g.dimension.clone())
     }
 
@@ -68,12 +86,27 @@ impl Context<'_> {
 /// Compares a reading with the key.
 pub(crate) fn contents(key: &Key, answer: &Reading, options: &Options) -> Finding {
     let diagnose = options.strength == Strength::Identity;
-    compare(&Context { key, options, diagnose }, answer)
+    compare(
+        &Context {
+            key,
+            options,
+            diagnose,
+        },
+        answer,
+    )
 }
 
 /// The verdict alone, without looking for what is wrong.
 pub(crate) fn verdict_of(key: &Key, answer: &Reading, options: &Options) -> Verdict {
-    compare(&Context { key, options, diagnose: false }, answer).verdict
+    compare(
+        &Context {
+            key,
+            options,
+            diagnose: false,
+        },
+        answer,
+    )
+    .verdict
 }
 
 /// A value, possibly with the name it is given to; or relations.
@@ -85,15 +118,22 @@ enum Claim<'a> {
 fn claim(content: &Content) -> Claim<'_> {
     match content {
         Content::Relations(sides, signs) => {
-            let name = sides.first().and_then(Content::expr).and_then(Expr::as_symbol);
+            let name = sides
+                .first()
+                .and_then(Content::expr)
+                .and_then(Expr::as_symbol);
             let value = content.answer();
             let free = |name: &Symbol| {
                 let mut free = true;
-                sides[1..].iter().for_each(|s| s.each(&mut |e| free &= !e.symbols().contains(name)));
+                sides[1..]
+                    .iter()
+                    .for_each(|s| s.each(&mut |e| free &= !e.symbols().contains(name)));
                 free
             };
             match name {
-                Some(name) if !std::ptr::eq(value, content) && free(name) => Claim::Value(Some(name), value),
+                Some(name) if !std::ptr::eq(value, content) && free(name) => {
+                    Claim::Value(Some(name), value)
+                }
                 _ => Claim::Relations(sides, signs),
             }
         }
@@ -116,7 +156,9 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
                 }
             } else if let (None, Some(theirs)) = (expected_name, name) {
                 // A symbol of the expected formula cannot be the name of its value: `v = 3v/2` says something else.
-                let inside = expected.expr().is_some_and(|e| e.symbols().contains(theirs));
+                let inside = expected
+                    .expr()
+                    .is_some_and(|e| e.symbols().contains(theirs));
                 if inside && !is_asked(theirs) {
                     finding = Finding::different(
                         "DIFF_KIND",
@@ -134,18 +176,26 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
             relation::compare(ctx, (sides, signs), (mine, my_signs))
         }
         (Claim::Relations(sides, signs), Claim::Value(Some(_), _)) => match &answer.content {
-            Content::Relations(mine, my_signs) => relation::compare(ctx, (sides, signs), (mine, my_signs)),
+            Content::Relations(mine, my_signs) => {
+                relation::compare(ctx, (sides, signs), (mine, my_signs))
+            }
             _ => kind("an equation is expected"),
         },
-        (Claim::Relations(sides, signs), Claim::Value(None, value)) => match sides.first().and_then(Content::expr) {
-            // `v ≤ X`: the bare right side of an inequality does not say which way.
-            Some(_) if signs.iter().any(|s| *s != Relation::Equal) => {
-                kind(&format!("an inequality is expected, and {} alone does not say which way", show(value)))
+        (Claim::Relations(sides, signs), Claim::Value(None, value)) => {
+            match sides.first().and_then(Content::expr) {
+                // `v ≤ X`: the bare right side of an inequality does not say which way.
+                Some(_) if signs.iter().any(|s| *s != Relation::Equal) => kind(&format!(
+                    "an inequality is expected, and {} alone does not say which way",
+                    show(value)
+                )),
+                _ => kind("an equation is expected, not a value"),
             }
-            _ => kind("an equation is expected, not a value"),
-        },
+        }
         (Claim::Value(name, expected), Claim::Relations(mine, my_signs)) => {
-            let name = name.cloned().or_else(|| asked.first().map(|g| g.name.clone())).or_else(|| stranger(ctx, mine));
+            let name = name
+                .cloned()
+                .or_else(|| asked.first().map(|g| g.name.clone()))
+                .or_else(|| stranger(ctx, mine));
             match name {
                 Some(name) => {
                     let sides = [Content::Scalar(Expr::symbol(&name)), expected.clone()];
@@ -164,7 +214,9 @@ fn declared_symbol(ctx: &Context, name: &Symbol) -> bool {
 /// The one name of an equation that the expected value does not know.
 fn stranger(ctx: &Context, sides: &[Content]) -> Option<Symbol> {
     let mut found = std::collections::BTreeSet::new();
-    sides.iter().for_each(|s| s.each(&mut |e| found.extend(e.symbols())));
+    sides
+        .iter()
+        .for_each(|s| s.each(&mut |e| found.extend(e.symbols())));
     let mut strange = found.into_iter().filter(|name| !declared_symbol(ctx, name));
     let first = strange.next()?;
     strange.next().is_none().then_some(first)
@@ -177,21 +229,38 @@ fn kind(words: &str) -> Finding {
 fn other_name(finding: Finding, mine: &Symbol, theirs: &Symbol) -> Finding {
     let same = finding.verdict == Verdict::Equivalent;
     let words = format!("the answer speaks of {theirs}, and {mine} is asked for");
-    let message = if same { format!("{words}; the right side is the expected one") } else { words.clone() };
-    Finding::different("DIFF_NAME", "kind", words.clone()).with(Diagnosis::new("NAME", message, words))
+    let message = if same {
+        format!("{words}; the right side is the expected one")
+    } else {
+        words.clone()
+    };
+    Finding::different("DIFF_NAME", "kind", words.clone())
+        .with(Diagnosis::new("NAME", message, words))
 }
 
 /// In `ω = a = b` all sides after the name should be equal; the last decides.
 fn chain(ctx: &Context, answer: &Reading, finding: &mut Finding) {
-    let Content::Relations(sides, signs) = &answer.content else { return };
+    let Content::Relations(sides, signs) = &answer.content else {
+        return;
+    };
     if !ctx.diagnose || sides.len() < 3 || signs.iter().any(|s| *s != Relation::Equal) {
         return;
     }
     let exprs: Vec<&Expr> = sides[1..].iter().filter_map(Content::expr).collect();
     for pair in exprs.windows(2) {
-        if let Equality::Different(_) = equality::decide(pair[0], pair[1], &ctx.key.question.domains).equality {
-            let message = format!("{} and {} are not equal", ctx.say(pair[0]), ctx.say(pair[1]));
-            finding.diagnosis.push(Diagnosis::new("CHAIN", message, "two sides of your chain of equations are not equal"));
+        if let Equality::Different(_) =
+            equality::decide(pair[0], pair[1], &ctx.key.question.domains).equality
+        {
+            let message = format!(
+                "{} and {} are not equal",
+                ctx.say(pair[0]),
+                ctx.say(pair[1])
+            );
+            finding.diagnosis.push(Diagnosis::new(
+                "CHAIN",
+                message,
+                "two sides of your chain of equations are not equal",
+            ));
             return;
         }
     }
@@ -206,13 +275,29 @@ fn values(ctx: &Context, expected: &Content, answer: &Content, reading: &Reading
         (Content::Vector(e), Content::Vector(a)) => all_of(ctx, e, a),
         (Content::Either(e), Content::Either(a)) => pairs(ctx, e, a),
         (Content::Either(e), Content::Scalar(a)) => {
-            let one = e.iter().any(|e| scalars(ctx, e, a).verdict == Verdict::Equivalent);
-            let words = if one { "one of the two values is missing" } else { "two values are expected" };
-            Finding::different("DIFF_ONE_OF_TWO", "kind", words).with(Diagnosis::new("ONE_OF_TWO", words, "there are two values"))
+            let one = e
+                .iter()
+                .any(|e| scalars(ctx, e, a).verdict == Verdict::Equivalent);
+            let words = if one {
+                "one of the two values is missing"
+            } else {
+                "two values are expected"
+            };
+            Finding::different("DIFF_ONE_OF_TWO", "kind", words).with(Diagnosis::new(
+                "ONE_OF_TWO",
+                words,
+                "there are two values",
+            ))
         }
         (Content::Scalar(e), Content::Either(a)) => {
-            let one = a.iter().any(|a| scalars(ctx, e, a).verdict == Verdict::Equivalent);
-            let words = if one { "one of the two values is the expected one; the other is not" } else { "one value is expected" };
+            let one = a
+                .iter()
+                .any(|a| scalars(ctx, e, a).verdict == Verdict::Equivalent);
+            let words = if one {
+                "one of the two values is the expected one; the other is not"
+            } else {
+                "one value is expected"
+            };
             Finding::different("DIFF_TWO_FOR_ONE", "kind", words).with(Diagnosis::new(
                 "TWO_FOR_ONE",
                 words,
@@ -221,13 +306,17 @@ fn values(ctx: &Context, expected: &Content, answer: &Content, reading: &Reading
         }
         (Content::Vector(e), Content::Scalar(a)) => {
             let nonzero: Vec<&Expr> = e.iter().filter(|c| !c.is_zero()).collect();
-            let right = nonzero.len() == 1 && scalars(ctx, nonzero[0], a).verdict == Verdict::Equivalent;
+            let right =
+                nonzero.len() == 1 && scalars(ctx, nonzero[0], a).verdict == Verdict::Equivalent;
             let message = match right {
                 true => "the component is right; the direction is missing",
                 false => "a vector is expected, and the answer is a number",
             };
-            Finding::different("DIFF_KIND", "kind", message)
-                .with(Diagnosis::new("KIND", message, "a vector is asked: give its direction or components"))
+            Finding::different("DIFF_KIND", "kind", message).with(Diagnosis::new(
+                "KIND",
+                message,
+                "a vector is asked: give its direction or components",
+            ))
         }
         (Content::Scalar(e), Content::Vector(a)) => {
             // `-(3v/2l) k` for a spin: only the sense of rotation is left of the vector.
@@ -249,10 +338,15 @@ pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Finding 
         }
     }
     if ctx.options.strength == Strength::Fast {
-        let usual = ctx.key.residues.as_ref().filter(|_| ctx.key.reading.expr() == Some(expected));
+        let usual = ctx
+            .key
+            .residues
+            .as_ref()
+            .filter(|_| ctx.key.reading.expr() == Some(expected));
         let found = match usual {
             Some(residues) => residues.compare(answer),
-            None => modular::Residues::of(expected, &ctx.key.question.domains).and_then(|r| r.compare(answer)),
+            None => modular::Residues::of(expected, &ctx.key.question.domains)
+                .and_then(|r| r.compare(answer)),
         };
         if let Some(finding) = found {
             return finding;
@@ -275,7 +369,9 @@ pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Finding 
 
 fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) -> Finding {
     match equality {
-        Equality::Same { how: How::Identity { assumptions } } => {
+        Equality::Same {
+            how: How::Identity { assumptions },
+        } => {
             let proof = Proof::of("identity", "the difference is zero in the normal form");
             let mut finding = Finding::new(Verdict::Equivalent, "EQUIV_IDENTITY", proof);
             finding.assumed = assumptions
@@ -287,12 +383,21 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
                 .collect();
             finding
         }
-        Equality::Same { how: How::OnBranch { condition, elsewhere } } => {
+        Equality::Same {
+            how: How::OnBranch {
+                condition,
+                elsewhere,
+            },
+        } => {
             let where_equal = match condition {
                 Condition::NotNegative(e) => format!("where {} ≥ 0", ctx.say(&e)),
                 Condition::BothDefined => "where both have a value".to_string(),
             };
-            let mut finding = Finding::different("DIFF_BRANCH", "branch", format!("equal {where_equal}, different elsewhere"));
+            let mut finding = Finding::different(
+                "DIFF_BRANCH",
+                "branch",
+                format!("equal {where_equal}, different elsewhere"),
+            );
             finding.counterexample = Some(apart(&elsewhere));
             finding.with(Diagnosis::new(
                 "BRANCH",
@@ -301,11 +406,17 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
             ))
         }
         Equality::Different(at) => {
-            let mut finding = Finding::different("DIFF", "counterexample", "the values differ at a point of the domain");
+            let mut finding = Finding::different(
+                "DIFF",
+                "counterexample",
+                "the values differ at a point of the domain",
+            );
             finding.counterexample = Some(apart(&at));
             finding
         }
-        Equality::Invalid { side: Side::Right, .. } => {
+        Equality::Invalid {
+            side: Side::Right, ..
+        } => {
             let words = format!("{} has no value anywhere", ctx.say(answer));
             Finding::new(Verdict::Invalid, "INVALID_UNDEFINED", Proof::of("none", words.clone())).with(Diagnosis::new(
                 "UNDEFINED",
@@ -313,40 +424,76 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
                 "your formula has no value anywhere: look for a division by zero or the root of something negative",
             ))
         }
-        Equality::Invalid { side: Side::Left, .. } => {
+        Equality::Invalid {
+            side: Side::Left, ..
+        } => {
             let words = format!("the expected {} has no value anywhere", ctx.say(expected));
-            Finding::new(Verdict::Invalid, "INVALID_EXPECTED", Proof::of("none", words))
+            Finding::new(
+                Verdict::Invalid,
+                "INVALID_EXPECTED",
+                Proof::of("none", words),
+            )
         }
         Equality::Undecided { reason, evidence } => {
             let (note, words) = match reason {
-                Reason::TooLarge => ("UNDECIDED_SIZE", "the formulas are larger than the limit".to_string()),
-                Reason::NoPoint => ("UNDECIDED_POINT", "no point of the domain at which both have a value was found".into()),
-                Reason::NoPointApart => ("UNDECIDED_POINT", "no identity, yet no point was found at which they differ".into()),
-                Reason::UnknownLaws => ("UNDECIDED_FUNCTION", "a function occurs whose laws are not known".into()),
+                Reason::TooLarge => (
+                    "UNDECIDED_SIZE",
+                    "the formulas are larger than the limit".to_string(),
+                ),
+                Reason::NoPoint => (
+                    "UNDECIDED_POINT",
+                    "no point of the domain at which both have a value was found".into(),
+                ),
+                Reason::NoPointApart => (
+                    "UNDECIDED_POINT",
+                    "no identity, yet no point was found at which they differ".into(),
+                ),
+                Reason::UnknownLaws => (
+                    "UNDECIDED_FUNCTION",
+                    "a function occurs whose laws are not known".into(),
+                ),
                 Reason::Limit(what) => ("UNDECIDED_LIMIT", what),
             };
             let seen = match (evidence.exact_points, evidence.enclosed_points) {
                 (0, 0) => String::new(),
-                (n, m) => format!("; equal at {n} exact points, to {} digits at {m} more", evidence.digits),
+                (n, m) => format!(
+                    "; equal at {n} exact points, to {} digits at {m} more",
+                    evidence.digits
+                ),
             };
-            Finding::new(Verdict::Undecided, note, Proof::of("none", format!("{words}{seen}")))
+            Finding::new(
+                Verdict::Undecided,
+                note,
+                Proof::of("none", format!("{words}{seen}")),
+            )
         }
     }
 }
 
 fn apart(c: &equality::Counterexample) -> Apart {
     let [expected, yours] = c.values();
-    Apart { at: c.at.words(), yours, expected }
+    Apart {
+        at: c.at.words(),
+        yours,
+        expected,
+    }
 }
 
 /// Within a tolerance: numbers, or formulas whose quotient is a number.
-fn tolerant(ctx: &Context, expected: &Expr, answer: &Expr, tolerance: &Tolerance) -> Option<Finding> {
+fn tolerant(
+    ctx: &Context,
+    expected: &Expr,
+    answer: &Expr,
+    tolerance: &Tolerance,
+) -> Option<Finding> {
     let constant = expected.symbols().is_empty() && answer.symbols().is_empty();
     let inside = if constant {
         number::within(answer, expected, tolerance)?
     } else {
         // A formula with rounded coefficients: its ratio to the exact one is a number near 1.
-        let (Tolerance::Relative(_) | Tolerance::Significant(_)) = tolerance else { return None };
+        let (Tolerance::Relative(_) | Tolerance::Significant(_)) = tolerance else {
+            return None;
+        };
         let ratio = quotient(answer, expected, ctx)?;
         number::within(&ratio, &Expr::one(), tolerance)?
     };
@@ -358,7 +505,11 @@ fn tolerant(ctx: &Context, expected: &Expr, answer: &Expr, tolerance: &Tolerance
         ));
     }
     constant.then(|| {
-        let mut finding = Finding::different("DIFF_TOLERANCE", "tolerance", format!("not {}", tolerance.words()));
+        let mut finding = Finding::different(
+            "DIFF_TOLERANCE",
+            "tolerance",
+            format!("not {}", tolerance.words()),
+        );
         if ctx.diagnose {
             finding.diagnosis = partial::numbers(expected, answer);
         }
@@ -381,19 +532,36 @@ pub(crate) fn quotient(a: &Expr, b: &Expr, ctx: &Context) -> Option<Expr> {
 fn quantities(ctx: &Context, expected: &Quantity, answer: &Quantity) -> Finding {
     let (asked, given) = (&expected.unit.dimension, &answer.unit.dimension);
     if asked != given {
-        let number_right = scalars(ctx, &expected.value, &answer.value).verdict == Verdict::Equivalent;
+        let number_right =
+            scalars(ctx, &expected.value, &answer.value).verdict == Verdict::Equivalent;
         return wrong_unit(asked, given, &answer.unit_text, number_right);
     }
     let mut finding = scalars(ctx, &expected.value, &answer.value);
     if finding.verdict == Verdict::Equivalent && expected.unit.value() != answer.unit.value() {
-        let words = format!("{} is the same in {}", show(&Content::Quantity(answer.clone())), expected.unit_text);
-        finding.diagnosis.push(Diagnosis::new("UNIT_CONVERTED", words.clone(), words));
+        let words = format!(
+            "{} is the same in {}",
+            format_args!("{} {}", write_plain(&answer.written), answer.unit_text),
+            expected.unit_text
+        );
+        finding
+            .diagnosis
+            .push(Diagnosis::new("UNIT_CONVERTED", words.clone(), words));
     } else if finding.verdict == Verdict::Different
         && scalars(ctx, &expected.written, &answer.written).verdict == Verdict::Equivalent
     {
         finding.note = "DIFF_UNIT";
-        let words = format!("the number is right for {}, not for {}", expected.unit_text, answer.unit_text);
-        finding.diagnosis.insert(0, Diagnosis::new("UNIT_PREFIX", words, "check the prefix or scale of your unit"));
+        let words = format!(
+            "the number is right for {}, not for {}",
+            expected.unit_text, answer.unit_text
+        );
+        finding.diagnosis.insert(
+            0,
+            Diagnosis::new(
+                "UNIT_PREFIX",
+                words,
+                "check the prefix or scale of your unit",
+            ),
+        );
     }
     finding
 }
@@ -424,41 +592,60 @@ fn without_unit(ctx: &Context, expected: &Quantity, answer: &Expr) -> Finding {
     }
     let right = scalars(ctx, &expected.written, answer).verdict == Verdict::Equivalent;
     let words = match right {
-        true => format!("the number is right, and its unit {} is missing", expected.unit_text),
+        true => format!(
+            "the number is right, and its unit {} is missing",
+            expected.unit_text
+        ),
         false => "the unit is missing, and the number is not the expected one".to_string(),
     };
-    Finding::different("DIFF_UNIT_MISSING", "dimension", words.clone())
-        .with(Diagnosis::new("UNIT_MISSING", words, "a unit is missing"))
+    Finding::different("DIFF_UNIT_MISSING", "dimension", words.clone()).with(Diagnosis::new(
+        "UNIT_MISSING",
+        words,
+        "a unit is missing",
+    ))
 }
 
 fn with_unit(ctx: &Context, expected: &Expr, answer: &Quantity) -> Finding {
     if answer.unit.dimension.is_none() {
         return scalars(ctx, expected, &answer.value);
     }
-    let dimension = ctx
-        .key
-        .question
-        .dimension
-        .clone()
-        .or_else(|| dimension::of(expected, &|name| ctx.dimension_of(name)).ok().flatten());
+    let dimension = ctx.key.question.dimension.clone().or_else(|| {
+        dimension::of(expected, &|name| ctx.dimension_of(name))
+            .ok()
+            .flatten()
+    });
     match dimension {
-        Some(asked) if asked == answer.unit.dimension && !asked.is_none() => scalars(ctx, expected, &answer.value),
-        Some(asked) if !asked.is_none() => wrong_unit(&asked, &answer.unit.dimension, &answer.unit_text, false),
+        Some(asked) if asked == answer.unit.dimension && !asked.is_none() => {
+            scalars(ctx, expected, &answer.value)
+        }
+        Some(asked) if !asked.is_none() => {
+            wrong_unit(&asked, &answer.unit.dimension, &answer.unit_text, false)
+        }
         _ => {
             let right = scalars(ctx, expected, &answer.written).verdict == Verdict::Equivalent;
             let words = match right {
-                true => format!("a pure number is expected; without {} it would be right", answer.unit_text),
+                true => format!(
+                    "a pure number is expected; without {} it would be right",
+                    answer.unit_text
+                ),
                 false => format!("a pure number is expected, not one in {}", answer.unit_text),
             };
-            Finding::different("DIFF_UNIT_EXTRA", "dimension", words.clone())
-                .with(Diagnosis::new("UNIT_EXTRA", words, "a unit stands where none is asked"))
+            Finding::different("DIFF_UNIT_EXTRA", "dimension", words.clone()).with(Diagnosis::new(
+                "UNIT_EXTRA",
+                words,
+                "a unit stands where none is asked",
+            ))
         }
     }
 }
 
 /// Components of vectors, one by one; the first that differs decides.
 fn all_of(ctx: &Context, expected: &[Expr; 3], answer: &[Expr; 3]) -> Finding {
-    let plain = Context { key: ctx.key, options: ctx.options, diagnose: false };
+    let plain = Context {
+        key: ctx.key,
+        options: ctx.options,
+        diagnose: false,
+    };
     let mut undecided = None;
     let mut total: Option<Finding> = None;
     for (i, (e, a)) in expected.iter().zip(answer).enumerate() {
@@ -467,7 +654,11 @@ fn all_of(ctx: &Context, expected: &[Expr; 3], answer: &[Expr; 3]) -> Finding {
             Verdict::Equivalent => match &mut total {
                 None => total = Some(finding),
                 Some(t) => {
-                    let new: Vec<String> = finding.assumed.into_iter().filter(|w| !t.assumed.contains(w)).collect();
+                    let new: Vec<String> = finding
+                        .assumed
+                        .into_iter()
+                        .filter(|w| !t.assumed.contains(w))
+                        .collect();
                     t.assumed.extend(new);
                 }
             },
@@ -475,7 +666,9 @@ fn all_of(ctx: &Context, expected: &[Expr; 3], answer: &[Expr; 3]) -> Finding {
             _ => {
                 let mut finding = finding;
                 if ctx.diagnose {
-                    finding.diagnosis.extend(partial::vectors(ctx, expected, answer, i));
+                    finding
+                        .diagnosis
+                        .extend(partial::vectors(ctx, expected, answer, i));
                     if let Some(first) = finding.diagnosis.first() {
                         finding.note = partial::note(first.code);
                     }
@@ -484,22 +677,39 @@ fn all_of(ctx: &Context, expected: &[Expr; 3], answer: &[Expr; 3]) -> Finding {
             }
         }
     }
-    undecided.or(total).unwrap_or_else(|| kind("an empty vector"))
+    undecided
+        .or(total)
+        .unwrap_or_else(|| kind("an empty vector"))
 }
 
 /// Unordered pairs.
 fn pairs(ctx: &Context, expected: &[Expr; 2], answer: &[Expr; 2]) -> Finding {
-    let plain = Context { key: ctx.key, options: ctx.options, diagnose: false };
+    let plain = Context {
+        key: ctx.key,
+        options: ctx.options,
+        diagnose: false,
+    };
     let both = |i: usize, j: usize| {
-        let (a, b) = (scalars(&plain, &expected[0], &answer[i]), scalars(&plain, &expected[1], &answer[j]));
-        if a.verdict == Verdict::Equivalent { b } else { a }
+        let (a, b) = (
+            scalars(&plain, &expected[0], &answer[i]),
+            scalars(&plain, &expected[1], &answer[j]),
+        );
+        if a.verdict == Verdict::Equivalent {
+            b
+        } else {
+            a
+        }
     };
     let straight = both(0, 1);
     if straight.verdict == Verdict::Equivalent {
         return straight;
     }
     let crossed = both(1, 0);
-    if crossed.verdict == Verdict::Different { straight } else { crossed }
+    if crossed.verdict == Verdict::Different {
+        straight
+    } else {
+        crossed
+    }
 }
 
 /// Whether two constants are plainly equal.

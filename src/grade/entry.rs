@@ -51,22 +51,44 @@ pub struct BadLine {
 
 /// Reads a line. `defaults` holds what the command line asks for; the line may ask for more.
 pub fn entry(line: &str, defaults: &Options) -> Result<Entry, BadLine> {
-    let bad = |id: &Value, message: String| BadLine { id: id.clone(), message };
+    let bad = |id: &Value, message: String| BadLine {
+        id: id.clone(),
+        message,
+    };
     if line.len() > MAX_LINE {
-        return Err(bad(&Value::Null, format!("a line has at most {MAX_LINE} bytes")));
+        return Err(bad(
+            &Value::Null,
+            format!("a line has at most {MAX_LINE} bytes"),
+        ));
     }
-    let value: Value = serde_json::from_str(line).map_err(|e| bad(&Value::Null, format!("no JSON: {e}")))?;
+    let value: Value =
+        serde_json::from_str(line).map_err(|e| bad(&Value::Null, format!("no JSON: {e}")))?;
     let Value::Object(fields) = value else {
-        return Err(bad(&Value::Null, "a line is a JSON object with \"expected\" and \"answer\"".into()));
+        return Err(bad(
+            &Value::Null,
+            "a line is a JSON object with \"expected\" and \"answer\"".into(),
+        ));
     };
     let id = fields.get("id").cloned().unwrap_or(Value::Null);
     fill(&fields, &id, defaults).map_err(|message| bad(&id, message))
 }
 
 fn fill(fields: &Map<String, Value>, id: &Value, defaults: &Options) -> Result<Entry, String> {
-    const FIELDS: [&str; 8] = ["id", "expected", "answer", "scene", "quantity", "symbols", "tolerance", "form"];
+    const FIELDS: [&str; 8] = [
+        "id",
+        "expected",
+        "answer",
+        "scene",
+        "quantity",
+        "symbols",
+        "tolerance",
+        "form",
+    ];
     if let Some(name) = fields.keys().find(|k| !FIELDS.contains(&k.as_str())) {
-        return Err(format!("unknown field {name:?}; known are {}", FIELDS.join(", ")));
+        return Err(format!(
+            "unknown field {name:?}; known are {}",
+            FIELDS.join(", ")
+        ));
     }
     let text = |name: &str| match fields.get(name) {
         None | Some(Value::Null) => Ok(None),
@@ -106,15 +128,32 @@ fn fill(fields: &Map<String, Value>, id: &Value, defaults: &Options) -> Result<E
             })?);
         }
     }
-    Ok(Entry { id: id.clone(), expected, answer, scene, quantity: text("quantity")?, question, options, declared })
+    Ok(Entry {
+        id: id.clone(),
+        expected,
+        answer,
+        scene,
+        quantity: text("quantity")?,
+        question,
+        options,
+        declared,
+    })
 }
 
 fn declare(question: &mut Question, name: &str, entry: &Value) -> Result<(), String> {
-    let valid = !name.is_empty() && name.len() <= 64 && name.chars().all(|c| c.is_alphanumeric() || "_'^+-{}\\".contains(c));
+    let valid = !name.is_empty()
+        && name.len() <= 64
+        && name
+            .chars()
+            .all(|c| c.is_alphanumeric() || "_'^+-{}\\".contains(c));
     if !valid {
         return Err(format!("{name:?} is no name of a symbol"));
     }
-    let mut given = Given { name: Symbol::from(name), latex: None, dimension: None };
+    let mut given = Given {
+        name: Symbol::from(name),
+        latex: None,
+        dimension: None,
+    };
     let fields = match entry {
         Value::Null => Map::new(),
         Value::Object(fields) => fields.clone(),
@@ -129,11 +168,16 @@ fn declare(question: &mut Question, name: &str, entry: &Value) -> Result<(), Str
                 question.domains.symbols.insert(given.name.clone(), domain);
             }
             ("dimension" | "unit", Value::String(text)) => {
-                let unit = dimension::unit(text).map_err(|fault| format!("dimension of {name}: {}", fault.message))?;
+                let unit = dimension::unit(text)
+                    .map_err(|fault| format!("dimension of {name}: {}", fault.message))?;
                 given.dimension = Some(unit.dimension);
             }
             ("latex", Value::String(text)) => given.latex = Some(text.clone()),
-            (other, _) => return Err(format!("{name} has no {other:?}: known are domain, dimension, latex")),
+            (other, _) => {
+                return Err(format!(
+                    "{name} has no {other:?}: known are domain, dimension, latex"
+                ));
+            }
         }
     }
     question.symbols.push(given);
@@ -157,11 +201,17 @@ pub fn domain(value: &Value) -> Result<Domain, String> {
                     "min" => out.low = limit(value, open("open") || open("min_open"))?,
                     "max" => out.high = limit(value, open("open") || open("max_open"))?,
                     "open" | "min_open" | "max_open" if value.is_boolean() => {}
-                    other => return Err(format!("unknown {other:?}; known are min, max, open, min_open, max_open")),
+                    other => {
+                        return Err(format!(
+                            "unknown {other:?}; known are min, max, open, min_open, max_open"
+                        ));
+                    }
                 }
             }
             match (&out.low, &out.high) {
-                (Some(l), Some(h)) if l.approximate() > h.approximate() => Err("min is above max".into()),
+                (Some(l), Some(h)) if l.approximate() > h.approximate() => {
+                    Err("min is above max".into())
+                }
                 _ => Ok(out),
             }
         }
@@ -177,17 +227,24 @@ fn limit(value: &Value, open: bool) -> Result<Option<Limit>, String> {
         other => return Err(format!("{other} is no number")),
     };
     let no_number = || format!("{text:?} is neither a number nor a multiple of pi");
-    let e = crate::formula::read_expr(&text, &crate::formula::Symbols::strict()).map_err(|_| no_number())?;
+    let e = crate::formula::read_expr(&text, &crate::formula::Symbols::strict())
+        .map_err(|_| no_number())?;
     if let Some(value) = super::fraction(&e) {
         return Ok(Some(Limit::number(value, open)));
     }
-    let angle = crate::expr::angle::angle(&e).filter(|a| a.symbols.is_empty()).ok_or_else(no_number)?;
+    let angle = crate::expr::angle::angle(&e)
+        .filter(|a| a.symbols.is_empty())
+        .ok_or_else(no_number)?;
     Ok(Some(Limit::pi(angle.pi, open)))
 }
 
 /// A tolerance as a line writes it.
 pub fn tolerance(value: &Value) -> Result<Tolerance, String> {
-    let wrong = || format!("tolerance {value} is none of \"2%\", {{\"relative\": 0.02}}, {{\"absolute\": 0.1}}, {{\"significant\": 3}}");
+    let wrong = || {
+        format!(
+            "tolerance {value} is none of \"2%\", {{\"relative\": 0.02}}, {{\"absolute\": 0.1}}, {{\"significant\": 3}}"
+        )
+    };
     let amount = |v: &Value| -> Option<Rational> {
         let found = match v {
             Value::Number(n) => number::decimal(&n.to_string()),
@@ -208,7 +265,10 @@ pub fn tolerance(value: &Value) -> Result<Tolerance, String> {
                 "relative" => amount(v).map(Tolerance::Relative).ok_or_else(wrong),
                 "absolute" => amount(v).map(Tolerance::Absolute).ok_or_else(wrong),
                 "significant" => {
-                    let digits = v.as_u64().filter(|n| (1..=40).contains(n)).ok_or_else(wrong)?;
+                    let digits = v
+                        .as_u64()
+                        .filter(|n| (1..=40).contains(n))
+                        .ok_or_else(wrong)?;
                     Ok(Tolerance::Significant(digits as u32))
                 }
                 _ => Err(wrong()),
@@ -242,7 +302,13 @@ impl Keys {
 
 /// The grade of a line that cannot be judged for a reason outside the formulas.
 pub fn refused(message: String) -> Grade {
-    let mut grade = super::unreadable_key(Fault { message, start: 0, end: 0, hint: None, also: Vec::new() });
+    let mut grade = super::unreadable_key(Fault {
+        message,
+        start: 0,
+        end: 0,
+        hint: None,
+        also: Vec::new(),
+    });
     grade.note = "INVALID_LINE";
     grade.proof = Proof::of("none", "the line cannot be judged");
     grade.verdict = Verdict::Invalid;

@@ -22,23 +22,39 @@ pub enum Form {
 impl Form {
     /// Reads `simplified`, `factored`, `unit`, `digits=3`, `only=m,v`.
     pub fn read(text: &str) -> Option<Form> {
-        let (word, value) = text.split_once(['=', ':']).map_or((text, None), |(w, v)| (w, Some(v)));
+        let (word, value) = text
+            .split_once(['=', ':'])
+            .map_or((text, None), |(w, v)| (w, Some(v)));
         match (word.trim(), value) {
             ("simplified", None) => Some(Form::Simplified),
             ("factored", None) => Some(Form::Factored),
             ("unit" | "with unit", None) => Some(Form::WithUnit),
-            ("digits", Some(n)) => n.trim().parse().ok().filter(|n| (1..=40).contains(n)).map(Form::Digits),
-            ("only", Some(names)) => Some(Form::Only(names.split(',').map(|n| Symbol::from(n.trim())).collect())),
+            ("digits", Some(n)) => n
+                .trim()
+                .parse()
+                .ok()
+                .filter(|n| (1..=40).contains(n))
+                .map(Form::Digits),
+            ("only", Some(names)) => Some(Form::Only(
+                names.split(',').map(|n| Symbol::from(n.trim())).collect(),
+            )),
             _ => None,
         }
     }
 }
 
 /// The first demand that is not met.
-pub(crate) fn unmet(forms: &[Form], key: &Key, answer: &Reading) -> Option<(&'static str, Diagnosis)> {
+pub(crate) fn unmet(
+    forms: &[Form],
+    key: &Key,
+    answer: &Reading,
+) -> Option<(&'static str, Diagnosis)> {
     forms.iter().find_map(|form| {
         let (note, code, words) = check(form, key, answer)?;
-        Some((note, Diagnosis::new(code, format!("right, but {words}"), words)))
+        Some((
+            note,
+            Diagnosis::new(code, format!("right, but {words}"), words),
+        ))
     })
 }
 
@@ -47,46 +63,89 @@ fn check(form: &Form, key: &Key, answer: &Reading) -> Option<(&'static str, &'st
         Form::Simplified => {
             let mut long = false;
             let mut shortest = usize::MAX;
-            key.reading.content.each(&mut |e| shortest = shortest.min(e.size()));
+            key.reading
+                .content
+                .each(&mut |e| shortest = shortest.min(e.size()));
             answer.content.answer().each(&mut |e| {
                 let mut field = crate::algebra::Field::new(&key.question.domains);
                 field.prepare([e]);
-                let tidy = field.element(e).map(|x| field.expr(&x).size()).unwrap_or(usize::MAX).min(shortest);
+                let tidy = field
+                    .element(e)
+                    .map(|x| field.expr(&x).size())
+                    .unwrap_or(usize::MAX)
+                    .min(shortest);
                 long |= tidy != usize::MAX && 2 * e.size() > 3 * tidy + 4 || repeats(e);
             });
             long |= answer.written.last().is_some_and(reducible);
-            long.then(|| ("DIFF_FORM_SIMPLIFIED", "FORM_SIMPLIFIED", "it can be simplified".to_string()))
+            long.then(|| {
+                (
+                    "DIFF_FORM_SIMPLIFIED",
+                    "FORM_SIMPLIFIED",
+                    "it can be simplified".to_string(),
+                )
+            })
         }
         Form::Factored => {
             let mut open = false;
-            answer.content.answer().each(&mut |e| open |= !factored(e, key));
-            open.then(|| ("DIFF_FORM_FACTORED", "FORM_FACTORED", "it is to be written as a product of factors".to_string()))
+            answer
+                .content
+                .answer()
+                .each(&mut |e| open |= !factored(e, key));
+            open.then(|| {
+                (
+                    "DIFF_FORM_FACTORED",
+                    "FORM_FACTORED",
+                    "it is to be written as a product of factors".to_string(),
+                )
+            })
         }
         Form::Only(names) => {
             let mut others = Vec::new();
-            answer.content.answer().each(&mut |e| others.extend(e.symbols().into_iter().filter(|s| !names.contains(s))));
+            answer.content.answer().each(&mut |e| {
+                others.extend(e.symbols().into_iter().filter(|s| !names.contains(s)))
+            });
             let first = others.first()?;
-            Some(("DIFF_FORM_SYMBOLS", "FORM_SYMBOLS", format!("it is to be written without {first}")))
+            Some((
+                "DIFF_FORM_SYMBOLS",
+                "FORM_SYMBOLS",
+                format!("it is to be written without {first}"),
+            ))
         }
         Form::Digits(n) => match &answer.literal {
             Some(literal) if literal.digits == *n => None,
             Some(literal) => Some((
                 "DIFF_FORM_DIGITS",
                 "FORM_DIGITS",
-                format!("{n} significant digits are asked for, and it has {}", literal.digits),
+                format!(
+                    "{n} significant digits are asked for, and it has {}",
+                    literal.digits
+                ),
             )),
-            None => Some(("DIFF_FORM_DIGITS", "FORM_DIGITS", format!("a decimal number with {n} significant digits is asked for"))),
+            None => Some((
+                "DIFF_FORM_DIGITS",
+                "FORM_DIGITS",
+                format!("a decimal number with {n} significant digits is asked for"),
+            )),
         },
         Form::WithUnit => match answer.content.answer() {
             Content::Quantity(_) => None,
-            _ => Some(("DIFF_FORM_UNIT", "FORM_UNIT", "a unit is to be given".to_string())),
+            _ => Some((
+                "DIFF_FORM_UNIT",
+                "FORM_UNIT",
+                "a unit is to be given".to_string(),
+            )),
         },
     }
 }
 
 /// Whether equal terms or factors stand side by side.
 fn repeats(e: &Expr) -> bool {
-    let twice = |parts: &[Expr]| parts.iter().enumerate().any(|(i, p)| parts[..i].contains(p));
+    let twice = |parts: &[Expr]| {
+        parts
+            .iter()
+            .enumerate()
+            .any(|(i, p)| parts[..i].contains(p))
+    };
     let mut found = false;
     e.walk(&mut |part| match part.node() {
         Node::Sum(parts) | Node::Product(parts) => found |= twice(parts),
@@ -97,7 +156,11 @@ fn repeats(e: &Expr) -> bool {
 
 /// Whether a fraction of two whole numbers can be reduced.
 fn reducible(w: &Written) -> bool {
-    let whole = |w: &Written| w.literal().filter(|l| l.value.is_integer()).and_then(|l| l.value.numer().as_i64());
+    let whole = |w: &Written| {
+        w.literal()
+            .filter(|l| l.value.is_integer())
+            .and_then(|l| l.value.numer().as_i64())
+    };
     match &w.shape {
         Shape::Fraction(a, b) => match (whole(a), whole(b)) {
             (Some(a), Some(b)) => num_integer::gcd(a, b) != 1,
@@ -116,13 +179,17 @@ fn factored(e: &Expr, key: &Key) -> bool {
     let irreducible = |sum: &Expr| {
         let mut field = crate::algebra::Field::new(&key.question.domains);
         field.prepare([sum]);
-        let Ok(element) = field.element(sum) else { return true };
+        let Ok(element) = field.element(sum) else {
+            return true;
+        };
         matches!(field.expr(&element).node(), Node::Sum(_))
     };
     match e.node() {
         Node::Sum(_) => irreducible(e),
         Node::Product(factors) => factors.iter().all(|f| factored(f, key)),
-        Node::Power(base, k) if k.as_number().is_some_and(|k| k.is_integer()) => factored(base, key),
+        Node::Power(base, k) if k.as_number().is_some_and(|k| k.is_integer()) => {
+            factored(base, key)
+        }
         _ => true,
     }
 }

@@ -141,7 +141,11 @@ pub struct Proof {
 
 impl Proof {
     pub(crate) fn of(kind: &'static str, words: impl Into<String>) -> Proof {
-        Proof { kind, words: words.into(), bound: None }
+        Proof {
+            kind,
+            words: words.into(),
+            bound: None,
+        }
     }
 }
 
@@ -168,8 +172,16 @@ pub struct Diagnosis {
 }
 
 impl Diagnosis {
-    pub(crate) fn new(code: &'static str, message: impl Into<String>, hint: impl Into<String>) -> Diagnosis {
-        Diagnosis { code, message: message.into(), hint: hint.into() }
+    pub(crate) fn new(
+        code: &'static str,
+        message: impl Into<String>,
+        hint: impl Into<String>,
+    ) -> Diagnosis {
+        Diagnosis {
+            code,
+            message: message.into(),
+            hint: hint.into(),
+        }
     }
 }
 
@@ -188,7 +200,11 @@ pub struct Key {
 
 /// Reads an expected formula.
 pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
-    let mut symbols = if question.closed { Symbols::strict() } else { Symbols::open() };
+    let mut symbols = if question.closed {
+        Symbols::strict()
+    } else {
+        Symbols::open()
+    };
     declare(&mut symbols, question);
     let reading = formula::read(expected, &symbols)?;
     Ok(from_reading(reading, question))
@@ -196,23 +212,48 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
 
 /// A key from an expression that was derived rather than typed.
 pub fn key_of(content: Content, question: &Question) -> Key {
-    let reading = Reading { content, written: Vec::new(), literal: None, notes: Vec::new(), choices: 0 };
+    let reading = Reading {
+        content,
+        written: Vec::new(),
+        literal: None,
+        notes: Vec::new(),
+        choices: 0,
+    };
     from_reading(reading, question)
 }
 
 fn from_reading(reading: Reading, question: &Question) -> Key {
     let mut question = question.clone();
-    let known: BTreeSet<Symbol> =
-        question.symbols.iter().chain(&question.asked).map(|g| g.name.clone()).collect();
+    let known: BTreeSet<Symbol> = question
+        .symbols
+        .iter()
+        .chain(&question.asked)
+        .map(|g| g.name.clone())
+        .collect();
     for name in reading.symbols() {
         if !known.contains(&name) {
-            question.symbols.push(Given { name, latex: None, dimension: None });
+            question.symbols.push(Given {
+                name,
+                latex: None,
+                dimension: None,
+            });
         }
     }
-    let mut readable = if question.closed { Symbols::strict() } else { Symbols::open() };
+    let mut readable = if question.closed {
+        Symbols::strict()
+    } else {
+        Symbols::open()
+    };
     declare(&mut readable, &question);
-    let residues = reading.expr().and_then(|e| modular::Residues::of(e, &question.domains));
-    Key { reading, question, readable, residues }
+    let residues = reading
+        .expr()
+        .and_then(|e| modular::Residues::of(e, &question.domains));
+    Key {
+        reading,
+        question,
+        readable,
+        residues,
+    }
 }
 
 fn declare(symbols: &mut Symbols, question: &Question) {
@@ -276,7 +317,9 @@ pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
         }
     }
     if options.strength == Strength::Identity {
-        finding.diagnosis.extend(remarks(&reading, answer, finding.verdict));
+        finding
+            .diagnosis
+            .extend(remarks(&reading, answer, finding.verdict));
     }
     Grade {
         verdict: finding.verdict,
@@ -313,10 +356,21 @@ fn read_answer(key: &Key, answer: &str) -> Result<Reading, Fault> {
         Content::Relations(sides, _) => sides[0].expr().and_then(|e| e.as_symbol().cloned()),
         _ => None,
     };
-    let declared = |name: &Symbol| key.question.symbols.iter().chain(&key.question.asked).any(|g| g.name == *name);
+    let declared = |name: &Symbol| {
+        key.question
+            .symbols
+            .iter()
+            .chain(&key.question.asked)
+            .any(|g| g.name == *name)
+    };
     let strange = |name: &Symbol| STRANGERS.contains(&&**name) || left.as_ref() == Some(name);
     let split = reading.notes.iter().any(|n| n.remark == Remark::Letters);
-    if !split && reading.symbols().iter().all(|name| declared(name) || strange(name)) {
+    if !split
+        && reading
+            .symbols()
+            .iter()
+            .all(|name| declared(name) || strange(name))
+    {
         Ok(reading)
     } else {
         Err(fault)
@@ -324,22 +378,38 @@ fn read_answer(key: &Key, answer: &str) -> Result<Reading, Fault> {
 }
 
 /// Where a text could be read in another way and that would be right, the grade says so; the usual reading decides.
-fn ambiguity(key: &Key, answer: &str, options: &Options, reading: &Reading, finding: &mut compare::Finding) {
+fn ambiguity(
+    key: &Key,
+    answer: &str,
+    options: &Options,
+    reading: &Reading,
+    finding: &mut compare::Finding,
+) {
     if !matches!(finding.verdict, Verdict::Equivalent | Verdict::Different) {
         return;
     }
-    let plain = Options { forms: Vec::new(), ..options.clone() };
+    let plain = Options {
+        forms: Vec::new(),
+        ..options.clone()
+    };
     for other in formula::other_readings(answer, &key.readable) {
         let verdict = compare::verdict_of(key, &other, &plain);
-        if verdict != finding.verdict && matches!(verdict, Verdict::Equivalent | Verdict::Different) {
+        if verdict != finding.verdict && matches!(verdict, Verdict::Equivalent | Verdict::Different)
+        {
             let message = format!(
                 "read as {}; read as {} it would be {}",
                 show(&reading.content),
                 show(&other.content),
-                if verdict == Verdict::Equivalent { "right" } else { "wrong" },
+                if verdict == Verdict::Equivalent {
+                    "right"
+                } else {
+                    "wrong"
+                },
             );
             let hint = "the formula can be read in two ways; use brackets to say which is meant";
-            finding.diagnosis.insert(0, Diagnosis::new("AMBIGUOUS", message, hint));
+            finding
+                .diagnosis
+                .insert(0, Diagnosis::new("AMBIGUOUS", message, hint));
             return;
         }
     }
@@ -349,7 +419,9 @@ fn ambiguity(key: &Key, answer: &str, options: &Options, reading: &Reading, find
 fn remarks(reading: &Reading, answer: &str, verdict: Verdict) -> Vec<Diagnosis> {
     let wrong = verdict != Verdict::Equivalent;
     let worth = |note: &&Note| match note.remark {
-        Remark::Letters | Remark::Radians | Remark::UnitOfSymbols | Remark::NaturalLogarithm => wrong,
+        Remark::Letters | Remark::Radians | Remark::UnitOfSymbols | Remark::NaturalLogarithm => {
+            wrong
+        }
         Remark::Inverse | Remark::UnitNotSymbols => wrong,
         _ => false,
     };
@@ -363,13 +435,15 @@ fn remarks(reading: &Reading, answer: &str, verdict: Verdict) -> Vec<Diagnosis> 
 /// A content in plain notation.
 pub fn show(content: &Content) -> String {
     match content {
-        Content::Scalar(e) => formula::write_plain(e),
-        Content::Either([a, b]) => format!("{} or {}", formula::write_plain(a), formula::write_plain(b)),
+        Content::Scalar(e) => number::shown(e),
+        Content::Either([a, b]) => {
+            format!("{} or {}", formula::write_plain(a), formula::write_plain(b))
+        }
         Content::Vector(v) => {
             let parts: Vec<String> = v.iter().map(formula::write_plain).collect();
             format!("[{}]", parts.join(", "))
         }
-        Content::Quantity(q) => format!("{} {}", formula::write_plain(&q.written), q.unit_text),
+        Content::Quantity(q) => format!("{} {}", number::shown(&q.written), q.unit_text),
         Content::Relations(sides, signs) => {
             let mut out = sides.first().map(show).unwrap_or_default();
             for (side, sign) in sides.iter().skip(1).zip(signs) {
@@ -391,10 +465,16 @@ pub(crate) fn fraction(e: &Expr) -> Option<Rational> {
     e.walk(&mut |part| {
         nodes += 1;
         if let Node::Power(_, k) = part.node() {
-            tame &= k.as_number().is_some_and(|k| k.numer().as_i64().is_some_and(|k| k.abs() <= 64));
+            tame &= k
+                .as_number()
+                .is_some_and(|k| k.numer().as_i64().is_some_and(|k| k.abs() <= 64));
         }
     });
-    if tame && nodes <= 200 { e.evaluate(&Point::default()) } else { None }
+    if tame && nodes <= 200 {
+        e.evaluate(&Point::default())
+    } else {
+        None
+    }
 }
 
 #[cfg(test)]

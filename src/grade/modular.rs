@@ -44,7 +44,11 @@ impl Residue {
             return Residue(if k < 0 && size > 0 { P - size } else { size });
         }
         let rest = value.to_bigint() % num_bigint::BigInt::from(P);
-        let rest = if rest < num_bigint::BigInt::from(0) { rest + P } else { rest };
+        let rest = if rest < num_bigint::BigInt::from(0) {
+            rest + P
+        } else {
+            rest
+        };
         Residue(num_traits::ToPrimitive::to_u64(&rest).unwrap_or(0))
     }
 }
@@ -52,8 +56,15 @@ impl Residue {
 impl Scalar for Residue {
     // The caller admits only denominators below p.
     fn from_rational(value: &Rational) -> Residue {
-        let (n, d) = (Residue::integer(value.numer()), Residue::integer(value.denom()));
-        if d.0 == 1 { n } else { n.times(&d.power(P - 2)) }
+        let (n, d) = (
+            Residue::integer(value.numer()),
+            Residue::integer(value.denom()),
+        );
+        if d.0 == 1 {
+            n
+        } else {
+            n.times(&d.power(P - 2))
+        }
     }
     fn pi() -> Option<Residue> {
         // π is transcendental: for rational functions any value will do as well as another.
@@ -143,7 +154,9 @@ impl Residues {
         match self.roles.symbols.get(name) {
             Some(role) if role.turns => {
                 if let Some(direction) = unit(random(name, round)) {
-                    point.directions.insert(name.clone(), (role.divisor, direction));
+                    point
+                        .directions
+                        .insert(name.clone(), (role.divisor, direction));
                 }
             }
             _ => {
@@ -171,11 +184,18 @@ impl Residues {
         let degree = self.degree.saturating_add(degree(answer).0).max(1);
         let mut finding = if equal {
             let bound = (degree as f64 / P as f64).powi(POINTS as i32);
-            let mut proof = Proof::of("modular", format!("equal at {POINTS} random points modulo 2^61 - 1"));
+            let mut proof = Proof::of(
+                "modular",
+                format!("equal at {POINTS} random points modulo 2^61 - 1"),
+            );
             proof.bound = Some(bound);
             Finding::new(Verdict::Equivalent, "EQUIV_MODULAR", proof)
         } else {
-            Finding::different("DIFF", "modular", "no identity: the values differ modulo 2^61 - 1")
+            Finding::different(
+                "DIFF",
+                "modular",
+                "no identity: the values differ modulo 2^61 - 1",
+            )
         };
         finding.assumed = self.assumed.clone();
         Some(finding)
@@ -193,7 +213,10 @@ impl Residues {
                 Some(_) => {}
                 None if role.turns && role.bare => return None,
                 None if role.turns => {
-                    let other = Residues { roles: mine.clone(), ..self.clone() };
+                    let other = Residues {
+                        roles: mine.clone(),
+                        ..self.clone()
+                    };
                     other.place(name, round, &mut point);
                 }
                 None => self.place(name, round, &mut point),
@@ -211,9 +234,13 @@ fn rational(e: &Expr) -> bool {
         nodes += 1;
         match part.node() {
             // A longer denominator might be divisible by p.
-            Node::Number(value) => fits &= value.denom().bits() <= 60 && value.numer().bits() < 1 << 14,
+            Node::Number(value) => {
+                fits &= value.denom().bits() <= 60 && value.numer().bits() < 1 << 14
+            }
             Node::Power(_, k) => {
-                fits &= k.as_number().is_some_and(|k| k.is_integer() && k.numer().as_i64().is_some_and(|k| k.abs() < 1 << 20));
+                fits &= k.as_number().is_some_and(|k| {
+                    k.is_integer() && k.numer().as_i64().is_some_and(|k| k.abs() < 1 << 20)
+                });
             }
             Node::Call(f, _) => fits &= matches!(f, Function::Sin | Function::Cos | Function::Tan),
             _ => {}
@@ -231,15 +258,25 @@ fn degree(e: &Expr) -> (u64, u64) {
         Node::Sum(parts) => {
             let all: Vec<(u64, u64)> = parts.iter().map(degree).collect();
             let below: u64 = all.iter().fold(0, |t, d| t.saturating_add(d.1));
-            let above = all.iter().map(|d| d.0.saturating_add(below.saturating_sub(d.1))).max().unwrap_or(0);
+            let above = all
+                .iter()
+                .map(|d| d.0.saturating_add(below.saturating_sub(d.1)))
+                .max()
+                .unwrap_or(0);
             (above, below)
         }
-        Node::Product(parts) => parts.iter().map(degree).fold((0, 0), |t, d| (t.0.saturating_add(d.0), t.1.saturating_add(d.1))),
+        Node::Product(parts) => parts.iter().map(degree).fold((0, 0), |t, d| {
+            (t.0.saturating_add(d.0), t.1.saturating_add(d.1))
+        }),
         Node::Power(base, k) => {
             let k = k.as_number().and_then(|k| k.numer().as_i64()).unwrap_or(1);
             let (n, d) = degree(base);
             let times = |x: u64| x.saturating_mul(k.unsigned_abs());
-            if k < 0 { (times(d), times(n)) } else { (times(n), times(d)) }
+            if k < 0 {
+                (times(d), times(n))
+            } else {
+                (times(n), times(d))
+            }
         }
         Node::Call(..) => {
             // Multiples of an angle are known up to 4096 divisors of it.
@@ -250,7 +287,9 @@ fn degree(e: &Expr) -> (u64, u64) {
 
 /// A number for a name and a round; the same on every machine and in every run.
 fn random(name: &Symbol, round: usize) -> Residue {
-    let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3));
+    let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325u64, |h, b| {
+        (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3)
+    });
     let mut z = hash ^ (round as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -40,7 +40,10 @@ impl Tolerance {
                 };
                 format!("within {shown} % of the expected value")
             }
-            Tolerance::Absolute(width) => format!("within {} of the expected value", crate::expr::number::to_f64(width)),
+            Tolerance::Absolute(width) => format!(
+                "within {} of the expected value",
+                crate::expr::number::to_f64(width)
+            ),
             Tolerance::Significant(digits) => format!("equal to {digits} significant digits"),
         }
     }
@@ -53,7 +56,11 @@ impl Tolerance {
             None => (text, false),
         };
         let value = decimal(number)?;
-        let share = if percent { value / ratio(100, 1) } else { value };
+        let share = if percent {
+            value / ratio(100, 1)
+        } else {
+            value
+        };
         (!share.is_negative()).then_some(Tolerance::Relative(share))
     }
 }
@@ -67,6 +74,27 @@ pub fn decimal(text: &str) -> Option<Rational> {
     super::fraction(reading.expr()?)
 }
 
+/// An expression in plain notation; a number that is a decimal fraction of more than one digit as a decimal.
+pub fn shown(e: &Expr) -> String {
+    let plain = crate::formula::write_plain(e);
+    let Some(value) = e.as_number().filter(|v| !v.is_integer()) else {
+        return plain;
+    };
+    // 3/2 and 3/10 read well as they are; 1389/50 does not.
+    let tens = (2..=20).find(|k| (value * ten_to(*k)).is_integer());
+    match tens {
+        Some(k) if value.denom().bits() > 4 => {
+            let scaled = (value * ten_to(k)).abs();
+            let digits = scaled.numer().to_string();
+            let padded = format!("{digits:0>width$}", width = k as usize + 1);
+            let (whole, part) = padded.split_at(padded.len() - k as usize);
+            let sign = if value.is_negative() { "-" } else { "" };
+            format!("{sign}{whole}.{part}")
+        }
+        _ => plain,
+    }
+}
+
 /// Half a unit of the last of `digits` significant digits of a number.
 pub fn half_unit(value: &Rational, digits: u32) -> Rational {
     if value.is_zero() {
@@ -78,7 +106,10 @@ pub fn half_unit(value: &Rational, digits: u32) -> Rational {
 /// The power of ten of the first digit: 0 for 2.08, −2 for 0.03. The value must not be zero.
 pub fn magnitude(value: &Rational) -> i32 {
     let size = value.abs();
-    let mut k = crate::expr::number::to_f64(&size).log10().floor().clamp(-4000.0, 4000.0) as i32;
+    let mut k = crate::expr::number::to_f64(&size)
+        .log10()
+        .floor()
+        .clamp(-4000.0, 4000.0) as i32;
     while ten_to(k) > size {
         k -= 1;
     }
@@ -113,7 +144,10 @@ pub fn bounds(e: &Expr) -> Option<[Rational; 2]> {
 pub fn within(answer: &Expr, expected: &Expr, tolerance: &Tolerance) -> Option<bool> {
     let ([a, b], [low, high]) = (bounds(answer)?, bounds(expected)?);
     let width = tolerance.width(&low);
-    let (least, most) = (least_distance([&a, &b], [&low, &high]), most_distance([&a, &b], [&low, &high]));
+    let (least, most) = (
+        least_distance([&a, &b], [&low, &high]),
+        most_distance([&a, &b], [&low, &high]),
+    );
     if most <= width {
         Some(true)
     } else if least > width {
@@ -147,5 +181,8 @@ pub fn digits_shared(answer: &Rational, exact: &[Rational; 2]) -> u32 {
     if off.is_zero() {
         return 100;
     }
-    (1..=40).rev().find(|n| off <= half_unit(&middle, *n)).unwrap_or(0)
+    (1..=40)
+        .rev()
+        .find(|n| off <= half_unit(&middle, *n))
+        .unwrap_or(0)
 }

@@ -34,8 +34,16 @@ pub(crate) fn compare(
         return Finding::different("DIFF_KIND", "kind", words);
     };
     if expected.len() != answer.len() {
-        let words = format!("{} relations are expected, and there are {}", expected.len(), answer.len());
-        return Finding::different("DIFF_KIND", "kind", words.clone()).with(Diagnosis::new("KIND", words.clone(), words));
+        let words = format!(
+            "{} relations are expected, and there are {}",
+            expected.len(),
+            answer.len()
+        );
+        return Finding::different("DIFF_KIND", "kind", words.clone()).with(Diagnosis::new(
+            "KIND",
+            words.clone(),
+            words,
+        ));
     }
     if let ([e], [a]) = (expected.as_slice(), answer.as_slice()) {
         return link(ctx, e, a);
@@ -71,15 +79,25 @@ fn vector_equation(
     (sides, signs): (&[Content], &[Relation]),
     (mine, my_signs): (&[Content], &[Relation]),
 ) -> Option<Finding> {
-    let [Content::Vector(a), Content::Vector(b)] = sides else { return None };
-    let [Content::Vector(c), Content::Vector(d)] = mine else { return None };
+    let [Content::Vector(a), Content::Vector(b)] = sides else {
+        return None;
+    };
+    let [Content::Vector(c), Content::Vector(d)] = mine else {
+        return None;
+    };
     if signs != [Relation::Equal] || my_signs != [Relation::Equal] {
         return None;
     }
     let mut total = None;
     for i in 0..3 {
-        let e = Normal { difference: &a[i] - &b[i], relation: Relation::Equal };
-        let m = Normal { difference: &c[i] - &d[i], relation: Relation::Equal };
+        let e = Normal {
+            difference: &a[i] - &b[i],
+            relation: Relation::Equal,
+        };
+        let m = Normal {
+            difference: &c[i] - &d[i],
+            relation: Relation::Equal,
+        };
         if e.difference.is_zero() && m.difference.is_zero() {
             continue;
         }
@@ -102,7 +120,10 @@ fn links(sides: &[Content], signs: &[Relation]) -> Option<Vec<Normal>> {
             Relation::GreaterEqual => (pair[1] - pair[0], Relation::LessEqual),
             other => (pair[0] - pair[1], *other),
         };
-        Normal { difference, relation }
+        Normal {
+            difference,
+            relation,
+        }
     };
     Some(pairs.map(normal).collect())
 }
@@ -114,20 +135,43 @@ fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
         let strict = |r: Relation| matches!(r, Relation::Less | Relation::LessEqual);
         if kinds.iter().all(|r| strict(*r)) && same_sign(expected, answer, domains) == Some(true) {
             let words = "the boundary belongs to one of the two inequalities and not to the other";
-            return Finding::different("DIFF_STRICT", "solutions", words).with(Diagnosis::new("STRICT", words, "look at the case of equality"));
+            return Finding::different("DIFF_STRICT", "solutions", words).with(Diagnosis::new(
+                "STRICT",
+                words,
+                "look at the case of equality",
+            ));
         }
-        let words = format!("{} is expected, and the answer has {}", expected.relation.sign(), answer.relation.sign());
-        return Finding::different("DIFF_RELATION", "kind", words.clone()).with(Diagnosis::new("RELATION", words.clone(), words));
+        let words = format!(
+            "{} is expected, and the answer has {}",
+            expected.relation.sign(),
+            answer.relation.sign()
+        );
+        return Finding::different("DIFF_RELATION", "kind", words.clone()).with(Diagnosis::new(
+            "RELATION",
+            words.clone(),
+            words,
+        ));
     }
-    let equation = matches!(expected.relation, Relation::Equal | Relation::NotEqual | Relation::Approximately);
+    let equation = matches!(
+        expected.relation,
+        Relation::Equal | Relation::NotEqual | Relation::Approximately
+    );
     match (same_sign(expected, answer, domains), equation) {
         (Some(true), _) | (Some(false), true) => {
             let words = "the two differ by a factor that is nowhere zero";
-            return Finding::new(Verdict::Equivalent, "EQUIV_SOLUTIONS", Proof::of("solutions", words));
+            return Finding::new(
+                Verdict::Equivalent,
+                "EQUIV_SOLUTIONS",
+                Proof::of("solutions", words),
+            );
         }
         (Some(false), false) => {
             let words = "the inequality points the other way";
-            return Finding::different("DIFF_TURNED", "solutions", words).with(Diagnosis::new("TURNED", words, "multiplying by something negative turns an inequality round"));
+            return Finding::different("DIFF_TURNED", "solutions", words).with(Diagnosis::new(
+                "TURNED",
+                words,
+                "multiplying by something negative turns an inequality round",
+            ));
         }
         (None, true) => equations(ctx, expected, answer),
         (None, false) => inequalities(ctx, expected, answer),
@@ -172,26 +216,46 @@ fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
             "EQUIV_SOLUTIONS",
             Proof::of("solutions", "each equation, solved, fulfils the other"),
         );
-        finding.assumed.push("what was divided by is not zero".into());
+        finding
+            .assumed
+            .push("what was divided by is not zero".into());
         return finding;
     }
     // Where the answer is the expected equation times something that changes sign, that something is a root gained.
     if let Some(at) = sign_change(f, g, domains) {
         let words = "multiplied by something that vanishes inside the domain";
         return Finding {
-            counterexample: Some(Apart { at, yours: "holds".into(), expected: "need not hold".into() }),
+            counterexample: Some(Apart {
+                at,
+                yours: "holds".into(),
+                expected: "need not hold".into(),
+            }),
             ..Finding::different("DIFF_ROOT_GAINED", "solutions", words)
         }
-        .with(Diagnosis::new("ROOT_GAINED", words, "your equation has more solutions than asked for"));
+        .with(Diagnosis::new(
+            "ROOT_GAINED",
+            words,
+            "your equation has more solutions than asked for",
+        ));
     }
     Finding::new(
         Verdict::Undecided,
         "UNDECIDED_SOLUTIONS",
-        Proof::of("none", "the equations could not be solved to compare their solutions"),
+        Proof::of(
+            "none",
+            "the equations could not be solved to compare their solutions",
+        ),
     )
 }
 
-fn parted(ctx: &Context, words: &str, note: &'static str, at: (String, Expr, Expr), f: &Expr, g: &Expr) -> Finding {
+fn parted(
+    ctx: &Context,
+    words: &str,
+    note: &'static str,
+    at: (String, Expr, Expr),
+    f: &Expr,
+    g: &Expr,
+) -> Finding {
     let _ = (f, g);
     let mut finding = Finding::different(note, "solutions", words);
     finding.counterexample = Some(Apart {
@@ -203,7 +267,15 @@ fn parted(ctx: &Context, words: &str, note: &'static str, at: (String, Expr, Exp
         "DIFF_ROOT_LOST" => "a solution is missing or the equation says something else",
         _ => "your equation is fulfilled where it should not be",
     };
-    finding.with(Diagnosis::new(if note == "DIFF_ROOT_LOST" { "ROOT_LOST" } else { "ROOT_GAINED" }, words, hint))
+    finding.with(Diagnosis::new(
+        if note == "DIFF_ROOT_LOST" {
+            "ROOT_LOST"
+        } else {
+            "ROOT_GAINED"
+        },
+        words,
+        hint,
+    ))
 }
 
 /// The value of a symbol at which a difference vanishes, where it is linear in the symbol.
@@ -216,7 +288,9 @@ fn solve_for(f: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
     if field.is_zero(&slope) || field.expr(&slope).symbols().contains(name) {
         return None;
     }
-    let constant = field.element(&f.substitute(&BTreeMap::from([(name.clone(), Expr::zero())]))).ok()?;
+    let constant = field
+        .element(&f.substitute(&BTreeMap::from([(name.clone(), Expr::zero())])))
+        .ok()?;
     let root = field.neg(&field.div(&constant, &slope).ok()?);
     let root = field.expr(&root);
     (!root.symbols().contains(name)).then_some(root)
@@ -233,7 +307,10 @@ fn solved_in(f: &Expr, g: &Expr, domains: &Domains) -> bool {
     unknowns(f, g).iter().any(|name| {
         solve_for(f, name, domains).is_some_and(|root| {
             let put_in = g.substitute(&BTreeMap::from([(name.clone(), root)]));
-            matches!(equality::decide(&put_in, &Expr::zero(), domains).equality, Equality::Same { .. })
+            matches!(
+                equality::decide(&put_in, &Expr::zero(), domains).equality,
+                Equality::Same { .. }
+            )
         })
     })
 }
@@ -246,10 +323,14 @@ fn solution_apart(f: &Expr, g: &Expr, domains: &Domains) -> Option<(String, Expr
         if uses.symbols.get(&name).is_some_and(|r| r.turns) {
             continue;
         }
-        let Some(root) = solve_for(f, &name, &domains) else { continue };
+        let Some(root) = solve_for(f, &name, &domains) else {
+            continue;
+        };
         for sample in samples(&roles(&[f, g, &root]), &domains, 12) {
             let point = sample.point::<crate::interval::Big<200>>(true);
-            let Outcome::Value(value) = evaluate(&root, &point) else { continue };
+            let Outcome::Value(value) = evaluate(&root, &point) else {
+                continue;
+            };
             let middle = crate::interval::Outcome::Value(value.clone());
             let inside = exact_inside(&root, &sample, &name, &domains);
             if !inside {
@@ -279,9 +360,18 @@ fn solution_apart(f: &Expr, g: &Expr, domains: &Domains) -> Option<(String, Expr
 }
 
 /// Whether the root's value lies strictly inside the symbol's domain.
-fn exact_inside(root: &Expr, sample: &crate::domain::Sample, name: &Symbol, domains: &Domains) -> bool {
-    let Some(domain) = domains.symbols.get(name) else { return true };
-    let Outcome::Value(value) = evaluate::<Interval>(root, &sample.point(true)) else { return false };
+fn exact_inside(
+    root: &Expr,
+    sample: &crate::domain::Sample,
+    name: &Symbol,
+    domains: &Domains,
+) -> bool {
+    let Some(domain) = domains.symbols.get(name) else {
+        return true;
+    };
+    let Outcome::Value(value) = evaluate::<Interval>(root, &sample.point(true)) else {
+        return false;
+    };
     [value.low, value.high]
         .into_iter()
         .all(|end| crate::expr::number::from_f64(end).is_some_and(|end| domain.contains(&end)))
@@ -325,8 +415,16 @@ fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
         if let (Some(a), Some(b)) = (at(f), at(g)) {
             if a != b {
                 let word = |holds: bool| if holds { "holds" } else { "does not hold" }.to_string();
-                let mut finding = Finding::different("DIFF_INEQUALITY", "counterexample", "one holds where the other does not");
-                finding.counterexample = Some(Apart { at: sample.words(), yours: word(b), expected: word(a) });
+                let mut finding = Finding::different(
+                    "DIFF_INEQUALITY",
+                    "counterexample",
+                    "one holds where the other does not",
+                );
+                finding.counterexample = Some(Apart {
+                    at: sample.words(),
+                    yours: word(b),
+                    expected: word(a),
+                });
                 finding.assumed = assumed;
                 return finding.with(Diagnosis::new(
                     "INEQUALITY",
@@ -339,15 +437,29 @@ fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     // The same bound on the same symbol?
     for name in unknowns(f, g) {
         if let (Some(a), Some(b)) = (solve_for(f, &name, domains), solve_for(g, &name, domains)) {
-            let finding = scalars(&Context { key: ctx.key, options: ctx.options, diagnose: false }, &a, &b);
+            let finding = scalars(
+                &Context {
+                    key: ctx.key,
+                    options: ctx.options,
+                    diagnose: false,
+                },
+                &a,
+                &b,
+            );
             if finding.verdict == Verdict::Different {
-                return Finding { note: "DIFF_INEQUALITY", ..finding };
+                return Finding {
+                    note: "DIFF_INEQUALITY",
+                    ..finding
+                };
             }
         }
     }
     Finding::new(
         Verdict::Undecided,
         "UNDECIDED_SOLUTIONS",
-        Proof::of("none", "the inequalities agree at every point tried, and no proof was found"),
+        Proof::of(
+            "none",
+            "the inequalities agree at every point tried, and no proof was found",
+        ),
     )
 }

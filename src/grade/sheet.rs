@@ -39,7 +39,12 @@ pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
 impl Sheet {
     /// Names of everything that can be asked, vectors before their components.
     pub fn quantities(&self) -> Vec<String> {
-        let mut names: Vec<String> = self.scene.questions.iter().map(|q| q.name.clone()).collect();
+        let mut names: Vec<String> = self
+            .scene
+            .questions
+            .iter()
+            .map(|q| q.name.clone())
+            .collect();
         for answer in &self.derivation.answers {
             if !names.contains(&answer.name) {
                 names.push(answer.name.clone());
@@ -66,19 +71,31 @@ impl Sheet {
 
     /// The key of a quantity, or why there is none.
     pub fn entry(&self, name: &str) -> Result<Entry, String> {
-        let answers: Vec<&Answer> = self.derivation.answers.iter().filter(|a| a.question == name).collect();
+        let answers: Vec<&Answer> = self
+            .derivation
+            .answers
+            .iter()
+            .filter(|a| a.question == name)
+            .collect();
         let (chosen, component) = match answers.as_slice() {
             [] => {
                 let found = self.derivation.answers.iter().find(|a| a.name == name);
                 let answer = found.ok_or_else(|| {
-                    format!("the scene asks for no {name:?}; it asks for {}", self.quantities().join(", "))
+                    format!(
+                        "the scene asks for no {name:?}; it asks for {}",
+                        self.quantities().join(", ")
+                    )
                 })?;
                 (vec![answer], Some(usize::from(answer.name.ends_with("_y"))))
             }
             all => (all.to_vec(), None),
         };
         let first = chosen[0];
-        let question = self.scene.questions.iter().find(|q| q.name == first.question);
+        let question = self
+            .scene
+            .questions
+            .iter()
+            .find(|q| q.name == first.question);
         let question = question.ok_or_else(|| format!("{name:?} is not asked"))?;
         let mut declared = self.question();
         declared.dimension = Some(first.dimension.clone());
@@ -92,7 +109,10 @@ impl Sheet {
             match &answer.form {
                 Form::Value { closed, .. } => values.push(closed.clone()),
                 Form::Equation { left, right } => {
-                    let sides = vec![Content::Scalar(left.clone()), Content::Scalar(right.clone())];
+                    let sides = vec![
+                        Content::Scalar(left.clone()),
+                        Content::Scalar(right.clone()),
+                    ];
                     declared.asked.clear();
                     declare_unknowns(self, &mut declared);
                     let content = Content::Relations(sides, vec![Relation::Equal]);
@@ -104,8 +124,14 @@ impl Sheet {
                         key: key_of(content, &declared),
                     });
                 }
-                Form::Matrix(_) => return Err(format!("{name} is a matrix; its entries are checked by `carom verify`")),
-                Form::Open(_) => return Err(format!("{name} is not determined by the laws of the scene")),
+                Form::Matrix(_) => {
+                    return Err(format!(
+                        "{name} is a matrix; its entries are checked by `carom verify`"
+                    ));
+                }
+                Form::Open(_) => {
+                    return Err(format!("{name} is not determined by the laws of the scene"));
+                }
             }
         }
         let content = match values.as_slice() {
@@ -117,7 +143,11 @@ impl Sheet {
             name: name.to_string(),
             ask: question.ask.clone(),
             component,
-            words: first.words.trim_end_matches(", along x").trim_end_matches(", along y").to_string(),
+            words: first
+                .words
+                .trim_end_matches(", along x")
+                .trim_end_matches(", along y")
+                .to_string(),
             key: key_of(content, &declared),
         })
     }
@@ -132,14 +162,28 @@ impl Sheet {
 fn declare_unknowns(sheet: &Sheet, question: &mut Question) {
     for unknown in crate::laws::unknowns(&sheet.scene) {
         let name = Symbol::from(sheet.derivation.names.plain(unknown));
-        question.domains.symbols.insert(name.clone(), crate::domain::Domain::real());
-        question.symbols.push(Given { name, latex: None, dimension: None });
+        question
+            .domains
+            .symbols
+            .insert(name.clone(), crate::domain::Domain::real());
+        question.symbols.push(Given {
+            name,
+            latex: None,
+            dimension: None,
+        });
     }
     for q in &sheet.scene.questions {
         let name = Symbol::from(q.name.as_str());
         if !question.symbols.iter().any(|g| g.name == name) {
-            question.domains.symbols.insert(name.clone(), crate::domain::Domain::real());
-            question.symbols.push(Given { name, latex: q.latex.clone(), dimension: None });
+            question
+                .domains
+                .symbols
+                .insert(name.clone(), crate::domain::Domain::real());
+            question.symbols.push(Given {
+                name,
+                latex: q.latex.clone(),
+                dimension: None,
+            });
         }
     }
 }

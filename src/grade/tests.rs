@@ -7,7 +7,10 @@ fn grade(expected: &str, answer: &str) -> Grade {
 
 #[test]
 fn a_rearranged_formula_is_equivalent_and_a_wrong_sign_is_told() {
-    assert_eq!(grade("3v cosθ/2ℓ", "1.5 v cos(theta)/l").note, "EQUIV_IDENTITY");
+    assert_eq!(
+        grade("3v cosθ/2ℓ", "1.5 v cos(theta)/l").note,
+        "EQUIV_IDENTITY"
+    );
     assert_eq!(grade("a - b", "b - a").note, "DIFF_SIGN");
     assert_eq!(grade("3*v/(2*l)", "3*v/l").note, "DIFF_FACTOR");
     assert_eq!(grade("a", "(a").verdict, Verdict::Invalid);

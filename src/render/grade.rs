@@ -25,16 +25,25 @@ pub fn json(id: Option<&Value>, grade: &Grade, text: &str) -> Value {
         out.insert("assumed".into(), json!(grade.assumed));
     }
     if let Some(c) = &grade.counterexample {
-        out.insert("counterexample".into(), json!({"at": c.at, "yours": c.yours, "expected": c.expected}));
+        out.insert(
+            "counterexample".into(),
+            json!({"at": c.at, "yours": c.yours, "expected": c.expected}),
+        );
     }
     if let Some(fault) = &grade.error {
         out.insert("error".into(), error(fault, text));
     }
     if !grade.diagnosis.is_empty() {
-        out.insert("diagnosis".into(), grade.diagnosis.iter().map(diagnosis).collect());
+        out.insert(
+            "diagnosis".into(),
+            grade.diagnosis.iter().map(diagnosis).collect(),
+        );
     }
     out.insert("read_as".into(), json!(grade.read_as));
-    out.insert("symbols".into(), grade.symbols.iter().map(|s| s.to_string()).collect());
+    out.insert(
+        "symbols".into(),
+        grade.symbols.iter().map(|s| s.to_string()).collect(),
+    );
     Value::Object(out)
 }
 
@@ -68,11 +77,21 @@ pub fn text(grade: &Grade, answer: &str) -> String {
     if let Some(fault) = &grade.error {
         line("error", &fault.show(answer).replace('\n', "\n          "));
     }
-    let bound = grade.proof.bound.map_or(String::new(), |b| format!(" (error below {b:.0e})"));
+    let bound = grade
+        .proof
+        .bound
+        .map_or(String::new(), |b| format!(" (error below {b:.0e})"));
     line("because", &format!("{}{bound}", grade.proof.words));
     if let Some(c) = &grade.counterexample {
-        let place = if c.at.is_empty() { String::new() } else { format!("with {}: ", c.at) };
-        line("at", &format!("{place}yours {}, expected {}", c.yours, c.expected));
+        let place = if c.at.is_empty() {
+            String::new()
+        } else {
+            format!("with {}: ", c.at)
+        };
+        line(
+            "at",
+            &format!("{place}yours {}, expected {}", c.yours, c.expected),
+        );
     }
     for d in &grade.diagnosis {
         line("finding", &format!("{} [{}]", d.message, d.code));
