@@ -28,4 +28,7 @@ pub mod verify;
 
 pub mod grade;
 
+#[cfg(feature = "report")]
+pub mod report;
+
 pub mod render;
