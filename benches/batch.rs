@@ -17,7 +17,8 @@ fn formula() -> Expr {
     let arm = &l * &theta.cos() * Expr::ratio(1, 2);
     let inverse = m.powi(-1) + arm.powi(2) * Expr::from(12) / (&m * &l.powi(2));
     let speed = &v * (v.powi(2) + &w * &h).power(Expr::ratio(-1, 2));
-    (Expr::one() + &e) * (&v + &w * &arm) * &speed / inverse * (Expr::one() + Expr::from(3) * theta.sin().powi(2))
+    (Expr::one() + &e) * (&v + &w * &arm) * &speed / inverse
+        * (Expr::one() + Expr::from(3) * theta.sin().powi(2))
 }
 
 fn by_hand(x: &[f64]) -> f64 {
@@ -30,20 +31,33 @@ fn by_hand(x: &[f64]) -> f64 {
 }
 
 fn program() -> Program {
-    let order: Vec<Symbol> = ["m", "l", "v", "theta", "e", "w", "h"].map(Symbol::from).to_vec();
+    let order: Vec<Symbol> = ["m", "l", "v", "theta", "e", "w", "h"]
+        .map(Symbol::from)
+        .to_vec();
     compile(&formula(), &order).expect("every symbol is an input")
 }
 
 fn columns() -> Vec<Vec<f64>> {
-    (0..7).map(|i| (0..POINTS).map(|k| 0.2 + ((k * (2 * i + 3)) % 1013) as f64 / 1013.0).collect()).collect()
+    (0..7)
+        .map(|i| {
+            (0..POINTS)
+                .map(|k| 0.2 + ((k * (2 * i + 3)) % 1013) as f64 / 1013.0)
+                .collect()
+        })
+        .collect()
 }
 
 fn with_columns(bencher: Bencher, threads: usize, work: impl Fn(&[&[f64]], &mut [f64]) + Sync) {
     let columns = columns();
     let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
     let mut out = vec![0.0; POINTS];
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
-    bencher.counter(ItemsCount::new(POINTS)).bench_local(|| pool.install(|| work(black_box(&columns), &mut out)));
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .expect("threads start");
+    bencher
+        .counter(ItemsCount::new(POINTS))
+        .bench_local(|| pool.install(|| work(black_box(&columns), &mut out)));
 }
 
 #[divan::bench]
@@ -77,5 +91,7 @@ fn program_one_point_at_a_time(bencher: Bencher) {
 #[divan::bench(args = [1, 2])]
 fn program_in_blocks(bencher: Bencher, threads: usize) {
     let program = program();
-    with_columns(bencher, threads, |columns, out| program.eval_all_parallel(columns, out));
+    with_columns(bencher, threads, |columns, out| {
+        program.eval_all_parallel(columns, out)
+    });
 }

@@ -62,7 +62,11 @@ impl std::error::Error for Unbound {}
 
 /// Compiles a formula; `order` names the inputs, a name given twice counts where it stands first.
 pub fn compile(formula: &Expr, order: &[Symbol]) -> Result<Program, Unbound> {
-    if let Some(name) = formula.symbols().into_iter().find(|name| !order.contains(name)) {
+    if let Some(name) = formula
+        .symbols()
+        .into_iter()
+        .find(|name| !order.contains(name))
+    {
         return Err(Unbound(name));
     }
     let mut compiler = Compiler {
@@ -133,9 +137,10 @@ impl Program {
     /// # Panics
     /// If a column is missing or shorter than `out`.
     pub fn eval_all_parallel(&self, columns: &[&[f64]], out: &mut [f64]) {
-        out.par_chunks_mut(SHARE)
-            .enumerate()
-            .for_each_init(|| self.prepared(), |slots, (k, chunk)| self.eval_range(columns, k * SHARE, chunk, slots));
+        out.par_chunks_mut(SHARE).enumerate().for_each_init(
+            || self.prepared(),
+            |slots, (k, chunk)| self.eval_range(columns, k * SHARE, chunk, slots),
+        );
     }
 
     /// Slots for a block of points, the constants in place.
@@ -147,7 +152,13 @@ impl Program {
         slots
     }
 
-    fn eval_range(&self, columns: &[&[f64]], start: usize, out: &mut [f64], slots: &mut [[f64; LANES]]) {
+    fn eval_range(
+        &self,
+        columns: &[&[f64]],
+        start: usize,
+        out: &mut [f64],
+        slots: &mut [[f64; LANES]],
+    ) {
         let first = self.constants.len() + self.inputs;
         for (block, values) in out.chunks_mut(LANES).enumerate() {
             let from = start + block * LANES;
@@ -176,8 +187,12 @@ fn apply(op: Op, before: &[[f64; LANES]], out: &mut [f64; LANES]) {
         Op::Mul(a, b) => binary(out, &before[a as usize], &before[b as usize], |x, y| x * y),
         Op::Pow(a, b) => binary(out, &before[a as usize], &before[b as usize], pow),
         Op::Neg(a) => binary(out, &before[a as usize], &before[a as usize], |x, _| -x),
-        Op::Recip(a) => binary(out, &before[a as usize], &before[a as usize], |x, _| recip(x)),
-        Op::Sqrt(a) => binary(out, &before[a as usize], &before[a as usize], |x, _| x.sqrt()),
+        Op::Recip(a) => binary(out, &before[a as usize], &before[a as usize], |x, _| {
+            recip(x)
+        }),
+        Op::Sqrt(a) => binary(out, &before[a as usize], &before[a as usize], |x, _| {
+            x.sqrt()
+        }),
         Op::One(a) => unary(a, out, &one),
         Op::Call(f, a) => unary(a, out, &|x| call(f, x)),
     }
@@ -201,7 +216,11 @@ fn one(x: f64) -> f64 {
 }
 
 fn pow(x: f64, y: f64) -> f64 {
-    if x > 0.0 && !y.is_nan() { x.powf(y) } else { f64::NAN }
+    if x > 0.0 && !y.is_nan() {
+        x.powf(y)
+    } else {
+        f64::NAN
+    }
 }
 
 fn call(function: Function, x: f64) -> f64 {
@@ -357,7 +376,8 @@ impl Compiler<'_> {
                         a.symbols.is_empty() && (a.pi * Rational::from(Int::from(2))).is_integer()
                     });
                 if turns {
-                    let exact = Expr::call(*function, argument.clone()).evaluate(&Point::<f64>::default());
+                    let exact =
+                        Expr::call(*function, argument.clone()).evaluate(&Point::<f64>::default());
                     return self.constant(exact.unwrap_or(f64::NAN));
                 }
                 let argument = self.expression(argument);
@@ -369,7 +389,9 @@ impl Compiler<'_> {
     /// The powers of [`Expr::evaluate`]: half-integers by root and repeated squaring, the rest by `powf`.
     fn power(&mut self, base: &Expr, exponent: &Expr) -> u32 {
         let x = self.expression(base);
-        let twice = exponent.as_number().map(|k| k * Rational::from(Int::from(2)));
+        let twice = exponent
+            .as_number()
+            .map(|k| k * Rational::from(Int::from(2)));
         let Some(twice) = twice.filter(Rational::is_integer) else {
             let y = self.expression(exponent);
             return self.made(Op::Pow(x, y));
@@ -380,9 +402,17 @@ impl Compiler<'_> {
         if n.is_zero() {
             return self.made(Op::One(x));
         }
-        let (root, times) = if n % 2 == 0 { (x, n / 2) } else { (self.made(Op::Sqrt(x)), n) };
+        let (root, times) = if n % 2 == 0 {
+            (x, n / 2)
+        } else {
+            (self.made(Op::Sqrt(x)), n)
+        };
         let raised = self.integer_power(root, times.unsigned_abs());
-        if times < 0 { self.recip(raised) } else { raised }
+        if times < 0 {
+            self.recip(raised)
+        } else {
+            raised
+        }
     }
 
     fn integer_power(&mut self, base: u32, exponent: u64) -> u32 {
@@ -408,7 +438,10 @@ impl Compiler<'_> {
         needed[result as usize] = true;
         for (i, value) in self.values.iter().enumerate().rev() {
             if let (true, Value::Made(op)) = (needed[i], value) {
-                operands(*op).into_iter().flatten().for_each(|k| needed[k as usize] = true);
+                operands(*op)
+                    .into_iter()
+                    .flatten()
+                    .for_each(|k| needed[k as usize] = true);
             }
         }
         let mut constants = Vec::new();
@@ -431,7 +464,12 @@ impl Compiler<'_> {
                 _ => {}
             }
         }
-        Program { constants, inputs, operations, result: slot[result as usize] as usize }
+        Program {
+            constants,
+            inputs,
+            operations,
+            result: slot[result as usize] as usize,
+        }
     }
 }
 
@@ -501,17 +539,34 @@ pub fn throughput(
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build()?;
         let mut row = |route: Route, work: &mut (dyn FnMut(&mut [f64]) + Send)| {
             let seconds = quartiles(runs, || pool.install(|| work(&mut out)));
-            rows.push(Throughput { route, threads: count, points, seconds, per_second: points as f64 / seconds[1] });
+            rows.push(Throughput {
+                route,
+                threads: count,
+                points,
+                seconds,
+                per_second: points as f64 / seconds[1],
+            });
         };
-        row(Route::HandWritten, &mut |out| by_point(columns, out, 0, |_, x| by_hand(x)));
-        row(Route::Program, &mut |out| by_point(columns, out, program.slots(), |s, x| program.eval(x, s)));
-        row(Route::Blocks, &mut |out| program.eval_all_parallel(columns, out));
+        row(Route::HandWritten, &mut |out| {
+            by_point(columns, out, 0, |_, x| by_hand(x))
+        });
+        row(Route::Program, &mut |out| {
+            by_point(columns, out, program.slots(), |s, x| program.eval(x, s))
+        });
+        row(Route::Blocks, &mut |out| {
+            program.eval_all_parallel(columns, out)
+        });
     }
     Ok(rows)
 }
 
 /// Evaluates point by point on the current pool; `value` gets scratch space of the asked length.
-fn by_point(columns: &[&[f64]], out: &mut [f64], scratch: usize, value: impl Fn(&mut [f64], &[f64]) -> f64 + Sync) {
+fn by_point(
+    columns: &[&[f64]],
+    out: &mut [f64],
+    scratch: usize,
+    value: impl Fn(&mut [f64], &[f64]) -> f64 + Sync,
+) {
     out.par_chunks_mut(SHARE).enumerate().for_each_init(
         || (vec![0.0; scratch], vec![0.0; columns.len()]),
         |(scratch, point), (k, chunk)| {
@@ -560,9 +615,11 @@ mod tests {
             prop_oneof![
                 prop::collection::vec(inner.clone(), 2..4).prop_map(Expr::sum),
                 prop::collection::vec(inner.clone(), 2..4).prop_map(Expr::product),
-                (inner.clone(), -7_i64..7, 1_i64..4).prop_map(|(e, n, d)| e.power(Expr::ratio(n, d))),
+                (inner.clone(), -7_i64..7, 1_i64..4)
+                    .prop_map(|(e, n, d)| e.power(Expr::ratio(n, d))),
                 (inner.clone(), inner.clone()).prop_map(|(e, k)| e.power(k)),
-                (inner, prop::sample::select(Function::ALL.to_vec())).prop_map(|(e, f)| Expr::call(f, e)),
+                (inner, prop::sample::select(Function::ALL.to_vec()))
+                    .prop_map(|(e, f)| Expr::call(f, e)),
             ]
         })
     }
@@ -599,7 +656,11 @@ mod tests {
     #[test]
     fn a_sine_written_twice_is_computed_once() {
         let theta = Expr::symbol("theta");
-        let e = Expr::sum([theta.sin().powi(2) * Expr::from(3), theta.sin().powi(4), theta.sin()]);
+        let e = Expr::sum([
+            theta.sin().powi(2) * Expr::from(3),
+            theta.sin().powi(4),
+            theta.sin(),
+        ]);
         let program = compile(&e, &names()).expect("compiles");
         // sin, its square, 3·square, the fourth power, two sums.
         assert_eq!(program.operations(), 6);
@@ -609,7 +670,11 @@ mod tests {
     fn a_reciprocal_of_zero_does_not_come_back_as_a_number() {
         let e = (Expr::symbol("x").powi(-1) + Expr::one()).powi(-1);
         let program = compile(&e, &names()).expect("compiles");
-        assert!(program.eval(&[0.0; 3], &mut vec![0.0; program.slots()]).is_nan());
+        assert!(
+            program
+                .eval(&[0.0; 3], &mut vec![0.0; program.slots()])
+                .is_nan()
+        );
     }
 
     #[test]
@@ -624,8 +689,12 @@ mod tests {
         let program = compile(&e, &names()).expect("compiles");
         let column = vec![0.5; 1000];
         let columns = [&column[..], &column, &column];
-        let rows = throughput(&program, |x| x[0] * x[2].cos(), &columns, &[1, 2], 3).expect("threads start");
+        let rows = throughput(&program, |x| x[0] * x[2].cos(), &columns, &[1, 2], 3)
+            .expect("threads start");
         assert_eq!(rows.len(), 6);
-        assert!(rows.iter().all(|r| r.points == 1000 && r.seconds[0] <= r.seconds[2] && r.per_second > 0.0));
+        assert!(
+            rows.iter()
+                .all(|r| r.points == 1000 && r.seconds[0] <= r.seconds[2] && r.per_second > 0.0)
+        );
     }
 }

@@ -27,7 +27,17 @@ pub fn sweep(
     for &stiffness in stiffnesses {
         for variables in [Variables::Raw, Variables::Scaled] {
             for integrator in Integrator::ALL {
-                let done = run(Collision { angle, ground, stiffness, variables }, integrator, tolerance, max_steps);
+                let done = run(
+                    Collision {
+                        angle,
+                        ground,
+                        stiffness,
+                        variables,
+                    },
+                    integrator,
+                    tolerance,
+                    max_steps,
+                );
                 let go_on = row(&done);
                 rows.push(done);
                 if !go_on {
@@ -61,7 +71,12 @@ pub fn order(angle: f64, exponent: f64, stiffnesses: &[f64]) -> Option<Order> {
         .collect();
     let logs: Vec<(f64, f64)> = points.iter().map(|[k, e]| (k.ln(), e.ln())).collect();
     let expected = Ground::Smooth { exponent }.order();
-    Some(Order { exponent, expected, observed: -slope(&logs)?, points })
+    Some(Order {
+        exponent,
+        expected,
+        observed: -slope(&logs)?,
+        points,
+    })
 }
 
 /// Limit for K → ∞ by extrapolation.
@@ -109,15 +124,26 @@ pub fn limit(angle: f64, exponent: f64, coarsest: f64, count: usize) -> Option<L
         .map_or(*extrapolated.last()?, |pair| pair[1]);
     let error = |value: f64| ((value - rigid) / rigid).abs();
     let errors = extrapolated.iter().map(|v| error(*v)).collect();
-    Some(Limit { exponent, rigid, points, extrapolated, errors, chosen, chosen_error: error(chosen) })
+    Some(Limit {
+        exponent,
+        rigid,
+        points,
+        extrapolated,
+        errors,
+        chosen,
+        chosen_error: error(chosen),
+    })
 }
 
 /// Slope of the straight line of least squares; `None` for fewer than two different abscissas.
 pub fn slope(points: &[(f64, f64)]) -> Option<f64> {
     let n = points.len() as f64;
-    let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), p| (x + p.0 / n, y + p.1 / n));
-    let (above, below) =
-        points.iter().fold((0.0, 0.0), |(a, b), p| (a + (p.0 - x) * (p.1 - y), b + (p.0 - x) * (p.0 - x)));
+    let (x, y) = points
+        .iter()
+        .fold((0.0, 0.0), |(x, y), p| (x + p.0 / n, y + p.1 / n));
+    let (above, below) = points.iter().fold((0.0, 0.0), |(a, b), p| {
+        (a + (p.0 - x) * (p.1 - y), b + (p.0 - x) * (p.0 - x))
+    });
     (below > 0.0).then(|| above / below)
 }
 

@@ -18,8 +18,9 @@ use std::time::Instant;
 use differential_equations::error::Error;
 use differential_equations::ode::OrdinaryNumericalMethod;
 use differential_equations::prelude::{
-    BackwardDifferentiationFormula, CrossingDirection, DiagonallyImplicitRungeKutta, Event, EventConfig, ExplicitRungeKutta,
-    IVP, ImplicitRungeKutta, Interpolation, Matrix, ODE, Solution, Status,
+    BackwardDifferentiationFormula, CrossingDirection, DiagonallyImplicitRungeKutta, Event,
+    EventConfig, ExplicitRungeKutta, IVP, ImplicitRungeKutta, Interpolation, Matrix, ODE, Solution,
+    Status,
 };
 use serde::Serialize;
 
@@ -71,8 +72,13 @@ pub enum Integrator {
 
 impl Integrator {
     /// All of them.
-    pub const ALL: [Integrator; 5] =
-        [Integrator::Dop853, Integrator::Dopri5, Integrator::Radau5, Integrator::Kvaerno4, Integrator::Bdf];
+    pub const ALL: [Integrator; 5] = [
+        Integrator::Dop853,
+        Integrator::Dopri5,
+        Integrator::Radau5,
+        Integrator::Kvaerno4,
+        Integrator::Bdf,
+    ];
 
     /// Whether a step needs no system of equations solved.
     pub fn is_explicit(self) -> bool {
@@ -149,7 +155,16 @@ const GRIP_TIME: f64 = 0.5;
 pub fn run(collision: Collision, integrator: Integrator, tolerance: f64, max_steps: usize) -> Run {
     let start = Instant::now();
     let rod = Rod::new(collision);
-    let result = integrate(&rod, integrator, rod.horizon(), tolerance, max_steps, true);
+    let smooth = matches!(collision.ground, Ground::Smooth { .. });
+    let result = integrate(
+        &rod,
+        integrator,
+        (0.0, rod.start()),
+        rod.horizon(),
+        tolerance,
+        max_steps,
+        smooth,
+    );
     let seconds = start.elapsed().as_secs_f64();
     let mut out = Run {
         collision,
@@ -169,20 +184,64 @@ pub fn run(collision: Collision, integrator: Integrator, tolerance: f64, max_ste
         Err(error) => out.end = End::Failed(error.to_string_short()),
         Ok(solution) => {
             out.steps = [solution.steps.accepted, solution.steps.rejected];
-            out.evaluations = [solution.evals.function, solution.evals.jacobian, solution.evals.decompositions];
-            let smooth = matches!(collision.ground, Ground::Smooth { .. });
+            out.evaluations = [
+                solution.evals.function,
+                solution.evals.jacobian,
+                solution.evals.decompositions,
+            ];
             if smooth && solution.status != Status::Interrupted {
                 return out;
             }
-            let (Some(t), Some(y)) = (solution.t.last(), solution.y.last()) else { return out };
+            let (Some(t), Some(y)) = (solution.t.last(), solution.y.last()) else {
+                return out;
+            };
             out.end = End::Reached;
             out.report(&rod, *t, y);
+            if smooth {
+                out.repeat_last_step(&rod, &solution, max_steps);
+            }
+            out.seconds = start.elapsed().as_secs_f64();
         }
     }
     out
 }
 
 impl Run {
+    /// The state at the end of contact by integration instead of interpolation, which is of lower order: the last step, from
+    /// the point before contact ended, is repeated up to the located end, and the end corrected by Newton's rule.
+    fn repeat_last_step(&mut self, rod: &Rod, solution: &Solution<f64, State>, max_steps: usize) {
+        let (count, Some(found)) = (solution.t.len(), solution.t.last()) else {
+            return;
+        };
+        // The last two points are the end of the step that crossed, and the crossing.
+        let Some(before) = count.checked_sub(3) else {
+            return;
+        };
+        let (from, mut end) = ((solution.t[before], solution.y[before]), *found);
+        for _ in 0..2 {
+            let again = integrate(
+                rod,
+                self.integrator,
+                from,
+                end,
+                self.tolerance,
+                max_steps,
+                false,
+            );
+            let Ok(again) = again else { return };
+            let Some(y) = again.y.last() else { return };
+            self.evaluations[0] += again.evals.function;
+            self.evaluations[1] += again.evals.jacobian;
+            self.evaluations[2] += again.evals.decompositions;
+            self.report(rod, end, y);
+            // Depth over the speed at which the end of the rod leaves.
+            end += rod.event(end, y) / (y[4] - 0.5 * rod.angle(y).cos() * y[5]);
+            if !(end > from.0) {
+                return;
+            }
+        }
+    }
+
     fn report(&mut self, rod: &Rod, t: f64, y: &State) {
         let rigid = rod.collision.ground.rigid_spin(rod.collision.angle);
         self.duration = t * rod.unit;
@@ -197,7 +256,12 @@ impl Run {
 /// The compliant answer as accurately as doubles give it: DOP853 at tolerance 1e−14 in scaled variables, the end of contact
 /// located by integrating up to it, not by interpolation. Smooth ground only; `None` if the integrator fails.
 pub fn accurate(angle: f64, exponent: f64, stiffness: f64) -> Option<Run> {
-    let collision = Collision { angle, ground: Ground::Smooth { exponent }, stiffness, variables: Variables::Scaled };
+    let collision = Collision {
+        angle,
+        ground: Ground::Smooth { exponent },
+        stiffness,
+        variables: Variables::Scaled,
+    };
     let mut out = run(collision, Integrator::Dop853, TIGHT, MANY);
     if out.end != End::Reached {
         return None;
@@ -214,29 +278,44 @@ pub(super) const TIGHT: f64 = 1e-14;
 /// Steps allowed where the number of steps is not the question.
 pub(super) const MANY: usize = 1_000_000;
 
-/// The moment when `event` is 0, near `guess`: the system is integrated up to there, and the rest, too short for the error of
-/// a classical Runge–Kutta step to count, is bridged by secants on one such step.
+/// The moment when `event` is 0, near `guess`, and the state then. The system is integrated up to the guess, the rest bridged by
+/// secants on one classical Runge–Kutta step; from the better moment again, until the bridge is too short for its error to count.
 pub(super) fn end_of_contact<const N: usize, S>(system: &S, guess: f64) -> Option<(f64, [f64; N])>
 where
     S: ODE<f64, [f64; N]> + Event<f64, [f64; N]> + Start<N>,
 {
-    let solution = IVP::ode(system, 0.0, guess, system.start())
-        .method(ExplicitRungeKutta::dop853().rtol(TIGHT).atol(TIGHT).max_steps(MANY))
-        .solve()
-        .ok()?;
-    let y = *solution.y.last()?;
-    let value = |h: f64| system.event(guess + h, &classical_step(system, guess, &y, h));
-    let (mut h0, mut h1) = (0.0, 1e-6 * guess);
-    let (mut g0, mut g1) = (value(h0), value(h1));
-    for _ in 0..8 {
-        if g1 == g0 {
+    let mut end = (guess, system.start());
+    for _ in 0..4 {
+        let solution = IVP::ode(system, 0.0, end.0, system.start())
+            .method(
+                ExplicitRungeKutta::dop853()
+                    .rtol(TIGHT)
+                    .atol(TIGHT)
+                    .max_steps(MANY),
+            )
+            .solve()
+            .ok()?;
+        let (t, y) = (end.0, *solution.y.last()?);
+        let value = |h: f64| system.event(t + h, &classical_step(system, t, &y, h));
+        let (mut h0, mut h1) = (0.0, 1e-6 * t);
+        let (mut g0, mut g1) = (value(h0), value(h1));
+        for _ in 0..8 {
+            if g1 == g0 {
+                break;
+            }
+            let h2 = h1 - g1 * (h1 - h0) / (g1 - g0);
+            (h0, g0, h1) = (h1, g1, h2);
+            g1 = value(h1);
+        }
+        if !h1.is_finite() {
+            return None;
+        }
+        end = (t + h1, classical_step(system, t, &y, h1));
+        if h1.abs() <= 1e-9 * t {
             break;
         }
-        let h2 = h1 - g1 * (h1 - h0) / (g1 - g0);
-        (h0, g0, h1) = (h1, g1, h2);
-        g1 = value(h1);
     }
-    h1.is_finite().then(|| (guess + h1, classical_step(system, guess, &y, h1)))
+    Some(end)
 }
 
 /// Where a system starts from.
@@ -245,7 +324,12 @@ pub(super) trait Start<const N: usize> {
     fn start(&self) -> [f64; N];
 }
 
-fn classical_step<const N: usize, S: ODE<f64, [f64; N]>>(system: &S, t: f64, y: &[f64; N], h: f64) -> [f64; N] {
+fn classical_step<const N: usize, S: ODE<f64, [f64; N]>>(
+    system: &S,
+    t: f64,
+    y: &[f64; N],
+    h: f64,
+) -> [f64; N] {
     let slope = |t: f64, y: &[f64; N]| {
         let mut k = [0.0; N];
         system.diff(t, y, &mut k);
@@ -278,9 +362,18 @@ impl Rod {
     fn new(collision: Collision) -> Rod {
         let (unit, stiffness, dashpot) = match collision.variables {
             Variables::Raw => (1.0, collision.stiffness, collision.stiffness.sqrt()),
-            Variables::Scaled => (collision.stiffness.powf(-collision.ground.order()), 1.0, 1.0),
+            Variables::Scaled => (
+                collision.stiffness.powf(-collision.ground.order()),
+                1.0,
+                1.0,
+            ),
         };
-        Rod { collision, unit, stiffness, dashpot }
+        Rod {
+            collision,
+            unit,
+            stiffness,
+            dashpot,
+        }
     }
 
     /// When to stop at the latest.
@@ -336,10 +429,15 @@ impl Rod {
     fn push(&self, end: [f64; 2], speed: [f64; 2]) -> Push {
         match self.collision.ground {
             Ground::Smooth { exponent } => {
-                let depth = (-end[1]).max(0.0);
-                let force = self.stiffness * depth.powf(exponent);
-                let slope = if depth > 0.0 { self.stiffness * exponent * depth.powf(exponent - 1.0) } else { 0.0 };
-                Push { force: [0.0, force], by_place: [0.0, -slope], by_speed: 0.0 }
+                // Contact ends at depth 0; the force goes on as an odd function, so that a step over the end meets no corner.
+                let depth = -end[1];
+                let root = self.stiffness * depth.abs().powf(exponent - 1.0);
+                let (force, slope) = (root * depth, root * exponent);
+                Push {
+                    force: [0.0, force],
+                    by_place: [0.0, -slope],
+                    by_speed: 0.0,
+                }
             }
             Ground::Grip => Push {
                 force: std::array::from_fn(|i| -self.stiffness * end[i] - self.dashpot * speed[i]),
@@ -356,7 +454,14 @@ impl ODE<f64, State> for Rod {
         let speed = [y[3] + 0.5 * sin * y[5], y[4] - 0.5 * cos * y[5]];
         let f = self.push(self.end(y), speed).force;
         // I = 1/12; the arm from G to C is −(cos θ, sin θ)/2.
-        *rate = [y[3], y[4], y[5], f[0], f[1], 6.0 * (sin * f[0] - cos * f[1])];
+        *rate = [
+            y[3],
+            y[4],
+            y[5],
+            f[0],
+            f[1],
+            6.0 * (sin * f[0] - cos * f[1]),
+        ];
     }
 
     /// By hand: a difference quotient of step 1e−8 is wider than the whole contact when K is large.
@@ -403,39 +508,82 @@ impl Event<f64, State> for Rod {
 
 type Outcome<const N: usize> = Result<Solution<f64, [f64; N]>, Error<f64, [f64; N]>>;
 
-/// Runs a system to `until`; `stop` ends it at the event.
+/// Runs a system on from a time and state to `until`; `stop` ends it at the event.
 pub(super) fn integrate<const N: usize, S>(
     system: &S,
     integrator: Integrator,
+    from: (f64, [f64; N]),
     until: f64,
     tolerance: f64,
     max_steps: usize,
     stop: bool,
 ) -> Outcome<N>
 where
-    S: ODE<f64, [f64; N]> + Event<f64, [f64; N]> + Start<N>,
+    S: ODE<f64, [f64; N]> + Event<f64, [f64; N]>,
 {
     let (r, a, n) = (tolerance, tolerance, max_steps);
     match integrator {
-        Integrator::Dop853 => solve(system, ExplicitRungeKutta::dop853().rtol(r).atol(a).max_steps(n), until, stop),
-        Integrator::Dopri5 => solve(system, ExplicitRungeKutta::dopri5().rtol(r).atol(a).max_steps(n), until, stop),
-        Integrator::Radau5 => solve(system, ImplicitRungeKutta::radau5().rtol(r).atol(a).max_steps(n), until, stop),
-        Integrator::Kvaerno4 => {
-            solve(system, DiagonallyImplicitRungeKutta::kvaerno745().rtol(r).atol(a).max_steps(n), until, stop)
-        }
-        Integrator::Bdf => {
-            solve(system, BackwardDifferentiationFormula::adaptive().rtol(r).atol(a).max_steps(n), until, stop)
-        }
+        Integrator::Dop853 => solve(
+            system,
+            ExplicitRungeKutta::dop853().rtol(r).atol(a).max_steps(n),
+            from,
+            until,
+            stop,
+        ),
+        Integrator::Dopri5 => solve(
+            system,
+            ExplicitRungeKutta::dopri5().rtol(r).atol(a).max_steps(n),
+            from,
+            until,
+            stop,
+        ),
+        Integrator::Radau5 => solve(
+            system,
+            ImplicitRungeKutta::radau5().rtol(r).atol(a).max_steps(n),
+            from,
+            until,
+            stop,
+        ),
+        Integrator::Kvaerno4 => solve(
+            system,
+            DiagonallyImplicitRungeKutta::kvaerno745()
+                .rtol(r)
+                .atol(a)
+                .max_steps(n),
+            from,
+            until,
+            stop,
+        ),
+        Integrator::Bdf => solve(
+            system,
+            BackwardDifferentiationFormula::adaptive()
+                .rtol(r)
+                .atol(a)
+                .max_steps(n),
+            from,
+            until,
+            stop,
+        ),
     }
 }
 
-fn solve<const N: usize, S, M>(system: &S, method: M, until: f64, stop: bool) -> Outcome<N>
+fn solve<const N: usize, S, M>(
+    system: &S,
+    method: M,
+    from: (f64, [f64; N]),
+    until: f64,
+    stop: bool,
+) -> Outcome<N>
 where
-    S: ODE<f64, [f64; N]> + Event<f64, [f64; N]> + Start<N>,
+    S: ODE<f64, [f64; N]> + Event<f64, [f64; N]>,
     M: OrdinaryNumericalMethod<f64, [f64; N]> + Interpolation<f64, [f64; N]>,
 {
-    let problem = IVP::ode(system, 0.0, until, system.start()).method(method);
-    if stop { problem.event(system).solve() } else { problem.solve() }
+    let problem = IVP::ode(system, from.0, until, from.1).method(method);
+    if stop {
+        problem.event(system).solve()
+    } else {
+        problem.solve()
+    }
 }
 
 /// The kind of failure in a few words.
@@ -450,6 +598,52 @@ impl<const N: usize> Short for Error<f64, [f64; N]> {
             Error::Stiffness { t, .. } => format!("found stiff at t = {t:e}"),
             Error::LinearAlgebra { t, msg, .. } => format!("linear system at t = {t:e}: {msg}"),
             other => format!("{other:?}").chars().take(120).collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_jacobian_by_hand_is_the_derivative_of_the_equations() {
+        for ground in [
+            Ground::Smooth { exponent: 1.0 },
+            Ground::Smooth { exponent: 1.5 },
+            Ground::Grip,
+        ] {
+            for variables in [Variables::Raw, Variables::Scaled] {
+                let rod = Rod::new(Collision {
+                    angle: 0.7,
+                    ground,
+                    stiffness: 50.0,
+                    variables,
+                });
+                let mut y = rod.start();
+                for (i, value) in y.iter_mut().enumerate() {
+                    *value += [0.03, -0.2, 0.1, 0.4, 0.3, -0.8][i];
+                }
+                let mut by_hand = Matrix::zeros(6, 6);
+                rod.jacobian(0.0, &y, &mut by_hand);
+                for column in 0..6 {
+                    let side = |h: f64| {
+                        let (mut moved, mut rate) = (y, [0.0; 6]);
+                        moved[column] += h;
+                        rod.diff(0.0, &moved, &mut rate);
+                        rate
+                    };
+                    let (low, high) = (side(-1e-6), side(1e-6));
+                    for row in 0..6 {
+                        let quotient = (high[row] - low[row]) / 2e-6;
+                        let error = (by_hand[(row, column)] - quotient).abs();
+                        assert!(
+                            error < 1e-6 * (1.0 + quotient.abs()),
+                            "{ground:?} {variables:?} {row} {column}"
+                        );
+                    }
+                }
+            }
         }
     }
 }
