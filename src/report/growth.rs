@@ -12,7 +12,7 @@ use serde::Serialize;
 use super::batch::quartiles;
 use crate::dimension::Dimension;
 use crate::domain::{Domain, Limit};
-use crate::expr::{Expr, Rational, Symbol, Vector, ratio};
+use crate::expr::{Expr, Symbol, Vector, ratio};
 use crate::numeric::Number;
 use crate::numeric::dd::Dd;
 use crate::scene::{
@@ -447,8 +447,8 @@ mod tests {
     use std::collections::BTreeMap;
 
     use super::*;
-    use crate::expr::Point;
     use crate::expr::number::from_f64;
+    use crate::expr::{Point, Rational};
     use crate::numeric::{assemble, given, motion, solve_exact};
 
     fn exact_unit_vectors(n: usize) -> Vec<[Rational; 2]> {

@@ -539,7 +539,11 @@ where
         ),
         Integrator::Radau5 => solve(
             system,
-            ImplicitRungeKutta::radau5().rtol(r).atol(a).max_steps(n),
+            // One tolerance per component: given a single one, the crate loosens it once per component (0.7.0).
+            ImplicitRungeKutta::radau5()
+                .rtol(vec![r; N])
+                .atol(vec![a; N])
+                .max_steps(n),
             from,
             until,
             stop,
