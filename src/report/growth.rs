@@ -4,162 +4,19 @@
 //! matrix, and a sparse Cholesky factorization. It is held against a recursion from the free end that never forms a matrix,
 //! in double-double or in fractions (mechanics of the tail as one inverse mass at its hinge, after Featherstone 1983).
 
+mod measure;
+mod scene;
+
 use nalgebra::DMatrix;
 use nalgebra_sparse::factorization::CscCholesky;
 use nalgebra_sparse::{CooMatrix, CscMatrix};
 use serde::Serialize;
 
-use super::batch::quartiles;
-use crate::dimension::Dimension;
-use crate::domain::{Domain, Limit};
-use crate::expr::{Expr, Symbol, Vector, ratio};
+use crate::expr::ratio;
 use crate::numeric::Number;
-use crate::numeric::dd::Dd;
-use crate::scene::{
-    Ask, Blow, BlowImpulse, Body, Hinge, NamedPoint, Parameter, Question, Scene, Shape,
-};
 
-/// Angles of the rods of a chain scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub enum Pose {
-    /// In line along x, struck across.
-    Straight,
-    /// Each rod at its own angle `theta1` … `thetan`, struck along y.
-    AnyAngles,
-}
-
-/// The scene of n free rods (mass m, length l), each hinged to the next, at rest; an impulse J along y at the free end of the
-/// first. Asked: the spin of the struck rod and, for n > 1, of the last.
-pub fn chain_scene(n: usize, pose: Pose) -> Scene {
-    let [m, l, j] = ["m", "l", "J"].map(Expr::symbol);
-    let mut scene = Scene {
-        title: format!("A chain of {n} rods, struck at its end"),
-        source: "carom".into(),
-        statement: format!(
-            "{n} equal uniform rods, each hinged to the next, lie at rest on a smooth table. The free end of the first \
-             receives an impulse J along y. Find the spins just after."
-        ),
-        ..Scene::default()
-    };
-    let mechanical = [
-        ("m", "kg", Dimension::new(1, 0, 0), "mass of each rod"),
-        ("l", "m", Dimension::new(0, 1, 0), "length of each rod"),
-        (
-            "J",
-            "N s",
-            Dimension::new(1, 1, -1),
-            "impulse on the free end",
-        ),
-    ];
-    let positive = Domain {
-        low: Some(Limit::number(ratio(0, 1), true)),
-        high: None,
-    };
-    for (name, unit, dimension, meaning) in mechanical {
-        scene.domains.symbols.insert(name.into(), positive.clone());
-        scene.parameters.push(parameter(
-            name.into(),
-            unit,
-            dimension,
-            Expr::one(),
-            meaning.into(),
-        ));
-    }
-    let mut place: Vector = [Expr::zero(), Expr::zero()];
-    scene.points.push(NamedPoint {
-        name: "P0".into(),
-        at: place.clone(),
-    });
-    for i in 1..=n {
-        let angle = match pose {
-            Pose::Straight => Expr::zero(),
-            Pose::AnyAngles => {
-                let name: Symbol = format!("theta{i}").into();
-                let turn = Domain {
-                    low: Some(Limit::pi(ratio(-1, 1), true)),
-                    high: Some(Limit::pi(ratio(1, 1), false)),
-                };
-                scene.domains.symbols.insert(name.clone(), turn);
-                let value = Expr::pi() * Expr::ratio(if i % 2 == 0 { -1 } else { 1 }, i as i64 + 5);
-                let meaning = format!("angle of rod {i} from x");
-                scene.parameters.push(parameter(
-                    name.clone(),
-                    "rad",
-                    Dimension::none(),
-                    value,
-                    meaning,
-                ));
-                Expr::symbol(&name)
-            }
-        };
-        let half: Vector = [
-            &l * &angle.cos() * Expr::ratio(1, 2),
-            &l * &angle.sin() * Expr::ratio(1, 2),
-        ];
-        let center: Vector = [&place[0] + &half[0], &place[1] + &half[1]];
-        let next: Vector = [&center[0] + &half[0], &center[1] + &half[1]];
-        scene.bodies.push(Body {
-            name: format!("rod{i}"),
-            shape: Shape::Rod { length: l.clone() },
-            mass: m.clone(),
-            inertia: &m * &l.powi(2) * Expr::ratio(1, 12),
-            center,
-            angle,
-            velocity: [Expr::zero(), Expr::zero()],
-            spin: Expr::zero(),
-        });
-        if i > 1 {
-            scene.hinges.push(Hinge {
-                name: format!("P{}", i - 1),
-                bodies: [i - 2, i - 1],
-                at: place,
-            });
-        }
-        scene.points.push(NamedPoint {
-            name: format!("P{i}"),
-            at: next.clone(),
-        });
-        place = next;
-    }
-    if n > 0 {
-        let at = scene.points[0].at.clone();
-        scene.blows.push(Blow {
-            name: "J".into(),
-            body: 0,
-            at,
-            impulse: BlowImpulse::Given([Expr::zero(), j]),
-        });
-        for i in if n == 1 { vec![1] } else { vec![1, n] } {
-            let ask = Ask::Spin {
-                body: i - 1,
-                clockwise: false,
-            };
-            scene.questions.push(Question {
-                name: format!("omega{i}"),
-                latex: Some(format!("\\omega_{{{i}}}")),
-                ask,
-            });
-        }
-    }
-    scene
-}
-
-fn parameter(
-    name: Symbol,
-    unit: &str,
-    dimension: Dimension,
-    value: Expr,
-    meaning: String,
-) -> Parameter {
-    Parameter {
-        name,
-        latex: None,
-        unit: unit.into(),
-        dimension,
-        value: Some(value),
-        meaning,
-    }
-}
+pub use measure::{ChainRoute, Growth, measure};
+pub use scene::{Pose, chain_scene};
 
 /// A chain in numbers: rods of mass and length 1.
 #[derive(Clone, Debug)]
@@ -357,82 +214,6 @@ fn weighted(rows: &CscMatrix<f64>, inverse_mass: &[f64; 3]) -> CscMatrix<f64> {
     out
 }
 
-/// Ways to solve a chain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub enum ChainRoute {
-    /// Joint complement, sparse Cholesky, doubles.
-    Sparse,
-    /// Recursion from the free end, doubles.
-    Recursion,
-}
-
-/// Cost and error of one chain by one route.
-#[derive(Clone, Debug, Serialize)]
-pub struct Growth {
-    /// Number of rods.
-    pub rods: usize,
-    /// Number of unknowns of the full system: three velocities per rod, two reactions per hinge.
-    pub unknowns: usize,
-    /// How it was solved.
-    pub route: ChainRoute,
-    /// Lower quartile, median and upper quartile of the time [s], assembly included.
-    pub seconds: [f64; 3],
-    /// Largest error of a spin over the largest spin.
-    pub error: f64,
-    /// Largest relative error of a single spin, of those above 1e−290.
-    pub relative_error: f64,
-    /// Relative error along the chain: (number of the rod, error), about thirty rods per row.
-    pub along: Vec<(usize, f64)>,
-}
-
-/// Measures a chain by both routes against the recursion in double-double, over `runs` timed runs.
-pub fn measure(chain: &Chain<f64>, runs: usize) -> Vec<Growth> {
-    let Some(reference) = recursion(&chain.to(Dd::exact)) else {
-        return Vec::new();
-    };
-    [ChainRoute::Sparse, ChainRoute::Recursion]
-        .into_iter()
-        .filter_map(|route| {
-            let solve = || match route {
-                ChainRoute::Sparse => sparse(chain).ok(),
-                ChainRoute::Recursion => recursion(chain),
-            };
-            let swing = solve()?;
-            let seconds = quartiles(runs, || {
-                std::hint::black_box(solve());
-            });
-            Some(row(route, &swing, &reference, seconds))
-        })
-        .collect()
-}
-
-fn row(route: ChainRoute, swing: &Swing<f64>, reference: &Swing<Dd>, seconds: [f64; 3]) -> Growth {
-    let rods = swing.spin.len();
-    let absolute = |(value, exact): (&f64, &Dd)| Dd::exact(*value).minus(exact).high.abs();
-    let pairs = || swing.spin.iter().zip(&reference.spin);
-    let largest = reference
-        .spin
-        .iter()
-        .map(|x| x.high.abs())
-        .fold(0.0, f64::max);
-    // Below, the tail of a straight chain struck across underflows: 0.27ⁿ.
-    let relative: Vec<(usize, f64)> = pairs()
-        .enumerate()
-        .filter(|(_, (_, exact))| exact.high.abs() > 1e-290)
-        .map(|(i, pair)| (i + 1, absolute(pair) / pair.1.high.abs()))
-        .collect();
-    let every = relative.len().div_ceil(30).max(1);
-    Growth {
-        rods,
-        unknowns: (5 * rods).saturating_sub(2),
-        route,
-        seconds,
-        error: pairs().map(absolute).fold(0.0, f64::max) / largest,
-        relative_error: relative.iter().map(|(_, e)| *e).fold(0.0, f64::max),
-        along: relative.into_iter().step_by(every).collect(),
-    }
-}
-
 /// Directions with exact decimals or short fractions, so that a pattern has no symmetry; rounded to doubles where needed.
 pub const CROOKED: [[f64; 2]; 5] = [
     [1.0, 0.0],
@@ -449,6 +230,7 @@ mod tests {
     use super::*;
     use crate::expr::number::from_f64;
     use crate::expr::{Point, Rational};
+    use crate::numeric::dd::Dd;
     use crate::numeric::{assemble, given, motion, solve_exact};
 
     fn exact_unit_vectors(n: usize) -> Vec<[Rational; 2]> {
@@ -472,11 +254,13 @@ mod tests {
         for n in 1..=6 {
             let scene = chain_scene(n, Pose::AnyAngles);
             let directions = exact_unit_vectors(n);
-            let mut at = Point::<Rational>::default();
-            at.values = ["m", "l", "J"]
-                .map(|name| (name.into(), ratio(1, 1)))
-                .into_iter()
-                .collect();
+            let mut at = Point::<Rational> {
+                values: ["m", "l", "J"]
+                    .map(|name| (name.into(), ratio(1, 1)))
+                    .into_iter()
+                    .collect(),
+                ..Point::default()
+            };
             for (i, d) in directions.iter().enumerate() {
                 at.directions
                     .insert(format!("theta{}", i + 1).into(), (1, d.clone()));

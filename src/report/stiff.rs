@@ -1,15 +1,18 @@
 //! The stiff limit: compliant contact against the rigid closed form, as the stiffness K grows.
 //!
-//! `contact` integrates one collision, `restitution` does contacts with losses, `index3` the step matrix of a hinge kept as a
+//! `contact` integrates one collision (`rod` its equations, `drive` the integrators), `restitution` does contacts with losses, `index3` the step matrix of a hinge kept as a
 //! constraint. Here: sweeps over K, the observed order in K, and Richardson's limit. Nothing is read from a scene.
 
 pub mod contact;
+pub mod drive;
 pub mod index3;
 pub mod restitution;
+mod rod;
 
 use serde::Serialize;
 
-pub use contact::{Collision, End, Ground, Integrator, Run, Variables, accurate, run};
+pub use contact::{Collision, End, Ground, Run, Variables, accurate, run};
+pub use drive::Integrator;
 pub use index3::{StepCondition, conditions};
 pub use restitution::{Contact, Restitution, restitutions, usual_contacts};
 

@@ -7,7 +7,7 @@
 use differential_equations::prelude::{CrossingDirection, Event, EventConfig, ODE, Status};
 use serde::Serialize;
 
-use super::contact::{Integrator, MANY, Start, TIGHT, end_of_contact, integrate};
+use super::drive::{Integrator, MANY, Start, TIGHT, end_of_contact, integrate};
 
 /// A contact with losses.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
