@@ -72,6 +72,18 @@ const LAYERS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "report",
+        &[
+            "expr",
+            "interval",
+            "domain",
+            "dimension",
+            "scene",
+            "numeric",
+            "derive",
+        ],
+    ),
+    (
         "render",
         &[
             "expr",
@@ -84,6 +96,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "derive",
             "verify",
             "grade",
+            "report",
         ],
     ),
 ];
