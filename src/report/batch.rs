@@ -1,6 +1,6 @@
 //! A closed form compiled for many points: expression in, straight-line program out, values by the million.
 //!
-//! The program does the same roundings in the same order as [`Expr::evaluate`] over doubles, so the two agree bit for bit;
+//! The program does the same roundings in the same order as `Expr::evaluate` over doubles, so the two agree bit for bit;
 //! where `evaluate` has no value the program gives NaN. It knows nothing of what the formula means.
 
 mod compile;

@@ -188,7 +188,7 @@ impl Compiler<'_> {
         }
     }
 
-    /// The powers of [`Expr::evaluate`]: half-integers by root and repeated squaring, the rest by `powf`.
+    /// The powers of `Expr::evaluate`: half-integers by root and repeated squaring, the rest by `powf`.
     fn power(&mut self, base: &Expr, exponent: &Expr) -> u32 {
         let x = self.expression(base);
         let twice = exponent

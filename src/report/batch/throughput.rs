@@ -16,7 +16,7 @@ pub struct Throughput {
     pub threads: usize,
     /// Points per run.
     pub points: usize,
-    /// Lower quartile, median and upper quartile of the time of one run [s].
+    /// Lower quartile, median and upper quartile of the time of one run \[s\].
     pub seconds: [f64; 3],
     /// Points per second at the median.
     pub per_second: f64,
@@ -90,7 +90,7 @@ fn by_point(
     );
 }
 
-/// Quartiles of the time of `work` [s] over `runs` runs, after one that does not count.
+/// Quartiles of the time of `work` \[s\] over `runs` runs, after one that does not count.
 pub(crate) fn quartiles(runs: usize, mut work: impl FnMut()) -> [f64; 3] {
     work();
     let mut times: Vec<f64> = (0..runs.max(1))

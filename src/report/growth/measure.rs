@@ -25,7 +25,7 @@ pub struct Growth {
     pub unknowns: usize,
     /// How it was solved.
     pub route: ChainRoute,
-    /// Lower quartile, median and upper quartile of the time [s], assembly included.
+    /// Lower quartile, median and upper quartile of the time \[s\], assembly included.
     pub seconds: [f64; 3],
     /// Largest error of a velocity or spin over the largest of them (rods have length 1).
     pub error: f64,

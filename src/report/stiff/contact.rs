@@ -56,7 +56,7 @@ impl Ground {
 /// The variables integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Variables {
-    /// Positions [ℓ] and time [ℓ/v] as they are.
+    /// Positions \[ℓ\] and time [ℓ/v] as they are.
     Raw,
     /// Displacements and time in units of ε = K^(−1/(p+1)), in which the contact has size and duration of order 1.
     Scaled,
@@ -65,7 +65,7 @@ pub enum Variables {
 /// One collision to integrate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Collision {
-    /// Angle of the rod to the ground, θ₀ [rad], 0 < θ₀ < π/2.
+    /// Angle of the rod to the ground, θ₀ \[rad\], 0 < θ₀ < π/2.
     pub angle: f64,
     /// The ground.
     pub ground: Ground,
@@ -111,7 +111,7 @@ pub struct Run {
     pub steps: [usize; 2],
     /// Evaluations of the forces, of their Jacobian, and matrix factorizations.
     pub evaluations: [usize; 3],
-    /// Time of the run [s].
+    /// Time of the run \[s\].
     pub seconds: f64,
 }
 

@@ -19,7 +19,7 @@ pub struct StepCondition {
     pub scaled: f64,
 }
 
-/// Condition numbers at each step length, for the rod at `angle` from the horizontal [rad], turning at `spin`, with the
+/// Condition numbers at each step length, for the rod at `angle` from the horizontal \[rad\], turning at `spin`, with the
 /// weight g = 1 along −y giving the reaction; `None` if the scaled matrix is singular, as it is for no finite step.
 pub fn conditions(angle: f64, spin: f64, steps: &[f64]) -> Option<Vec<StepCondition>> {
     steps.iter().map(|&step| both(angle, spin, step)).collect()

@@ -58,7 +58,7 @@ impl Rod {
         }
     }
 
-    /// Angle of the rod [rad].
+    /// Angle of the rod \[rad\].
     pub fn angle(&self, y: &State) -> f64 {
         match self.collision.variables {
             Variables::Raw => y[2],
