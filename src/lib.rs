@@ -31,4 +31,8 @@ pub mod grade;
 #[cfg(feature = "report")]
 pub mod report;
 
+pub mod figure;
+
+pub mod plot;
+
 pub mod render;

@@ -84,6 +84,11 @@ const LAYERS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "figure",
+        &["expr", "domain", "dimension", "formula", "scene", "numeric"],
+    ),
+    ("plot", &["figure"]),
+    (
         "render",
         &[
             "expr",
@@ -97,6 +102,8 @@ const LAYERS: &[(&str, &[&str])] = &[
             "verify",
             "grade",
             "report",
+            "figure",
+            "plot",
         ],
     ),
 ];

@@ -1,0 +1,654 @@
+//! Labels as short runs of text: symbols from their LaTeX names, and formulas on one line.
+//!
+//! In: names, LaTeX spellings, expressions. Out: runs that say what is italic, lowered or raised, with an estimate of
+//! their size. Knows nothing of where a label goes. Whatever LaTeX it does not know it shows as text.
+
+use std::iter::Peekable;
+use std::str::Chars;
+
+use num_traits::Signed;
+
+use crate::expr::{Expr, Node, Rational, ratio};
+use crate::formula::latex_name;
+use crate::scene::Scene;
+
+/// Where a run stands against the line of text.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Level {
+    /// On the line.
+    Base,
+    /// Lowered and small.
+    Sub,
+    /// Raised and small.
+    Sup,
+}
+
+/// A piece of text in one style.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Run {
+    /// The text; escaped only when written.
+    pub text: String,
+    /// Whether it is a quantity, set in italics.
+    pub italic: bool,
+    /// Lowered or raised.
+    pub level: Level,
+    /// Whether an arrow stands over it.
+    pub arrow: bool,
+}
+
+/// A line of text in a figure.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Label {
+    /// Its pieces from left to right; a raised piece after a lowered one stands above it.
+    pub runs: Vec<Run>,
+}
+
+/// Longest label in characters; what is longer ends in an ellipsis.
+const LONGEST: usize = 40;
+/// Size of lowered and raised text against the line's.
+pub const SMALL: f64 = 0.7;
+/// Deepest nesting of braces that is followed.
+const DEEPEST: usize = 8;
+
+impl Label {
+    /// Words, upright.
+    pub fn words(text: &str) -> Label {
+        let mut label = Label::default();
+        label.push(&visible(text), false, Level::Base);
+        label.cut()
+    }
+
+    /// The symbol of a parameter or answer, from its LaTeX spelling or its name.
+    pub fn symbol(name: &str, latex: Option<&str>) -> Label {
+        match latex {
+            Some(latex) => Label::latex(latex),
+            None => Label::latex(&latex_name(name)),
+        }
+    }
+
+    /// The LaTeX spelling of a name.
+    pub fn latex(text: &str) -> Label {
+        let mut reader = Reader {
+            rest: text.chars().peekable(),
+            label: Label::default(),
+        };
+        let style = Style {
+            italic: true,
+            level: Level::Base,
+            arrow: false,
+        };
+        while reader.rest.peek().is_some() {
+            reader.group(style, 0);
+            reader.rest.next();
+        }
+        reader.label.cut()
+    }
+
+    /// A vector symbol: an arrow over `base`, with an index.
+    pub fn vector(base: &str, index: &str, mark: &str) -> Label {
+        let mut text = format!("\\vec{{{base}}}");
+        if !index.is_empty() {
+            text.push_str("_{");
+            text.push_str(latex_name(index).trim_start_matches("\\mathrm"));
+            text.push('}');
+        }
+        if !mark.is_empty() {
+            text.push_str(&format!("^{{{mark}}}"));
+        }
+        Label::latex(&text)
+    }
+
+    /// A formula on one line.
+    pub fn formula(e: &Expr, scene: &Scene) -> Label {
+        let mut label = Label::default();
+        write(e, scene, &mut label, 0);
+        label.cut()
+    }
+
+    /// Adds text in a style of its own.
+    pub fn push(&mut self, text: &str, italic: bool, level: Level) {
+        if !text.is_empty() {
+            self.runs.push(Run {
+                text: text.to_string(),
+                italic,
+                level,
+                arrow: false,
+            });
+        }
+    }
+
+    /// This label after a minus sign.
+    pub fn negated(mut self) -> Label {
+        self.runs.insert(
+            0,
+            Run {
+                text: "−".to_string(),
+                italic: false,
+                level: Level::Base,
+                arrow: false,
+            },
+        );
+        self
+    }
+
+    /// This label with another one behind it.
+    pub fn then(mut self, more: Label) -> Label {
+        self.runs.extend(more.runs);
+        self
+    }
+
+    /// The characters alone, for captions and text alternatives.
+    pub fn text(&self) -> String {
+        let mut out = String::new();
+        let mut digits = false;
+        for (i, run) in self.runs.iter().enumerate() {
+            match run.level {
+                Level::Base => out.push_str(&run.text),
+                Level::Sub => {
+                    if i == 0 || self.runs[i - 1].level != Level::Sub {
+                        let index = self.runs[i..].iter().take_while(|r| r.level == Level::Sub);
+                        digits = index
+                            .flat_map(|r| r.text.chars())
+                            .all(|c| c.is_ascii_digit());
+                        out.push_str(if digits { "" } else { "_" });
+                    }
+                    out.extend(
+                        run.text
+                            .chars()
+                            .map(|c| if digits { lowered(c) } else { c }),
+                    );
+                }
+                Level::Sup => out.extend(run.text.chars().map(raised)),
+            }
+        }
+        out
+    }
+
+    /// Width at a font size.
+    pub fn width(&self, size: f64) -> f64 {
+        let ends = self.ends(size);
+        ends.iter().fold(0.0, |most: f64, (_, end)| most.max(*end))
+    }
+
+    /// Start and end of each run at a font size, from the label's left edge.
+    pub fn ends(&self, size: f64) -> Vec<(f64, f64)> {
+        let (mut at, mut stack) = (0.0, 0.0);
+        let mut ends: Vec<(f64, f64)> = Vec::new();
+        for (i, run) in self.runs.iter().enumerate() {
+            let small = if run.level == Level::Base { 1.0 } else { SMALL };
+            let width: f64 = run.text.chars().map(advance).sum::<f64>() * size * small;
+            let above = i > 0 && run.level == Level::Sup && self.runs[i - 1].level == Level::Sub;
+            // A raised mark stands over the whole index, clear of an arrow over the letter before it.
+            let base = self.runs[..i].iter().rposition(|r| r.level != Level::Sub);
+            let arrow = base.is_some_and(|b| self.runs[b].arrow);
+            let start = match base {
+                _ if !above => at,
+                None => 0.0,
+                Some(b) => ends[b].1,
+            };
+            let start = if arrow && run.level == Level::Sup {
+                start + 0.16 * size
+            } else {
+                start
+            };
+            stack = if above {
+                f64::max(stack, start + width)
+            } else {
+                start + width
+            };
+            ends.push((start, start + width));
+            at = stack;
+        }
+        ends
+    }
+
+    /// Whether something is raised, and whether something is lowered.
+    pub fn reach(&self) -> (bool, bool) {
+        let has = |level| self.runs.iter().any(|r| r.level == level);
+        (
+            has(Level::Sup) || self.runs.iter().any(|r| r.arrow),
+            has(Level::Sub),
+        )
+    }
+
+    fn cut(mut self) -> Label {
+        let mut left = LONGEST;
+        for i in 0..self.runs.len() {
+            let count = self.runs[i].text.chars().count();
+            if count > left {
+                let short: String = self.runs[i].text.chars().take(left).collect();
+                self.runs[i].text = short + "…";
+                self.runs.truncate(i + 1);
+                break;
+            }
+            left -= count;
+        }
+        self
+    }
+}
+
+/// Control characters, and those that would turn the direction of text, are shown as a box.
+pub fn visible(text: &str) -> String {
+    let hidden = |c: char| {
+        c.is_control()
+            || matches!(c, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}')
+    };
+    text.chars()
+        .map(|c| {
+            if c == '\n' || c == '\t' {
+                ' '
+            } else if hidden(c) {
+                '□'
+            } else {
+                c
+            }
+        })
+        .collect()
+}
+
+/// Width of a character in the usual serif fonts, in units of the font size, rounded up.
+pub fn advance(c: char) -> f64 {
+    match c {
+        'i' | 'j' | 'l' | 't' | 'ι' | 'ℓ' => 0.33,
+        'f' | 'I' | 'J' | 'r' | 's' | '(' | ')' | '[' | ']' | '/' | '-' => 0.4,
+        ' ' | '.' | ',' | ':' | ';' | '\'' | '′' | '|' | '·' => 0.27,
+        '\u{2009}' => 0.17,
+        'm' | 'w' | 'ω' | '+' | '−' | '=' | '<' | '>' | '√' | '≈' => 0.72,
+        'M' | 'W' | '…' | '@' | '%' | '∫' => 0.95,
+        'A'..='Z' | 'Γ'..='Ω' | '□' => 0.7,
+        c if c.is_ascii() => 0.52,
+        'α'..='ω' => 0.58,
+        '²' | '³' | '¹' | '⁺' | '⁻' | '°' => 0.4,
+        c if u32::from(c) < 0x0500 => 0.6,
+        _ => 1.0,
+    }
+}
+
+fn lowered(c: char) -> char {
+    match c {
+        '0'..='9' => char::from_u32(u32::from('₀') + u32::from(c) - u32::from('0')).unwrap_or(c),
+        _ => c,
+    }
+}
+
+fn raised(c: char) -> char {
+    match c {
+        '+' => '⁺',
+        '−' | '-' => '⁻',
+        _ => c,
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Style {
+    italic: bool,
+    level: Level,
+    arrow: bool,
+}
+
+struct Reader<'a> {
+    rest: Peekable<Chars<'a>>,
+    label: Label,
+}
+
+impl Reader<'_> {
+    /// Reads up to a closing brace, which stays.
+    fn group(&mut self, style: Style, depth: usize) {
+        while let Some(&c) = self.rest.peek() {
+            if c == '}' {
+                return;
+            }
+            self.one(style, depth);
+        }
+    }
+
+    /// Reads one character, command or braced group.
+    fn one(&mut self, style: Style, depth: usize) {
+        let Some(c) = self.rest.next() else { return };
+        match c {
+            '{' if depth < DEEPEST => {
+                self.group(style, depth + 1);
+                self.rest.next();
+            }
+            '_' | '^' if depth < DEEPEST => {
+                let level = if c == '_' { Level::Sub } else { Level::Sup };
+                self.one(
+                    Style {
+                        level,
+                        arrow: false,
+                        ..style
+                    },
+                    depth + 1,
+                );
+            }
+            '\\' => self.command(style, depth),
+            ' ' if style.italic => {}
+            '\'' => self.add(
+                "′",
+                Style {
+                    italic: false,
+                    ..style
+                },
+            ),
+            '-' if style.italic => self.add(
+                "−",
+                Style {
+                    italic: false,
+                    ..style
+                },
+            ),
+            c => self.add(
+                &visible(&c.to_string()),
+                Style {
+                    italic: style.italic && c.is_alphabetic(),
+                    ..style
+                },
+            ),
+        }
+    }
+
+    fn command(&mut self, style: Style, depth: usize) {
+        let mut name = String::new();
+        while let Some(&c) = self.rest.peek() {
+            if !c.is_ascii_alphabetic() {
+                break;
+            }
+            name.push(c);
+            self.rest.next();
+        }
+        if depth >= DEEPEST {
+            return;
+        }
+        match name.as_str() {
+            "" => match self.rest.next() {
+                Some(',' | ';' | ':' | ' ' | '!') | None => self.add(
+                    "\u{2009}",
+                    Style {
+                        italic: false,
+                        ..style
+                    },
+                ),
+                Some(c) => self.add(
+                    &visible(&c.to_string()),
+                    Style {
+                        italic: false,
+                        ..style
+                    },
+                ),
+            },
+            "vec" => self.one(
+                Style {
+                    arrow: true,
+                    ..style
+                },
+                depth + 1,
+            ),
+            "mathrm" | "text" | "operatorname" | "mathbf" | "rm" => {
+                self.one(
+                    Style {
+                        italic: false,
+                        ..style
+                    },
+                    depth + 1,
+                );
+            }
+            "dot" | "ddot" | "hat" | "bar" | "tilde" => {
+                let before = self.label.runs.len();
+                self.one(style, depth + 1);
+                let mark = match name.as_str() {
+                    "dot" => '\u{307}',
+                    "ddot" => '\u{308}',
+                    "hat" => '\u{302}',
+                    "bar" => '\u{304}',
+                    _ => '\u{303}',
+                };
+                if self.label.runs.len() > before
+                    && let Some(run) = self.label.runs.last_mut()
+                {
+                    run.text.push(mark);
+                }
+            }
+            _ => match letter(&name) {
+                Some(c) => self.add(
+                    c,
+                    Style {
+                        italic: style.italic && c != "∫",
+                        ..style
+                    },
+                ),
+                None => self.add(
+                    &name,
+                    Style {
+                        italic: false,
+                        ..style
+                    },
+                ),
+            },
+        }
+    }
+
+    fn add(&mut self, text: &str, style: Style) {
+        match self.label.runs.last_mut() {
+            Some(last)
+                if last.italic == style.italic
+                    && last.level == style.level
+                    && !last.arrow
+                    && !style.arrow =>
+            {
+                last.text.push_str(text);
+            }
+            _ => self.label.runs.push(Run {
+                text: text.to_string(),
+                italic: style.italic,
+                level: style.level,
+                arrow: style.arrow,
+            }),
+        }
+    }
+}
+
+fn letter(name: &str) -> Option<&'static str> {
+    const LETTERS: [(&str, &str); 38] = [
+        ("alpha", "α"),
+        ("beta", "β"),
+        ("gamma", "γ"),
+        ("delta", "δ"),
+        ("epsilon", "ϵ"),
+        ("varepsilon", "ε"),
+        ("zeta", "ζ"),
+        ("eta", "η"),
+        ("theta", "θ"),
+        ("vartheta", "ϑ"),
+        ("iota", "ι"),
+        ("kappa", "κ"),
+        ("lambda", "λ"),
+        ("mu", "μ"),
+        ("nu", "ν"),
+        ("xi", "ξ"),
+        ("pi", "π"),
+        ("rho", "ρ"),
+        ("sigma", "σ"),
+        ("tau", "τ"),
+        ("upsilon", "υ"),
+        ("phi", "ϕ"),
+        ("varphi", "φ"),
+        ("chi", "χ"),
+        ("psi", "ψ"),
+        ("omega", "ω"),
+        ("Gamma", "Γ"),
+        ("Delta", "Δ"),
+        ("Theta", "Θ"),
+        ("Lambda", "Λ"),
+        ("Xi", "Ξ"),
+        ("Pi", "Π"),
+        ("Sigma", "Σ"),
+        ("Phi", "Φ"),
+        ("Psi", "Ψ"),
+        ("Omega", "Ω"),
+        ("ell", "ℓ"),
+        ("int", "∫"),
+    ];
+    LETTERS
+        .iter()
+        .find(|(known, _)| *known == name)
+        .map(|(_, c)| *c)
+}
+
+/// Deepest formula that is written out.
+const DEEPEST_FORMULA: usize = 24;
+
+fn write(e: &Expr, scene: &Scene, out: &mut Label, depth: usize) {
+    if depth > DEEPEST_FORMULA || out.runs.len() > LONGEST {
+        return out.push("…", false, Level::Base);
+    }
+    match e.node() {
+        Node::Number(value) => out.push(&value.to_string().replace('-', "−"), false, Level::Base),
+        Node::Symbol(name) => {
+            let latex = scene
+                .parameters
+                .iter()
+                .find(|p| p.name == *name)
+                .and_then(|p| p.latex.as_deref());
+            out.runs.extend(Label::symbol(name, latex).runs);
+        }
+        Node::Sum(terms) => {
+            for (i, term) in terms.iter().enumerate() {
+                let negative = is_negative(term);
+                let sign = match (i, negative) {
+                    (0, false) => "",
+                    (0, true) => "−",
+                    (_, false) => " + ",
+                    (_, true) => " − ",
+                };
+                out.push(sign, false, Level::Base);
+                write(
+                    &if negative { -term } else { term.clone() },
+                    scene,
+                    out,
+                    depth + 1,
+                );
+            }
+        }
+        Node::Product(factors) => product(factors, scene, out, depth),
+        Node::Power(base, exponent) => match exponent.as_number() {
+            Some(k) if *k == ratio(1, 2) => {
+                out.push("√", false, Level::Base);
+                factor(base, scene, out, depth);
+            }
+            Some(k) if k.is_negative() => product(std::slice::from_ref(e), scene, out, depth),
+            _ => {
+                factor(base, scene, out, depth);
+                let mut power = Label::default();
+                write(exponent, scene, &mut power, depth + 1);
+                out.push(&power.text(), false, Level::Sup);
+            }
+        },
+        Node::Call(function, argument) => {
+            out.push(function.name(), false, Level::Base);
+            let simple = matches!(argument.node(), Node::Symbol(_) | Node::Number(_));
+            out.push(if simple { "\u{2009}" } else { "(" }, false, Level::Base);
+            write(argument, scene, out, depth + 1);
+            out.push(if simple { "" } else { ")" }, false, Level::Base);
+        }
+    }
+}
+
+fn product(factors: &[Expr], scene: &Scene, out: &mut Label, depth: usize) {
+    let mut number = ratio(1, 1);
+    let (mut above, mut below) = (Vec::new(), Vec::new());
+    for f in factors {
+        match f.node() {
+            Node::Number(value) => number *= value,
+            Node::Power(base, exponent)
+                if exponent.as_number().is_some_and(Signed::is_negative) =>
+            {
+                below.push(base.power(-exponent));
+            }
+            _ => above.push(f.clone()),
+        }
+    }
+    if number.is_negative() {
+        out.push("−", false, Level::Base);
+    }
+    let (top, bottom) = (
+        number.numer().to_string().replace('-', ""),
+        number.denom().to_string(),
+    );
+    if top != "1" || above.is_empty() {
+        out.push(&top, false, Level::Base);
+    }
+    for (i, f) in above.iter().enumerate() {
+        if i > 0 || (top != "1" && matches!(f.node(), Node::Call(..))) {
+            out.push("\u{2009}", false, Level::Base);
+        }
+        factor(f, scene, out, depth);
+    }
+    let pieces = below.len() + usize::from(bottom != "1");
+    if pieces > 0 {
+        out.push(if pieces > 1 { "/(" } else { "/" }, false, Level::Base);
+        if bottom != "1" {
+            out.push(&bottom, false, Level::Base);
+        }
+        for f in &below {
+            factor(f, scene, out, depth);
+        }
+        out.push(if pieces > 1 { ")" } else { "" }, false, Level::Base);
+    }
+}
+
+fn factor(e: &Expr, scene: &Scene, out: &mut Label, depth: usize) {
+    let bracket = matches!(e.node(), Node::Sum(_) | Node::Product(_))
+        || e.as_number().is_some_and(|k| !k.is_integer());
+    out.push(if bracket { "(" } else { "" }, false, Level::Base);
+    write(e, scene, out, depth + 1);
+    out.push(if bracket { ")" } else { "" }, false, Level::Base);
+}
+
+/// Whether a term is written with a minus sign in front.
+pub fn is_negative(e: &Expr) -> bool {
+    let below = |value: &Rational| value.is_negative();
+    match e.node() {
+        Node::Number(value) => below(value),
+        Node::Product(factors) => factors.first().and_then(Expr::as_number).is_some_and(below),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn symbols_are_set_as_in_print() {
+        for (name, latex, text) in [
+            ("l", Some("\\ell"), "ℓ"),
+            ("theta", None, "θ"),
+            ("m1", None, "m₁"),
+            ("v", Some("\\vec{v}_{G1}^{+}"), "v_G1⁺"),
+            ("omega", Some("\\dot{\\theta}"), "θ\u{307}"),
+            ("x", Some("{{{{{{{{{{{{{{{{{{x"), ""),
+            ("x", Some("\\input{/etc/passwd}"), "input/etc/passwd"),
+        ] {
+            let label = Label::symbol(name, latex);
+            assert!(
+                label.text() == text || text.is_empty(),
+                "{name}: {:?}",
+                label.text()
+            );
+        }
+    }
+
+    #[test]
+    fn formulas_stand_on_one_line() {
+        let (l, d) = (Expr::symbol("l"), Expr::symbol("d"));
+        let scene = Scene::default();
+        assert_eq!(Label::formula(&(&l / &Expr::from(2)), &scene).text(), "l/2");
+        assert_eq!(Label::formula(&(&d - &l), &scene).text(), "d − l");
+        assert_eq!(Label::formula(&(&Expr::from(2) * &l), &scene).text(), "2l");
+    }
+
+    #[test]
+    fn a_long_name_is_cut() {
+        assert!(Label::words(&"x".repeat(1000)).text().chars().count() <= LONGEST + 1);
+    }
+}

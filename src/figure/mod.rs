@@ -1,0 +1,396 @@
+//! Figures of a scene: before, free-body diagrams during the collision, after.
+//!
+//! In: a scene. Out: SVG with a caption and a text alternative. `values` picks representative numbers, `stage` lays
+//! bodies out, `picture` draws on a `sheet`, `place` finds room for labels, `svg` writes. Nothing here decides
+//! anything about mechanics: the motion after comes from [`crate::numeric`] at the values the scene is drawn at.
+
+mod label;
+mod measure;
+mod picture;
+mod place;
+#[cfg(feature = "png")]
+mod png;
+mod sheet;
+mod stage;
+mod svg;
+mod values;
+mod words;
+
+use std::collections::BTreeSet;
+
+use crate::expr::{Expr, Symbol};
+use crate::numeric::Motion;
+use crate::scene::{BlowImpulse, ContactLaw, KnownQuantity, Scene, Shape};
+pub(crate) use label::visible;
+use label::{Label, advance};
+use place::Room;
+#[cfg(feature = "png")]
+pub use png::{PngFault, png};
+use sheet::{Item, SMALL, Sheet};
+use stage::Stage;
+pub(crate) use svg::escape;
+
+/// Which picture.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Which {
+    /// Just before: velocities, spins, dimensions, angles.
+    Before,
+    /// The free-body diagram during the collision.
+    During(Subject),
+    /// Just after.
+    After,
+    /// All of them in one column.
+    All,
+}
+
+/// Whose free-body diagram.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Subject {
+    /// All bodies that can move.
+    System,
+    /// One body, by index.
+    Body(usize),
+}
+
+/// A picture ready to use.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Drawing {
+    /// The SVG document; may stand alone or inside HTML.
+    pub svg: String,
+    /// What it shows and the values it is drawn at, plain text.
+    pub caption: String,
+    /// The picture in words, plain text.
+    pub alternative: String,
+}
+
+/// Least width of a picture, in pixels.
+const COLUMN: f64 = 340.0;
+/// Margin on all sides.
+const MARGIN: f64 = 10.0;
+/// Font size of headings.
+const HEADING: f64 = 14.0;
+/// Bodies a scene may have to be drawn; beyond that nobody could read it.
+const MOST_BODIES: usize = 40;
+
+/// Draws one picture. A scene that has no place on paper gives a sheet that says so.
+pub fn draw(scene: &Scene, which: Which) -> Drawing {
+    let values = values::representative(scene);
+    let stage = if scene.bodies.len() <= MOST_BODIES {
+        stage::stage(scene, &values)
+    } else {
+        None
+    };
+    let Some(stage) = stage else {
+        return nothing(scene);
+    };
+    let motion = picture::outcome(&stage);
+    match which {
+        Which::All => {
+            let panels: Vec<Panel> = kinds(scene)
+                .into_iter()
+                .map(|w| panel(&stage, motion.as_ref(), w))
+                .collect();
+            finish(scene, panels)
+        }
+        one => finish(scene, vec![panel(&stage, motion.as_ref(), one)]),
+    }
+}
+
+/// The pictures a worked solution shows: before, system and bodies during, after.
+pub fn all(scene: &Scene) -> Vec<Drawing> {
+    kinds(scene)
+        .into_iter()
+        .map(|which| draw(scene, which))
+        .collect()
+}
+
+/// The pictures a scene has, in order.
+pub fn kinds(scene: &Scene) -> Vec<Which> {
+    let movable: Vec<usize> = (0..scene.bodies.len())
+        .filter(|i| !scene.bodies[*i].is_fixed())
+        .collect();
+    let mut out = vec![Which::Before];
+    if movable.len() > 1 {
+        out.push(Which::During(Subject::System));
+    }
+    out.extend(movable.into_iter().map(|i| Which::During(Subject::Body(i))));
+    out.push(Which::After);
+    out
+}
+
+/// A picture with its words, before it has a place on the page.
+struct Panel {
+    heading: String,
+    sheet: Sheet,
+    notes: Vec<String>,
+    caption: String,
+    alternative: String,
+}
+
+fn panel(stage: &Stage, motion: Option<&Motion<f64>>, which: Which) -> Panel {
+    let scene = stage.scene;
+    let geometry = geometry(scene);
+    let told = |shown: &dyn Fn(&str) -> bool| words::values(scene, stage.values, shown);
+    match which {
+        Which::Before | Which::All => {
+            let heading = "Just before".to_string();
+            let caption = format!("{heading}. {}", told(&|name| geometry.contains(name)));
+            Panel {
+                sheet: picture::before(stage, motion),
+                notes: Vec::new(),
+                caption: caption.trim_end().to_string(),
+                alternative: format!("Just before the collision. {}", words::scene(scene)),
+                heading,
+            }
+        }
+        Which::During(subject) => {
+            let (bodies, of) = match subject {
+                Subject::System => (stage.movable(), "system".to_string()),
+                Subject::Body(i) if i < scene.bodies.len() && !scene.bodies[i].is_fixed() => {
+                    (vec![i], scene.bodies[i].name.clone())
+                }
+                Subject::Body(_) => (Vec::new(), "no movable body".to_string()),
+            };
+            let of = if stage.movable().len() == 1 {
+                stage
+                    .movable()
+                    .first()
+                    .map_or(of, |i| scene.bodies[*i].name.clone())
+            } else {
+                of
+            };
+            let heading = format!("During the collision: {of}");
+            let (sheet, notes) = picture::during(stage, &bodies, motion);
+            let labels = labels(&sheet);
+            let note = notes.join(" ");
+            Panel {
+                alternative: format!("Free-body diagram of {of} during the collision, impulses only. Marked: {labels}. {note}")
+                    .trim_end()
+                    .to_string(),
+                caption: format!("Free-body diagram of {of} during the collision; only impulses are drawn. {note}").trim_end().to_string(),
+                heading,
+                sheet,
+                notes,
+            }
+        }
+        Which::After => {
+            let heading = "Just after".to_string();
+            let mut notes = Vec::new();
+            let sheet = match motion {
+                Some(motion) => {
+                    if !motion.loose.is_empty() {
+                        notes.push(
+                            "The equations leave part of the motion open; that part is not drawn."
+                                .to_string(),
+                        );
+                    }
+                    picture::after(stage, motion)
+                }
+                None => {
+                    notes.push("The motion after is not drawn: the scene's equations have no solution at these values.".to_string());
+                    Sheet::default()
+                }
+            };
+            let labels = labels(&sheet);
+            let all = told(&|_| true);
+            Panel {
+                alternative: format!(
+                    "Just after the collision. Marked: {labels}. {}",
+                    notes.join(" ")
+                )
+                .trim_end()
+                .to_string(),
+                caption: format!("{heading}. {all} {}", notes.join(" "))
+                    .trim_end()
+                    .to_string(),
+                heading,
+                sheet,
+                notes,
+            }
+        }
+    }
+}
+
+/// What the labels of a sheet say.
+fn labels(sheet: &Sheet) -> String {
+    let mut seen = Vec::new();
+    for item in &sheet.items {
+        if let Item::Text { label, .. } = item {
+            let text = label.text();
+            if !seen.contains(&text) {
+                seen.push(text);
+            }
+        }
+    }
+    if seen.is_empty() {
+        "nothing".to_string()
+    } else {
+        seen.join(", ")
+    }
+}
+
+/// Puts panels under each other on one page.
+fn finish(scene: &Scene, panels: Vec<Panel>) -> Drawing {
+    let width = panels
+        .iter()
+        .filter_map(|p| p.sheet.room())
+        .map(|r| r.extent()[0] + 2.0 * MARGIN)
+        .fold(COLUMN, f64::max);
+    let mut items: Vec<Item> = Vec::new();
+    let mut top = 0.0;
+    let (mut captions, mut alternatives) = (Vec::new(), Vec::new());
+    for mut panel in panels {
+        top -= MARGIN;
+        lines(&mut items, &panel.heading, HEADING, true, width, &mut top);
+        top -= 6.0;
+        if let Some(room) = panel.sheet.room() {
+            let [_, h] = room.extent();
+            panel
+                .sheet
+                .shift([width / 2.0 - room.middle()[0], top - room.high[1]]);
+            items.append(&mut panel.sheet.items);
+            top -= h + 6.0;
+        }
+        for note in &panel.notes {
+            lines(&mut items, note, SMALL, false, width, &mut top);
+        }
+        top -= MARGIN;
+        captions.push(panel.caption);
+        alternatives.push(panel.alternative);
+    }
+    let height = -top;
+    let mut page = Sheet {
+        items,
+        ..Sheet::default()
+    };
+    page.shift([0.0, height]);
+    let (caption, alternative) = (captions.join(" "), alternatives.join(" "));
+    let title = if scene.title.is_empty() {
+        "Collision"
+    } else {
+        &scene.title
+    };
+    let svg = svg::write(&svg::Page {
+        items: &page.items,
+        width,
+        height,
+        title,
+        description: &alternative,
+    });
+    Drawing {
+        svg,
+        caption: label::visible(&caption),
+        alternative: label::visible(&alternative),
+    }
+}
+
+/// Sets words in lines that fit the width.
+fn lines(items: &mut Vec<Item>, text: &str, size: f64, bold: bool, width: f64, top: &mut f64) {
+    let room = width - 2.0 * MARGIN;
+    let wide = |s: &str| s.chars().map(advance).sum::<f64>() * size * if bold { 1.06 } else { 1.0 };
+    let mut line = String::new();
+    let mut all: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        let longer = if line.is_empty() {
+            word.to_string()
+        } else {
+            format!("{line} {word}")
+        };
+        if wide(&longer) > room && !line.is_empty() {
+            all.push(std::mem::replace(&mut line, word.to_string()));
+        } else {
+            line = longer;
+        }
+    }
+    all.push(line);
+    for line in all.into_iter().take(6) {
+        let mut fitting = String::new();
+        for c in line.chars() {
+            if wide(&fitting) > room - size && wide(&line) > room {
+                fitting.push('…');
+                break;
+            }
+            fitting.push(c);
+        }
+        let mut label = Label::default();
+        label.push(&label::visible(&fitting), false, label::Level::Base);
+        let high = size * 1.3;
+        let long = wide(&fitting).min(room);
+        items.push(Item::text(
+            label,
+            size,
+            bold,
+            Room {
+                low: [MARGIN, *top - high],
+                high: [MARGIN + long, *top],
+            },
+        ));
+        *top -= high;
+    }
+}
+
+/// A sheet that says why nothing is drawn.
+fn nothing(scene: &Scene) -> Drawing {
+    let said =
+        "This scene has no picture: a position has no finite value, or there are too many bodies.";
+    let panel = Panel {
+        heading: scene.title.clone(),
+        sheet: Sheet::default(),
+        notes: vec![said.to_string()],
+        caption: said.to_string(),
+        alternative: said.to_string(),
+    };
+    finish(scene, vec![panel])
+}
+
+/// Symbols that shape the picture before.
+fn geometry(scene: &Scene) -> BTreeSet<Symbol> {
+    let mut out = BTreeSet::new();
+    let mut add = |e: &Expr| out.extend(e.symbols());
+    for body in &scene.bodies {
+        let parts = match &body.shape {
+            Shape::Composite { parts } => parts.as_slice(),
+            _ => &[],
+        };
+        for b in std::iter::once(body).chain(parts) {
+            b.center
+                .iter()
+                .chain(&b.velocity)
+                .chain([&b.angle, &b.spin])
+                .for_each(&mut add);
+            match &b.shape {
+                Shape::Rod { length: e }
+                | Shape::Disk { radius: e }
+                | Shape::Ring { radius: e }
+                | Shape::Sphere { radius: e } => add(e),
+                Shape::Rectangle { width, height } => {
+                    [width, height].into_iter().for_each(&mut add)
+                }
+                _ => {}
+            }
+        }
+    }
+    scene.points.iter().flat_map(|p| &p.at).for_each(&mut add);
+    scene.hinges.iter().flat_map(|h| &h.at).for_each(&mut add);
+    for contact in &scene.contacts {
+        contact
+            .at
+            .iter()
+            .chain(contact.normal.iter().flatten())
+            .for_each(&mut add);
+        if let ContactLaw::Frictionless { .. } = contact.law {}
+    }
+    for blow in &scene.blows {
+        let (BlowImpulse::Given(v) | BlowImpulse::Along(v)) = &blow.impulse;
+        blow.at.iter().chain(v).for_each(&mut add);
+    }
+    for known in &scene.after {
+        if let KnownQuantity::Velocity { along, .. } = &known.what {
+            along.iter().for_each(&mut add);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,376 @@
+//! Finds places for labels: many candidates each, scored by what they would cover, the best taken in a fixed order.
+//!
+//! In: labels with what they belong to, segments and rooms to keep off. Out: one room per label; no two of them overlap.
+
+use super::label::Label;
+use super::sheet::extent;
+use super::values::{Pair, dot, size};
+
+/// An upright rectangle.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Room {
+    /// Lower left corner.
+    pub low: Pair,
+    /// Upper right corner.
+    pub high: Pair,
+}
+
+/// What a label belongs to.
+#[derive(Clone, Debug)]
+pub enum Spot {
+    /// A point; `toward` is the preferred direction, `reach` the least distance.
+    Point {
+        /// Where.
+        at: Pair,
+        /// Preferred direction, or zero.
+        toward: Pair,
+        /// Least distance from the point.
+        reach: f64,
+    },
+    /// A segment; the label stands beside it.
+    Along {
+        /// Start.
+        from: Pair,
+        /// End.
+        to: Pair,
+    },
+    /// The inside of a body, or else near it.
+    Inside {
+        /// Middle of the body.
+        at: Pair,
+        /// Radius that is certainly inside.
+        radius: f64,
+    },
+}
+
+/// A label that wants a place.
+#[derive(Clone, Debug)]
+pub struct Wish {
+    /// What it says.
+    pub label: Label,
+    /// Font size.
+    pub size: f64,
+    /// What it belongs to.
+    pub spot: Spot,
+}
+
+impl Room {
+    /// The square of half side `reach` around a point.
+    pub fn around(at: Pair, reach: f64) -> Room {
+        Room {
+            low: [at[0] - reach, at[1] - reach],
+            high: [at[0] + reach, at[1] + reach],
+        }
+    }
+
+    /// The least box around points.
+    pub fn of(points: &[Pair]) -> Option<Room> {
+        let first = points.first()?;
+        let start = Room {
+            low: *first,
+            high: *first,
+        };
+        Some(
+            points
+                .iter()
+                .fold(start, |b, p| b.with(&Room { low: *p, high: *p })),
+        )
+    }
+
+    /// The least box around two.
+    pub fn with(&self, other: &Room) -> Room {
+        Room {
+            low: [self.low[0].min(other.low[0]), self.low[1].min(other.low[1])],
+            high: [
+                self.high[0].max(other.high[0]),
+                self.high[1].max(other.high[1]),
+            ],
+        }
+    }
+
+    /// Larger by a margin on every side.
+    pub fn grown(&self, by: f64) -> Room {
+        Room {
+            low: [self.low[0] - by, self.low[1] - by],
+            high: [self.high[0] + by, self.high[1] + by],
+        }
+    }
+
+    /// Area shared with another box.
+    pub fn overlap(&self, other: &Room) -> f64 {
+        let side =
+            |i: usize| (self.high[i].min(other.high[i]) - self.low[i].max(other.low[i])).max(0.0);
+        side(0) * side(1)
+    }
+
+    /// Width and height.
+    pub fn extent(&self) -> Pair {
+        [self.high[0] - self.low[0], self.high[1] - self.low[1]]
+    }
+
+    /// Middle.
+    pub fn middle(&self) -> Pair {
+        [
+            (self.low[0] + self.high[0]) / 2.0,
+            (self.low[1] + self.high[1]) / 2.0,
+        ]
+    }
+
+    /// Length of a segment inside.
+    fn crossed(&self, a: Pair, b: Pair) -> f64 {
+        let (mut start, mut end) = (0.0f64, 1.0f64);
+        for i in 0..2 {
+            let d = b[i] - a[i];
+            if d.abs() < 1e-9 {
+                if a[i] < self.low[i] || a[i] > self.high[i] {
+                    return 0.0;
+                }
+                continue;
+            }
+            let (p, q) = ((self.low[i] - a[i]) / d, (self.high[i] - a[i]) / d);
+            start = start.max(p.min(q));
+            end = end.min(p.max(q));
+        }
+        if end <= start {
+            0.0
+        } else {
+            (end - start) * size([b[0] - a[0], b[1] - a[1]])
+        }
+    }
+}
+
+/// Rounds in which every label may move again.
+const ROUNDS: usize = 3;
+
+/// One room per wish.
+pub fn place(wishes: &[Wish], walls: &[(Pair, Pair, f64)], kept: &[Room]) -> Vec<Room> {
+    let scored: Vec<Vec<(Room, f64)>> = wishes
+        .iter()
+        .map(|wish| {
+            let mut places: Vec<(Room, f64)> = candidates(wish)
+                .into_iter()
+                .map(|(room, cost)| (room, cost + covered(&room, walls, kept)))
+                .collect();
+            places.sort_by(|a, b| a.1.total_cmp(&b.1));
+            places
+        })
+        .collect();
+    let mut taken: Vec<Option<Room>> = vec![None; wishes.len()];
+    for _ in 0..ROUNDS {
+        for i in 0..wishes.len() {
+            let mut best: Option<(Room, f64)> = None;
+            for (room, cost) in &scored[i] {
+                if best.is_some_and(|(_, least)| *cost >= least) {
+                    break;
+                }
+                let others = taken
+                    .iter()
+                    .enumerate()
+                    .filter(|(j, _)| *j != i)
+                    .filter_map(|(_, b)| *b);
+                let shared: f64 = others.map(|b| room.grown(1.5).overlap(&b)).sum();
+                let total = cost + if shared > 0.0 { 400.0 + shared } else { 0.0 };
+                if best.is_none_or(|(_, least)| total < least) {
+                    best = Some((*room, total));
+                }
+            }
+            taken[i] = best.map(|(room, _)| room);
+        }
+    }
+    let mut done: Vec<Room> = Vec::new();
+    for (wish, room) in wishes.iter().zip(taken) {
+        let mut room = room.unwrap_or_else(|| boxed(wish, [0.0, 0.0]));
+        // Last resort, so that labels never cover each other: step down past whatever is there.
+        while let Some(other) = done.iter().find(|b| b.overlap(&room) > 0.0) {
+            let by = room.high[1] - other.low[1] + 1.0;
+            room.low[1] -= by;
+            room.high[1] -= by;
+        }
+        done.push(room);
+    }
+    done
+}
+
+/// A thin line from a label to its point, where it had to go far.
+pub fn leader(wish: &Wish, room: &Room) -> Option<[Pair; 2]> {
+    let (at, reach) = match wish.spot {
+        Spot::Point { at, reach, .. } => (at, reach),
+        // From an arrow or dimension line, not from its very ends.
+        Spot::Along { from, to } => {
+            let middle = room.middle();
+            let d = [to[0] - from[0], to[1] - from[1]];
+            let t = dot([middle[0] - from[0], middle[1] - from[1]], d) / dot(d, d).max(1e-9);
+            let t = t.clamp(0.15, 0.85);
+            ([from[0] + d[0] * t, from[1] + d[1] * t], 0.0)
+        }
+        Spot::Inside { .. } => return None,
+    };
+    let nearest = [
+        at[0].clamp(room.low[0], room.high[0]),
+        at[1].clamp(room.low[1], room.high[1]),
+    ];
+    let d = [nearest[0] - at[0], nearest[1] - at[1]];
+    let far = size(d);
+    (far > reach + 16.0).then(|| {
+        let start = (reach + 2.0) / far;
+        let stop = 1.0 - 2.0 / far;
+        [
+            [at[0] + d[0] * start, at[1] + d[1] * start],
+            [at[0] + d[0] * stop, at[1] + d[1] * stop],
+        ]
+    })
+}
+
+fn boxed(wish: &Wish, middle: Pair) -> Room {
+    let [w, h] = extent(&wish.label, wish.size);
+    Room {
+        low: [middle[0] - w / 2.0, middle[1] - h / 2.0],
+        high: [middle[0] + w / 2.0, middle[1] + h / 2.0],
+    }
+}
+
+fn covered(room: &Room, walls: &[(Pair, Pair, f64)], kept: &[Room]) -> f64 {
+    let wide = room.grown(1.5);
+    let crossed: f64 = walls
+        .iter()
+        .map(|(a, b, weight)| {
+            let length = wide.crossed(*a, *b);
+            if length > 0.0 {
+                weight * (6.0 + length)
+            } else {
+                0.0
+            }
+        })
+        .sum();
+    let shared: f64 = kept
+        .iter()
+        .map(|b| {
+            let area = wide.overlap(b);
+            if area > 0.0 { 20.0 + area } else { 0.0 }
+        })
+        .sum();
+    crossed + shared
+}
+
+fn candidates(wish: &Wish) -> Vec<(Room, f64)> {
+    let mut out = Vec::new();
+    let [w, h] = extent(&wish.label, wish.size);
+    let ring = |out: &mut Vec<(Room, f64)>, at: Pair, toward: Pair, reach: f64, extra: f64| {
+        for (round, gap) in [1.5, 5.0, 10.0, 16.0, 24.0, 34.0, 46.0, 60.0, 80.0, 105.0]
+            .into_iter()
+            .enumerate()
+        {
+            for k in 0..24 {
+                let (s, c) = (std::f64::consts::PI * f64::from(k) / 12.0).sin_cos();
+                // Least distance of the middle at which the box clears the circle of radius reach + gap.
+                let clear = reach + gap;
+                let step = f64::min(
+                    (w / 2.0 + clear) / c.abs().max(1e-9),
+                    (h / 2.0 + clear) / s.abs().max(1e-9),
+                );
+                let middle = [at[0] + c * step, at[1] + s * step];
+                let turned = if size(toward) > 0.0 {
+                    4.0 * (1.0 - (c * toward[0] + s * toward[1]) / size(toward))
+                } else {
+                    // Above and to the right is where people look first.
+                    0.6 * (1.0 - (0.8 * c + 0.6 * s))
+                };
+                out.push((
+                    boxed(wish, middle),
+                    extra + turned + 2.2 * round as f64 + 0.05 * gap,
+                ));
+            }
+        }
+    };
+    match wish.spot {
+        Spot::Point { at, toward, reach } => ring(&mut out, at, toward, reach, 0.0),
+        Spot::Inside { at, radius } => {
+            ring(&mut out, at, [0.0, 0.0], radius, 8.0);
+            for (x, y) in [
+                (0.0, 0.0),
+                (0.0, -0.5),
+                (0.0, 0.5),
+                (-0.5, 0.0),
+                (0.5, 0.0),
+                (0.45, -0.45),
+                (-0.45, -0.45),
+                (-0.45, 0.45),
+                (0.45, 0.45),
+            ] {
+                let middle = [at[0] + x * radius, at[1] + y * radius];
+                let corner = size([x * radius, y * radius]) + size([w, h]) / 2.0;
+                if corner < radius + 2.0 {
+                    out.push((boxed(wish, middle), size([x, y])));
+                }
+            }
+        }
+        Spot::Along { from, to } => {
+            let d = [to[0] - from[0], to[1] - from[1]];
+            let length = size(d).max(1e-9);
+            let normal = [-d[1] / length, d[0] / length];
+            for (rank, t) in [0.5, 0.62, 0.38, 0.75, 0.25, 0.9, 0.1, 1.0]
+                .into_iter()
+                .enumerate()
+            {
+                for (round, gap) in [2.5, 6.0, 11.0, 18.0].into_iter().enumerate() {
+                    for side in [1.0, -1.0] {
+                        let n = [normal[0] * side, normal[1] * side];
+                        let support = n[0].abs() * w / 2.0 + n[1].abs() * h / 2.0 + gap;
+                        let middle = [
+                            from[0] + d[0] * t + n[0] * support,
+                            from[1] + d[1] * t + n[1] * support,
+                        ];
+                        let above = if n[1] + 0.3 * n[0] > 0.0 { 0.0 } else { 0.3 };
+                        out.push((
+                            boxed(wish, middle),
+                            rank as f64 * 0.7 + 2.0 * round as f64 + above,
+                        ));
+                    }
+                }
+            }
+            ring(&mut out, to, d, 3.0, 5.0);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_of_one_point_do_not_cover_each_other() {
+        let wish = |text: &str| Wish {
+            label: Label::words(text),
+            size: 16.0,
+            spot: Spot::Point {
+                at: [0.0, 0.0],
+                toward: [0.0, 0.0],
+                reach: 3.0,
+            },
+        };
+        let wishes: Vec<Wish> = (0..40)
+            .map(|i| wish(&format!("a long label {i}")))
+            .collect();
+        let rooms = place(&wishes, &[], &[]);
+        for (i, a) in rooms.iter().enumerate() {
+            assert!(rooms[..i].iter().all(|b| a.overlap(b) == 0.0), "label {i}");
+        }
+    }
+
+    #[test]
+    fn a_label_keeps_off_a_line() {
+        let wish = Wish {
+            label: Label::words("x"),
+            size: 16.0,
+            spot: Spot::Point {
+                at: [0.0, 0.0],
+                toward: [1.0, 0.0],
+                reach: 3.0,
+            },
+        };
+        let line = ([0.0, 0.0], [50.0, 0.0], 3.0);
+        let rooms = place(&[wish], &[line], &[]);
+        assert_eq!(rooms[0].crossed(line.0, line.1), 0.0);
+    }
+}

@@ -1,0 +1,357 @@
+//! The display list: lines, circles, arrows and labels on one sheet, in pixels with y up.
+//!
+//! What is drawn is also an obstacle to labels. Labels are wishes until [`Sheet::settle`] finds them a place. Knows
+//! nothing of scenes or SVG.
+
+use super::label::Label;
+use super::place::{self, Room, Wish};
+use super::values::Pair;
+
+/// What a line or label belongs to; the writer picks colors.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Ink {
+    /// Bodies and plain text.
+    Body,
+    /// Velocities and spins.
+    Motion,
+    /// Impulses.
+    Impulse,
+    /// Dimensions, angles, axes.
+    Dimension,
+    /// Ground, walls and other things that do not move.
+    Ground,
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Line {
+    /// What it belongs to.
+    pub ink: Ink,
+    /// Width in pixels.
+    pub width: f64,
+    /// Whether it is broken.
+    pub dashed: bool,
+    /// Whether its inside is tinted.
+    pub filled: bool,
+}
+
+/// One thing on the sheet.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Item {
+    /// A line through points.
+    Path {
+        /// Its points.
+        points: Vec<Pair>,
+        /// Whether it returns to its start.
+        closed: bool,
+        /// How it is drawn.
+        line: Line,
+    },
+    /// A circle.
+    Circle {
+        /// Its middle.
+        center: Pair,
+        /// Its radius.
+        radius: f64,
+        /// How it is drawn.
+        line: Line,
+    },
+    /// A filled dot.
+    Dot {
+        /// Its middle.
+        center: Pair,
+        /// Its radius.
+        radius: f64,
+        /// What it belongs to.
+        ink: Ink,
+    },
+    /// A filled arrow head.
+    Head {
+        /// Its tip.
+        tip: Pair,
+        /// Unit vector it points along.
+        along: Pair,
+        /// Its length.
+        size: f64,
+        /// What it belongs to.
+        ink: Ink,
+    },
+    /// A label in its place.
+    Text {
+        /// Left end of its line of text.
+        at: Pair,
+        /// Font size.
+        size: f64,
+        /// Whether it is a heading.
+        bold: bool,
+        /// What it says.
+        label: Label,
+        /// The room it takes.
+        room: Room,
+    },
+}
+
+/// Font size of symbols.
+pub const SIZE: f64 = 16.0;
+/// Font size of notes.
+pub const SMALL: f64 = 13.0;
+/// Width of an outline.
+pub const OUTLINE: f64 = 1.6;
+
+/// A picture in the making.
+#[derive(Clone, Debug, Default)]
+pub struct Sheet {
+    /// What is drawn, in order.
+    pub items: Vec<Item>,
+    /// Segments labels keep off, and how much.
+    pub walls: Vec<(Pair, Pair, f64)>,
+    /// Labels that wait for their place.
+    pub wishes: Vec<Wish>,
+    /// Room that labels must leave free.
+    pub kept: Vec<Room>,
+}
+
+impl Line {
+    /// A full line of usual width.
+    pub fn of(ink: Ink) -> Line {
+        Line {
+            ink,
+            width: OUTLINE,
+            dashed: false,
+            filled: false,
+        }
+    }
+
+    /// A thin line.
+    pub fn thin(ink: Ink) -> Line {
+        Line {
+            width: 0.9,
+            ..Line::of(ink)
+        }
+    }
+
+    /// A thin broken line.
+    pub fn dashed(ink: Ink) -> Line {
+        Line {
+            dashed: true,
+            ..Line::thin(ink)
+        }
+    }
+
+    /// The outline of a body.
+    pub fn solid() -> Line {
+        Line {
+            filled: true,
+            ..Line::of(Ink::Body)
+        }
+    }
+}
+
+impl Sheet {
+    /// Draws a line through points; labels keep off it as much as `weight` says.
+    pub fn path(&mut self, points: Vec<Pair>, closed: bool, line: Line, weight: f64) {
+        let mut walls: Vec<(Pair, Pair, f64)> =
+            points.windows(2).map(|w| (w[0], w[1], weight)).collect();
+        if let (true, Some(first), Some(last)) = (closed, points.first(), points.last()) {
+            walls.push((*last, *first, weight));
+        }
+        self.walls.extend(walls);
+        self.items.push(Item::Path {
+            points,
+            closed,
+            line,
+        });
+    }
+
+    /// Draws a segment.
+    pub fn segment(&mut self, from: Pair, to: Pair, line: Line, weight: f64) {
+        self.path(vec![from, to], false, line, weight);
+    }
+
+    /// Draws a circle.
+    pub fn circle(&mut self, center: Pair, radius: f64, line: Line) {
+        let edge: Vec<Pair> = arc(center, radius, 0.0, std::f64::consts::TAU);
+        self.walls
+            .extend(edge.windows(2).map(|w| (w[0], w[1], 1.0)));
+        self.items.push(Item::Circle {
+            center,
+            radius,
+            line,
+        });
+    }
+
+    /// Draws a dot.
+    pub fn dot(&mut self, center: Pair, radius: f64, ink: Ink) {
+        self.kept.push(Room::around(center, radius + 1.0));
+        self.items.push(Item::Dot {
+            center,
+            radius,
+            ink,
+        });
+    }
+
+    /// Draws an arrow.
+    pub fn arrow(&mut self, from: Pair, to: Pair, ink: Ink, width: f64) {
+        let d = [to[0] - from[0], to[1] - from[1]];
+        let length = d[0].hypot(d[1]);
+        if length < 1e-6 {
+            return;
+        }
+        let along = [d[0] / length, d[1] / length];
+        let size = if width > 1.5 { 10.0 } else { 7.0 };
+        let stop = [to[0] - along[0] * size * 0.7, to[1] - along[1] * size * 0.7];
+        let line = Line {
+            width,
+            ..Line::of(ink)
+        };
+        self.items.push(Item::Path {
+            points: vec![from, stop],
+            closed: false,
+            line,
+        });
+        self.items.push(Item::Head {
+            tip: to,
+            along,
+            size,
+            ink,
+        });
+        self.walls.push((from, to, 3.0));
+        let middle = [to[0] - along[0] * size / 2.0, to[1] - along[1] * size / 2.0];
+        self.kept.push(Room::around(middle, size / 2.0));
+    }
+
+    /// Draws a circular arrow, counterclockwise if `turn` is positive.
+    pub fn turning(&mut self, center: Pair, radius: f64, start: f64, turn: f64, ink: Ink) {
+        let points = arc(center, radius, start, start + turn);
+        self.walls
+            .extend(points.windows(2).map(|w| (w[0], w[1], 3.0)));
+        let end = start + turn;
+        // The head's base is a chord: leaning it inwards by half its angle keeps it on the circle.
+        let sign = turn.signum();
+        let lean = end - sign * 4.0 / radius;
+        let along = [-lean.sin() * sign, lean.cos() * sign];
+        let tip = [
+            center[0] + radius * end.cos(),
+            center[1] + radius * end.sin(),
+        ];
+        let cut = arc(center, radius, start, start + turn - sign * 6.0 / radius);
+        self.items.push(Item::Path {
+            points: cut,
+            closed: false,
+            line: Line {
+                width: 1.9,
+                ..Line::of(ink)
+            },
+        });
+        self.items.push(Item::Head {
+            tip,
+            along,
+            size: 9.0,
+            ink,
+        });
+        self.kept.push(Room::around(tip, 5.0));
+    }
+
+    /// Asks for a label.
+    pub fn wish(&mut self, wish: Wish) {
+        if !wish.label.runs.is_empty() {
+            self.wishes.push(wish);
+        }
+    }
+
+    /// Gives every label its place.
+    pub fn settle(&mut self) {
+        let wishes = std::mem::take(&mut self.wishes);
+        let boxes = place::place(&wishes, &self.walls, &self.kept);
+        for (wish, room) in wishes.into_iter().zip(boxes) {
+            if let Some(leader) = place::leader(&wish, &room) {
+                self.items.push(Item::Path {
+                    points: leader.to_vec(),
+                    closed: false,
+                    line: Line::thin(Ink::Dimension),
+                });
+            }
+            self.items
+                .push(Item::text(wish.label, wish.size, false, room));
+        }
+    }
+
+    /// The room everything takes; `None` for an empty sheet.
+    pub fn room(&self) -> Option<Room> {
+        let mut all: Option<Room> = None;
+        for item in &self.items {
+            let room = match item {
+                Item::Path { points, line, .. } => match Room::of(points) {
+                    Some(room) => room.grown(line.width / 2.0),
+                    None => continue,
+                },
+                Item::Circle {
+                    center,
+                    radius,
+                    line,
+                } => Room::around(*center, radius + line.width / 2.0),
+                Item::Dot { center, radius, .. } => Room::around(*center, *radius),
+                Item::Head { tip, size, .. } => Room::around(*tip, size / 2.0),
+                Item::Text { room, .. } => *room,
+            };
+            all = Some(all.map_or(room, |b| b.with(&room)));
+        }
+        all
+    }
+
+    /// Moves everything.
+    pub fn shift(&mut self, by: Pair) {
+        let moved = |p: &mut Pair| {
+            p[0] += by[0];
+            p[1] += by[1];
+        };
+        for item in &mut self.items {
+            match item {
+                Item::Path { points, .. } => points.iter_mut().for_each(moved),
+                Item::Circle { center, .. } | Item::Dot { center, .. } => moved(center),
+                Item::Head { tip, .. } => moved(tip),
+                Item::Text { at, room, .. } => {
+                    moved(at);
+                    moved(&mut room.low);
+                    moved(&mut room.high);
+                }
+            }
+        }
+    }
+}
+
+impl Item {
+    /// A label that fills a room.
+    pub fn text(label: Label, size: f64, bold: bool, room: Room) -> Item {
+        let (_, lowered) = label.reach();
+        let depth = if lowered { 0.42 } else { 0.25 };
+        Item::Text {
+            at: [room.low[0] + 1.0, room.low[1] + depth * size],
+            size,
+            bold,
+            label,
+            room,
+        }
+    }
+}
+
+/// Points on an arc, close enough to look round.
+pub fn arc(center: Pair, radius: f64, from: f64, to: f64) -> Vec<Pair> {
+    let steps = ((to - from).abs() * 10.0).ceil().clamp(4.0, 64.0) as usize;
+    (0..=steps)
+        .map(|i| {
+            let phi = from + (to - from) * i as f64 / steps as f64;
+            [
+                center[0] + radius * phi.cos(),
+                center[1] + radius * phi.sin(),
+            ]
+        })
+        .collect()
+}
+
+/// The room a label takes: width and height.
+pub fn extent(label: &Label, size: f64) -> [f64; 2] {
+    let (raised, lowered) = label.reach();
+    let height = 0.95 + if raised { 0.3 } else { 0.0 } + if lowered { 0.17 } else { 0.0 };
+    [label.width(size) + 2.0, height * size]
+}

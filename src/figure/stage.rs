@@ -1,0 +1,654 @@
+//! The scene as geometry: where each body lies on the sheet and what its outline is.
+//!
+//! In: a scene and values. Out: poses in pixels, y up, and how to draw bodies, ground, pegs and hinges. Knows nothing of
+//! velocities' labels or of impulses.
+
+use std::f64::consts::{PI, TAU};
+
+use super::label::Label;
+use super::place::Room;
+use super::sheet::{Ink, Item, Line, Sheet, arc};
+use super::values::{Pair, Values, dot, size};
+use crate::scene::{Body, Scene, Shape};
+
+/// A moment of the collision.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Moment {
+    /// Just before.
+    Before,
+    /// During.
+    During,
+    /// Just after.
+    After,
+}
+
+/// Outline of a body around its center, in meters.
+#[derive(Clone, Debug)]
+pub enum Look {
+    /// Nothing of its own: ground, wall, peg.
+    Fixed,
+    /// A particle.
+    Dot,
+    /// A rod of this half length.
+    Bar(f64),
+    /// A disk, ring or ball.
+    Round {
+        /// Radius.
+        radius: f64,
+        /// Whether it is a thin ring.
+        ring: bool,
+    },
+    /// A rectangle of these half sides.
+    Plate(f64, f64),
+    /// Any other body, points around its center.
+    Blob(Vec<Pair>),
+    /// Parts joined by thin bars.
+    Parts(Vec<Pose>),
+}
+
+/// A body in its place, in meters.
+#[derive(Clone, Debug)]
+pub struct Pose {
+    /// Center of mass.
+    pub center: Pair,
+    /// Orientation.
+    pub angle: f64,
+    /// Outline.
+    pub look: Look,
+    /// Whether it has no mass.
+    pub massless: bool,
+}
+
+/// The scene in numbers, and how meters become pixels.
+pub struct Stage<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// What it is drawn at.
+    pub values: &'a Values,
+    /// Bodies in the order of the scene.
+    pub poses: Vec<Pose>,
+    /// Pixels per meter.
+    scale: f64,
+    middle: Pair,
+}
+
+/// Room for the bodies themselves, in pixels.
+const CORE: Pair = [225.0, 160.0];
+/// Radius of a particle in pixels.
+pub const DOT: f64 = 6.0;
+/// Radius of a peg in pixels.
+const PEG: f64 = 7.0;
+/// Half thickness of a rod in pixels.
+pub const THICK: f64 = 3.5;
+
+/// Puts a scene on stage; `None` where something has no finite place.
+pub fn stage<'a>(scene: &'a Scene, values: &'a Values) -> Option<Stage<'a>> {
+    let mut poses = Vec::new();
+    for (i, body) in scene.bodies.iter().enumerate() {
+        poses.push(pose(scene, values, body, Some(i))?);
+    }
+    let mut stage = Stage {
+        scene,
+        values,
+        poses,
+        scale: 1.0,
+        middle: [0.0, 0.0],
+    };
+    let mut points: Vec<Pair> = stage.poses.iter().flat_map(Pose::outline).collect();
+    for v in scene
+        .points
+        .iter()
+        .map(|p| &p.at)
+        .chain(scene.contacts.iter().map(|c| &c.at))
+        .chain(scene.hinges.iter().map(|h| &h.at))
+    {
+        points.push(values.pair(v)?);
+    }
+    if let Some(all) = Room::of(&points) {
+        let [w, h] = all.extent();
+        let scale = f64::min(CORE[0] / w.max(1e-12), CORE[1] / h.max(1e-12));
+        stage.scale = if w.max(h) > 1e-9 { scale } else { 1.0 };
+        stage.middle = all.middle();
+    }
+    Some(stage)
+}
+
+fn pose(scene: &Scene, values: &Values, body: &Body, index: Option<usize>) -> Option<Pose> {
+    let center = values.pair(&body.center)?;
+    let length = |e| values.of(e).map(f64::abs);
+    let look = match &body.shape {
+        Shape::Fixed => Look::Fixed,
+        Shape::Particle => Look::Dot,
+        Shape::Rod { length: l } => Look::Bar(length(l)? / 2.0),
+        Shape::Disk { radius } | Shape::Sphere { radius } => Look::Round {
+            radius: length(radius)?,
+            ring: false,
+        },
+        Shape::Ring { radius } => Look::Round {
+            radius: length(radius)?,
+            ring: true,
+        },
+        Shape::Rectangle { width, height } => {
+            Look::Plate(length(width)? / 2.0, length(height)? / 2.0)
+        }
+        Shape::Other => Look::Blob(blob(&attached(scene, values, index?, center)?)),
+        Shape::Composite { parts } => Look::Parts(
+            parts
+                .iter()
+                .filter(|p| !p.is_fixed())
+                .map(|p| pose(scene, values, p, None))
+                .collect::<Option<Vec<_>>>()?,
+        ),
+    };
+    Some(Pose {
+        center,
+        angle: values.of(&body.angle)?,
+        look,
+        massless: body.mass.is_zero(),
+    })
+}
+
+/// Where others touch a body, as seen from its center.
+fn attached(scene: &Scene, values: &Values, body: usize, center: Pair) -> Option<Vec<Pair>> {
+    let contacts = scene
+        .contacts
+        .iter()
+        .filter(|c| c.bodies.contains(&body))
+        .map(|c| &c.at);
+    let hinges = scene
+        .hinges
+        .iter()
+        .filter(|h| h.bodies.contains(&body))
+        .map(|h| &h.at);
+    let blows = scene.blows.iter().filter(|b| b.body == body).map(|b| &b.at);
+    contacts
+        .chain(hinges)
+        .chain(blows)
+        .map(|v| values.pair(v).map(|p| [p[0] - center[0], p[1] - center[1]]))
+        .collect()
+}
+
+/// A smooth outline around the origin that passes through the points.
+fn blob(through: &[Pair]) -> Vec<Pair> {
+    let far = through.iter().map(|p| size(*p)).fold(0.0, f64::max);
+    let base = if far > 0.0 { 0.78 * far } else { 0.5 };
+    let plain =
+        |phi: f64| base * (1.0 + 0.10 * (2.0 * phi + 0.7).cos() + 0.05 * (3.0 * phi - 0.4).cos());
+    let bump = |phi: f64, at: f64| {
+        let d = (phi - at + PI).rem_euclid(TAU) - PI;
+        (-(d / 0.75).powi(2)).exp()
+    };
+    let points: Vec<(f64, f64)> = through
+        .iter()
+        .map(|p| (p[1].atan2(p[0]), size(*p)))
+        .collect();
+    let mut heights = vec![0.0; points.len()];
+    let radius = |phi: f64, heights: &[f64]| {
+        let bumps: f64 = points
+            .iter()
+            .zip(heights)
+            .map(|((at, _), h)| h * bump(phi, *at))
+            .sum();
+        (plain(phi) + bumps).max(0.15 * base)
+    };
+    for _ in 0..12 {
+        for i in 0..points.len() {
+            heights[i] += points[i].1 - radius(points[i].0, &heights);
+        }
+    }
+    (0..72)
+        .map(|k| {
+            let phi = TAU * f64::from(k) / 72.0;
+            let r = radius(phi, &heights).clamp(0.0, 4.0 * base);
+            [r * phi.cos(), r * phi.sin()]
+        })
+        .collect()
+}
+
+impl Pose {
+    /// A point given along and across the body's axis, in meters.
+    fn at(&self, along: f64, across: f64) -> Pair {
+        let (s, c) = self.angle.sin_cos();
+        [
+            self.center[0] + along * c - across * s,
+            self.center[1] + along * s + across * c,
+        ]
+    }
+
+    /// Points that span the body, in meters.
+    pub fn outline(&self) -> Vec<Pair> {
+        match &self.look {
+            Look::Fixed => Vec::new(),
+            Look::Dot => vec![self.center],
+            Look::Bar(half) => vec![self.at(*half, 0.0), self.at(-half, 0.0)],
+            Look::Round { radius, .. } => arc(self.center, *radius, 0.0, TAU),
+            Look::Plate(w, h) => vec![
+                self.at(*w, *h),
+                self.at(-w, *h),
+                self.at(-w, -h),
+                self.at(*w, -h),
+            ],
+            Look::Blob(points) => points
+                .iter()
+                .map(|p| [self.center[0] + p[0], self.center[1] + p[1]])
+                .collect(),
+            Look::Parts(parts) => parts.iter().flat_map(Pose::outline).collect(),
+        }
+    }
+
+    /// Ends of a rod, in meters.
+    pub fn ends(&self) -> Option<[Pair; 2]> {
+        match self.look {
+            Look::Bar(half) => Some([self.at(-half, 0.0), self.at(half, 0.0)]),
+            _ => None,
+        }
+    }
+}
+
+impl Stage<'_> {
+    /// A place on the sheet.
+    pub fn px(&self, p: Pair) -> Pair {
+        [
+            (p[0] - self.middle[0]) * self.scale,
+            (p[1] - self.middle[1]) * self.scale,
+        ]
+    }
+
+    /// A length on the sheet.
+    pub fn long(&self, meters: f64) -> f64 {
+        meters * self.scale
+    }
+
+    /// Where a formula's point lies on the sheet.
+    pub fn spot(&self, v: &crate::expr::Vector) -> Option<Pair> {
+        self.values.pair(v).map(|p| self.px(p))
+    }
+
+    /// Movable bodies.
+    pub fn movable(&self) -> Vec<usize> {
+        (0..self.scene.bodies.len())
+            .filter(|i| !self.scene.bodies[*i].is_fixed())
+            .collect()
+    }
+
+    /// How far a particle is drawn from its place, so that it is seen beside what it touches.
+    pub fn aside(&self, body: usize, moment: Moment, velocity: &[Pair]) -> Pair {
+        let nothing = [0.0, 0.0];
+        if !self.scene.bodies[body].is_particle() {
+            return nothing;
+        }
+        let contact = self
+            .scene
+            .contacts
+            .iter()
+            .find(|c| c.bodies.contains(&body));
+        let Some(contact) = contact else {
+            return nothing;
+        };
+        let other = if contact.bodies[0] == body {
+            contact.bodies[1]
+        } else {
+            contact.bodies[0]
+        };
+        let relative = |v: &[Pair]| match (v.get(body), v.get(other)) {
+            (Some(a), Some(b)) => [a[0] - b[0], a[1] - b[1]],
+            _ => nothing,
+        };
+        let before: Vec<Pair> = self
+            .scene
+            .bodies
+            .iter()
+            .map(|b| self.values.pair(&b.velocity).unwrap_or(nothing))
+            .collect();
+        let incoming = relative(&before);
+        let normal = contact.normal.as_ref().and_then(|n| self.values.pair(n));
+        // Away from the partner: against the normal for the first body, else back where it came from.
+        let back = match normal {
+            Some(n) if contact.bodies[0] == body => [-n[0], -n[1]],
+            Some(n) => n,
+            None => [-incoming[0], -incoming[1]],
+        };
+        let unit = |v: Pair| {
+            if size(v) > 1e-9 {
+                [v[0] / size(v), v[1] / size(v)]
+            } else {
+                nothing
+            }
+        };
+        let back = unit(back);
+        let both_dots = self.scene.bodies[other].is_particle();
+        let near = match self.poses[other].look {
+            Look::Bar(_) => DOT + THICK + 1.0,
+            Look::Dot => DOT,
+            _ => DOT + 1.0,
+        };
+        let gap = match moment {
+            Moment::Before
+                if size(incoming) > 1e-9 && before.get(body).is_some_and(|v| size(*v) > 1e-9) =>
+            {
+                let from = unit([-before[body][0], -before[body][1]]);
+                return [
+                    from[0] * 30.0 + back[0] * near,
+                    from[1] * 30.0 + back[1] * near,
+                ];
+            }
+            Moment::Before | Moment::During => 0.0,
+            Moment::After => {
+                let leaving = relative(velocity);
+                let scale = size(incoming).max(1e-9);
+                if size(leaving) > 1e-6 * scale && both_dots {
+                    let away = unit(leaving);
+                    return [away[0] * 15.0, away[1] * 15.0];
+                }
+                if size(leaving) > 1e-6 * scale && dot(leaving, back) > 0.0 {
+                    16.0
+                } else {
+                    0.0
+                }
+            }
+        };
+        [back[0] * (near + gap), back[1] * (near + gap)]
+    }
+
+    /// Draws a body, moved aside by some pixels.
+    pub fn body(&self, sheet: &mut Sheet, pose: &Pose, aside: Pair) {
+        let put = |p: Pair| {
+            let q = self.px(p);
+            [q[0] + aside[0], q[1] + aside[1]]
+        };
+        let outline: Vec<Pair> = pose.outline().into_iter().map(put).collect();
+        match &pose.look {
+            Look::Fixed => {}
+            Look::Dot => {
+                sheet.dot(put(pose.center), DOT, Ink::Body);
+            }
+            Look::Bar(_) if pose.massless => sheet.path(outline, false, Line::of(Ink::Body), 2.0),
+            Look::Bar(_) => {
+                let [a, b] = [outline[0], outline[1]];
+                sheet.path(capsule(a, b), true, Line::solid(), 1.0);
+                sheet.walls.push((a, b, 1.5));
+            }
+            Look::Round { radius, ring } => {
+                let (center, r) = (put(pose.center), self.long(*radius));
+                sheet.circle(
+                    center,
+                    r,
+                    if *ring {
+                        Line::of(Ink::Body)
+                    } else {
+                        Line::solid()
+                    },
+                );
+                if *ring {
+                    sheet.circle(center, (r - 4.0).max(r * 0.8), Line::of(Ink::Body));
+                }
+            }
+            Look::Plate(..) | Look::Blob(_) => sheet.path(outline, true, Line::solid(), 1.0),
+            Look::Parts(parts) => {
+                for pair in parts.windows(2) {
+                    let [a, b] = [put(pair[0].center), put(pair[1].center)];
+                    sheet.segment(
+                        a,
+                        b,
+                        Line {
+                            width: 2.2,
+                            ..Line::of(Ink::Body)
+                        },
+                        2.0,
+                    );
+                }
+                for part in parts {
+                    self.body(sheet, part, aside);
+                }
+            }
+        }
+    }
+
+    /// Draws what does not move: ground and walls at contacts, supports at hinges.
+    pub fn fixed(&self, sheet: &mut Sheet) {
+        for contact in &self.scene.contacts {
+            let [a, b] = contact.bodies;
+            let (fixed, other) = match (self.scene.bodies.get(a), self.scene.bodies.get(b)) {
+                (Some(x), Some(_)) if x.is_fixed() => (a, b),
+                (Some(_), Some(y)) if y.is_fixed() => (b, a),
+                _ => continue,
+            };
+            let Some(at) = self.values.pair(&contact.at) else {
+                continue;
+            };
+            let given = contact.normal.as_ref().and_then(|n| self.values.pair(n));
+            let sign = if fixed == a { 1.0 } else { -1.0 };
+            match given
+                .map(|n| [n[0] * sign, n[1] * sign])
+                .or_else(|| self.upright(other, at))
+            {
+                Some(n) => self.wall(sheet, at, n, other),
+                None => {
+                    // The peg touches the body from the side the body comes from.
+                    let hit = self
+                        .hit(other, at)
+                        .filter(|v| size(*v) > 1e-9)
+                        .unwrap_or([0.0, 0.0]);
+                    let off = match self.poses[other].look {
+                        Look::Bar(_) => PEG + THICK,
+                        _ => PEG,
+                    } / size(hit).max(1e-12);
+                    let at = self.px(at);
+                    peg(sheet, [at[0] + hit[0] * off, at[1] + hit[1] * off]);
+                }
+            }
+        }
+        for hinge in &self.scene.hinges {
+            let [a, b] = hinge.bodies;
+            let is_fixed = |i: usize| self.scene.bodies.get(i).is_some_and(Body::is_fixed);
+            let other = if is_fixed(a) { b } else { a };
+            if !is_fixed(a) && !is_fixed(b) {
+                continue;
+            }
+            let (Some(at), Some(pose)) = (self.values.pair(&hinge.at), self.poses.get(other))
+            else {
+                continue;
+            };
+            let d = [at[0] - pose.center[0], at[1] - pose.center[1]];
+            let away = if size(d) < 1e-9 {
+                [0.0, -1.0]
+            } else if d[0].abs() > d[1].abs() {
+                [d[0].signum(), 0.0]
+            } else {
+                [0.0, d[1].signum()]
+            };
+            support(sheet, self.px(at), away);
+        }
+    }
+
+    /// Draws the hinges' circles.
+    pub fn hinges(&self, sheet: &mut Sheet, shown: &dyn Fn([usize; 2]) -> bool) {
+        for hinge in self.scene.hinges.iter().filter(|h| shown(h.bodies)) {
+            if let Some(at) = self.spot(&hinge.at) {
+                sheet.kept.push(Room::around(at, 5.0));
+                sheet.items.push(Item::Circle {
+                    center: at,
+                    radius: 3.6,
+                    line: Line::of(Ink::Body),
+                });
+            }
+        }
+    }
+
+    /// Velocity just before of a body's point.
+    fn hit(&self, body: usize, at: Pair) -> Option<Pair> {
+        let center = self.poses.get(body)?.center;
+        let r = [at[0] - center[0], at[1] - center[1]];
+        let v = self.values.pair(&self.scene.bodies[body].velocity)?;
+        let spin = self.values.of(&self.scene.bodies[body].spin)?;
+        Some([v[0] - spin * r[1], v[1] + spin * r[0]])
+    }
+
+    /// Which way a wall faces that a body hits without a stated normal; `None` for a peg.
+    fn upright(&self, other: usize, at: Pair) -> Option<Pair> {
+        let pose = self.poses.get(other)?;
+        let r = [pose.center[0] - at[0], pose.center[1] - at[1]];
+        let hit = self.hit(other, at)?;
+        if let Look::Blob(_) = pose.look {
+            return (size(r) > 1e-9).then(|| [r[0] / size(r), r[1] / size(r)]);
+        }
+        if let Look::Dot = pose.look {
+            return (size(hit) > 1e-9).then(|| [-hit[0] / size(hit), -hit[1] / size(hit)]);
+        }
+        let points = pose.outline();
+        let span = points
+            .iter()
+            .map(|p| size([p[0] - at[0], p[1] - at[1]]))
+            .fold(0.0, f64::max);
+        [[0.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [0.0, -1.0]]
+            .into_iter()
+            .filter(|n| {
+                let heights = || points.iter().map(|p| dot([p[0] - at[0], p[1] - at[1]], *n));
+                heights().all(|h| h > -1e-6 * span)
+                    && heights().fold(0.0, f64::max) > 0.15 * span
+                    && dot(hit, *n) < -1e-9
+            })
+            .min_by(|a, b| dot(hit, *a).total_cmp(&dot(hit, *b)))
+    }
+
+    fn wall(&self, sheet: &mut Sheet, at: Pair, n: Pair, other: usize) {
+        let along = [n[1], -n[0]];
+        let at = self.px(at);
+        let (mut low, mut high) = (-42.0f64, 42.0f64);
+        for p in self.poses.get(other).map(Pose::outline).unwrap_or_default() {
+            let q = self.px(p);
+            let t = dot([q[0] - at[0], q[1] - at[1]], along);
+            low = low.min(t - 14.0);
+            high = high.max(t + 14.0);
+        }
+        let spot = |t: f64, depth: f64| {
+            [
+                at[0] + along[0] * t - n[0] * depth,
+                at[1] + along[1] * t - n[1] * depth,
+            ]
+        };
+        let gap = if let Look::Bar(_) = self.poses[other].look {
+            0.0
+        } else {
+            0.8
+        };
+        hatched(sheet, spot(low, gap), spot(high, gap), [-n[0], -n[1]]);
+    }
+}
+
+/// A line with strokes on its far side.
+fn hatched(sheet: &mut Sheet, from: Pair, to: Pair, back: Pair) {
+    let d = [to[0] - from[0], to[1] - from[1]];
+    let length = size(d).max(1e-9);
+    let unit = [d[0] / length, d[1] / length];
+    sheet.segment(
+        from,
+        to,
+        Line {
+            width: 1.9,
+            ..Line::of(Ink::Ground)
+        },
+        2.0,
+    );
+    let count = (length / 7.0).floor() as usize;
+    for k in 0..count.min(100) {
+        let t = (k as f64 + 0.85) * length / count as f64;
+        let foot = [from[0] + unit[0] * t, from[1] + unit[1] * t];
+        let end = [
+            foot[0] + back[0] * 7.0 - unit[0] * 5.5,
+            foot[1] + back[1] * 7.0 - unit[1] * 5.5,
+        ];
+        sheet.items.push(Item::Path {
+            points: vec![foot, end],
+            closed: false,
+            line: Line::thin(Ink::Ground),
+        });
+    }
+    for depth in [3.5, 7.5] {
+        let behind = |p: Pair| [p[0] + back[0] * depth, p[1] + back[1] * depth];
+        sheet.walls.push((behind(from), behind(to), 3.0));
+    }
+}
+
+fn peg(sheet: &mut Sheet, at: Pair) {
+    sheet.circle(
+        at,
+        PEG,
+        Line {
+            filled: true,
+            ..Line::of(Ink::Ground)
+        },
+    );
+    for k in [-3.0, 0.0, 3.0] {
+        let half = f64::sqrt(PEG * PEG - k * k) * 0.75;
+        let points = vec![
+            [at[0] + k - half * 0.6, at[1] - half * 0.8],
+            [at[0] + k + half * 0.6, at[1] + half * 0.8],
+        ];
+        sheet.items.push(Item::Path {
+            points,
+            closed: false,
+            line: Line::thin(Ink::Ground),
+        });
+    }
+    sheet.kept.push(Room::around(at, PEG));
+}
+
+fn support(sheet: &mut Sheet, at: Pair, away: Pair) {
+    let across = [-away[1], away[0]];
+    let spot = |out: f64, side: f64| {
+        [
+            at[0] + away[0] * out + across[0] * side,
+            at[1] + away[1] * out + across[1] * side,
+        ]
+    };
+    sheet.path(
+        vec![at, spot(15.0, 10.0), spot(15.0, -10.0)],
+        true,
+        Line {
+            filled: true,
+            ..Line::thin(Ink::Ground)
+        },
+        1.0,
+    );
+    hatched(sheet, spot(15.0, 18.0), spot(15.0, -18.0), away);
+}
+
+fn capsule(a: Pair, b: Pair) -> Vec<Pair> {
+    let phi = (b[1] - a[1]).atan2(b[0] - a[0]);
+    let mut points = arc(b, THICK, phi - PI / 2.0, phi + PI / 2.0);
+    points.extend(arc(a, THICK, phi + PI / 2.0, phi + 1.5 * PI));
+    points
+}
+
+/// The symbol of a body's center of mass: a point's name if one lies there, else G with the body's number.
+pub fn center_name(stage: &Stage, body: usize) -> Option<Label> {
+    let scene = stage.scene;
+    if scene.bodies[body].is_fixed() || scene.bodies[body].is_particle() {
+        return None;
+    }
+    let center = stage.px(stage.poses[body].center);
+    let named = scene.points.iter().find(|p| {
+        stage
+            .spot(&p.at)
+            .is_some_and(|q| size([q[0] - center[0], q[1] - center[1]]) < 1.5)
+    });
+    if let Some(point) = named {
+        return Some(Label::symbol(&point.name, None));
+    }
+    let extended: Vec<usize> = stage
+        .movable()
+        .into_iter()
+        .filter(|i| !scene.bodies[*i].is_particle() && !scene.bodies[*i].mass.is_zero())
+        .collect();
+    if scene.bodies[body].mass.is_zero() {
+        return None;
+    }
+    match extended.len() {
+        1 => Some(Label::latex("G")),
+        _ => extended
+            .iter()
+            .position(|i| *i == body)
+            .map(|k| Label::latex(&format!("G_{{{}}}", k + 1))),
+    }
+}

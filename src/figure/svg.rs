@@ -1,0 +1,259 @@
+//! Writes a display list as SVG. Text passes through one escaping function; there are no scripts, fonts or references.
+
+use std::fmt::Write;
+
+use super::label::{Level, SMALL, visible};
+use super::sheet::{Ink, Item, Line};
+
+/// A picture with its words.
+pub struct Page<'a> {
+    /// What is drawn, y up, inside 0 ≤ x ≤ width and 0 ≤ y ≤ height.
+    pub items: &'a [Item],
+    /// Width in pixels.
+    pub width: f64,
+    /// Height in pixels.
+    pub height: f64,
+    /// What the picture is called.
+    pub title: &'a str,
+    /// The picture in words.
+    pub description: &'a str,
+}
+
+/// Serif fonts with italics that look like print; any of them will do.
+const FONTS: &str =
+    "'STIX Two Text','Libertinus Serif',Cambria,'Times New Roman','Liberation Serif',Times,serif";
+
+/// Standing alone, the picture picks its own ink; inside a page it takes the page's text color.
+const STYLE: &str = "@media (prefers-color-scheme:dark){svg.carom-figure:root{color:#e6e8eb}}";
+
+/// The SVG document.
+pub fn write(page: &Page) -> String {
+    let (w, h) = (number(page.width), number(page.height));
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"carom-figure\" role=\"img\" width=\"{w}\" height=\"{h}\" \
+         viewBox=\"0 0 {w} {h}\" font-family=\"{FONTS}\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n\
+         <title>{}</title>\n<desc>{}</desc>\n<style>{STYLE}</style>\n",
+        escape(page.title),
+        escape(page.description)
+    );
+    for item in page.items {
+        write_item(item, page.height, &mut out);
+    }
+    out.push_str("</svg>\n");
+    out
+}
+
+/// Text for an element or attribute: markup escaped, characters XML forbids replaced.
+pub fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in visible(text).chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// A coordinate with at most two decimals; never NaN, whatever came in.
+pub fn number(value: f64) -> String {
+    let value = if value.is_finite() {
+        value.clamp(-1e6, 1e6)
+    } else {
+        0.0
+    };
+    let text = format!("{value:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" {
+        "0".to_string()
+    } else {
+        text.to_string()
+    }
+}
+
+/// Middle tones that read on white and on near-black alike; what has to be read as text takes the page's own color.
+fn color(ink: Ink) -> &'static str {
+    match ink {
+        Ink::Body | Ink::Ground => "currentColor",
+        Ink::Motion => "#2f81d6",
+        Ink::Impulse => "#d9534a",
+        Ink::Dimension => "#858b93",
+    }
+}
+
+fn write_item(item: &Item, height: f64, out: &mut String) {
+    let x = |p: &[f64; 2]| number(p[0]);
+    let y = |p: &[f64; 2]| number(height - p[1]);
+    // Writing to a String cannot fail.
+    let _ = match item {
+        Item::Path {
+            points,
+            closed,
+            line,
+        } => {
+            let mut d = String::new();
+            for (i, p) in points.iter().enumerate() {
+                let _ = write!(d, "{}{} {}", if i == 0 { "M" } else { "L" }, x(p), y(p));
+            }
+            if *closed {
+                d.push('Z');
+            }
+            writeln!(out, "<path d=\"{d}\"{}/>", stroke(line))
+        }
+        Item::Circle {
+            center,
+            radius,
+            line,
+        } => {
+            writeln!(
+                out,
+                "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"{}/>",
+                x(center),
+                y(center),
+                number(*radius),
+                stroke(line)
+            )
+        }
+        Item::Dot {
+            center,
+            radius,
+            ink,
+        } => writeln!(
+            out,
+            "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\"/>",
+            x(center),
+            y(center),
+            number(*radius),
+            color(*ink)
+        ),
+        Item::Head {
+            tip,
+            along,
+            size,
+            ink,
+        } => {
+            let across = [-along[1], along[0]];
+            let corner = |back: f64, side: f64| {
+                [
+                    tip[0] - along[0] * back + across[0] * side,
+                    tip[1] - along[1] * back + across[1] * side,
+                ]
+            };
+            let (a, b, c) = (
+                corner(*size, size * 0.36),
+                corner(size * 0.75, 0.0),
+                corner(*size, -size * 0.36),
+            );
+            writeln!(
+                out,
+                "<path d=\"M{} {}L{} {}L{} {}L{} {}Z\" fill=\"{}\"/>",
+                x(tip),
+                y(tip),
+                x(&a),
+                y(&a),
+                x(&b),
+                y(&b),
+                x(&c),
+                y(&c),
+                color(*ink)
+            )
+        }
+        Item::Text {
+            at,
+            size,
+            bold,
+            label,
+            ..
+        } => {
+            let weight = if *bold { " font-weight=\"600\"" } else { "" };
+            let _ = write!(
+                out,
+                "<text x=\"{}\" y=\"{}\" font-size=\"{}\"{weight} fill=\"currentColor\" xml:space=\"preserve\">",
+                x(at),
+                y(at),
+                number(*size)
+            );
+            let ends = label.ends(*size);
+            let (mut pen, mut shift) = (0.0, 0.0);
+            for (run, (start, end)) in label.runs.iter().zip(&ends) {
+                let target = match run.level {
+                    Level::Base => 0.0,
+                    Level::Sub => 0.24 * size,
+                    Level::Sup => -0.42 * size,
+                };
+                let _ = write!(out, "<tspan");
+                if run.italic {
+                    out.push_str(" font-style=\"italic\"");
+                }
+                if run.level != Level::Base {
+                    let _ = write!(out, " font-size=\"{}\"", number(size * SMALL));
+                }
+                let (dx, dy): (f64, f64) = (start - pen, target - shift);
+                if dx.abs() > 0.01 {
+                    let _ = write!(out, " dx=\"{}\"", number(dx));
+                }
+                if dy.abs() > 0.01 {
+                    let _ = write!(out, " dy=\"{}\"", number(dy));
+                }
+                let _ = write!(out, ">{}</tspan>", escape(&run.text));
+                (pen, shift) = (*end, target);
+            }
+            let _ = writeln!(out, "</text>");
+            for (run, (start, end)) in label.runs.iter().zip(&ends).filter(|(run, _)| run.arrow) {
+                let tall = run
+                    .text
+                    .chars()
+                    .any(|c| c.is_uppercase() || "ℓbdfhklt".contains(c));
+                let above = at[1] + size * if tall { 0.86 } else { 0.66 };
+                let (from, to) = ([at[0] + start, above], [at[0] + end + 0.5, above]);
+                let _ = writeln!(
+                    out,
+                    "<path d=\"M{} {}H{}m-2.6 -1.9l2.6 1.9l-2.6 1.9\" stroke=\"currentColor\" stroke-width=\"0.9\"/>",
+                    x(&from),
+                    y(&from),
+                    x(&to)
+                );
+            }
+            Ok(())
+        }
+    };
+}
+
+fn stroke(line: &Line) -> String {
+    let color = color(line.ink);
+    let mut out = format!(
+        " stroke=\"{color}\" stroke-width=\"{}\"",
+        number(line.width)
+    );
+    if line.dashed {
+        out.push_str(" stroke-dasharray=\"4 3\"");
+    }
+    if line.filled {
+        out.push_str(&format!(" fill=\"{color}\" fill-opacity=\"0.09\""));
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_cannot_leave_its_element() {
+        assert_eq!(
+            escape("<script>&\"'\u{202e}\u{0}"),
+            "&lt;script&gt;&amp;&quot;&#39;□□"
+        );
+    }
+
+    #[test]
+    fn numbers_are_numbers() {
+        for value in [f64::NAN, f64::INFINITY, -0.001, 1.0, 12.345] {
+            assert!(number(value).parse::<f64>().is_ok_and(f64::is_finite));
+        }
+    }
+}

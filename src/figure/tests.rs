@@ -1,0 +1,203 @@
+//! Every shipped scene is drawn; a folder given in `CAROM_GALLERY` gets the pictures, for looking at.
+
+use super::*;
+
+fn scenes() -> Vec<(String, Scene)> {
+    let mut out = Vec::new();
+    let mut folders =
+        vec![std::path::PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("derivations")];
+    while let Some(folder) = folders.pop() {
+        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+        let (deeper, files): (Vec<_>, Vec<_>) = entries.map(|e| e.path()).partition(|p| p.is_dir());
+        folders.extend(deeper.into_iter().filter(|p| !p.ends_with("refused")));
+        for file in files
+            .into_iter()
+            .filter(|p| p.extension().is_some_and(|e| e == "json"))
+        {
+            let text = std::fs::read_to_string(&file).expect("a shipped scene is readable");
+            let name = file
+                .file_stem()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned();
+            if let Ok(scene) = crate::scene::read(&text) {
+                out.push((name, scene));
+            }
+        }
+    }
+    out.sort_by(|a, b| a.0.cmp(&b.0));
+    assert!(out.len() >= 11, "the book's scenes are there");
+    out
+}
+
+fn sheets(scene: &Scene) -> Vec<Sheet> {
+    let values = values::representative(scene);
+    let stage = stage::stage(scene, &values).expect("a shipped scene has a place on paper");
+    let motion = picture::outcome(&stage);
+    kinds(scene)
+        .into_iter()
+        .map(|which| panel(&stage, motion.as_ref(), which).sheet)
+        .collect()
+}
+
+#[test]
+fn every_picture_is_well_formed_stays_inside_and_is_the_same_twice() {
+    for (name, scene) in scenes() {
+        let mut drawings = all(&scene);
+        drawings.push(draw(&scene, Which::All));
+        for drawing in &drawings {
+            let document =
+                roxmltree::Document::parse(&drawing.svg).unwrap_or_else(|e| panic!("{name}: {e}"));
+            let root = document.root_element();
+            let number = |key: &str| {
+                root.attribute(key)
+                    .and_then(|v| v.parse::<f64>().ok())
+                    .expect("a size")
+            };
+            let (width, height) = (number("width"), number("height"));
+            assert!(
+                !drawing.svg.contains("NaN") && !drawing.svg.contains("inf"),
+                "{name}"
+            );
+            assert!(
+                !drawing.alternative.is_empty() && !drawing.caption.is_empty(),
+                "{name}"
+            );
+            for text in document.descendants().filter(|n| n.has_tag_name("text")) {
+                let at = |key: &str| {
+                    text.attribute(key)
+                        .and_then(|v| v.parse::<f64>().ok())
+                        .expect("a place")
+                };
+                assert!(
+                    (0.0..=width).contains(&at("x")) && (0.0..=height).contains(&at("y")),
+                    "{name}"
+                );
+            }
+        }
+        assert_eq!(drawings[..drawings.len() - 1], all(&scene), "{name}");
+    }
+    if let Ok(folder) = std::env::var("CAROM_GALLERY") {
+        for (name, scene) in scenes() {
+            for (k, drawing) in all(&scene).iter().enumerate() {
+                std::fs::write(format!("{folder}/{name}-{k}.svg"), &drawing.svg)
+                    .expect("a gallery folder");
+            }
+        }
+    }
+}
+
+#[test]
+fn no_label_covers_another() {
+    for (name, scene) in scenes() {
+        for (k, sheet) in sheets(&scene).iter().enumerate() {
+            let rooms: Vec<(&Label, &Room)> = sheet
+                .items
+                .iter()
+                .filter_map(|item| {
+                    if let Item::Text { label, room, .. } = item {
+                        Some((label, room))
+                    } else {
+                        None
+                    }
+                })
+                .collect();
+            let all = sheet.room().map(|r| r.grown(0.01));
+            for (i, (label, room)) in rooms.iter().enumerate() {
+                assert!(
+                    all.is_some_and(|a| a.with(room) == a),
+                    "{name} {k}: {} sticks out",
+                    label.text()
+                );
+                for (other, taken) in &rooms[..i] {
+                    assert!(
+                        room.overlap(taken) == 0.0,
+                        "{name} {k}: {} on {}",
+                        label.text(),
+                        other.text()
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_scene_named_like_markup_is_only_text() {
+    let text = r#"{
+        "title": "<script>alert(1)</script>\u202e",
+        "parameters": {"m": {"unit": "kg", "latex": "\\input{<b>}"}, "v": {"unit": "m/s"}},
+        "bodies": {
+            "ground": {"shape": "fixed"},
+            "ball": {"shape": "particle", "mass": "m", "velocity": ["0", "-v"]}
+        },
+        "contacts": {"C": {"bodies": ["ground", "ball"], "at": ["0", "0"], "law": "sticking"}},
+        "forces": [{"name": "]]> & <img src=x onerror=alert(1)>", "on": "ball"}],
+        "questions": {"E": {"energy": "lost"}}
+    }"#;
+    let mut scene = crate::scene::read(text).expect("the scene is sound");
+    scene.bodies[1].name = "</text><script>".to_string();
+    for drawing in all(&scene).iter().chain([&draw(&scene, Which::All)]) {
+        let document = roxmltree::Document::parse(&drawing.svg).expect("XML");
+        for node in document.descendants().filter(|n| n.is_element()) {
+            let name = node.tag_name().name();
+            assert!(
+                [
+                    "svg", "title", "desc", "style", "path", "circle", "text", "tspan"
+                ]
+                .contains(&name),
+                "{name}"
+            );
+            assert!(
+                node.attributes().all(|a| !a.name().starts_with("on")),
+                "{name}"
+            );
+        }
+        assert!(!drawing.svg.contains('\u{202e}'));
+    }
+}
+
+#[test]
+fn what_cannot_be_placed_is_said_and_does_not_panic() {
+    let mut scene = scenes().remove(0).1;
+    scene.bodies[0].center = [Expr::zero().powi(-1), Expr::zero()];
+    assert!(draw(&scene, Which::All).caption.contains("no picture"));
+    assert!(
+        all(&Scene::default())
+            .iter()
+            .all(|d| roxmltree::Document::parse(&d.svg).is_ok())
+    );
+    let (_, whole) = scenes().remove(0);
+    assert!(
+        draw(&whole, Which::During(Subject::Body(99)))
+            .caption
+            .contains("no movable body")
+    );
+}
+
+#[test]
+fn captions_tell_the_values_in_the_units_of_the_scene() {
+    let scenes = scenes();
+    let find = |name: &str| &scenes.iter().find(|(n, _)| n == name).expect("shipped").1;
+    assert!(
+        draw(find("falling-stick"), Which::Before)
+            .caption
+            .contains("ℓ = 1 m, v = 1 m/s, θ = 35°")
+    );
+    assert!(
+        draw(find("billiard-ball"), Which::Before)
+            .caption
+            .contains("r = 30 mm")
+    );
+}
+
+#[cfg(feature = "png")]
+#[test]
+fn a_png_has_letters_without_fonts_of_the_system() {
+    let with = png("<svg xmlns='http://www.w3.org/2000/svg' width='40' height='20'><text x='2' y='15' font-family='serif'>θ</text></svg>").expect("PNG");
+    let without =
+        png("<svg xmlns='http://www.w3.org/2000/svg' width='40' height='20'></svg>").expect("PNG");
+    assert_eq!(&with[..4], b"\x89PNG");
+    assert_ne!(with, without);
+    assert!(png("<svg").is_err());
+}

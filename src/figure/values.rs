@@ -1,0 +1,338 @@
+//! Representative values: what a symbolic scene is drawn at.
+//!
+//! In: a scene. Out: a number for every symbol. Given values stay; the others are tried from short lists until bodies
+//! touch where they should, lie on opposite sides of their contact and approach each other. Nothing here depends on chance.
+
+use std::f64::consts::PI;
+
+use crate::dimension::{self, Dimension};
+use crate::domain::{Domain, Limit};
+use crate::expr::number::to_f64;
+use crate::expr::{Expr, Point, Symbol, Vector};
+use crate::scene::{Body, Parameter, Scene, Shape};
+
+/// A point or direction in the plane.
+pub type Pair = [f64; 2];
+
+/// Values of all symbols of a scene.
+#[derive(Clone, Debug)]
+pub struct Values {
+    /// The point to evaluate formulas at, in SI units.
+    pub point: Point<f64>,
+}
+
+/// Free symbols whose values are looked for; beyond that the first choice stays.
+const MOST: usize = 24;
+
+/// Values to draw a scene at.
+pub fn representative(scene: &Scene) -> Values {
+    let mut point = Point::default();
+    let mut free: Vec<(Vec<Symbol>, Vec<Vec<f64>>)> = Vec::new();
+    let in_pair = |name: &Symbol| {
+        scene
+            .domains
+            .unit_vectors
+            .iter()
+            .any(|pair| pair.contains(name))
+    };
+    let mut seen: Vec<&Dimension> = Vec::new();
+    for parameter in &scene.parameters {
+        let name = &parameter.name;
+        if in_pair(name) {
+            continue;
+        }
+        let given = parameter
+            .value
+            .as_ref()
+            .and_then(|v| v.evaluate(&Point::default()));
+        let value = match given {
+            Some(value) => value,
+            None => {
+                let earlier = seen.iter().filter(|d| ***d == parameter.dimension).count();
+                let choices = choices(scene, parameter, earlier);
+                let first = choices.first().copied().unwrap_or(1.0);
+                free.push((
+                    vec![name.clone()],
+                    choices.into_iter().map(|v| vec![v]).collect(),
+                ));
+                first
+            }
+        };
+        seen.push(&parameter.dimension);
+        point.values.insert(name.clone(), value);
+    }
+    for [x, y] in &scene.domains.unit_vectors {
+        let directions: Vec<Vec<f64>> = [30, 0, 90, 150, -30, 180, -90, 60, 120, -60, -120, -150]
+            .iter()
+            .map(|degrees| {
+                let (s, c) = (f64::from(*degrees) * PI / 180.0).sin_cos();
+                vec![c, s]
+            })
+            .collect();
+        point.values.insert(x.clone(), directions[0][0]);
+        point.values.insert(y.clone(), directions[0][1]);
+        free.push((vec![x.clone(), y.clone()], directions));
+    }
+    // Turning a velocity round is less of a surprise than a negative coordinate, so lengths come later, the last one
+    // first; a normal fits best once the places are settled.
+    let rank = |names: &[Symbol]| {
+        let length = Dimension::new(0, 1, 0);
+        let is_length = |p: &Parameter| p.name == names[0] && p.dimension == length;
+        (names.len(), scene.parameters.iter().any(is_length))
+    };
+    free.reverse();
+    free.sort_by_key(|(names, _)| rank(names));
+    free.truncate(MOST);
+    let mut best = penalty(scene, &point);
+    for _ in 0..3 {
+        let before = best;
+        for (names, choices) in &free {
+            for (rank, choice) in choices.iter().enumerate() {
+                let mut trial = point.clone();
+                for (name, value) in names.iter().zip(choice) {
+                    trial.values.insert(name.clone(), *value);
+                }
+                let cost = penalty(scene, &trial) + 1e-3 * rank as f64;
+                if cost + 1e-6 < best {
+                    (best, point) = (cost, trial);
+                }
+            }
+        }
+        if best == before {
+            break;
+        }
+    }
+    Values { point }
+}
+
+impl Values {
+    /// Value of a formula; `None` where it has no finite one.
+    pub fn of(&self, e: &Expr) -> Option<f64> {
+        e.evaluate(&self.point)
+            .filter(|v| v.is_finite() && v.abs() < 1e12)
+    }
+
+    /// Value of a vector.
+    pub fn pair(&self, v: &Vector) -> Option<Pair> {
+        Some([self.of(&v[0])?, self.of(&v[1])?])
+    }
+
+    /// A value as a caption gives it: `35°`, `0.03 m`.
+    pub fn told(&self, parameter: &Parameter) -> Option<String> {
+        let value = *self.point.values.get(&parameter.name)?;
+        if is_angle(parameter) {
+            return Some(format!("{}°", short(value * 180.0 / PI)));
+        }
+        let scale = parameter
+            .scale()
+            .evaluate(&Point::default())
+            .filter(|s: &f64| *s > 0.0)
+            .unwrap_or(1.0);
+        let unit = if parameter.unit == "1" {
+            String::new()
+        } else {
+            format!(" {}", parameter.unit)
+        };
+        Some(format!("{}{unit}", short(value / scale)))
+    }
+}
+
+/// A number with at most three decimals.
+pub fn short(value: f64) -> String {
+    let text = format!("{value:.3}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" {
+        "0".to_string()
+    } else {
+        text.replace('-', "−")
+    }
+}
+
+/// Whether a parameter is a plane angle.
+pub fn is_angle(parameter: &Parameter) -> bool {
+    parameter.dimension.is_none() && dimension::unit(&parameter.unit).is_ok_and(|u| u.angle)
+}
+
+/// Values to try for a parameter inside its domain, the most pleasant first.
+fn choices(scene: &Scene, parameter: &Parameter, earlier: usize) -> Vec<f64> {
+    let domain = scene
+        .domains
+        .symbols
+        .get(&parameter.name)
+        .cloned()
+        .unwrap_or_default();
+    let dimension = &parameter.dimension;
+    let is = |m, l, t| *dimension == Dimension::new(m, l, t);
+    let wanted: Vec<f64> = if is_angle(parameter) {
+        [35.0, 55.0, 25.0, 20.0, -35.0, 125.0, 80.0, 10.0]
+            .iter()
+            .map(|d| d * PI / 180.0)
+            .collect()
+    } else if is(0, 1, 0) {
+        let mut lengths = [1.0, 0.6, 0.8, 0.5, 0.7, 0.35, 1.5, 2.0];
+        lengths.rotate_left(earlier % 5);
+        lengths.iter().flat_map(|v| [*v, -*v]).collect()
+    } else if is(1, 2, 0) {
+        vec![0.2]
+    } else if is(1, 0, 0) {
+        vec![[1.0, 2.0, 3.0][earlier % 3]]
+    } else if is(0, 0, 0) {
+        vec![0.5, 0.25, 1.5, -0.5]
+    } else {
+        let size = [1.0, 0.6, 0.8, 0.5][earlier % 4];
+        vec![size, -size]
+    };
+    let fitting: Vec<f64> = wanted
+        .into_iter()
+        .filter(|v| lies_in(*v, &domain))
+        .collect();
+    if fitting.is_empty() {
+        vec![middle(&domain)]
+    } else {
+        fitting
+    }
+}
+
+fn end(limit: &Limit) -> f64 {
+    to_f64(&limit.value) * if limit.of_pi { PI } else { 1.0 }
+}
+
+/// Inside, and not so near an end that nothing could be seen.
+fn lies_in(value: f64, domain: &Domain) -> bool {
+    domain.low.as_ref().is_none_or(|l| value > end(l))
+        && domain.high.as_ref().is_none_or(|h| value < end(h))
+}
+
+fn middle(domain: &Domain) -> f64 {
+    match (&domain.low, &domain.high) {
+        (Some(low), Some(high)) => end(low) + 0.4 * (end(high) - end(low)),
+        (Some(low), None) => end(low) + 1.0,
+        (None, Some(high)) => end(high) - 1.0,
+        (None, None) => 1.0,
+    }
+}
+
+/// How badly the scene would look; infinite where it has no place at all.
+fn penalty(scene: &Scene, point: &Point<f64>) -> f64 {
+    let values = Values {
+        point: point.clone(),
+    };
+    let mut cost = 0.0;
+    let bodies: Option<Vec<Pair>> = scene
+        .bodies
+        .iter()
+        .map(|b| values.pair(&b.center))
+        .collect();
+    let Some(centers) = bodies else { return 1e9 };
+    let arm = |body: usize, at: Pair| [centers[body][0] - at[0], centers[body][1] - at[1]];
+    for contact in &scene.contacts {
+        let (Some(at), [a, b]) = (values.pair(&contact.at), contact.bodies) else {
+            return 1e9;
+        };
+        let (Some(first), Some(second)) = (scene.bodies.get(a), scene.bodies.get(b)) else {
+            return 1e9;
+        };
+        cost += miss(first, &values, at, true) + miss(second, &values, at, true);
+        let (ra, rb) = (arm(a, at), arm(b, at));
+        let normal = contact.normal.as_ref().and_then(|n| values.pair(n));
+        let out = match normal {
+            Some(n) => n,
+            None if first.is_fixed() || first.is_particle() => rb,
+            None if second.is_fixed() || second.is_particle() => [-ra[0], -ra[1]],
+            None => [rb[0] - ra[0], rb[1] - ra[1]],
+        };
+        for (body, r, sign) in [(first, ra, -1.0), (second, rb, 1.0)] {
+            if !body.is_fixed() && size(r) > 0.0 {
+                let cosine = sign * dot(r, out) / (size(r) * size(out)).max(1e-9);
+                cost += if cosine < -0.05 { 4.0 } else { 0.0 };
+                if matches!(body.shape, Shape::Other) {
+                    cost += 2.0 * (1.0 - cosine);
+                }
+            }
+        }
+        if matches!((&first.shape, &second.shape), (Shape::Other, Shape::Other))
+            && size(ra) > 0.0
+            && size(rb) > 0.0
+        {
+            // Bodies of unknown shape are drawn about equally large.
+            cost += (size(ra) / size(rb)).ln().abs();
+        }
+        let (Some(va), Some(vb)) = (moving(first, &values, ra), moving(second, &values, rb)) else {
+            return 1e9;
+        };
+        let closing = dot([vb[0] - va[0], vb[1] - va[1]], out);
+        cost += if closing >= -1e-9 && size(out) > 0.0 {
+            3.0
+        } else {
+            0.0
+        };
+    }
+    for hinge in &scene.hinges {
+        let Some(at) = values.pair(&hinge.at) else {
+            return 1e9;
+        };
+        cost += hinge
+            .bodies
+            .iter()
+            .filter_map(|b| scene.bodies.get(*b))
+            .map(|b| miss(b, &values, at, false))
+            .sum::<f64>();
+    }
+    for blow in &scene.blows {
+        let (Some(at), Some(body)) = (values.pair(&blow.at), scene.bodies.get(blow.body)) else {
+            return 1e9;
+        };
+        cost += miss(body, &values, at, false);
+    }
+    cost
+}
+
+/// Velocity of the body's point from which the center of mass lies at `r`.
+fn moving(body: &Body, values: &Values, r: Pair) -> Option<Pair> {
+    let (v, spin) = (values.pair(&body.velocity)?, values.of(&body.spin)?);
+    Some([v[0] + spin * r[1], v[1] - spin * r[0]])
+}
+
+/// How far a point lies off a body's edge, or outside the body, against the body's size.
+fn miss(body: &Body, values: &Values, at: Pair, on_edge: bool) -> f64 {
+    let (Some(center), Some(angle)) = (values.pair(&body.center), values.of(&body.angle)) else {
+        return 1e9;
+    };
+    let (s, c) = angle.sin_cos();
+    let d = [at[0] - center[0], at[1] - center[1]];
+    let (along, across) = (d[0] * c + d[1] * s, -d[0] * s + d[1] * c);
+    let value = |e: &Expr| values.of(e).unwrap_or(f64::NAN);
+    let off = match &body.shape {
+        Shape::Rod { length } => {
+            let half = value(length) / 2.0;
+            ((along.abs() - half).max(0.0) + across.abs()) / half
+        }
+        Shape::Disk { radius } | Shape::Ring { radius } | Shape::Sphere { radius } => {
+            let off = size(d) / value(radius) - 1.0;
+            if on_edge { off.abs() } else { off.max(0.0) }
+        }
+        Shape::Rectangle { width, height } => {
+            let (x, y) = (
+                2.0 * along.abs() / value(width) - 1.0,
+                2.0 * across.abs() / value(height) - 1.0,
+            );
+            if on_edge {
+                x.max(y).abs()
+            } else {
+                x.max(y).max(0.0)
+            }
+        }
+        _ => 0.0,
+    };
+    if off.is_finite() { 4.0 * off } else { 1e6 }
+}
+
+/// Scalar product.
+pub fn dot(a: Pair, b: Pair) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+/// Length of a vector.
+pub fn size(a: Pair) -> f64 {
+    a[0].hypot(a[1])
+}

@@ -1,0 +1,97 @@
+//! A picture in words: for readers who cannot see it.
+
+use super::label::Label;
+use super::values::Values;
+use crate::expr::{Expr, Vector};
+use crate::scene::{Body, ContactLaw, Scene, Shape};
+
+/// What a scene shows, sentence by sentence.
+pub fn scene(scene: &Scene) -> String {
+    let text = |e: &Expr| Label::formula(e, scene).text();
+    let mut out = Vec::new();
+    for body in &scene.bodies {
+        let what = shape(body, &text);
+        let mut sentence = format!("{}: {what}", body.name);
+        if !body.is_fixed() {
+            sentence += &format!(" of mass {}", text(&body.mass));
+            let moving = !(body.velocity[0].is_zero() && body.velocity[1].is_zero());
+            sentence += &match (moving, body.spin.is_zero()) {
+                (false, true) => ", at rest".to_string(),
+                (true, true) => format!(", moving at {}", vector(&body.velocity, &text)),
+                (false, false) => format!(", turning at {}", text(&body.spin)),
+                (true, false) => format!(
+                    ", moving at {} and turning at {}",
+                    vector(&body.velocity, &text),
+                    text(&body.spin)
+                ),
+            };
+        }
+        out.push(sentence);
+    }
+    let name = |i: usize| scene.bodies.get(i).map_or("?", |b| b.name.as_str());
+    for hinge in &scene.hinges {
+        out.push(format!(
+            "a hinge {} joins {} and {}",
+            hinge.name,
+            name(hinge.bodies[0]),
+            name(hinge.bodies[1])
+        ));
+    }
+    for contact in &scene.contacts {
+        let law = match contact.law {
+            ContactLaw::None => "collide",
+            ContactLaw::Sticking => "collide and stick",
+            ContactLaw::Frictionless { .. } => "collide without friction",
+        };
+        out.push(format!(
+            "{} and {} {law} at {}",
+            name(contact.bodies[0]),
+            name(contact.bodies[1]),
+            contact.name
+        ));
+    }
+    for blow in &scene.blows {
+        out.push(format!("{} is struck by {}", name(blow.body), blow.name));
+    }
+    let mut all = out.join("; ");
+    all.push('.');
+    all
+}
+
+fn shape(body: &Body, text: &dyn Fn(&Expr) -> String) -> String {
+    match &body.shape {
+        Shape::Fixed => "fixed".to_string(),
+        Shape::Particle => "a particle".to_string(),
+        Shape::Rod { length } => format!("a rod of length {}", text(length)),
+        Shape::Disk { radius } => format!("a disk of radius {}", text(radius)),
+        Shape::Ring { radius } => format!("a ring of radius {}", text(radius)),
+        Shape::Sphere { radius } => format!("a ball of radius {}", text(radius)),
+        Shape::Rectangle { width, height } => {
+            format!("a rectangle {} by {}", text(width), text(height))
+        }
+        Shape::Other => "a rigid body".to_string(),
+        Shape::Composite { parts } => format!("{} parts joined rigidly", parts.len()),
+    }
+}
+
+fn vector(v: &Vector, text: &dyn Fn(&Expr) -> String) -> String {
+    format!("({}, {})", text(&v[0]), text(&v[1]))
+}
+
+/// The values a scene is drawn at: `Drawn for θ = 35°, ℓ = 1 m.`
+pub fn values(scene: &Scene, values: &Values, shown: &dyn Fn(&str) -> bool) -> String {
+    let told: Vec<String> = scene
+        .parameters
+        .iter()
+        .filter(|p| shown(&p.name))
+        .filter_map(|p| {
+            let name = Label::symbol(&p.name, p.latex.as_deref()).text();
+            values.told(p).map(|value| format!("{name} = {value}"))
+        })
+        .collect();
+    if told.is_empty() {
+        String::new()
+    } else {
+        format!("Drawn for {}.", told.join(", "))
+    }
+}
