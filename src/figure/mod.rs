@@ -4,12 +4,15 @@
 //! bodies out, `picture` draws on a `sheet`, `place` finds room for labels, `svg` writes. Nothing here decides
 //! anything about mechanics: the motion after comes from [`crate::numeric`] at the values the scene is drawn at.
 
+mod during;
 mod label;
+mod marks;
 mod measure;
 mod picture;
 mod place;
 #[cfg(feature = "png")]
 mod png;
+mod quantity;
 mod sheet;
 mod stage;
 mod svg;
@@ -160,7 +163,7 @@ fn panel(stage: &Stage, motion: Option<&Motion<f64>>, which: Which) -> Panel {
                 of
             };
             let heading = format!("During the collision: {of}");
-            let (sheet, notes) = picture::during(stage, &bodies, motion);
+            let (sheet, notes) = during::during(stage, &bodies, motion);
             let labels = labels(&sheet);
             let note = notes.join(" ");
             Panel {

@@ -1,0 +1,358 @@
+//! Free-body diagrams during the collision: impulses only, and what is left out.
+//!
+//! In: a scene on stage, the bodies of the system, the impulses as numbers where the equations fix them. Out: a sheet
+//! and notes. Which forces have no impulse is the scene's statement; this module only repeats it.
+
+use super::label::{Label, Level};
+use super::marks::{centers, names};
+use super::picture::arrow_length;
+use super::place::{Spot, Wish};
+use super::quantity::{magnitude, vector_name};
+use super::sheet::{Ink, SIZE, Sheet};
+use super::stage::{DOT, Moment, Stage};
+use super::values::{Pair, dot, size};
+use crate::expr::Vector;
+use crate::numeric::Motion;
+use crate::numeric::system::Unknown;
+use crate::scene::{Ask, BlowImpulse, ContactLaw, ImpulseAt};
+
+/// The free body (or system) during the collision, with impulses only.
+pub fn during(
+    stage: &Stage,
+    system: &[usize],
+    motion: Option<&Motion<f64>>,
+) -> (Sheet, Vec<String>) {
+    let mut sheet = Sheet::default();
+    for i in system {
+        let aside = stage.aside(*i, Moment::During, &[]);
+        let aside = if system.len() > 1 { aside } else { [0.0, 0.0] };
+        stage.body(&mut sheet, &stage.poses[*i], aside);
+    }
+    stage.hinges(&mut sheet, &|bodies| {
+        bodies.iter().any(|b| system.contains(b))
+    });
+    centers(stage, &mut sheet, system);
+    let pushes = impulses(stage, system, motion);
+    let most = pushes.iter().map(|p| size(p.vector)).fold(0.0, f64::max);
+    let mut notes = Vec::new();
+    for push in &pushes {
+        if size(push.vector) <= 1e-9 * most || most == 0.0 {
+            notes.push(format!(
+                "{} is zero at these values.",
+                push.label.text().trim_start_matches('−')
+            ));
+            continue;
+        }
+        push.draw(stage, &mut sheet, arrow_length(size(push.vector), most));
+    }
+    if pushes.is_empty() {
+        let what = if system.len() > 1 { "the system" } else { "it" };
+        notes.push(format!("No impulse from outside acts on {what}."));
+    }
+    notes.extend(left_out(stage, system));
+    names(stage, &mut sheet, system, false);
+    sheet.settle();
+    (sheet, notes)
+}
+
+/// Finite forces on the bodies, and why they are not drawn.
+fn left_out(stage: &Stage, system: &[usize]) -> Option<String> {
+    let mut names: Vec<&str> = Vec::new();
+    for force in stage
+        .scene
+        .forces
+        .iter()
+        .filter(|f| system.contains(&f.body))
+    {
+        if !names.contains(&force.name.as_str()) {
+            names.push(&force.name);
+        }
+    }
+    (!names.is_empty()).then(|| {
+        let (it, s) = if names.len() == 1 {
+            ("is", "")
+        } else {
+            ("are", "s")
+        };
+        format!(
+            "Left out: {}, which {it} finite and ha{} no impulse in so short a time.",
+            names.join(", "),
+            if s.is_empty() { "s" } else { "ve" }
+        )
+    })
+}
+
+/// An impulse on a body of a system.
+pub(super) struct Push {
+    at: Pair,
+    vector: Pair,
+    label: Label,
+    body: usize,
+    presses: bool,
+    /// Whether it comes from outside the scene.
+    pub(super) is_blow: bool,
+}
+
+impl Push {
+    /// Draws the arrow: up to the body where it pushes, else away from it.
+    pub(super) fn draw(&self, stage: &Stage, sheet: &mut Sheet, length: f64) {
+        if size(self.vector) < 1e-300 {
+            return;
+        }
+        let at = stage.px(self.at);
+        let center = stage.px(stage.poses[self.body].center);
+        let inward = [center[0] - at[0], center[1] - at[1]];
+        let d = [
+            self.vector[0] / size(self.vector),
+            self.vector[1] / size(self.vector),
+        ];
+        let pushing = dot(d, inward) > 0.25 * size(inward) && size(inward) > 1.0;
+        let free = if stage.scene.bodies[self.body].is_particle() {
+            DOT + 2.0
+        } else {
+            2.0
+        };
+        let (from, to) = if pushing || (size(inward) <= 1.0 && self.presses) {
+            (
+                [
+                    at[0] - d[0] * (length + free),
+                    at[1] - d[1] * (length + free),
+                ],
+                [at[0] - d[0] * free, at[1] - d[1] * free],
+            )
+        } else {
+            (at, [at[0] + d[0] * length, at[1] + d[1] * length])
+        };
+        sheet.arrow(from, to, Ink::Impulse, 2.2);
+        sheet.wish(Wish {
+            label: self.label.clone(),
+            size: SIZE,
+            spot: Spot::Along { from, to },
+        });
+    }
+}
+
+pub(super) fn impulses(stage: &Stage, system: &[usize], motion: Option<&Motion<f64>>) -> Vec<Push> {
+    let scene = stage.scene;
+    let mut out = Vec::new();
+    let mut add = |from: ImpulseAt,
+                   bodies: [Option<usize>; 2],
+                   at: &Vector,
+                   known: Option<Pair>,
+                   along: Option<Pair>,
+                   presses: bool,
+                   name: &str| {
+        let inside: Vec<(usize, f64)> = [(bodies[0], -1.0), (bodies[1], 1.0)]
+            .into_iter()
+            .filter_map(|(b, sign)| b.filter(|b| system.contains(b)).map(|b| (b, sign)))
+            .collect();
+        // Between two bodies of the system it cancels.
+        let ([(body, sign)], Some(at)) = (inside.as_slice(), stage.values.pair(at)) else {
+            return;
+        };
+        let is_blow = matches!(from, ImpulseAt::Blow(_));
+        let given = match from {
+            // A given impulse carries its own symbol.
+            ImpulseAt::Blow(i) => blow_label(stage, i),
+            _ => None,
+        };
+        let base = match given {
+            Some(label) => Named {
+                label,
+                on: *body,
+                scalar: true,
+            },
+            None => impulse_name(stage, from, name, along.is_some()),
+        };
+        match (known.filter(|p| size(*p) > 0.0), along) {
+            (Some(p), _) => {
+                let label = base.label(*body, *sign, along.is_some());
+                out.push(Push {
+                    at,
+                    vector: [p[0] * sign, p[1] * sign],
+                    label,
+                    body: *body,
+                    presses,
+                    is_blow,
+                });
+            }
+            (None, Some(n)) if known.is_none() => {
+                let label = base.label(*body, *sign, true);
+                out.push(Push {
+                    at,
+                    vector: [n[0] * sign, n[1] * sign],
+                    label,
+                    body: *body,
+                    presses,
+                    is_blow,
+                });
+            }
+            (None, _) if known.is_some() => {
+                let label = base.label(*body, *sign, along.is_some());
+                out.push(Push {
+                    at,
+                    vector: [0.0, 0.0],
+                    label,
+                    body: *body,
+                    presses,
+                    is_blow,
+                });
+            }
+            _ => {
+                for (axis, index) in [([1.0, 0.0], "x"), ([0.0, 1.0], "y")] {
+                    let mut label = base.plain();
+                    match label.runs.iter_mut().find(|r| r.level == Level::Sub) {
+                        Some(run) => run.text.push_str(index),
+                        None => label.push(index, true, Level::Sub),
+                    }
+                    let label = if *sign < 0.0 { label.negated() } else { label };
+                    out.push(Push {
+                        at,
+                        vector: axis,
+                        label,
+                        body: *body,
+                        presses: false,
+                        is_blow,
+                    });
+                }
+            }
+        }
+    };
+    let sure = |x: Unknown, y: Unknown, m: &Motion<f64>| m.determines(x) && m.determines(y);
+    for (i, contact) in scene.contacts.iter().enumerate() {
+        let bodies = contact
+            .bodies
+            .map(|b| Some(b).filter(|b| !scene.bodies[*b].is_fixed()));
+        let frictionless = matches!(contact.law, ContactLaw::Frictionless { .. });
+        let along = contact
+            .normal
+            .as_ref()
+            .filter(|_| frictionless)
+            .and_then(|n| stage.values.pair(n));
+        let known = motion.and_then(|m| {
+            let is_sure = match frictionless {
+                true => m.determines(Unknown::ContactNormal(i)),
+                false => sure(Unknown::ContactX(i), Unknown::ContactY(i), m),
+            };
+            is_sure.then(|| m.contact[i])
+        });
+        add(
+            ImpulseAt::Contact(i),
+            bodies,
+            &contact.at,
+            known,
+            along,
+            true,
+            &contact.name,
+        );
+    }
+    for (i, hinge) in scene.hinges.iter().enumerate() {
+        let bodies = hinge
+            .bodies
+            .map(|b| Some(b).filter(|b| !scene.bodies[*b].is_fixed()));
+        let known = motion
+            .filter(|m| sure(Unknown::HingeX(i), Unknown::HingeY(i), m))
+            .map(|m| m.hinge[i]);
+        add(
+            ImpulseAt::Hinge(i),
+            bodies,
+            &hinge.at,
+            known,
+            None,
+            false,
+            &hinge.name,
+        );
+    }
+    for (i, blow) in scene.blows.iter().enumerate() {
+        let (along, known) = match &blow.impulse {
+            BlowImpulse::Given(v) => (None, stage.values.pair(v)),
+            BlowImpulse::Along(v) => (
+                stage.values.pair(v),
+                motion
+                    .filter(|m| m.determines(Unknown::Blow(i)))
+                    .map(|m| m.blow[i]),
+            ),
+        };
+        add(
+            ImpulseAt::Blow(i),
+            [None, Some(blow.body)],
+            &blow.at,
+            known,
+            along,
+            true,
+            &blow.name,
+        );
+    }
+    out
+}
+
+/// The symbol of a given impulse, where it has a short one.
+fn blow_label(stage: &Stage, i: usize) -> Option<Label> {
+    match &stage.scene.blows[i].impulse {
+        BlowImpulse::Given(v) => magnitude(stage, v, stage.values.pair(v)?),
+        BlowImpulse::Along(_) => None,
+    }
+}
+
+/// What an impulse is called, and on which body it is counted.
+struct Named {
+    label: Label,
+    on: usize,
+    scalar: bool,
+}
+
+impl Named {
+    fn plain(&self) -> Label {
+        let mut label = self.label.clone();
+        label.runs.iter_mut().for_each(|r| r.arrow = false);
+        label
+    }
+
+    fn label(&self, body: usize, sign: f64, directed: bool) -> Label {
+        let opposite =
+            self.on != usize::MAX && self.on != body || self.on == usize::MAX && sign < 0.0;
+        // A scalar along a drawn direction is the arrow's length, whichever body it acts on.
+        if self.scalar || directed && !self.label.runs.iter().any(|r| r.arrow) {
+            return self.plain();
+        }
+        if opposite {
+            self.label.clone().negated()
+        } else {
+            self.label.clone()
+        }
+    }
+}
+
+fn impulse_name(stage: &Stage, from: ImpulseAt, name: &str, directed: bool) -> Named {
+    let scene = stage.scene;
+    for question in &scene.questions {
+        if let Ask::Impulse {
+            from: asked,
+            on,
+            along,
+        } = &question.ask
+            && *asked == from
+        {
+            let mut label = vector_name(&question.name, question.latex.as_deref());
+            if along.is_some() {
+                label.runs.iter_mut().for_each(|r| r.arrow = false);
+            }
+            return Named {
+                label,
+                on: *on,
+                scalar: along.is_some(),
+            };
+        }
+    }
+    let several = scene.contacts.len() + scene.hinges.len() + scene.blows.len() > 1;
+    let index = if several { name } else { "" };
+    let mut label = Label::vector("P", index, "");
+    if directed {
+        label.runs.iter_mut().for_each(|r| r.arrow = false);
+    }
+    Named {
+        label,
+        on: usize::MAX,
+        scalar: directed,
+    }
+}
