@@ -72,17 +72,20 @@ const COLUMN: f64 = 340.0;
 const MARGIN: f64 = 10.0;
 /// Font size of headings.
 const HEADING: f64 = 14.0;
-/// Bodies a scene may have to be drawn; beyond that nobody could read it.
+/// Bodies and parts a scene may have to be drawn; beyond that nobody could read it.
 const MOST_BODIES: usize = 40;
+/// Hinges, contacts and blows a scene may have to be drawn.
+const MOST_JOINTS: usize = 80;
+/// Named points a scene may have to be drawn.
+const MOST_POINTS: usize = 120;
 
 /// Draws one picture. A scene that has no place on paper gives a sheet that says so.
 pub fn draw(scene: &Scene, which: Which) -> Drawing {
+    if !is_readable(scene) {
+        return nothing(scene);
+    }
     let values = values::representative(scene);
-    let stage = if scene.bodies.len() <= MOST_BODIES {
-        stage::stage(scene, &values)
-    } else {
-        None
-    };
+    let stage = stage::stage(scene, &values);
     let Some(stage) = stage else {
         return nothing(scene);
     };
@@ -99,8 +102,22 @@ pub fn draw(scene: &Scene, which: Which) -> Drawing {
     }
 }
 
+/// Whether a picture of so many things could be read at all.
+fn is_readable(scene: &Scene) -> bool {
+    let parts = |b: &crate::scene::Body| match &b.shape {
+        Shape::Composite { parts } => parts.len(),
+        _ => 1,
+    };
+    scene.bodies.iter().map(parts).sum::<usize>() <= MOST_BODIES
+        && scene.hinges.len() + scene.contacts.len() + scene.blows.len() <= MOST_JOINTS
+        && scene.points.len() <= MOST_POINTS
+}
+
 /// The pictures a worked solution shows: before, system and bodies during, after.
 pub fn all(scene: &Scene) -> Vec<Drawing> {
+    if !is_readable(scene) {
+        return vec![nothing(scene)];
+    }
     kinds(scene)
         .into_iter()
         .map(|which| draw(scene, which))
@@ -335,7 +352,7 @@ fn lines(items: &mut Vec<Item>, text: &str, size: f64, bold: bool, width: f64, t
 /// A sheet that says why nothing is drawn.
 fn nothing(scene: &Scene) -> Drawing {
     let said =
-        "This scene has no picture: a position has no finite value, or there are too many bodies.";
+        "This scene has no picture: a position has no finite value, or there is too much to show.";
     let panel = Panel {
         heading: scene.title.clone(),
         sheet: Sheet::default(),
