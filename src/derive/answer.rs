@@ -17,6 +17,8 @@ pub struct Answer {
     pub name: String,
     /// The name typeset.
     pub latex: String,
+    /// Which component of a vector it is: 0 for x, 1 for y.
+    pub axis: Option<usize>,
     /// What it is, in words.
     pub words: String,
     /// The answer.
@@ -155,6 +157,9 @@ impl Work<'_> {
         let dimension = dimension(&question.ask);
         let make = |name: String, latex: String, words: String, form: Form| Answer {
             question: question.name.clone(),
+            axis: ["_x", "_y"]
+                .iter()
+                .position(|axis| name == format!("{}{axis}", question.name)),
             name,
             latex,
             words,

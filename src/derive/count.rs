@@ -1,9 +1,14 @@
 //! Counting: how many equations and unknowns the full system has, its rank, and which unknowns it determines.
 //!
-//! The rank is that of the exact matrix at one rational point of the domain. A point can only lower the rank, so "of full
+//! Where the scene has rational points, the rank is that of the exact matrix at one rational point of the domain. A point can only lower the rank, so "of full
 //! rank" and "determined" are proved by it; where the rank falls short, further points are tried, and the largest stands.
 
+use std::convert::Infallible;
+
 use num_traits::{One, Zero};
+
+use super::{Stop, Work};
+use crate::algebra;
 
 use crate::domain::sample::{Coordinate, roles, samples};
 use crate::expr::{Expr, Point, Rational, Vector, ratio};
@@ -23,6 +28,8 @@ pub struct Counting {
     pub open: Vec<Unknown>,
     /// Whether the equations contradict each other.
     pub contradictory: bool,
+    /// Equations of which a combination reads 0 = 1, in words; empty where there is no contradiction.
+    pub conflict: Vec<String>,
     /// Rank after balances of the whole system are added: never more, which is worth saying.
     pub rank_with_system: usize,
     /// Contact laws that would close the equations, in words.
@@ -42,22 +49,28 @@ impl Counting {
 }
 
 /// Counts the full system of a scene.
-pub fn count(scene: &Scene) -> Counting {
+pub fn count(scene: &Scene) -> Result<Counting, Stop> {
     let laws = laws::of(scene);
     let unknowns = laws::unknowns(scene);
     let system = system_balances(scene);
     let mut best: Option<Counting> = None;
     for attempt in 0..4 {
-        let Some(rows) = rational_rows(scene, &unknowns, laws.iter(), attempt) else {
+        let Some(rows) = rational_rows(scene, &unknowns, laws.iter(), attempt, false) else {
             continue;
         };
-        let echelon = eliminate(rows, unknowns.len());
+        let mut echelon = eliminate(rows, unknowns.len());
+        if echelon.conflict.is_some() {
+            if let Some(rows) = rational_rows(scene, &unknowns, laws.iter(), attempt, true) {
+                echelon = eliminate(rows, unknowns.len());
+            }
+        }
+        let conflict = echelon.conflict.clone().unwrap_or_default();
         let rank = echelon.pivots.len();
         let full = rank == unknowns.len().min(laws.len());
         let rank_with_system = if system.is_empty() || full && rank == unknowns.len() {
             rank
         } else {
-            rational_rows(scene, &unknowns, laws.iter().chain(&system), attempt)
+            rational_rows(scene, &unknowns, laws.iter().chain(&system), attempt, false)
                 .map_or(rank, |rows| eliminate(rows, unknowns.len()).pivots.len())
         };
         let counting = Counting {
@@ -65,12 +78,16 @@ pub fn count(scene: &Scene) -> Counting {
             unknowns: unknowns.len(),
             rank,
             open: echelon.open.iter().map(|&i| unknowns[i]).collect(),
-            contradictory: echelon.contradictory,
+            contradictory: echelon.conflict.is_some(),
+            conflict: conflict
+                .iter()
+                .map(|&i| laws::describe(scene, &laws[i]))
+                .collect(),
             rank_with_system,
             closing_laws: closing_laws(scene),
         };
         if full && !counting.contradictory {
-            return counting;
+            return Ok(counting);
         }
         if best
             .as_ref()
@@ -79,13 +96,50 @@ pub fn count(scene: &Scene) -> Counting {
             best = Some(counting);
         }
     }
-    best.unwrap_or(Counting {
+    match best {
+        Some(counting) => Ok(counting),
+        None => count_symbolically(scene, &laws, &unknowns),
+    }
+}
+
+/// The same where the scene has no rational point, as with an angle of 30°: by elimination over the functions themselves.
+fn count_symbolically(scene: &Scene, laws: &[Law], unknowns: &[Unknown]) -> Result<Counting, Stop> {
+    let mut work = Work::new(scene)?;
+    let full = Kinematics::full(scene, &work.g);
+    let mut rows = Vec::new();
+    for law in laws {
+        let Ok(linear) = laws::equation(scene, &work.g, &full, law, |v: &Vector| {
+            Ok::<_, Infallible>(v.clone())
+        });
+        let mut coeffs = Vec::new();
+        for (unknown, k) in &linear.terms {
+            if let Some(i) = unknowns.iter().position(|u| u == unknown) {
+                coeffs.push((i, work.field.element(k)?));
+            }
+        }
+        rows.push(algebra::Row {
+            coeffs,
+            rhs: work.field.element(&linear.known)?,
+        });
+    }
+    let solution = algebra::solve(&work.field, &rows, unknowns.len())?;
+    let open = solution
+        .values
+        .iter()
+        .zip(unknowns)
+        .filter(|(v, _)| v.is_none());
+    Ok(Counting {
         equations: laws.len(),
         unknowns: unknowns.len(),
-        rank: unknowns.len().min(laws.len()),
-        open: Vec::new(),
-        contradictory: false,
-        rank_with_system: unknowns.len().min(laws.len()),
+        rank: solution.rank,
+        open: open.map(|(_, u)| *u).collect(),
+        contradictory: solution.contradiction.is_some(),
+        conflict: solution
+            .contradiction
+            .iter()
+            .map(|&i| laws::describe(scene, &laws[i]))
+            .collect(),
+        rank_with_system: solution.rank,
         closing_laws: closing_laws(scene),
     })
 }
@@ -157,17 +211,27 @@ fn rational_rows<'a>(
     unknowns: &[Unknown],
     laws: impl Iterator<Item = &'a Law>,
     attempt: usize,
+    remember: bool,
 ) -> Option<Vec<Vec<Rational>>> {
     let point = exact_point(scene, attempt)?;
     let value = |e: &Expr| e.evaluate(&point).ok_or(());
     let g = Geometry::<Rational>::of(scene, value).ok()?;
     let motion = Kinematics::full(scene, &g);
-    laws.map(|law| {
-        let vector = |v: &Vector| Ok::<_, ()>([value(&v[0])?, value(&v[1])?]);
-        let linear = laws::equation(scene, &g, &motion, law, vector).ok()?;
-        Some(dense(&linear, unknowns))
-    })
-    .collect()
+    let linear: Option<Vec<Linear<Rational>>> = laws
+        .map(|law| {
+            let vector = |v: &Vector| Ok::<_, ()>([value(&v[0])?, value(&v[1])?]);
+            laws::equation(scene, &g, &motion, law, vector).ok()
+        })
+        .collect();
+    let linear = linear?;
+    let memory = if remember { linear.len() } else { 0 };
+    Some(
+        linear
+            .iter()
+            .enumerate()
+            .map(|(i, row)| dense(row, unknowns, i, memory))
+            .collect(),
+    )
 }
 
 /// The sample point of the scene's domain with this number, exact.
@@ -194,21 +258,31 @@ fn exact_point(scene: &Scene, number: usize) -> Option<Point<Rational>> {
     Some(point)
 }
 
-fn dense(linear: &Linear<Rational>, unknowns: &[Unknown]) -> Vec<Rational> {
-    let mut row = vec![ratio(0, 1); unknowns.len() + 1];
+/// Coefficients, right side, and `memory` columns that remember which equations were combined.
+fn dense(
+    linear: &Linear<Rational>,
+    unknowns: &[Unknown],
+    row: usize,
+    memory: usize,
+) -> Vec<Rational> {
+    let mut out = vec![ratio(0, 1); unknowns.len() + 1 + memory];
     for (unknown, k) in &linear.terms {
         if let Some(i) = unknowns.iter().position(|u| u == unknown) {
-            row[i] = k.clone();
+            out[i] = k.clone();
         }
     }
-    row[unknowns.len()] = linear.known.clone();
-    row
+    out[unknowns.len()] = linear.known.clone();
+    if memory > 0 {
+        out[unknowns.len() + 1 + row] = ratio(1, 1);
+    }
+    out
 }
 
 struct Echelon {
     pivots: Vec<usize>,
     open: Vec<usize>,
-    contradictory: bool,
+    /// Rows of which a combination reads 0 = 1, if there is one and the rows remember.
+    conflict: Option<Vec<usize>>,
 }
 
 /// Gauss-Jordan elimination; an unknown is determined when its row holds no other unknown.
@@ -248,10 +322,17 @@ fn eliminate(mut rows: Vec<Vec<Rational>>, n: usize) -> Echelon {
         }
     }
     open.sort_unstable();
-    let contradictory = rows[pivots.len()..].iter().any(|row| !row[n].is_zero());
+    // Behind the right side, `dense` leaves room for which rows were combined.
+    let clash = rows[pivots.len()..].iter().find(|row| !row[n].is_zero());
+    let conflict = clash.map(|row| {
+        (n + 1..row.len())
+            .filter(|&j| !row[j].is_zero())
+            .map(|j| j - n - 1)
+            .collect()
+    });
     Echelon {
         pivots,
         open,
-        contradictory,
+        conflict,
     }
 }

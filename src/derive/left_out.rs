@@ -3,7 +3,7 @@
 use super::Work;
 use super::count::Counting;
 use crate::laws::{self, Law, Unknown};
-use crate::scene::{ContactLaw, Scene};
+use crate::scene::{Ask, ContactLaw, ImpulseAt, Scene};
 
 /// Something that was neither built nor printed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,7 +28,8 @@ pub(super) fn list(work: &Work<'_>, counting: &Counting, asked: usize) -> Vec<Le
     let blocks = &work.blocks[..asked];
     let used = |u: Unknown| blocks.iter().any(|b| b.unknowns.contains(&u));
     for (place, unknowns) in impulses(scene) {
-        if unknowns.iter().any(|u| used(*u)) || blocks.is_empty() {
+        let asked_for = scene.questions.iter().any(|q| asks_for(&q.ask, &unknowns));
+        if unknowns.iter().any(|u| used(*u)) || asked_for || blocks.is_empty() {
             continue;
         }
         add(
@@ -77,6 +78,17 @@ pub(super) fn list(work: &Work<'_>, counting: &Counting, asked: usize) -> Vec<Le
         }
     }
     out
+}
+
+fn asks_for(ask: &Ask, unknowns: &[Unknown]) -> bool {
+    let Ask::Impulse { from, .. } = ask else {
+        return false;
+    };
+    unknowns.iter().any(|u| match (from, u) {
+        (ImpulseAt::Contact(c), Unknown::Contact(i, _) | Unknown::Normal(i)) => c == i,
+        (ImpulseAt::Hinge(h), Unknown::Hinge(i, _)) => h == i,
+        _ => false,
+    })
 }
 
 fn why_not_needed(work: &Work<'_>, unknowns: &[Unknown], asked: usize) -> String {

@@ -118,8 +118,11 @@ impl From<algebra::Stop> for Stop {
 /// Answers every question of a scene. Unknowns that the laws do not determine have no closed form, and questions that
 /// need one are left without an answer; `counting` says so.
 pub fn derive(scene: &Scene) -> Result<Derivation, Stop> {
-    let counting = count(scene);
+    let counting = count(scene)?;
     let mut work = Work::new(scene)?;
+    if counting.contradictory {
+        return work.without_answers(counting);
+    }
     for question in &scene.questions {
         let needed = work.unknowns_of(&question.ask)?;
         if needed.iter().all(|u| counting.is_unique(*u)) {
@@ -200,6 +203,21 @@ impl<'a> Work<'a> {
         };
         work.take_givens()?;
         Ok(work)
+    }
+
+    /// What can be said of a scene whose equations contradict each other: that they do.
+    fn without_answers(self, counting: Counting) -> Result<Derivation, Stop> {
+        Ok(Derivation {
+            counting,
+            names: self.names,
+            given: Vec::new(),
+            blocks: Vec::new(),
+            definitions: Vec::new(),
+            answers: Vec::new(),
+            motion: BTreeMap::new(),
+            left_out: Vec::new(),
+            assumptions: Vec::new(),
+        })
     }
 
     /// What is given of the motion after and speaks of a single unknown is data, not an equation.
@@ -531,6 +549,17 @@ impl<'a> Work<'a> {
             }
         };
         let mut all: Vec<String> = self.field.assumptions().iter().map(sign).collect();
+        let bouncing = self
+            .scene
+            .contacts
+            .iter()
+            .filter(|c| matches!(c.law, ContactLaw::Frictionless { .. }))
+            .count();
+        if bouncing > 1 {
+            all.push(String::from(
+                "all contacts act at the same instant, each with its own restitution (Newton); one after the other they could give another motion",
+            ));
+        }
         for divisor in self.blocks.iter().flat_map(|b| &b.divided_by) {
             let condition = format!("{} ≠ 0", crate::formula::write_plain(divisor));
             if !all.contains(&condition) {

@@ -131,7 +131,11 @@ fn call<T: Scalar>(function: Function, argument: &Expr, at: &Point<T>) -> Option
 /// (cos, sin) of an angle whose symbols all have directions that divide it.
 fn direction<T: Scalar>(angle: &Angle, at: &Point<T>) -> Option<[T; 2]> {
     // Nothing to turn yet where no multiple of π is added.
-    let mut total = if angle.pi.is_zero() { None } else { Some(quarter_turns(&angle.pi)?) };
+    let mut total = if angle.pi.is_zero() {
+        None
+    } else {
+        Some(quarter_turns(&angle.pi)?)
+    };
     for (name, factor) in &angle.symbols {
         let (divisor, unit) = at.directions.get(name)?;
         let turns = factor * Rational::from(Int::from(i64::from(*divisor)));
@@ -190,7 +194,9 @@ fn multiple<T: Scalar>(unit: &[T; 2], k: i64) -> [T; 2] {
         }
         left >>= 1;
         if left == 0 {
-            return result.unwrap_or_else(|| [Rational::one(), Rational::zero()].map(|v| T::from_rational(&v)));
+            return result.unwrap_or_else(|| {
+                [Rational::one(), Rational::zero()].map(|v| T::from_rational(&v))
+            });
         }
         square = turn(&square, &square);
     }

@@ -114,12 +114,17 @@ pub fn answer<T: Number>(
             }))
         }
         Ask::Impulse { from, on, along } => {
-            let (impulse, second) = impulse(*from, given, motion)?;
+            let along = along.as_ref().map(&value).transpose()?;
+            // A component may be determined where the other is not: two hinges in a row share the pull along it.
+            let uses = along
+                .as_ref()
+                .map_or([true; 2], |d| [!d[0].is_zero(), !d[1].is_zero()]);
+            let (impulse, second) = impulse(*from, uses, given, motion)?;
             let felt = match second == *on {
                 true => impulse,
                 false => [impulse[0].negated(), impulse[1].negated()],
             };
-            component(felt, along.as_ref().map(&value).transpose()?)
+            component(felt, along)
         }
         Ask::Energy { when, of } => {
             if let Some(body) = of {
@@ -151,6 +156,7 @@ pub fn answer<T: Number>(
 /// An impulse on its second body, and which body that is.
 fn impulse<T: Number>(
     from: ImpulseAt,
+    uses: [bool; 2],
     given: &Given<T>,
     motion: &Motion<T>,
 ) -> Result<([T; 2], usize), NoAnswer> {
@@ -163,14 +169,20 @@ fn impulse<T: Number>(
     match from {
         ImpulseAt::Hinge(i) => {
             let hinge = given.hinges.get(i).ok_or_else(missing)?;
-            determined(motion, &[Unknown::HingeX(i), Unknown::HingeY(i)])?;
+            determined(
+                motion,
+                &used(uses, [Unknown::HingeX(i), Unknown::HingeY(i)]),
+            )?;
             Ok((motion.hinge[i].clone(), hinge.bodies[1]))
         }
         ImpulseAt::Contact(i) => {
             let contact = given.contacts.get(i).ok_or_else(missing)?;
             match contact.law {
                 GivenLaw::Frictionless(_) => determined(motion, &[Unknown::ContactNormal(i)])?,
-                _ => determined(motion, &[Unknown::ContactX(i), Unknown::ContactY(i)])?,
+                _ => determined(
+                    motion,
+                    &used(uses, [Unknown::ContactX(i), Unknown::ContactY(i)]),
+                )?,
             }
             Ok((motion.contact[i].clone(), contact.joint.bodies[1]))
         }
@@ -182,6 +194,11 @@ fn impulse<T: Number>(
             Ok((motion.blow[i].clone(), blow.body))
         }
     }
+}
+
+fn used(uses: [bool; 2], components: [Unknown; 2]) -> Vec<Unknown> {
+    let kept = components.into_iter().zip(uses).filter(|(_, used)| *used);
+    kept.map(|(component, _)| component).collect()
 }
 
 fn determined<T>(motion: &Motion<T>, needs: &[Unknown]) -> Result<(), NoAnswer> {

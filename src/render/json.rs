@@ -32,6 +32,7 @@ pub fn derivation(scene: &Scene, derivation: &Derivation, proof: &Proof) -> Valu
         "rank_with_system_balances": counting.rank_with_system,
         "determined": counting.determined(),
         "contradictory": counting.contradictory,
+        "conflict": counting.conflict,
         "undetermined": counting.open.iter().map(|u| derivation.names.plain(*u)).collect::<Vec<_>>(),
         "closing_laws": counting.closing_laws,
         "blocks": derivation.blocks.iter().map(|b| json!({

@@ -47,7 +47,9 @@ pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof) -> String {
             }
         }
     }
-    line(&mut out, "\n", "answers:");
+    if !d.answers.is_empty() {
+        line(&mut out, "\n", "answers:");
+    }
     for answer in &d.answers {
         match &answer.form {
             Form::Value { closed, short } => {
@@ -213,7 +215,12 @@ fn counting(out: &mut String, d: &Derivation) {
         ),
     );
     if c.contradictory {
-        line(out, "", "the equations contradict each other");
+        line(
+            out,
+            "",
+            "the equations contradict each other, so there is no answer; these cannot hold together:",
+        );
+        c.conflict.iter().for_each(|law| line(out, "  ", law));
     }
     if !c.open.is_empty() {
         let names: Vec<&str> = c.open.iter().map(|u| d.names.plain(*u)).collect();
