@@ -50,6 +50,9 @@ enum Command {
         /// Exact fractions instead of doubles
         #[arg(long)]
         exact: bool,
+        /// The double nearest to each true value, and how it was certified; parameters count as exact (0.1 is 1/10)
+        #[arg(long, conflicts_with = "exact")]
+        certify: bool,
     },
     /// Judge a formula: is it equivalent, how is that known, and what is wrong with it
     Grade(grade::GradeArgs),
@@ -99,7 +102,8 @@ pub fn run() -> ExitCode {
             format,
             set,
             exact,
-        } => solve_command(&scene, format, &set, exact),
+            certify,
+        } => solve_command(&scene, format, &set, exact, certify),
         Command::Grade(args) => grade::run(&args),
         Command::Read(args) => grade::read(&args),
         Command::Schema => print(&scene::schema()).map(|()| 0),
@@ -150,7 +154,13 @@ fn derive_command(
     ))
 }
 
-fn solve_command(path: &Path, format: Format, set: &[String], exact: bool) -> Result<u8, Failure> {
+fn solve_command(
+    path: &Path,
+    format: Format,
+    set: &[String],
+    exact: bool,
+    certify: bool,
+) -> Result<u8, Failure> {
     let scene = read_scene(path, set)?;
     let name = path.display();
     let no_point = |reason: numeric::NoPoint| {
@@ -168,6 +178,21 @@ fn solve_command(path: &Path, format: Format, set: &[String], exact: bool) -> Re
         })
     };
     let no_answer = |reason: numeric::NoAnswer| Failure::Input(format!("{name}: {reason}"));
+    if certify {
+        let answers = numeric::correct(&scene).map_err(|reason| match reason {
+            numeric::NoCorrect::NoPoint(reason) => no_point(reason),
+            numeric::NoCorrect::Contradiction(laws) => no_answer(numeric::NoAnswer::Contradiction(laws)),
+            numeric::NoCorrect::Undecided => Failure::Input(format!(
+                "{name}: the values are irrational and the equations cannot be told from singular ones\nhint: take angles with rational cosine and sine, such as acos(3/5)"
+            )),
+        })?;
+        print(&match format {
+            Format::Text => render::certified::text(&scene, &answers),
+            Format::Json => pretty(&render::certified::json(&scene, &answers)),
+        })?;
+        // An answer that could not be rounded for sure is an undecided one.
+        return Ok(if answers.is_complete() { 0 } else { 3 });
+    }
     let numbers = if exact {
         let point = numeric::exact_values(&scene).map_err(no_point)?;
         let answers = numeric::answers(&scene, &point, numeric::solve_exact).map_err(no_answer)?;

@@ -28,6 +28,8 @@ pub mod verify;
 
 pub mod grade;
 
+pub mod emit;
+
 #[cfg(feature = "report")]
 pub mod report;
 

@@ -26,7 +26,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         ],
     ),
     ("laws", &["expr", "scene"]),
-    ("numeric", &["expr", "domain", "scene"]),
+    ("numeric", &["expr", "interval", "domain", "scene"]),
     (
         "derive",
         &[
@@ -72,6 +72,18 @@ const LAYERS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "emit",
+        &[
+            "expr",
+            "domain",
+            "dimension",
+            "formula",
+            "scene",
+            "numeric",
+            "derive",
+        ],
+    ),
+    (
         "report",
         &[
             "expr",
@@ -79,8 +91,10 @@ const LAYERS: &[(&str, &[&str])] = &[
             "domain",
             "dimension",
             "scene",
+            "laws",
             "numeric",
             "derive",
+            "emit",
         ],
     ),
     (
@@ -101,6 +115,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "derive",
             "verify",
             "grade",
+            "emit",
             "report",
             "figure",
             "plot",

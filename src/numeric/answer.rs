@@ -90,17 +90,23 @@ pub fn answer<T: Number>(
     match ask {
         Ask::Velocity { body, point, along } => {
             let body = known(*body)?;
-            let point = match point {
-                Some((_, at)) => value(at)?,
-                None => given.bodies[body].center.clone(),
-            };
-            let arm = given.bodies[body].arm(&point);
             let mut needs = vec![Unknown::VelocityX(body), Unknown::VelocityY(body)];
-            if !(arm[0].is_zero() && arm[1].is_zero()) {
-                needs.push(Unknown::Spin(body));
-            }
-            determined(motion, &needs)?;
-            let velocity = velocity_after(given, motion, body, &point);
+            let velocity = match point {
+                // An enclosure minus itself is no exact zero, so the center of mass goes without an arm.
+                None => {
+                    determined(motion, &needs)?;
+                    motion.velocity[body].clone()
+                }
+                Some((_, at)) => {
+                    let point = value(at)?;
+                    let arm = given.bodies[body].arm(&point);
+                    if !(arm[0].is_zero() && arm[1].is_zero()) {
+                        needs.push(Unknown::Spin(body));
+                    }
+                    determined(motion, &needs)?;
+                    velocity_after(given, motion, body, &point)
+                }
+            };
             component(velocity, along.as_ref().map(&value).transpose()?)
         }
         Ask::Spin { body, clockwise } => {

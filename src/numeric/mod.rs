@@ -1,13 +1,15 @@
 //! The independent check: from a scene and values of its symbols straight to numbers, by all equations at once.
 //!
 //! `given` puts numbers for formulas, `assemble` writes every equation of the scene from its geometry, `solve_exact` and
-//! `solve_f64` solve them. Imports `expr` for evaluation, `domain` and `scene`; never `algebra`, `laws` or `derive`, which
+//! `solve_f64` solve them. Imports `expr` for evaluation, `interval`, `domain` and `scene`; never `algebra`, `laws` or `derive`, which
 //! is why agreement with a derived formula means something.
 
 pub mod answer;
 pub mod ball;
 pub mod certify;
+pub mod correct;
 pub mod dd;
+pub mod deep;
 pub mod dyadic;
 pub mod energy;
 pub mod exact;
@@ -27,6 +29,7 @@ mod tests;
 
 pub use answer::{Answer, Answered, NoAnswer, answer, answers};
 pub use certify::{Certified, Tier, Uncertified, certify, certify_scene};
+pub use correct::{Correct, CorrectAnswers, How, NoCorrect, correct};
 pub use dyadic::solve_dyadic;
 pub use energy::{energy_after, energy_before, energy_lost};
 pub use exact::solve_exact;

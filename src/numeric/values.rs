@@ -52,7 +52,7 @@ pub fn exact_values(scene: &Scene) -> Result<Point<Rational>, NoPoint> {
 }
 
 /// The values of all symbols that the scene needs.
-fn given_values(scene: &Scene) -> Result<Vec<(Symbol, Expr)>, NoPoint> {
+pub(super) fn given_values(scene: &Scene) -> Result<Vec<(Symbol, Expr)>, NoPoint> {
     let Needed { plain, angles } = needed(scene);
     let mut found = Vec::new();
     let mut missing = Vec::new();
@@ -78,7 +78,7 @@ fn given_values(scene: &Scene) -> Result<Vec<(Symbol, Expr)>, NoPoint> {
 }
 
 /// Cosine and sine of an angle where both are fractions.
-fn unit_of(value: &Expr) -> Option<[Rational; 2]> {
+pub(super) fn unit_of(value: &Expr) -> Option<[Rational; 2]> {
     if value.is_zero() {
         return quarter_turns(&Rational::zero());
     }

@@ -1,6 +1,7 @@
 //! Writes derivations, motions and verdicts in the formats people and programs read. Decides nothing: every number, verdict
 //! and reason comes in ready.
 
+pub mod certified;
 pub mod grade;
 pub mod json;
 pub mod text;

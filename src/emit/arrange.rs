@@ -1,0 +1,451 @@
+//! From a closed form to a program that loses as few digits as doubles allow.
+//!
+//! Sums whose terms share one sign, and sums of two inputs, stay plain: they cannot lose digits. a² − b² becomes
+//! (a − b)(a + b). Every other sum may cancel and is formed in double-doubles, products in it included, and rounded once.
+//! Products and quotients are gathered so that one division is left. Signs are those the declared domains guarantee.
+
+use std::collections::{BTreeMap, HashMap};
+
+use num_traits::{One, Signed, Zero};
+
+use super::program::{Program, Step};
+use crate::domain::{Domains, Limit};
+use crate::expr::angle::angle;
+use crate::expr::number::{from_f64, sqrt_exact, to_f64};
+use crate::expr::{Expr, Function, Node, Rational, Scalar, Symbol};
+use crate::numeric::dd::Dd;
+
+/// What a formula takes as input: a symbol, or the cosine or sine of an angle.
+pub type Atoms = Vec<(Symbol, Expr)>;
+
+/// Replaces sines, cosines and tangents of angles by inputs of their own; `atoms` collects what each stands for.
+pub fn without_angles(e: &Expr, atoms: &mut Atoms) -> Expr {
+    if let Node::Call(f @ (Function::Sin | Function::Cos | Function::Tan), argument) = e.node() {
+        if angle(argument).is_some() {
+            if *f == Function::Tan {
+                let [sin, cos] =
+                    [argument.sin(), argument.cos()].map(|c| without_angles(&c, atoms));
+                return sin / cos;
+            }
+            if let Some((name, _)) = atoms.iter().find(|(_, of)| of == e) {
+                return Expr::symbol(name);
+            }
+            let name: Symbol = format!("{}_{}", f.name(), atoms.len()).into();
+            atoms.push((name.clone(), e.clone()));
+            return Expr::symbol(&name);
+        }
+    }
+    e.map_parts(|part| without_angles(part, atoms))
+}
+
+/// Whether every value is ≥ 0 (`Some(true)`), every value ≤ 0 (`Some(false)`), or neither is known.
+pub type Signs = BTreeMap<Symbol, bool>;
+
+/// Signs of symbols and of the cosines and sines in `atoms`, as far as the domains tell.
+pub fn signs(domains: &Domains, atoms: &Atoms) -> Signs {
+    let mut out = Signs::new();
+    let side = |l: &Option<Limit>| l.as_ref().map(Limit::approximate);
+    for (name, domain) in &domains.symbols {
+        match (side(&domain.low), side(&domain.high)) {
+            (Some(low), _) if low >= 0.0 => out.insert(name.clone(), true),
+            (_, Some(high)) if high <= 0.0 => out.insert(name.clone(), false),
+            _ => None,
+        };
+    }
+    for (name, of) in atoms {
+        let Node::Call(f, argument) = of.node() else {
+            continue;
+        };
+        let Some(turn) = angle(argument).filter(|a| a.pi.is_zero()) else {
+            continue;
+        };
+        let [(symbol, factor)] = &turn.symbols.iter().collect::<Vec<_>>()[..] else {
+            continue;
+        };
+        let Some(domain) = domains.symbols.get(*symbol) else {
+            continue;
+        };
+        let (Some(low), Some(high)) = (side(&domain.low), side(&domain.high)) else {
+            continue;
+        };
+        let k = to_f64(factor);
+        let (low, high) = ((low * k).min(high * k), (low * k).max(high * k));
+        let quarter = std::f64::consts::FRAC_PI_2 * (1.0 + 1e-15);
+        let positive = match f {
+            Function::Sin => low >= 0.0 && high <= 2.0 * quarter,
+            _ => low >= -quarter && high <= quarter,
+        };
+        if positive {
+            out.insert(name.clone(), true);
+        } else if *f == Function::Sin && high <= 0.0 && low >= -2.0 * quarter {
+            out.insert(name.clone(), false);
+        }
+    }
+    out
+}
+
+/// The formula as derived: every operation plain, in the order of the expression.
+pub fn as_derived(e: &Expr, inputs: &[Symbol]) -> Option<Program> {
+    Builder::new(inputs, &Signs::new(), false).finish(e)
+}
+
+/// The formula arranged for accuracy. `None` where a symbol is no input.
+pub fn arranged(e: &Expr, inputs: &[Symbol], signs: &Signs) -> Option<Program> {
+    Builder::new(inputs, signs, true).finish(e)
+}
+
+struct Builder<'a> {
+    inputs: &'a [Symbol],
+    signs: &'a Signs,
+    careful: bool,
+    steps: Vec<Step>,
+    /// Steps by how they are made, so that equal parts are computed once.
+    made: HashMap<String, usize>,
+    plain: HashMap<Expr, usize>,
+    wide: HashMap<Expr, usize>,
+}
+
+impl<'a> Builder<'a> {
+    fn new(inputs: &'a [Symbol], signs: &'a Signs, careful: bool) -> Builder<'a> {
+        Builder {
+            inputs,
+            signs,
+            careful,
+            steps: Vec::new(),
+            made: HashMap::new(),
+            plain: HashMap::new(),
+            wide: HashMap::new(),
+        }
+    }
+
+    fn finish(mut self, e: &Expr) -> Option<Program> {
+        let last = self.plain(e)?;
+        if last + 1 != self.steps.len() {
+            // The value has to be the last step; an input alone, or a shared part, is repeated.
+            let step = self.steps[last];
+            self.steps.push(step);
+        }
+        Some(Program {
+            steps: self.steps,
+            inputs: self.inputs.len(),
+        })
+    }
+
+    fn step(&mut self, step: Step) -> usize {
+        let key = format!("{step:?}");
+        if let Some(known) = self.made.get(&key) {
+            return *known;
+        }
+        self.steps.push(step);
+        self.made.insert(key, self.steps.len() - 1);
+        self.steps.len() - 1
+    }
+
+    /// The number of a plain step with the expression's value.
+    fn plain(&mut self, e: &Expr) -> Option<usize> {
+        if let Some(known) = self.plain.get(e) {
+            return Some(*known);
+        }
+        let step = match e.node() {
+            Node::Number(value) => self.step(Step::Number(to_f64(value))),
+            Node::Symbol(name) if &**name == "pi" => self.step(Step::Number(std::f64::consts::PI)),
+            Node::Symbol(name) => {
+                let input = self.inputs.iter().position(|i| i == name)?;
+                self.step(Step::Input(input))
+            }
+            Node::Sum(terms) => self.sum(e, terms)?,
+            Node::Product(factors) => self.product(factors)?,
+            Node::Power(base, exponent) => self.power(e, base, exponent)?,
+            Node::Call(f, argument) => {
+                let argument = self.plain(argument)?;
+                self.step(Step::Call(*f, argument))
+            }
+        };
+        self.plain.insert(e.clone(), step);
+        Some(step)
+    }
+
+    fn sum(&mut self, e: &Expr, terms: &[Expr]) -> Option<usize> {
+        if self.careful {
+            if let Some([minus, plus]) = difference_of_squares(terms) {
+                let [minus, plus] = [self.plain(&minus)?, self.plain(&plus)?];
+                return Some(self.step(Step::Multiply(minus, plus)));
+            }
+            let atoms = terms.len() == 2 && terms.iter().all(is_exact_atom);
+            if !atoms && sign(e, self.signs).is_none() {
+                let wide = self.wide(e)?;
+                return Some(self.step(Step::Round(wide)));
+            }
+        }
+        let mut total = self.plain(&terms[0])?;
+        for term in &terms[1..] {
+            total = match negated(term) {
+                Some(positive) => {
+                    let term = self.plain(&positive)?;
+                    self.step(Step::Subtract(total, term))
+                }
+                None => {
+                    let term = self.plain(term)?;
+                    self.step(Step::Add(total, term))
+                }
+            };
+        }
+        Some(total)
+    }
+
+    fn product(&mut self, factors: &[Expr]) -> Option<usize> {
+        let (above, below) = fraction(factors);
+        let above = self.chain(&above)?;
+        let below = self.chain(&below)?;
+        Some(match (above, below) {
+            (Some(a), Some(b)) => self.step(Step::Divide(a, b)),
+            (Some(a), None) => a,
+            (None, below) => {
+                let one = self.step(Step::Number(1.0));
+                below.map_or(one, |b| self.step(Step::Divide(one, b)))
+            }
+        })
+    }
+
+    fn chain(&mut self, factors: &[Expr]) -> Option<Option<usize>> {
+        let mut total = None;
+        for factor in factors {
+            if factor.as_number().is_some_and(|v| *v == -Rational::one()) && factors.len() > 1 {
+                continue;
+            }
+            let factor = self.plain(factor)?;
+            total = Some(total.map_or(factor, |t| self.step(Step::Multiply(t, factor))));
+        }
+        let minus = factors
+            .iter()
+            .filter(|f| f.as_number().is_some_and(|v| *v == -Rational::one()))
+            .count();
+        if factors.len() > 1 && minus % 2 == 1 {
+            total = total.map(|t| self.step(Step::Negate(t)));
+        }
+        Some(total)
+    }
+
+    fn power(&mut self, e: &Expr, base: &Expr, exponent: &Expr) -> Option<usize> {
+        let Some((root, times)) = half_integer(exponent) else {
+            let (base, exponent) = (self.plain(base)?, self.plain(exponent)?);
+            return Some(self.step(Step::Power(base, exponent)));
+        };
+        if times < 0 {
+            return self.product(std::slice::from_ref(e));
+        }
+        let mut base = self.plain(base)?;
+        if root {
+            base = self.step(Step::Root(base));
+        }
+        Some(self.raised(
+            base,
+            times.unsigned_abs(),
+            Step::Multiply,
+            Step::Number(1.0),
+        ))
+    }
+
+    /// Power by repeated squaring.
+    fn raised(
+        &mut self,
+        base: usize,
+        times: u64,
+        multiply: fn(usize, usize) -> Step,
+        one: Step,
+    ) -> usize {
+        let (mut square, mut left, mut total) = (base, times, None);
+        while left > 0 {
+            if left & 1 == 1 {
+                total = Some(match total {
+                    None => square,
+                    Some(t) => self.step(multiply(t, square)),
+                });
+            }
+            left >>= 1;
+            if left > 0 {
+                square = self.step(multiply(square, square));
+            }
+        }
+        match total {
+            Some(total) => total,
+            None => self.step(one),
+        }
+    }
+
+    /// The number of a wide step with the expression's value.
+    fn wide(&mut self, e: &Expr) -> Option<usize> {
+        if let Some(known) = self.wide.get(e) {
+            return Some(*known);
+        }
+        let step = match e.node() {
+            Node::Number(value) => self.step(Step::WideNumber(Dd::from_rational(value))),
+            Node::Symbol(name) if &**name == "pi" => {
+                self.step(Step::WideNumber(crate::numeric::dd::PI))
+            }
+            Node::Sum(terms) => {
+                let mut total = self.wide(&terms[0])?;
+                for term in &terms[1..] {
+                    let term = self.wide(term)?;
+                    total = self.step(Step::WideAdd(total, term));
+                }
+                total
+            }
+            Node::Product(factors) => {
+                let (above, below) = fraction(factors);
+                let above = self.wide_chain(&above)?;
+                let below = self.wide_chain(&below)?;
+                match (above, below) {
+                    (Some(a), Some(b)) => self.step(Step::WideDivide(a, b)),
+                    (Some(a), None) => a,
+                    (None, below) => {
+                        let one = self.step(Step::WideNumber(Dd::exact(1.0)));
+                        below.map_or(one, |b| self.step(Step::WideDivide(one, b)))
+                    }
+                }
+            }
+            Node::Power(base, exponent) => match half_integer(exponent) {
+                Some((_, times)) if times < 0 => {
+                    let below = self.wide(&e.powi(-1))?;
+                    let one = self.step(Step::WideNumber(Dd::exact(1.0)));
+                    self.step(Step::WideDivide(one, below))
+                }
+                Some((root, times)) => {
+                    let mut base = self.wide(base)?;
+                    if root {
+                        base = self.step(Step::WideRoot(base));
+                    }
+                    let one = Step::WideNumber(Dd::exact(1.0));
+                    self.raised(base, times.unsigned_abs(), Step::WideMultiply, one)
+                }
+                None => {
+                    let plain = self.plain(e)?;
+                    self.step(Step::Widen(plain))
+                }
+            },
+            Node::Symbol(_) | Node::Call(..) => {
+                let plain = self.plain(e)?;
+                self.step(Step::Widen(plain))
+            }
+        };
+        self.wide.insert(e.clone(), step);
+        Some(step)
+    }
+
+    fn wide_chain(&mut self, factors: &[Expr]) -> Option<Option<usize>> {
+        let mut total = None;
+        for factor in factors {
+            let factor = self.wide(factor)?;
+            total = Some(total.map_or(factor, |t| self.step(Step::WideMultiply(t, factor))));
+        }
+        Some(total)
+    }
+}
+
+/// Factors above and below the line, exponents positive; a fraction of numbers is split too, so that both are exact.
+fn fraction(factors: &[Expr]) -> (Vec<Expr>, Vec<Expr>) {
+    let (mut above, mut below) = (Vec::new(), Vec::new());
+    for factor in factors {
+        match factor.node() {
+            Node::Number(value) if !value.is_integer() => {
+                if !value.numer().as_i64().is_some_and(|n| n == 1) {
+                    above.push(Expr::from(Rational::from(value.numer().clone())));
+                }
+                below.push(Expr::from(Rational::from(value.denom().clone())));
+            }
+            Node::Power(base, exponent)
+                if exponent.as_number().is_some_and(Signed::is_negative) =>
+            {
+                below.push(base.power(-exponent));
+            }
+            _ => above.push(factor.clone()),
+        }
+    }
+    (above, below)
+}
+
+/// An exponent n or n/2: whether a root is taken first, and the integer.
+fn half_integer(exponent: &Expr) -> Option<(bool, i64)> {
+    let twice = exponent.as_number()? * Rational::from(crate::expr::Int::from(2));
+    let n = twice.is_integer().then(|| twice.numer().as_i64())??;
+    Some(if n % 2 == 0 {
+        (false, n / 2)
+    } else {
+        (true, n)
+    })
+}
+
+/// a − b and a + b for a² − b² with symbols or numbers a and b.
+fn difference_of_squares(terms: &[Expr]) -> Option<[Expr; 2]> {
+    let [one, two] = terms else { return None };
+    let root = |e: &Expr| match e.node() {
+        Node::Number(v) => sqrt_exact(v).map(Expr::from),
+        Node::Power(base, k)
+            if base.as_symbol().is_some()
+                && k.as_number()
+                    .is_some_and(|k| *k == Rational::from(crate::expr::Int::from(2))) =>
+        {
+            Some(base.clone())
+        }
+        _ => None,
+    };
+    let (a, b) = match (negated(one), negated(two)) {
+        (None, Some(b)) => (root(one)?, root(&b)?),
+        (Some(b), None) => (root(two)?, root(&b)?),
+        _ => return None,
+    };
+    Some([&a - &b, &a + &b])
+}
+
+/// A symbol or a number that is a double, or the opposite of one: exact as it comes in.
+fn is_exact_atom(e: &Expr) -> bool {
+    match e.node() {
+        Node::Number(v) => from_f64(to_f64(v)).as_ref() == Some(v),
+        Node::Symbol(name) => {
+            &**name != "pi" && !name.starts_with("sin_") && !name.starts_with("cos_")
+        }
+        Node::Product(_) => {
+            negated(e).is_some_and(|p| p.as_symbol().is_some() && is_exact_atom(&p))
+        }
+        _ => false,
+    }
+}
+
+/// −e, where e is a negative number or a product with a negative coefficient.
+fn negated(e: &Expr) -> Option<Expr> {
+    match e.node() {
+        Node::Number(v) if v.is_negative() => Some(Expr::from(-v.clone())),
+        Node::Product(factors) => {
+            let k = factors[0].as_number().filter(|k| k.is_negative())?;
+            let rest = factors[1..].iter().cloned();
+            Some(Expr::product(
+                [Expr::from(-k.clone())].into_iter().chain(rest),
+            ))
+        }
+        _ => None,
+    }
+}
+
+/// The sign an expression has wherever its symbols have theirs.
+pub fn sign(e: &Expr, signs: &Signs) -> Option<bool> {
+    match e.node() {
+        Node::Number(v) => Some(!v.is_negative()),
+        Node::Symbol(name) if &**name == "pi" => Some(true),
+        Node::Symbol(name) => signs.get(name).copied(),
+        Node::Sum(terms) => {
+            let first = sign(&terms[0], signs)?;
+            let same = terms[1..].iter().all(|t| sign(t, signs) == Some(first));
+            same.then_some(first)
+        }
+        Node::Product(factors) => factors
+            .iter()
+            .try_fold(true, |sum, f| Some(sum == sign(f, signs)?)),
+        Node::Power(base, exponent) => match half_integer(exponent) {
+            Some((false, n)) if n % 2 == 0 => Some(true),
+            Some((false, _)) => sign(base, signs),
+            _ => Some(true),
+        },
+        Node::Call(Function::Abs | Function::Exp, _) => Some(true),
+        Node::Call(..) => None,
+    }
+}

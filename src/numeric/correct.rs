@@ -1,0 +1,290 @@
+//! The correctly rounded double of everything a scene asks for, at the exact values of its parameters.
+//!
+//! In: a scene whose parameters have values, each an exact formula (0.1 is 1/10, 30° is π/6). Out: for every question and
+//! every unknown the double nearest to the true value, and the cheapest number type that could tell: double-doubles with
+//! bounds, exact fractions, or enclosures of more and more bits where a value is irrational.
+
+use super::answer::{Answer, NoAnswer, answer};
+use super::ball::Ball;
+use super::deep::Deep;
+use super::exact::solve_exact;
+use super::field::eliminate;
+use super::given::{Reason, given};
+use super::number::Number;
+use super::points::needed;
+use super::solution::{Contradiction, Solution, motion};
+use super::system::{Law, System, Unknown, assemble};
+use super::values::{NoPoint, exact_values, given_values, unit_of};
+use crate::expr::number::to_f64;
+use crate::expr::{Expr, Point, Rational};
+use crate::scene::{Ask, Scene};
+
+/// How a double was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum How {
+    /// A double-double with a rigorous error bound.
+    Ball,
+    /// Exact fractions.
+    Exact,
+    /// An enclosure of this many bits.
+    Bits(u32),
+}
+
+/// A number in doubles.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Correct {
+    /// The double nearest to the true value.
+    Rounded(f64, How),
+    /// The laws leave it open.
+    Open,
+    /// Irrational, and too close to a middle between two doubles or to zero for the widest enclosure tried.
+    Undecided,
+}
+
+/// Correctly rounded numbers of a scene.
+#[derive(Clone, Debug)]
+pub struct CorrectAnswers {
+    /// Every unknown of the full system.
+    pub unknowns: Vec<(Unknown, Correct)>,
+    /// Every question that asks for numbers: its name and its components, one or two.
+    pub answers: Vec<(String, Result<Vec<Correct>, NoAnswer>)>,
+}
+
+impl CorrectAnswers {
+    /// Whether nothing was left undecided.
+    pub fn is_complete(&self) -> bool {
+        let decided = |c: &Correct| *c != Correct::Undecided;
+        self.unknowns.iter().all(|(_, c)| decided(c))
+            && self
+                .answers
+                .iter()
+                .all(|(_, a)| a.as_ref().map_or(true, |v| v.iter().all(decided)))
+    }
+}
+
+/// Why there are none.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoCorrect {
+    /// A parameter has no value.
+    NoPoint(NoPoint),
+    /// These laws contradict each other.
+    Contradiction(Vec<Law>),
+    /// No enclosure tells the equations apart from singular ones; at irrational values that cannot be decided here.
+    Undecided,
+}
+
+/// Everything a scene asks for, correctly rounded.
+pub fn correct(scene: &Scene) -> Result<CorrectAnswers, NoCorrect> {
+    let ball =
+        enclosed(scene, |e| e.evaluate(&Point::<Ball>::default())).map_err(NoCorrect::NoPoint)?;
+    let mut best =
+        ball.and_then(|at| attempt(scene, &at, unique, |v: &Ball| v.rounded(), How::Ball));
+    if best.as_ref().is_some_and(CorrectAnswers::is_complete) {
+        return best.ok_or(NoCorrect::Undecided);
+    }
+    if let Ok(at) = exact_values(scene) {
+        match given(scene, &at) {
+            Ok(numbers) => {
+                let system = assemble(&numbers);
+                let clash = |c: Contradiction| NoCorrect::Contradiction(c.laws(&system));
+                let solution = solve_exact(&system).map_err(clash)?;
+                let exact = attempt(
+                    scene,
+                    &at,
+                    |_| Some(solution.clone()),
+                    |v| Some(to_f64(v)),
+                    How::Exact,
+                );
+                if let Some(exact) = exact {
+                    return Ok(join(best, exact));
+                }
+            }
+            Err(undefined) if undefined.reason != Reason::NotANumber => {
+                return Err(NoCorrect::Undecided);
+            }
+            Err(_) => {}
+        }
+    }
+    macro_rules! try_bits {
+        ($($bits:literal)*) => {$(
+            let at = enclosed(scene, |e| e.evaluate(&Point::<Deep<$bits>>::default())).map_err(NoCorrect::NoPoint)?;
+            let found = at.and_then(|at| attempt(scene, &at, unique, Deep::<$bits>::rounded, How::Bits($bits)));
+            if let Some(found) = found {
+                let joined = join(best, found);
+                if joined.is_complete() {
+                    return Ok(joined);
+                }
+                best = Some(joined);
+            }
+        )*};
+    }
+    try_bits!(256 1024 4096);
+    best.ok_or(NoCorrect::Undecided)
+}
+
+/// What the first could not tell, from the second.
+fn join(first: Option<CorrectAnswers>, mut second: CorrectAnswers) -> CorrectAnswers {
+    let Some(first) = first else { return second };
+    let keep = |old: Correct, new: &mut Correct| {
+        if let Correct::Rounded(..) = old {
+            *new = old;
+        }
+    };
+    for ((_, old), (_, new)) in first.unknowns.into_iter().zip(&mut second.unknowns) {
+        keep(old, new);
+    }
+    for ((_, old), (_, new)) in first.answers.into_iter().zip(&mut second.answers) {
+        if let (Ok(old), Ok(new)) = (old, new) {
+            old.into_iter()
+                .zip(new)
+                .for_each(|(old, new)| keep(old, new));
+        }
+    }
+    second
+}
+
+fn attempt<T: Number>(
+    scene: &Scene,
+    at: &Point<T>,
+    solve: impl Fn(&System<T>) -> Option<Solution<T>>,
+    round: impl Fn(&T) -> Option<f64>,
+    how: How,
+) -> Option<CorrectAnswers> {
+    let numbers = given(scene, at).ok()?;
+    let system = assemble(&numbers);
+    let solution = solve(&system)?;
+    let rounded = |v: &T| round(v).map_or(Correct::Undecided, |v| Correct::Rounded(v, how));
+    let motion = motion(&numbers, &system, &solution);
+    let unknowns = system.unknowns.iter().enumerate().map(|(i, u)| {
+        let value = if solution.unique[i] {
+            rounded(&solution.values[i])
+        } else {
+            Correct::Open
+        };
+        (*u, value)
+    });
+    let asked = scene
+        .questions
+        .iter()
+        .filter(|q| !matches!(q.ask, Ask::Balance { .. } | Ask::Matrix { .. }));
+    let answers = asked.map(|q| {
+        let found = answer(&q.ask, at, &numbers, &motion).map(|a| match a {
+            Answer::Scalar(v) => vec![rounded(&v)],
+            Answer::Vector(v) => v.iter().map(&rounded).collect(),
+        });
+        (q.name.clone(), found)
+    });
+    let (unknowns, answers) = (unknowns.collect(), answers.collect());
+    Some(CorrectAnswers { unknowns, answers })
+}
+
+fn unique<T: Number>(system: &System<T>) -> Option<Solution<T>> {
+    let values = eliminate(system)?;
+    let n = values.len();
+    Some(Solution {
+        values,
+        unique: vec![true; n],
+        rank: n,
+    })
+}
+
+/// The point of the scene's values in a number type; `Ok(None)` where a value does not exist in it.
+fn enclosed<T: Number>(
+    scene: &Scene,
+    evaluate: impl Fn(&Expr) -> Option<T>,
+) -> Result<Option<Point<T>>, NoPoint> {
+    let needed = needed(scene);
+    let mut point = Point::default();
+    for (name, value) in given_values(scene)? {
+        if let Some(divisor) = needed.angles.get(&name) {
+            let part = &value * &Expr::ratio(1, i64::from(*divisor));
+            let unit = match unit_of(&part) {
+                Some(unit) => Some(unit.map(|v: Rational| T::from_rational(&v))),
+                None => evaluate(&part.cos())
+                    .zip(evaluate(&part.sin()))
+                    .map(|(c, s)| [c, s]),
+            };
+            let Some(unit) = unit else { return Ok(None) };
+            point.directions.insert(name.clone(), (*divisor, unit));
+        }
+        if needed.plain.contains(&name) {
+            let Some(value) = evaluate(&value) else {
+                return Ok(None);
+            };
+            point.values.insert(name, value);
+        }
+    }
+    Ok(Some(point))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{read, set};
+
+    /// A rod, inclined at theta, hits a smooth floor.
+    const ROD: &str = r#"{
+        "parameters": {
+            "m": {"unit": "kg", "value": 1}, "l": {"unit": "m", "value": 1}, "v": {"unit": "m/s", "value": 3},
+            "theta": {"unit": "rad", "value": "pi/6", "domain": {"min": 0, "max": "pi/2"}},
+            "e": {"unit": "1", "domain": {"min": 0, "max": 1}, "value": "1/2"}
+        },
+        "bodies": {
+            "floor": {"shape": "fixed"},
+            "rod": {"shape": "rod", "mass": "m", "length": "l", "angle": "theta",
+                    "center": {"from": ["0", "0"], "distance": "l/2", "angle": "theta"}, "velocity": ["0", "-v"]}
+        },
+        "contacts": {"C": {"bodies": ["floor", "rod"], "at": ["0", "0"], "normal": ["0", "1"], "law": "frictionless", "restitution": "e"}},
+        "questions": {"v": {"velocity": "rod"}, "u": {"velocity": "rod", "along": ["cos(theta)", "sin(theta)"]}, "E": {"energy": "lost"}}
+    }"#;
+
+    fn numbers(assignments: &[(&str, &str)]) -> Vec<Correct> {
+        let text = ROD.replace("\"questions\": {\"v\"", "\"questions\": {\"vG\"");
+        let mut scene = read(&text).expect("a scene");
+        for (name, value) in assignments {
+            set(&mut scene, name, value).expect("a value");
+        }
+        let found = correct(&scene).expect("determined");
+        found
+            .answers
+            .into_iter()
+            .flat_map(|(_, a)| a.expect("a number"))
+            .collect()
+    }
+
+    fn value(c: &Correct) -> (f64, How) {
+        match c {
+            Correct::Rounded(v, how) => (*v, *how),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn a_rod_at_thirty_degrees_moves_as_the_closed_form_says() {
+        // v_y⁺ = v (e − 3cos²θ)/(1 + 3cos²θ) = 3 (1/2 − 9/4)/(13/4), E = 6/13 · (1 − e²)/… = ½ m v² (1−e²)/(1+3cos²θ).
+        let all = numbers(&[]);
+        assert_eq!(value(&all[0]).0, 0.0);
+        assert_eq!(value(&all[1]), (-21.0 / 13.0, How::Ball));
+        assert_eq!(value(&all[3]).0, 4.5 * 0.75 / 3.25);
+    }
+
+    #[test]
+    fn a_velocity_that_all_but_cancels_is_rounded_from_fractions_or_wide_enclosures() {
+        // e = 3cos²θ stops the center; e is larger by 10⁻⁴⁰ here, so v_y⁺ = 3·10⁻⁴⁰/(1 + 3cos²θ).
+        let exact = "3*(8/17)^2 + 1/10^40";
+        let all = numbers(&[("theta", "acos(8/17)"), ("e", exact)]);
+        let (v, how) = value(&all[1]);
+        assert_eq!(how, How::Exact);
+        // 867/481 · 10⁻⁴⁰, rounded once by the reader of numbers.
+        assert_eq!(v, 1.802_494_802_494_802_494_802_494_8e-40);
+        let all = numbers(&[("theta", "acos(1/sqrt(5))"), ("e", "3/5 + 1/10^40")]);
+        let (v, how) = value(&all[1]);
+        assert_eq!((v, how), (1.875e-40, How::Bits(256)));
+    }
+
+    #[test]
+    fn a_velocity_that_cancels_for_irrational_values_is_left_undecided() {
+        let all = numbers(&[("theta", "acos(1/sqrt(5))"), ("e", "3/5")]);
+        assert_eq!(all[1], Correct::Undecided);
+    }
+}

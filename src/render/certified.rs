@@ -1,0 +1,114 @@
+//! Correctly rounded answers, for people and for programs: each double with the way it was certified.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use crate::numeric::{Correct, CorrectAnswers, How, Unknown};
+use crate::scene::Scene;
+
+/// Answers first, then every unknown of the full system.
+pub fn text(scene: &Scene, answers: &CorrectAnswers) -> String {
+    let mut out = String::new();
+    let mut line = |name: &str, unit: &str, value: &Correct| {
+        let _ = match value {
+            Correct::Rounded(v, how) => writeln!(out, "{name} = {v} {unit}  [{}]", words(*how)),
+            Correct::Open => writeln!(out, "{name}: not determined by the laws"),
+            Correct::Undecided => writeln!(out, "{name}: too close to call, even in 4096 bits"),
+        };
+    };
+    for (question, answer) in &answers.answers {
+        let unit = super::unit_of(scene, question);
+        match answer {
+            Ok(values) => {
+                for (name, value) in components(question, values) {
+                    line(&name, &unit, value);
+                }
+            }
+            Err(_) => line(question, &unit, &Correct::Open),
+        }
+    }
+    for (unknown, value) in &answers.unknowns {
+        let (name, unit) = unknown_words(scene, *unknown);
+        line(&name, unit, value);
+    }
+    out.push_str("each number is the double nearest to the true value\n");
+    out
+}
+
+/// The same as data.
+pub fn json(scene: &Scene, answers: &CorrectAnswers) -> Value {
+    let entry = |name: &str, unit: &str, value: &Correct| match value {
+        Correct::Rounded(v, how) => {
+            json!({"name": name, "value": v, "unit": unit, "certified_by": words(*how)})
+        }
+        Correct::Open => json!({"name": name, "value": null, "reason": "not determined"}),
+        Correct::Undecided => json!({"name": name, "value": null, "reason": "undecided"}),
+    };
+    let mut list = Vec::new();
+    for (question, answer) in &answers.answers {
+        let unit = super::unit_of(scene, question);
+        match answer {
+            Ok(values) => {
+                for (name, value) in components(question, values) {
+                    list.push(entry(&name, &unit, value));
+                }
+            }
+            Err(reason) => {
+                list.push(json!({"name": question, "value": null, "reason": reason.to_string()}))
+            }
+        }
+    }
+    let unknowns: Vec<Value> = answers
+        .unknowns
+        .iter()
+        .map(|(unknown, value)| {
+            let (name, unit) = unknown_words(scene, *unknown);
+            entry(&name, unit, value)
+        })
+        .collect();
+    json!({"title": scene.title, "source": scene.source, "answers": list, "unknowns": unknowns})
+}
+
+fn components<'a>(question: &str, values: &'a [Correct]) -> Vec<(String, &'a Correct)> {
+    match values {
+        [one] => vec![(question.to_string(), one)],
+        _ => ["x", "y"]
+            .iter()
+            .zip(values)
+            .map(|(axis, v)| (format!("{question}_{axis}"), v))
+            .collect(),
+    }
+}
+
+/// How a double was certified.
+pub fn words(how: How) -> String {
+    match how {
+        How::Ball => "double-double with bound".into(),
+        How::Exact => "exact fractions".into(),
+        How::Bits(bits) => format!("enclosure of {bits} bits"),
+    }
+}
+
+/// An unknown of the full system by the scene's names, and its unit.
+pub fn unknown_words(scene: &Scene, unknown: Unknown) -> (String, &'static str) {
+    let body = |b: usize| &scene.bodies[b].name;
+    let contact = |c: usize| &scene.contacts[c].name;
+    match unknown {
+        Unknown::VelocityX(b) => (format!("velocity of {} along x", body(b)), "m/s"),
+        Unknown::VelocityY(b) => (format!("velocity of {} along y", body(b)), "m/s"),
+        Unknown::Spin(b) => (format!("spin of {}", body(b)), "rad/s"),
+        Unknown::HingeX(h) => (
+            format!("impulse at hinge {} along x", scene.hinges[h].name),
+            "N s",
+        ),
+        Unknown::HingeY(h) => (
+            format!("impulse at hinge {} along y", scene.hinges[h].name),
+            "N s",
+        ),
+        Unknown::ContactX(c) => (format!("impulse at {} along x", contact(c)), "N s"),
+        Unknown::ContactY(c) => (format!("impulse at {} along y", contact(c)), "N s"),
+        Unknown::ContactNormal(c) => (format!("impulse at {} along the normal", contact(c)), "N s"),
+        Unknown::Blow(b) => (format!("size of the blow {}", scene.blows[b].name), "N s"),
+    }
+}
