@@ -3,6 +3,7 @@
 //! Results go to standard output, everything else to standard error. Exit status: 0 done and everything held; 1 a check
 //! failed or an answer was refuted; 2 unusable input; 3 undecided; 70 a fault of carom itself.
 
+mod draw;
 mod grade;
 
 use std::io::{Read, Write};
@@ -54,6 +55,8 @@ enum Command {
         #[arg(long, conflicts_with = "exact")]
         certify: bool,
     },
+    /// Draw a scene: before, the free-body diagram during, and after the collision
+    Draw(draw::DrawArgs),
     /// Judge a formula: is it equivalent, how is that known, and what is wrong with it
     Grade(grade::GradeArgs),
     /// Tell how a formula is understood
@@ -104,6 +107,7 @@ pub fn run() -> ExitCode {
             exact,
             certify,
         } => solve_command(&scene, format, &set, exact, certify),
+        Command::Draw(args) => draw::run(&args),
         Command::Grade(args) => grade::run(&args),
         Command::Read(args) => grade::read(&args),
         Command::Schema => print(&scene::schema()).map(|()| 0),
@@ -269,6 +273,24 @@ fn read_scene(path: &Path, set: &[String]) -> Result<scene::Scene, Failure> {
         })?;
     }
     Ok(scene)
+}
+
+/// Writes a file whole or not at all: beside it first, then renamed.
+fn save(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let refused =
+        |e: std::io::Error| Failure::Input(format!("{}: cannot be written: {e}", path.display()));
+    let folder = path
+        .parent()
+        .filter(|p| !p.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let draft = folder.join(format!(".{name}.{}.part", std::process::id()));
+    let written = std::fs::write(&draft, bytes).and_then(|()| std::fs::rename(&draft, path));
+    written.map_err(|e| {
+        // Nothing half-written stays behind; that the draft may not exist either is fine.
+        let _ = std::fs::remove_file(&draft);
+        refused(e)
+    })
 }
 
 fn with_hint(message: &str, hint: Option<&str>) -> String {

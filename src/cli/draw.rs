@@ -1,0 +1,93 @@
+//! `carom draw`: the pictures of a scene as SVG or PNG.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::{Failure, print, read_scene, save};
+use carom::figure::{self, Subject, Which};
+
+/// Arguments of `carom draw`.
+#[derive(Args)]
+pub struct DrawArgs {
+    /// Scene file, `-` for standard input
+    scene: PathBuf,
+    /// Which picture
+    #[arg(long, value_enum, default_value_t = Picture::All)]
+    which: Picture,
+    /// Draw the free-body diagram of this body alone (with --which during)
+    #[arg(long, value_name = "BODY")]
+    body: Option<String>,
+    /// File to write, `.svg` or `.png`; without it the SVG goes to standard output
+    #[arg(short, long)]
+    output: Option<PathBuf>,
+    /// Give a parameter a value for the drawing, such as theta=pi/6; may be repeated
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Picture {
+    /// Bodies and velocities just before
+    Before,
+    /// The free-body diagram during the collision
+    During,
+    /// Bodies and velocities just after
+    After,
+    /// All three
+    All,
+}
+
+/// Draws a scene.
+pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
+    let scene = read_scene(&args.scene, &args.set)?;
+    let subject = match &args.body {
+        None => Subject::System,
+        Some(name) => {
+            let known = || {
+                scene
+                    .bodies
+                    .iter()
+                    .map(|b| b.name.as_str())
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            };
+            let found = scene.bodies.iter().position(|b| b.name == *name);
+            Subject::Body(found.ok_or_else(|| {
+                Failure::Input(format!(
+                    "{}: no body {name}\nhint: the scene has {}",
+                    args.scene.display(),
+                    known()
+                ))
+            })?)
+        }
+    };
+    let which = match args.which {
+        Picture::Before => Which::Before,
+        Picture::During => Which::During(subject),
+        Picture::After => Which::After,
+        Picture::All => Which::All,
+    };
+    let Some(output) = &args.output else {
+        print(&figure::draw(&scene, which).svg)?;
+        return Ok(0);
+    };
+    let kind = output
+        .extension()
+        .and_then(|e| e.to_str())
+        .map(str::to_ascii_lowercase);
+    let bytes = match kind.as_deref() {
+        Some("svg") => figure::draw(&scene, which).svg.into_bytes(),
+        #[cfg(feature = "png")]
+        Some("png") => figure::png(&figure::draw(&scene, which).svg)
+            .map_err(|fault| Failure::Input(format!("{}: {fault}", output.display())))?,
+        _ => {
+            return Err(Failure::Input(format!(
+                "{}: unknown picture format\nhint: name the file .svg or .png",
+                output.display()
+            )));
+        }
+    };
+    save(output, &bytes)?;
+    Ok(0)
+}
