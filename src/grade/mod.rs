@@ -5,6 +5,8 @@
 //! undecided never counts as wrong, and what cannot be read is invalid rather than wrong. This module writes no format
 //! and knows no file.
 
+pub mod belief;
+pub mod believed;
 mod compare;
 pub mod entry;
 mod form;

@@ -1,9 +1,13 @@
 //! A scene as an answer sheet: its derived answers are the keys, its parameters and domains the declarations.
 
-use super::{Given, Grade, Key, Options, Question, judge_against, key_of};
+use super::believed::{self, Written};
+use super::{
+    Diagnosis, Given, Grade, Key, Options, Question, Strength, Tolerance, Verdict, judge_against,
+    key_of,
+};
 use crate::derive::{self, Answer, Derivation, Form};
 use crate::expr::{Expr, Symbol};
-use crate::formula::{Content, Relation};
+use crate::formula::{Content, Quantity, Reading, Relation};
 use crate::scene::{Ask, Scene};
 
 /// A scene with its answers.
@@ -152,9 +156,135 @@ impl Sheet {
         })
     }
 
-    /// Judges an answer for a quantity of the scene.
+    /// Judges an answer for a quantity of the scene; a wrong one is held against the beliefs students have.
     pub fn judge(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
-        judge_against(&entry.key, answer, options)
+        let mut grade = judge_against(&entry.key, answer, options);
+        let Ok(reading) = super::read_answer(&entry.key, answer) else {
+            return grade;
+        };
+        let numeric = self.numeric(entry, &reading, answer, options);
+        let rounding = numeric.as_ref().and_then(|(_, room)| *room);
+        if let Some((better, _)) = numeric {
+            grade = better;
+        }
+        if grade.verdict != Verdict::Different || options.strength == Strength::Fast {
+            return grade;
+        }
+        if reading
+            .symbols()
+            .iter()
+            .any(|s| matches!(&**s, "g" | "t" | "dt"))
+        {
+            grade.note = "DIFF_BELIEF";
+            grade.diagnosis.insert(0, Diagnosis::new(
+                "GRAVITY_KEPT",
+                "a finite force, or the time the collision takes, enters: in a collision neither has an impulse",
+                "which forces are large enough to matter in so short a time?",
+            ));
+            return grade;
+        }
+        let values = match reading.content.answer() {
+            Content::Scalar(e) => vec![e.clone()],
+            Content::Quantity(q) => vec![q.value.clone()],
+            Content::Vector([x, y, z]) if z.is_zero() => vec![x.clone(), y.clone()],
+            Content::Vector([x, y, z]) if x.is_zero() && y.is_zero() => vec![z.clone()],
+            _ => return grade,
+        };
+        let known = |e: &Expr| {
+            e.symbols()
+                .iter()
+                .all(|s| self.scene.parameters.iter().any(|p| p.name == *s))
+        };
+        if !values.iter().all(known) || values.iter().any(|e| e.size() > 2_000) {
+            return grade;
+        }
+        let written = Written {
+            scene: &self.scene,
+            ask: &entry.ask,
+            component: entry.component,
+            values,
+            rounding,
+        };
+        let expected = if matches!(entry.key.reading.content, Content::Vector(_)) {
+            2
+        } else {
+            1
+        };
+        let mut found = if written.values.len() == expected {
+            believed::beliefs(&written)
+        } else {
+            Vec::new()
+        };
+        if !found.is_empty() {
+            grade.note = "DIFF_BELIEF";
+        }
+        found.extend(believed::other_quantities(&written));
+        found.append(&mut grade.diagnosis);
+        grade.diagnosis = found;
+        grade
+    }
+
+    /// An answer in numbers, where the scene gives values: right when it is the exact value rounded to its own digits, three
+    /// at least, or within the tolerance. Also how far it may be off for a belief to explain it.
+    fn numeric(
+        &self,
+        entry: &Entry,
+        reading: &Reading,
+        answer: &str,
+        options: &Options,
+    ) -> Option<(Grade, Option<f64>)> {
+        let values = believed::values(&self.scene);
+        let has_values = values.len() == self.scene.parameters.len() && !values.is_empty();
+        if !has_values
+            || !reading
+                .symbols()
+                .iter()
+                .all(|s| entry.key.question.asked.iter().any(|g| g.name == *s))
+        {
+            return None;
+        }
+        let Content::Scalar(closed) = &entry.key.reading.content else {
+            return None;
+        };
+        let exact = closed.substitute(&values);
+        let mut question = entry.key.question.clone();
+        question.dimension = None;
+        let content = match entry
+            .key
+            .question
+            .dimension
+            .as_ref()
+            .filter(|d| !d.is_none())
+        {
+            Some(dimension) => Content::Quantity(Box::new(Quantity {
+                value: exact.clone(),
+                written: exact.clone(),
+                unit: crate::dimension::unit(&dimension.si().replace('²', "^2")).ok()?,
+                unit_text: dimension.si(),
+            })),
+            None => Content::Scalar(exact.clone()),
+        };
+        let key = key_of(content, &question);
+        let digits = reading.literal.as_ref().map_or(40, |l| l.digits).min(40);
+        let tolerance = options
+            .tolerance
+            .clone()
+            .unwrap_or(Tolerance::Significant(digits.max(3)));
+        let mut grade = judge_against(
+            &key,
+            answer,
+            &Options {
+                tolerance: Some(tolerance),
+                ..options.clone()
+            },
+        );
+        if grade.note == "EQUIV_TOLERANCE" && options.tolerance.is_none() {
+            grade.note = "EQUIV_ROUNDED";
+            grade.proof.words = format!("the exact value rounded to {digits} significant digits");
+        }
+        let value = reading.content.answer().expr().and_then(super::fraction)?;
+        let room = super::number::half_unit(&value, digits.min(12));
+        Some((grade, Some(crate::expr::number::to_f64(&room) * 1.000_001)))
     }
 }
 
