@@ -59,6 +59,8 @@ enum Command {
     Draw(draw::DrawArgs),
     /// Judge a formula: is it equivalent, how is that known, and what is wrong with it
     Grade(grade::GradeArgs),
+    /// Hold what a book prints about a scene against what is derived
+    Verify(grade::VerifyArgs),
     /// Tell how a formula is understood
     Read(grade::ReadArgs),
     /// Print the JSON Schema of scene files
@@ -109,6 +111,7 @@ pub fn run() -> ExitCode {
         } => solve_command(&scene, format, &set, exact, certify),
         Command::Draw(args) => draw::run(&args),
         Command::Grade(args) => grade::run(&args),
+        Command::Verify(args) => grade::verify(&args),
         Command::Read(args) => grade::read(&args),
         Command::Schema => print(&scene::schema()).map(|()| 0),
         Command::List { folder } => list(&folder),

@@ -43,6 +43,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         "verify",
         &[
             "expr",
+            "interval",
             "domain",
             "dimension",
             "algebra",

@@ -66,6 +66,20 @@ pub struct ReadArgs {
     format: Format,
 }
 
+/// Arguments of `carom verify`.
+#[derive(Args)]
+pub struct VerifyArgs {
+    /// Scene files with `printed` entries
+    #[arg(required = true)]
+    scenes: Vec<PathBuf>,
+    /// Show only what does not hold
+    #[arg(long)]
+    wrong: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum ProofArg {
     /// Random points modulo a prime where no root occurs; the bound of error is stated
@@ -370,6 +384,39 @@ impl Sheets {
         }
         sheet
     }
+}
+
+/// Runs `carom verify`: 0 when everything printed holds, 1 when something does not, 3 when something is not decided.
+pub fn verify(args: &VerifyArgs) -> Result<u8, Failure> {
+    let mut worst = 0;
+    let mut all = Vec::new();
+    for path in &args.scenes {
+        let sheet = open(path)?;
+        let mut findings = carom::verify::printed::check(&sheet.scene, &sheet.derivation);
+        for finding in &findings {
+            worst = match (finding.holds, worst) {
+                (Some(false), _) => 1,
+                (None, 0) => 3,
+                (_, worst) => worst,
+            };
+        }
+        let total = findings.len();
+        if args.wrong {
+            findings.retain(|f| f.holds != Some(true));
+        }
+        match args.format {
+            Format::Text => print(&render::printed::text(&sheet.scene, &findings, total))?,
+            Format::Json => all.push(render::printed::json(&sheet.scene, &findings)),
+        }
+    }
+    if args.format == Format::Json {
+        print(&pretty(&if all.len() == 1 {
+            all.remove(0)
+        } else {
+            Value::Array(all)
+        }))?;
+    }
+    Ok(worst)
 }
 
 /// Runs `carom read`.

@@ -59,11 +59,32 @@ pub fn beliefs(written: &Written) -> Vec<Diagnosis> {
             break;
         }
     }
+    if found.is_empty() {
+        found = opposite(written, &trials, &slips);
+    }
     if found.is_empty() && written.rounding.is_none() && slips.len() * slips.len() / 2 <= PAIRS * 4
     {
         found = pairs(written, &trials, &slips);
     }
     found
+}
+
+/// The belief whose answer is the written one with the other sign.
+fn opposite(written: &Written, trials: &Trials, slips: &[(&Belief, Slip)]) -> Vec<Diagnosis> {
+    let turned = Written {
+        values: written.values.iter().map(|v| -v).collect(),
+        ask: written.ask,
+        ..*written
+    };
+    let mirrored = trials.times(-1.0);
+    let hit = slips.iter().find(|(_, slip)| mirrored.fits(&turned, slip));
+    hit.map(|(belief, slip)| {
+        let mut d = words(belief, slip);
+        d.message.push_str(", with the opposite sign");
+        d.hint = format!("{} Check the sign too.", d.hint);
+        vec![d]
+    })
+    .unwrap_or_default()
 }
 
 fn words(belief: &Belief, slip: &Slip) -> Diagnosis {
@@ -149,6 +170,20 @@ pub fn given_values(scene: &Scene) -> Option<Point<f64>> {
 }
 
 impl Trials {
+    /// The same points, all targets times a number.
+    fn times(&self, k: f64) -> Trials {
+        Trials {
+            points: self.points.clone(),
+            exact: self.exact.clone(),
+            targets: self
+                .targets
+                .iter()
+                .map(|t| t.iter().map(|v| v * k).collect())
+                .collect(),
+            rounding: self.rounding,
+        }
+    }
+
     fn fits(&self, written: &Written, slip: &Slip) -> bool {
         let mut defined = 0;
         for (point, target) in self.points.iter().zip(&self.targets) {
@@ -648,16 +683,7 @@ pub fn other_quantities(written: &Written) -> Vec<Diagnosis> {
                     values,
                     rounding: written.rounding,
                 };
-                let mirrored = Trials {
-                    targets: trials
-                        .targets
-                        .iter()
-                        .map(|t| t.iter().map(|v| v * f64::from(sign)).collect())
-                        .collect(),
-                    points: trials.points.clone(),
-                    exact: trials.exact.clone(),
-                    rounding: trials.rounding,
-                };
+                let mirrored = trials.times(f64::from(sign));
                 if mirrored.fits(&other, &plain) {
                     let axis = component.map_or("", |c| [" along x", " along y"][c]);
                     let minus = if sign < 0 {

@@ -20,8 +20,9 @@ use std::collections::BTreeSet;
 
 use crate::dimension::Dimension;
 use crate::domain::Domains;
-use crate::expr::{Expr, Node, Point, Rational, Symbol};
+use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{self, Content, Fault, Note, Reading, Remark, Symbols};
+pub(crate) use crate::verify::rounding::fraction;
 
 pub use form::Form;
 pub use number::Tolerance;
@@ -308,7 +309,7 @@ pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
         }
     };
     let mut finding = compare::contents(key, &reading, options);
-    if reading.choices > 0 {
+    if reading.choices > 0 || power_of_function(&reading.content).is_some() {
         ambiguity(key, answer, options, &reading, &mut finding);
     }
     if finding.verdict == Verdict::Equivalent {
@@ -379,6 +380,25 @@ fn read_answer(key: &Key, answer: &str) -> Result<Reading, Fault> {
     }
 }
 
+/// `cosθ^2`, read as the cosine of a square, would be right as the square of the cosine.
+fn power_of_function(content: &Content) -> Option<Content> {
+    fn lift(e: &Expr) -> Expr {
+        if let Node::Call(f, x) = e.node()
+            && let Node::Power(base, k) = x.node()
+            && k.as_number().is_some_and(|k| k.is_integer())
+        {
+            return Expr::call(*f, base.clone()).power(k.clone());
+        }
+        e.map_parts(lift)
+    }
+    let changed = match content {
+        Content::Scalar(e) => Content::Scalar(lift(e)),
+        Content::Vector(v) => Content::Vector([lift(&v[0]), lift(&v[1]), lift(&v[2])]),
+        _ => return None,
+    };
+    (changed != *content).then_some(changed)
+}
+
 /// Where a text could be read in another way and that would be right, the grade says so; the usual reading decides.
 fn ambiguity(
     key: &Key,
@@ -394,7 +414,14 @@ fn ambiguity(
         forms: Vec::new(),
         ..options.clone()
     };
-    for other in formula::other_readings(answer, &key.readable) {
+    let mut others = formula::other_readings(answer, &key.readable);
+    if let Some(content) = power_of_function(&reading.content) {
+        others.push(Reading {
+            content,
+            ..reading.clone()
+        });
+    }
+    for other in others {
         let verdict = compare::verdict_of(key, &other, &plain);
         if verdict != finding.verdict && matches!(verdict, Verdict::Equivalent | Verdict::Different)
         {
@@ -453,29 +480,6 @@ pub fn show(content: &Content) -> String {
             }
             out
         }
-    }
-}
-
-/// The exact value of a number expression, where it is a fraction.
-pub(crate) fn fraction(e: &Expr) -> Option<Rational> {
-    if let Some(value) = e.as_number() {
-        return Some(value.clone());
-    }
-    // A tower of powers would be computed to the last digit.
-    let mut nodes = 0;
-    let mut tame = true;
-    e.walk(&mut |part| {
-        nodes += 1;
-        if let Node::Power(_, k) = part.node() {
-            tame &= k
-                .as_number()
-                .is_some_and(|k| k.numer().as_i64().is_some_and(|k| k.abs() <= 64));
-        }
-    });
-    if tame && nodes <= 200 {
-        e.evaluate(&Point::default())
-    } else {
-        None
     }
 }
 

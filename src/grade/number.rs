@@ -4,8 +4,9 @@
 
 use num_traits::{Signed, Zero};
 
-use crate::expr::{Expr, Int, Point, Rational, ratio};
-use crate::interval::{Big, Outcome, evaluate};
+use crate::expr::{Expr, Rational, ratio};
+
+pub use crate::verify::rounding::{bounds, half_unit, ten_to};
 
 /// How far a number may be from the expected one.
 #[derive(Clone, PartialEq, Debug)]
@@ -92,51 +93,6 @@ pub fn shown(e: &Expr) -> String {
             format!("{sign}{whole}.{part}")
         }
         _ => plain,
-    }
-}
-
-/// Half a unit of the last of `digits` significant digits of a number.
-pub fn half_unit(value: &Rational, digits: u32) -> Rational {
-    if value.is_zero() {
-        return Rational::zero();
-    }
-    ten_to(magnitude(value) - digits as i32 + 1) * ratio(1, 2)
-}
-
-/// The power of ten of the first digit: 0 for 2.08, −2 for 0.03. The value must not be zero.
-pub fn magnitude(value: &Rational) -> i32 {
-    let size = value.abs();
-    let mut k = crate::expr::number::to_f64(&size)
-        .log10()
-        .floor()
-        .clamp(-4000.0, 4000.0) as i32;
-    while ten_to(k) > size {
-        k -= 1;
-    }
-    while ten_to(k + 1) <= size {
-        k += 1;
-    }
-    k
-}
-
-/// An integer power of ten.
-pub fn ten_to(k: i32) -> Rational {
-    let power = Rational::from(Int::from(10).pow(k.unsigned_abs()));
-    if k < 0 { power.recip() } else { power }
-}
-
-/// Fractions around the value of a constant expression, far closer than any tolerance in use; equal where it is a fraction.
-pub fn bounds(e: &Expr) -> Option<[Rational; 2]> {
-    if let Some(exact) = super::fraction(e) {
-        return Some([exact.clone(), exact]);
-    }
-    let point = Point::<Outcome<Big<200>>>::default();
-    match evaluate(e, &point) {
-        // Beyond these sizes a decimal tolerance has no meaning, and the fraction would be long.
-        Outcome::Value(Big(e)) if [&e.low, &e.high].iter().all(|d| d.exponent.abs() < 20_000) => {
-            Some([e.low.to_rational(), e.high.to_rational()])
-        }
-        _ => None,
     }
 }
 

@@ -4,6 +4,7 @@
 pub mod certified;
 pub mod grade;
 pub mod json;
+pub mod printed;
 pub mod text;
 
 use std::collections::BTreeMap;

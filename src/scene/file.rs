@@ -40,6 +40,42 @@ record! {
         forces: Option<Vec<ForceFile>>,
         /// What is asked, under the name of the answer.
         questions: Option<Map<QuestionFile>>,
+        /// What a book prints about the scene, for `carom verify`.
+        printed: Option<Vec<PrintedFile>>,
+    }
+}
+
+record! {
+    /// Something a book prints: a formula (`item` with `printed`), a `number`, an `equation`, a `claim` or a `matrix`.
+    PrintedFile {
+        /// Where it is printed, such as "(17.62)".
+        place as "where": Option<Text>,
+        /// Name of the answer a printed formula is for.
+        item: Option<Text>,
+        /// The printed formula; of a vector [x, y].
+        printed: Option<Text>,
+        /// A printed number with its unit.
+        number: Option<Text>,
+        /// What the number is of: a name, or a formula in names.
+        of: Option<Text>,
+        /// The formula by which the book got the number from others.
+        from: Option<Text>,
+        /// A printed equation or inequality, in parameters, answers and unknowns.
+        equation: Option<Text>,
+        /// A statement in words; `equation` says it in formulas.
+        claim: Option<Text>,
+        /// Entries of a printed matrix, row by row.
+        matrix: Option<Vec<Vec<Text>>>,
+        /// Names of its unknowns, one for each column.
+        unknowns: Option<Vec<Text>>,
+        /// Its right side.
+        right: Option<Vec<Text>>,
+        /// Special values of parameters for which it is printed.
+        at: Option<Map<Text>>,
+        /// Abbreviations it uses, with what they stand for.
+        short as "let": Option<Map<Text>>,
+        /// Angles that are taken as small.
+        small: Option<Vec<Text>>,
     }
 }
 

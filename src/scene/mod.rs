@@ -12,6 +12,7 @@ mod geometry;
 mod json;
 mod parameters;
 mod place;
+mod printed;
 mod proof;
 mod question;
 mod record;
@@ -22,6 +23,7 @@ use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector};
 
 pub use fault::{Fault, Faults, Span};
+pub use printed::{Print, Printed};
 
 /// Longest text of a scene file, in bytes.
 const LONGEST: usize = 1 << 20;
@@ -122,6 +124,8 @@ pub struct Scene {
     pub forces: Vec<Force>,
     /// What is asked.
     pub questions: Vec<Question>,
+    /// What a book prints about the scene.
+    pub printed: Vec<Printed>,
     /// What the reader noticed that is no fault, such as a parameter that nothing uses.
     pub remarks: Vec<String>,
 }

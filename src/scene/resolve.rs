@@ -45,8 +45,14 @@ pub(super) fn resolve(file: &SceneFile, mut faults: Vec<Fault>) -> (Scene, Vec<F
         statement: text(&file.statement),
         ..Scene::default()
     };
+    scene.printed = super::printed::resolve(file, &mut faults);
     let mut claims = Vec::new();
     let symbols = parameters::resolve(file, &mut scene, &mut claims, &mut faults);
+    for parameter in &scene.parameters {
+        if super::printed::mentions(&scene.printed, &parameter.name) {
+            symbols.mark_used(&parameter.name);
+        }
+    }
     let points: HashMap<&str, usize> = names(file.points.as_ref());
     let bodies: HashMap<&str, usize> = names(Some(&file.bodies));
     let mut resolver = Resolver {

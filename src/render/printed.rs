@@ -1,0 +1,59 @@
+//! Findings about what a book prints, for people and for programs.
+
+use serde_json::{Value, json};
+
+use crate::scene::Scene;
+use crate::verify::printed::Finding;
+
+/// Findings as a list; `total` counts those left out too.
+pub fn text(scene: &Scene, findings: &[Finding], total: usize) -> String {
+    let mut out = format!("{} · {}: {total} printed\n", scene.source, scene.title);
+    for f in findings {
+        let sign = match f.holds {
+            Some(true) => "holds",
+            Some(false) => "WRONG",
+            None => "open",
+        };
+        let place = if f.place.is_empty() {
+            String::new()
+        } else {
+            format!(" [{}]", f.place)
+        };
+        out.push_str(&format!("  {sign:<6}{}{place}: {}\n", f.kind, f.printed));
+        let mut line =
+            |label: &str, words: &str| out.push_str(&format!("        {label}: {words}\n"));
+        if f.holds != Some(true) {
+            if !f.carom.is_empty() {
+                line("carom", &f.carom);
+            }
+            line("because", &f.because);
+        }
+        if let Some(words) = &f.explained {
+            line("explained", words);
+        }
+        if let Some(words) = &f.caught_by {
+            line("caught by", words);
+        }
+    }
+    out
+}
+
+/// Findings as data.
+pub fn json(scene: &Scene, findings: &[Finding]) -> Value {
+    let list: Vec<Value> = findings
+        .iter()
+        .map(|f| {
+            json!({
+                "where": f.place,
+                "kind": f.kind,
+                "printed": f.printed,
+                "holds": f.holds,
+                "carom": f.carom,
+                "because": f.because,
+                "explained": f.explained,
+                "caught_by": f.caught_by,
+            })
+        })
+        .collect();
+    json!({"title": scene.title, "source": scene.source, "printed": list})
+}

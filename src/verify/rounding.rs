@@ -1,0 +1,77 @@
+//! Decimal rounding of exact values: bounds of constants, significant digits, half units of the last place.
+
+use num_traits::{Signed, Zero};
+
+use crate::expr::{Expr, Int, Node, Point, Rational, ratio};
+use crate::interval::{Big, Outcome, evaluate};
+
+/// The exact value of a constant, where it is a fraction that is no tower of powers.
+pub fn fraction(e: &Expr) -> Option<Rational> {
+    if let Some(value) = e.as_number() {
+        return Some(value.clone());
+    }
+    // A tower of powers would be computed to the last digit.
+    let mut nodes = 0;
+    let mut tame = true;
+    e.walk(&mut |part| {
+        nodes += 1;
+        if let Node::Power(_, k) = part.node() {
+            tame &= k
+                .as_number()
+                .is_some_and(|k| k.numer().as_i64().is_some_and(|k| k.abs() <= 64));
+        }
+    });
+    if tame && nodes <= 200 {
+        e.evaluate(&Point::default())
+    } else {
+        None
+    }
+}
+
+/// Fractions around the value of a constant expression, far closer than any tolerance in use; equal where it is a fraction.
+pub fn bounds(e: &Expr) -> Option<[Rational; 2]> {
+    if let Some(exact) = fraction(e) {
+        return Some([exact.clone(), exact]);
+    }
+    let point = Point::<Outcome<Big<200>>>::default();
+    match evaluate(e, &point) {
+        // Beyond these sizes a decimal tolerance has no meaning, and the fraction would be long.
+        Outcome::Value(Big(e)) if [&e.low, &e.high].iter().all(|d| d.exponent.abs() < 20_000) => {
+            Some([e.low.to_rational(), e.high.to_rational()])
+        }
+        _ => None,
+    }
+}
+
+/// Half a unit of the last of `digits` significant digits of a number.
+pub fn half_unit(value: &Rational, digits: u32) -> Rational {
+    if value.is_zero() {
+        return Rational::zero();
+    }
+    ten_to(magnitude(value) - digits as i32 + 1) * ratio(1, 2)
+}
+
+/// The power of ten of the first digit: 0 for 2.08, −2 for 0.03. The value must not be zero.
+pub fn magnitude(value: &Rational) -> i32 {
+    let size = value.abs();
+    let bits = size.numer().bits() as f64 - size.denom().bits() as f64;
+    let mut k = (bits * std::f64::consts::LOG10_2).floor() as i32 - 1;
+    while ten_to(k) > size {
+        k -= 1;
+    }
+    while ten_to(k + 1) <= size {
+        k += 1;
+    }
+    k
+}
+
+/// An integer power of ten.
+pub fn ten_to(k: i32) -> Rational {
+    let power = Rational::from(Int::from(10).pow(k.unsigned_abs()));
+    if k < 0 { power.recip() } else { power }
+}
+
+/// The power of ten of the first digit; 0 for zero.
+pub fn magnitude_or_zero(value: &Rational) -> i32 {
+    if value.is_zero() { 0 } else { magnitude(value) }
+}

@@ -1,0 +1,300 @@
+//! Whether the rows of a printed matrix are laws of a scene, or merely true of its one solution.
+//!
+//! The equations of `numeric` are taken at exact points of the domain. A printed row that repeats a contact law or a given
+//! is a law; any other has to be a combination of the equations without those, so that it does not lean on the very
+//! values that other rows state.
+
+use num_traits::Zero;
+
+use crate::expr::{Expr, Point, Rational};
+use crate::numeric::{self, Given, Law, System, Unknown};
+use crate::scene::{Ask, ImpulseAt, Scene};
+
+/// What is found of a row.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Row {
+    /// It is a law.
+    Law,
+    /// The solution fulfils it, and it is no law; a column and the entry that would make it one.
+    Masked(Option<(usize, Expr)>),
+    /// The solution does not fulfil it; a column and the entry that would make it a law.
+    Wrong(Option<(usize, Expr)>),
+}
+
+/// Exact points at which rows are tried.
+const POINTS: u64 = 2;
+
+struct Place {
+    point: Point<Rational>,
+    laws: System<Rational>,
+    /// Each column of the print as a row over the unknowns, with its constant part.
+    columns: Vec<(Vec<Rational>, Rational)>,
+}
+
+/// Judges printed rows: entries and right side, over unknowns that are names of answers.
+pub fn judge(
+    scene: &Scene,
+    unknowns: &[String],
+    rows: &[(Vec<Expr>, Expr)],
+) -> Result<Vec<Row>, String> {
+    let mut needed = numeric::needed(scene);
+    for (row, right) in rows {
+        row.iter().chain([right]).for_each(|e| needed.add(e));
+    }
+    let mut places = Vec::new();
+    for seed in 1..=POINTS {
+        let point = numeric::random_point(&needed, &scene.domains, seed);
+        let given = numeric::given(scene, &point).map_err(|e| e.to_string())?;
+        let laws = numeric::assemble(&given);
+        let columns: Result<Vec<_>, String> = unknowns
+            .iter()
+            .map(|name| column(scene, name, &point, &given, &laws))
+            .collect();
+        places.push(Place {
+            point,
+            laws,
+            columns: columns?,
+        });
+    }
+    let stated: Vec<Vec<usize>> = places.iter().map(|p| stated(p, rows)).collect();
+    Ok(rows
+        .iter()
+        .map(|row| {
+            let law = |row: &(Vec<Expr>, Expr)| {
+                places.iter().zip(&stated).all(|(p, s)| is_law(p, s, row))
+            };
+            if law(row) {
+                return Row::Law;
+            }
+            let mend = (0..row.0.len())
+                .filter(|i| !row.0[*i].is_zero())
+                .find_map(|i| {
+                    [
+                        -&row.0[i],
+                        Expr::zero(),
+                        &row.0[i] * &Expr::from(2),
+                        &row.0[i] * &Expr::ratio(1, 2),
+                    ]
+                    .into_iter()
+                    .find_map(|other| {
+                        let mut changed = row.clone();
+                        changed.0[i] = other.clone();
+                        law(&changed).then_some((i, other))
+                    })
+                });
+            if places.iter().all(|p| fulfilled(p, row)) {
+                Row::Masked(mend)
+            } else {
+                Row::Wrong(mend)
+            }
+        })
+        .collect())
+}
+
+/// A printed row over the unknowns, right side last.
+fn spread(place: &Place, (entries, right): &(Vec<Expr>, Expr)) -> Option<Vec<Rational>> {
+    let n = place.laws.unknowns.len();
+    let mut out = vec![Rational::zero(); n + 1];
+    for (entry, (form, constant)) in entries.iter().zip(&place.columns) {
+        let k = entry.evaluate(&place.point)?;
+        for (cell, part) in out.iter_mut().zip(form) {
+            *cell += &k * part;
+        }
+        out[n] -= &k * constant;
+    }
+    out[n] += right.evaluate(&place.point)?;
+    Some(out)
+}
+
+fn law_row(place: &Place, i: usize) -> Vec<Rational> {
+    let mut row = place.laws.row(i).to_vec();
+    row.push(place.laws.right[i].clone());
+    row
+}
+
+/// The contact laws and givens that some printed row repeats.
+fn stated(place: &Place, rows: &[(Vec<Expr>, Expr)]) -> Vec<usize> {
+    let closing = |law: &Law| {
+        matches!(
+            law,
+            Law::Restitution(_) | Law::StickingX(_) | Law::StickingY(_) | Law::Known(_)
+        )
+    };
+    let candidates = (0..place.laws.laws.len()).filter(|i| closing(&place.laws.laws[*i]));
+    candidates
+        .filter(|i| {
+            rows.iter().any(|row| {
+                spread(place, row).is_some_and(|r| {
+                    rank(vec![r.clone(), law_row(place, *i)]) < 2 && r.iter().any(|x| !x.is_zero())
+                })
+            })
+        })
+        .collect()
+}
+
+fn is_law(place: &Place, stated: &[usize], row: &(Vec<Expr>, Expr)) -> bool {
+    let Some(row) = spread(place, row) else {
+        return false;
+    };
+    if row.iter().all(Zero::is_zero) {
+        return true;
+    }
+    if stated
+        .iter()
+        .any(|i| rank(vec![row.clone(), law_row(place, *i)]) < 2)
+    {
+        return true;
+    }
+    let rest: Vec<Vec<Rational>> = (0..place.laws.laws.len())
+        .filter(|i| !stated.contains(i))
+        .map(|i| law_row(place, i))
+        .collect();
+    within(rest, row)
+}
+
+fn fulfilled(place: &Place, row: &(Vec<Expr>, Expr)) -> bool {
+    let all: Vec<Vec<Rational>> = (0..place.laws.laws.len())
+        .map(|i| law_row(place, i))
+        .collect();
+    spread(place, row).is_some_and(|row| within(all, row))
+}
+
+fn within(mut rows: Vec<Vec<Rational>>, row: Vec<Rational>) -> bool {
+    let before = rank(rows.clone());
+    rows.push(row);
+    rank(rows) == before
+}
+
+/// Rank by elimination in fractions.
+fn rank(mut rows: Vec<Vec<Rational>>) -> usize {
+    let width = rows.first().map_or(0, Vec::len);
+    let mut done = 0;
+    for column in 0..width {
+        let Some(pivot) = (done..rows.len()).find(|i| !rows[*i][column].is_zero()) else {
+            continue;
+        };
+        rows.swap(done, pivot);
+        let head = rows[done].clone();
+        for row in rows.iter_mut().skip(done + 1) {
+            if row[column].is_zero() {
+                continue;
+            }
+            let k = &row[column] / &head[column];
+            for (cell, h) in row.iter_mut().zip(&head) {
+                *cell -= &k * h;
+            }
+        }
+        done += 1;
+    }
+    done
+}
+
+/// What a named unknown is, over the unknowns of the equations, and its constant part.
+fn column(
+    scene: &Scene,
+    name: &str,
+    point: &Point<Rational>,
+    given: &Given<Rational>,
+    laws: &System<Rational>,
+) -> Result<(Vec<Rational>, Rational), String> {
+    let (question, axis) = scene
+        .questions
+        .iter()
+        .find_map(|q| match name.strip_prefix(q.name.as_str()) {
+            Some("") => Some((q, None)),
+            Some("_x") => Some((q, Some(0))),
+            Some("_y") => Some((q, Some(1))),
+            _ => None,
+        })
+        .ok_or_else(|| format!("the scene asks for no {name}"))?;
+    let one = || Rational::from(crate::expr::Int::from(1));
+    let value = |v: &crate::expr::Vector| -> Result<[Rational; 2], String> {
+        match (v[0].evaluate(point), v[1].evaluate(point)) {
+            (Some(x), Some(y)) => Ok([x, y]),
+            _ => Err(format!("{name} has no exact value at a point")),
+        }
+    };
+    let direction = |along: &Option<crate::expr::Vector>| match (along, axis) {
+        (Some(along), None) => value(along),
+        (None, Some(0)) => Ok([one(), Rational::zero()]),
+        (None, Some(_)) => Ok([Rational::zero(), one()]),
+        _ => Err(format!("{name} is no component")),
+    };
+    let mut row = vec![Rational::zero(); laws.unknowns.len()];
+    let mut constant = Rational::zero();
+    let mut add = |unknown: Unknown, k: Rational| {
+        if let Some(i) = laws.column(unknown) {
+            row[i] += k;
+            true
+        } else {
+            false
+        }
+    };
+    match &question.ask {
+        Ask::Velocity {
+            body,
+            point: at,
+            along,
+        } => {
+            let d = direction(along)?;
+            let place = match at {
+                Some((_, at)) => value(at)?,
+                None => given.bodies[*body].center.clone(),
+            };
+            let arm = given.bodies[*body].arm(&place);
+            let moving = add(Unknown::VelocityX(*body), d[0].clone());
+            add(Unknown::VelocityY(*body), d[1].clone());
+            add(Unknown::Spin(*body), &arm[0] * &d[1] - &arm[1] * &d[0]);
+            if !moving {
+                let v = given.bodies[*body].velocity_before(&place);
+                constant = &v[0] * &d[0] + &v[1] * &d[1];
+            }
+        }
+        Ask::Spin { body, clockwise } => {
+            add(
+                Unknown::Spin(*body),
+                if *clockwise { -one() } else { one() },
+            );
+        }
+        Ask::Impulse { from, on, along } => {
+            let d = direction(along)?;
+            let (second, parts) = match from {
+                ImpulseAt::Hinge(h) => (
+                    given.hinges[*h].bodies[1],
+                    [Unknown::HingeX(*h), Unknown::HingeY(*h)],
+                ),
+                ImpulseAt::Contact(c) => (
+                    given.contacts[*c].joint.bodies[1],
+                    [Unknown::ContactX(*c), Unknown::ContactY(*c)],
+                ),
+                ImpulseAt::Blow(_) => {
+                    return Err(format!(
+                        "{name} is a blow, which no printed matrix has had yet"
+                    ));
+                }
+            };
+            let sign = if second == *on { one() } else { -one() };
+            if let (ImpulseAt::Contact(c), Some(n)) = (from, from_normal(from, given)) {
+                if !add(parts[0], &sign * &d[0]) {
+                    add(
+                        Unknown::ContactNormal(*c),
+                        &sign * (&n[0] * &d[0] + &n[1] * &d[1]),
+                    );
+                    return Ok((row, constant));
+                }
+            } else {
+                add(parts[0], &sign * &d[0]);
+            }
+            add(parts[1], &sign * &d[1]);
+        }
+        _ => return Err(format!("{name} is no component of the motion")),
+    }
+    Ok((row, constant))
+}
+
+fn from_normal(from: &ImpulseAt, given: &Given<Rational>) -> Option<[Rational; 2]> {
+    match from {
+        ImpulseAt::Contact(c) => given.contacts[*c].normal.clone(),
+        _ => None,
+    }
+}

@@ -1,0 +1,164 @@
+//! Slips of the pen: one change to a formula, after which it gives a wrong number that was printed.
+//!
+//! Knows no formula of its own; it changes the one it is given, a place at a time, and weighs the result in doubles.
+
+use crate::expr::{Expr, Function, Node, Point, Symbol, ratio};
+
+/// Words for the first slip that takes the formula's value to within `room` of `wanted`.
+pub fn explains(
+    e: &Expr,
+    values: &Point<f64>,
+    wanted: f64,
+    room: f64,
+    kin: &dyn Fn(&Symbol, &Symbol) -> bool,
+    say: &dyn Fn(&Expr) -> String,
+) -> Option<String> {
+    let names: Vec<Symbol> = values.values.keys().cloned().collect();
+    let mut found = None;
+    sites(e, &|whole| whole, &mut |part, put_back| {
+        if found.is_some() {
+            return;
+        }
+        for (changed, words) in changes(part, &names, kin, say) {
+            let value = put_back(changed).evaluate(values);
+            if value.is_some_and(|v| (v - wanted).abs() <= room) {
+                found = Some(format!("comes out when {words}"));
+                return;
+            }
+        }
+    });
+    found
+}
+
+/// Calls `visit` for every part of an expression with a function that puts a changed part back into the whole.
+fn sites(
+    e: &Expr,
+    put_back: &dyn Fn(Expr) -> Expr,
+    visit: &mut dyn FnMut(&Expr, &dyn Fn(Expr) -> Expr),
+) {
+    visit(e, put_back);
+    let list = |parts: &[Expr],
+                join: &dyn Fn(Vec<Expr>) -> Expr,
+                visit: &mut dyn FnMut(&Expr, &dyn Fn(Expr) -> Expr)| {
+        for i in 0..parts.len() {
+            let inner = |new: Expr| {
+                let mut all = parts.to_vec();
+                all[i] = new;
+                put_back(join(all))
+            };
+            sites(&parts[i], &inner, visit);
+        }
+    };
+    match e.node() {
+        Node::Sum(parts) => list(parts, &|all| Expr::sum(all), visit),
+        Node::Product(parts) => list(parts, &|all| Expr::product(all), visit),
+        Node::Power(base, k) => sites(base, &|new| put_back(new.power(k.clone())), visit),
+        Node::Call(f, x) => sites(x, &|new| put_back(Expr::call(*f, new)), visit),
+        Node::Number(_) | Node::Symbol(_) => {}
+    }
+}
+
+/// What one slip can make of a part, with words.
+fn changes(
+    e: &Expr,
+    names: &[Symbol],
+    kin: &dyn Fn(&Symbol, &Symbol) -> bool,
+    say: &dyn Fn(&Expr) -> String,
+) -> Vec<(Expr, String)> {
+    let mut out = Vec::new();
+    match e.node() {
+        Node::Number(value) => {
+            for (k, words) in [
+                (ratio(2, 1), "doubled"),
+                (ratio(1, 2), "halved"),
+                (ratio(-1, 1), "with the other sign"),
+            ] {
+                out.push((Expr::from(value * &k), format!("{value} stands {words}")));
+            }
+            if !num_traits::Zero::is_zero(value) {
+                out.push((
+                    Expr::from(value.recip()),
+                    format!("{value} stands upside down"),
+                ));
+            }
+            out.push((Expr::one(), format!("{value} is left out")));
+        }
+        Node::Symbol(name) => {
+            for other in names.iter().filter(|n| *n != name && kin(n, name)) {
+                out.push((Expr::symbol(other), format!("{other} stands for {name}")));
+            }
+            for (k, words) in [(Expr::from(2), "twice"), (Expr::ratio(1, 2), "half")] {
+                out.push((e * &k, format!("{words} {} stands for it", say(e))));
+            }
+        }
+        Node::Sum(terms) => {
+            for (i, term) in terms.iter().enumerate() {
+                let mut all = terms.clone();
+                all[i] = -term;
+                out.push((
+                    Expr::sum(all.clone()),
+                    format!("{} has the other sign", say(term)),
+                ));
+                all.remove(i);
+                out.push((Expr::sum(all), format!("{} is left out", say(term))));
+            }
+        }
+        Node::Product(factors) => {
+            let n = factors.len().min(8);
+            for i in 0..n {
+                for j in i..n {
+                    let rest = || {
+                        factors
+                            .iter()
+                            .enumerate()
+                            .filter(move |(k, _)| *k != i && *k != j)
+                            .map(|(_, f)| f.clone())
+                    };
+                    let picked = if i == j {
+                        factors[i].clone()
+                    } else {
+                        &factors[i] * &factors[j]
+                    };
+                    if i == j {
+                        out.push((
+                            Expr::product(rest()),
+                            format!("the factor {} is left out", say(&picked)),
+                        ));
+                    }
+                    let squared = Expr::product(rest().chain([picked.powi(2)]));
+                    out.push((squared, format!("the factor {} enters twice", say(&picked))));
+                }
+                let inverse = factors
+                    .iter()
+                    .enumerate()
+                    .map(|(k, f)| if k == i { f.powi(-1) } else { f.clone() });
+                out.push((
+                    Expr::product(inverse),
+                    format!("the factor {} stands upside down", say(&factors[i])),
+                ));
+            }
+        }
+        Node::Power(base, k) => {
+            for step in [-1, 1] {
+                let other = k + &Expr::from(step);
+                out.push((
+                    base.power(other.clone()),
+                    format!(
+                        "the exponent {} of {} becomes {}",
+                        say(k),
+                        say(base),
+                        say(&other)
+                    ),
+                ));
+            }
+            out.push((
+                base.power(k * &Expr::from(2)),
+                format!("{} is squared once more", say(e)),
+            ));
+        }
+        Node::Call(Function::Sin, x) => out.push((x.cos(), format!("cos stands for {}", say(e)))),
+        Node::Call(Function::Cos, x) => out.push((x.sin(), format!("sin stands for {}", say(e)))),
+        Node::Call(..) => {}
+    }
+    out
+}
