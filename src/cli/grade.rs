@@ -27,8 +27,16 @@ pub struct GradeArgs {
     #[arg(long, conflicts_with = "scene", allow_hyphen_values = true)]
     expected: Option<String>,
     /// The answer to judge
-    #[arg(long, allow_hyphen_values = true, required_unless_present = "batch")]
+    #[arg(long, allow_hyphen_values = true, required_unless_present_any = ["batch", "steps"])]
     answer: Option<String>,
+    /// A worked solution, one equation per line, `-` for standard input; needs a scene
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "scene",
+        conflicts_with = "answer"
+    )]
+    steps: Option<PathBuf>,
     /// Read JSON lines from standard input and write one JSON line for each
     #[arg(long, conflicts_with_all = ["scene", "expected", "answer", "quantity"])]
     batch: bool,
@@ -94,6 +102,9 @@ pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
     if args.batch {
         return batch(args, &options);
     }
+    if let (Some(scene), Some(file)) = (&args.scene, &args.steps) {
+        return steps(scene, file, &options, args.format);
+    }
     let answer = args.answer.as_deref().unwrap_or_default();
     let grade = match (&args.scene, &args.expected) {
         (Some(path), _) => {
@@ -138,6 +149,37 @@ pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
         Verdict::Invalid => 2,
         Verdict::Undecided => 3,
     })
+}
+
+/// Longest worked solution, in bytes.
+const MAX_STEPS: u64 = 1 << 18;
+
+fn steps(scene: &Path, file: &Path, options: &Options, format: Format) -> Result<u8, Failure> {
+    use std::io::Read;
+    let unreadable =
+        |e: std::io::Error| Failure::Input(format!("{}: cannot be read: {e}", file.display()));
+    let mut text = String::new();
+    let source: Box<dyn Read> = match file.to_str() {
+        Some("-") => Box::new(std::io::stdin()),
+        _ => Box::new(std::fs::File::open(file).map_err(unreadable)?),
+    };
+    source
+        .take(MAX_STEPS)
+        .read_to_string(&mut text)
+        .map_err(unreadable)?;
+    let sheet = open(scene)?;
+    let lines = grade::steps::check(&sheet, &text, options);
+    print(&match format {
+        Format::Text => render::grade::steps_text(&lines),
+        Format::Json => pretty(&render::grade::steps_json(&lines)),
+    })?;
+    let wrong = |l: &grade::steps::Line| {
+        matches!(
+            l.status,
+            grade::steps::Status::Wrong | grade::steps::Status::Carried(_)
+        )
+    };
+    Ok(u8::from(lines.iter().any(wrong)))
 }
 
 fn only_quantity(sheet: &Sheet) -> Option<String> {

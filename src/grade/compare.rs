@@ -332,10 +332,10 @@ fn values(ctx: &Context, expected: &Content, answer: &Content, reading: &Reading
 
 /// Two expressions.
 pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Finding {
-    if let Some(tolerance) = &ctx.options.tolerance {
-        if let Some(finding) = tolerant(ctx, expected, answer, tolerance) {
-            return finding;
-        }
+    if let Some(tolerance) = &ctx.options.tolerance
+        && let Some(finding) = tolerant(ctx, expected, answer, tolerance)
+    {
+        return finding;
     }
     if ctx.options.strength == Strength::Fast {
         let usual = ctx
@@ -357,10 +357,10 @@ pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Finding 
     finding.assumed.splice(0..0, decision.assumed);
     if ctx.diagnose && finding.verdict == Verdict::Different {
         let found = partial::diagnose(ctx, expected, answer);
-        if finding.note == "DIFF" {
-            if let Some(first) = found.first() {
-                finding.note = partial::note(first.code);
-            }
+        if finding.note == "DIFF"
+            && let Some(first) = found.first()
+        {
+            finding.note = partial::note(first.code);
         }
         finding.diagnosis.extend(found);
     }

@@ -15,6 +15,7 @@ mod number;
 mod partial;
 mod relation;
 pub mod sheet;
+pub mod steps;
 
 use std::collections::BTreeSet;
 
@@ -312,12 +313,12 @@ pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
     if reading.choices > 0 || power_of_function(&reading.content).is_some() {
         ambiguity(key, answer, options, &reading, &mut finding);
     }
-    if finding.verdict == Verdict::Equivalent {
-        if let Some((note, diagnosis)) = form::unmet(&options.forms, key, &reading) {
-            finding.verdict = Verdict::Different;
-            finding.note = note;
-            finding.diagnosis.insert(0, diagnosis);
-        }
+    if finding.verdict == Verdict::Equivalent
+        && let Some((note, diagnosis)) = form::unmet(&options.forms, key, &reading)
+    {
+        finding.verdict = Verdict::Different;
+        finding.note = note;
+        finding.diagnosis.insert(0, diagnosis);
     }
     if options.strength == Strength::Identity {
         finding

@@ -159,19 +159,19 @@ fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     match (same_sign(expected, answer, domains), equation) {
         (Some(true), _) | (Some(false), true) => {
             let words = "the two differ by a factor that is nowhere zero";
-            return Finding::new(
+            Finding::new(
                 Verdict::Equivalent,
                 "EQUIV_SOLUTIONS",
                 Proof::of("solutions", words),
-            );
+            )
         }
         (Some(false), false) => {
             let words = "the inequality points the other way";
-            return Finding::different("DIFF_TURNED", "solutions", words).with(Diagnosis::new(
+            Finding::different("DIFF_TURNED", "solutions", words).with(Diagnosis::new(
                 "TURNED",
                 words,
                 "multiplying by something negative turns an inequality round",
-            ));
+            ))
         }
         (None, true) => equations(ctx, expected, answer),
         (None, false) => inequalities(ctx, expected, answer),
@@ -279,7 +279,7 @@ fn parted(
 }
 
 /// The value of a symbol at which a difference vanishes, where it is linear in the symbol.
-fn solve_for(f: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
+pub(crate) fn solve_for(f: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
     let slope = f.derivative(name);
     let (all, _) = domains.completed(&roles(&[f, &slope]));
     let mut field = Field::new(&all);
@@ -338,21 +338,21 @@ fn solution_apart(f: &Expr, g: &Expr, domains: &Domains) -> Option<(String, Expr
             }
             let mut there = point.clone();
             there.values.insert(name.clone(), middle);
-            if let Outcome::Value(left) = evaluate(g, &there) {
-                if !left.0.has_zero() {
-                    let digits = |v: &crate::interval::Enclosure| v.decimal(6);
-                    let mut shown = sample.clone();
-                    shown.coordinates.remove(&name);
-                    let mut at = shown.words();
-                    if !at.is_empty() {
-                        at.push_str(", ");
-                    }
-                    at.push_str(&format!("{name} = {}", digits(&value.0)));
-                    let number = |text: String| {
-                        super::number::decimal(&text).map_or_else(Expr::zero, Expr::from)
-                    };
-                    return Some((at, Expr::zero(), number(digits(&left.0))));
+            if let Outcome::Value(left) = evaluate(g, &there)
+                && !left.0.has_zero()
+            {
+                let digits = |v: &crate::interval::Enclosure| v.decimal(6);
+                let mut shown = sample.clone();
+                shown.coordinates.remove(&name);
+                let mut at = shown.words();
+                if !at.is_empty() {
+                    at.push_str(", ");
                 }
+                at.push_str(&format!("{name} = {}", digits(&value.0)));
+                let number = |text: String| {
+                    super::number::decimal(&text).map_or_else(Expr::zero, Expr::from)
+                };
+                return Some((at, Expr::zero(), number(digits(&left.0))));
             }
         }
     }
@@ -412,26 +412,26 @@ fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
             Outcome::Value(v) if v.low > 0.0 => Some(false),
             _ => None,
         };
-        if let (Some(a), Some(b)) = (at(f), at(g)) {
-            if a != b {
-                let word = |holds: bool| if holds { "holds" } else { "does not hold" }.to_string();
-                let mut finding = Finding::different(
-                    "DIFF_INEQUALITY",
-                    "counterexample",
-                    "one holds where the other does not",
-                );
-                finding.counterexample = Some(Apart {
-                    at: sample.words(),
-                    yours: word(b),
-                    expected: word(a),
-                });
-                finding.assumed = assumed;
-                return finding.with(Diagnosis::new(
-                    "INEQUALITY",
-                    "the inequality holds elsewhere than it should",
-                    "check the bound and the direction of your inequality",
-                ));
-            }
+        if let (Some(a), Some(b)) = (at(f), at(g))
+            && a != b
+        {
+            let word = |holds: bool| if holds { "holds" } else { "does not hold" }.to_string();
+            let mut finding = Finding::different(
+                "DIFF_INEQUALITY",
+                "counterexample",
+                "one holds where the other does not",
+            );
+            finding.counterexample = Some(Apart {
+                at: sample.words(),
+                yours: word(b),
+                expected: word(a),
+            });
+            finding.assumed = assumed;
+            return finding.with(Diagnosis::new(
+                "INEQUALITY",
+                "the inequality holds elsewhere than it should",
+                "check the bound and the direction of your inequality",
+            ));
         }
     }
     // The same bound on the same symbol?

@@ -3,6 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::formula::Fault;
+use crate::grade::steps::{Line, Status};
 use crate::grade::{Diagnosis, Grade};
 
 /// A grade as data. `text` is the formula an error speaks of: its places are told in characters.
@@ -103,4 +104,80 @@ pub fn text(grade: &Grade, answer: &str) -> String {
         line("assumed", &grade.assumed.join(", "));
     }
     out
+}
+
+/// The word for what was found of a line, and more about it.
+fn step_words(line: &Line) -> (&'static str, String) {
+    match &line.status {
+        Status::Holds => ("holds", String::new()),
+        Status::Defines => ("defines", String::new()),
+        Status::Wrong => ("WRONG", String::new()),
+        Status::Carried(cause) => (
+            "carried",
+            format!("follows from line {cause}, which does not hold"),
+        ),
+        Status::Unreadable(fault) => ("unread", fault.to_string()),
+        Status::Comment => ("words", String::new()),
+        Status::Undecided => ("open", String::new()),
+    }
+}
+
+/// A worked solution for the terminal: each line with its verdict, then a summary.
+pub fn steps_text(lines: &[Line]) -> String {
+    let mut out = String::new();
+    for line in lines {
+        let (word, more) = step_words(line);
+        out.push_str(&format!("{:>3}  {word:<8} {}\n", line.number, line.text));
+        if !more.is_empty() {
+            out.push_str(&format!("              {more}\n"));
+        }
+        for d in &line.diagnosis {
+            out.push_str(&format!("              {} [{}]\n", d.message, d.code));
+        }
+    }
+    out.push_str(&summary(lines));
+    out.push('\n');
+    out
+}
+
+fn summary(lines: &[Line]) -> String {
+    let count = |f: &dyn Fn(&Status) -> bool| lines.iter().filter(|l| f(&l.status)).count();
+    let holds = count(&|s| matches!(s, Status::Holds | Status::Defines));
+    let carried = count(&|s| matches!(s, Status::Carried(_)));
+    let wrong = count(&|s| matches!(s, Status::Wrong));
+    let first = lines.iter().find(|l| l.status == Status::Wrong);
+    match first {
+        None => format!("{holds} lines hold, none is wrong"),
+        Some(first) => format!(
+            "first wrong line: {}; {holds} lines hold, {carried} follow from a slip, {wrong} have a slip of their own",
+            first.number
+        ),
+    }
+}
+
+/// A worked solution as data.
+pub fn steps_json(lines: &[Line]) -> Value {
+    let all: Vec<Value> = lines
+        .iter()
+        .map(|line| {
+            let (word, more) = step_words(line);
+            let cause = match &line.status {
+                Status::Carried(cause) => json!(cause),
+                _ => Value::Null,
+            };
+            json!({
+                "line": line.number,
+                "text": line.text,
+                "status": word.to_lowercase(),
+                "follows_from": cause,
+                "words": more,
+                "diagnosis": line.diagnosis.iter().map(diagnosis).collect::<Vec<_>>(),
+            })
+        })
+        .collect();
+    let first = lines
+        .iter()
+        .find(|l| l.status == Status::Wrong)
+        .map(|l| l.number);
+    json!({"lines": all, "first_wrong": first, "summary": summary(lines)})
 }

@@ -487,13 +487,14 @@ impl<'a> Desk<'a> {
             for p in &self.scene.parameters {
                 let at_zero = BTreeMap::from([(p.name.clone(), Expr::zero())]);
                 let (a, b) = (closed.substitute(&at_zero), value.substitute(&at_zero));
-                if a.symbols().len() + 1 < closed.symbols().len() || a.size() < closed.size() / 2 {
-                    if let Equality::Different(_) =
+                let shorter =
+                    a.symbols().len() + 1 < closed.symbols().len() || a.size() < closed.size() / 2;
+                if shorter
+                    && let Equality::Different(_) =
                         equality::decide(&a, &b, &self.scene.domains).equality
-                    {
-                        finding.caught_by = Some(format!("limit: let {} go to 0", p.name));
-                        return;
-                    }
+                {
+                    finding.caught_by = Some(format!("limit: let {} go to 0", p.name));
+                    return;
                 }
             }
         }

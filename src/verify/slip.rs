@@ -30,16 +30,13 @@ pub fn explains(
     found
 }
 
+/// Takes a part of an expression, and a function that puts another part in its place.
+type Visit<'a> = &'a mut dyn FnMut(&Expr, &dyn Fn(Expr) -> Expr);
+
 /// Calls `visit` for every part of an expression with a function that puts a changed part back into the whole.
-fn sites(
-    e: &Expr,
-    put_back: &dyn Fn(Expr) -> Expr,
-    visit: &mut dyn FnMut(&Expr, &dyn Fn(Expr) -> Expr),
-) {
+fn sites(e: &Expr, put_back: &dyn Fn(Expr) -> Expr, visit: Visit<'_>) {
     visit(e, put_back);
-    let list = |parts: &[Expr],
-                join: &dyn Fn(Vec<Expr>) -> Expr,
-                visit: &mut dyn FnMut(&Expr, &dyn Fn(Expr) -> Expr)| {
+    let list = |parts: &[Expr], join: &dyn Fn(Vec<Expr>) -> Expr, visit: Visit<'_>| {
         for i in 0..parts.len() {
             let inner = |new: Expr| {
                 let mut all = parts.to_vec();

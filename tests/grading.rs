@@ -1,0 +1,205 @@
+//! The public table of cases: what is expected, what is answered, the verdict, and why.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use carom::grade::sheet;
+use carom::grade::{Given, Options, Question, Strength, Verdict, entry, judge};
+use carom::scene;
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Rows of a table: file, line number, cells.
+fn rows(filter: impl Fn(&str) -> bool) -> Vec<(String, usize, Vec<String>)> {
+    let mut files: Vec<PathBuf> = fs::read_dir(root().join("tests/grading"))
+        .expect("a folder of tables")
+        .map(|e| e.expect("an entry").path())
+        .filter(|p| p.extension().is_some_and(|e| e == "tsv"))
+        .collect();
+    files.sort();
+    let mut all = Vec::new();
+    for file in files {
+        let name = file
+            .file_name()
+            .expect("a name")
+            .to_string_lossy()
+            .to_string();
+        if !filter(&name) {
+            continue;
+        }
+        let text = fs::read_to_string(&file).expect("a readable table");
+        for (i, line) in text
+            .lines()
+            .enumerate()
+            .filter(|(_, l)| !l.starts_with("# "))
+        {
+            all.push((
+                name.clone(),
+                i + 1,
+                line.split('\t').map(str::to_string).collect(),
+            ));
+        }
+    }
+    all
+}
+
+/// `e=0..1 v=real` as declarations.
+fn question(text: &str) -> Question {
+    let mut question = Question::default();
+    for word in text.split_whitespace() {
+        let (name, domain) = word.split_once('=').expect("NAME=DOMAIN");
+        let value = match domain.split_once("..") {
+            Some((low, high)) => serde_json::json!({"min": low, "max": high}),
+            None => serde_json::json!(domain),
+        };
+        let domain = entry::domain(&value).expect("a domain");
+        question.domains.symbols.insert(name.into(), domain);
+        question.symbols.push(Given {
+            name: name.into(),
+            latex: None,
+            dimension: None,
+        });
+    }
+    question
+}
+
+#[test]
+fn every_row_of_the_tables_gets_its_verdict() {
+    let mut wrong = String::new();
+    let rows = rows(|name| name != "scenes.tsv");
+    for (file, line, cells) in &rows {
+        let [expected, answer, verdict, reason] = [0, 1, 2, 3].map(|i| cells[i].as_str());
+        let symbols = cells.get(4).map_or("", String::as_str);
+        let grade = judge(expected, answer, &question(symbols), &Options::default());
+        if grade.verdict.word() != verdict {
+            let read = grade.read_as.unwrap_or_default();
+            let _ = writeln!(
+                wrong,
+                "{file}:{line} {expected} | {answer} [{reason}] is {} ({}; read {read}), not {verdict}",
+                grade.verdict.word(),
+                grade.note
+            );
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
+fn the_tables_have_at_least_six_hundred_rows() {
+    let count = rows(|_| true).len();
+    assert!(count >= 600, "{count} rows");
+}
+
+#[test]
+fn answers_to_scenes_get_their_verdict_and_the_belief_behind_them() {
+    let mut wrong = String::new();
+    for (file, line, cells) in rows(|name| name == "scenes.tsv") {
+        let [path, quantity, answer, verdict, code] = [0, 1, 2, 3, 4].map(|i| cells[i].as_str());
+        let text = fs::read_to_string(root().join("derivations").join(path)).expect("a scene");
+        let sheet = sheet::sheet(scene::read(&text).expect("a sound scene")).expect("a derivation");
+        let entry = sheet.entry(quantity).expect("a question of the scene");
+        let grade = sheet.judge(&entry, answer, &Options::default());
+        let codes: Vec<&str> = grade.diagnosis.iter().map(|d| d.code).collect();
+        if grade.verdict.word() != verdict || (!code.is_empty() && !codes.contains(&code)) {
+            let _ = writeln!(
+                wrong,
+                "{file}:{line} {path} {quantity} | {answer} is {} {codes:?} ({}), not {verdict} {code}",
+                grade.verdict.word(),
+                grade.note
+            );
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
+fn the_fast_comparison_never_contradicts_the_proof() {
+    let fast = Options {
+        strength: Strength::Fast,
+        ..Options::default()
+    };
+    for (file, line, cells) in rows(|name| name != "scenes.tsv") {
+        let symbols = question(cells.get(4).map_or("", String::as_str));
+        let [quick, sure] =
+            [&fast, &Options::default()].map(|o| judge(&cells[0], &cells[1], &symbols, o).verdict);
+        assert_eq!(quick, sure, "{file}:{line}");
+    }
+}
+
+#[test]
+fn what_strangers_send_is_refused_in_an_instant() {
+    let long = [
+        "(".repeat(1_000_000),
+        "9".repeat(1_000_000),
+        format!("a{}", "+a".repeat(400_000)),
+        "\\frac{".repeat(50_000),
+        "x^".repeat(50_000),
+        "sqrt(".repeat(50_000),
+        "|".repeat(100_000),
+        "-".repeat(60_000),
+        "a".repeat(65_000),
+        "9^9^9^9^9^9^9".into(),
+        "1e1000000000".into(),
+        "(a+b)^1000000000".into(),
+        "\u{0}".into(),
+        "\u{202e}a".into(),
+        "\\input{/etc/passwd}".into(),
+        "<script>".into(),
+    ];
+    for text in long {
+        let start = Instant::now();
+        let grade = judge("a", &text, &Question::default(), &Options::default());
+        let head: String = text.chars().take(20).collect();
+        assert_ne!(grade.verdict, Verdict::Equivalent, "{head}");
+        // Ten milliseconds in a release build; tests are built without optimization and share the machine.
+        assert!(
+            start.elapsed().as_millis() < 3_000,
+            "{head}: {:?}",
+            start.elapsed()
+        );
+    }
+}
+
+#[test]
+fn a_note_does_not_depend_on_the_order_or_the_names_of_symbols() {
+    for (a, b) in [("a - b", "b - a"), ("2*x", "3*x"), ("sin(x)", "cos(x)")] {
+        let renamed = |t: &str| t.replace('a', "p").replace('b', "k").replace('x', "x");
+        let note = |e: &str, f: &str| judge(e, f, &Question::default(), &Options::default()).note;
+        assert_eq!(note(a, b), note(&renamed(a), &renamed(b)));
+    }
+}
+
+#[test]
+fn a_worked_solution_is_followed_beyond_its_first_slip() {
+    use carom::grade::steps::{Status, check};
+    let path = Path::new("derivations/book/falling-stick.json");
+    let text = fs::read_to_string(root().join(path)).expect("a scene");
+    let sheet = sheet::sheet(scene::read(&text).expect("a sound scene")).expect("a derivation");
+    let solution = "Angular momentum about C is conserved.\n\
+        J = m*l^2/12\n\
+        m*v*l/2*cos(theta) = J*omega\n\
+        omega = 6*v*cos(theta)/l\n\
+        v_B_y = -omega*l*cos(theta)\n\
+        v_B_y = -6*v*cos(theta)^2\n\
+        v_B_x = 3*v*sin(theta)*cos(theta)";
+    let found: Vec<Status> = check(&sheet, solution, &Options::default())
+        .into_iter()
+        .map(|l| l.status)
+        .collect();
+    assert_eq!(
+        found,
+        [
+            Status::Comment,
+            Status::Defines,
+            Status::Wrong,
+            Status::Carried(3),
+            Status::Holds,
+            Status::Carried(3),
+            Status::Wrong
+        ]
+    );
+}
