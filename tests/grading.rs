@@ -126,7 +126,11 @@ fn the_fast_comparison_never_contradicts_the_proof() {
         let symbols = question(cells.get(4).map_or("", String::as_str));
         let [quick, sure] =
             [&fast, &Options::default()].map(|o| judge(&cells[0], &cells[1], &symbols, o).verdict);
-        assert_eq!(quick, sure, "{file}:{line}");
+        // Where no proof was reached, the fast comparison may still tell, with its bound.
+        assert!(
+            quick == sure || sure == Verdict::Undecided,
+            "{file}:{line}: {quick:?}, {sure:?}"
+        );
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod branch;
 mod exact;
+mod extreme;
 mod measure;
 mod proof;
 mod refute;
@@ -220,7 +221,15 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
                 points: tally.undefined(side),
             };
         }
-        Proof::Equal(assumptions) if tally.both_defined > 0 => return same(assumptions, &tally),
+        Proof::Equal(assumptions) if tally.both_defined > 0 => {
+            // A sign that was only seen is put to the test first.
+            let near = samples(roles, domains, FIRST + 2);
+            let risky = extreme::points(&assumptions, &near, domains);
+            if let Some(found) = probe.points(&risky, &mut Tally::default()) {
+                return different(found);
+            }
+            return same(assumptions, &tally);
+        }
         _ => {}
     }
     if let Some(found) = extend(&mut tally, size.points()) {

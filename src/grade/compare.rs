@@ -150,7 +150,18 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
             if let (Some(mine), Some(theirs)) = (expected_name, name) {
                 let declared = |n: &Symbol| ctx.key.question.symbols.iter().any(|g| g.name == *n);
                 if mine != theirs && !(is_asked(mine) && is_asked(theirs)) {
-                    finding = other_name(finding, mine, theirs);
+                    let inside = |c: &Content, name: &Symbol| {
+                        c.expr().is_some_and(|e| e.symbols().contains(name))
+                    };
+                    finding = match (&ctx.key.reading.content, &answer.content) {
+                        // The same equation, solved for another of its symbols.
+                        (Content::Relations(a, s), Content::Relations(b, t))
+                            if inside(expected, theirs) && inside(value, mine) =>
+                        {
+                            return relation::compare(ctx, (a, s), (b, t));
+                        }
+                        _ => other_name(finding, mine, theirs),
+                    };
                 } else if !declared(theirs) {
                     finding.assumed.retain(|a| !a.starts_with(&**theirs));
                 }
@@ -373,7 +384,15 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
             how: How::Identity { assumptions },
         } => {
             let proof = Proof::of("identity", "the difference is zero in the normal form");
-            let mut finding = Finding::new(Verdict::Equivalent, "EQUIV_IDENTITY", proof);
+            let signs = assumptions
+                .iter()
+                .any(|a| matches!(a, Assumption::NotNegative(_)));
+            let note = if signs {
+                "EQUIV_ASSUMED"
+            } else {
+                "EQUIV_IDENTITY"
+            };
+            let mut finding = Finding::new(Verdict::Equivalent, note, proof);
             finding.assumed = assumptions
                 .iter()
                 .map(|a| match a {

@@ -344,6 +344,13 @@ const STRANGERS: [&str; 6] = ["g", "t", "mu", "h", "dt", "F"];
 /// Reads an answer. Beside the declared symbols it may begin with a name of its own for the quantity asked for, and it
 /// may use what students wrongly bring in, so that the answer is wrong rather than unreadable.
 fn read_answer(key: &Key, answer: &str) -> Result<Reading, Fault> {
+    // Where a quantity is expected, `250 g` is one and no product with a symbol g.
+    if !key.question.closed
+        && matches!(key.reading.content.answer(), Content::Quantity(_))
+        && let Ok(reading) = formula::read(answer, &Symbols::strict())
+    {
+        return Ok(reading);
+    }
     let fault = match formula::read(answer, &key.readable) {
         Ok(reading) => return Ok(reading),
         Err(fault) => fault,

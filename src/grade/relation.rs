@@ -209,6 +209,18 @@ fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
         let words = "the answer has a solution that the expected equation lacks";
         return parted(ctx, words, "DIFF_ROOT_GAINED", at, f, g);
     }
+    // Where one is the other times something that vanishes inside the domain, that is a root more.
+    if let Some(ratio) = ratio(f, g, domains) {
+        if let Some(at) = solution_apart(&ratio.powi(-1), g, domains) {
+            let words = "divided by something that vanishes inside the domain";
+            return parted(ctx, words, "DIFF_ROOT_LOST", at, f, g);
+        }
+        if let Some(at) = solution_apart(&ratio, f, domains) {
+            let words = "multiplied by something that vanishes inside the domain";
+            let swapped = (at.0, at.2, at.1);
+            return parted(ctx, words, "DIFF_ROOT_GAINED", swapped, f, g);
+        }
+    }
     let both_ways = solved_in(f, g, domains) && solved_in(g, f, domains);
     if both_ways {
         let mut finding = Finding::new(
@@ -375,6 +387,15 @@ fn exact_inside(
     [value.low, value.high]
         .into_iter()
         .all(|end| crate::expr::number::from_f64(end).is_some_and(|end| domain.contains(&end)))
+}
+
+/// The quotient g/f in its normal form.
+fn ratio(f: &Expr, g: &Expr, domains: &Domains) -> Option<Expr> {
+    let (domains, _) = domains.completed(&roles(&[f, g]));
+    let mut field = Field::new(&domains);
+    field.prepare([f, g]);
+    let (a, b) = (field.element(f).ok()?, field.element(g).ok()?);
+    Some(field.expr(&field.div(&b, &a).ok()?))
 }
 
 /// A point pair between which the quotient g/f changes sign, in words.

@@ -142,7 +142,10 @@ impl<'a> Desk<'a> {
             return (Status::Undecided, none());
         };
         match self.all_zero(&differences, &BTreeMap::new()) {
-            Some(true) => return (Status::Holds, none()),
+            Some(true) => {
+                self.link(&reading);
+                return (Status::Holds, none());
+            }
             None => return (Status::Undecided, none()),
             Some(false) => {}
         }
@@ -195,6 +198,31 @@ impl<'a> Desk<'a> {
             out = out.substitute(&self.own);
         }
         out.substitute(instead).substitute(&self.closed)
+    }
+
+    /// A line `name = …` that holds says what the name is under every belief about the others.
+    fn link(&mut self, reading: &Reading) {
+        let Content::Relations(sides, _) = &reading.content else {
+            return;
+        };
+        let [left, .., right] = sides.as_slice() else {
+            return;
+        };
+        let (Some(name), Some(value)) = (left.expr().and_then(Expr::as_symbol), right.expr())
+        else {
+            return;
+        };
+        let mut value = value.clone();
+        for _ in 0..self.own.len().min(8) {
+            value = value.substitute(&self.own);
+        }
+        let used = value.symbols();
+        for (_, values) in &mut self.believed {
+            if values.keys().any(|n| used.contains(n)) && !values.contains_key(name) {
+                let implied = value.substitute(values);
+                values.insert(name.clone(), implied);
+            }
+        }
     }
 
     /// Notes what a wrong line implies: each of its names in turn is what it would have to be.

@@ -1,0 +1,92 @@
+//! Grading: from two texts to a verdict, by class of formula, and answers against stored keys.
+//!
+//! `cargo bench --bench grade`; the same pairs go through SymPy and giac by `benches/peers.py`.
+
+use carom::grade::{Options, Question, Strength, judge, judge_against, key};
+
+fn main() {
+    divan::main();
+}
+
+/// Class, expected, an equal answer, a different answer.
+const PAIRS: &[(&str, &str, &str, &str)] = &[
+    (
+        "rational",
+        "m1*d*v/(m1*d^2+4*m2*l^2/3)",
+        "3 m1 d v/(3 m1 d^2 + 4 m2 l^2)",
+        "m1*d*v/(m1*d^2+m2*l^2/3)",
+    ),
+    (
+        "one_angle",
+        "3*v*cos(theta)/(2*l)",
+        "3 v sin(2θ)/(4 l sinθ)",
+        "3*v*sin(theta)/(2*l)",
+    ),
+    (
+        "several_angles",
+        "v*(sin(alpha)*cos(beta) - cos(alpha)*sin(beta))/(l*cos(alpha-beta)^2)",
+        "v sin(α - β)/(l (1 - sin(α-β)²))",
+        "v*(sin(alpha)*cos(beta) + cos(alpha)*sin(beta))/(l*cos(alpha-beta)^2)",
+    ),
+    (
+        "roots",
+        "2*sqrt(2*g*(a^2+b^2)^(3/2)*(1-b/sqrt(a^2+b^2))/3)/a",
+        "(2/a) sqrt(2 g (a²+b²)(sqrt(a²+b²) - b)/3)",
+        "2*sqrt(2*g*(a^2+b^2)^(3/2)*(1-a/sqrt(a^2+b^2))/3)/a",
+    ),
+    (
+        "long",
+        "(m1*(x1*u1-y1*w1)+m2*(x2*u2-y2*w2)+I1*s1+I2*s2)*(1+e)/(I1+m1*(x1^2+y1^2)+I2+m2*(x2^2+y2^2)) - e*(m1*u1+m2*u2)/(m1+m2)",
+        "(1+e)*(I1*s1+I2*s2+m1*x1*u1-m1*y1*w1+m2*x2*u2-m2*y2*w2)/(I1+I2+m1*x1^2+m1*y1^2+m2*x2^2+m2*y2^2) - (e*m1*u1+e*m2*u2)/(m1+m2)",
+        "(1+e)*(I1*s1+I2*s2+m1*x1*u1-m1*y1*w1+m2*x2*u2+m2*y2*w2)/(I1+I2+m1*x1^2+m1*y1^2+m2*x2^2+m2*y2^2) - (e*m1*u1+e*m2*u2)/(m1+m2)",
+    ),
+];
+
+const CLASSES: [usize; 5] = [0, 1, 2, 3, 4];
+
+fn options(strength: Strength) -> Options {
+    Options {
+        strength,
+        ..Options::default()
+    }
+}
+
+#[divan::bench(args = CLASSES)]
+fn equal_identity(bencher: divan::Bencher, class: usize) {
+    let (_, expected, equal, _) = PAIRS[class];
+    bencher.bench(|| {
+        judge(
+            expected,
+            equal,
+            &Question::default(),
+            &options(Strength::Identity),
+        )
+    });
+}
+
+#[divan::bench(args = CLASSES)]
+fn different_with_diagnosis(bencher: divan::Bencher, class: usize) {
+    let (_, expected, _, other) = PAIRS[class];
+    bencher.bench(|| {
+        judge(
+            expected,
+            other,
+            &Question::default(),
+            &options(Strength::Identity),
+        )
+    });
+}
+
+#[divan::bench(args = CLASSES)]
+fn equal_fast_against_a_stored_key(bencher: divan::Bencher, class: usize) {
+    let (_, expected, equal, _) = PAIRS[class];
+    let key = key(expected, &Question::default()).expect("a readable formula");
+    bencher.bench(|| judge_against(&key, equal, &options(Strength::Fast)));
+}
+
+#[divan::bench(args = CLASSES)]
+fn different_fast_against_a_stored_key(bencher: divan::Bencher, class: usize) {
+    let (_, expected, _, other) = PAIRS[class];
+    let key = key(expected, &Question::default()).expect("a readable formula");
+    bencher.bench(|| judge_against(&key, other, &options(Strength::Fast)));
+}
