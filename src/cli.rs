@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 
-use carom::{derive, numeric, render, scene, verify};
+use carom::{derive, numeric, render, scene, story, verify};
 
 /// Collisions of rigid bodies in the plane: closed forms a teacher would reach, each one proved or marked.
 #[derive(Parser)]
@@ -140,6 +140,15 @@ fn derive_command(
     set: &[String],
 ) -> Result<u8, Failure> {
     let scene = read_scene(path, set)?;
+    if let Some(stages) = &scene.story {
+        let refused = |reason| Failure::Input(format!("{}: {reason}", path.display()));
+        let told = story::tell(&scene, stages).map_err(refused)?;
+        print(&match format {
+            Format::Text => render::story::text(&scene, &told),
+            Format::Json => pretty(&render::story::json(&scene, &told)),
+        })?;
+        return Ok(u8::from(!told.holds()));
+    }
     let stopped = |stop: derive::Stop| Failure::Input(format!("{}: {stop}", path.display()));
     if matrix {
         let names = derive::Names::of(&scene);

@@ -26,6 +26,8 @@ pub mod derive;
 
 pub mod verify;
 
+pub mod story;
+
 pub mod grade;
 
 pub mod emit;

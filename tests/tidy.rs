@@ -73,6 +73,23 @@ const LAYERS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "story",
+        &[
+            "expr",
+            "interval",
+            "domain",
+            "dimension",
+            "algebra",
+            "equality",
+            "formula",
+            "scene",
+            "laws",
+            "numeric",
+            "derive",
+            "verify",
+        ],
+    ),
+    (
         "emit",
         &[
             "expr",
@@ -115,6 +132,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "numeric",
             "derive",
             "verify",
+            "story",
             "grade",
             "emit",
             "report",

@@ -12,6 +12,7 @@ mod field;
 mod gcd;
 mod parts;
 mod poly;
+mod powers;
 mod read;
 mod roots;
 mod sign;
@@ -22,6 +23,7 @@ use std::fmt;
 
 pub use element::Element;
 pub use field::{Assumption, Field};
+pub use powers::Powers;
 pub use solve::{Pivot, Row, Solution, solve};
 
 /// Why a computation ended without a result.

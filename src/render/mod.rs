@@ -5,6 +5,7 @@ pub mod certified;
 pub mod grade;
 pub mod json;
 pub mod printed;
+pub mod story;
 pub mod text;
 
 use std::collections::BTreeMap;

@@ -6,6 +6,7 @@
 use super::fault::Fault;
 use super::json::{Node, Value};
 use super::record::{Formula, Map, Pair, Read, Text, choice, record, unexpected};
+use super::stage_file::{EndName, StageFile};
 
 record! {
     /// A planar collision: bodies, how they move just before, where and how they touch, and what is asked.
@@ -38,6 +39,11 @@ record! {
         after: Option<Vec<KnownFile>>,
         /// Finite forces that act too, such as weight. They have no impulse, and the solution says so.
         forces: Option<Vec<ForceFile>>,
+        /// What happens before and after the collision: stages that hand the motion on. Hinges, contacts, supports and blows
+        /// then stand in the impacts.
+        stages: Option<Vec<StageFile>>,
+        /// How an incomplete statement or a missing figure is read, in words; the solution repeats it.
+        assumptions: Option<Vec<Text>>,
         /// What is asked, under the name of the answer.
         questions: Option<Map<QuestionFile>>,
         /// What a book prints about the scene, for `carom verify`.
@@ -483,5 +489,48 @@ record! {
         matrix: Option<Vec<Text>>,
         /// Names of the questions whose answers are the unknowns of the matrix, one per column.
         unknowns: Option<Vec<Text>>,
+        /// Name of the stage at whose end a velocity, spin, impulse or energy is asked, or which a reaction or angular momentum
+        /// belongs to. Missing: the last stage.
+        at: Option<Text>,
+        /// Beginning or end of the stage, for a reaction or an angular momentum. Missing: its end.
+        when: Option<EndName>,
+        /// Force of the fixed point on the body that turns in this stage, along `along`.
+        reaction: Option<Text>,
+        /// Angular momentum of this body about the point `about`.
+        angular_momentum: Option<Text>,
+        /// Point to which an angular momentum refers.
+        about: Option<PositionFile>,
+        /// A formula of parameters and earlier answers.
+        value: Option<Formula>,
+        /// Parameters and the formulas that stand for them, in a value, a threshold or a solution.
+        with: Option<Map<Formula>>,
+        /// The parameter for whose values the relation `holds` is true.
+        threshold: Option<Text>,
+        /// The parameter for whose value the equation `holds` is true.
+        solve: Option<Text>,
+        /// An inequality or equation between formulas of parameters and earlier answers, such as "K_top <= 0".
+        holds: Option<Text>,
+        /// A formula to be made as large as possible.
+        maximum: Option<Formula>,
+        /// The parameters that may be chosen for it.
+        over: Option<Vec<Text>>,
+        /// A formula whose limit is asked.
+        limit: Option<Formula>,
+        /// The parameter that tends to `to`.
+        tends: Option<Text>,
+        /// What it tends to: a formula, or "infinity".
+        to: Option<Formula>,
+        /// An equation to be proved.
+        show: Option<Text>,
+        /// Name of the stage: which forces have an impulse in it, and why?
+        impulsive: Option<Text>,
+        /// Name of the stage: what happens in it, in words?
+        describe: Option<Text>,
+        /// Name of the stage: what do its laws leave open?
+        missing: Option<Text>,
+        /// What is assumed?
+        assumed: Option<bool>,
+        /// Which data are not needed?
+        unused: Option<bool>,
     }
 }

@@ -59,6 +59,11 @@ impl Quantity {
         hint: "an impulse is a mass times a velocity",
     };
 
+    /// A quantity by its exponents of mass, length and time.
+    pub const fn other(exponents: [i64; 3], hint: &'static str) -> Quantity {
+        Quantity { exponents, hint }
+    }
+
     /// Its dimension.
     pub fn dimension(self) -> Dimension {
         let [mass, length, time] = self.exponents;
@@ -92,6 +97,23 @@ impl Symbols {
             used: RefCell::default(),
             remarks: RefCell::default(),
         }
+    }
+
+    /// The same symbols and some more, of unknown dimension; what they use is counted apart.
+    pub fn extended<'n>(&self, names: impl Iterator<Item = &'n str>) -> Symbols {
+        let mut dimensions = self.dimensions.clone();
+        dimensions.extend(names.map(|name| (Symbol::from(name), None)));
+        Symbols::new(dimensions)
+    }
+
+    /// The symbols used so far.
+    pub fn used(&self) -> Vec<Symbol> {
+        self.used.borrow().iter().cloned().collect()
+    }
+
+    /// The names formulas may use, for readings that are no single expression.
+    pub fn names(&self) -> &formula::Symbols {
+        &self.names
     }
 
     /// What is to be told of formulas that can be read in two ways.

@@ -17,6 +17,9 @@ mod proof;
 mod question;
 mod record;
 mod resolve;
+mod stage;
+mod stage_file;
+mod stages;
 
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
@@ -24,6 +27,10 @@ use crate::expr::{Expr, Symbol, Vector};
 
 pub use fault::{Fault, Faults, Span};
 pub use printed::{Print, Printed};
+pub use stage::{
+    Fall, OneSided, Relation, Slide, Stage, StageKind, Story, StoryAsk, StoryQuestion, Turn, Until,
+    Wind,
+};
 
 /// Longest text of a scene file, in bytes.
 const LONGEST: usize = 1 << 20;
@@ -126,6 +133,9 @@ pub struct Scene {
     pub questions: Vec<Question>,
     /// What a book prints about the scene.
     pub printed: Vec<Printed>,
+    /// Stages before and after collisions, where the scene tells them; hinges, contacts, blows and questions then stand
+    /// there.
+    pub story: Option<Box<Story>>,
     /// What the reader noticed that is no fault, such as a parameter that nothing uses.
     pub remarks: Vec<String>,
 }

@@ -71,6 +71,9 @@ pub(super) fn resolve(file: &SceneFile, mut faults: Vec<Fault>) -> (Scene, Vec<F
     if resolver.faults.len() <= TOLD {
         resolver.fill(&mut scene);
     }
+    if resolver.faults.is_empty() && file.stages.is_some() {
+        super::stages::resolve(&mut resolver, &mut scene);
+    }
     let Resolver {
         symbols,
         mut faults,
@@ -86,7 +89,7 @@ pub(super) fn resolve(file: &SceneFile, mut faults: Vec<Fault>) -> (Scene, Vec<F
     (scene, faults)
 }
 
-fn names<T>(map: Option<&Map<T>>) -> HashMap<&str, usize> {
+pub(super) fn names<T>(map: Option<&Map<T>>) -> HashMap<&str, usize> {
     map.into_iter()
         .flat_map(|m| &m.0)
         .enumerate()
@@ -144,7 +147,7 @@ impl<'f> Resolver<'f> {
         }
     }
 
-    fn fill(&mut self, scene: &mut Scene) {
+    pub fn fill(&mut self, scene: &mut Scene) {
         let file = self.file;
         for (i, (name, _)) in file.points.iter().flat_map(|m| &m.0).enumerate() {
             let at = self.point(i).unwrap_or_else(origin);
@@ -222,7 +225,9 @@ impl<'f> Resolver<'f> {
                 });
             }
         }
-        question::resolve(self, scene);
+        if file.stages.is_none() {
+            question::resolve(self, scene);
+        }
     }
 
     /// The body as the scene holds it. Of a body that cannot be read only the name is right, and a fault tells.

@@ -1,0 +1,208 @@
+//! A told story for the terminal and as data: stages with what they keep, answers with their checks.
+
+use serde_json::{Map, Value, json};
+
+use super::{latex, unicode};
+use crate::formula::write_plain;
+use crate::scene::Scene;
+use crate::story::{Answer, StageTold, Told};
+use crate::verify::Check;
+
+/// What an answer rests on: the domains and its own assumptions.
+fn assumptions(scene: &Scene, told: &Told, answer: &Answer) -> Vec<String> {
+    let domains = scene.domains.symbols.iter();
+    let mut all: Vec<String> = domains
+        .filter(|(_, d)| d.low.is_some() || d.high.is_some())
+        .map(|(name, d)| d.words(name))
+        .collect();
+    all.extend(told.readings.iter().cloned());
+    all.extend(answer.assumptions.iter().cloned());
+    all
+}
+
+/// The story as data, in the shape of a derivation, with the stages beside the answers.
+pub fn json(scene: &Scene, told: &Told) -> Value {
+    json!({
+        "title": scene.title,
+        "source": scene.source,
+        "answers": told.answers.iter().map(|a| answer(scene, told, a)).collect::<Vec<_>>(),
+        "stages": told.stages.iter().map(|s| stage(scene, s)).collect::<Vec<_>>(),
+        "readings": told.readings,
+        "unused": told.unused,
+        "remarks": scene.remarks,
+        "verified": told.holds(),
+    })
+}
+
+fn answer(scene: &Scene, told: &Told, a: &Answer) -> Value {
+    let mut out = Map::new();
+    out.insert("name".into(), json!(a.name));
+    out.insert("question".into(), json!(a.question));
+    out.insert("words".into(), json!(a.words));
+    out.insert("formula".into(), json!(a.formula.as_ref().map(write_plain)));
+    out.insert(
+        "latex".into(),
+        json!(a.formula.as_ref().map(|e| latex(scene, e))),
+    );
+    if let Some(value) = a.formula.as_ref().and_then(|e| super::value(scene, e)) {
+        out.insert("value".into(), json!(value.approximate));
+        if let Some(exact) = value.exact {
+            out.insert("value_exact".into(), json!(exact.to_string()));
+        }
+    }
+    if !a.range.is_empty() {
+        let range: Vec<String> = a
+            .range
+            .iter()
+            .map(|(s, r, e)| format!("{s} {} {}", r.sign(), write_plain(e)))
+            .collect();
+        out.insert("range".into(), json!(range));
+    }
+    if let Some((left, right)) = &a.equation {
+        out.insert(
+            "equation".into(),
+            json!(format!("{} = {}", write_plain(left), write_plain(right))),
+        );
+    }
+    if !a.text.is_empty() {
+        out.insert("text".into(), json!(a.text));
+    }
+    if !a.discarded.is_empty() {
+        out.insert("discarded".into(), json!(a.discarded));
+    }
+    out.insert("symbol".into(), json!(a.latex));
+    out.insert("dimension".into(), json!(a.dimension.plain()));
+    out.insert("unit".into(), json!(a.dimension.si()));
+    out.insert("assumptions".into(), json!(assumptions(scene, told, a)));
+    out.insert(
+        "checks".into(),
+        json!(a.checks.iter().map(check).collect::<Vec<_>>()),
+    );
+    Value::Object(out)
+}
+
+fn stage(scene: &Scene, s: &StageTold) -> Value {
+    let bodies: Vec<Value> = scene
+        .bodies
+        .iter()
+        .enumerate()
+        .filter(|(_, b)| !b.is_fixed())
+        .map(|(i, b)| {
+            let state = |s: &crate::story::State| {
+                json!({
+                    "center": [write_plain(&s.center[i][0]), write_plain(&s.center[i][1])],
+                    "velocity": [write_plain(&s.velocity[i][0]), write_plain(&s.velocity[i][1])],
+                    "spin": write_plain(&s.spin[i]),
+                })
+            };
+            json!({"body": b.name, "before": state(&s.before), "after": state(&s.after)})
+        })
+        .collect();
+    json!({
+        "name": s.name,
+        "kind": s.kind,
+        "words": s.words,
+        "conserved": s.kept.iter().map(|k| json!({"what": k.what, "conserved": k.conserved, "why": k.why})).collect::<Vec<_>>(),
+        "cases": s.cases.iter().map(|c| json!({
+            "active": c.active,
+            "conditions": c.conditions.iter().map(|(why, e)| format!("{} >= 0 ({why})", write_plain(e))).collect::<Vec<_>>(),
+            "verified": c.proof.holds(),
+        })).collect::<Vec<_>>(),
+        "energy": s.energy.as_ref().map(|[a, b]| json!({"before": write_plain(a), "after": write_plain(b)})),
+        "bodies": bodies,
+        "assumptions": s.assumptions,
+        "checks": s.checks.iter().map(check).collect::<Vec<_>>(),
+    })
+}
+
+fn check(c: &Check) -> Value {
+    json!({"kind": c.kind, "words": c.words, "holds": c.holds})
+}
+
+/// The story as plain text: a section for each stage, then the answers.
+pub fn text(scene: &Scene, told: &Told) -> String {
+    let mut out = String::new();
+    let title: Vec<&str> = [scene.title.as_str(), scene.source.as_str()]
+        .into_iter()
+        .filter(|t| !t.is_empty())
+        .collect();
+    let mut line = |text: String| {
+        out.push_str(text.trim_end());
+        out.push('\n');
+    };
+    line(title.join(" · "));
+    for reading in &told.readings {
+        line(format!("read as: {reading}"));
+    }
+    for (i, s) in told.stages.iter().enumerate() {
+        line(String::new());
+        line(format!("{}. {} ({})", i + 1, s.name, s.kind));
+        for words in &s.words {
+            line(format!("   {words}"));
+        }
+        for k in &s.kept {
+            let is = if k.conserved {
+                "conserved"
+            } else {
+                "not conserved"
+            };
+            line(format!("   {} {is}: {}", k.what, k.why));
+        }
+        for words in &s.assumptions {
+            line(format!("   taken for granted: {words}"));
+        }
+        for c in &s.checks {
+            line(format!("   {} {}", mark(c), c.words));
+        }
+    }
+    line(String::new());
+    line(String::from("answers"));
+    for a in &told.answers {
+        line(String::new());
+        let value = a.formula.as_ref().map(|e| unicode(scene, e));
+        match (&value, a.range.as_slice()) {
+            (_, [(s, relation, e)]) => line(format!(
+                "   {}: {} {} {}",
+                a.name,
+                unicode(scene, &crate::expr::Expr::symbol(s)),
+                relation.sign(),
+                unicode(scene, e)
+            )),
+            (Some(value), _) => line(format!("   {} = {value}", a.name)),
+            (None, _) => line(format!("   {}:", a.name)),
+        }
+        if let Some(value) = a.formula.as_ref().and_then(|e| super::value(scene, e)) {
+            line(format!(
+                "      ≈ {} {}",
+                super::digits(value.approximate),
+                a.dimension.si()
+            ));
+        }
+        line(format!("      {}", a.words));
+        for words in &a.text {
+            line(format!("      {words}"));
+        }
+        for words in &a.discarded {
+            line(format!("      discarded: {words}"));
+        }
+        for words in &a.assumptions {
+            line(format!("      given that {words}"));
+        }
+        for c in &a.checks {
+            line(format!("      {} {}", mark(c), c.words));
+        }
+    }
+    if !told.unused.is_empty() {
+        line(String::new());
+        line(format!("not needed: {}", told.unused.join(", ")));
+    }
+    out
+}
+
+fn mark(c: &Check) -> &'static str {
+    match c.holds {
+        Some(true) => "✓",
+        Some(false) => "✗",
+        None => "?",
+    }
+}

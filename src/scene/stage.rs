@@ -1,0 +1,246 @@
+//! A story: stages that hand the motion on, and what is asked of them. Types only.
+//!
+//! Every stage carries a [`Scene`] that holds the bodies where they are when the stage begins. Where they are follows from
+//! geometry and is known to the reader; how they move is found out by [`crate::story`].
+
+use super::Scene;
+use crate::expr::{Expr, Symbol, Vector};
+pub use crate::formula::Relation;
+
+/// The stages of a scene and its questions.
+#[derive(Clone, Debug, Default)]
+pub struct Story {
+    /// Stages in the order of the file.
+    pub stages: Vec<Stage>,
+    /// What is asked, in the order of the file.
+    pub questions: Vec<StoryQuestion>,
+    /// How an incomplete statement or a missing figure is read, in words.
+    pub readings: Vec<String>,
+}
+
+/// One stage.
+#[derive(Clone, Debug)]
+pub struct Stage {
+    /// Name.
+    pub name: String,
+    /// The stage whose end is the beginning of this one; `None` for the bodies as the file gives them.
+    pub from: Option<usize>,
+    /// Bodies that start otherwise than the file says: index, velocity of the center, spin.
+    pub start: Vec<(usize, Option<Vector>, Option<Expr>)>,
+    /// What happens.
+    pub kind: StageKind,
+    /// The bodies where they are at the beginning; of an impact also its hinges, contacts and blows. Its questions are
+    /// those about the end of this stage. Velocities are those of the file and mean nothing after another stage.
+    pub scene: Scene,
+}
+
+/// What happens in a stage.
+#[derive(Clone, Debug)]
+pub enum StageKind {
+    /// A collision or blow: velocities jump, nothing moves.
+    Impact {
+        /// Supports that can only push and strings that can only pull.
+        one_sided: Vec<OneSided>,
+        /// Names of those taken to act, where the file says so.
+        supposed: Option<Vec<String>>,
+    },
+    /// One body turns about a point that stays where it is.
+    Turn(Turn),
+    /// One body moves along a straight line without turning.
+    Slide(Slide),
+    /// One body falls freely.
+    Fall(Fall),
+    /// A particle on a rope that winds round a thin pole.
+    Wind(Wind),
+}
+
+/// A support or string: its impulse on the second body has the direction `normal` or is zero.
+#[derive(Clone, Debug)]
+pub struct OneSided {
+    /// Name.
+    pub name: String,
+    /// Indices of the bodies.
+    pub bodies: [usize; 2],
+    /// Position [m].
+    pub at: Vector,
+    /// Direction of the impulse on the second body.
+    pub normal: Vector,
+    /// Whether it pulls; a support pushes.
+    pub is_string: bool,
+}
+
+/// Rotation of a body about a fixed point, between two configurations.
+#[derive(Clone, Debug)]
+pub struct Turn {
+    /// Index of the body.
+    pub body: usize,
+    /// The fixed point [m].
+    pub about: Vector,
+    /// What the file calls it.
+    pub about_name: String,
+    /// Where the stage ends.
+    pub until: Until,
+    /// Sense of the rotation, where the file tells it.
+    pub clockwise: Option<bool>,
+    /// Gravity g [m/s²], downwards.
+    pub gravity: Option<Expr>,
+    /// Constant moment about the point [N m], positive in the sense of the rotation.
+    pub torque: Option<Expr>,
+}
+
+/// Where a rotation ends.
+#[derive(Clone, Debug)]
+pub enum Until {
+    /// After turning through this angle [rad], counted in the sense of the rotation.
+    By(Expr),
+    /// When the center of mass is straight above the point.
+    Above,
+    /// When the center of mass is straight below the point.
+    Below,
+    /// After this time [s]; only without moments.
+    For(Expr),
+}
+
+/// Motion of a body along a line.
+#[derive(Clone, Debug)]
+pub struct Slide {
+    /// Index of the body.
+    pub body: usize,
+    /// Direction.
+    pub along: Vector,
+    /// Distance [m].
+    pub distance: Expr,
+    /// Gravity g [m/s²], downwards.
+    pub gravity: Option<Expr>,
+    /// Constant force along the direction [N].
+    pub force: Option<Expr>,
+}
+
+/// Free fall, or free flight where there is no gravity.
+#[derive(Clone, Debug)]
+pub struct Fall {
+    /// Index of the body.
+    pub body: usize,
+    /// Gravity g [m/s²], downwards; `None` for free flight.
+    pub gravity: Option<Expr>,
+    /// How the stage ends: after falling through this height [m].
+    pub height: Option<Expr>,
+    /// How the stage ends: after this time [s].
+    pub time: Option<Expr>,
+}
+
+/// A rope that winds round a pole.
+#[derive(Clone, Debug)]
+pub struct Wind {
+    /// Index of the particle.
+    pub body: usize,
+    /// The pole [m].
+    pub around: Vector,
+    /// Free length at the end [m].
+    pub to: Expr,
+}
+
+/// Something asked of a story.
+#[derive(Clone, Debug)]
+pub struct StoryQuestion {
+    /// Name of the answer.
+    pub name: String,
+    /// How the name is typeset.
+    pub latex: Option<String>,
+    /// What is asked.
+    pub ask: StoryAsk,
+}
+
+/// The kinds of question about a story. Formulas may hold names of earlier answers.
+#[derive(Clone, Debug)]
+pub enum StoryAsk {
+    /// A question about the end of a stage, by index of stage and of question in the stage's scene.
+    Quantity {
+        /// Index of the stage.
+        stage: usize,
+        /// Index in the questions of the stage's scene.
+        question: usize,
+    },
+    /// Force of the fixed point on a turning body, along a direction.
+    Reaction {
+        /// Index of the stage.
+        stage: usize,
+        /// Direction.
+        along: Vector,
+        /// At the end of the stage; else at its beginning.
+        at_end: bool,
+    },
+    /// Angular momentum of a body about a point.
+    AngularMomentum {
+        /// Index of the stage.
+        stage: usize,
+        /// Index of the body.
+        body: usize,
+        /// The point.
+        about: Vector,
+        /// At the end of the stage; else at its beginning.
+        at_end: bool,
+    },
+    /// A formula of earlier answers, with parameters replaced.
+    Value {
+        /// The formula.
+        formula: Expr,
+        /// Parameters and what stands for them.
+        with: Vec<(Symbol, Expr)>,
+    },
+    /// Where an inequality holds, or an equation: the value of a parameter at which its sides meet.
+    Condition {
+        /// The parameter.
+        parameter: Symbol,
+        /// Left side.
+        left: Expr,
+        /// Relation.
+        relation: Relation,
+        /// Right side.
+        right: Expr,
+        /// Parameters and what stands for them.
+        with: Vec<(Symbol, Expr)>,
+    },
+    /// The largest value over parameters within their domains.
+    Maximum {
+        /// What is to be largest.
+        of: Expr,
+        /// The parameters.
+        over: Vec<Symbol>,
+    },
+    /// The value a formula tends to.
+    Limit {
+        /// The formula.
+        of: Expr,
+        /// The parameter that tends.
+        parameter: Symbol,
+        /// To what; `None` beyond all bounds.
+        to: Option<Expr>,
+    },
+    /// An identity to be proved.
+    Show {
+        /// Left side.
+        left: Expr,
+        /// Right side.
+        right: Expr,
+    },
+    /// Which forces have an impulse in this stage, and why.
+    Impulsive {
+        /// Index of the stage.
+        stage: usize,
+    },
+    /// What happens in this stage, in words.
+    Describe {
+        /// Index of the stage.
+        stage: usize,
+    },
+    /// What the laws of this stage leave undetermined, and what would close them.
+    Missing {
+        /// Index of the stage.
+        stage: usize,
+    },
+    /// What is assumed.
+    Assumed,
+    /// Which given data the answers do not need.
+    Unused,
+}

@@ -1,0 +1,157 @@
+//! The part of the scene file that tells stages: fields, meaning, and what may be left out.
+
+use super::file::{
+    BlowFile, ContactFile, DirectionFile, ForceFile, HingeFile, KnownFile, PositionFile,
+    VelocityFile,
+};
+use super::record::{Formula, Map, Pair, Text, choice, record};
+
+record! {
+    /// A stage: exactly one of impact, turn, slide, fall and wind.
+    StageFile {
+        /// Name, by which questions and later stages refer to it.
+        name: Text,
+        /// Name of the stage whose end is the beginning of this one, or "start" for the bodies as given. Missing: the stage before.
+        from: Option<Text>,
+        /// Bodies that start otherwise than `bodies` says; only in a stage from "start".
+        start: Option<Map<StartFile>>,
+        /// A collision or blow: velocities jump, nothing moves.
+        impact: Option<ImpactFile>,
+        /// One body turns about a fixed point.
+        turn: Option<TurnFile>,
+        /// One body moves along a line without turning.
+        slide: Option<SlideFile>,
+        /// One body falls or flies freely.
+        fall: Option<FallFile>,
+        /// A particle on a rope that winds round a thin pole.
+        wind: Option<WindFile>,
+    }
+}
+
+record! {
+    /// How a body starts.
+    StartFile {
+        /// Velocity of the center of mass.
+        velocity: Option<VelocityFile>,
+        /// Angular velocity, counterclockwise.
+        spin: Option<Formula>,
+    }
+}
+
+record! {
+    /// A collision or blow.
+    ImpactFile {
+        /// Hinges by name.
+        hinges: Option<Map<HingeFile>>,
+        /// Contacts by name.
+        contacts: Option<Map<ContactFile>>,
+        /// Supports by name: they push the second body along `normal`, or not at all, and nothing rebounds from them.
+        supports: Option<Map<SupportFile>>,
+        /// Strings by name: they pull the second body along `normal`, or not at all.
+        strings: Option<Map<SupportFile>>,
+        /// Names of the supports and strings that are supposed to act. Missing: every possibility is told.
+        supposing: Option<Vec<Text>>,
+        /// Impulses from outside, by name.
+        blows: Option<Map<BlowFile>>,
+        /// What is known of the motion just after, in place of a law.
+        after: Option<Vec<KnownFile>>,
+        /// Finite forces that act too.
+        forces: Option<Vec<ForceFile>>,
+    }
+}
+
+record! {
+    /// Something that acts one way only.
+    SupportFile {
+        /// Names of the two bodies; one may be fixed.
+        bodies: Pair<Text>,
+        /// Where it acts.
+        at: PositionFile,
+        /// Direction in which the second body is pushed or pulled.
+        normal: DirectionFile,
+    }
+}
+
+choice! {
+    /// Where a rotation ends.
+    UntilName {
+        /// The center of mass straight above the point.
+        Above = "above",
+        /// The center of mass straight below the point.
+        Below = "below",
+    }
+}
+
+record! {
+    /// Rotation about a fixed point; its end is given by one of `by`, `until` and `for`.
+    TurnFile {
+        /// Name of the body.
+        body: Text,
+        /// The fixed point.
+        about: PositionFile,
+        /// Angle turned through, in the sense of the rotation.
+        by: Option<Formula>,
+        /// Where the center of mass is at the end.
+        until: Option<UntilName>,
+        /// Time; only where no moment acts.
+        time as "for": Option<Formula>,
+        /// Whether it turns clockwise. Missing: as it begins.
+        clockwise: Option<bool>,
+        /// Gravity, such as "g", where weight does work.
+        gravity: Option<Formula>,
+        /// Constant moment in the sense of the rotation.
+        torque: Option<Formula>,
+    }
+}
+
+record! {
+    /// Motion along a line without turning.
+    SlideFile {
+        /// Name of the body.
+        body: Text,
+        /// Direction.
+        along: DirectionFile,
+        /// Distance.
+        distance: Formula,
+        /// Gravity, such as "g", where weight does work.
+        gravity: Option<Formula>,
+        /// Constant force in that direction.
+        force: Option<Formula>,
+    }
+}
+
+record! {
+    /// Free fall, or free flight where no gravity is given; it ends after `height` or after `for`.
+    FallFile {
+        /// Name of the body.
+        body: Text,
+        /// Gravity, such as "g".
+        gravity: Option<Formula>,
+        /// Height fallen through.
+        height: Option<Formula>,
+        /// Time.
+        time as "for": Option<Formula>,
+    }
+}
+
+record! {
+    /// A rope that winds round a thin pole.
+    WindFile {
+        /// Name of the particle at its end.
+        body: Text,
+        /// The pole.
+        around: PositionFile,
+        /// Free length at the end.
+        to: Formula,
+    }
+}
+
+choice! {
+    /// Beginning or end of a stage.
+    EndName {
+        /// At the beginning.
+        Start = "start",
+        /// At the end.
+        End = "end",
+    }
+}

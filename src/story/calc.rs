@@ -1,0 +1,305 @@
+//! Exact calculation for stories: tidy forms, signs on the domain, and the values of a symbol at which an expression is zero.
+//!
+//! In: expressions and domains. Out: expressions a person would write, signs that are proved or said to be seen only, roots
+//! with the reason why others were discarded. It knows nothing of mechanics.
+
+use std::collections::BTreeMap;
+
+use num_integer::Integer;
+
+use crate::algebra::{Element, Field, Powers, Sign, Stop};
+use crate::domain::{Domain, Domains, roles, samples};
+use crate::expr::{Expr, Node, Symbol};
+use crate::formula::write_plain;
+use crate::interval::{Interval, Outcome, evaluate};
+
+/// Points at which a sign that could not be proved is looked at.
+const POINTS: usize = 24;
+
+/// What is known of a sign.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Seen {
+    /// Proved on the whole domain.
+    Proved(Sign),
+    /// Above zero at every point tried.
+    Positive,
+    /// Below zero at every point tried.
+    Negative,
+    /// Of both signs, or never seen.
+    Mixed,
+}
+
+impl Seen {
+    /// Above zero, proved or seen.
+    pub fn is_positive(self) -> bool {
+        matches!(self, Seen::Proved(Sign::Positive) | Seen::Positive)
+    }
+
+    /// Below zero, proved or seen.
+    pub fn is_negative(self) -> bool {
+        matches!(self, Seen::Proved(Sign::Negative) | Seen::Negative)
+    }
+
+    /// Whether it is proved.
+    pub fn is_proved(self) -> bool {
+        matches!(self, Seen::Proved(_))
+    }
+}
+
+/// The expression as a person would write it.
+pub fn tidy(e: &Expr, domains: &Domains) -> Result<Expr, Stop> {
+    let mut field = Field::new(domains);
+    field.prepare([e]);
+    let x = field.element(e)?;
+    Ok(field.expr(&x))
+}
+
+/// Whether the expression is zero on the whole domain; `None` where a limit was met.
+pub fn is_zero(e: &Expr, domains: &Domains) -> Option<bool> {
+    let mut field = Field::new(domains);
+    field.prepare([e]);
+    field.element(e).ok().map(|x| field.is_zero(&x))
+}
+
+/// The sign on the domain.
+pub fn sign(e: &Expr, domains: &Domains) -> Seen {
+    let mut field = Field::new(domains);
+    field.prepare([e]);
+    if let Ok(x) = field.element(e)
+        && field.assumptions().is_empty()
+        && let Some(sign) = field.sign(&x)
+    {
+        return Seen::Proved(sign);
+    }
+    seen(e, domains)
+}
+
+/// The sign at points of the domain, by enclosures.
+fn seen(e: &Expr, domains: &Domains) -> Seen {
+    let roles = roles(&[e]);
+    let (domains, _) = domains.completed(&roles);
+    let (mut above, mut below) = (0, 0);
+    for sample in samples(&roles, &domains, POINTS) {
+        match evaluate::<Interval>(e, &sample.point(roles.radians)) {
+            Outcome::Value(v) if v.low > 0.0 => above += 1,
+            Outcome::Value(v) if v.high < 0.0 => below += 1,
+            _ => {}
+        }
+    }
+    match (above, below) {
+        (3.., 0) => Seen::Positive,
+        (0, 3..) => Seen::Negative,
+        _ => Seen::Mixed,
+    }
+}
+
+/// What decides the sign of an expression: factors known to be positive are left away. Gives the rest, such as a − h.
+pub fn essential(e: &Expr, domains: &Domains) -> Expr {
+    let tidied = tidy(e, domains).unwrap_or_else(|_| e.clone());
+    let factors: Vec<Expr> = match tidied.node() {
+        Node::Product(factors) => factors.clone(),
+        _ => vec![tidied.clone()],
+    };
+    let mut minus = false;
+    let mut rest = Vec::new();
+    for f in factors {
+        match sign(&f, domains) {
+            Seen::Proved(Sign::Positive) => {}
+            Seen::Proved(Sign::Negative) => minus = !minus,
+            _ => rest.push(f),
+        }
+    }
+    let product = Expr::product(rest);
+    let turned = if minus { -&product } else { product };
+    tidy(&turned, domains).unwrap_or(turned)
+}
+
+/// A value of a symbol at which an expression is zero.
+#[derive(Clone, Debug)]
+pub struct Root {
+    /// The value.
+    pub value: Expr,
+    /// Whether the expression with the value put in is identically zero.
+    pub proved: bool,
+}
+
+/// All values of a symbol within its domain at which an expression is zero.
+#[derive(Clone, Debug, Default)]
+pub struct Roots {
+    /// Those within the domain.
+    pub inside: Vec<Root>,
+    /// The others, with the reason.
+    pub discarded: Vec<String>,
+    /// Coefficients, ascending, of a factor of higher degree than closed forms are given for.
+    pub open: Option<Vec<Expr>>,
+}
+
+/// Why an equation was not solved.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unsolved {
+    /// A limit of the algebra.
+    Limit(String),
+    /// The symbol stands inside a sine, logarithm or the like.
+    Inside,
+    /// The symbol does not occur.
+    Absent,
+}
+
+impl From<Stop> for Unsolved {
+    fn from(stop: Stop) -> Unsolved {
+        Unsolved::Limit(stop.to_string())
+    }
+}
+
+/// Solves e = 0 for a symbol.
+pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unsolved> {
+    let mut field = Field::new(domains);
+    field.prepare([e]);
+    let x = field.element(e)?;
+    let Some(Powers {
+        factors,
+        has_zero,
+        squared,
+    }) = field.powers(&x, symbol)?
+    else {
+        return Err(Unsolved::Inside);
+    };
+    if factors.is_empty() && !has_zero {
+        return Err(Unsolved::Absent);
+    }
+    let domain = domains
+        .symbols
+        .get(symbol)
+        .cloned()
+        .unwrap_or_else(Domain::positive);
+    let mut out = Roots::default();
+    if has_zero {
+        if domain.contains(&crate::expr::ratio(0, 1)) {
+            out.inside.push(Root {
+                value: Expr::zero(),
+                proved: true,
+            });
+        } else {
+            out.discarded
+                .push(format!("{symbol} = 0, outside {}", domain.words(symbol)));
+        }
+    }
+    for coefficients in factors {
+        let candidates = match closed(&mut field, &coefficients)? {
+            Some(candidates) => candidates,
+            None => {
+                out.open = Some(coefficients.iter().map(|c| field.expr(c)).collect());
+                continue;
+            }
+        };
+        for value in candidates {
+            take(e, symbol, value, squared, &domain, domains, &mut out);
+        }
+    }
+    Ok(out)
+}
+
+/// Real roots of a polynomial whose powers are 0, d and 2d; `None` for others.
+fn closed(field: &mut Field, c: &[Element]) -> Result<Option<Vec<Expr>>, Unsolved> {
+    let present: Vec<usize> = (0..c.len()).filter(|k| !field.is_zero(&c[*k])).collect();
+    let d = present.iter().fold(0usize, |g, k| g.gcd(k));
+    let degree = present.last().copied().unwrap_or(0);
+    if d == 0 || degree / d > 2 {
+        return Ok(None);
+    }
+    let mut squares = Vec::new();
+    if degree / d == 1 {
+        let y = field.neg(&field.div(&c[0], &c[d])?);
+        squares.push(field.expr(&y));
+    } else {
+        let (a, b, k) = (field.expr(&c[2 * d]), field.expr(&c[d]), field.expr(&c[0]));
+        // The half formula: with b = 2 b', y = (−b' ± √(b'² − a k))/a.
+        let half = &b * &Expr::ratio(1, 2);
+        let inner = tidied(field, &(&half.powi(2) - &(&a * &k)))?;
+        for s in [1, -1] {
+            let root = Expr::from(s) * inner.sqrt();
+            squares.push(tidied(field, &(&(&root - &half) / &a))?);
+        }
+    }
+    let mut out = Vec::new();
+    for y in squares {
+        if d == 1 {
+            out.push(y);
+            continue;
+        }
+        let root = y.power(Expr::ratio(1, d as i64));
+        let minus = -&root;
+        out.push(tidied(field, &root)?);
+        if d % 2 == 0 {
+            out.push(tidied(field, &minus)?);
+        }
+    }
+    Ok(Some(out))
+}
+
+fn tidied(field: &mut Field, e: &Expr) -> Result<Expr, Unsolved> {
+    match field.element(e) {
+        Ok(x) => Ok(field.expr(&x)),
+        // An even root of a negative value: no real root; what is written cannot be evaluated and is discarded below.
+        Err(Stop::NotReal) => Ok(e.clone()),
+        Err(stop) => Err(stop.into()),
+    }
+}
+
+/// Keeps a candidate, or says why not.
+fn take(
+    e: &Expr,
+    symbol: &Symbol,
+    value: Expr,
+    squared: bool,
+    domain: &Domain,
+    domains: &Domains,
+    out: &mut Roots,
+) {
+    let words = format!("{symbol} = {}", write_plain(&value));
+    let mut probe = Field::new(domains);
+    probe.prepare([&value]);
+    if matches!(probe.element(&value), Err(Stop::NotReal)) {
+        out.discarded.push(format!("{words}, which is not real"));
+        return;
+    }
+    for (limit, is_low) in [(&domain.low, true), (&domain.high, false)] {
+        let Some(limit) = limit else { continue };
+        let end = Expr::from(limit.value.clone());
+        let end = if limit.of_pi { end * Expr::pi() } else { end };
+        let gap = if is_low { &value - &end } else { &end - &value };
+        let outside = match sign(&gap, domains) {
+            Seen::Proved(Sign::Negative) | Seen::Negative => true,
+            Seen::Proved(Sign::Zero) => limit.open,
+            _ => false,
+        };
+        if outside {
+            out.discarded
+                .push(format!("{words}, outside {}", domain.words(symbol)));
+            return;
+        }
+    }
+    let put_in = e.substitute(&BTreeMap::from([(symbol.clone(), value.clone())]));
+    match is_zero(&put_in, domains) {
+        Some(true) => out.inside.push(Root {
+            value,
+            proved: true,
+        }),
+        Some(false) if squared => {
+            // Squaring adds solutions; a point decides.
+            match seen(&put_in, domains) {
+                Seen::Mixed => out.inside.push(Root {
+                    value,
+                    proved: false,
+                }),
+                _ => out.discarded.push(format!(
+                    "{words}, brought in by squaring: it does not fulfil the equation"
+                )),
+            }
+        }
+        _ => out.inside.push(Root {
+            value,
+            proved: false,
+        }),
+    }
+}

@@ -1,0 +1,392 @@
+//! An impact in a story: the motion handed on goes in, the one-sided supports that act are found, `derive` does the rest.
+//!
+//! Of the supports and strings every subset is tried. Those in it are contacts without rebound, whose impulses must not be
+//! negative; those left out are gone, and the bodies must not move against them. What holds on the whole domain is told
+//! alone, what holds on a part of it with its condition.
+
+use std::collections::BTreeMap;
+
+use super::calc::{Seen, essential, is_zero, sign, tidy};
+use super::{Case, Kept, Refused, StageTold, State};
+use crate::algebra::Sign;
+use crate::derive::{self, Form};
+use crate::expr::Expr;
+use crate::scene::{
+    Ask, Contact, ContactLaw, EnergyWhen, ImpulseAt, OneSided, Question, Scene, Stage,
+};
+use crate::verify;
+
+/// Names of the questions this module adds; a scene's names never start so.
+const ENERGY: &str = "\u{1}lost";
+
+/// Works out an impact.
+pub(super) fn tell(
+    stage: &Stage,
+    before: State,
+    one_sided: &[OneSided],
+    supposed: Option<&[String]>,
+) -> Result<StageTold, Refused> {
+    let mut base = stage.scene.clone();
+    for (body, (v, w)) in base
+        .bodies
+        .iter_mut()
+        .zip(before.velocity.iter().zip(&before.spin))
+    {
+        body.velocity = v.clone();
+        body.spin = w.clone();
+    }
+    hinges_fit(stage, &base)?;
+    approach(stage, &base)?;
+    let mut cases: Vec<Case> = Vec::new();
+    let mut contradiction = None;
+    for set in subsets(one_sided, supposed) {
+        match case(&base, one_sided, &set, supposed.is_some()) {
+            Ok(Some(case)) => cases.push(case),
+            Ok(None) => {}
+            Err(derive::Stop::Contradiction(law)) => contradiction = Some(law),
+            Err(stop) => return Err(Refused::stop(&stage.name, stop)),
+        }
+    }
+    if let Some(sure) = cases.iter().position(|c| c.conditions.is_empty()) {
+        // Momentum and the one-sided laws have one outcome only; what holds everywhere is it.
+        cases = vec![cases.swap_remove(sure)];
+    }
+    if cases.is_empty() {
+        let reason = match contradiction {
+            Some(law) => format!(
+                "the laws contradict each other: {law} cannot hold together with the others"
+            ),
+            None => String::from(
+                "no set of supports and strings fits: one of those that act would have to pull or push the wrong way",
+            ),
+        };
+        return Err(Refused::new(
+            &stage.name,
+            reason,
+            "look at the directions `normal`, and at the motion handed on",
+        ));
+    }
+    let after = state_after(stage, &before, &cases[0])?;
+    let kept = kept(&base, one_sided, &cases[0]);
+    let mut assumptions = Vec::new();
+    for (words, e) in &cases[0].conditions {
+        assumptions.push(format!("{} ≥ 0 ({words})", crate::formula::write_plain(e)));
+    }
+    let checks = cases[0].proof.scene.clone();
+    Ok(StageTold {
+        name: stage.name.clone(),
+        kind: "impact",
+        before,
+        after,
+        kept,
+        cases,
+        energy: None,
+        kinetic: None,
+        words: Vec::new(),
+        assumptions,
+        checks,
+    })
+}
+
+/// Sets of those that act, the largest first.
+fn subsets(one_sided: &[OneSided], supposed: Option<&[String]>) -> Vec<Vec<usize>> {
+    let n = one_sided.len();
+    if let Some(names) = supposed {
+        return vec![
+            (0..n)
+                .filter(|i| names.contains(&one_sided[*i].name))
+                .collect(),
+        ];
+    }
+    let mut all: Vec<Vec<usize>> = (0..1usize << n)
+        .map(|bits| (0..n).filter(|i| bits >> i & 1 == 1).collect())
+        .collect();
+    all.sort_by_key(|set| std::cmp::Reverse(set.len()));
+    all
+}
+
+/// One set of acting supports; `None` where it does not hold anywhere.
+fn case(
+    base: &Scene,
+    one_sided: &[OneSided],
+    set: &[usize],
+    is_supposed: bool,
+) -> Result<Option<Case>, derive::Stop> {
+    let mut scene = base.clone();
+    // Among the questions the one-sided contacts count after the others; only those that act are contacts here.
+    let others = base.contacts.len();
+    scene.questions.retain_mut(|q| match &mut q.ask {
+        Ask::Impulse {
+            from: ImpulseAt::Contact(i),
+            ..
+        } if *i >= others => match set.iter().position(|k| k + others == *i) {
+            Some(place) => {
+                *i = others + place;
+                true
+            }
+            None => false,
+        },
+        _ => true,
+    });
+    let mut wanted: Vec<(String, String)> = Vec::new();
+    let hidden = |name: String, ask: Ask| Question {
+        name,
+        latex: None,
+        ask,
+    };
+    for (i, o) in one_sided.iter().enumerate() {
+        let [first, second] = o.bodies;
+        if set.contains(&i) {
+            let name = format!("\u{1}{}", o.name);
+            scene.questions.push(hidden(
+                name.clone(),
+                Ask::Impulse {
+                    from: ImpulseAt::Contact(scene.contacts.len()),
+                    on: second,
+                    along: Some(o.normal.clone()),
+                },
+            ));
+            scene.contacts.push(Contact {
+                name: o.name.clone(),
+                bodies: o.bodies,
+                at: o.at.clone(),
+                normal: Some(o.normal.clone()),
+                law: ContactLaw::Frictionless {
+                    restitution: Expr::zero(),
+                },
+            });
+            let verb = if o.is_string { "pulls" } else { "pushes" };
+            wanted.push((name, format!("`{}` {verb}", o.name)));
+        } else {
+            let name = format!("\u{1}{}", o.name);
+            for (suffix, body) in [("2", second), ("1", first)] {
+                scene.questions.push(hidden(
+                    format!("{name}{suffix}"),
+                    Ask::Velocity {
+                        body,
+                        point: Some((o.name.clone(), o.at.clone())),
+                        along: Some(o.normal.clone()),
+                    },
+                ));
+            }
+            let what = if o.is_string { "goes slack" } else { "is left" };
+            wanted.push((name, format!("`{}` {what}", o.name)));
+        }
+    }
+    scene.questions.push(hidden(
+        ENERGY.into(),
+        Ask::Energy {
+            when: EnergyWhen::Lost,
+            of: None,
+        },
+    ));
+    let derivation = derive::derive(&scene)?;
+    let values: BTreeMap<String, Expr> = derivation
+        .answers
+        .iter()
+        .filter_map(|a| match &a.form {
+            Form::Value { closed, .. } => Some((a.name.clone(), closed.clone())),
+            _ => None,
+        })
+        .collect();
+    let mut conditions = Vec::new();
+    for (i, (name, words)) in wanted.into_iter().enumerate() {
+        let amount = match (values.get(&name), values.get(&format!("{name}2"))) {
+            (Some(impulse), _) => impulse.clone(),
+            (None, Some(second)) => {
+                let first = values
+                    .get(&format!("{name}1"))
+                    .cloned()
+                    .unwrap_or_else(Expr::zero);
+                tidy(&(second - &first), &scene.domains)?
+            }
+            _ => continue,
+        };
+        if set.contains(&i) && is_zero(&amount, &scene.domains) == Some(true) && !is_supposed {
+            // It touches and does nothing: the smaller set says the same.
+            return Ok(None);
+        }
+        match sign(&amount, &scene.domains) {
+            Seen::Proved(s) if s.is_not_negative() => {}
+            Seen::Proved(Sign::Negative | Sign::NotPositive) => return Ok(None),
+            _ => conditions.push((words, essential(&amount, &scene.domains))),
+        }
+    }
+    conditions.sort_by(|a, b| a.1.cmp(&b.1));
+    conditions.dedup_by(|a, b| a.1 == b.1);
+    if conditions.iter().any(|(_, e)| {
+        conditions
+            .iter()
+            .any(|(_, f)| is_zero(&(e + f), &scene.domains) == Some(true))
+    }) {
+        // One condition is the opposite of another: at most a boundary is left.
+        return Ok(None);
+    }
+    let proof = verify::prove(&scene, &derivation);
+    Ok(Some(Case {
+        active: set.iter().map(|i| one_sided[*i].name.clone()).collect(),
+        conditions,
+        scene,
+        derivation,
+        proof,
+    }))
+}
+
+/// Bodies joined by a hinge must move alike there before.
+fn hinges_fit(stage: &Stage, scene: &Scene) -> Result<(), Refused> {
+    let at = |b: usize, p: &[Expr; 2]| {
+        let body = &scene.bodies[b];
+        [
+            &body.velocity[0] - &(&body.spin * &(&p[1] - &body.center[1])),
+            &body.velocity[1] + &(&body.spin * &(&p[0] - &body.center[0])),
+        ]
+    };
+    for hinge in &scene.hinges {
+        let (a, b) = (
+            at(hinge.bodies[0], &hinge.at),
+            at(hinge.bodies[1], &hinge.at),
+        );
+        for k in 0..2 {
+            if is_zero(&(&a[k] - &b[k]), &scene.domains) == Some(false) {
+                let [first, second] = hinge.bodies.map(|b| &scene.bodies[b].name);
+                return Err(Refused::new(
+                    &stage.name,
+                    format!(
+                        "with the motion handed on, `{first}` and `{second}` move differently at the hinge `{}`",
+                        hinge.name
+                    ),
+                    "what is caught in the impact is a contact with the law sticking, not a hinge",
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Bodies that part before they touch do not collide.
+fn approach(stage: &Stage, scene: &Scene) -> Result<(), Refused> {
+    for contact in &scene.contacts {
+        let Some(normal) = &contact.normal else {
+            continue;
+        };
+        let [a, b] = contact.bodies.map(|b| {
+            let body = &scene.bodies[b];
+            let arm = crate::expr::minus(&contact.at, &body.center);
+            [
+                &body.velocity[0] - &(&body.spin * &arm[1]),
+                &body.velocity[1] + &(&body.spin * &arm[0]),
+            ]
+        });
+        let opening = crate::expr::dot(&crate::expr::minus(&b, &a), normal);
+        if let Seen::Proved(Sign::Positive) = sign(&opening, &scene.domains) {
+            let [first, second] = contact.bodies.map(|b| &scene.bodies[b].name);
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "with the motion handed on, `{first}` and `{second}` move apart at `{}`: there is no collision",
+                    contact.name
+                ),
+                "look at the stage before, and at `normal`, which points out of the first body into the second",
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<State, Refused> {
+    let mut after = before.clone();
+    let mut scene = case.scene.clone();
+    scene.questions.clear();
+    let g = crate::laws::Geometry::of(&scene, |e| Ok::<_, std::convert::Infallible>(e.clone()));
+    let Ok(g) = g;
+    let full = crate::laws::Kinematics::full(&scene, &g);
+    for b in 0..scene.bodies.len() {
+        if scene.bodies[b].is_fixed() {
+            continue;
+        }
+        let value = |form: &crate::laws::Affine<Expr>| -> Result<Option<Expr>, Refused> {
+            let mut total = form.constant.clone();
+            for (u, k) in &form.terms {
+                let Some(v) = case.derivation.motion.get(u) else {
+                    return Ok(None);
+                };
+                total = &total + &(k * v);
+            }
+            tidy(&total, &scene.domains)
+                .map(Some)
+                .map_err(|s| Refused::stop(&stage.name, s))
+        };
+        let [x, y] = &full.velocity[b];
+        let parts = [value(x)?, value(y)?, value(&full.spin[b])?];
+        if let [Some(x), Some(y), Some(w)] = parts {
+            after.velocity[b] = [x, y];
+            after.spin[b] = w;
+        }
+    }
+    Ok(after)
+}
+
+/// What an impact conserves.
+fn kept(scene: &Scene, one_sided: &[OneSided], case: &Case) -> Vec<Kept> {
+    let fixed = |bodies: &[usize; 2]| bodies.iter().any(|b| scene.bodies[*b].is_fixed());
+    // Where impulses from outside act, by name and place.
+    let mut outside: Vec<(String, [Expr; 2])> = Vec::new();
+    for h in scene.hinges.iter().filter(|h| fixed(&h.bodies)) {
+        outside.push((h.name.clone(), h.at.clone()));
+    }
+    for c in scene.contacts.iter().filter(|c| fixed(&c.bodies)) {
+        outside.push((c.name.clone(), c.at.clone()));
+    }
+    for o in one_sided
+        .iter()
+        .filter(|o| fixed(&o.bodies) && case.active.contains(&o.name))
+    {
+        outside.push((o.name.clone(), o.at.clone()));
+    }
+    for b in &scene.blows {
+        outside.push((b.name.clone(), b.at.clone()));
+    }
+    let mut out = Vec::new();
+    let names: Vec<String> = outside.iter().map(|(n, _)| format!("`{n}`")).collect();
+    out.push(match names.as_slice() {
+        [] => Kept {
+            what: "momentum".into(),
+            conserved: true,
+            why: "no impulse comes from outside".into(),
+        },
+        _ => Kept {
+            what: "momentum".into(),
+            conserved: false,
+            why: format!("an impulse from outside acts at {}", names.join(", ")),
+        },
+    });
+    if let [(name, _)] = outside.as_slice() {
+        out.push(Kept {
+            what: format!("angular momentum about {name}"),
+            conserved: true,
+            why: format!(
+                "the only impulse from outside acts at `{name}` and has no moment about it"
+            ),
+        });
+    }
+    let lost = case.derivation.answers.iter().find(|a| a.name == ENERGY);
+    if let Some(Form::Value { closed, .. }) = lost.map(|a| &a.form) {
+        out.push(if closed.is_zero() {
+            Kept {
+                what: "kinetic energy".into(),
+                conserved: true,
+                why: "put in, the loss comes out as 0".into(),
+            }
+        } else {
+            Kept {
+                what: "kinetic energy".into(),
+                conserved: false,
+                why: format!(
+                    "the loss comes out as {}",
+                    crate::formula::write_plain(closed)
+                ),
+            }
+        });
+    }
+    out
+}

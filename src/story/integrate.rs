@@ -1,0 +1,244 @@
+//! Motions integrated in time from Newton's laws at points of the domain, and held against the closed forms.
+//!
+//! In: a stage and what was found of it. Out: checks. Nothing here uses work or energy; where the integrator is not built in
+//! (feature `report`), the check says that it was not carried out.
+
+use super::StageTold;
+use crate::expr::{Expr, Point};
+use crate::numeric::{self, points::Needed};
+use crate::scene::{Fall, Stage, Turn, Until, Wind};
+use crate::verify::Check;
+
+/// Points at which motions are integrated.
+const POINTS: u64 = 3;
+/// Relative difference that counts as agreement; the integrator works to 1e-12.
+const CLOSE: f64 = 1e-7;
+
+/// Points of the domain in doubles for some expressions.
+pub(super) fn points(stage: &Stage, all: &[&Expr], count: u64) -> Vec<Point<f64>> {
+    let mut needed = Needed::default();
+    all.iter().for_each(|e| needed.add(e));
+    (1..=count)
+        .map(|seed| numeric::rounded(&numeric::random_point(&needed, &stage.scene.domains, seed)))
+        .collect()
+}
+
+fn check(worst: f64, count: usize, what: &str) -> Check {
+    if count == 0 {
+        return Check {
+            kind: "integration",
+            words: format!("{what}: not integrated"),
+            holds: None,
+        };
+    }
+    Check {
+        kind: "integration",
+        words: format!(
+            "{what}: integrated in time at {count} points, relative difference at most {worst:.0e}"
+        ),
+        holds: Some(worst < CLOSE),
+    }
+}
+
+/// A rotation: I θ″ = moment of weight and applied moment.
+pub(super) fn turn(stage: &Stage, told: &StageTold, turn: &Turn, way: i64) -> Vec<Check> {
+    if turn.gravity.is_none() && turn.torque.is_none() {
+        return Vec::new();
+    }
+    let body = &stage.scene.bodies[turn.body];
+    let [r, r_end] = super::motion::arms(stage, turn);
+    let inertia = super::motion::inertia_about(stage, turn);
+    let zero = Expr::zero();
+    let g = turn.gravity.as_ref().unwrap_or(&zero);
+    let torque = turn.torque.as_ref().unwrap_or(&zero);
+    let by = match &turn.until {
+        Until::By(by) => by.clone(),
+        _ => zero.clone(),
+    };
+    let (begin, end) = (&told.before.spin[turn.body], &told.after.spin[turn.body]);
+    let all = [
+        &r[0], &r[1], &r_end[0], &r_end[1], &inertia, &body.mass, g, torque, &by, begin, end,
+    ];
+    let (mut worst, mut count) = (0.0f64, 0);
+    for point in points(stage, &all, 4 * POINTS) {
+        let value = |e: &Expr| e.evaluate(&point);
+        let values: Option<Vec<f64>> = all.iter().map(|e| value(e)).collect();
+        let Some(v) = values else { continue };
+        let way = way as f64;
+        let angle = match turn.until {
+            Until::By(_) => v[8],
+            // From r to r_end in the sense of the rotation.
+            _ => (way * (v[0] * v[3] - v[1] * v[2]))
+                .atan2(v[0] * v[2] + v[1] * v[3])
+                .rem_euclid(std::f64::consts::TAU),
+        };
+        let motion = Rotation {
+            r: [v[0], v[1]],
+            inertia: v[4],
+            weight: v[5] * v[6],
+            torque: v[7],
+            way,
+        };
+        let Some(speed) = motion.speed_at(angle, way * v[9]) else {
+            continue;
+        };
+        let expected = way * v[10];
+        worst = worst.max((speed - expected).abs() / expected.abs().max(1e-9));
+        count += 1;
+        if count as u64 == POINTS {
+            break;
+        }
+    }
+    vec![check(worst, count, "spin at the end")]
+}
+
+/// A rotation about a fixed point; angle and speed count in its own sense.
+pub(super) struct Rotation {
+    /// Arm from the fixed point to the center of mass at the beginning.
+    pub r: [f64; 2],
+    /// Moment of inertia about the fixed point.
+    pub inertia: f64,
+    /// Weight.
+    pub weight: f64,
+    /// Applied moment, in the sense of the rotation.
+    pub torque: f64,
+    /// 1 counterclockwise, −1 clockwise.
+    pub way: f64,
+}
+
+impl Rotation {
+    /// Angular acceleration at an angle.
+    fn acceleration(&self, angle: f64) -> f64 {
+        let (s, c) = (self.way * angle).sin_cos();
+        let x = self.r[0] * c - self.r[1] * s;
+        (self.torque - self.way * self.weight * x) / self.inertia
+    }
+
+    /// Angular speed on reaching an angle; `None` where it is not reached.
+    pub fn speed_at(&self, angle: f64, speed: f64) -> Option<f64> {
+        // A unit of time in which something happens.
+        let rate = (self.torque.abs() + self.weight * self.r[0].hypot(self.r[1])) / self.inertia;
+        let unit = 0.2 / (rate.sqrt() + speed.abs()).max(1e-12);
+        let field = |y: [f64; 2]| [y[1], self.acceleration(y[0])];
+        let mut y = [0.0, speed];
+        for _ in 0..4000 {
+            let next = advance(field, y, unit)?;
+            if next[1] < -1e-9 * rate.sqrt() {
+                return None;
+            }
+            if next[0] >= angle {
+                // Newton on the length of the last step.
+                let mut step = unit * (angle - y[0]) / (next[0] - y[0]);
+                let mut last = y;
+                for _ in 0..30 {
+                    last = advance(field, y, step)?;
+                    let miss = angle - last[0];
+                    if miss.abs() < 1e-13 || last[1].abs() < 1e-12 {
+                        break;
+                    }
+                    step = (step + miss / last[1]).clamp(0.0, unit);
+                }
+                return Some(last[1]);
+            }
+            y = next;
+        }
+        None
+    }
+}
+
+/// Free fall: y″ = −g, until the height is fallen through.
+pub(super) fn fall(stage: &Stage, told: &StageTold, fall: &Fall) -> Vec<Check> {
+    let (Some(g), Some(h)) = (&fall.gravity, &fall.height) else {
+        return Vec::new();
+    };
+    let (begin, end) = (
+        &told.before.velocity[fall.body][1],
+        &told.after.velocity[fall.body][1],
+    );
+    let (mut worst, mut count) = (0.0f64, 0);
+    for point in points(stage, &[g, h, begin, end], POINTS) {
+        let value = |e: &Expr| e.evaluate(&point);
+        let (Some(g), Some(h), Some(v), Some(end)) = (value(g), value(h), value(begin), value(end))
+        else {
+            continue;
+        };
+        // A rotation with constant moment is the same equation.
+        let motion = Rotation {
+            r: [0.0, 0.0],
+            inertia: 1.0,
+            weight: 0.0,
+            torque: g,
+            way: 1.0,
+        };
+        let Some(speed) = motion.speed_at(h, -v) else {
+            continue;
+        };
+        worst = worst.max((speed + end).abs() / end.abs());
+        count += 1;
+    }
+    vec![check(worst, count, "speed at the end")]
+}
+
+/// The rope on a pole of small radius ρ: with φ the angle of the tangent point and L = L₀ − ρφ, Lagrange gives φ″ = ρ φ′²/L.
+pub(super) fn wind(stage: &Stage, free: &Expr, speed: &Expr, wind: &Wind) -> Vec<Check> {
+    let (mut worst, mut count) = (0.0f64, 0);
+    for point in points(stage, &[free, speed, &wind.to], 4 * POINTS) {
+        let value = |e: &Expr| e.evaluate(&point);
+        let (Some(free), Some(speed), Some(to)) = (value(free), value(speed), value(&wind.to))
+        else {
+            continue;
+        };
+        if to >= free {
+            continue;
+        }
+        let radius = free / 50.0;
+        let field = |y: [f64; 2]| [y[1], radius * y[1] * y[1] / (free - radius * y[0])];
+        let target = (free - to) / radius;
+        let step = to / speed / 40.0;
+        let mut y = [0.0, speed / free];
+        let mut steps = 0;
+        while y[0] < target && steps < 100_000 {
+            let Some(next) = advance(field, y, step) else {
+                break;
+            };
+            y = next;
+            steps += 1;
+        }
+        let found = (free - radius * y[0]) * y[1];
+        worst = worst.max((found - speed).abs() / speed);
+        count += 1;
+        if count as u64 == POINTS {
+            break;
+        }
+    }
+    vec![check(worst, count, "speed on a pole of finite radius")]
+}
+
+/// The state after a time, by an explicit Runge–Kutta method of order 8.
+#[cfg(feature = "report")]
+fn advance(field: impl Fn([f64; 2]) -> [f64; 2], y: [f64; 2], time: f64) -> Option<[f64; 2]> {
+    use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
+
+    struct System<F>(F);
+    impl<F: Fn([f64; 2]) -> [f64; 2]> ODE<f64, [f64; 2]> for System<F> {
+        fn diff(&self, _: f64, y: &[f64; 2], dydt: &mut [f64; 2]) {
+            *dydt = self.0(*y);
+        }
+    }
+    if time <= 0.0 {
+        return Some(y);
+    }
+    let system = System(field);
+    let method = ExplicitRungeKutta::dop853().rtol(1e-12).atol(1e-13);
+    let solution = IVP::ode(&system, 0.0, time, y)
+        .method(method)
+        .solve()
+        .ok()?;
+    solution.y.last().copied()
+}
+
+/// Without the integrator nothing is integrated.
+#[cfg(not(feature = "report"))]
+fn advance(_: impl Fn([f64; 2]) -> [f64; 2], _: [f64; 2], _: f64) -> Option<[f64; 2]> {
+    None
+}

@@ -1,0 +1,234 @@
+//! Tells a scene with stages: works out each stage from the end of the one before it, then answers the questions.
+//!
+//! In: a [`Scene`] with a [`Story`]. Out: [`Told`], the stages with what each conserves and why, and the answers with how
+//! each is known; or [`Refused`], the reason why the stages do not fit. Impacts are derived and proved by
+//! [`crate::derive`] and [`crate::verify`]; motions follow from work and energy, and are integrated apart from that.
+
+mod answer;
+mod calc;
+mod impact;
+mod integrate;
+mod motion;
+mod optimum;
+mod roots;
+mod threshold;
+mod words;
+
+use std::fmt;
+
+use crate::derive::{Derivation, Stop};
+use crate::dimension::Dimension;
+use crate::expr::{Expr, Symbol, Vector};
+use crate::formula::Relation;
+use crate::scene::{Scene, StageKind, Story};
+use crate::verify::{Check, Proof};
+
+/// Where all bodies are and how they move, by index of body.
+#[derive(Clone, Debug)]
+pub struct State {
+    /// Centers of mass [m].
+    pub center: Vec<Vector>,
+    /// Velocities of the centers of mass [m/s].
+    pub velocity: Vec<Vector>,
+    /// Angular velocities [rad/s], counterclockwise.
+    pub spin: Vec<Expr>,
+}
+
+/// A quantity that a stage keeps, or does not.
+#[derive(Clone, Debug)]
+pub struct Kept {
+    /// The quantity.
+    pub what: String,
+    /// Whether it is the same at the end.
+    pub conserved: bool,
+    /// Why, or why not.
+    pub why: String,
+}
+
+/// One outcome of an impact with one-sided supports.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Names of the supports and strings that act.
+    pub active: Vec<String>,
+    /// What must be ≥ 0 for it, in words and as an expression; empty where it holds on the whole domain.
+    pub conditions: Vec<(String, Expr)>,
+    /// The scene of this outcome: the supports that act are contacts without rebound.
+    pub scene: Scene,
+    /// Its derivation.
+    pub derivation: Derivation,
+    /// Its proof.
+    pub proof: Proof,
+}
+
+/// A stage, worked out.
+#[derive(Clone, Debug)]
+pub struct StageTold {
+    /// Name.
+    pub name: String,
+    /// Kind in one word.
+    pub kind: &'static str,
+    /// Motion at the beginning.
+    pub before: State,
+    /// Motion at the end.
+    pub after: State,
+    /// What is conserved, and what is not.
+    pub kept: Vec<Kept>,
+    /// Outcomes of an impact, the one told first in front; empty for a motion.
+    pub cases: Vec<Case>,
+    /// Kinetic energy at the beginning and at the end, of a motion [J].
+    pub energy: Option<[Expr; 2]>,
+    /// The same at the end, put together from velocity and spin.
+    pub kinetic: Option<Expr>,
+    /// What happens, in words.
+    pub words: Vec<String>,
+    /// What the stage takes for granted.
+    pub assumptions: Vec<String>,
+    /// What was checked.
+    pub checks: Vec<Check>,
+}
+
+/// The answer to a question about a story.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// Name of the question.
+    pub question: String,
+    /// Name of the answer.
+    pub name: String,
+    /// The name typeset.
+    pub latex: String,
+    /// What it is, in words.
+    pub words: String,
+    /// The value, where the answer is one.
+    pub formula: Option<Expr>,
+    /// For which values of a parameter something holds: parameter, relation, value.
+    pub range: Vec<(Symbol, Relation, Expr)>,
+    /// An equation that was proved.
+    pub equation: Option<(Expr, Expr)>,
+    /// The answer in sentences.
+    pub text: Vec<String>,
+    /// Dimension of the value.
+    pub dimension: Dimension,
+    /// What it rests on beyond the domains.
+    pub assumptions: Vec<String>,
+    /// Solutions that were discarded, with the reason.
+    pub discarded: Vec<String>,
+    /// What was checked.
+    pub checks: Vec<Check>,
+}
+
+/// A story, told.
+#[derive(Clone, Debug)]
+pub struct Told {
+    /// The stages.
+    pub stages: Vec<StageTold>,
+    /// The answers.
+    pub answers: Vec<Answer>,
+    /// How the statement is read.
+    pub readings: Vec<String>,
+    /// Data that no answer needs.
+    pub unused: Vec<String>,
+}
+
+impl Told {
+    /// Whether no check failed.
+    pub fn holds(&self) -> bool {
+        let stages = self.stages.iter();
+        let proofs = stages
+            .clone()
+            .flat_map(|s| &s.cases)
+            .all(|c| c.proof.holds());
+        let checks = stages
+            .flat_map(|s| &s.checks)
+            .chain(self.answers.iter().flat_map(|a| &a.checks));
+        proofs && checks.clone().all(|c| c.holds != Some(false))
+    }
+}
+
+/// Why a story cannot be told.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refused {
+    /// The stage or question.
+    pub at: String,
+    /// The reason.
+    pub reason: String,
+    /// What to do.
+    pub hint: String,
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.at, self.reason)?;
+        if self.hint.is_empty() {
+            Ok(())
+        } else {
+            write!(f, "\nhint: {}", self.hint)
+        }
+    }
+}
+
+impl std::error::Error for Refused {}
+
+impl Refused {
+    fn new(at: &str, reason: impl Into<String>, hint: impl Into<String>) -> Refused {
+        Refused {
+            at: format!("stage `{at}`"),
+            reason: reason.into(),
+            hint: hint.into(),
+        }
+    }
+
+    fn stop(at: &str, stop: impl Into<Stop>) -> Refused {
+        Refused::new(at, stop.into().to_string(), "")
+    }
+}
+
+/// Tells the story of a scene.
+pub fn tell(scene: &Scene, story: &Story) -> Result<Told, Refused> {
+    let mut stages: Vec<StageTold> = Vec::new();
+    for stage in &story.stages {
+        let before = match stage.from {
+            Some(j) => {
+                let mut state = stages[j].after.clone();
+                // Where the bodies are is geometry, and the reader has put it in.
+                state.center = stage
+                    .scene
+                    .bodies
+                    .iter()
+                    .map(|b| b.center.clone())
+                    .collect();
+                state
+            }
+            None => start(&stage.scene, &stage.start),
+        };
+        let told = match &stage.kind {
+            StageKind::Impact {
+                one_sided,
+                supposed,
+            } => impact::tell(stage, before, one_sided, supposed.as_deref())?,
+            StageKind::Turn(turn) => motion::turn(stage, before, turn)?,
+            StageKind::Slide(slide) => motion::slide(stage, before, slide)?,
+            StageKind::Fall(fall) => motion::fall(stage, before, fall)?,
+            StageKind::Wind(wind) => motion::wind(stage, before, wind)?,
+        };
+        stages.push(told);
+    }
+    answer::all(scene, story, stages)
+}
+
+/// The motion as the file gives it.
+fn start(scene: &Scene, changes: &[(usize, Option<Vector>, Option<Expr>)]) -> State {
+    let mut state = State {
+        center: scene.bodies.iter().map(|b| b.center.clone()).collect(),
+        velocity: scene.bodies.iter().map(|b| b.velocity.clone()).collect(),
+        spin: scene.bodies.iter().map(|b| b.spin.clone()).collect(),
+    };
+    for (body, velocity, spin) in changes {
+        if let Some(v) = velocity {
+            state.velocity[*body] = v.clone();
+        }
+        if let Some(w) = spin {
+            state.spin[*body] = w.clone();
+        }
+    }
+    state
+}

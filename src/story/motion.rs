@@ -1,0 +1,438 @@
+//! Motions between impacts: rotation about a point, sliding, falling, a rope that winds up. Work changes kinetic energy.
+//!
+//! In: a stage and the motion it begins with. Out: the motion it ends with, what is conserved and why. Time plays no part:
+//! work and energy connect places.
+
+use super::calc::Seen;
+use super::calc::{is_zero, sign, tidy};
+use super::{Kept, Refused, StageTold, State, integrate};
+use crate::algebra::Sign;
+use crate::domain::Domains;
+use crate::expr::{Expr, Vector, dot, minus};
+use crate::scene::{Fall, Slide, Stage, Turn, Until, Wind};
+
+fn half(e: &Expr) -> Expr {
+    &Expr::ratio(1, 2) * e
+}
+
+fn kept(what: &str, conserved: bool, why: &str) -> Kept {
+    Kept {
+        what: what.into(),
+        conserved,
+        why: why.into(),
+    }
+}
+
+/// A tidy expression, or the limit that was met.
+fn tidied(stage: &Stage, e: &Expr) -> Result<Expr, Refused> {
+    tidy(e, &stage.scene.domains).map_err(|stop| Refused::stop(&stage.name, stop))
+}
+
+fn told(stage: &Stage, kind: &'static str, before: State, after: State) -> StageTold {
+    StageTold {
+        name: stage.name.clone(),
+        kind,
+        before,
+        after,
+        kept: Vec::new(),
+        cases: Vec::new(),
+        energy: None,
+        kinetic: None,
+        words: Vec::new(),
+        assumptions: Vec::new(),
+        checks: Vec::new(),
+    }
+}
+
+/// The arm from the fixed point to the center of mass, at the beginning and at the end.
+pub(super) fn arms(stage: &Stage, turn: &Turn) -> [Vector; 2] {
+    let r = minus(&stage.scene.bodies[turn.body].center, &turn.about);
+    let length =
+        tidy(&dot(&r, &r).sqrt(), &stage.scene.domains).unwrap_or_else(|_| dot(&r, &r).sqrt());
+    let end = match &turn.until {
+        Until::Above => [Expr::zero(), length],
+        Until::Below => [Expr::zero(), -&length],
+        Until::For(_) => r.clone(),
+        Until::By(by) => {
+            let (c, s) = (
+                by.cos(),
+                if turn.clockwise == Some(true) {
+                    -by.sin()
+                } else {
+                    by.sin()
+                },
+            );
+            [&(&r[0] * &c) - &(&r[1] * &s), &(&r[0] * &s) + &(&r[1] * &c)]
+        }
+    };
+    [r, end]
+}
+
+/// Moment of inertia about the fixed point.
+pub(super) fn inertia_about(stage: &Stage, turn: &Turn) -> Expr {
+    let body = &stage.scene.bodies[turn.body];
+    let r = minus(&body.center, &turn.about);
+    &body.inertia + &(&body.mass * &dot(&r, &r))
+}
+
+/// The sense of the rotation: 1 counterclockwise, −1 clockwise.
+pub(super) fn sense(
+    stage: &Stage,
+    spin: &Expr,
+    turn: &Turn,
+) -> Result<(i64, Option<String>), Refused> {
+    let domains = &stage.scene.domains;
+    let body = &stage.scene.bodies[turn.body].name;
+    let begins = sign(spin, domains);
+    let declared = turn.clockwise.map(|c| if c { -1 } else { 1 });
+    let seen = if begins.is_positive() {
+        Some(1)
+    } else if begins.is_negative() {
+        Some(-1)
+    } else {
+        None
+    };
+    let sense_words = |s: i64| {
+        if s > 0 {
+            "counterclockwise"
+        } else {
+            "clockwise"
+        }
+    };
+    match (declared, seen) {
+        (Some(d), Some(s)) if d != s => Err(Refused::new(
+            &stage.name,
+            format!(
+                "`{body}` begins to turn {}, not {}",
+                sense_words(s),
+                sense_words(d)
+            ),
+            "the motion handed on decides the sense; leave `clockwise` out, or look at the stage before",
+        )),
+        (Some(d), _) => Ok((d, None)),
+        (None, Some(s)) => Ok((s, None)),
+        (None, None) if matches!(begins, Seen::Proved(Sign::Zero)) => {
+            let r = minus(&stage.scene.bodies[turn.body].center, &turn.about);
+            let pull = match (&turn.torque, &turn.gravity) {
+                (Some(_), _) => Seen::Positive,
+                (None, Some(_)) => sign(&-&r[0], domains),
+                (None, None) => Seen::Mixed,
+            };
+            if pull.is_positive() {
+                Ok((1, None))
+            } else if pull.is_negative() {
+                Ok((-1, None))
+            } else {
+                Err(Refused::new(
+                    &stage.name,
+                    format!("`{body}` is at rest, and nothing says which way it begins to turn"),
+                    "add \"clockwise\": true or false, or a moment",
+                ))
+            }
+        }
+        // A spin of either sign keeps it: the end is told for a positive one.
+        (None, None) => Ok((1, Some(format!("`{body}` turns counterclockwise")))),
+    }
+}
+
+/// Rotation about a fixed point.
+pub(super) fn turn(stage: &Stage, before: State, turn: &Turn) -> Result<StageTold, Refused> {
+    let domains = &stage.scene.domains;
+    let body = &stage.scene.bodies[turn.body];
+    let spin = before.spin[turn.body].clone();
+    let [r, r_end] = arms(stage, turn);
+    let needed = [-(&spin * &r[1]), &spin * &r[0]];
+    for k in 0..2 {
+        let gap = &before.velocity[turn.body][k] - &needed[k];
+        if is_zero(&gap, domains) == Some(false) {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "at its beginning the point {} of `{}` moves, so the body does not turn about it, and energy cannot carry over the jump that stops it",
+                    turn.about_name, body.name
+                ),
+                "put an impact before it, in which the point is caught, or begin with a velocity {\"about\": …}",
+            ));
+        }
+    }
+    let inertia = tidied(stage, &inertia_about(stage, turn))?;
+    if is_zero(&inertia, domains) == Some(true) {
+        return Err(Refused::new(
+            &stage.name,
+            format!(
+                "`{}` has no moment of inertia about {}",
+                body.name, turn.about_name
+            ),
+            "give it a mass",
+        ));
+    }
+    let start = tidied(stage, &half(&(&inertia * &spin.powi(2))))?;
+    let mut work = Vec::new();
+    if let Some(g) = &turn.gravity {
+        work.push(&(&body.mass * g) * &(&r[1] - &r_end[1]));
+    }
+    if let Some(torque) = &turn.torque {
+        let Until::By(by) = &turn.until else {
+            return Err(Refused::new(
+                &stage.name,
+                "the work of a constant moment needs the angle it turns through",
+                "end the stage with `by`",
+            ));
+        };
+        work.push(torque * by);
+    }
+    let work = tidied(stage, &Expr::sum(work))?;
+    let end = tidied(stage, &(&start + &work))?;
+    let reaches = sign(&end, domains);
+    if let Seen::Proved(Sign::Negative) = reaches {
+        return Err(Refused::new(
+            &stage.name,
+            format!(
+                "`{}` never gets there: its kinetic energy at the end would be {}, which is negative",
+                body.name,
+                crate::formula::write_plain(&end)
+            ),
+            "end the stage earlier, or give it more energy",
+        ));
+    }
+    let (way, assumed) = sense(stage, &spin, turn)?;
+    let mut assumptions: Vec<String> = Vec::new();
+    let spin_end = if work.is_zero() {
+        spin.clone()
+    } else {
+        assumptions.extend(assumed);
+        let size = (&(&Expr::from(2) * &end) / &inertia).sqrt();
+        tidied(stage, &(&Expr::from(way) * &size))?
+    };
+    let velocity = [
+        tidied(stage, &-(&spin_end * &r_end[1]))?,
+        tidied(stage, &(&spin_end * &r_end[0]))?,
+    ];
+    let mut after = before.clone();
+    for k in 0..2 {
+        after.center[turn.body][k] = &turn.about[k] + &r_end[k];
+    }
+    after.spin[turn.body] = spin_end;
+    after.velocity[turn.body] = velocity;
+    let mut out = told(stage, "turn", before, after);
+    let at = &turn.about_name;
+    out.kept = vec![match (&turn.gravity, &turn.torque) {
+        (_, Some(_)) => kept(
+            "energy",
+            false,
+            "the moment does work, its size times the angle, and that work is the gain",
+        ),
+        (Some(_), None) => kept(
+            "energy",
+            true,
+            &format!(
+                "the force at {at} does no work, since {at} does not move, and weight has a potential"
+            ),
+        ),
+        (None, None) => kept(
+            "energy",
+            true,
+            &format!("the only force acts at {at}, which does not move"),
+        ),
+    }];
+    let moment = turn.gravity.is_some() || turn.torque.is_some();
+    out.kept.push(kept(
+        &format!("angular momentum about {at}"),
+        !moment,
+        if moment {
+            "weight or the applied moment has a moment about it"
+        } else {
+            "no force has a moment about it"
+        },
+    ));
+    out.kept.push(kept(
+        "momentum",
+        false,
+        &format!("the force at {at} leads the center of mass round"),
+    ));
+    out.kinetic = Some(half(&(&inertia * &out.after.spin[turn.body].powi(2))));
+    out.energy = Some([start, end.clone()]);
+    if !matches!(reaches, Seen::Proved(s) if s.is_not_negative()) && !work.is_zero() {
+        assumptions.push(format!(
+            "for what is told of the end of `{}`: {} ≥ 0, so that it gets there",
+            stage.name,
+            crate::formula::write_plain(&super::calc::essential(&end, domains))
+        ));
+    }
+    out.assumptions = assumptions;
+    out.checks.extend(integrate::turn(stage, &out, turn, way));
+    Ok(out)
+}
+
+/// Motion along a line.
+pub(super) fn slide(stage: &Stage, before: State, slide: &Slide) -> Result<StageTold, Refused> {
+    let domains = &stage.scene.domains;
+    let body = &stage.scene.bodies[slide.body];
+    let v = &before.velocity[slide.body];
+    let across = [-&slide.along[1], slide.along[0].clone()];
+    if is_zero(&dot(v, &across), domains) == Some(false)
+        || is_zero(&before.spin[slide.body], domains) == Some(false)
+    {
+        return Err(Refused::new(
+            &stage.name,
+            format!(
+                "`{}` does not begin to move along this line without turning",
+                body.name
+            ),
+            "an impact before it may stop what does not fit",
+        ));
+    }
+    let speed = dot(v, &slide.along);
+    let start = tidied(stage, &half(&(&body.mass * &speed.powi(2))))?;
+    let mut work = Vec::new();
+    if let Some(g) = &slide.gravity {
+        work.push(-&(&(&body.mass * g) * &(&slide.along[1] * &slide.distance)));
+    }
+    if let Some(force) = &slide.force {
+        work.push(force * &slide.distance);
+    }
+    let work = tidied(stage, &Expr::sum(work))?;
+    let end = tidied(stage, &(&start + &work))?;
+    if let Seen::Proved(Sign::Negative) = sign(&end, domains) {
+        return Err(Refused::new(
+            &stage.name,
+            format!("`{}` never gets there: it comes to rest before", body.name),
+            "shorten the distance",
+        ));
+    }
+    let speed = if work.is_zero() {
+        speed
+    } else {
+        tidied(stage, &(&(&Expr::from(2) * &end) / &body.mass).sqrt())?
+    };
+    let mut after = before.clone();
+    for k in 0..2 {
+        after.velocity[slide.body][k] = tidied(stage, &(&speed * &slide.along[k]))?;
+    }
+    let mut out = told(stage, "slide", before, after);
+    out.kept = vec![kept(
+        "energy",
+        slide.force.is_none(),
+        if slide.force.is_none() {
+            "the guide does no work, and weight has a potential"
+        } else {
+            "the force does work, its size times the distance"
+        },
+    )];
+    out.energy = Some([start, end]);
+    Ok(out)
+}
+
+/// Free fall or flight.
+pub(super) fn fall(stage: &Stage, before: State, fall: &Fall) -> Result<StageTold, Refused> {
+    let domains = &stage.scene.domains;
+    let body = &stage.scene.bodies[fall.body];
+    let [vx, vy] = before.velocity[fall.body].clone();
+    let turning = half(&(&body.inertia * &before.spin[fall.body].powi(2)));
+    let kinetic = |x: &Expr, y: &Expr| half(&(&body.mass * &(&x.powi(2) + &y.powi(2))));
+    let start = tidied(stage, &(&kinetic(&vx, &vy) + &turning))?;
+    let down = match (&fall.gravity, &fall.height, &fall.time) {
+        (Some(g), Some(h), _) => {
+            if is_zero(&vx, domains) == Some(false) {
+                return Err(Refused::new(
+                    &stage.name,
+                    format!("`{}` moves sideways while it falls", body.name),
+                    "a fall through a height is straight down; give a time `for`",
+                ));
+            }
+            let square = tidied(stage, &(&vy.powi(2) + &(&(&Expr::from(2) * g) * h)))?;
+            tidied(stage, &-square.sqrt())?
+        }
+        (Some(g), None, Some(t)) => tidied(stage, &(&vy - &(g * t)))?,
+        (None, Some(_), _) => {
+            return Err(Refused::new(
+                &stage.name,
+                "without gravity nothing falls through a height",
+                "add \"gravity\": \"g\", or give a time `for`",
+            ));
+        }
+        _ => vy.clone(),
+    };
+    let mut after = before.clone();
+    after.velocity[fall.body] = [vx.clone(), down.clone()];
+    let end = tidied(stage, &(&kinetic(&vx, &down) + &turning))?;
+    let mut out = told(stage, "fall", before, after);
+    out.kept = vec![
+        kept(
+            "energy",
+            true,
+            if fall.gravity.is_some() {
+                "weight has a potential, and nothing else acts"
+            } else {
+                "no force acts"
+            },
+        ),
+        kept(
+            "spin",
+            true,
+            "no force has a moment about the center of mass",
+        ),
+        kept(
+            "momentum",
+            fall.gravity.is_none(),
+            if fall.gravity.is_some() {
+                "weight changes its vertical part"
+            } else {
+                "no force acts"
+            },
+        ),
+    ];
+    out.energy = Some([start, end]);
+    out.checks.extend(integrate::fall(stage, &out, fall));
+    Ok(out)
+}
+
+/// A rope that winds round a pole.
+pub(super) fn wind(stage: &Stage, before: State, wind: &Wind) -> Result<StageTold, Refused> {
+    let domains: &Domains = &stage.scene.domains;
+    let body = &stage.scene.bodies[wind.body];
+    let v = before.velocity[wind.body].clone();
+    let rope = minus(&stage.scene.bodies[wind.body].center, &wind.around);
+    let free = tidied(stage, &dot(&rope, &rope).sqrt())?;
+    if is_zero(&dot(&rope, &v), domains) == Some(false) {
+        return Err(Refused::new(
+            &stage.name,
+            format!(
+                "`{}` does not move straight across the rope, which would jerk",
+                body.name
+            ),
+            "put an impact with a string before it, in which the rope becomes taut",
+        ));
+    }
+    if let Seen::Proved(Sign::Negative) = sign(&(&free - &wind.to), domains) {
+        return Err(Refused::new(
+            &stage.name,
+            "a rope that winds up gets shorter, and this gets longer",
+            "exchange the lengths",
+        ));
+    }
+    let speed = tidied(stage, &dot(&v, &v).sqrt())?;
+    let mut after = before.clone();
+    after.velocity[wind.body] = [Expr::zero(), speed.clone()];
+    let energy = tidied(stage, &half(&(&body.mass * &speed.powi(2))))?;
+    let mut out = told(stage, "wind", before, after);
+    out.kept = vec![
+        kept(
+            "energy",
+            true,
+            "the rope pulls across the velocity at every moment, because its free part turns about the point where it leaves the pole: no work",
+        ),
+        kept(
+            "angular momentum about the pole",
+            false,
+            "the rope leaves the pole at its surface, so its pull has the pole's radius as an arm; the pole is thin, but the rope winds round it so often that the moment adds up",
+        ),
+    ];
+    out.energy = Some([energy.clone(), energy]);
+    out.assumptions = vec![String::from(
+        "the pole is thin against the rope, and the axes at the end are turned along the rope",
+    )];
+    out.checks
+        .extend(integrate::wind(stage, &free, &speed, wind));
+    Ok(out)
+}

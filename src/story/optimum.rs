@@ -1,0 +1,356 @@
+//! Largest values over one or two parameters, and limits.
+//!
+//! Two parameters are looked at together first: where only one combination p·qᵏ of them matters, its best value is a curve
+//! of maximisers and is told as such. Square roots of the parameter are taken away by p = x², so that the derivative becomes
+//! a polynomial whose roots have a closed form or are isolated.
+
+use std::collections::BTreeMap;
+
+use super::calc::{Unsolved, essential, sign, solve, tidy};
+use super::{Answer, Refused};
+use crate::algebra::Field;
+use crate::domain::{Domain, Domains};
+use crate::expr::{Expr, Node, Symbol};
+use crate::formula::{Relation, write_plain};
+use crate::scene::Scene;
+use crate::verify::Check;
+
+/// The symbol whose square stands for the parameter.
+const ROOT: &str = "x_root";
+/// The combination of two parameters.
+const JOINT: &str = "u_joint";
+
+/// The largest value of a formula over parameters.
+pub(super) fn maximum(
+    scene: &Scene,
+    mut out: Answer,
+    of: &Expr,
+    over: &[Symbol],
+) -> Result<Vec<Answer>, Refused> {
+    let mut domains = scene.domains.clone();
+    let name = out.name.clone();
+    let refused = |reason: &str| Refused {
+        at: format!("question `{name}`"),
+        reason: reason.to_string(),
+        hint: String::from(
+            "the largest value is found over one parameter, or two of which one combination matters",
+        ),
+    };
+    let plays = |s: &Symbol| !tidy(&of.derivative(s), &domains).is_ok_and(|d| d.is_zero());
+    let idle: Vec<&Symbol> = over.iter().filter(|s| !plays(s)).collect();
+    for s in &idle {
+        out.text.push(format!("{s} plays no part"));
+    }
+    let free: Vec<Symbol> = over.iter().filter(|s| !idle.contains(s)).cloned().collect();
+    let (reduced, variable, combination) = match free.as_slice() {
+        [] => {
+            out.formula = Some(of.clone());
+            return Ok(vec![out]);
+        }
+        [p] => (of.clone(), p.clone(), Expr::symbol(p)),
+        [p, q] => {
+            let Some(k) = joint(of, p, q, &domains) else {
+                return Err(refused(&format!(
+                    "{p} and {q} do not matter through one combination only"
+                )));
+            };
+            // u = p qᵏ, so that p = u q⁻ᵏ; what is left of q must cancel.
+            let joint: Symbol = JOINT.into();
+            domains.symbols.insert(joint.clone(), Domain::positive());
+            let replaced = &Expr::symbol(JOINT) * &Expr::symbol(q).power(-&k);
+            let reduced = tidy(
+                &of.substitute(&BTreeMap::from([(p.clone(), replaced)])),
+                &domains,
+            )
+            .map_err(|s| refused(&s.to_string()))?;
+            if reduced.symbols().contains(q) {
+                return Err(refused(&format!("{q} does not cancel")));
+            }
+            let combination = tidy(&(&Expr::symbol(p) * &Expr::symbol(q).power(k)), &domains)
+                .map_err(|s| refused(&s.to_string()))?;
+            out.text.push(format!(
+                "only the combination {} matters",
+                write_plain(&combination)
+            ));
+            (reduced, joint, combination)
+        }
+        _ => return Err(refused("more than two parameters")),
+    };
+    let positive = domains
+        .symbols
+        .get(&variable)
+        .is_none_or(|d| *d == Domain::positive() || *d == Domain::nonnegative());
+    if !positive {
+        return Err(refused(&format!(
+            "{variable} is bounded; a largest value is found over all positive values"
+        )));
+    }
+    let root: Symbol = ROOT.into();
+    domains.symbols.insert(root.clone(), Domain::positive());
+    let x = Expr::symbol(ROOT);
+    let f = tidy(
+        &reduced.substitute(&BTreeMap::from([(variable.clone(), x.powi(2))])),
+        &domains,
+    )
+    .map_err(|s| refused(&s.to_string()))?;
+    let slope = tidy(&f.derivative(&root), &domains).map_err(|s| refused(&s.to_string()))?;
+    let words = write_plain(&combination);
+    let roots = match solve(&slope, &root, &domains) {
+        Ok(roots) => roots,
+        Err(Unsolved::Absent) => {
+            return Ok(vec![at_the_rim(out, &slope, &words, &domains)]);
+        }
+        Err(Unsolved::Inside) => return Err(refused("the parameter stands inside a function")),
+        Err(Unsolved::Limit(what)) => return Err(refused(&what)),
+    };
+    if roots.inside.is_empty() {
+        out.discarded = roots.discarded;
+        return Ok(vec![at_the_rim(out, &slope, &words, &domains)]);
+    }
+    let [best] = roots.inside.as_slice() else {
+        return Err(refused("the derivative vanishes more than once"));
+    };
+    let side = |factor: Expr| {
+        let e = slope.substitute(&BTreeMap::from([(root.clone(), &factor * &best.value)]));
+        sign(&essential(&e, &domains), &domains)
+    };
+    let (before, after) = (side(Expr::ratio(1, 2)), side(Expr::from(2)));
+    if !(before.is_positive() && after.is_negative()) {
+        return Err(refused("where the derivative vanishes there is no maximum"));
+    }
+    let value = tidy(
+        &f.substitute(&BTreeMap::from([(root.clone(), best.value.clone())])),
+        &domains,
+    )
+    .map_err(|s| refused(&s.to_string()))?;
+    let place = tidy(&best.value.powi(2), &domains).map_err(|s| refused(&s.to_string()))?;
+    out.discarded = roots
+        .discarded
+        .iter()
+        .map(|d| d.replace(ROOT, &format!("√({words})")))
+        .collect();
+    out.dimension = super::answer::dimension_of(scene, &value, &name)?;
+    let proved = if before.is_proved() && after.is_proved() {
+        "proved"
+    } else {
+        "seen at points"
+    };
+    out.checks.push(Check {
+        kind: "maximum",
+        words: format!("the derivative vanishes there and nowhere else, rises before and falls after ({proved})"),
+        holds: Some(true),
+    });
+    out.checks.push(Check {
+        kind: "identity",
+        words: String::from("the derivative at that place is zero in the normal form"),
+        holds: best.proved.then_some(true),
+    });
+    let mut at = out.clone();
+    at.name = format!("{name}_at");
+    at.latex = format!("\\arg {}", out.latex);
+    at.words = format!("{words} for which it is largest");
+    at.text = vec![if free.len() == 2 {
+        format!(
+            "every pair {}, {} with {words} = {} does it: the maximisers form a curve",
+            free[0],
+            free[1],
+            write_plain(&place)
+        )
+    } else {
+        format!("{words} = {}", write_plain(&place))
+    }];
+    if free.len() == 1 {
+        at.range
+            .push((free[0].clone(), Relation::Equal, place.clone()));
+    } else {
+        at.equation = Some((combination.clone(), place.clone()));
+    }
+    at.dimension = super::answer::dimension_of(scene, &combination, &name)?;
+    at.formula = Some(place);
+    out.formula = Some(value);
+    Ok(vec![out, at])
+}
+
+/// The exponent k for which the formula depends on p·qᵏ alone.
+fn joint(of: &Expr, p: &Symbol, q: &Symbol, domains: &Domains) -> Option<Expr> {
+    let weighted = |s: &Symbol| &Expr::symbol(s) * &of.derivative(s);
+    let ratio = tidy(&(&weighted(q) / &weighted(p)), domains).ok()?;
+    ratio.as_number()?;
+    Some(ratio)
+}
+
+/// No place inside: the largest value is approached at an end.
+fn at_the_rim(mut out: Answer, slope: &Expr, words: &str, domains: &Domains) -> Answer {
+    let s = sign(slope, domains);
+    let how = if s.is_proved() {
+        "proved"
+    } else {
+        "seen at points"
+    };
+    out.text.push(if s.is_positive() {
+        format!("there is no largest value inside: it grows with {words} without end ({how}), so it is approached as {words} → ∞ and never reached")
+    } else if s.is_negative() {
+        format!("there is no largest value inside: it falls as {words} grows ({how}), so it is approached as {words} → 0 and not reached there")
+    } else {
+        String::from("whether there is a largest value could not be decided")
+    });
+    out
+}
+
+/// A limit: by putting in, by the quotient of derivatives, or by the lowest powers.
+pub(super) fn limit(
+    out: &mut Answer,
+    of: &Expr,
+    parameter: &Symbol,
+    to: Option<&Expr>,
+    domains: &Domains,
+) {
+    let found = match to {
+        Some(to) => putting_in(of, parameter, to, domains)
+            .or_else(|| {
+                if to.is_zero() {
+                    by_powers(of, parameter, false, domains)
+                } else {
+                    None
+                }
+            })
+            .or_else(|| by_derivatives(of, parameter, to, domains)),
+        None => by_powers(of, parameter, true, domains),
+    };
+    match found {
+        Some((Some(value), how)) => {
+            out.checks.push(Check {
+                kind: "limit",
+                words: how.to_string(),
+                holds: Some(true),
+            });
+            out.text
+                .push(format!("it tends to {}", write_plain(&value)));
+            out.formula = Some(value);
+        }
+        Some((None, how)) => {
+            out.checks.push(Check {
+                kind: "limit",
+                words: how.to_string(),
+                holds: Some(true),
+            });
+            out.text.push(String::from("it grows beyond all bounds"));
+        }
+        None => out.text.push(String::from("the limit was not found")),
+    }
+}
+
+/// A limit, `None` for infinity, and how it was found.
+type Found = (Option<Expr>, &'static str);
+
+fn putting_in(of: &Expr, p: &Symbol, to: &Expr, domains: &Domains) -> Option<Found> {
+    let tidied = tidy(of, domains).ok()?;
+    let value = tidied.substitute(&BTreeMap::from([(p.clone(), to.clone())]));
+    Some((
+        Some(tidy(&value, domains).ok()?),
+        "the formula has a value there and is continuous",
+    ))
+}
+
+/// L'Hôpital's rule, a few times over.
+fn by_derivatives(of: &Expr, p: &Symbol, to: &Expr, domains: &Domains) -> Option<Found> {
+    let e = common(of, domains)?;
+    let (mut above, mut below) = e;
+    let at = |e: &Expr| {
+        tidy(
+            &e.substitute(&BTreeMap::from([(p.clone(), to.clone())])),
+            domains,
+        )
+        .ok()
+    };
+    for _ in 0..6 {
+        let (a, b) = (at(&above)?, at(&below)?);
+        if !b.is_zero() {
+            return Some((
+                Some(tidy(&(&a / &b), domains).ok()?),
+                "quotient of the derivatives of numerator and denominator",
+            ));
+        }
+        if !a.is_zero() {
+            return Some((
+                None,
+                "the denominator vanishes there and the numerator does not",
+            ));
+        }
+        above = above.derivative(p);
+        below = below.derivative(p);
+    }
+    None
+}
+
+/// Numerator and denominator.
+fn common(of: &Expr, domains: &Domains) -> Option<(Expr, Expr)> {
+    let over = |e: &Expr| -> (Expr, Expr) {
+        let factors = match e.node() {
+            Node::Product(factors) => factors.clone(),
+            _ => vec![e.clone()],
+        };
+        let (mut up, mut down) = (Vec::new(), Vec::new());
+        for f in factors {
+            match f.node() {
+                Node::Power(base, k)
+                    if k.as_number().is_some_and(num_traits::Signed::is_negative) =>
+                {
+                    down.push(base.power(-k))
+                }
+                _ => up.push(f),
+            }
+        }
+        (Expr::product(up), Expr::product(down))
+    };
+    let tidied = tidy(of, domains).ok()?;
+    match tidied.node() {
+        Node::Sum(terms) => {
+            let parts: Vec<(Expr, Expr)> = terms.iter().map(over).collect();
+            let below = Expr::product(parts.iter().map(|p| p.1.clone()));
+            let above = Expr::sum(parts.iter().enumerate().map(|(i, p)| {
+                Expr::product(
+                    std::iter::once(p.0.clone()).chain(
+                        parts
+                            .iter()
+                            .enumerate()
+                            .filter(|(j, _)| *j != i)
+                            .map(|(_, q)| q.1.clone()),
+                    ),
+                )
+            }));
+            Some((above, below))
+        }
+        _ => Some(over(&tidied)),
+    }
+}
+
+/// The lowest powers of x where the parameter is x², or 1/x² for a limit at infinity.
+fn by_powers(of: &Expr, p: &Symbol, at_infinity: bool, domains: &Domains) -> Option<Found> {
+    let mut domains = domains.clone();
+    domains.symbols.insert(ROOT.into(), Domain::positive());
+    let x = Expr::symbol(ROOT).powi(if at_infinity { -2 } else { 2 });
+    let e = of.substitute(&BTreeMap::from([(p.clone(), x)]));
+    let mut field = Field::new(&domains);
+    field.prepare([&e]);
+    let element = field.element(&e).ok()?;
+    if field.is_zero(&element) {
+        return Some((Some(Expr::zero()), "it is zero throughout"));
+    }
+    let inverse = field.div(&field.integer(1), &element).ok()?;
+    let (low, above) = lowest(&mut field, &element)?;
+    let (down, below) = lowest(&mut field, &inverse)?;
+    let how = "lowest powers of numerator and denominator";
+    match low.cmp(&down) {
+        std::cmp::Ordering::Greater => Some((Some(Expr::zero()), how)),
+        std::cmp::Ordering::Less => Some((None, how)),
+        std::cmp::Ordering::Equal => Some((Some(tidy(&(&above / &below), &domains).ok()?), how)),
+    }
+}
+
+/// The lowest power of x in a numerator, and its coefficient.
+fn lowest(field: &mut Field, e: &crate::algebra::Element) -> Option<(usize, Expr)> {
+    let coefficients = field.numerator(e, ROOT).ok()??;
+    let k = coefficients.iter().position(|c| !field.is_zero(c))?;
+    Some((k, field.expr(&coefficients[k])))
+}

@@ -1,0 +1,236 @@
+//! For which values of a parameter an inequality between answers holds, and for which an equation does.
+//!
+//! In: both sides in parameters alone. Out: the value at which they meet, on which side of it the inequality holds, and how
+//! that is known; or that it always or never holds, with the reason.
+
+use std::collections::BTreeMap;
+
+use super::Answer;
+use super::calc::{Roots, Seen, Unsolved, essential, sign, solve, tidy};
+use crate::algebra::Sign;
+use crate::domain::Domains;
+use crate::expr::{Expr, Symbol};
+use crate::formula::{Relation, write_plain};
+use crate::verify::Check;
+
+/// Fills in the answer.
+pub(super) fn fill(
+    out: &mut Answer,
+    parameter: &Symbol,
+    left: &Expr,
+    relation: Relation,
+    right: &Expr,
+    domains: &Domains,
+) {
+    let gap = left - right;
+    let gap = tidy(&gap, domains).unwrap_or(gap);
+    let roots = match solve(&gap, parameter, domains) {
+        Ok(roots) => roots,
+        Err(Unsolved::Absent) => {
+            let words = always(&gap, relation, domains);
+            out.text.push(format!("{words}; {parameter} plays no part"));
+            return;
+        }
+        Err(Unsolved::Inside) => {
+            out.text
+                .push(format!("not solved: {parameter} stands inside a function"));
+            return;
+        }
+        Err(Unsolved::Limit(what)) => {
+            out.text.push(format!("not solved: {what}"));
+            return;
+        }
+    };
+    out.discarded = roots.discarded.clone();
+    if let Some(open) = &roots.open {
+        isolate(out, parameter, open);
+        return;
+    }
+    if roots.inside.is_empty() {
+        out.text.push(always(&gap, relation, domains));
+        return;
+    }
+    for root in &roots.inside {
+        out.checks.push(Check {
+            kind: "identity",
+            words: if root.proved {
+                format!(
+                    "both sides are identical at {parameter} = {}",
+                    write_plain(&root.value)
+                )
+            } else {
+                format!(
+                    "whether both sides meet at {parameter} = {} was not proved",
+                    write_plain(&root.value)
+                )
+            },
+            holds: root.proved.then_some(true),
+        });
+    }
+    if relation == Relation::Equal {
+        for root in &roots.inside {
+            out.range
+                .push((parameter.clone(), Relation::Equal, root.value.clone()));
+        }
+        if let [root] = roots.inside.as_slice() {
+            out.formula = Some(root.value.clone());
+        } else {
+            out.text.push(format!("{} solutions", roots.inside.len()));
+        }
+        return;
+    }
+    sides(out, parameter, &gap, relation, &roots, domains);
+}
+
+/// On which side of the root the inequality holds.
+fn sides(
+    out: &mut Answer,
+    parameter: &Symbol,
+    gap: &Expr,
+    relation: Relation,
+    roots: &Roots,
+    domains: &Domains,
+) {
+    let [root] = roots.inside.as_slice() else {
+        let values: Vec<String> = roots.inside.iter().map(|r| write_plain(&r.value)).collect();
+        for r in &roots.inside {
+            out.range
+                .push((parameter.clone(), Relation::Equal, r.value.clone()));
+        }
+        out.text.push(format!(
+            "the sides meet at {parameter} = {}",
+            values.join(" and at ")
+        ));
+        return;
+    };
+    let value = &root.value;
+    let at = |factor: i64, over: i64| {
+        let put = if value.is_zero() {
+            Expr::from(factor - over)
+        } else {
+            &Expr::ratio(factor, over) * value
+        };
+        let e = gap.substitute(&BTreeMap::from([(parameter.clone(), put)]));
+        sign(&essential(&e, domains), domains)
+    };
+    let (below, above) = (at(1, 2), at(2, 1));
+    let wants_negative = matches!(relation, Relation::Less | Relation::LessEqual);
+    let strict = matches!(relation, Relation::Less | Relation::Greater);
+    let holds = |s: Seen| {
+        if wants_negative {
+            s.is_negative()
+        } else {
+            s.is_positive()
+        }
+    };
+    let fails = |s: Seen| {
+        if wants_negative {
+            s.is_positive()
+        } else {
+            s.is_negative()
+        }
+    };
+    let found = if holds(below) && fails(above) {
+        Some(if strict {
+            Relation::Less
+        } else {
+            Relation::LessEqual
+        })
+    } else if fails(below) && holds(above) {
+        Some(if strict {
+            Relation::Greater
+        } else {
+            Relation::GreaterEqual
+        })
+    } else {
+        None
+    };
+    out.formula = Some(value.clone());
+    match found {
+        Some(relation) => {
+            out.range.push((parameter.clone(), relation, value.clone()));
+            let proved = below.is_proved() && above.is_proved();
+            out.checks.push(Check {
+                kind: "sign",
+                words: format!(
+                    "at half and at twice the value the sides differ with opposite signs{}, and there is no other value at which they meet",
+                    if proved { ", proved on the whole domain" } else { ", seen at points" }
+                ),
+                holds: Some(true),
+            });
+            let only = if strict { "there the two sides are equal and it fails" } else { "there the two sides are equal and it holds" };
+            out.text.push(format!("it holds for {parameter} {} {}; {only}", relation.sign(), write_plain(value)));
+        }
+        None => out.text.push(format!("the sides meet at {parameter} = {}, but do not change places there, or it could not be told", write_plain(value))),
+    }
+}
+
+/// Words for an inequality without a threshold.
+fn always(gap: &Expr, relation: Relation, domains: &Domains) -> String {
+    let s = sign(gap, domains);
+    let reason = |what: &str| {
+        format!(
+            "left side minus right side is {}, which is {what} on the whole domain",
+            write_plain(gap)
+        )
+    };
+    let (yes, no) = match relation {
+        Relation::Less => (
+            s.is_negative(),
+            s.is_positive() || s == Seen::Proved(Sign::Zero),
+        ),
+        Relation::LessEqual => (
+            s.is_negative() || s == Seen::Proved(Sign::Zero),
+            s.is_positive(),
+        ),
+        Relation::Greater => (
+            s.is_positive(),
+            s.is_negative() || s == Seen::Proved(Sign::Zero),
+        ),
+        Relation::GreaterEqual => (
+            s.is_positive() || s == Seen::Proved(Sign::Zero),
+            s.is_negative(),
+        ),
+        _ => (
+            s == Seen::Proved(Sign::Zero),
+            s.is_positive() || s.is_negative(),
+        ),
+    };
+    let sign_words = match s {
+        Seen::Proved(Sign::Zero) => "zero",
+        s if s.is_positive() => "positive",
+        s if s.is_negative() => "negative",
+        _ => "of a sign that could not be told",
+    };
+    let how = if s.is_proved() {
+        ""
+    } else {
+        " (seen at points, not proved)"
+    };
+    if yes {
+        format!("it always holds: {}{how}", reason(sign_words))
+    } else if no {
+        format!("it never holds: {}{how}", reason(sign_words))
+    } else {
+        format!("not decided: {}", reason(sign_words))
+    }
+}
+
+/// A condition of higher degree: exact isolation where its coefficients are numbers.
+fn isolate(out: &mut Answer, parameter: &Symbol, coefficients: &[Expr]) {
+    let numbers: Option<Vec<_>> = coefficients
+        .iter()
+        .map(|c| c.as_number().cloned())
+        .collect();
+    match numbers {
+        Some(numbers) => {
+            for [low, high] in super::roots::isolate(&numbers) {
+                out.text.push(format!("{parameter} between {low} and {high}, one root there, by exact isolation"));
+            }
+        }
+        None => out.text.push(format!(
+            "a polynomial of degree {} in {parameter} has to vanish; with values for the other symbols its roots can be enclosed",
+            coefficients.len() - 1
+        )),
+    }
+}
