@@ -35,9 +35,12 @@ fn shipped() -> Vec<String> {
             .expect("below derivations")
             .with_extension("")
     };
+    // Stories have a table and tests of their own.
+    let alone = |name: &String| scene(name).story.is_none();
     files
         .iter()
         .map(|p| name(p).display().to_string())
+        .filter(alone)
         .collect()
 }
 

@@ -528,6 +528,8 @@ record! {
         describe: Option<Text>,
         /// Name of the stage: what do its laws leave open?
         missing: Option<Text>,
+        /// Words of the author that nothing here derives, told as such.
+        remark: Option<Text>,
         /// What is assumed?
         assumed: Option<bool>,
         /// Which data are not needed?

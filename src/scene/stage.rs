@@ -239,6 +239,8 @@ pub enum StoryAsk {
         /// Index of the stage.
         stage: usize,
     },
+    /// Words of the scene's author; nothing is derived.
+    Remark(String),
     /// What is assumed.
     Assumed,
     /// Which given data the answers do not need.

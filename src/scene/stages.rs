@@ -667,6 +667,7 @@ fn story_ask(
         ("impulsive", q.impulsive.is_some()),
         ("describe", q.describe.is_some()),
         ("missing", q.missing.is_some()),
+        ("remark", q.remark.is_some()),
         ("assumed", q.assumed.is_some()),
         ("unused", q.unused.is_some()),
     ];
@@ -801,6 +802,9 @@ fn story_ask(
             about: base.position(about)?,
             at_end,
         });
+    }
+    if let Some(words) = &q.remark {
+        return Some(StoryAsk::Remark(words.text.clone()));
     }
     let mut stage = |name: &Text| stage_named(&mut base.faults, stages, Some(name));
     if let Some(text) = &q.impulsive {

@@ -296,6 +296,11 @@ fn one(
             out.text = words::missing(&story.stages[*stage], &stages[*stage]);
             out
         }
+        StoryAsk::Remark(words) => {
+            let mut out = blank(question, name, "words of the scene's author, not derived");
+            out.text.push(words.clone());
+            out
+        }
         StoryAsk::Assumed => {
             let mut out = blank(question, name, "what is assumed");
             out.text = words::assumed(story, stages);

@@ -300,7 +300,13 @@ pub(super) fn missing(stage: &Stage, told: &StageTold) -> Vec<String> {
             }
         }
     }
-    let counting = derive::count(&bare);
+    let counting = match derive::count(&bare) {
+        Ok(counting) => counting,
+        Err(stop) => {
+            out.push(format!("not counted: {stop}"));
+            return out;
+        }
+    };
     out.push(format!(
         "the balances of `{}` alone are {} equations for {} unknowns, of rank {}: {} short",
         stage.name,
