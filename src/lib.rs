@@ -26,9 +26,9 @@ pub mod derive;
 
 pub mod verify;
 
-pub mod story;
-
 pub mod grade;
+
+pub mod story;
 
 pub mod emit;
 

@@ -26,7 +26,11 @@ fn every_refused_scene_is_refused_with_the_text_beside_it() {
             .unwrap_or_default();
         let text = fs::read_to_string(&path).expect("a scene file");
         let said = match scene::read(&text) {
-            Ok(_) => "accepted\n".to_owned(),
+            // Whether stages fit shows only when the story is told.
+            Ok(scene) => match scene.story.as_ref().map(|s| carom::story::tell(&scene, s)) {
+                Some(Err(reason)) => format!("{name}: {reason}\n"),
+                _ => "accepted\n".to_owned(),
+            },
             Err(faults) => faults.render(&name, &text),
         };
         let beside = path.with_extension("expected");

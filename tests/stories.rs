@@ -22,7 +22,11 @@ fn shipped() -> Vec<String> {
     let mut names = Vec::new();
     for entry in std::fs::read_dir(Path::new("derivations/problems")).expect("a readable folder") {
         let path = entry.expect("a readable entry").path();
-        let name = path.file_stem().expect("a name").to_string_lossy().to_string();
+        let name = path
+            .file_stem()
+            .expect("a name")
+            .to_string_lossy()
+            .to_string();
         if scene(&name).story.is_some() {
             names.push(name);
         }
@@ -36,7 +40,10 @@ fn the_answers_are_those_of_the_table() {
     let table = std::fs::read_to_string("tests/stories/answers.tsv").expect("the table");
     let mut wrong = Vec::new();
     let mut last: Option<(String, Scene, Told)> = None;
-    for row in table.lines().filter(|l| !l.starts_with('#') && !l.is_empty()) {
+    for row in table
+        .lines()
+        .filter(|l| !l.starts_with('#') && !l.is_empty())
+    {
         let columns: Vec<&str> = row.split('\t').collect();
         let [name, answer, formula, _] = columns.as_slice() else {
             panic!("a row has four columns: {row}");
@@ -46,26 +53,49 @@ fn the_answers_are_those_of_the_table() {
             let told = told(&scene);
             last = Some((name.to_string(), scene, told));
         }
-        let Some((_, scene, told)) = &last else { continue };
+        let Some((_, scene, told)) = &last else {
+            continue;
+        };
         let mut symbols = Symbols::strict();
-        scene.parameters.iter().for_each(|p| symbols.declare(&p.name));
+        scene
+            .parameters
+            .iter()
+            .for_each(|p| symbols.declare(&p.name));
         let reading = read(formula, &symbols).unwrap_or_else(|f| panic!("{}", f.show(formula)));
-        let found = told.answers.iter().find(|a| a.name == *answer).unwrap_or_else(|| panic!("{name}: no answer {answer}"));
+        let found = told
+            .answers
+            .iter()
+            .find(|a| a.name == *answer)
+            .unwrap_or_else(|| panic!("{name}: no answer {answer}"));
         let (relation, expected) = match &reading.content {
-            Content::Relations(sides, relations) => (Some(relations[0]), sides[1].expr().expect("a formula").clone()),
+            Content::Relations(sides, relations) => (
+                Some(relations[0]),
+                sides[1].expr().expect("a formula").clone(),
+            ),
             content => (None, content.expr().expect("a formula").clone()),
         };
         let Some(value) = &found.formula else {
             wrong.push(format!("{name} {answer}: no formula; {:?}", found.text));
             continue;
         };
-        if !matches!(decide(value, &expected, &scene.domains).equality, Equality::Same { how: How::Identity { .. } }) {
-            wrong.push(format!("{name} {answer}: {} instead of {formula}", write_plain(value)));
+        if !matches!(
+            decide(value, &expected, &scene.domains).equality,
+            Equality::Same {
+                how: How::Identity { .. }
+            }
+        ) {
+            wrong.push(format!(
+                "{name} {answer}: {} instead of {formula}",
+                write_plain(value)
+            ));
         }
         if let Some(relation) = relation
             && found.range.first().map(|r| r.1) != Some(relation)
         {
-            wrong.push(format!("{name} {answer}: {:?} instead of {formula}", found.range));
+            wrong.push(format!(
+                "{name} {answer}: {:?} instead of {formula}",
+                found.range
+            ));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
@@ -93,7 +123,13 @@ fn energy_is_kept_wherever_a_stage_says_so() {
         let scene = scene(&name);
         for stage in told(&scene).stages {
             for check in stage.checks.iter().filter(|c| c.kind == "integration") {
-                assert_ne!(check.holds, Some(false), "{name}, {}: {}", stage.name, check.words);
+                assert_ne!(
+                    check.holds,
+                    Some(false),
+                    "{name}, {}: {}",
+                    stage.name,
+                    check.words
+                );
             }
         }
     }

@@ -84,7 +84,15 @@ pub(super) fn resolve(file: &SceneFile, mut faults: Vec<Fault>) -> (Scene, Vec<F
         scene.remarks = symbols.remarks();
         faults = check(&mut scene, &claims);
         let unused = unused(&scene, |name| symbols.is_used(name));
-        scene.remarks.extend(unused);
+        // Data that a problem gives in vain are no oversight where the scene asks for them.
+        let asks = |q: &super::StoryQuestion| matches!(q.ask, super::StoryAsk::Unused);
+        if !scene
+            .story
+            .as_ref()
+            .is_some_and(|s| s.questions.iter().any(asks))
+        {
+            scene.remarks.extend(unused);
+        }
     }
     (scene, faults)
 }

@@ -19,7 +19,7 @@ use super::stage::{
 use super::stage_file::{EndName, ImpactFile, StageFile, StartFile, TurnFile, UntilName};
 use super::{Scene, geometry};
 use crate::expr::{Expr, Symbol, Vector, dot, minus};
-use crate::formula::{self, Content};
+use crate::formula::{Content, read};
 
 /// Most stages a scene may have.
 const STAGES: usize = 40;
@@ -476,7 +476,7 @@ fn impact_of(
         list.iter().map(|t| t.text.clone()).collect()
     });
     let touching = scene.contacts.len() + scene.hinges.len() + scene.blows.len() + one_sided.len();
-    if touching == 0 {
+    if touching == 0 && r.faults.is_empty() {
         let fault = Fault::new(span, "nothing collides in this impact");
         r.faults
             .push(fault.hint("give it contacts, hinges, supports, strings or blows"));
@@ -685,7 +685,7 @@ fn story_ask(
         base.faults.push(Fault::new(name.span, message).hint(hint));
         return None;
     }
-    let read = |base: &mut Resolver<'_>, f: &Formula| symbols.expression(f, &mut base.faults);
+    let read = |base: &mut Resolver<'_>, f: &Formula| formula(base, symbols, f);
     let at_end = q.when != Some(EndName::Start);
     if let Some(f) = &q.value {
         return Some(StoryAsk::Value {
@@ -829,6 +829,13 @@ fn story_ask(
     })
 }
 
+/// A formula of parameters and earlier answers.
+fn formula(base: &mut Resolver<'_>, symbols: &Symbols, f: &Formula) -> Option<Expr> {
+    let e = symbols.expression(f, &mut base.faults)?;
+    e.symbols().iter().for_each(|name| symbols.mark_used(name));
+    Some(e)
+}
+
 /// Parameters and what stands for them.
 fn with(
     base: &mut Resolver<'_>,
@@ -837,7 +844,7 @@ fn with(
 ) -> Option<Vec<(Symbol, Expr)>> {
     let mut out = Vec::new();
     for (name, value) in entries(q.with.as_ref()) {
-        let value = symbols.expression(value, &mut base.faults)?;
+        let value = formula(base, symbols, value)?;
         out.push((parameter(base, name)?, value));
     }
     Some(out)
@@ -868,7 +875,7 @@ fn relation(
     symbols: &Symbols,
     text: &Text,
 ) -> Option<(Expr, Relation, Expr)> {
-    let reading = match formula::read(&text.text, symbols.names()) {
+    let reading = match read(&text.text, symbols.names()) {
         Ok(reading) => reading,
         Err(trouble) => {
             let mut fault = Fault::new(text.span, &trouble.message);

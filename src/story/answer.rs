@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::calc::{is_zero, tidy};
-use super::{Answer, Case, Refused, StageTold, Told, motion, optimum, threshold, words};
+use super::{Answer, Case, Refused, StageTold, Told, integrate, motion, optimum, threshold, words};
 use crate::derive::{self, Form};
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
@@ -169,7 +169,10 @@ fn one(
                 }
             }
             out.text.extend(with_words(with));
-            threshold::fill(&mut out, parameter, &left, *relation, &right, domains);
+            threshold::fill(&mut out, parameter, &left, *relation, &right, scene);
+            out.checks.extend(out.formula.as_ref().and_then(|value| {
+                tipping(story, stages, &(&left - &right), parameter, value, domains)
+            }));
             out.dimension = dimension_of(scene, &Expr::symbol(parameter), name)?;
             out
         }
@@ -424,8 +427,10 @@ fn of_case(question: &StoryQuestion, case: &Case, number: Option<usize>) -> Vec<
         };
         a.dimension = answer.dimension.clone();
         match &answer.form {
-            Form::Value { closed, .. } => a.formula = Some(closed.clone()),
-            Form::Equation { left, right } => a.equation = Some((left.clone(), right.clone())),
+            Form::Value { closed, .. } => a.formula = Some(case.put_in(closed)),
+            Form::Equation { left, right } => {
+                a.equation = Some((case.put_in(left), case.put_in(right)));
+            }
             Form::Matrix(_) => a
                 .text
                 .push(String::from("a matrix; ask it of the impact by itself")),
@@ -437,6 +442,12 @@ fn of_case(question: &StoryQuestion, case: &Case, number: Option<usize>) -> Vec<
                 a.text
                     .push(format!("not determined: it hangs on {}", names.join(", ")));
             }
+        }
+        for (name, value) in &case.handed {
+            a.text.push(format!(
+                "derived and checked for any {name}, then {name} = {} put in",
+                write_plain(value)
+            ));
         }
         a.assumptions = case.derivation.assumptions.clone();
         a.assumptions.extend(case.proof.assumptions.iter().cloned());
@@ -472,6 +483,31 @@ fn of_case(question: &StoryQuestion, case: &Case, number: Option<usize>) -> Vec<
         out.push(a);
     }
     out
+}
+
+/// A threshold at which a rotation just gets to its end, integrated on both sides.
+fn tipping(
+    story: &Story,
+    stages: &[StageTold],
+    gap: &Expr,
+    parameter: &Symbol,
+    value: &Expr,
+    domains: &Domains,
+) -> Option<Check> {
+    stages.iter().zip(&story.stages).find_map(|(told, stage)| {
+        let (StageKind::Turn(turn), Some([_, end])) = (&stage.kind, &told.energy) else {
+            return None;
+        };
+        let is_end = is_zero(&(gap - end), domains) == Some(true)
+            || is_zero(&(gap + end), domains) == Some(true);
+        if !is_end {
+            return None;
+        }
+        let (way, _) = motion::sense(stage, &told.before.spin[turn.body], turn).ok()?;
+        Some(integrate::both_sides(
+            stage, told, turn, way, parameter, value,
+        ))
+    })
 }
 
 /// Quantities at the end of a motion.

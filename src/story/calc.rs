@@ -54,6 +54,22 @@ pub fn tidy(e: &Expr, domains: &Domains) -> Result<Expr, Stop> {
     Ok(field.expr(&x))
 }
 
+/// The same as the root of its square where it is positive and that is shorter, which opens nested roots.
+pub fn shorter(e: &Expr, domains: &Domains) -> Expr {
+    let Ok(square) = tidy(&e.powi(2), domains) else {
+        return e.clone();
+    };
+    let Ok(root) = tidy(&square.sqrt(), domains) else {
+        return e.clone();
+    };
+    let is_positive = matches!(sign(e, domains), Seen::Proved(Sign::Positive));
+    if root.size() < e.size() && is_positive && is_zero(&(&root - e), domains) == Some(true) {
+        root
+    } else {
+        e.clone()
+    }
+}
+
 /// Whether the expression is zero on the whole domain; `None` where a limit was met.
 pub fn is_zero(e: &Expr, domains: &Domains) -> Option<bool> {
     let mut field = Field::new(domains);

@@ -10,7 +10,8 @@ use super::calc::{Seen, essential, is_zero, sign, tidy};
 use super::{Case, Kept, Refused, StageTold, State};
 use crate::algebra::Sign;
 use crate::derive::{self, Form};
-use crate::expr::Expr;
+use crate::domain::Domain;
+use crate::expr::{Expr, Node, Symbol};
 use crate::scene::{
     Ask, Contact, ContactLaw, EnergyWhen, ImpulseAt, OneSided, Question, Scene, Stage,
 };
@@ -37,10 +38,11 @@ pub(super) fn tell(
     }
     hinges_fit(stage, &base)?;
     approach(stage, &base)?;
+    let handed = hand_on(&mut base);
     let mut cases: Vec<Case> = Vec::new();
     let mut contradiction = None;
     for set in subsets(one_sided, supposed) {
-        match case(&base, one_sided, &set, supposed.is_some()) {
+        match case(&base, one_sided, &set, supposed.is_some(), &handed, &before) {
             Ok(Some(case)) => cases.push(case),
             Ok(None) => {}
             Err(derive::Stop::Contradiction(law)) => contradiction = Some(law),
@@ -66,7 +68,10 @@ pub(super) fn tell(
             "look at the directions `normal`, and at the motion handed on",
         ));
     }
-    let after = state_after(stage, &before, &cases[0])?;
+    for case in &mut cases {
+        case.after = state_after(stage, &before, case)?;
+    }
+    let after = cases[0].after.clone();
     let kept = kept(&base, one_sided, &cases[0]);
     let mut assumptions = Vec::new();
     for (words, e) in &cases[0].conditions {
@@ -111,6 +116,8 @@ fn case(
     one_sided: &[OneSided],
     set: &[usize],
     is_supposed: bool,
+    handed: &BTreeMap<Symbol, Expr>,
+    before: &State,
 ) -> Result<Option<Case>, derive::Stop> {
     let mut scene = base.clone();
     // Among the questions the one-sided contacts count after the others; only those that act are contacts here.
@@ -185,7 +192,7 @@ fn case(
         .answers
         .iter()
         .filter_map(|a| match &a.form {
-            Form::Value { closed, .. } => Some((a.name.clone(), closed.clone())),
+            Form::Value { closed, .. } => Some((a.name.clone(), closed.substitute(handed))),
             _ => None,
         })
         .collect();
@@ -226,6 +233,8 @@ fn case(
     Ok(Some(Case {
         active: set.iter().map(|i| one_sided[*i].name.clone()).collect(),
         conditions,
+        handed: handed.clone(),
+        after: before.clone(),
         scene,
         derivation,
         proof,
@@ -312,7 +321,7 @@ fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<State, Refu
                 };
                 total = &total + &(k * v);
             }
-            tidy(&total, &scene.domains)
+            tidy(&total.substitute(&case.handed), &scene.domains)
                 .map(Some)
                 .map_err(|s| Refused::stop(&stage.name, s))
         };
@@ -369,8 +378,7 @@ fn kept(scene: &Scene, one_sided: &[OneSided], case: &Case) -> Vec<Kept> {
             ),
         });
     }
-    let lost = case.derivation.answers.iter().find(|a| a.name == ENERGY);
-    if let Some(Form::Value { closed, .. }) = lost.map(|a| &a.form) {
+    if let Some(closed) = &case.value(ENERGY) {
         out.push(if closed.is_zero() {
             Kept {
                 what: "kinetic energy".into(),
@@ -389,4 +397,80 @@ fn kept(scene: &Scene, one_sided: &[OneSided], case: &Case) -> Vec<Kept> {
         });
     }
     out
+}
+
+/// Replaces what an earlier stage hands on by symbols where it holds roots: the impact is then a matter of fractions, proved
+/// and tried at exact points for any motion handed on, and the roots are put in afterwards. Gives what the symbols stand for.
+fn hand_on(scene: &mut Scene) -> BTreeMap<Symbol, Expr> {
+    let mut handed: Vec<(Symbol, Expr)> = Vec::new();
+    let mut domains = scene.domains.clone();
+    let original = scene.domains.clone();
+    let mut replace = |e: &mut Expr| {
+        if !has_root(e) {
+            return;
+        }
+        for (name, value) in &handed {
+            if let Ok(ratio) = tidy(&(&*e / value), &original)
+                && !has_root(&ratio)
+            {
+                *e = &ratio * &Expr::symbol(name);
+                return;
+            }
+        }
+        let sign = sign(e, &original);
+        let (value, factor) = if sign.is_negative() {
+            (-&*e, -1)
+        } else {
+            (e.clone(), 1)
+        };
+        let name = (1..)
+            .map(|k| Symbol::from(format!("handed{k}").as_str()))
+            .find(|n| !domains.symbols.contains_key(n))
+            .unwrap_or_else(|| Symbol::from("handed"));
+        let domain = if matches!(sign, Seen::Proved(Sign::Positive | Sign::Negative)) {
+            Domain::positive()
+        } else {
+            Domain::real()
+        };
+        domains.symbols.insert(name.clone(), domain);
+        *e = Expr::from(factor) * Expr::symbol(&name);
+        handed.push((name, value));
+    };
+    for body in &mut scene.bodies {
+        replace(&mut body.spin);
+        body.velocity.iter_mut().for_each(&mut replace);
+    }
+    scene.domains = domains;
+    handed.into_iter().collect()
+}
+
+/// Whether a root occurs.
+fn has_root(e: &Expr) -> bool {
+    let mut found = false;
+    e.walk(&mut |part| {
+        if let Node::Power(_, k) = part.node() {
+            found |= k.as_number().is_none_or(|k| !k.is_integer());
+        }
+    });
+    found
+}
+
+impl Case {
+    /// The value of an answer in parameters alone.
+    pub(super) fn value(&self, name: &str) -> Option<Expr> {
+        let found = self.derivation.answers.iter().find(|a| a.name == name)?;
+        match &found.form {
+            Form::Value { closed, .. } => Some(self.put_in(closed)),
+            _ => None,
+        }
+    }
+
+    /// An expression with what was handed on put in.
+    pub(super) fn put_in(&self, e: &Expr) -> Expr {
+        if self.handed.is_empty() {
+            return e.clone();
+        }
+        let put = e.substitute(&self.handed);
+        tidy(&put, &self.scene.domains).unwrap_or(put)
+    }
 }

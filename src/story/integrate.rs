@@ -3,9 +3,11 @@
 //! In: a stage and what was found of it. Out: checks. Nothing here uses work or energy; where the integrator is not built in
 //! (feature `report`), the check says that it was not carried out.
 
+use std::collections::BTreeSet;
+
 use super::StageTold;
-use crate::expr::{Expr, Point};
-use crate::numeric::{self, points::Needed};
+use crate::domain::Limit;
+use crate::expr::{Expr, Point, Symbol};
 use crate::scene::{Fall, Stage, Turn, Until, Wind};
 use crate::verify::Check;
 
@@ -14,12 +16,31 @@ const POINTS: u64 = 3;
 /// Relative difference that counts as agreement; the integrator works to 1e-12.
 const CLOSE: f64 = 1e-7;
 
-/// Points of the domain in doubles for some expressions.
+/// Points of the domain in doubles for some expressions: every symbol at its own golden fraction of the interval, the same
+/// on every machine.
 pub(super) fn points(stage: &Stage, all: &[&Expr], count: u64) -> Vec<Point<f64>> {
-    let mut needed = Needed::default();
-    all.iter().for_each(|e| needed.add(e));
+    let names: BTreeSet<Symbol> = all.iter().flat_map(|e| e.symbols()).collect();
+    let value = |name: &Symbol, k: u64, seed: u64| {
+        let domain = stage.scene.domains.symbols.get(name);
+        let fraction =
+            (0.618_033_988_75 * (k + 1) as f64 + 0.381_7 * seed as f64).fract() * 0.9 + 0.05;
+        let low = domain.and_then(|d| d.low.as_ref()).map(Limit::approximate);
+        let high = domain.and_then(|d| d.high.as_ref()).map(Limit::approximate);
+        match (low, high) {
+            (Some(low), Some(high)) => low + fraction * (high - low),
+            (Some(low), None) => low + 0.3 + 2.0 * fraction,
+            (None, Some(high)) => high - 0.3 - 2.0 * fraction,
+            (None, None) => 4.0 * fraction - 2.0,
+        }
+    };
     (1..=count)
-        .map(|seed| numeric::rounded(&numeric::random_point(&needed, &stage.scene.domains, seed)))
+        .map(|seed| Point {
+            values: (0..)
+                .zip(&names)
+                .map(|(k, name)| (name.clone(), value(name, k, seed)))
+                .collect(),
+            ..Point::default()
+        })
         .collect()
 }
 
@@ -143,6 +164,91 @@ impl Rotation {
             y = next;
         }
         None
+    }
+}
+
+/// Whether a rotation gets to its end at a point, by integration in time; `None` where it could not be integrated.
+pub(super) fn gets_there(
+    stage: &Stage,
+    told: &StageTold,
+    turn: &Turn,
+    way: i64,
+    point: &Point<f64>,
+) -> Option<bool> {
+    let body = &stage.scene.bodies[turn.body];
+    let [r, r_end] = super::motion::arms(stage, turn);
+    let zero = Expr::zero();
+    let value = |e: &Expr| e.evaluate(point);
+    let way = way as f64;
+    let [x, y, u, w] = [
+        value(&r[0])?,
+        value(&r[1])?,
+        value(&r_end[0])?,
+        value(&r_end[1])?,
+    ];
+    let angle = match &turn.until {
+        Until::By(by) => value(by)?,
+        _ => (way * (x * w - y * u))
+            .atan2(x * u + y * w)
+            .rem_euclid(std::f64::consts::TAU),
+    };
+    let motion = Rotation {
+        r: [x, y],
+        inertia: value(&super::motion::inertia_about(stage, turn))?,
+        weight: value(&body.mass)? * value(turn.gravity.as_ref().unwrap_or(&zero))?,
+        torque: value(turn.torque.as_ref().unwrap_or(&zero))?,
+        way,
+    };
+    // A first step tells whether there is an integrator at all.
+    advance(|y| [y[1], 0.0], [0.0, 1.0], 1.0)?;
+    Some(
+        motion
+            .speed_at(angle, way * value(&told.before.spin[turn.body])?)
+            .is_some(),
+    )
+}
+
+/// Just below and just above a threshold a rotation behaves differently: integrated in time on both sides.
+pub(super) fn both_sides(
+    stage: &Stage,
+    told: &StageTold,
+    turn: &Turn,
+    way: i64,
+    parameter: &Symbol,
+    value: &Expr,
+) -> Check {
+    let mut all = vec![value, &told.before.spin[turn.body]];
+    let [r, r_end] = super::motion::arms(stage, turn);
+    let inertia = super::motion::inertia_about(stage, turn);
+    all.extend(r.iter().chain(&r_end));
+    all.extend([&inertia, &stage.scene.bodies[turn.body].mass]);
+    all.extend(turn.gravity.iter().chain(&turn.torque));
+    let (mut parted, mut count) = (0, 0);
+    for mut point in points(stage, &all, POINTS) {
+        let Some(critical) = value.evaluate(&point) else {
+            continue;
+        };
+        let mut at = |factor: f64| {
+            point.values.insert(parameter.clone(), critical * factor);
+            gets_there(stage, told, turn, way, &point)
+        };
+        let (Some(below), Some(above)) = (at(0.999), at(1.001)) else {
+            continue;
+        };
+        count += 1;
+        parted += usize::from(below != above);
+    }
+    Check {
+        kind: "integration",
+        words: if count == 0 {
+            String::from("not integrated on both sides")
+        } else {
+            format!(
+                "integrated in time a thousandth below and above it: `{}` gets to its end on one side only at {parted} of {count} points",
+                stage.name
+            )
+        },
+        holds: (count > 0).then_some(parted == count),
     }
 }
 

@@ -14,6 +14,7 @@ mod roots;
 mod threshold;
 mod words;
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use crate::derive::{Derivation, Stop};
@@ -52,6 +53,10 @@ pub struct Case {
     pub active: Vec<String>,
     /// What must be ≥ 0 for it, in words and as an expression; empty where it holds on the whole domain.
     pub conditions: Vec<(String, Expr)>,
+    /// Symbols that stand for what an earlier stage hands on, in the scene and the derivation, with their values.
+    pub handed: BTreeMap<Symbol, Expr>,
+    /// Motion just after.
+    pub after: State,
     /// The scene of this outcome: the supports that act are contacts without rebound.
     pub scene: Scene,
     /// Its derivation.

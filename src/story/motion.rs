@@ -307,6 +307,10 @@ pub(super) fn slide(stage: &Stage, before: State, slide: &Slide) -> Result<Stage
     };
     let mut after = before.clone();
     for k in 0..2 {
+        after.center[slide.body][k] =
+            &after.center[slide.body][k] + &(&slide.along[k] * &slide.distance);
+    }
+    for k in 0..2 {
         after.velocity[slide.body][k] = tidied(stage, &(&speed * &slide.along[k]))?;
     }
     let mut out = told(stage, "slide", before, after);
@@ -355,6 +359,9 @@ pub(super) fn fall(stage: &Stage, before: State, fall: &Fall) -> Result<StageTol
     };
     let mut after = before.clone();
     after.velocity[fall.body] = [vx.clone(), down.clone()];
+    if let Some(h) = &fall.height {
+        after.center[fall.body][1] = &after.center[fall.body][1] - h;
+    }
     let end = tidied(stage, &(&kinetic(&vx, &down) + &turning))?;
     let mut out = told(stage, "fall", before, after);
     out.kept = vec![
@@ -414,6 +421,7 @@ pub(super) fn wind(stage: &Stage, before: State, wind: &Wind) -> Result<StageTol
     let speed = tidied(stage, &dot(&v, &v).sqrt())?;
     let mut after = before.clone();
     after.velocity[wind.body] = [Expr::zero(), speed.clone()];
+    after.center[wind.body] = [&wind.around[0] + &wind.to, wind.around[1].clone()];
     let energy = tidied(stage, &half(&(&body.mass * &speed.powi(2))))?;
     let mut out = told(stage, "wind", before, after);
     out.kept = vec![

@@ -81,9 +81,7 @@ pub(super) fn maximum(
         .get(&variable)
         .is_none_or(|d| *d == Domain::positive() || *d == Domain::nonnegative());
     if !positive {
-        return Err(refused(&format!(
-            "{variable} is bounded; a largest value is found over all positive values"
-        )));
+        return bounded(scene, out, &reduced, &variable);
     }
     let root: Symbol = ROOT.into();
     domains.symbols.insert(root.clone(), Domain::positive());
@@ -123,6 +121,7 @@ pub(super) fn maximum(
         &domains,
     )
     .map_err(|s| refused(&s.to_string()))?;
+    let value = super::calc::shorter(&value, &domains);
     let place = tidy(&best.value.powi(2), &domains).map_err(|s| refused(&s.to_string()))?;
     out.discarded = roots
         .discarded
@@ -169,6 +168,90 @@ pub(super) fn maximum(
     at.formula = Some(place);
     out.formula = Some(value);
     Ok(vec![out, at])
+}
+
+/// The largest value over one parameter in an interval: where the derivative vanishes once, or at an end.
+fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<Answer>, Refused> {
+    let domains = &scene.domains;
+    let name = out.name.clone();
+    let refused = |reason: String| Refused {
+        at: format!("question `{name}`"),
+        reason,
+        hint: String::new(),
+    };
+    let domain = domains
+        .symbols
+        .get(p)
+        .cloned()
+        .unwrap_or_else(Domain::positive);
+    let slope = tidy(&f.derivative(p), domains).map_err(|s| refused(s.to_string()))?;
+    let at = |x: &Expr, e: &Expr| {
+        tidy(
+            &e.substitute(&BTreeMap::from([(p.clone(), x.clone())])),
+            domains,
+        )
+    };
+    let (inside, discarded) = match solve(&slope, p, domains) {
+        Ok(roots) if roots.open.is_none() => (roots.inside, roots.discarded),
+        Ok(_) | Err(Unsolved::Inside) => {
+            return Err(refused(format!(
+                "where the derivative by {p} vanishes has no closed form here"
+            )));
+        }
+        Err(Unsolved::Absent) => (Vec::new(), Vec::new()),
+        Err(Unsolved::Limit(what)) => return Err(refused(what)),
+    };
+    out.discarded = discarded;
+    let place = match inside.as_slice() {
+        [best] => {
+            let bend = at(&best.value, &slope.derivative(p)).map_err(|s| refused(s.to_string()))?;
+            if !sign(&bend, domains).is_negative() {
+                return Err(refused(format!(
+                    "the derivative by {p} vanishes at {}, but the value is not largest there",
+                    write_plain(&best.value)
+                )));
+            }
+            out.checks.push(Check {
+                kind: "maximum",
+                words: String::from("the derivative vanishes there and nowhere else in the interval, and the second derivative is negative"),
+                holds: Some(true),
+            });
+            best.value.clone()
+        }
+        [] => {
+            let rising = sign(&slope, domains);
+            let end = if rising.is_positive() {
+                domain.high
+            } else if rising.is_negative() {
+                domain.low
+            } else {
+                return Err(refused(format!(
+                    "whether it grows with {p} could not be decided"
+                )));
+            };
+            let Some(end) = end else {
+                return Ok(vec![at_the_rim(out, &slope, p, domains)]);
+            };
+            let value = Expr::from(end.value.clone());
+            let value = if end.of_pi { value * Expr::pi() } else { value };
+            out.text.push(format!(
+                "the derivative by {p} does not vanish inside: the largest value is {} the bound {p} = {}",
+                if end.open { "approached at, and not reached, as the domain excludes" } else { "at" },
+                write_plain(&value)
+            ));
+            value
+        }
+        _ => {
+            return Err(refused(format!(
+                "the derivative by {p} vanishes more than once"
+            )));
+        }
+    };
+    let value = at(&place, f).map_err(|s| refused(s.to_string()))?;
+    out.dimension = super::answer::dimension_of(scene, &value, &name)?;
+    out.range.push((p.clone(), Relation::Equal, place));
+    out.formula = Some(value);
+    Ok(vec![out])
 }
 
 /// The exponent k for which the formula depends on p·qᵏ alone.

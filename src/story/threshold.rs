@@ -11,6 +11,8 @@ use crate::algebra::Sign;
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Relation, write_plain};
+use crate::interval::enclosure::decimal;
+use crate::scene::Scene;
 use crate::verify::Check;
 
 /// Fills in the answer.
@@ -20,8 +22,9 @@ pub(super) fn fill(
     left: &Expr,
     relation: Relation,
     right: &Expr,
-    domains: &Domains,
+    scene: &Scene,
 ) {
+    let domains = &scene.domains;
     let gap = left - right;
     let gap = tidy(&gap, domains).unwrap_or(gap);
     let roots = match solve(&gap, parameter, domains) {
@@ -43,7 +46,7 @@ pub(super) fn fill(
     };
     out.discarded = roots.discarded.clone();
     if let Some(open) = &roots.open {
-        isolate(out, parameter, open);
+        isolate(out, parameter, &gap, open, scene);
         return;
     }
     if roots.inside.is_empty() {
@@ -216,21 +219,59 @@ fn always(gap: &Expr, relation: Relation, domains: &Domains) -> String {
     }
 }
 
-/// A condition of higher degree: exact isolation where its coefficients are numbers.
-fn isolate(out: &mut Answer, parameter: &Symbol, coefficients: &[Expr]) {
+/// A condition of higher degree: exact isolation once all other symbols have values.
+fn isolate(out: &mut Answer, parameter: &Symbol, gap: &Expr, coefficients: &[Expr], scene: &Scene) {
+    let values: BTreeMap<Symbol, Expr> = scene
+        .parameters
+        .iter()
+        .filter(|p| p.name != *parameter)
+        .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
+        .collect();
+    let degree = coefficients.len() - 1;
     let numbers: Option<Vec<_>> = coefficients
         .iter()
-        .map(|c| c.as_number().cloned())
+        .map(|c| {
+            tidy(&c.substitute(&values), &scene.domains)
+                .ok()?
+                .as_number()
+                .cloned()
+        })
         .collect();
-    match numbers {
-        Some(numbers) => {
-            for [low, high] in super::roots::isolate(&numbers) {
-                out.text.push(format!("{parameter} between {low} and {high}, one root there, by exact isolation"));
-            }
+    let Some(numbers) = numbers else {
+        out.text.push(format!(
+            "a polynomial of degree {degree} in {parameter} has to vanish, which has no closed form here; with fractions as values of all other symbols its roots are enclosed"
+        ));
+        return;
+    };
+    let domain = scene.domains.symbols.get(parameter);
+    let at_values = gap.substitute(&values);
+    for [low, high] in super::roots::isolate(&numbers) {
+        let words = format!(
+            "{parameter} between {} and {}",
+            decimal(&low, 12),
+            decimal(&high, 12)
+        );
+        if domain.is_some_and(|d| !d.contains(&low) && !d.contains(&high)) {
+            out.discarded.push(format!("{words}, outside the domain"));
+            continue;
         }
-        None => out.text.push(format!(
-            "a polynomial of degree {} in {parameter} has to vanish; with values for the other symbols its roots can be enclosed",
-            coefficients.len() - 1
-        )),
+        // Squaring may have brought the root in: the two sides must change places across it.
+        let side = |x: &crate::expr::Rational| {
+            let point = BTreeMap::from([(parameter.clone(), Expr::from(x.clone()))]);
+            at_values
+                .substitute(&point)
+                .evaluate(&crate::expr::Point::<f64>::default())
+        };
+        match (side(&low), side(&high)) {
+            (Some(a), Some(b)) if a * b <= 0.0 => {
+                out.text.push(format!("{words}: one root of degree {degree}, isolated exactly (Sturm); the sides change places there"));
+            }
+            _ => out.text.push(format!("{words}: one root of degree {degree}, isolated exactly (Sturm); the sides do not change places there")),
+        }
+    }
+    if out.text.is_empty() {
+        out.text.push(String::from(
+            "no real root within the domain: the sides never meet",
+        ));
     }
 }

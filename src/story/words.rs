@@ -1,8 +1,7 @@
 //! Sentences about stages, made from what was found of them: what happens, which forces have impulses, what is open.
 
-use super::calc::{Seen, is_zero, sign};
+use super::calc::{essential, is_zero, sign};
 use super::{Case, StageTold};
-use crate::algebra::Sign;
 use crate::derive;
 use crate::domain::Domains;
 use crate::expr::{Expr, minus};
@@ -54,20 +53,24 @@ pub(super) fn stage(stage: &Stage, told: &StageTold) -> Vec<String> {
                         format!("where {}: {}{left}", conditions.join(" and "), active(case))
                     });
                 }
-            }
-            for (b, body) in scene
-                .bodies
-                .iter()
-                .enumerate()
-                .filter(|(_, b)| !b.is_fixed())
-            {
-                out.push(changed(
-                    &body.name,
-                    told,
-                    b,
-                    &scene.domains,
-                    body.is_particle(),
-                ));
+                let moving = scene
+                    .bodies
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, b)| !b.is_fixed());
+                let given: Vec<&Expr> = case.conditions.iter().map(|(_, e)| e).collect();
+                for (b, body) in moving {
+                    out.push(
+                        Change {
+                            told,
+                            case,
+                            b,
+                            domains: &scene.domains,
+                            given: &given,
+                        }
+                        .words(&body.name, body.is_particle()),
+                    );
+                }
             }
         }
         StageKind::Turn(turn) => {
@@ -79,7 +82,8 @@ pub(super) fn stage(stage: &Stage, told: &StageTold) -> Vec<String> {
                     "spin",
                     &told.before.spin[turn.body],
                     &told.after.spin[turn.body],
-                    &scene.domains
+                    &scene.domains,
+                    &[]
                 )
             ));
         }
@@ -109,57 +113,90 @@ pub(super) fn stage(stage: &Stage, told: &StageTold) -> Vec<String> {
     out
 }
 
-/// How a body's motion changed, in words.
-fn changed(name: &str, told: &StageTold, b: usize, domains: &Domains, is_particle: bool) -> String {
-    let (v0, v1) = (&told.before.velocity[b], &told.after.velocity[b]);
-    let zero = |v: &[Expr; 2]| v.iter().all(|c| is_zero(c, domains) == Some(true));
-    let same = minus(v0, v1)
-        .iter()
-        .all(|c| is_zero(c, domains) == Some(true));
-    let center = if is_particle {
-        format!("`{name}`")
-    } else {
-        format!("the center of mass of `{name}`")
-    };
-    let mut words = if same && zero(v1) {
-        format!("{center} stays at rest")
-    } else if same {
-        format!("{center} keeps its velocity")
-    } else if zero(v1) {
-        format!("{center} comes to rest")
-    } else {
-        format!("{center} moves {}", heading(v1, domains))
-    };
-    if !is_particle {
-        words.push_str(", and ");
-        words.push_str(&spin_words(
-            "its spin",
-            &told.before.spin[b],
-            &told.after.spin[b],
-            domains,
-        ));
+/// How an impact changes a body's motion, where its conditions hold.
+struct Change<'a> {
+    told: &'a StageTold,
+    case: &'a Case,
+    b: usize,
+    domains: &'a Domains,
+    given: &'a [&'a Expr],
+}
+
+impl Change<'_> {
+    fn words(&self, name: &str, is_particle: bool) -> String {
+        let (before, after) = (&self.told.before, &self.case.after);
+        let (v0, v1) = (&before.velocity[self.b], &after.velocity[self.b]);
+        let zero = |v: &[Expr; 2]| v.iter().all(|c| is_zero(c, self.domains) == Some(true));
+        let center = if is_particle {
+            format!("`{name}`")
+        } else {
+            format!("the center of mass of `{name}`")
+        };
+        let mut words = match (zero(&minus(v0, v1)), zero(v1)) {
+            (true, true) => format!("{center} stays at rest"),
+            (true, false) => format!("{center} keeps its velocity"),
+            (false, true) => format!("{center} comes to rest"),
+            (false, false) => format!("{center} moves {}", self.heading(v1)),
+        };
+        if !is_particle {
+            let (w0, w1) = (&before.spin[self.b], &after.spin[self.b]);
+            words.push_str(", and ");
+            words.push_str(&spin_words("its spin", w0, w1, self.domains, self.given));
+        }
+        words
     }
-    words
+
+    fn heading(&self, v: &[Expr; 2]) -> String {
+        let part = |e: &Expr, plus: &'static str, minus: &'static str, either: &'static str| {
+            if is_zero(e, self.domains) == Some(true) {
+                return None;
+            }
+            Some(match way(e, self.domains, self.given) {
+                Some(true) => plus,
+                Some(false) => minus,
+                None => either,
+            })
+        };
+        let x = part(
+            &v[0],
+            "to the right",
+            "to the left",
+            "sideways, to which side hangs on the values",
+        );
+        let y = part(&v[1], "up", "down", "up or down as the values decide");
+        let parts: Vec<&str> = [x, y].into_iter().flatten().collect();
+        parts.join(" and ")
+    }
 }
 
-fn heading(v: &[Expr; 2], domains: &Domains) -> String {
-    let part = |e: &Expr, plus: &'static str, minus: &'static str| match sign(e, domains) {
-        Seen::Proved(Sign::Zero) => None,
-        s if s.is_positive() => Some(plus),
-        s if s.is_negative() => Some(minus),
-        _ => Some("one way or the other"),
+/// Whether a value is above zero where some others are not negative; `None` where that is not known.
+fn way(e: &Expr, domains: &Domains, given: &[&Expr]) -> Option<bool> {
+    let s = sign(e, domains);
+    if s.is_positive() || s.is_negative() {
+        return Some(s.is_positive());
+    }
+    let rest = essential(e, domains);
+    let matches = |f: Expr| {
+        given
+            .iter()
+            .any(|g| is_zero(&(&f - *g), domains) == Some(true))
     };
-    let parts: Vec<&str> = [
-        part(&v[0], "to the right", "to the left"),
-        part(&v[1], "up", "down"),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
-    parts.join(" and ")
+    if matches(rest.clone()) {
+        Some(true)
+    } else if matches(-&rest) {
+        Some(false)
+    } else {
+        None
+    }
 }
 
-fn spin_words(what: &str, before: &Expr, after: &Expr, domains: &Domains) -> String {
+fn spin_words(
+    what: &str,
+    before: &Expr,
+    after: &Expr,
+    domains: &Domains,
+    given: &[&Expr],
+) -> String {
     if is_zero(&(before - after), domains) == Some(true) {
         return match is_zero(after, domains) {
             Some(true) => format!("{what} stays zero: it does not turn"),
@@ -169,20 +206,24 @@ fn spin_words(what: &str, before: &Expr, after: &Expr, domains: &Domains) -> Str
     if is_zero(after, domains) == Some(true) {
         return format!("{what} ends");
     }
-    let way = match sign(after, domains) {
-        s if s.is_positive() => "counterclockwise",
-        s if s.is_negative() => "clockwise",
-        _ => "in a sense that hangs on the values",
+    let sense = match way(after, domains, given) {
+        Some(true) => "counterclockwise",
+        Some(false) => "clockwise",
+        None => "in a sense that hangs on the values",
     };
-    let larger = sign(&(&after.powi(2) - &before.powi(2)), domains);
-    let change = if larger.is_positive() {
-        "grows"
-    } else if larger.is_negative() {
-        "falls"
-    } else {
-        "changes"
+    if is_zero(before, domains) == Some(true) {
+        return format!("{what} begins, {sense}");
+    }
+    let change = match way(&(&after.powi(2) - &before.powi(2)), domains, given) {
+        Some(true) => "grows",
+        Some(false) => "falls",
+        None => "changes",
     };
-    format!("{what} {change}; at the end it is {way}")
+    let turned = match (way(before, domains, given), way(after, domains, given)) {
+        (Some(a), Some(b)) if a != b => " and turns round",
+        _ => "",
+    };
+    format!("{what} {change}{turned}; at the end it is {sense}")
 }
 
 /// Which forces have an impulse, and why; which have none.
@@ -215,12 +256,7 @@ pub(super) fn impulsive(stage: &Stage, told: &StageTold) -> Vec<String> {
         let verb = if o.is_string { "pull" } else { "push" };
         let mut cases = Vec::new();
         for case in &told.cases {
-            let value = case.derivation.answers.iter().find_map(|a| match &a.form {
-                derive::Form::Value { closed, .. } if a.name == format!("\u{1}{}", o.name) => {
-                    Some(closed.clone())
-                }
-                _ => None,
-            });
+            let value = case.value(&format!("\u{1}{}", o.name));
             let conditions: Vec<String> = case
                 .conditions
                 .iter()
