@@ -138,7 +138,7 @@ impl<'a> Desk<'a> {
                 None => return (Status::Unreadable(fault), none()),
             },
         };
-        let Some(differences) = differences(&reading) else {
+        let Some(differences) = left_minus_right(&reading) else {
             return (Status::Undecided, none());
         };
         match self.all_zero(&differences, &BTreeMap::new()) {
@@ -155,6 +155,16 @@ impl<'a> Desk<'a> {
                 let cause = *cause;
                 self.believe(cause, &differences);
                 return (Status::Carried(cause), none());
+            }
+        }
+        // The student may have meant the other reading of a slash.
+        for other in formula::other_readings(text, &symbols).into_iter().take(4) {
+            let fits = left_minus_right(&other);
+            if fits.is_some_and(|d| self.all_zero(&d, &BTreeMap::new()) == Some(true)) {
+                self.link(&other);
+                let message = format!("holds when read as {}", super::show(&other.content));
+                let hint = "this line can be read in two ways; use brackets to say which is meant";
+                return (Status::Holds, vec![Diagnosis::new("AMBIGUOUS", message, hint)]);
             }
         }
         self.believe(number, &differences);
@@ -279,7 +289,7 @@ impl<'a> Desk<'a> {
 }
 
 /// Left minus right of every equation of a line, components of vectors one by one.
-fn differences(reading: &Reading) -> Option<Vec<Expr>> {
+fn left_minus_right(reading: &Reading) -> Option<Vec<Expr>> {
     let Content::Relations(sides, signs) = &reading.content else {
         return None;
     };
