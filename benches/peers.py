@@ -14,6 +14,7 @@ def plain(text):
     text = text.replace("θ", "theta").replace("α", "alpha").replace("β", "beta").replace("²", "^2")
     text = re.sub(r"sin(theta|alpha|beta)\b", r"sin(\1)", text)
     text = re.sub(r"(\d|\)|[a-zA-Z]\d?)\s+(?=[\w(])", r"\1*", text)
+    text = re.sub(r"\)\s*\(", ")*(", text)
     text = re.sub(r"(\d)(?=[a-zA-Z(])", r"\1*", text) if "1*" not in text else text
     text = re.sub(r"\b([mxyusw])\*(\d)", r"\1\2", text)
     return text.replace("sin*(", "sin(").replace("cos*(", "cos(").replace("sqrt*(", "sqrt(")

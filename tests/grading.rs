@@ -207,3 +207,24 @@ fn a_worked_solution_is_followed_beyond_its_first_slip() {
         ]
     );
 }
+
+#[test]
+fn a_line_of_a_batch_is_the_grade_as_data() {
+    let rows = rows(|name| name != "scenes.tsv");
+    for (_, line, cells) in &rows {
+        let grade = judge(
+            &cells[0],
+            &cells[1],
+            &Question::default(),
+            &Options::default(),
+        );
+        let id = serde_json::json!({"line": line});
+        let mut text = String::new();
+        carom::render::grade::line(&mut text, &id, &grade, &cells[1]);
+        let read: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        assert_eq!(
+            read,
+            carom::render::grade::json(Some(&id), &grade, &cells[1])
+        );
+    }
+}

@@ -16,7 +16,10 @@ use carom::scene;
 
 /// Cases of each test: few by default, as many as `CAROM_CASES` says for a long run.
 fn cases() -> u64 {
-    std::env::var("CAROM_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(300)
+    std::env::var("CAROM_CASES")
+        .ok()
+        .and_then(|n| n.parse().ok())
+        .unwrap_or(300)
 }
 
 /// SplitMix64, so that a case is known by its number.
@@ -49,15 +52,22 @@ fn scenes(folder: &Path, out: &mut Vec<PathBuf>) {
 /// Every scalar answer of every shipped scene, long ones aside.
 fn answers() -> Vec<(Sheet, Entry, Expr)> {
     let mut files = Vec::new();
-    scenes(&Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations"), &mut files);
+    scenes(
+        &Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations"),
+        &mut files,
+    );
     files.sort();
     let mut all = Vec::new();
     for file in files {
         let text = fs::read_to_string(&file).expect("a scene");
-        let Ok(scene) = scene::read(&text) else { continue };
+        let Ok(scene) = scene::read(&text) else {
+            continue;
+        };
         let Ok(sheet) = sheet(scene) else { continue };
         for name in sheet.quantities() {
-            let Ok(entry) = sheet.entry(&name) else { continue };
+            let Ok(entry) = sheet.entry(&name) else {
+                continue;
+            };
             if let Content::Scalar(e) = &entry.key.reading.content
                 && e.size() < 120
                 && !e.symbols().is_empty()
@@ -71,9 +81,19 @@ fn answers() -> Vec<(Sheet, Entry, Expr)> {
 }
 
 /// Changes the part at a random place.
-fn at_random(e: &Expr, rng: &mut Rng, change: &mut dyn FnMut(&Expr, &mut Rng) -> Option<Expr>) -> Option<Expr> {
+fn at_random(
+    e: &Expr,
+    rng: &mut Rng,
+    change: &mut dyn FnMut(&Expr, &mut Rng) -> Option<Expr>,
+) -> Option<Expr> {
     let mut left = rng.below(e.size()) as isize;
-    fn go(e: &Expr, left: &mut isize, rng: &mut Rng, change: &mut dyn FnMut(&Expr, &mut Rng) -> Option<Expr>, hit: &mut bool) -> Expr {
+    fn go(
+        e: &Expr,
+        left: &mut isize,
+        rng: &mut Rng,
+        change: &mut dyn FnMut(&Expr, &mut Rng) -> Option<Expr>,
+        hit: &mut bool,
+    ) -> Expr {
         if *left == 0 {
             *left -= 1;
             return match change(e, rng) {
@@ -109,14 +129,31 @@ fn rewrite(e: &Expr, rng: &mut Rng) -> Option<Expr> {
         (Node::Sum(terms), _) => Expr::sum(terms.iter().map(|t| t * &two)) * Expr::ratio(1, 2),
         (Node::Product(factors), 0) => Expr::product(factors.iter().rev().cloned()),
         (Node::Product(factors), _) => {
-            let (i, sum) = factors.iter().enumerate().find(|(_, f)| matches!(f.node(), Node::Sum(_)))?;
-            let Node::Sum(terms) = sum.node() else { return None };
-            let rest = Expr::product(factors.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, f)| f.clone()));
+            let (i, sum) = factors
+                .iter()
+                .enumerate()
+                .find(|(_, f)| matches!(f.node(), Node::Sum(_)))?;
+            let Node::Sum(terms) = sum.node() else {
+                return None;
+            };
+            let rest = Expr::product(
+                factors
+                    .iter()
+                    .enumerate()
+                    .filter(|(j, _)| *j != i)
+                    .map(|(_, f)| f.clone()),
+            );
             Expr::sum(terms.iter().map(|t| t * &rest))
         }
-        (Node::Power(base, k), _) if k.as_number().is_some_and(|k| k.is_integer()) => base.power(k - &Expr::one()) * base,
-        (Node::Call(Function::Sin, x), _) => (x * &Expr::ratio(1, 2)).sin() * (x * &Expr::ratio(1, 2)).cos() * two,
-        (Node::Call(Function::Cos, x), 0) => Expr::one() - (x * &Expr::ratio(1, 2)).sin().powi(2) * two,
+        (Node::Power(base, k), _) if k.as_number().is_some_and(|k| k.is_integer()) => {
+            base.power(k - &Expr::one()) * base
+        }
+        (Node::Call(Function::Sin, x), _) => {
+            (x * &Expr::ratio(1, 2)).sin() * (x * &Expr::ratio(1, 2)).cos() * two
+        }
+        (Node::Call(Function::Cos, x), 0) => {
+            Expr::one() - (x * &Expr::ratio(1, 2)).sin().powi(2) * two
+        }
         (Node::Call(Function::Cos, x), _) => (Expr::pi() * Expr::ratio(1, 2) - x).sin(),
         _ => return None,
     })
@@ -132,7 +169,12 @@ fn mutate(e: &Expr, symbols: &[Expr], rng: &mut Rng) -> Option<Expr> {
         (Node::Sum(terms), 0) => Expr::sum(terms[1..].iter().cloned()),
         (Node::Sum(terms), _) => {
             let i = rng.below(terms.len());
-            Expr::sum(terms.iter().enumerate().map(|(j, t)| if i == j { -t } else { t.clone() }))
+            Expr::sum(
+                terms
+                    .iter()
+                    .enumerate()
+                    .map(|(j, t)| if i == j { -t } else { t.clone() }),
+            )
         }
         (Node::Product(factors), 0) => Expr::product(factors[1..].iter().cloned()),
         (Node::Product(_), _) => -e,
@@ -186,11 +228,20 @@ fn a_rewritten_answer_is_right_in_every_notation() {
         match grade.verdict {
             Verdict::Equivalent => {}
             Verdict::Undecided => undecided += 1,
-            other => panic!("case {case}, {}: {} for {text}: {other:?}, {:?}", sheet.scene.title, write_plain(e), grade.error),
+            other => panic!(
+                "case {case}, {}: {} for {text}: {other:?}, {:?}",
+                sheet.scene.title,
+                write_plain(e),
+                grade.error
+            ),
         }
     }
     println!("{} rewrites, {undecided} undecided", cases());
-    assert!(undecided * 1000 <= cases(), "{undecided} of {} undecided", cases());
+    assert!(
+        undecided * 1000 <= cases(),
+        "{undecided} of {} undecided",
+        cases()
+    );
 }
 
 #[test]
@@ -201,26 +252,87 @@ fn a_changed_answer_is_refuted_where_doubles_see_it_too() {
         let mut rng = Rng(case.wrapping_mul(7) + 3);
         let (sheet, entry, e) = &answers[rng.below(answers.len())];
         let symbols: Vec<Expr> = e.symbols().iter().map(|s| Expr::symbol(s)).collect();
-        let Some(new) = at_random(e, &mut rng, &mut |part, rng| mutate(part, &symbols, rng)) else { continue };
+        let Some(new) = at_random(e, &mut rng, &mut |part, rng| mutate(part, &symbols, rng)) else {
+            continue;
+        };
         let text = written(&new, &mut rng);
         let grade = judge_against(&entry.key, &text, &Options::default());
         let seen = agree(e, &new, &sheet.scene.domains);
         match (grade.verdict, seen) {
-            (Verdict::Equivalent, Some(false)) => panic!("case {case}: {} taken for {text}", write_plain(e)),
-            (Verdict::Different, Some(true)) => panic!("case {case}: {} told from {text}, {:?}", write_plain(e), grade.counterexample),
+            (Verdict::Equivalent, Some(false)) => {
+                panic!("case {case}: {} taken for {text}", write_plain(e))
+            }
+            (Verdict::Different, Some(true)) => panic!(
+                "case {case}: {} told from {text}, {:?}",
+                write_plain(e),
+                grade.counterexample
+            ),
             (Verdict::Different, _) => {
-                assert!(grade.counterexample.is_some(), "case {case}: no point for {text}");
+                assert!(
+                    grade.counterexample.is_some(),
+                    "case {case}: no point for {text}"
+                );
                 refuted += 1;
             }
             (Verdict::Equivalent, _) => equal += 1,
             (Verdict::Undecided, _) => undecided += 1,
             // A division by zero is no answer.
             (Verdict::Invalid, _) => {
-                assert!(grade.error.is_none(), "case {case}: {text}: {:?}", grade.error);
+                assert!(
+                    grade.error.is_none(),
+                    "case {case}: {text}: {:?}",
+                    grade.error
+                );
             }
         }
     }
-    println!("{} changes: {refuted} refuted, {equal} equal after all, {undecided} undecided", cases());
-    assert!(undecided * 1000 <= cases(), "{undecided} of {} undecided", cases());
+    println!(
+        "{} changes: {refuted} refuted, {equal} equal after all, {undecided} undecided",
+        cases()
+    );
+    assert!(
+        undecided * 1000 <= cases(),
+        "{undecided} of {} undecided",
+        cases()
+    );
     assert!(refuted * 10 > cases() * 7, "only {refuted} refuted");
+}
+
+#[test]
+fn no_jumble_of_tokens_makes_grading_panic() {
+    const TOKENS: [&str; 48] = [
+        "a", "b", "v_1", "theta", "θ", "\\frac", "{", "}", "(", ")", "[", "]", "|", "^", "_", "+",
+        "-", "±", "*", "/", "=", "<", "≤", "sin", "cos", "\\sqrt", "√", "²", "1", "2.5", "1e9",
+        "0", "pi", "°", "m/s", "kg", " ", ",", ".", "'", "\\left", "\\right", "\\cdot", "abs",
+        "ln", "e", "\\hat i", "\\boxed",
+    ];
+    for case in 0..cases() * 10 {
+        let mut rng = Rng(case ^ 0x5eed);
+        let text = |rng: &mut Rng| -> String {
+            (0..1 + rng.below(12))
+                .map(|_| TOKENS[rng.below(TOKENS.len())])
+                .collect()
+        };
+        let (expected, answer) = (text(&mut rng), text(&mut rng));
+        let grade = carom::grade::judge(
+            &expected,
+            &answer,
+            &carom::grade::Question::default(),
+            &Options::default(),
+        );
+        // Whatever can be read equals itself, or has no value.
+        let same = carom::grade::judge(
+            &expected,
+            &expected,
+            &carom::grade::Question::default(),
+            &Options::default(),
+        );
+        assert_ne!(
+            same.verdict,
+            Verdict::Different,
+            "{expected}: {}",
+            same.note
+        );
+        assert!(grade.verdict.reward().is_some() || !grade.note.is_empty());
+    }
 }

@@ -362,7 +362,7 @@ fn one(line: &Line, options: &Options, keys: &mut Keys, sheets: &Sheets, out: &m
             message: message.clone(),
         }),
     };
-    let value = match read {
+    match read {
         Ok(entry) => {
             let grade = entry::judge(&entry, keys, &|entry, scene| sheets.judge(entry, scene));
             let text = match grade.note {
@@ -370,12 +370,10 @@ fn one(line: &Line, options: &Options, keys: &mut Keys, sheets: &Sheets, out: &m
                 "INVALID_LINE" => "",
                 _ => &entry.answer,
             };
-            render::grade::json(Some(&entry.id), &grade, text)
+            render::grade::line(out, &entry.id, &grade, text);
         }
-        Err(bad) => render::grade::json(Some(&bad.id), &entry::refused(bad.message), ""),
-    };
-    out.push_str(&value.to_string());
-    out.push('\n');
+        Err(bad) => render::grade::line(out, &bad.id, &entry::refused(bad.message), ""),
+    }
 }
 
 /// Scenes named in a batch, each derived once.

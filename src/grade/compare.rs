@@ -142,6 +142,11 @@ fn claim(content: &Content) -> Claim<'_> {
 }
 
 fn compare(ctx: &Context, answer: &Reading) -> Finding {
+    if matches!(answer.content, Content::Relations(..)) && answer.content == ctx.key.reading.content
+    {
+        let proof = Proof::of("identity", "the same relation");
+        return Finding::new(Verdict::Equivalent, "EQUIV_SOLUTIONS", proof);
+    }
     let asked = &ctx.key.question.asked;
     let is_asked = |name: &Symbol| asked.iter().any(|g| g.name == *name);
     match (claim(&ctx.key.reading.content), claim(&answer.content)) {

@@ -310,7 +310,8 @@ pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
         }
     };
     let mut finding = compare::contents(key, &reading, options);
-    if reading.choices > 0 || power_of_function(&reading.content).is_some() {
+    let open_to_doubt = reading.choices > 0 || power_of_function(&reading.content).is_some();
+    if options.strength == Strength::Identity && open_to_doubt {
         ambiguity(key, answer, options, &reading, &mut finding);
     }
     if finding.verdict == Verdict::Equivalent

@@ -164,7 +164,10 @@ impl<'a> Desk<'a> {
                 self.link(&other);
                 let message = format!("holds when read as {}", super::show(&other.content));
                 let hint = "this line can be read in two ways; use brackets to say which is meant";
-                return (Status::Holds, vec![Diagnosis::new("AMBIGUOUS", message, hint)]);
+                return (
+                    Status::Holds,
+                    vec![Diagnosis::new("AMBIGUOUS", message, hint)],
+                );
             }
         }
         self.believe(number, &differences);
