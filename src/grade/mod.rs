@@ -210,8 +210,17 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
         Symbols::open()
     };
     declare(&mut symbols, question);
-    let reading = formula::read(expected, &symbols)?;
-    Ok(from_reading(reading, question))
+    let mut key = from_reading(formula::read(expected, &symbols)?, question);
+    // With its names declared a text may split otherwise; the same text has to mean the same in key and answer.
+    for _ in 0..3 {
+        match read_answer(&key, expected) {
+            Ok(again) if again.content != key.reading.content => {
+                key = from_reading(again, question)
+            }
+            _ => break,
+        }
+    }
+    Ok(key)
 }
 
 /// A key from an expression that was derived rather than typed.
