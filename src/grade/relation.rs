@@ -10,7 +10,7 @@ use super::{Apart, Diagnosis, Proof, Verdict};
 use crate::algebra::{Field, Sign};
 use crate::domain::{Domains, roles, samples};
 use crate::equality::{self, Equality};
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Content, Relation};
 use crate::interval::{Interval, Outcome, evaluate};
 
@@ -201,6 +201,20 @@ fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     let (f, g) = (&expected.difference, &answer.difference);
     // A solution of one that the other lacks.
     let lost = solution_apart(f, g, domains);
+    if let (Some(at), Some(_)) = (&lost, solution_apart(g, f, domains)) {
+        let words = "the equation says something else than the expected one";
+        let mut finding = parted(ctx, words, "DIFF_EQUATION", at.clone(), f, g);
+        if let Some(term) = turned_term(f, g, domains) {
+            let message = format!("right with the sign of {} turned", ctx.say(&term));
+            finding.note = "DIFF_TERM_SIGN";
+            finding.diagnosis = vec![Diagnosis::new(
+                "TERM_SIGN",
+                message,
+                "one term of your equation has the wrong sign",
+            )];
+        }
+        return finding;
+    }
     if let Some(at) = lost {
         let words = "a solution of the expected equation does not fulfil the answer";
         return parted(ctx, words, "DIFF_ROOT_LOST", at, f, g);
@@ -276,18 +290,34 @@ fn parted(
         expected: format!("left minus right is {}", ctx.say(&at.1)),
     });
     let hint = match note {
+        "DIFF_EQUATION" => "compare your equation with the law it comes from, term by term",
         "DIFF_ROOT_LOST" => "a solution is missing or the equation says something else",
         _ => "your equation is fulfilled where it should not be",
     };
-    finding.with(Diagnosis::new(
-        if note == "DIFF_ROOT_LOST" {
-            "ROOT_LOST"
-        } else {
-            "ROOT_GAINED"
-        },
-        words,
-        hint,
-    ))
+    let code = match note {
+        "DIFF_EQUATION" => "EQUATION",
+        "DIFF_ROOT_LOST" => "ROOT_LOST",
+        _ => "ROOT_GAINED",
+    };
+    finding.with(Diagnosis::new(code, words, hint))
+}
+
+/// The one term of the answer whose sign has to be turned to make the equations the same.
+fn turned_term(f: &Expr, g: &Expr, domains: &Domains) -> Option<Expr> {
+    let Node::Sum(terms) = g.node() else {
+        return None;
+    };
+    (0..terms.len().min(12)).find_map(|i| {
+        let all = terms
+            .iter()
+            .enumerate()
+            .map(|(j, t)| if i == j { -t } else { t.clone() });
+        let normal = |difference: Expr| Normal {
+            difference,
+            relation: Relation::Equal,
+        };
+        same_sign(&normal(f.clone()), &normal(Expr::sum(all)), domains).map(|_| terms[i].clone())
+    })
 }
 
 /// The value of a symbol at which a difference vanishes, where it is linear in the symbol.
