@@ -179,6 +179,11 @@ fn solve_command(
 ) -> Result<u8, Failure> {
     let scene = read_scene(path, set)?;
     let name = path.display();
+    if scene.story.is_some() {
+        return Err(Failure::Input(format!(
+            "{name}: a scene with stages is not solved in numbers at one blow\nhint: `carom derive` with --set gives the numbers beside the formulas"
+        )));
+    }
     let no_point = |reason: numeric::NoPoint| {
         Failure::Input(match reason {
             numeric::NoPoint::Missing(symbols) => {

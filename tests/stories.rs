@@ -134,3 +134,163 @@ fn energy_is_kept_wherever_a_stage_says_so() {
         }
     }
 }
+
+/// A story in which a rod catches a peg, with these questions beside.
+fn with(questions: &str) -> Result<Told, String> {
+    let text = format!(
+        r#"{{
+          "parameters": {{
+            "m": {{"unit": "kg"}}, "l": {{"unit": "m"}}, "v": {{"unit": "m/s"}}, "g": {{"unit": "m/s^2"}},
+            "e": {{"unit": "1", "domain": {{"min": 0, "max": 1}}}}, "x": {{"unit": "1"}}, "y": {{"unit": "1"}}
+          }},
+          "points": {{"O": ["0", "0"]}},
+          "bodies": {{
+            "peg": {{"shape": "fixed"}},
+            "rod": {{"shape": "rod", "mass": "m", "length": "l", "center": ["l/2", "0"], "velocity": ["0", "-v"]}}
+          }},
+          "stages": [
+            {{"name": "catch", "impact": {{"contacts": {{"O": {{"bodies": ["peg", "rod"], "at": "O", "law": "sticking"}}}}}}}},
+            {{"name": "swing", "turn": {{"body": "rod", "about": "O", "until": "above", "gravity": "g"}}}}
+          ],
+          "questions": {{"K": {{"at": "swing", "energy": "after"}}, {questions}}}
+        }}"#
+    );
+    let scene = carom::scene::read(&text).map_err(|faults| faults.render("test", &text))?;
+    let story = scene.story.as_ref().expect("stages");
+    tell(&scene, story).map_err(|reason| reason.to_string())
+}
+
+fn answer(questions: &str) -> carom::story::Answer {
+    let told = with(questions).unwrap_or_else(|reason| panic!("{reason}"));
+    told.answers
+        .into_iter()
+        .find(|a| a.name == "q")
+        .expect("the answer")
+}
+
+fn said(questions: &str) -> String {
+    answer(questions).text.join("; ")
+}
+
+#[test]
+fn a_threshold_tells_its_side_and_whether_the_limit_belongs_to_it() {
+    for (holds, expected) in [
+        ("K > 0", ">"),
+        ("K >= 0", "≥"),
+        ("0 > K", "<"),
+        ("0 >= K", "≤"),
+    ] {
+        let a = answer(&format!(r#""q": {{"threshold": "v", "holds": "{holds}"}}"#));
+        assert_eq!(
+            a.range.first().map(|r| r.1.sign()),
+            Some(expected),
+            "{holds}"
+        );
+        assert!(
+            a.checks
+                .iter()
+                .any(|c| c.kind == "sign" && c.holds == Some(true)),
+            "{holds}"
+        );
+    }
+}
+
+#[test]
+fn a_condition_that_always_or_never_holds_is_told_as_such() {
+    assert!(said(r#""q": {"threshold": "v", "holds": "v*m > 0"}"#).starts_with("it always holds"));
+    assert!(
+        said(r#""q": {"threshold": "v", "holds": "v + sqrt(g*l) < 0"}"#)
+            .starts_with("it never holds")
+    );
+    assert!(said(r#""q": {"threshold": "g", "holds": "v > 0"}"#).contains("plays no part"));
+}
+
+#[cfg(feature = "report")]
+#[test]
+fn just_below_and_just_above_a_threshold_the_integrated_motion_differs() {
+    let a = answer(r#""q": {"threshold": "v", "holds": "K <= 0"}"#);
+    assert!(
+        a.checks
+            .iter()
+            .any(|c| c.kind == "integration" && c.holds == Some(true))
+    );
+    let told = with(r#""q": {"threshold": "v", "holds": "K <= 0"}"#).expect("a story");
+    assert!(
+        told.stages[1]
+            .checks
+            .iter()
+            .any(|c| c.kind == "integration" && c.holds == Some(true))
+    );
+}
+
+#[test]
+fn roots_of_higher_degree_are_isolated_and_those_outside_the_domain_named() {
+    let a = answer(r#""q": {"solve": "x", "holds": "x^5 - x - 1 = 0"}"#);
+    assert!(a.text.join(" ").contains("1.1673"), "{:?}", a.text);
+    let a = answer(r#""q": {"solve": "x", "holds": "x^2 - x - 2 = 0"}"#);
+    assert_eq!(a.formula.as_ref().map(write_plain).as_deref(), Some("2"));
+    assert!(
+        a.discarded.iter().any(|d| d.contains("-1")),
+        "{:?}",
+        a.discarded
+    );
+    assert!(said(r#""q": {"solve": "x", "holds": "x^5 + y*x = 1"}"#).contains("degree 5"));
+}
+
+#[test]
+fn a_solution_brought_in_by_squaring_is_discarded() {
+    // √(x + 2) = x has the solution 2; squared, also −1, and √(x + 2) = x − 4 has 7 and not 2.
+    let a = answer(r#""q": {"solve": "x", "holds": "sqrt(x + 2) = x - 4"}"#);
+    assert_eq!(a.formula.as_ref().map(write_plain).as_deref(), Some("7"));
+    assert!(
+        a.discarded.iter().any(|d| d.contains("squaring")),
+        "{:?}",
+        a.discarded
+    );
+}
+
+#[test]
+fn a_maximum_inside_at_the_bound_or_at_infinity_is_told_apart() {
+    let inside = answer(r#""q": {"maximum": "e*(1 - e)", "over": ["e"]}"#);
+    assert_eq!(
+        inside.formula.as_ref().map(write_plain).as_deref(),
+        Some("1/4")
+    );
+    let bound = answer(r#""q": {"maximum": "v*(1 + e)", "over": ["e"]}"#);
+    assert_eq!(
+        bound.formula.as_ref().map(write_plain).as_deref(),
+        Some("2*v")
+    );
+    assert!(bound.text.join(" ").contains("bound"));
+    assert!(said(r#""q": {"maximum": "v/(1 + 1/x)", "over": ["x"]}"#).contains("never reached"));
+    assert!(with(r#""q": {"maximum": "x/(1 + x^2) + y/(1 + y^2)", "over": ["x", "y"]}"#).is_err());
+}
+
+#[test]
+fn a_false_claim_to_be_shown_fails_its_check() {
+    let told = with(r#""q": {"show": "K = m*v^2"}"#).expect("a story");
+    assert!(!told.holds());
+}
+
+#[test]
+fn limits_are_found_by_value_by_powers_and_by_derivatives() {
+    for (limit, to, expected) in [
+        ("(x^2 - 1)/(x - 1)", "1", "2"),
+        ("sin(x)/x", "0", "1"),
+        ("(2*x + 1)/(x + 3)", "infinity", "2"),
+        ("sqrt(x)/(x + 1)", "infinity", "0"),
+    ] {
+        let a = answer(&format!(
+            r#""q": {{"limit": "{limit}", "tends": "x", "to": "{to}"}}"#
+        ));
+        assert_eq!(
+            a.formula.as_ref().map(write_plain).as_deref(),
+            Some(expected),
+            "{limit}"
+        );
+    }
+    assert!(
+        said(r#""q": {"limit": "x^2/(x + 1)", "tends": "x", "to": "infinity"}"#)
+            .contains("beyond all bounds")
+    );
+}

@@ -18,6 +18,9 @@ pub struct DrawArgs {
     /// Draw the free-body diagram of this body alone (with --which during)
     #[arg(long, value_name = "BODY")]
     body: Option<String>,
+    /// Name of the impact to draw, where the scene has stages; the first one without it
+    #[arg(long, value_name = "NAME")]
+    stage: Option<String>,
     /// File to write, `.svg` or `.png`; without it the SVG goes to standard output
     #[arg(short, long)]
     output: Option<PathBuf>,
@@ -40,7 +43,21 @@ enum Picture {
 
 /// Draws a scene.
 pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
-    let scene = read_scene(&args.scene, &args.set)?;
+    let mut scene = read_scene(&args.scene, &args.set)?;
+    if let Some(stages) = &scene.story {
+        let refused =
+            |reason: String| Failure::Input(format!("{}: {reason}", args.scene.display()));
+        let told = carom::story::tell(&scene, stages).map_err(|r| refused(r.to_string()))?;
+        let stage = carom::story::impact(&scene, &told, args.stage.as_deref());
+        scene = stage.ok_or_else(|| {
+            let all = told.stages.iter().filter(|s| !s.cases.is_empty());
+            let names: Vec<&str> = all.map(|s| s.name.as_str()).collect();
+            refused(format!(
+                "no impact to draw\nhint: impacts here: {}",
+                names.join(", ")
+            ))
+        })?;
+    }
     let subject = match &args.body {
         None => Subject::System,
         Some(name) => {

@@ -191,6 +191,13 @@ fn only_quantity(sheet: &Sheet) -> Option<String> {
 
 fn open(path: &Path) -> Result<Sheet, Failure> {
     let scene = read_scene(path, &[])?;
+    if let Some(stages) = &scene.story {
+        let told = carom::story::tell(&scene, stages)
+            .map_err(|reason| Failure::Input(format!("{}: {reason}", path.display())))?;
+        let (scene, derivation) = carom::story::sheet(&scene, &told)
+            .map_err(|stop| Failure::Input(format!("{}: {stop}", path.display())))?;
+        return Ok(sheet::Sheet { scene, derivation });
+    }
     sheet::sheet(scene).map_err(|stop| Failure::Input(format!("{}: {stop}", path.display())))
 }
 

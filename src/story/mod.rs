@@ -11,11 +11,14 @@ mod integrate;
 mod motion;
 mod optimum;
 mod roots;
+mod sheet;
 mod threshold;
 mod words;
 
 use std::collections::BTreeMap;
 use std::fmt;
+
+pub use sheet::{impact, sheet};
 
 use crate::derive::{Derivation, Stop};
 use crate::dimension::Dimension;

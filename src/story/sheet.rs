@@ -1,0 +1,108 @@
+//! A told story as one scene and one derivation, for those who grade, verify and draw: all answers, and the first impact.
+//!
+//! In: a scene and its story as told. Out: the scene of an impact with the motion handed on put in, and its derivation with
+//! the answers of the whole story in place of its own. Nothing is derived here.
+
+use super::{Case, Told};
+use crate::derive::{self, Answer, Derivation, Form, Stop};
+use crate::expr::Expr;
+use crate::scene::{Ask, EnergyWhen, Question, Scene, StoryAsk};
+
+/// The scene of an impact, by name of its stage; the first one for `None`. `None` where there is no such impact.
+pub fn impact(scene: &Scene, told: &Told, stage: Option<&str>) -> Option<Scene> {
+    let found = told
+        .stages
+        .iter()
+        .find(|s| stage.map_or(!s.cases.is_empty(), |name| s.name == name))?;
+    Some(put_together(scene, found.cases.first()?))
+}
+
+/// The story as one scene and one derivation.
+pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
+    let first = told.stages.iter().position(|s| !s.cases.is_empty());
+    let case = first.and_then(|i| told.stages[i].cases.first());
+    let (mut flat, mut derivation) = match case {
+        Some(case) => (put_together(scene, case), case.derivation.clone()),
+        None => {
+            let mut bare = scene.clone();
+            bare.story = None;
+            let derivation = derive::derive(&bare)?;
+            (bare, derivation)
+        }
+    };
+    if let Some(case) = case {
+        for value in derivation.motion.values_mut() {
+            *value = case.put_in(value);
+        }
+    }
+    // A question of another stage has no meaning in this scene; what was before hangs on no law and misleads nobody.
+    let elsewhere = || Ask::Energy {
+        when: EnergyWhen::Before,
+        of: None,
+    };
+    let asked = scene.story.iter().flat_map(|s| &s.questions);
+    flat.questions = asked
+        .map(|q| Question {
+            name: q.name.clone(),
+            latex: q.latex.clone(),
+            ask: match &q.ask {
+                StoryAsk::Quantity { stage, question } if Some(*stage) == first => scene
+                    .story
+                    .as_ref()
+                    .and_then(|s| s.stages[*stage].scene.questions.get(*question))
+                    .map_or_else(elsewhere, |q| q.ask.clone()),
+                _ => elsewhere(),
+            },
+        })
+        .collect();
+    derivation.definitions.clear();
+    derivation.answers = told.answers.iter().filter_map(flat_answer).collect();
+    let has_answer = |q: &Question| derivation.answers.iter().any(|a| a.question == q.name);
+    flat.questions.retain(has_answer);
+    Ok((flat, derivation))
+}
+
+fn flat_answer(a: &super::Answer) -> Option<Answer> {
+    let form = match (&a.formula, &a.equation) {
+        (Some(closed), _) => Form::Value {
+            closed: closed.clone(),
+            short: closed.clone(),
+        },
+        (None, Some((left, right))) => Form::Equation {
+            left: left.clone(),
+            right: right.clone(),
+        },
+        (None, None) => return None,
+    };
+    // Further outcomes and places of maxima are answers of their own.
+    let is_component = |suffix: &str| a.name == format!("{}{suffix}", a.question);
+    let question = if is_component("_x") || is_component("_y") || a.name == a.question {
+        a.question.clone()
+    } else {
+        return None;
+    };
+    Some(Answer {
+        question,
+        name: a.name.clone(),
+        latex: a.latex.clone(),
+        axis: ["_x", "_y"].iter().position(|s| is_component(s)),
+        words: a.words.clone(),
+        form,
+        dimension: a.dimension.clone(),
+    })
+}
+
+/// The scene of an outcome, with what was handed on put in.
+fn put_together(scene: &Scene, case: &Case) -> Scene {
+    let mut out = case.scene.clone();
+    out.statement = scene.statement.clone();
+    out.printed = scene.printed.clone();
+    out.domains = scene.domains.clone();
+    out.questions.clear();
+    let put = |e: &mut Expr| *e = case.put_in(e);
+    for body in &mut out.bodies {
+        put(&mut body.spin);
+        body.velocity.iter_mut().for_each(put);
+    }
+    out
+}
