@@ -575,8 +575,8 @@ fn placed_after(scene: &Scene, kind: &StageKind) -> Vec<Placed> {
         }
         StageKind::Slide(slide) => {
             let center = &mut all[slide.body].0;
-            for k in 0..2 {
-                center[k] = &center[k] + &(&slide.along[k] * &slide.distance);
+            for (coordinate, along) in center.iter_mut().zip(&slide.along) {
+                *coordinate = &*coordinate + &(along * &slide.distance);
             }
         }
         StageKind::Fall(fall) => {

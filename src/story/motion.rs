@@ -142,8 +142,8 @@ pub(super) fn turn(stage: &Stage, before: State, turn: &Turn) -> Result<StageTol
     let spin = before.spin[turn.body].clone();
     let [r, r_end] = arms(stage, turn);
     let needed = [-(&spin * &r[1]), &spin * &r[0]];
-    for k in 0..2 {
-        let gap = &before.velocity[turn.body][k] - &needed[k];
+    for (velocity, needed) in before.velocity[turn.body].iter().zip(&needed) {
+        let gap = velocity - needed;
         if is_zero(&gap, domains) == Some(false) {
             return Err(Refused::new(
                 &stage.name,
@@ -209,9 +209,8 @@ pub(super) fn turn(stage: &Stage, before: State, turn: &Turn) -> Result<StageTol
         tidied(stage, &(&spin_end * &r_end[0]))?,
     ];
     let mut after = before.clone();
-    for k in 0..2 {
-        after.center[turn.body][k] = &turn.about[k] + &r_end[k];
-    }
+    let [x, y] = &r_end;
+    after.center[turn.body] = [&turn.about[0] + x, &turn.about[1] + y];
     after.spin[turn.body] = spin_end;
     after.velocity[turn.body] = velocity;
     let mut out = told(stage, "turn", before, after);
