@@ -1,7 +1,7 @@
 //! `carom grade` and `carom read`: one answer, a batch of answers, or how a formula is understood.
 
 use std::collections::HashMap;
-use std::io::{BufRead, IsTerminal, Write};
+use std::io::{BufRead, BufReader, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
@@ -273,12 +273,10 @@ fn batch(args: &GradeArgs, options: &Options) -> Result<u8, Failure> {
         );
         bar
     });
-    let mut input = std::io::stdin().lock();
+    let mut input = BufReader::with_capacity(1 << 22, std::io::stdin().lock());
     let mut out = std::io::BufWriter::with_capacity(1 << 16, std::io::stdout().lock());
-    // Small chunks first, so that whoever asks line by line does not wait for thousands.
-    let mut wanted = 1;
     loop {
-        let lines = lines(&mut input, wanted)?;
+        let lines = lines(&mut input, CHUNK)?;
         if lines.is_empty() {
             break;
         }
@@ -302,7 +300,6 @@ fn batch(args: &GradeArgs, options: &Options) -> Result<u8, Failure> {
         if let Some(bar) = &progress {
             bar.inc(lines.len() as u64);
         }
-        wanted = (wanted * 4).min(CHUNK);
     }
     if let Some(bar) = progress {
         bar.finish_and_clear();
@@ -313,10 +310,11 @@ fn batch(args: &GradeArgs, options: &Options) -> Result<u8, Failure> {
 /// A line of input, or what is wrong with its bytes.
 type Line = Result<String, String>;
 
-/// Up to `count` lines that are not blank; what is already there is not made to wait for more.
-fn lines(input: &mut impl BufRead, count: usize) -> Result<Vec<Line>, Failure> {
+/// Up to `count` lines that are not blank. Lines that are there are not made to wait for more: whoever asks line by line
+/// gets each answer before the next question.
+fn lines(input: &mut BufReader<impl std::io::Read>, count: usize) -> Result<Vec<Line>, Failure> {
     let mut out = Vec::new();
-    while out.len() < count {
+    while out.len() < count && (out.is_empty() || input.buffer().contains(&b'\n')) {
         let mut line = Vec::new();
         let mut long = false;
         let mut ended = false;
@@ -418,10 +416,20 @@ impl Sheets {
         if let Some(sheet) = lock(&self.known) {
             return sheet;
         }
-        let sheet = Arc::new(match open(Path::new(path)) {
-            Ok(sheet) => Ok(sheet),
-            Err(Failure::Input(message)) => Err(message),
-            Err(Failure::Output(error)) => Err(error.to_string()),
+        // Lines come from strangers: no way out of the folder, and nothing of a file's text in a message.
+        let inside = Path::new(path).components().all(|c| {
+            matches!(
+                c,
+                std::path::Component::Normal(_) | std::path::Component::CurDir
+            )
+        });
+        let sheet = Arc::new(match inside {
+            true => open(Path::new(path)).map_err(|_| {
+                format!("{path}: not a readable scene; `carom derive {path}` tells why")
+            }),
+            false => Err(format!(
+                "{path}: a scene is named by a path below the working folder, without `..`"
+            )),
         });
         if let Ok(mut map) = self.known.lock() {
             if map.len() >= SHEETS {

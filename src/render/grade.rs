@@ -48,7 +48,7 @@ pub fn json(id: Option<&Value>, grade: &Grade, text: &str) -> Value {
     Value::Object(out)
 }
 
-/// The same as [`json`] with an `id`, appended to `out` as one line; a batch spends no time on building values.
+/// The same as [`json()`] with an `id`, appended to `out` as one line; a batch spends no time on building values.
 pub fn line(out: &mut String, id: &Value, grade: &Grade, text: &str) {
     let quoted = |out: &mut String, text: &str| {
         // Plain characters need no escape; nearly all texts are made of them.
