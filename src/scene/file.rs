@@ -532,7 +532,7 @@ record! {
         remark: Option<Text>,
         /// What is assumed?
         assumed: Option<bool>,
-        /// Which data are not needed?
-        unused: Option<bool>,
+        /// Name of an earlier answer: which data does it not need?
+        unused: Option<Text>,
     }
 }

@@ -85,7 +85,7 @@ pub(super) fn resolve(file: &SceneFile, mut faults: Vec<Fault>) -> (Scene, Vec<F
         faults = check(&mut scene, &claims);
         let unused = unused(&scene, |name| symbols.is_used(name));
         // Data that a problem gives in vain are no oversight where the scene asks for them.
-        let asks = |q: &super::StoryQuestion| matches!(q.ask, super::StoryAsk::Unused);
+        let asks = |q: &super::StoryQuestion| matches!(q.ask, super::StoryAsk::Unused(_));
         if !scene
             .story
             .as_ref()

@@ -243,6 +243,6 @@ pub enum StoryAsk {
     Remark(String),
     /// What is assumed.
     Assumed,
-    /// Which given data the answers do not need.
-    Unused,
+    /// Which given data an earlier answer, by name, does not need.
+    Unused(String),
 }

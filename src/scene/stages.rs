@@ -822,11 +822,24 @@ fn story_ask(
             stage: stage(text)?,
         });
     }
-    Some(if q.unused.is_some() {
-        StoryAsk::Unused
-    } else {
-        StoryAsk::Assumed
-    })
+    if let Some(of) = &q.unused {
+        let names = symbols
+            .names()
+            .declared()
+            .iter()
+            .map(|d| d.name.to_string());
+        if !names.clone().any(|n| n == of.text)
+            || parameter_names(base.file).contains(&of.text.as_str())
+        {
+            base.faults.push(Fault::new(
+                of.span,
+                format!("no earlier answer is called `{}`", of.text),
+            ));
+            return None;
+        }
+        return Some(StoryAsk::Unused(of.text.clone()));
+    }
+    Some(StoryAsk::Assumed)
 }
 
 /// A formula of parameters and earlier answers.
@@ -852,7 +865,7 @@ fn with(
 
 /// The symbol of a parameter.
 fn parameter(base: &mut Resolver<'_>, name: &Text) -> Option<Symbol> {
-    let all: Vec<&str> = keys(base.file);
+    let all: Vec<&str> = parameter_names(base.file);
     if all.contains(&name.text.as_str()) {
         base.symbols.mark_used(&name.text);
         return Some(name.text.as_str().into());
@@ -861,7 +874,7 @@ fn parameter(base: &mut Resolver<'_>, name: &Text) -> Option<Symbol> {
     None
 }
 
-fn keys(file: &SceneFile) -> Vec<&str> {
+fn parameter_names(file: &SceneFile) -> Vec<&str> {
     file.parameters
         .iter()
         .flat_map(|m| &m.0)

@@ -309,13 +309,18 @@ fn one(
             out.text = words::assumed(story, stages);
             out
         }
-        StoryAsk::Unused => {
-            let mut out = blank(question, name, "data that are not needed");
-            let unused = unused(scene, earlier);
+        StoryAsk::Unused(of) => {
+            let mut out = blank(question, name, format!("data that `{of}` does not need"));
+            let asked: Vec<Answer> = earlier
+                .iter()
+                .filter(|a| a.question == *of || a.name == *of)
+                .cloned()
+                .collect();
+            let unused = unused(scene, &asked);
             out.text.push(if unused.is_empty() {
-                String::from("all of the data are used")
+                format!("`{of}` needs all of the data")
             } else {
-                format!("not needed: {}", unused.join(", "))
+                format!("`{of}` does not need {}", unused.join(", "))
             });
             out
         }

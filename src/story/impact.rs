@@ -37,7 +37,7 @@ pub(super) fn tell(
         body.spin = w.clone();
     }
     hinges_fit(stage, &base)?;
-    approach(stage, &base)?;
+    let approaching = approach(stage, &base)?;
     let handed = hand_on(&mut base);
     let mut cases: Vec<Case> = Vec::new();
     let mut contradiction = None;
@@ -69,6 +69,7 @@ pub(super) fn tell(
         ));
     }
     for case in &mut cases {
+        case.conditions.extend(approaching.iter().cloned());
         case.after = state_after(stage, &before, case)?;
     }
     let after = cases[0].after.clone();
@@ -272,8 +273,9 @@ fn hinges_fit(stage: &Stage, scene: &Scene) -> Result<(), Refused> {
     Ok(())
 }
 
-/// Bodies that part before they touch do not collide.
-fn approach(stage: &Stage, scene: &Scene) -> Result<(), Refused> {
+/// Bodies that part before they touch do not collide. Gives what must be ≥ 0 for them to approach, where that is not sure.
+fn approach(stage: &Stage, scene: &Scene) -> Result<Vec<(String, Expr)>, Refused> {
+    let mut conditions = Vec::new();
     for contact in &scene.contacts {
         let Some(normal) = &contact.normal else {
             continue;
@@ -287,7 +289,8 @@ fn approach(stage: &Stage, scene: &Scene) -> Result<(), Refused> {
             ]
         });
         let opening = crate::expr::dot(&crate::expr::minus(&b, &a), normal);
-        if let Seen::Proved(Sign::Positive) = sign(&opening, &scene.domains) {
+        let seen = sign(&opening, &scene.domains);
+        if let Seen::Proved(Sign::Positive) = seen {
             let [first, second] = contact.bodies.map(|b| &scene.bodies[b].name);
             return Err(Refused::new(
                 &stage.name,
@@ -298,8 +301,15 @@ fn approach(stage: &Stage, scene: &Scene) -> Result<(), Refused> {
                 "look at the stage before, and at `normal`, which points out of the first body into the second",
             ));
         }
+        if !matches!(
+            seen,
+            Seen::Proved(Sign::Negative | Sign::NotPositive | Sign::Zero)
+        ) {
+            let words = format!("the bodies approach at `{}`", contact.name);
+            conditions.push((words, essential(&-&opening, &scene.domains)));
+        }
     }
-    Ok(())
+    Ok(conditions)
 }
 
 fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<State, Refused> {
