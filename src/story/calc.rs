@@ -70,11 +70,21 @@ pub fn shorter(e: &Expr, domains: &Domains) -> Expr {
     }
 }
 
-/// Whether the expression is zero on the whole domain; `None` where a limit was met.
+/// Whether the expression is zero on the whole domain: yes by its normal form, no by a point at which it is not; `None`
+/// where neither was found.
 pub fn is_zero(e: &Expr, domains: &Domains) -> Option<bool> {
     let mut field = Field::new(domains);
     field.prepare([e]);
-    field.element(e).ok().map(|x| field.is_zero(&x))
+    if field.element(e).is_ok_and(|x| field.is_zero(&x)) {
+        return Some(true);
+    }
+    let roles = roles(&[e]);
+    let (domains, _) = domains.completed(&roles);
+    let apart = samples(&roles, &domains, POINTS).iter().any(|sample| {
+        let value = evaluate::<Interval>(e, &sample.point(roles.radians));
+        matches!(value, Outcome::Value(v) if v.low > 0.0 || v.high < 0.0)
+    });
+    apart.then_some(false)
 }
 
 /// The sign on the domain.

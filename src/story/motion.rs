@@ -196,7 +196,7 @@ pub(super) fn turn(stage: &Stage, before: State, turn: &Turn) -> Result<StageTol
         ));
     }
     let (way, assumed) = sense(stage, &spin, turn)?;
-    let mut assumptions: Vec<String> = Vec::new();
+    let mut assumptions: Vec<String> = hurdle(stage, turn, &r, &start, way)?.into_iter().collect();
     let spin_end = if work.is_zero() {
         spin.clone()
     } else {
@@ -261,6 +261,60 @@ pub(super) fn turn(stage: &Stage, before: State, turn: &Turn) -> Result<StageTol
     out.assumptions = assumptions;
     out.checks.extend(integrate::turn(stage, &out, turn, way));
     Ok(out)
+}
+
+/// What is needed to get over the highest place on the way, where a rotation by an angle passes it: energy compares the
+/// ends only.
+fn hurdle(
+    stage: &Stage,
+    turn: &Turn,
+    r: &Vector,
+    start: &Expr,
+    way: i64,
+) -> Result<Option<String>, Refused> {
+    let (Until::By(by), Some(g)) = (&turn.until, &turn.gravity) else {
+        return Ok(None);
+    };
+    if turn.torque.is_some() {
+        return Ok(Some(format!(
+            "the body does not come to rest on the way through `{}`",
+            stage.name
+        )));
+    }
+    let passes = integrate::points(stage, &[&r[0], &r[1], by], 12)
+        .iter()
+        .any(|point| {
+            let values = [&r[0], &r[1], by].map(|e| e.evaluate(point));
+            let [Some(x), Some(y), Some(by)] = values else {
+                return true;
+            };
+            let to_top = (way as f64 * x).atan2(y).rem_euclid(std::f64::consts::TAU);
+            by > to_top
+        });
+    if !passes {
+        return Ok(None);
+    }
+    let body = &stage.scene.bodies[turn.body];
+    let climb = &dot(r, r).sqrt() - &r[1];
+    let left = tidied(stage, &(start - &(&(&body.mass * g) * &climb)))?;
+    match sign(&left, &stage.scene.domains) {
+        Seen::Proved(s) if s.is_not_negative() => Ok(None),
+        Seen::Proved(Sign::Negative) => Err(Refused::new(
+            &stage.name,
+            format!(
+                "`{}` does not get over the highest place on its way: its kinetic energy there would be {}",
+                body.name,
+                crate::formula::write_plain(&left)
+            ),
+            "end the stage before, or give it more energy",
+        )),
+        _ => Ok(Some(format!(
+            "where the way through `{}` leads over its highest place, {} ≥ 0, so that `{}` gets over it",
+            stage.name,
+            crate::formula::write_plain(&super::calc::essential(&left, &stage.scene.domains)),
+            body.name
+        ))),
+    }
 }
 
 /// Motion along a line.
