@@ -32,7 +32,7 @@ pub struct Answer {
 pub enum Form {
     /// A closed form.
     Value {
-        /// In parameters alone.
+        /// In parameters alone; where a derivation went in steps, in its definitions too.
         closed: Expr,
         /// The same, shorter, in parameters and the derivation's definitions; equal to `closed` where that is short.
         short: Expr,
@@ -142,8 +142,19 @@ impl Work<'_> {
         Ok(all)
     }
 
+    /// Answers all questions. An answer longer than anybody would print is reported as a limit, unless the unknowns stand
+    /// for themselves already.
+    pub(super) fn answers(&mut self, counting: &Counting) -> Result<Vec<Answer>, Stop> {
+        let mut answers = Vec::new();
+        let scene = self.scene;
+        for question in &scene.questions {
+            self.answer(question, counting, &mut answers)?;
+        }
+        Ok(answers)
+    }
+
     /// Answers a question, component by component.
-    pub(super) fn answer(
+    fn answer(
         &mut self,
         question: &Question,
         counting: &Counting,
@@ -180,7 +191,7 @@ impl Work<'_> {
                         None
                     };
                     let form = match value {
-                        Some(value) => self.value(&value),
+                        Some(value) => self.value(&value)?,
                         None => Form::Open(open),
                     };
                     let (name, latex, words) = match suffix {
@@ -196,7 +207,7 @@ impl Work<'_> {
             }
             Asked::Energy(when, of) => {
                 let form = match self.energy(when, of)? {
-                    Some(value) => self.value(&value),
+                    Some(value) => self.value(&value)?,
                     None => Form::Open(counting.open.clone()),
                 };
                 out.push(make(question.name.clone(), latex, words, form));
@@ -213,12 +224,15 @@ impl Work<'_> {
         Ok(())
     }
 
-    fn value(&mut self, value: &Element) -> Form {
+    fn value(&mut self, value: &Element) -> Result<Form, Stop> {
+        if !self.in_steps && value.size() > super::LONGEST && !self.has_two_bodies() {
+            return Err(Stop::Limit(String::from("the length of an answer")));
+        }
         let closed = self.field.expr(value);
-        Form::Value {
+        Ok(Form::Value {
             short: closed.clone(),
             closed,
-        }
+        })
     }
 
     /// An expression as a person would write it.

@@ -27,19 +27,24 @@ pub(super) fn shorten(
     definitions: &mut Vec<Definition>,
 ) -> Result<(), Stop> {
     let is_long = |form: &Form| matches!(form, Form::Value { closed, .. } if write_plain(closed).len() > LONG);
-    if !answers.iter().any(|a| is_long(&a.form)) {
+    if !work.in_steps && !answers.iter().any(|a| is_long(&a.form)) {
         return Ok(());
     }
+    let staged = std::mem::take(&mut work.definitions);
     let mut parts = Parts {
         motion: work.reduced.clone(),
         work,
-        definitions: Vec::new(),
+        definitions: staged,
         lost: None,
     };
-    let Some(values) = parts.values()? else {
-        return Ok(());
-    };
-    for answer in answers.iter_mut() {
+    // What was solved step by step is as short as it gets.
+    let values = if parts.work.in_steps {
+        None
+    } else {
+        parts.values()?
+    }
+    .unwrap_or_default();
+    for answer in answers.iter_mut().filter(|_| !values.is_empty()) {
         let Some(question) = parts
             .work
             .scene

@@ -11,6 +11,7 @@ mod count;
 mod left_out;
 mod names;
 mod plan;
+mod steps;
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -25,6 +26,9 @@ use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Affine, Geometry, Kinematics, Law, Unknown};
 use crate::scene::{ContactLaw, Scene};
 use plan::{Planner, Reduction};
+
+/// Most terms of a closed form that is printed as one formula; longer ones are given step by step. About a page.
+const LONGEST: usize = 160;
 
 /// Everything found out about a scene, ready to be proved and printed.
 #[derive(Clone, Debug)]
@@ -43,6 +47,8 @@ pub struct Derivation {
     pub answers: Vec<Answer>,
     /// Closed form of every unknown that is determined, for the proof; those not asked for are not printed.
     pub motion: BTreeMap<Unknown, Expr>,
+    /// Whether some unknowns stand for definitions because their closed forms are too long to be multiplied out.
+    pub in_steps: bool,
     /// What the scene did not need.
     pub left_out: Vec<LeftOut>,
     /// What must hold for the answers: expressions that must not vanish, and signs that were seen rather than proved.
@@ -136,11 +142,15 @@ pub fn derive(scene: &Scene) -> Result<Derivation, Stop> {
         .filter(|u| counting.is_unique(*u))
         .collect();
     work.determine(&rest, None)?;
-    let mut answers = Vec::new();
     let mut definitions = Vec::new();
-    for question in &scene.questions {
-        work.answer(question, &counting, &mut answers)?;
-    }
+    let mut answers = match work.answers(&counting) {
+        // Sums and squares of long closed forms: from here on the unknowns stand for themselves.
+        Err(Stop::Limit(_)) => {
+            work.name_values();
+            work.answers(&counting)?
+        }
+        outcome => outcome?,
+    };
     compact::shorten(&mut work, &mut answers, &mut definitions)?;
     let motion = work.motion()?;
     let left_out = left_out::list(&work, &counting, asked);
@@ -159,9 +169,17 @@ pub fn derive(scene: &Scene) -> Result<Derivation, Stop> {
         definitions,
         answers,
         motion,
+        in_steps: work.in_steps,
         left_out,
         assumptions,
     })
+}
+
+/// A law as it stands before anything already solved is put in.
+struct Written {
+    law: Law,
+    terms: Vec<(Unknown, Element)>,
+    known: Element,
 }
 
 /// The state of a derivation under way.
@@ -177,6 +195,9 @@ struct Work<'a> {
     values: BTreeMap<Unknown, Element>,
     given: Vec<Unknown>,
     blocks: Vec<Block>,
+    /// Definitions of solutions found step by step.
+    definitions: Vec<Definition>,
+    in_steps: bool,
 }
 
 impl<'a> Work<'a> {
@@ -200,6 +221,8 @@ impl<'a> Work<'a> {
             values: BTreeMap::new(),
             given: Vec::new(),
             blocks: Vec::new(),
+            definitions: Vec::new(),
+            in_steps: false,
         };
         work.take_givens()?;
         Ok(work)
@@ -215,6 +238,7 @@ impl<'a> Work<'a> {
             definitions: Vec::new(),
             answers: Vec::new(),
             motion: BTreeMap::new(),
+            in_steps: false,
             left_out: Vec::new(),
             assumptions: Vec::new(),
         })
@@ -293,40 +317,105 @@ impl<'a> Work<'a> {
         unknowns: &[Unknown],
         asked_by: Option<&str>,
     ) -> Result<bool, Stop> {
-        let mut rows = Vec::with_capacity(laws.len());
-        let mut equations = Vec::with_capacity(laws.len());
-        for law in laws {
-            let Some((row, equation)) = self.row(law, unknowns)? else {
-                return Ok(false);
-            };
-            rows.push(row);
-            equations.push((law.clone(), equation));
-        }
-        let solution = algebra::solve(&mut self.field, &rows, unknowns.len())?;
+        let system = match self.system(laws, unknowns) {
+            // Products with long closed forms: from here on these stand for themselves.
+            Err(Stop::Limit(_)) => {
+                self.name_values();
+                self.system(laws, unknowns)?
+            }
+            outcome => outcome?,
+        };
+        let Some((rows, equations)) = system else {
+            return Ok(false);
+        };
+        let solution = match algebra::solve(&self.field, &rows, unknowns.len()) {
+            Ok(solution) if self.is_printable(&solution.values) => solution,
+            Ok(solution) if solution.contradiction.is_some() => solution,
+            outcome => {
+                self.name_values();
+                if let Some((rows, equations)) = self.system(laws, unknowns)? {
+                    if steps::solve(self, &rows, unknowns)? {
+                        self.push_block(equations, unknowns, Vec::new(), asked_by);
+                        return Ok(true);
+                    }
+                }
+                outcome?
+            }
+        };
         if let Some(row) = solution.contradiction {
             return Err(Stop::Contradiction(laws::describe(self.scene, &laws[row])));
         }
         if solution.values.iter().any(Option::is_none) {
             return Ok(false);
         }
-        let mut printed = Vec::with_capacity(unknowns.len());
         for (unknown, value) in unknowns.iter().zip(solution.values.into_iter().flatten()) {
-            printed.push(self.symbol_value(*unknown, &value));
             self.values.insert(*unknown, value);
         }
         let divided_by = self.divisors(&solution.pivots)?;
+        self.push_block(equations, unknowns, divided_by, asked_by);
+        Ok(true)
+    }
+
+    /// Laws as rows over unknowns, and as they stand before anything is put in; `None` where one holds other unknowns.
+    fn system(
+        &mut self,
+        laws: &[Law],
+        unknowns: &[Unknown],
+    ) -> Result<Option<(Vec<Row>, Vec<Written>)>, Stop> {
+        let mut rows = Vec::with_capacity(laws.len());
+        let mut equations = Vec::with_capacity(laws.len());
+        for law in laws {
+            let Some((row, (terms, known))) = self.row(law, unknowns)? else {
+                return Ok(None);
+            };
+            rows.push(row);
+            equations.push(Written {
+                law: law.clone(),
+                terms,
+                known,
+            });
+        }
+        Ok(Some((rows, equations)))
+    }
+
+    /// Whether the closed forms are of a length somebody could want to see. The general case of two bodies has a short
+    /// form of its own, however long it is multiplied out.
+    fn is_printable(&self, values: &[Option<Element>]) -> bool {
+        self.has_two_bodies() || values.iter().flatten().all(|v| v.size() <= LONGEST)
+    }
+
+    /// Whether all that happens is one contact between otherwise free bodies.
+    fn has_two_bodies(&self) -> bool {
+        let scene = self.scene;
+        scene.contacts.len() == 1 && scene.hinges.is_empty() && scene.blows.is_empty()
+    }
+
+    /// Records a solved block. One that only the proof needs is not written out.
+    fn push_block(
+        &mut self,
+        equations: Vec<Written>,
+        unknowns: &[Unknown],
+        divided_by: Vec<Expr>,
+        asked_by: Option<&str>,
+    ) {
+        if asked_by.is_none() {
+            return;
+        }
+        let solution = unknowns
+            .iter()
+            .map(|u| self.symbol_value(*u, &self.values[u]))
+            .collect();
         let equations = equations
             .into_iter()
-            .map(|(law, (terms, known))| self.written(law, &terms, &known))
+            .map(|e| self.written(e.law, &e.terms, &e.known))
             .collect();
         self.blocks.push(Block {
             equations,
             unknowns: unknowns.to_vec(),
-            solution: printed,
+            solution,
             divided_by,
             asked_by: asked_by.map(str::to_string),
         });
-        Ok(true)
     }
 
     /// A law as a row over `unknowns`, with everything already solved put in; also as it stands before that, for
@@ -387,12 +476,19 @@ impl<'a> Work<'a> {
                 }
             }
         }
-        let solution = algebra::solve(&mut self.field, &rows, unknowns.len())?;
-        if let Some(row) = solution.contradiction {
-            return Err(Stop::Contradiction(laws::describe(
-                self.scene,
-                &equations[row].law,
-            )));
+        let mut solution = algebra::solve(&self.field, &rows, unknowns.len())?;
+        while let Some(row) = solution.contradiction {
+            if !self.in_steps {
+                return Err(Stop::Contradiction(laws::describe(
+                    self.scene,
+                    &equations[row].law,
+                )));
+            }
+            // Counting has shown that nothing contradicts; an unknown that stands for itself hides that this law
+            // follows from the others.
+            rows.remove(row);
+            equations.remove(row);
+            solution = algebra::solve(&self.field, &rows, unknowns.len())?;
         }
         let divided_by = self.divisors(&solution.pivots)?;
         let mut found = Vec::new();
@@ -456,6 +552,36 @@ impl<'a> Work<'a> {
                 .map(|(u, k)| (*u, print(all_minus, k)))
                 .collect(),
             known: print(all_minus, known),
+        }
+    }
+
+    /// Lets every unknown with a closed form of some length stand for a definition.
+    fn name_values(&mut self) {
+        self.in_steps = true;
+        let long: Vec<Unknown> = self
+            .values
+            .iter()
+            .filter(|(_, v)| v.size() > 8)
+            .map(|(u, _)| *u)
+            .collect();
+        for unknown in long {
+            let value = self.symbol_value(unknown, &self.values[&unknown]);
+            let symbol = Expr::symbol(self.names.plain(unknown));
+            let signed = if self.names.is_reversed(unknown) {
+                -&symbol
+            } else {
+                symbol.clone()
+            };
+            // A symbol is within every limit.
+            if let (Ok(element), Some(name)) = (self.field.element(&signed), symbol.as_symbol()) {
+                let meaning = String::from("as solved above");
+                self.definitions.push(Definition {
+                    name: name.clone(),
+                    value,
+                    meaning,
+                });
+                self.values.insert(unknown, element);
+            }
         }
     }
 

@@ -599,7 +599,7 @@ fn moment_points(scene: &Scene, g: &Geometry<f64>, system: &[usize]) -> Vec<Plac
 }
 
 /// Values in general position inside the domain; the golden ratio keeps them apart.
-fn generic_point(scene: &Scene) -> Point<f64> {
+pub(super) fn generic_point(scene: &Scene) -> Point<f64> {
     let mut point = Point::default();
     let mut fraction = 0.371_943_1_f64;
     let mut next = || {

@@ -96,7 +96,7 @@ fn answer(
                 );
                 out.insert("closed".into(), json!(write_plain(closed)));
             }
-            if let Some(value) = super::value(scene, closed) {
+            if let Some(value) = super::answer_value(scene, derivation, closed) {
                 out.insert("value".into(), json!(value.approximate));
                 if let Some(exact) = value.exact {
                     out.insert("value_exact".into(), json!(exact.to_string()));

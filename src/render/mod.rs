@@ -143,6 +143,19 @@ pub fn value(scene: &Scene, e: &Expr) -> Option<Value> {
     Some(Value { approximate, exact })
 }
 
+/// The value of an answer at the scene's values, through the definitions where the derivation went in steps.
+pub fn answer_value(scene: &Scene, derivation: &Derivation, closed: &Expr) -> Option<Value> {
+    if !derivation.in_steps {
+        return value(scene, closed);
+    }
+    let point = numeric::values(scene).ok()?;
+    let approximate = crate::verify::evaluate(closed, derivation, &point)?;
+    Some(Value {
+        approximate,
+        exact: None,
+    })
+}
+
 /// A number with six significant digits, without trailing zeros.
 pub fn digits(value: f64) -> String {
     if value == 0.0 {

@@ -53,7 +53,7 @@ pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof) -> String {
     for answer in &d.answers {
         match &answer.form {
             Form::Value { closed, short } => {
-                let value = super::value(scene, closed).map_or(String::new(), |v| {
+                let value = super::answer_value(scene, d, closed).map_or(String::new(), |v| {
                     format!(
                         " = {} {}",
                         super::digits(v.approximate),
