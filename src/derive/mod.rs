@@ -274,16 +274,34 @@ impl<'a> Work<'a> {
             if self.values.contains_key(&target) {
                 continue;
             }
-            for (laws, unknowns) in self.plans(target) {
-                if self.solve(&laws, &unknowns, asked_by)? {
-                    break;
+            let mut solved = self.try_plans(target, asked_by)?;
+            if !solved && target.is_impulse() {
+                // An impulse follows from its body's balance once the motion is known.
+                let known = |u: Unknown| self.values.contains_key(&u);
+                if let Some((laws, unknowns)) = self
+                    .planner
+                    .as_ref()
+                    .and_then(|p| p.without_impulses(&known))
+                {
+                    solved = self.solve(&laws, &unknowns, asked_by)?
+                        && self.try_plans(target, asked_by)?;
                 }
             }
-            if !self.values.contains_key(&target) {
+            if !solved {
                 self.solve_everything(asked_by)?;
             }
         }
         Ok(())
+    }
+
+    /// Solves the first plan that determines a target; false where none does.
+    fn try_plans(&mut self, target: Unknown, asked_by: Option<&str>) -> Result<bool, Stop> {
+        for (laws, unknowns) in self.plans(target) {
+            if self.solve(&laws, &unknowns, asked_by)? {
+                return Ok(self.values.contains_key(&target));
+            }
+        }
+        Ok(false)
     }
 
     /// Ways to determine a target, best first.
@@ -343,7 +361,12 @@ impl<'a> Work<'a> {
             }
         };
         if let Some(row) = solution.contradiction {
-            return Err(Stop::Contradiction(laws::describe(self.scene, &laws[row])));
+            // An unknown that stands for itself hides that a law follows from the others.
+            return if self.in_steps {
+                Ok(false)
+            } else {
+                Err(Stop::Contradiction(laws::describe(self.scene, &laws[row])))
+            };
         }
         if solution.values.iter().any(Option::is_none) {
             return Ok(false);

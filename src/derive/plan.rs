@@ -239,7 +239,7 @@ impl Planner {
         let mut rows: Vec<Vec<f64>> = Vec::new();
         let mut chosen = Vec::new();
         for c in order {
-            if adds_rank(&mut rows, self.dense(c, free)) {
+            if adds_rank(&mut rows, dense(&self.candidates[c], free)) {
                 chosen.push(c);
             }
         }
@@ -260,7 +260,7 @@ impl Planner {
         known: &dyn Fn(Unknown) -> bool,
     ) -> Option<(Vec<Law>, Vec<Unknown>)> {
         let mut unknowns = vec![target];
-        let mut laws = Vec::new();
+        let mut chosen: Vec<&Candidate> = Vec::new();
         let mut at = 0;
         while at < unknowns.len() {
             let candidate = self.own_law(unknowns[at])?;
@@ -273,10 +273,14 @@ impl Planner {
                     unknowns.push(unknown);
                 }
             }
-            laws.push(candidate.law.clone());
+            chosen.push(candidate);
             at += 1;
         }
-        Some((laws, unknowns))
+        // A contact law may not hold the impulse it is paired with, once the velocities are known.
+        let union = self.mask(unknowns.iter().copied());
+        let mut rows = Vec::new();
+        let independent = chosen.iter().all(|c| adds_rank(&mut rows, dense(c, union)));
+        independent.then(|| (chosen.iter().map(|c| c.law.clone()).collect(), unknowns))
     }
 
     /// The law a teacher writes for the sake of this unknown.
@@ -330,18 +334,18 @@ impl Planner {
             .filter_map(|u| self.unknowns.iter().position(|v| *v == u))
             .fold(0, |m, i| m | 1 << i)
     }
+}
 
-    fn dense(&self, candidate: usize, columns: u128) -> Vec<f64> {
-        bits(columns)
-            .map(|i| {
-                self.candidates[candidate]
-                    .row
-                    .iter()
-                    .find(|(j, _)| *j == i)
-                    .map_or(0.0, |(_, k)| *k)
-            })
-            .collect()
-    }
+/// The coefficients of a candidate in the columns of a mask.
+fn dense(candidate: &Candidate, columns: u128) -> Vec<f64> {
+    let entry = |i: usize| {
+        candidate
+            .row
+            .iter()
+            .find(|(j, _)| *j == i)
+            .map_or(0.0, |(_, k)| *k)
+    };
+    bits(columns).map(entry).collect()
 }
 
 /// Depth-first search for a set of equations that has as many unknowns as equations. Every unknown of the set is matched
@@ -390,7 +394,7 @@ impl Search<'_> {
         let mut rows = Vec::new();
         if chosen
             .iter()
-            .all(|&c| adds_rank(&mut rows, self.planner.dense(c, union)))
+            .all(|&c| adds_rank(&mut rows, dense(&self.planner.candidates[c], union)))
         {
             let mut laws = chosen.to_vec();
             laws.sort_unstable();
