@@ -67,12 +67,15 @@ pub(super) fn shorten(
     }
     // An answer that is nothing but a definition shows its value.
     for answer in answers.iter_mut() {
-        if let Form::Value { short, .. } = &mut answer.form {
+        if let Form::Value { short, closed } = &mut answer.form {
             let defined = parts
                 .definitions
                 .iter()
                 .find(|d| short.as_symbol() == Some(&d.name));
             if let Some(definition) = defined {
+                if closed == short {
+                    *closed = definition.value.clone();
+                }
                 *short = definition.value.clone();
             }
         }
