@@ -430,10 +430,9 @@ impl Work<'_> {
                 point: None,
                 along: Some(d),
             } = &question.ask
+                && *b == body
             {
-                if *b == body {
-                    rows.push((d.clone(), Expr::symbol(&question.name)));
-                }
+                rows.push((d.clone(), Expr::symbol(&question.name)));
             }
         }
         if rows.len() < 2 {
@@ -462,7 +461,7 @@ impl Work<'_> {
         if linear.len() < 2 {
             return Ok(own);
         }
-        let solution = algebra::solve(&mut self.field, &linear, 2)?;
+        let solution = algebra::solve(&self.field, &linear, 2)?;
         match solution.values.as_slice() {
             [Some(x), Some(y)] => Ok([self.field.expr(x), self.field.expr(y)]),
             _ => Ok(own),

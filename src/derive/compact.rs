@@ -55,14 +55,12 @@ pub(super) fn shorten(
         else {
             continue;
         };
-        if let Form::Value { closed, short } = &mut answer.form {
-            if let Some(written) = parts.rewritten(&question, &answer.name, &values)? {
-                if write_plain(&written).len() < write_plain(closed).len()
-                    && write_plain(closed).len() > LONG / 2
-                {
-                    *short = written;
-                }
-            }
+        if let Form::Value { closed, short } = &mut answer.form
+            && let Some(written) = parts.rewritten(&question, &answer.name, &values)?
+            && write_plain(&written).len() < write_plain(closed).len()
+            && write_plain(closed).len() > LONG / 2
+        {
+            *short = written;
         }
     }
     // An answer that is nothing but a definition shows its value.
@@ -161,9 +159,9 @@ impl Parts<'_, '_> {
                 Expr::one()
             };
             inverse_mass.push(self.tidy(&body.mass.powi(-1))?);
-            for axis in 0..2 {
+            for (axis, n) in normal.iter().enumerate() {
                 let before = self.tidy(&body.velocity[axis])?;
-                let gain = self.tidy(&(&sign * &normal[axis] / &body.mass))?;
+                let gain = self.tidy(&(&sign * n / &body.mass))?;
                 pending.push((Unknown::Velocity(b, axis), before, gain));
             }
             if !body.is_particle() {
@@ -256,13 +254,10 @@ impl Parts<'_, '_> {
             } else {
                 Expr::one()
             };
-            for axis in 0..2 {
+            for (axis, p) in impulse.iter().enumerate() {
                 let before = self.tidy(&body.velocity[axis])?;
-                values.insert(
-                    Unknown::Velocity(i, axis),
-                    before + &sign * &impulse[axis] / &body.mass,
-                );
-                values.insert(Unknown::Contact(0, axis), impulse[axis].clone());
+                values.insert(Unknown::Velocity(i, axis), before + &sign * p / &body.mass);
+                values.insert(Unknown::Contact(0, axis), p.clone());
             }
             if !body.is_particle() {
                 let before = self.tidy(&body.spin)?;

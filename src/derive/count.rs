@@ -59,10 +59,10 @@ pub fn count(scene: &Scene) -> Result<Counting, Stop> {
             continue;
         };
         let mut echelon = eliminate(rows, unknowns.len());
-        if echelon.conflict.is_some() {
-            if let Some(rows) = rational_rows(scene, &unknowns, laws.iter(), attempt, true) {
-                echelon = eliminate(rows, unknowns.len());
-            }
+        if echelon.conflict.is_some()
+            && let Some(rows) = rational_rows(scene, &unknowns, laws.iter(), attempt, true)
+        {
+            echelon = eliminate(rows, unknowns.len());
         }
         let conflict = echelon.conflict.clone().unwrap_or_default();
         let rank = echelon.pivots.len();

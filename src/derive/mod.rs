@@ -182,6 +182,9 @@ struct Written {
     known: Element,
 }
 
+/// Rows to solve, and the laws they come from.
+type System = (Vec<Row>, Vec<Written>);
+
 /// The state of a derivation under way.
 struct Work<'a> {
     scene: &'a Scene,
@@ -351,11 +354,11 @@ impl<'a> Work<'a> {
             Ok(solution) if solution.contradiction.is_some() => solution,
             outcome => {
                 self.name_values();
-                if let Some((rows, equations)) = self.system(laws, unknowns)? {
-                    if steps::solve(self, &rows, unknowns)? {
-                        self.push_block(equations, unknowns, Vec::new(), asked_by);
-                        return Ok(true);
-                    }
+                if let Some((rows, equations)) = self.system(laws, unknowns)?
+                    && steps::solve(self, &rows, unknowns)?
+                {
+                    self.push_block(equations, unknowns, Vec::new(), asked_by);
+                    return Ok(true);
                 }
                 outcome?
             }
@@ -380,11 +383,7 @@ impl<'a> Work<'a> {
     }
 
     /// Laws as rows over unknowns, and as they stand before anything is put in; `None` where one holds other unknowns.
-    fn system(
-        &mut self,
-        laws: &[Law],
-        unknowns: &[Unknown],
-    ) -> Result<Option<(Vec<Row>, Vec<Written>)>, Stop> {
+    fn system(&mut self, laws: &[Law], unknowns: &[Unknown]) -> Result<Option<System>, Stop> {
         let mut rows = Vec::with_capacity(laws.len());
         let mut equations = Vec::with_capacity(laws.len());
         for law in laws {
@@ -492,11 +491,11 @@ impl<'a> Work<'a> {
         let mut rows = Vec::new();
         let mut equations = Vec::new();
         for law in held {
-            if let Some((row, (terms, known))) = self.row(&law, &unknowns)? {
-                if !row.coeffs.is_empty() {
-                    rows.push(row);
-                    equations.push(self.written(law, &terms, &known));
-                }
+            if let Some((row, (terms, known))) = self.row(&law, &unknowns)?
+                && !row.coeffs.is_empty()
+            {
+                rows.push(row);
+                equations.push(self.written(law, &terms, &known));
             }
         }
         let mut solution = algebra::solve(&self.field, &rows, unknowns.len())?;

@@ -116,14 +116,14 @@ fn integer_power<T: Scalar>(base: &T, exponent: u64) -> T {
 }
 
 fn call<T: Scalar>(function: Function, argument: &Expr, at: &Point<T>) -> Option<T> {
-    if let Function::Sin | Function::Cos | Function::Tan = function {
-        if let Some([cos, sin]) = angle(argument).and_then(|a| direction(&a, at)) {
-            return match function {
-                Function::Sin => Some(sin),
-                Function::Cos => Some(cos),
-                _ => Some(sin.times(&cos.recip()?)),
-            };
-        }
+    if let Function::Sin | Function::Cos | Function::Tan = function
+        && let Some([cos, sin]) = angle(argument).and_then(|a| direction(&a, at))
+    {
+        return match function {
+            Function::Sin => Some(sin),
+            Function::Cos => Some(cos),
+            _ => Some(sin.times(&cos.recip()?)),
+        };
     }
     argument.evaluate(at)?.call(function)
 }

@@ -174,10 +174,10 @@ impl Expr {
                 _ => add(&term, &mut out),
             }
         }
-        if let Some((at, total)) = number {
-            if !total.is_zero() {
-                out.insert(at, Expr::from(total));
-            }
+        if let Some((at, total)) = number
+            && !total.is_zero()
+        {
+            out.insert(at, Expr::from(total));
         }
         match out.len() {
             0 => Expr::zero(),
@@ -325,10 +325,10 @@ impl Expr {
     pub fn symbols(&self) -> BTreeSet<Symbol> {
         let mut names = BTreeSet::new();
         self.walk(&mut |e| {
-            if let Some(name) = e.as_symbol() {
-                if &**name != "pi" {
-                    names.insert(name.clone());
-                }
+            if let Some(name) = e.as_symbol()
+                && &**name != "pi"
+            {
+                names.insert(name.clone());
             }
         });
         names

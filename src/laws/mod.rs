@@ -120,8 +120,11 @@ pub struct Geometry<T> {
     hinge: Vec<[T; 2]>,
     blow: Vec<[T; 2]>,
     blow_impulse: Vec<[T; 2]>,
-    known: Vec<(Option<([T; 2], [T; 2])>, T)>,
+    known: Vec<Given<T>>,
 }
+
+/// A known value after: the place and direction of a velocity component, or `None` for a spin; and the value.
+type Given<T> = (Option<([T; 2], [T; 2])>, T);
 
 impl<T: Quantity> Geometry<T> {
     /// Every formula of the scene turned into a number by `value`; the first failure is returned.
