@@ -61,7 +61,7 @@ pub struct OneSided {
     pub name: String,
     /// Indices of the bodies.
     pub bodies: [usize; 2],
-    /// Position [m].
+    /// Position \[m\].
     pub at: Vector,
     /// Direction of the impulse on the second body.
     pub normal: Vector,
@@ -74,7 +74,7 @@ pub struct OneSided {
 pub struct Turn {
     /// Index of the body.
     pub body: usize,
-    /// The fixed point [m].
+    /// The fixed point \[m\].
     pub about: Vector,
     /// What the file calls it.
     pub about_name: String,
@@ -82,22 +82,22 @@ pub struct Turn {
     pub until: Until,
     /// Sense of the rotation, where the file tells it.
     pub clockwise: Option<bool>,
-    /// Gravity g [m/s²], downwards.
+    /// Gravity g \[m/s²\], downwards.
     pub gravity: Option<Expr>,
-    /// Constant moment about the point [N m], positive in the sense of the rotation.
+    /// Constant moment about the point \[N m\], positive in the sense of the rotation.
     pub torque: Option<Expr>,
 }
 
 /// Where a rotation ends.
 #[derive(Clone, Debug)]
 pub enum Until {
-    /// After turning through this angle [rad], counted in the sense of the rotation.
+    /// After turning through this angle \[rad\], counted in the sense of the rotation.
     By(Expr),
     /// When the center of mass is straight above the point.
     Above,
     /// When the center of mass is straight below the point.
     Below,
-    /// After this time [s]; only without moments.
+    /// After this time \[s\]; only without moments.
     For(Expr),
 }
 
@@ -108,11 +108,11 @@ pub struct Slide {
     pub body: usize,
     /// Direction.
     pub along: Vector,
-    /// Distance [m].
+    /// Distance \[m\].
     pub distance: Expr,
-    /// Gravity g [m/s²], downwards.
+    /// Gravity g \[m/s²\], downwards.
     pub gravity: Option<Expr>,
-    /// Constant force along the direction [N].
+    /// Constant force along the direction \[N\].
     pub force: Option<Expr>,
 }
 
@@ -121,11 +121,11 @@ pub struct Slide {
 pub struct Fall {
     /// Index of the body.
     pub body: usize,
-    /// Gravity g [m/s²], downwards; `None` for free flight.
+    /// Gravity g \[m/s²\], downwards; `None` for free flight.
     pub gravity: Option<Expr>,
-    /// How the stage ends: after falling through this height [m].
+    /// How the stage ends: after falling through this height \[m\].
     pub height: Option<Expr>,
-    /// How the stage ends: after this time [s].
+    /// How the stage ends: after this time \[s\].
     pub time: Option<Expr>,
 }
 
@@ -134,9 +134,9 @@ pub struct Fall {
 pub struct Wind {
     /// Index of the particle.
     pub body: usize,
-    /// The pole [m].
+    /// The pole \[m\].
     pub around: Vector,
-    /// Free length at the end [m].
+    /// Free length at the end \[m\].
     pub to: Expr,
 }
 

@@ -147,6 +147,8 @@ pub struct Root {
     pub value: Expr,
     /// Whether the expression with the value put in is identically zero.
     pub proved: bool,
+    /// What must hold for it to lie within the domain, where that is not sure.
+    pub given: Vec<String>,
 }
 
 /// All values of a symbol within its domain at which an expression is zero.
@@ -204,6 +206,7 @@ pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unso
             out.inside.push(Root {
                 value: Expr::zero(),
                 proved: true,
+                given: Vec::new(),
             });
         } else {
             out.discarded
@@ -283,6 +286,7 @@ fn take(
     out: &mut Roots,
 ) {
     let words = format!("{symbol} = {}", write_plain(&value));
+    let mut given: Vec<String> = Vec::new();
     let mut probe = Field::new(domains);
     probe.prepare([&value]);
     if matches!(probe.element(&value), Err(Stop::NotReal)) {
@@ -294,14 +298,27 @@ fn take(
         let end = Expr::from(limit.value.clone());
         let end = if limit.of_pi { end * Expr::pi() } else { end };
         let gap = if is_low { &value - &end } else { &end - &value };
-        let outside = match sign(&gap, domains) {
+        let seen = sign(&gap, domains);
+        let outside = match seen {
             Seen::Proved(Sign::Negative) | Seen::Negative => true,
             Seen::Proved(Sign::Zero) => limit.open,
             _ => false,
         };
+        if seen == Seen::Mixed {
+            let relation = if limit.open { ">" } else { "≥" };
+            given.push(format!(
+                "{} {relation} 0, so that {symbol} lies within its domain",
+                write_plain(&essential(&gap, domains))
+            ));
+        }
+        let how = if seen.is_proved() {
+            ""
+        } else {
+            " (seen at points, not proved)"
+        };
         if outside {
             out.discarded
-                .push(format!("{words}, outside {}", domain.words(symbol)));
+                .push(format!("{words}, outside {}{how}", domain.words(symbol)));
             return;
         }
     }
@@ -310,6 +327,7 @@ fn take(
         Some(true) => out.inside.push(Root {
             value,
             proved: true,
+            given,
         }),
         Some(false) if squared => {
             // Squaring adds solutions; a point decides.
@@ -317,6 +335,7 @@ fn take(
                 Seen::Mixed if !put_in.symbols().is_empty() => out.inside.push(Root {
                     value,
                     proved: false,
+                    given,
                 }),
                 _ => out.discarded.push(format!(
                     "{words}, brought in by squaring: it does not fulfil the equation"
@@ -326,6 +345,7 @@ fn take(
         _ => out.inside.push(Root {
             value,
             proved: false,
+            given,
         }),
     }
 }

@@ -30,11 +30,11 @@ use crate::verify::{Check, Proof};
 /// Where all bodies are and how they move, by index of body.
 #[derive(Clone, Debug)]
 pub struct State {
-    /// Centers of mass [m].
+    /// Centers of mass \[m\].
     pub center: Vec<Vector>,
-    /// Velocities of the centers of mass [m/s].
+    /// Velocities of the centers of mass \[m/s\].
     pub velocity: Vec<Vector>,
-    /// Angular velocities [rad/s], counterclockwise.
+    /// Angular velocities \[rad/s\], counterclockwise.
     pub spin: Vec<Expr>,
 }
 
@@ -83,7 +83,7 @@ pub struct StageTold {
     pub kept: Vec<Kept>,
     /// Outcomes of an impact, the one told first in front; empty for a motion.
     pub cases: Vec<Case>,
-    /// Kinetic energy at the beginning and at the end, of a motion [J].
+    /// Kinetic energy at the beginning and at the end, of a motion \[J\].
     pub energy: Option<[Expr; 2]>,
     /// The same at the end, put together from velocity and spin.
     pub kinetic: Option<Expr>,

@@ -137,7 +137,7 @@ pub(super) fn maximum(
     out.checks.push(Check {
         kind: "maximum",
         words: format!("the derivative vanishes there and nowhere else, rises before and falls after ({proved})"),
-        holds: Some(true),
+        holds: (proved == "proved").then_some(true),
     });
     out.checks.push(Check {
         kind: "identity",
@@ -205,7 +205,8 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
     let place = match inside.as_slice() {
         [best] => {
             let bend = at(&best.value, &slope.derivative(p)).map_err(|s| refused(s.to_string()))?;
-            if !sign(&bend, domains).is_negative() {
+            let bends = sign(&bend, domains);
+            if !bends.is_negative() {
                 return Err(refused(format!(
                     "the derivative by {p} vanishes at {}, but the value is not largest there",
                     write_plain(&best.value)
@@ -214,7 +215,7 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
             out.checks.push(Check {
                 kind: "maximum",
                 words: String::from("the derivative vanishes there and nowhere else in the interval, and the second derivative is negative"),
-                holds: Some(true),
+                holds: bends.is_proved().then_some(true),
             });
             best.value.clone()
         }

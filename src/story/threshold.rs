@@ -54,6 +54,7 @@ pub(super) fn fill(
         return;
     }
     for root in &roots.inside {
+        out.assumptions.extend(root.given.iter().cloned());
         out.checks.push(Check {
             kind: "identity",
             words: if root.proved {
@@ -159,7 +160,7 @@ fn sides(
                     "at half and at twice the value the sides differ with opposite signs{}, and there is no other value at which they meet",
                     if proved { ", proved on the whole domain" } else { ", seen at points" }
                 ),
-                holds: Some(true),
+                holds: proved.then_some(true),
             });
             let only = if strict { "there the two sides are equal and it fails" } else { "there the two sides are equal and it holds" };
             out.text.push(format!("it holds for {parameter} {} {}; {only}", relation.sign(), write_plain(value)));
