@@ -1,6 +1,6 @@
 //! The generators of a field, the relations between them, and arithmetic of its elements.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use num_integer::Integer;
 use num_traits::One;
@@ -81,6 +81,8 @@ pub struct Field {
     /// Values of the generators at fixed points of the domain, made when first needed.
     pub(crate) samples: Vec<Vec<f64>>,
     pub(crate) fuel: Fuel,
+    /// Normal forms found so far; the same few formulas are read again and again.
+    pub(crate) read: HashMap<Expr, Element>,
 }
 
 impl Field {
@@ -97,6 +99,7 @@ impl Field {
             complete: true,
             samples: Vec::new(),
             fuel: Fuel::new(),
+            read: HashMap::new(),
         }
     }
 
@@ -104,6 +107,8 @@ impl Field {
     /// depend on the order in which the expressions are read. May be called once more for further symbols; an angle
     /// divided more finely than before is then opaque.
     pub fn prepare<'a>(&mut self, exprs: impl IntoIterator<Item = &'a Expr>) {
+        // A relation made now may change normal forms found before.
+        self.read.clear();
         let mut found = Found::default();
         for e in exprs {
             found.collect(e);

@@ -19,11 +19,25 @@ const MOST_TURNS: i64 = 100;
 /// Cosine and sine.
 type Direction = [Element; 2];
 
+/// Most normal forms that are remembered.
+const MOST_KNOWN: usize = 4096;
+
 impl Field {
     /// The normal form.
     pub fn element(&mut self, e: &Expr) -> Result<Element, Stop> {
         self.fuel.refill();
-        self.read(e, MOST_DEPTH)
+        if matches!(e.node(), Node::Number(_) | Node::Symbol(_)) {
+            return self.read(e, MOST_DEPTH);
+        }
+        if let Some(known) = self.read.get(e) {
+            return Ok(known.clone());
+        }
+        let element = self.read(e, MOST_DEPTH)?;
+        // Memory stays bounded for whoever reads without end.
+        if self.read.len() < MOST_KNOWN {
+            self.read.insert(e.clone(), element.clone());
+        }
+        Ok(element)
     }
 
     fn read(&mut self, e: &Expr, depth: u32) -> Result<Element, Stop> {
@@ -60,7 +74,16 @@ impl Field {
                 Ok(total)
             }
             Node::Power(base, exponent) => self.read_power(base, exponent, depth),
-            Node::Call(function, argument) => self.read_call(*function, argument, depth),
+            Node::Call(function, argument) => {
+                if let Some(known) = self.read.get(e) {
+                    return Ok(known.clone());
+                }
+                let element = self.read_call(*function, argument, depth)?;
+                if self.read.len() < MOST_KNOWN {
+                    self.read.insert(e.clone(), element.clone());
+                }
+                Ok(element)
+            }
         }
     }
 

@@ -657,7 +657,7 @@ impl<'a> Work<'a> {
     /// The determinant of a block, where nothing shows that it keeps away from zero. Joints in a tree and one contact
     /// need no such condition: their equations are those of a quadratic form, the kinetic energy, that is positive for
     /// positive masses.
-    fn divisors(&self, pivots: &[algebra::Pivot]) -> Result<Vec<Expr>, Stop> {
+    fn divisors(&mut self, pivots: &[algebra::Pivot]) -> Result<Vec<Expr>, Stop> {
         let scene = self.scene;
         let mut positive = true;
         for body in scene.bodies.iter().filter(|b| !b.is_fixed()) {
@@ -682,11 +682,9 @@ impl<'a> Work<'a> {
         })
     }
 
-    fn is_positive(&self, e: &Expr) -> bool {
-        let mut field = self.field.clone();
-        field
-            .element(e)
-            .is_ok_and(|x| field.sign(&x) == Some(Sign::Positive))
+    fn is_positive(&mut self, e: &Expr) -> bool {
+        let element = self.field.element(e);
+        element.is_ok_and(|x| self.field.sign(&x) == Some(Sign::Positive))
     }
 
     /// What the closed forms rest on: signs taken for roots, and conditions `… ≠ 0` under which the blocks were solved.
