@@ -576,7 +576,7 @@ impl Poly {
         out
     }
 
-    /// The polynomial Σ parts[k]·vᵏ.
+    /// The polynomial Σ parts\[k\]·vᵏ.
     pub fn from_powers(parts: &[Poly], v: usize) -> Result<Poly, Stop> {
         let mut total = Poly::zero();
         for (k, part) in parts.iter().enumerate() {

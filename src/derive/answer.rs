@@ -302,7 +302,7 @@ impl Work<'_> {
             .collect()
     }
 
-    /// Kinetic energy [J]; `None` where a velocity is not determined.
+    /// Kinetic energy \[J\]; `None` where a velocity is not determined.
     fn energy(&mut self, when: EnergyWhen, of: Option<usize>) -> Result<Option<Element>, Stop> {
         let mut total = self.field.element(&Expr::zero())?;
         for b in self.moving(of) {

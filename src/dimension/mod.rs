@@ -1,4 +1,4 @@
-//! Physical dimensions: arithmetic, spelling, units ([`unit`]), and the dimension of an expression ([`of`]).
+//! Physical dimensions: arithmetic, spelling, units ([`unit()`]), and the dimension of an expression ([`of`]).
 //!
 //! Knows mass, length and time, which is all that mechanics of collisions needs; a plane angle has no dimension. Does not
 //! know how formulas are written: messages take a writer from the caller.

@@ -225,7 +225,7 @@ impl<T: Quantity> Geometry<T> {
         })
     }
 
-    /// Position of a moment point [m].
+    /// Position of a moment point \[m\].
     pub fn place(&self, place: Place) -> &[T; 2] {
         match place {
             Place::Center(b) => &self.center[b],
@@ -244,7 +244,7 @@ impl<T: Quantity> Geometry<T> {
         ]
     }
 
-    /// Mass of body `b` [kg].
+    /// Mass of body `b` \[kg\].
     pub fn mass(&self, b: usize) -> &T {
         &self.mass[b]
     }

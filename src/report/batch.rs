@@ -62,7 +62,7 @@ impl Program {
     }
 
     /// The value at one point, without allocating; NaN where the formula has none. `inputs` are in the order given to
-    /// [`compile`]; `scratch` holds at least [`Program::slots`] numbers, of any value.
+    /// [`compile()`]; `scratch` holds at least [`Program::slots`] numbers, of any value.
     ///
     /// # Panics
     /// If `inputs` or `scratch` is too short.

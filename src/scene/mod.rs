@@ -169,7 +169,7 @@ impl Parameter {
 pub struct NamedPoint {
     /// Name, such as `C`.
     pub name: String,
-    /// Position [m].
+    /// Position \[m\].
     pub at: Vector,
 }
 
@@ -180,13 +180,13 @@ pub struct Body {
     pub name: String,
     /// What it looks like, and its inertia.
     pub shape: Shape,
-    /// Mass m [kg]; zero for a massless link, meaningless for a fixed body.
+    /// Mass m \[kg\]; zero for a massless link, meaningless for a fixed body.
     pub mass: Expr,
     /// Moment of inertia about the center of mass, I_G [kg m²].
     pub inertia: Expr,
-    /// Center of mass G [m]; for a fixed body the point its velocity refers to.
+    /// Center of mass G \[m\]; for a fixed body the point its velocity refers to.
     pub center: Vector,
-    /// Orientation of the body's long axis, counterclockwise from x [rad].
+    /// Orientation of the body's long axis, counterclockwise from x \[rad\].
     pub angle: Expr,
     /// Velocity of G just before, v_G⁻ [m/s].
     pub velocity: Vector,
@@ -215,29 +215,29 @@ pub enum Shape {
     Particle,
     /// A uniform thin rod of this length along the body's axis.
     Rod {
-        /// Length [m].
+        /// Length \[m\].
         length: Expr,
     },
     /// A uniform disk.
     Disk {
-        /// Radius [m].
+        /// Radius \[m\].
         radius: Expr,
     },
     /// A thin ring.
     Ring {
-        /// Radius [m].
+        /// Radius \[m\].
         radius: Expr,
     },
     /// A uniform solid sphere.
     Sphere {
-        /// Radius [m].
+        /// Radius \[m\].
         radius: Expr,
     },
     /// A uniform rectangle.
     Rectangle {
-        /// Side along the body's axis [m].
+        /// Side along the body's axis \[m\].
         width: Expr,
-        /// Side across the body's axis [m].
+        /// Side across the body's axis \[m\].
         height: Expr,
     },
     /// Any other body; mass, center and inertia are all that is known.
@@ -256,7 +256,7 @@ pub struct Hinge {
     pub name: String,
     /// Indices of the bodies; the reaction is the impulse on the second.
     pub bodies: [usize; 2],
-    /// Position [m].
+    /// Position \[m\].
     pub at: Vector,
 }
 
@@ -267,7 +267,7 @@ pub struct Contact {
     pub name: String,
     /// Indices of the bodies; the impulse is the one on the second.
     pub bodies: [usize; 2],
-    /// Position [m].
+    /// Position \[m\].
     pub at: Vector,
     /// Outward unit normal of the first body.
     pub normal: Option<Vector>,
@@ -296,7 +296,7 @@ pub struct Blow {
     pub name: String,
     /// Index of the body it acts on.
     pub body: usize,
-    /// Point of application [m].
+    /// Point of application \[m\].
     pub at: Vector,
     /// The given impulse [N s], or the direction along which an impulse of unknown size acts.
     pub impulse: BlowImpulse,
