@@ -171,7 +171,7 @@ fn panel(stage: &Stage, motion: Option<&Motion<f64>>, which: Which) -> Panel {
                 }
                 Subject::Body(_) => (Vec::new(), "no movable body".to_string()),
             };
-            let of = if stage.movable().len() == 1 {
+            let of = if matches!(subject, Subject::System) && stage.movable().len() == 1 {
                 stage
                     .movable()
                     .first()

@@ -218,7 +218,8 @@ impl Dyadic {
             return 0.0;
         }
         let negative = x.sign() < 0;
-        if top > 1020 {
+        // From 2^1024 on there are no doubles; everything below has its 53 bits.
+        if top > 1024 {
             return match (negative, to) {
                 (false, Round::Up) => f64::INFINITY,
                 (false, Round::Down) => f64::MAX,

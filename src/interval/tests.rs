@@ -112,6 +112,23 @@ fn huge_exponents_are_bounded() {
     );
 }
 
+#[test]
+fn the_largest_doubles_are_rounded_to_their_side() {
+    // e^709.65 is a double; e^709.79 is beyond all of them.
+    for (numerator, low, high) in [
+        (70965, 1.57e308, 1.58e308),
+        (70979, f64::MAX, f64::INFINITY),
+    ] {
+        let e = Expr::call(Function::Exp, Expr::ratio(numerator, 100));
+        let value = at::<128>(&e);
+        assert!(
+            value.low.to_f64(Round::Down) >= low
+                && value.low.to_f64(Round::Down) <= high.min(f64::MAX)
+        );
+        assert!(value.high.to_f64(Round::Up) <= high && value.high.to_f64(Round::Up) >= low);
+    }
+}
+
 fn fraction() -> impl Strategy<Value = crate::expr::Rational> {
     (-2000i64..2000, 1i64..400).prop_map(|(n, d)| ratio(n, d))
 }
@@ -152,7 +169,7 @@ proptest! {
                 if let Outcome::Value(double) = evaluate(&e, &double) {
                     let low = Dyadic::from_f64(double.low);
                     let high = Dyadic::from_f64(double.high);
-                    prop_assert!(low.is_none_or(|l| l <= fine.0.low) && high.is_none_or(|h| fine.0.high <= h));
+                    prop_assert!(low.is_none_or(|l| l <= fine.0.low) && high.is_none_or(|h| fine.0.high <= h), "{function:?} {double:?} {fine:?}");
                 }
             } else {
                 prop_assert!(!matches!((&coarse, &fine), (Outcome::Undefined, Outcome::Value(_)) | (Outcome::Value(_), Outcome::Undefined)));
