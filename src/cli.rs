@@ -5,6 +5,8 @@
 
 mod draw;
 mod grade;
+#[cfg(feature = "report")]
+mod report;
 
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -59,6 +61,9 @@ enum Command {
     Draw(draw::DrawArgs),
     /// Judge a formula: is it equivalent, how is that known, and what is wrong with it
     Grade(grade::GradeArgs),
+    /// Measure error against run time of every route a scene has, towards every extreme
+    #[cfg(feature = "report")]
+    Report(report::ReportArgs),
     /// Hold what a book prints about a scene against what is derived
     Verify(grade::VerifyArgs),
     /// Tell how a formula is understood
@@ -110,6 +115,8 @@ pub fn run() -> ExitCode {
             certify,
         } => solve_command(&scene, format, &set, exact, certify),
         Command::Draw(args) => draw::run(&args),
+        #[cfg(feature = "report")]
+        Command::Report(args) => report::run(&args),
         Command::Grade(args) => grade::run(&args),
         Command::Verify(args) => grade::verify(&args),
         Command::Read(args) => grade::read(&args),

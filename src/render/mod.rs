@@ -5,6 +5,8 @@ pub mod certified;
 pub mod grade;
 pub mod json;
 pub mod printed;
+#[cfg(feature = "report")]
+pub mod report;
 pub mod story;
 pub mod text;
 

@@ -1,0 +1,135 @@
+//! `carom report`: error against run time of every route a scene has.
+
+use std::fs::File;
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::{Failure, Format, pretty, print, read_scene};
+use carom::report::{Effort, Report, Row, measure};
+use carom::{derive, numeric, render};
+
+/// Arguments of `carom report`.
+#[derive(Args)]
+pub struct ReportArgs {
+    /// Scene files
+    #[arg(required = true)]
+    scenes: Vec<PathBuf>,
+    /// Few points and short timing: seconds instead of minutes
+    #[arg(long)]
+    quick: bool,
+    /// Seed of all points; the same seed gives the same errors
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Points per level of a family
+    #[arg(long)]
+    points: Option<usize>,
+    /// Only this family besides usual values, such as "mass ratio"
+    #[arg(long)]
+    family: Option<String>,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// Also write one self-contained page with the plots
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Also write every finished row at once, one JSON object a line
+    #[arg(long, value_name = "FILE")]
+    rows: Option<PathBuf>,
+    /// Give a parameter a value; may be repeated
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+}
+
+/// Runs `carom report`: exit status 0, or 130 after an interrupt with everything finished until then printed.
+pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
+    // Paths first: an hour of measuring should not end at a folder that is not there.
+    let mut rows = args.rows.as_deref().map(create).transpose()?;
+    let mut page = args.html.as_deref().map(create).transpose()?;
+    let mut scenes = Vec::new();
+    for path in &args.scenes {
+        scenes.push((path, read_scene(path, &args.set)?));
+    }
+    let stop = Arc::new(AtomicBool::new(false));
+    let seen = Arc::clone(&stop);
+    let handled = ctrlc::set_handler(move || seen.store(true, Ordering::SeqCst)).is_ok();
+    let effort = Effort {
+        seed: args.seed,
+        points: args.points.unwrap_or(if args.quick { 4 } else { 40 }),
+        runs: if args.quick { 15 } else { 51 },
+        repeat: if args.quick { 100 } else { 1000 },
+        family: args.family.clone(),
+    };
+    let mut reports: Vec<Report> = Vec::new();
+    for (path, scene) in &scenes {
+        let name = path.display();
+        if let Err(numeric::NoPoint::Missing(symbols)) = numeric::values(scene) {
+            eprintln!(
+                "{name}: no value for {}; measured at seeded points of the domains",
+                symbols.join(", ")
+            );
+        }
+        let derivation = derive::derive(scene);
+        if let Err(why) = &derivation {
+            eprintln!("{name}: no closed forms ({why}); their routes are left out");
+        }
+        let bar = bar(&scene.title);
+        let mut failed: Option<std::io::Error> = None;
+        let mut on_row = |row: &Row, done: usize, total: usize| {
+            bar.set_length(total as u64);
+            bar.set_position(done as u64);
+            if let Some(file) = &mut rows {
+                let line = serde_json::json!({"scene": scene.title, "row": row});
+                failed = writeln!(file, "{line}").and_then(|()| file.flush()).err();
+            }
+            failed.is_none() && !(handled && stop.load(Ordering::SeqCst))
+        };
+        let report = measure(scene, derivation.as_ref().ok(), effort.clone(), &mut on_row)
+            .map_err(|why| Failure::Input(format!("{name}: {why}")))?;
+        bar.finish_and_clear();
+        if let Some(error) = failed {
+            return Err(Failure::Output(error));
+        }
+        if args.format == Format::Text {
+            print(&render::report::text(&report))?;
+        }
+        let interrupted = report.interrupted;
+        reports.push(report);
+        if interrupted {
+            break;
+        }
+    }
+    if args.format == Format::Json {
+        let all: Vec<_> = reports.iter().map(render::report::json).collect();
+        print(&pretty(&serde_json::Value::Array(all)))?;
+    }
+    if let Some(file) = &mut page {
+        file.write_all(render::report::html(&reports).as_bytes())?;
+    }
+    Ok(if reports.iter().any(|r| r.interrupted) {
+        130
+    } else {
+        0
+    })
+}
+
+fn create(path: &Path) -> Result<File, Failure> {
+    File::create(path)
+        .map_err(|e| Failure::Input(format!("{}: cannot be written: {e}", path.display())))
+}
+
+fn bar(title: &str) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(0);
+    if let Ok(style) = ProgressStyle::with_template("{msg} {bar:40} {pos}/{len} {eta}") {
+        bar.set_style(style);
+    }
+    bar.set_message(title.to_string());
+    bar
+}

@@ -1,0 +1,459 @@
+//! A measured report for the terminal, as data, and as one page without network or script. Every figure comes in ready.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use crate::plot::{Axis, Curve, Mark, Plot, curve};
+use crate::report::measure::{Cell, Residuals, RouteSummary, Swept};
+use crate::report::verdict::{nanoseconds, short};
+use crate::report::{BINS, Report, Route};
+
+/// The tables for a terminal.
+pub fn text(report: &Report) -> String {
+    let mut out = String::new();
+    let _ = writeln!(out, "{} · {}", report.title, report.source);
+    let _ = writeln!(out, "{}", effort(report));
+    let _ = writeln!(out, "\n{}\n", report.verdict);
+    let _ = writeln!(
+        out,
+        "{:24} {:>9} {:>19} {:>9} {:>9} {:>9} {:>9}  worst in",
+        "route", "time", "quartiles", "usual max", "worst", "stability", "residual"
+    );
+    for r in &report.routes {
+        let mark = if r.dominated { "·" } else { " " };
+        let residual = r
+            .residuals
+            .as_ref()
+            .map_or("–".into(), |r| short(largest(r)));
+        let _ = writeln!(
+            out,
+            "{mark}{:23} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}  {}",
+            r.words,
+            nanoseconds(r.seconds[1]),
+            nanoseconds(r.seconds[0]),
+            nanoseconds(r.seconds[2]),
+            short(r.usual_max),
+            short(r.worst),
+            short(r.stability),
+            residual,
+            r.worst_family
+        );
+    }
+    if let Some((time, n)) = &report.lu_alone {
+        let _ = writeln!(
+            out,
+            " {:23} {:>9} {:>9} {:>9}  (the {n}×{n} matrix ready)",
+            "nalgebra's LU alone",
+            nanoseconds(time[1]),
+            nanoseconds(time[0]),
+            nanoseconds(time[2])
+        );
+    }
+    out.push_str(LEGEND);
+    for f in report.families.iter().filter(|f| !f.axis.is_empty()) {
+        let _ = writeln!(out, "\n{}: {}", f.name, f.words);
+        let _ = write!(out, "  {:>7}", "level");
+        for r in &report.routes {
+            let _ = write!(out, " {:>13}", r.route.short());
+        }
+        let _ = writeln!(out, " {:>9}  flags", "cond·u");
+        for row in &f.rows {
+            let _ = write!(out, "  {:>7}", row.x);
+            for r in &report.routes {
+                let cell = row.cells.iter().find(|c| c.route == r.route);
+                let _ = write!(out, " {:>13}", cell.map_or("–".into(), |c| short(c.max)));
+            }
+            let _ = writeln!(
+                out,
+                " {:>9}  {}",
+                short(row.condition),
+                row.flags.join(", ")
+            );
+        }
+    }
+    if !report.findings.is_empty() {
+        out.push_str("\nknown findings, held against these numbers:\n");
+        for f in &report.findings {
+            let mark = if f.holds { "shown" } else { "not shown" };
+            let _ = writeln!(out, "  {mark}: {} — {}", f.claim, f.evidence);
+        }
+    }
+    if report.interrupted {
+        out.push_str("\ninterrupted: what was finished is above\n");
+    }
+    out
+}
+
+const LEGEND: &str = " · dominated: another route is both faster and no less accurate. Errors in units in the last place of the exact answer;\n \
+    stability: error over 2⁻⁵³ × structured condition number; residual: momentum, angular momentum and Carnot in 2⁻⁵³.\n";
+
+fn largest(r: &Residuals) -> f64 {
+    r.momentum
+        .max(r.angular_momentum)
+        .max(r.carnot.unwrap_or(0.0))
+}
+
+fn effort(report: &Report) -> String {
+    let (e, m) = (&report.effort, &report.machine);
+    format!(
+        "seed {}, {} points a level, {} timed runs of {}; carom {}, {} on {}, {} processors{}; {} answers exactly zero or out of range left out",
+        e.seed,
+        e.points,
+        e.runs,
+        e.repeat,
+        m.carom,
+        m.architecture,
+        m.system,
+        m.processors,
+        if m.optimized {
+            ""
+        } else {
+            ", NOT OPTIMIZED: times mean little"
+        },
+        report.left_out
+    )
+}
+
+/// The report as data. Numbers that are no finite doubles become null.
+pub fn json(report: &Report) -> Value {
+    serde_json::to_value(report).unwrap_or_else(|e| json!({"error": e.to_string()}))
+}
+
+/// One self-contained page for several reports.
+pub fn html(reports: &[Report]) -> String {
+    let mut out = String::from(HEAD);
+    if reports.len() > 1 {
+        out.push_str("<nav><ul>");
+        for (i, r) in reports.iter().enumerate() {
+            let _ = write!(
+                out,
+                "<li><a href=\"#s{i}\">{}</a> — {}</li>",
+                escape(&r.title),
+                escape(&r.verdict)
+            );
+        }
+        out.push_str("</ul></nav>");
+    }
+    for (i, report) in reports.iter().enumerate() {
+        section(&mut out, i, report);
+    }
+    out.push_str("</main></body></html>\n");
+    out
+}
+
+fn section(out: &mut String, index: usize, report: &Report) {
+    let _ = write!(
+        out,
+        "<section id=\"s{index}\"><h2>{} <small>{}</small></h2>",
+        escape(&report.title),
+        escape(&report.source)
+    );
+    let _ = write!(out, "<p class=\"verdict\">{}</p>", escape(&report.verdict));
+    if report.interrupted {
+        out.push_str("<p><strong>Interrupted:</strong> only finished rows are shown.</p>");
+    }
+    out.push_str("<div class=\"pair\"><div>");
+    routes_table(out, report);
+    out.push_str("</div>");
+    figure(
+        out,
+        pareto(report),
+        "Error against run time: worst error anywhere over median time. Routes that another one beats in both are left unmarked.",
+    );
+    out.push_str("</div><h3>Extreme families</h3><div class=\"plots\">");
+    for f in report.families.iter().filter(|f| !f.axis.is_empty()) {
+        figure(
+            out,
+            family_plot(report, f),
+            &format!("{}. {}", f.words, flags(f)),
+        );
+    }
+    out.push_str("</div><h3>Errors at usual values</h3>");
+    histogram(out, report);
+    conditions(out, report);
+    if !report.findings.is_empty() {
+        out.push_str("<h3>Known findings, held against these numbers</h3><ul class=\"findings\">");
+        for f in &report.findings {
+            let (class, mark) = if f.holds {
+                ("yes", "shown")
+            } else {
+                ("no", "not shown")
+            };
+            let _ = write!(
+                out,
+                "<li><b class=\"{class}\">{mark}</b> {} <span>{}</span></li>",
+                escape(&f.claim),
+                escape(&f.evidence)
+            );
+        }
+        out.push_str("</ul>");
+    }
+    let _ = write!(
+        out,
+        "<p class=\"small\">{}</p></section>",
+        escape(&effort(report))
+    );
+}
+
+fn flags(f: &Swept) -> String {
+    let mut all: Vec<&str> = f
+        .rows
+        .iter()
+        .flat_map(|r| r.flags.iter().copied())
+        .collect();
+    all.sort_unstable();
+    all.dedup();
+    if all.is_empty() {
+        String::new()
+    } else {
+        format!("Flags: {}.", all.join(", "))
+    }
+}
+
+fn figure(out: &mut String, plot: Option<String>, caption: &str) {
+    if let Some(svg) = plot {
+        let _ = write!(
+            out,
+            "<figure>{svg}<figcaption>{}</figcaption></figure>",
+            escape(caption)
+        );
+    }
+}
+
+fn routes_table(out: &mut String, report: &Report) {
+    out.push_str("<table><thead><tr><th>route<th>time<th>quartiles<th>usual max [ulp]<th>99 %<th>median<th>worst [ulp]<th>in<th>stability<th>momentum<th>ang. mom.<th>Carnot</tr></thead><tbody>");
+    for r in &report.routes {
+        let class = if r.dominated {
+            " class=\"dominated\""
+        } else {
+            ""
+        };
+        let top = |f: &dyn Fn(&crate::report::measure::Errors) -> f64| {
+            r.usual.values().map(f).fold(0.0, f64::max)
+        };
+        let residual = |f: &dyn Fn(&Residuals) -> Option<f64>| {
+            r.residuals.as_ref().and_then(f).map_or("–".into(), short)
+        };
+        let _ = write!(
+            out,
+            "<tr{class}><th>{}<td>{}<td>{} – {}<td>{}<td>{}<td>{}<td>{}<td class=\"words\">{}<td>{}<td>{}<td>{}<td>{}</tr>",
+            r.words,
+            nanoseconds(r.seconds[1]),
+            nanoseconds(r.seconds[0]),
+            nanoseconds(r.seconds[2]),
+            short(r.usual_max),
+            short(top(&|e| e.p99)),
+            short(top(&|e| e.median)),
+            short(r.worst),
+            escape(&r.worst_family),
+            short(r.stability),
+            residual(&|x| Some(x.momentum)),
+            residual(&|x| Some(x.angular_momentum)),
+            residual(&|x| x.carnot),
+        );
+    }
+    if let Some((time, n)) = &report.lu_alone {
+        let _ = write!(
+            out,
+            "<tr><th>nalgebra's LU alone<td>{}<td>{} – {}<td colspan=\"9\" class=\"words\">the {n}×{n} matrix ready</tr>",
+            nanoseconds(time[1]),
+            nanoseconds(time[0]),
+            nanoseconds(time[2])
+        );
+    }
+    out.push_str("</tbody></table>");
+}
+
+fn level(ulps: f64) -> f64 {
+    ulps.clamp(0.1, 1e17).log10()
+}
+
+fn pareto(report: &Report) -> Option<String> {
+    let at = |r: &RouteSummary| [(r.seconds[1] * 1e9).max(0.1).log10(), level(r.worst)];
+    let all: Vec<&RouteSummary> = report
+        .routes
+        .iter()
+        .filter(|r| r.seconds[1].is_finite())
+        .collect();
+    let mut front: Vec<[f64; 2]> = all.iter().filter(|r| !r.dominated).map(|r| at(r)).collect();
+    front.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let label = |r: &RouteSummary| {
+        if r.dominated {
+            format!("({})", r.route.short())
+        } else {
+            r.route.short().to_string()
+        }
+    };
+    let plot = Plot {
+        title: format!("Error against run time: {}", report.title),
+        x: Axis {
+            label: "log10 of time [ns]".into(),
+            range: None,
+        },
+        y: Axis {
+            label: "log10 of worst error [ulp]".into(),
+            range: Some([-1.2, 17.5]),
+        },
+        curves: vec![Curve {
+            label: "best".into(),
+            points: front,
+        }],
+        marks: all
+            .iter()
+            .map(|r| Mark {
+                at: at(r),
+                label: label(r),
+            })
+            .collect(),
+    };
+    curve(&plot).ok()
+}
+
+/// Curves of routes that lie on each other are drawn once.
+fn family_plot(report: &Report, family: &Swept) -> Option<String> {
+    let points = |route: Route| -> Vec<[f64; 2]> {
+        let cell = |c: &&Cell| c.route == route;
+        family
+            .rows
+            .iter()
+            .filter_map(|r| Some([r.x, level(r.cells.iter().find(cell)?.max)]))
+            .collect()
+    };
+    let mut groups: Vec<(Vec<Route>, Vec<[f64; 2]>)> = Vec::new();
+    for r in &report.routes {
+        let own = points(r.route);
+        let near = |other: &[[f64; 2]]| {
+            other.len() == own.len()
+                && other
+                    .iter()
+                    .zip(&own)
+                    .all(|(a, b)| (a[1] - b[1]).abs() < 0.7)
+        };
+        match groups.iter_mut().find(|(_, p)| near(p)) {
+            Some((routes, _)) => routes.push(r.route),
+            None => groups.push((vec![r.route], own)),
+        }
+    }
+    let mut curves: Vec<Curve> = groups
+        .into_iter()
+        .map(|(routes, points)| Curve {
+            label: match routes.as_slice() {
+                [one] => one.short().into(),
+                [one, rest @ ..] => format!("{} +{}", one.short(), rest.len()),
+                [] => String::new(),
+            },
+            points,
+        })
+        .collect();
+    curves.truncate(5);
+    let data = family
+        .rows
+        .iter()
+        .map(|r| [r.x, level(r.condition)])
+        .collect();
+    curves.push(Curve {
+        label: "cond·u".into(),
+        points: data,
+    });
+    let single = family.rows.len() < 2;
+    let plot = Plot {
+        title: format!("{}: {}", family.name, report.title),
+        x: Axis {
+            label: family.axis.clone(),
+            range: single.then(|| [family.rows[0].x - 1.0, family.rows[0].x + 1.0]),
+        },
+        y: Axis {
+            label: format!("{}: log10 of error [ulp]", family.name),
+            range: Some([-1.2, 17.5]),
+        },
+        curves,
+        marks: Vec::new(),
+    };
+    curve(&plot).ok()
+}
+
+fn histogram(out: &mut String, report: &Report) {
+    out.push_str("<table class=\"counts\"><thead><tr><th>route");
+    for bin in BINS {
+        let _ = write!(out, "<th>≤ {bin:e}");
+    }
+    out.push_str("<th>more</tr></thead><tbody>");
+    for r in &report.routes {
+        let mut counts = vec![0usize; BINS.len() + 1];
+        for e in r.usual.values() {
+            counts
+                .iter_mut()
+                .zip(&e.histogram)
+                .for_each(|(sum, n)| *sum += n);
+        }
+        let all: usize = counts.iter().sum();
+        let _ = write!(out, "<tr><th>{}", r.words);
+        for n in counts {
+            let share = n as f64 / all.max(1) as f64;
+            let shown = if n == 0 { String::new() } else { n.to_string() };
+            let _ = write!(out, "<td style=\"--share:{:.0}%\">{shown}", 100.0 * share);
+        }
+        out.push_str("</tr>");
+    }
+    out.push_str("</tbody></table><p class=\"small\">How many answers lie within so many units in the last place, all quantities together.</p>");
+}
+
+fn conditions(out: &mut String, report: &Report) {
+    out.push_str("<table><thead><tr><th>quantity<th>largest condition number");
+    for r in &report.routes {
+        let _ = write!(out, "<th>{}", r.route.short());
+    }
+    out.push_str("</tr></thead><tbody>");
+    for q in &report.quantities {
+        let condition = report.conditions.get(q).map_or("–".into(), |c| short(*c));
+        let _ = write!(out, "<tr><th>{}<td>{condition}", escape(q));
+        for r in &report.routes {
+            let worst = r
+                .usual
+                .get(q)
+                .filter(|e| e.count > 0)
+                .map_or("–".into(), |e| short(e.max));
+            let _ = write!(out, "<td>{worst}");
+        }
+        out.push_str("</tr>");
+    }
+    out.push_str("</tbody></table><p class=\"small\">Largest error [ulp] per quantity; – where the answer is exactly zero.</p>");
+}
+
+fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '&' => out.push_str("&amp;"),
+            '"' => out.push_str("&quot;"),
+            _ => out.push(c),
+        }
+    }
+    out
+}
+
+const HEAD: &str = r#"<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark"><title>carom: error against run time</title>
+<style>
+:root{--ink:#1b1f24;--soft:#667;--line:#d5d9de;--paper:#fdfdfc;--tint:47,129,214}
+@media (prefers-color-scheme:dark){:root{--ink:#e6e8eb;--soft:#99a1ab;--line:#3a4048;--paper:#15181c}}
+body{margin:0;background:var(--paper);color:var(--ink);font:15px/1.45 system-ui,sans-serif}
+main{max-width:78rem;margin:0 auto;padding:1.5rem}
+h2{margin-top:2.5rem;border-bottom:1px solid var(--line)}h2 small{color:var(--soft);font-weight:normal}
+.verdict{font-size:1.1rem;border-left:4px solid rgb(var(--tint));padding-left:.8rem}
+table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.85rem}
+.pair>div,section{overflow-x:auto}
+th,td{padding:.15rem .5rem;text-align:right;border-bottom:1px solid var(--line);white-space:nowrap}
+tbody th{text-align:left;font-weight:normal}td.words{text-align:left}
+tr.dominated{color:var(--soft);opacity:.6}
+.counts td{background:color-mix(in srgb,rgb(var(--tint)) calc(var(--share)*.6),transparent)}
+.plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(23rem,1fr));gap:1rem}
+figure{margin:.5rem 0;max-width:34rem}figure svg{width:100%;height:auto;color:var(--ink)}
+figcaption,.small{color:var(--soft);font-size:.82rem}
+.findings b{display:inline-block;min-width:5.5rem}.findings .yes{color:#2e965f}.findings .no{color:#d9534a}.findings span{color:var(--soft)}
+</style></head><body><main><h1>Error against run time</h1>
+"#;

@@ -1,0 +1,596 @@
+//! Error against run time: every route at every point, held against the exact answer.
+//!
+//! In: a scene, a derivation, a seed. Out: rows as they finish, and the whole. Errors are in units in the last place of the
+//! exact answer; answers that are exactly zero, or beyond the range of normal doubles, are left out and counted.
+
+use std::collections::BTreeMap;
+
+use num_traits::{Signed, Zero};
+use serde::Serialize;
+
+use super::batch::quartiles;
+use super::dual::conditions;
+use super::routes::{Place, Prepared, Route};
+use super::sample::{Family, Sampler, flags};
+use super::verdict::{self, Finding};
+use crate::derive::Derivation;
+use crate::expr::Rational;
+use crate::expr::number::from_f64;
+use crate::numeric::dd::Dd;
+use crate::numeric::{Invariant, assemble, identities};
+use crate::scene::Scene;
+
+/// How much to measure.
+#[derive(Clone, Debug, Serialize)]
+pub struct Effort {
+    /// Seed of all points.
+    pub seed: u64,
+    /// Points per level of a family; usual values get eight times as many.
+    pub points: usize,
+    /// Timed runs per route.
+    pub runs: usize,
+    /// Repetitions within a run.
+    pub repeat: usize,
+    /// The one family to measure besides usual values; all if none is named.
+    pub family: Option<String>,
+}
+
+/// Errors of one quantity by one route, in units in the last place.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Errors {
+    /// Numbers compared.
+    pub count: usize,
+    /// Largest.
+    pub max: f64,
+    /// 99 % are no larger.
+    pub p99: f64,
+    /// Half are no larger.
+    pub median: f64,
+    /// How many lie at or below each of [`BINS`], and above the last.
+    pub histogram: Vec<usize>,
+}
+
+/// Upper ends of the histogram's classes, in units in the last place.
+pub const BINS: [f64; 10] = [0.5, 1.0, 2.0, 4.0, 16.0, 256.0, 1e4, 1e8, 1e12, 1e16];
+
+impl Errors {
+    fn of(mut all: Vec<f64>) -> Errors {
+        all.sort_by(f64::total_cmp);
+        let at = |share: f64| {
+            all.get(((all.len() as f64 * share).ceil() as usize).clamp(1, all.len().max(1)) - 1)
+                .copied()
+                .unwrap_or(0.0)
+        };
+        let mut histogram = vec![0; BINS.len() + 1];
+        for error in &all {
+            histogram[BINS.iter().position(|b| error <= b).unwrap_or(BINS.len())] += 1;
+        }
+        Errors {
+            count: all.len(),
+            max: at(1.0),
+            p99: at(0.99),
+            median: at(0.5),
+            histogram,
+        }
+    }
+}
+
+/// One route at one level of a family, all quantities and points together.
+#[derive(Clone, Debug, Serialize)]
+pub struct Cell {
+    /// The route.
+    pub route: Route,
+    /// Largest error \[ulp\].
+    pub max: f64,
+    /// Median error \[ulp\].
+    pub median: f64,
+    /// Decimal digits lost by the worst answer, of about 16.
+    pub digits_lost: f64,
+    /// Largest error over 2⁻⁵³ × structured condition number.
+    pub stability: f64,
+    /// Largest Oettli–Prager backward error of the full system, in units of 2⁻⁵³, where the route gives all unknowns.
+    pub backward: Option<f64>,
+}
+
+/// One level of a family.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// Family.
+    pub family: String,
+    /// Place on its axis.
+    pub x: f64,
+    /// Points that had an exact answer.
+    pub points: usize,
+    /// Largest structured condition number of an answer.
+    pub condition: f64,
+    /// What is special about the points.
+    pub flags: Vec<&'static str>,
+    /// The routes.
+    pub cells: Vec<Cell>,
+}
+
+/// A family and its rows.
+#[derive(Clone, Debug, Serialize)]
+pub struct Swept {
+    /// Name.
+    pub name: String,
+    /// What varies.
+    pub words: String,
+    /// Label of the axis.
+    pub axis: String,
+    /// Levels.
+    pub rows: Vec<Row>,
+}
+
+/// Scaled residuals of the laws: |left − right| over the size of the terms, in units of 2⁻⁵³.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Residuals {
+    /// Momentum of bodies and systems.
+    pub momentum: f64,
+    /// Angular momentum about points other than the centers.
+    pub angular_momentum: f64,
+    /// Carnot's theorem, where it applies.
+    pub carnot: Option<f64>,
+}
+
+/// A route over the whole report.
+#[derive(Clone, Debug, Serialize)]
+pub struct RouteSummary {
+    /// The route.
+    pub route: Route,
+    /// In words.
+    pub words: &'static str,
+    /// Lower quartile, median, upper quartile of its time \[s\], from the numbers of the scene to all answers.
+    pub seconds: [f64; 3],
+    /// Errors at usual values, per quantity.
+    pub usual: BTreeMap<String, Errors>,
+    /// Largest error at usual values \[ulp\].
+    pub usual_max: f64,
+    /// Largest error anywhere \[ulp\].
+    pub worst: f64,
+    /// The family it happened in.
+    pub worst_family: String,
+    /// Largest stability factor anywhere.
+    pub stability: f64,
+    /// Residuals at usual values, where the route gives the whole motion.
+    pub residuals: Option<Residuals>,
+    /// Whether another route is both faster and at least as accurate everywhere.
+    pub dominated: bool,
+}
+
+/// Everything measured of a scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// Title.
+    pub title: String,
+    /// Source.
+    pub source: String,
+    /// Parameters of the measurement.
+    pub effort: Effort,
+    /// Machine and versions.
+    pub machine: Machine,
+    /// Names of the quantities.
+    pub quantities: Vec<String>,
+    /// Largest condition number per quantity at usual values, with the error 2⁻⁵³ × it [ulp of 1].
+    pub conditions: BTreeMap<String, f64>,
+    /// Time of nalgebra's LU on the full system alone, matrix ready: quartiles \[s\], and its size.
+    pub lu_alone: Option<([f64; 3], usize)>,
+    /// Routes.
+    pub routes: Vec<RouteSummary>,
+    /// Families.
+    pub families: Vec<Swept>,
+    /// What is known of such scenes, held against these numbers.
+    pub findings: Vec<Finding>,
+    /// Which route to use here, and why.
+    pub verdict: String,
+    /// Answers left out: exactly zero, or beyond the range of normal doubles.
+    pub left_out: usize,
+    /// Whether the measurement was stopped before its end.
+    pub interrupted: bool,
+}
+
+/// Where it was measured.
+#[derive(Clone, Debug, Serialize)]
+pub struct Machine {
+    /// Processors seen.
+    pub processors: usize,
+    /// Architecture.
+    pub architecture: &'static str,
+    /// Operating system.
+    pub system: &'static str,
+    /// Version of carom.
+    pub carom: &'static str,
+    /// Whether optimizations were on.
+    pub optimized: bool,
+}
+
+impl Machine {
+    /// This one.
+    pub fn here() -> Machine {
+        Machine {
+            processors: std::thread::available_parallelism().map_or(1, usize::from),
+            architecture: std::env::consts::ARCH,
+            system: std::env::consts::OS,
+            carom: env!("CARGO_PKG_VERSION"),
+            optimized: !cfg!(debug_assertions),
+        }
+    }
+}
+
+/// Why a scene cannot be measured.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoReport {
+    /// It asks for no number.
+    NothingAsked,
+    /// At no point tried do the laws determine what is asked, or it is irrational there.
+    NoAnswer,
+    /// It lacks the family asked for; those it has.
+    NoFamily(String, Vec<String>),
+}
+
+impl std::fmt::Display for NoReport {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            NoReport::NothingAsked => {
+                f.write_str("the scene asks for no number, so there is nothing to measure")
+            }
+            NoReport::NoAnswer => f.write_str(
+                "at no point tried do the laws determine every answer as a fraction, so there is nothing to measure against",
+            ),
+            NoReport::NoFamily(asked, has) => {
+                write!(f, "the scene has no family `{asked}`\nhint: it has {}", has.join(", "))
+            }
+        }
+    }
+}
+
+impl std::error::Error for NoReport {}
+
+/// Error in units in the last place of the exact answer; `None` where that is zero or no normal double.
+pub fn ulps(value: f64, exact: &Rational) -> Option<f64> {
+    let near = crate::expr::number::to_f64(exact);
+    if exact.is_zero() || !(1e-300..1e300).contains(&near.abs()) {
+        return None;
+    }
+    let Some(value) = from_f64(value) else {
+        return Some(f64::INFINITY);
+    };
+    let mut power = near.abs().log2().floor() as i32;
+    // The logarithm may be off at powers of two.
+    if 2f64.powi(power) > near.abs() {
+        power -= 1;
+    }
+    if 2f64.powi(power + 1) <= near.abs() {
+        power += 1;
+    }
+    let unit = from_f64(2f64.powi(power - 52))?;
+    Some(crate::expr::number::to_f64(&((value - exact).abs() / unit)))
+}
+
+/// Measures a scene. `row` is told of every row as it finishes and says whether to go on.
+pub fn measure(
+    scene: &Scene,
+    derivation: Option<&Derivation>,
+    effort: Effort,
+    mut row: impl FnMut(&Row, usize, usize) -> bool,
+) -> Result<Report, NoReport> {
+    let prepared = Prepared::new(scene, derivation);
+    if prepared.quantities.is_empty() {
+        return Err(NoReport::NothingAsked);
+    }
+    let sampler = Sampler::new(scene, effort.seed);
+    let usual = sampler.usual(effort.points * 8);
+    let places: Vec<Place> = usual.levels[0]
+        .points
+        .iter()
+        .filter_map(|p| prepared.place(p))
+        .collect();
+    let place = places
+        .iter()
+        .find(|p| prepared.truth(&p.exact).is_some())
+        .ok_or(NoReport::NoAnswer)?;
+    let routes = prepared.routes(place);
+    let mut bench = Bench {
+        prepared: &prepared,
+        routes: &routes,
+        left_out: 0,
+        usual: BTreeMap::new(),
+        conditions: BTreeMap::new(),
+    };
+    let mut families = sampler.families(effort.points);
+    if let Some(asked) = &effort.family {
+        let has = families.iter().map(|f| f.name.clone()).collect();
+        families.retain(|f| f.axis.is_empty() || f.name == *asked);
+        if !families.iter().any(|f| f.name == *asked) {
+            return Err(NoReport::NoFamily(asked.clone(), has));
+        }
+    }
+    let total: usize = families.iter().map(|f| f.levels.len()).sum();
+    let mut done = 0;
+    let mut interrupted = false;
+    let mut swept: Vec<Swept> = Vec::new();
+    'all: for family in &families {
+        let mut rows = Vec::new();
+        for level in 0..family.levels.len() {
+            let Some(next) = bench.row(family, level) else {
+                continue;
+            };
+            done += 1;
+            let go_on = row(&next, done, total);
+            rows.push(next);
+            if !go_on {
+                interrupted = true;
+                swept.push(Swept {
+                    name: family.name.clone(),
+                    words: family.words.clone(),
+                    axis: family.axis.clone(),
+                    rows,
+                });
+                break 'all;
+            }
+        }
+        if !rows.is_empty() {
+            swept.push(Swept {
+                name: family.name.clone(),
+                words: family.words.clone(),
+                axis: family.axis.clone(),
+                rows,
+            });
+        }
+    }
+    let summaries: Vec<RouteSummary> = routes
+        .iter()
+        .map(|route| {
+            let cells = || {
+                swept
+                    .iter()
+                    .flat_map(|f| f.rows.iter().map(move |r| (f, r)))
+                    .filter_map(|(f, r)| Some((f, r.cells.iter().find(|c| c.route == *route)?)))
+            };
+            let (worst, worst_family) = cells().fold((0.0, String::new()), |best, (f, c)| {
+                if c.max > best.0 {
+                    (c.max, f.name.clone())
+                } else {
+                    best
+                }
+            });
+            let usual: BTreeMap<String, Errors> = prepared
+                .quantities
+                .iter()
+                .enumerate()
+                .map(|(q, quantity)| {
+                    (
+                        quantity.name.clone(),
+                        Errors::of(bench.usual.get(&(*route, q)).cloned().unwrap_or_default()),
+                    )
+                })
+                .collect();
+            let runs = if interrupted {
+                effort.runs.min(5)
+            } else {
+                effort.runs
+            };
+            RouteSummary {
+                route: *route,
+                words: route.words(),
+                seconds: time(&prepared, *route, place, runs, effort.repeat),
+                usual_max: usual.values().map(|e| e.max).fold(0.0, f64::max),
+                usual,
+                worst,
+                worst_family,
+                stability: cells().map(|(_, c)| c.stability).fold(0.0, f64::max),
+                residuals: residuals(&prepared, *route, &places),
+                dominated: false,
+            }
+        })
+        .collect();
+    let mut report = Report {
+        title: scene.title.clone(),
+        source: scene.source.clone(),
+        machine: Machine::here(),
+        quantities: prepared.quantities.iter().map(|q| q.name.clone()).collect(),
+        conditions: bench.conditions,
+        lu_alone: lu_alone(place, &effort),
+        effort,
+        routes: summaries,
+        families: swept,
+        findings: Vec::new(),
+        verdict: String::new(),
+        left_out: bench.left_out,
+        interrupted,
+    };
+    verdict::judge(&mut report, &prepared.quantities);
+    Ok(report)
+}
+
+struct Bench<'a> {
+    prepared: &'a Prepared<'a>,
+    routes: &'a [Route],
+    left_out: usize,
+    /// All errors at usual values by route and quantity.
+    usual: BTreeMap<(Route, usize), Vec<f64>>,
+    conditions: BTreeMap<String, f64>,
+}
+
+impl Bench<'_> {
+    fn row(&mut self, family: &Family, level: usize) -> Option<Row> {
+        let is_usual = family.axis.is_empty();
+        let level = &family.levels[level];
+        let mut all: BTreeMap<Route, Vec<f64>> = BTreeMap::new();
+        let mut stability: BTreeMap<Route, f64> = BTreeMap::new();
+        let mut backward: BTreeMap<Route, f64> = BTreeMap::new();
+        let mut condition = 0.0f64;
+        let mut special: Vec<&'static str> = Vec::new();
+        let mut points = 0;
+        for point in &level.points {
+            let Some(place) = self.prepared.place(point) else {
+                continue;
+            };
+            let Some(truth) = self.prepared.truth(point) else {
+                continue;
+            };
+            points += 1;
+            let near = conditions(self.prepared.scene, point)
+                .unwrap_or_else(|| vec![f64::INFINITY; truth.len()]);
+            special.extend(flags(&place.given, &near));
+            for (q, exact) in truth.iter().enumerate() {
+                if ulps(0.0, exact).is_none() {
+                    self.left_out += 1;
+                    continue;
+                }
+                condition = condition.max(near[q]);
+                if is_usual {
+                    let name = self.prepared.quantities[q].name.clone();
+                    let entry = self.conditions.entry(name).or_insert(0.0);
+                    *entry = entry.max(near[q]);
+                }
+            }
+            for route in self.routes {
+                let found = self.prepared.follow(*route, &place);
+                for (q, exact) in truth.iter().enumerate() {
+                    let value = found.as_ref().map_or(f64::NAN, |f| f.values[q]);
+                    let Some(error) = ulps(value, exact) else {
+                        continue;
+                    };
+                    all.entry(*route).or_default().push(error);
+                    if is_usual {
+                        self.usual.entry((*route, q)).or_default().push(error);
+                    }
+                    // Half a unit in the last place is 2⁻⁵³ of a number just below a power of two; the error relative
+                    // to the answer is at most twice the ulps counted in 2⁻⁵³.
+                    let factor = 2.0 * error / near[q].max(1.0);
+                    let worst = stability.entry(*route).or_insert(0.0);
+                    *worst = worst.max(factor);
+                }
+                if let Some(motion) = found.and_then(|f| f.motion) {
+                    let worst = backward.entry(*route).or_insert(0.0);
+                    *worst = worst.max(oettli_prager(&place, &motion));
+                }
+            }
+        }
+        let cells = self.routes.iter().filter_map(|route| {
+            let errors = Errors::of(all.remove(route)?);
+            Some(Cell {
+                route: *route,
+                max: errors.max,
+                median: errors.median,
+                digits_lost: digits_lost(errors.max),
+                stability: stability.get(route).copied().unwrap_or(0.0),
+                backward: backward.get(route).copied(),
+            })
+        });
+        let cells: Vec<Cell> = cells.collect();
+        special.sort_unstable();
+        special.dedup();
+        (points > 0 && !cells.is_empty()).then(|| Row {
+            family: family.name.clone(),
+            x: level.x,
+            points,
+            condition,
+            flags: special,
+            cells,
+        })
+    }
+}
+
+/// Decimal digits lost of about 16.
+pub fn digits_lost(ulps: f64) -> f64 {
+    ulps.max(1.0).log10().min(16.0)
+}
+
+/// max_i |b − A x|_i / (|A||x| + |b|)_i in units of 2⁻⁵³, the residual in double-doubles (Oettli & Prager 1964).
+fn oettli_prager(place: &Place, motion: &crate::numeric::Motion<f64>) -> f64 {
+    let system = assemble(&place.given);
+    let normal = |c: usize| place.given.contacts[c].normal;
+    let along = |b: usize| match &place.given.blows[b].impulse {
+        crate::numeric::given::GivenImpulse::Along(d) => Some(*d),
+        crate::numeric::given::GivenImpulse::Whole(_) => None,
+    };
+    let x: Vec<f64> = system
+        .unknowns
+        .iter()
+        .map(|u| super::dual::unknown_value(motion, *u, normal, along))
+        .collect();
+    let mut worst = 0.0f64;
+    for (r, right) in system.right.iter().enumerate() {
+        let row = system.row(r);
+        let residual = row.iter().zip(&x).fold(Dd::exact(*right), |sum, (a, x)| {
+            sum + -(Dd::exact(*a) * Dd::exact(*x))
+        });
+        let size = row.iter().zip(&x).map(|(a, x)| (a * x).abs()).sum::<f64>() + right.abs();
+        if size > 0.0 {
+            worst = worst.max(residual.high.abs() / size / crate::emit::program::UNIT);
+        }
+    }
+    worst
+}
+
+fn residuals(prepared: &Prepared, route: Route, places: &[Place]) -> Option<Residuals> {
+    let mut out = Residuals::default();
+    let mut seen = false;
+    for place in places {
+        let Some(motion) = prepared.follow(route, place).and_then(|f| f.motion) else {
+            continue;
+        };
+        seen = true;
+        let wide = place.given.map(|v| Dd::exact(*v));
+        let pair = |v: &[f64; 2]| v.map(Dd::exact);
+        let motion = crate::numeric::Motion {
+            velocity: motion.velocity.iter().map(pair).collect(),
+            spin: motion.spin.iter().map(|v| Dd::exact(*v)).collect(),
+            hinge: motion.hinge.iter().map(pair).collect(),
+            contact: motion.contact.iter().map(pair).collect(),
+            blow: motion.blow.iter().map(pair).collect(),
+            loose: motion.loose,
+        };
+        for identity in identities(&wide, &motion) {
+            if identity.size == 0.0 || !identity.size.is_finite() {
+                continue;
+            }
+            let gap = (identity.left + -identity.right).high.abs()
+                / identity.size
+                / crate::emit::program::UNIT;
+            let slot = match identity.what {
+                Invariant::MomentumX(_) | Invariant::MomentumY(_) => &mut out.momentum,
+                Invariant::AngularMomentum(..) => &mut out.angular_momentum,
+                Invariant::Carnot => out.carnot.get_or_insert(0.0),
+                _ => continue,
+            };
+            *slot = slot.max(gap);
+        }
+    }
+    seen.then_some(out)
+}
+
+fn time(prepared: &Prepared, route: Route, place: &Place, runs: usize, repeat: usize) -> [f64; 3] {
+    let Some(mut work) = prepared.work(route, place) else {
+        return [f64::NAN; 3];
+    };
+    let repeat = if route == Route::Exact {
+        (repeat / 50).max(1)
+    } else {
+        repeat
+    };
+    quartiles(runs, || {
+        for _ in 0..repeat {
+            std::hint::black_box(work());
+        }
+    })
+    .map(|t| t / repeat as f64)
+}
+
+fn lu_alone(place: &Place, effort: &Effort) -> Option<([f64; 3], usize)> {
+    let system = assemble(&place.given);
+    let n = system.unknowns.len();
+    if system.laws.len() != n || n == 0 {
+        return None;
+    }
+    let matrix = nalgebra::DMatrix::from_row_slice(n, n, &system.matrix);
+    let right = nalgebra::DVector::from_row_slice(&system.right);
+    let seconds = quartiles(effort.runs, || {
+        for _ in 0..effort.repeat {
+            std::hint::black_box(std::hint::black_box(&matrix).clone().lu().solve(&right));
+        }
+    });
+    Some((seconds.map(|t| t / effort.repeat as f64), n))
+}

@@ -1,0 +1,477 @@
+//! Every route a scene has from its numbers to what is asked: closed forms, small systems, the full system, wide numbers.
+//!
+//! In: a scene, and a point with exact values. Out: for each quantity asked a double, and for routes that find the whole
+//! motion that too. Routes in doubles see the exact values rounded once, as a program would.
+
+use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
+
+use super::reduced;
+use crate::derive::{Derivation, Form};
+use crate::emit::{Atoms, Program, arranged, as_derived, signs, without_angles};
+use crate::expr::number::to_f64;
+use crate::expr::{Expr, Point, Rational, Scalar, Symbol};
+use crate::numeric::ball::Ball;
+use crate::numeric::dd::Dd;
+use crate::numeric::solution::Solution;
+use crate::numeric::{
+    Answer, Given, Motion, Number, System, answer, assemble, eliminate, given, motion, rounded,
+    solve_exact, solve_f64,
+};
+use crate::scene::{Ask, EnergyWhen, Scene};
+
+/// A way to the numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Route {
+    /// The closed form in doubles, operations in the order of the derivation.
+    ClosedForm,
+    /// The closed form arranged for accuracy.
+    Arranged,
+    /// Angular momentum about the joints: minimal coordinates.
+    AboutJoints,
+    /// Effective mass at the joints and contacts.
+    EffectiveMass,
+    /// The full system, nalgebra's LU as it comes.
+    LuRaw,
+    /// The same with rows and columns scaled by powers of two.
+    LuScaled,
+    /// The same with three steps of refinement, residuals in plain doubles.
+    LuRefined,
+    /// The full system in double-doubles.
+    DoubleDouble,
+    /// Double-doubles with bounds, exact fractions where those cannot tell: correctly rounded.
+    Certified,
+    /// Exact fractions.
+    Exact,
+}
+
+impl Route {
+    /// Every route.
+    pub const ALL: [Route; 10] = [
+        Route::ClosedForm,
+        Route::Arranged,
+        Route::AboutJoints,
+        Route::EffectiveMass,
+        Route::LuRaw,
+        Route::LuScaled,
+        Route::LuRefined,
+        Route::DoubleDouble,
+        Route::Certified,
+        Route::Exact,
+    ];
+
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Route::ClosedForm => "closed form",
+            Route::Arranged => "closed form, arranged",
+            Route::AboutJoints => "about the joints",
+            Route::EffectiveMass => "effective mass",
+            Route::LuRaw => "full system, LU",
+            Route::LuScaled => "full system, LU scaled",
+            Route::LuRefined => "full system, LU refined",
+            Route::DoubleDouble => "double-double",
+            Route::Certified => "certified",
+            Route::Exact => "exact fractions",
+        }
+    }
+
+    /// In one or two words, for legends.
+    pub fn short(self) -> &'static str {
+        match self {
+            Route::ClosedForm => "closed form",
+            Route::Arranged => "arranged",
+            Route::AboutJoints => "joints",
+            Route::EffectiveMass => "eff. mass",
+            Route::LuRaw => "LU",
+            Route::LuScaled => "LU scaled",
+            Route::LuRefined => "LU refined",
+            Route::DoubleDouble => "double-double",
+            Route::Certified => "certified",
+            Route::Exact => "exact",
+        }
+    }
+
+    /// Whether it works in plain doubles throughout.
+    pub fn is_plain(self) -> bool {
+        !matches!(
+            self,
+            Route::Arranged | Route::DoubleDouble | Route::Certified | Route::Exact
+        )
+    }
+}
+
+/// One number asked for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Quantity {
+    /// Its name, with `_x` or `_y` for a component.
+    pub name: String,
+    /// Its question.
+    pub question: String,
+    /// Whether it is a velocity or spin after.
+    #[serde(skip)]
+    pub is_motion: bool,
+    /// Whether it is an energy lost.
+    #[serde(skip)]
+    pub is_loss: bool,
+}
+
+/// What a scene asks for, one entry a number.
+pub fn quantities(scene: &Scene) -> Vec<Quantity> {
+    let mut out = Vec::new();
+    for q in &scene.questions {
+        let is_motion = matches!(q.ask, Ask::Velocity { .. } | Ask::Spin { .. });
+        let is_loss = matches!(
+            q.ask,
+            Ask::Energy {
+                when: EnergyWhen::Lost,
+                ..
+            }
+        );
+        let vector = match &q.ask {
+            Ask::Velocity { along, .. } | Ask::Impulse { along, .. } => along.is_none(),
+            Ask::Spin { .. } | Ask::Energy { .. } => false,
+            Ask::Balance { .. } | Ask::Matrix { .. } => continue,
+        };
+        let suffixes: &[&str] = if vector { &["_x", "_y"] } else { &[""] };
+        out.extend(suffixes.iter().map(|s| Quantity {
+            name: format!("{}{s}", q.name),
+            question: q.name.clone(),
+            is_motion,
+            is_loss,
+        }));
+    }
+    out
+}
+
+/// Closed forms as programs, one a quantity.
+struct Forms {
+    inputs: Vec<Symbol>,
+    atoms: Atoms,
+    derived: Vec<Program>,
+    arranged: Vec<Program>,
+}
+
+/// A scene with everything prepared that does not depend on the point.
+pub struct Prepared<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// What it asks for.
+    pub quantities: Vec<Quantity>,
+    forms: Option<Forms>,
+}
+
+/// A point in every number type the routes need.
+pub struct Place {
+    /// Exact values.
+    pub exact: Point<Rational>,
+    /// The same rounded to doubles.
+    pub near: Point<f64>,
+    /// The scene in numbers.
+    pub given: Given<f64>,
+    inputs: Vec<f64>,
+}
+
+/// What a route gives.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// A double for each quantity; NaN where there is none.
+    pub values: Vec<f64>,
+    /// The whole motion, where the route finds it.
+    pub motion: Option<Motion<f64>>,
+}
+
+impl<'a> Prepared<'a> {
+    /// Prepares a scene; `derivation` is left out where there is none.
+    pub fn new(scene: &'a Scene, derivation: Option<&Derivation>) -> Prepared<'a> {
+        let quantities = quantities(scene);
+        let forms = derivation.and_then(|d| forms(scene, d, &quantities));
+        Prepared {
+            scene,
+            quantities,
+            forms,
+        }
+    }
+
+    /// A point in all number types; `None` where the scene has no numbers there.
+    pub fn place(&self, exact: &Point<Rational>) -> Option<Place> {
+        let near = rounded(exact);
+        let given = given(self.scene, &near).ok()?;
+        let inputs = match &self.forms {
+            Some(forms) => forms
+                .inputs
+                .iter()
+                .map(|name| match forms.atoms.iter().find(|(n, _)| n == name) {
+                    Some((_, of)) => of.evaluate(exact).map(|v| to_f64(&v)),
+                    None => near.values.get(name).copied(),
+                })
+                .collect::<Option<Vec<f64>>>()
+                .unwrap_or_default(),
+            None => Vec::new(),
+        };
+        Some(Place {
+            exact: exact.clone(),
+            near,
+            given,
+            inputs,
+        })
+    }
+
+    /// The exact answers; `None` where the laws leave one open or a value is irrational.
+    pub fn truth(&self, at: &Point<Rational>) -> Option<Vec<Rational>> {
+        let numbers = given(self.scene, at).ok()?;
+        let system = assemble(&numbers);
+        let solution = solve_exact(&system).ok()?;
+        self.flat(at, &numbers, &motion(&numbers, &system, &solution))
+    }
+
+    /// The routes that have an answer at a place.
+    pub fn routes(&self, at: &Place) -> Vec<Route> {
+        Route::ALL
+            .into_iter()
+            .filter(|r| self.follow(*r, at).is_some())
+            .collect()
+    }
+
+    /// The answers by a route; `None` where the scene does not have it.
+    pub fn follow(&self, route: Route, at: &Place) -> Option<Found> {
+        match route {
+            Route::ClosedForm | Route::Arranged => {
+                let forms = self
+                    .forms
+                    .as_ref()
+                    .filter(|f| f.inputs.len() == at.inputs.len())?;
+                let mut slots = Vec::new();
+                let programs = if route == Route::ClosedForm {
+                    &forms.derived
+                } else {
+                    &forms.arranged
+                };
+                let values = programs
+                    .iter()
+                    .map(|p| p.value(&at.inputs, &mut slots))
+                    .collect();
+                Some(Found {
+                    values,
+                    motion: None,
+                })
+            }
+            Route::AboutJoints => Some(self.of_motion(at, reduced::about_joints(&at.given)?)),
+            Route::EffectiveMass => Some(self.of_motion(at, reduced::effective_mass(&at.given)?)),
+            Route::LuRaw | Route::LuScaled | Route::LuRefined => {
+                let system = assemble(&at.given);
+                let values = full(route, &system)?;
+                Some(self.of_motion(at, motion(&at.given, &system, &unique(values))))
+            }
+            Route::DoubleDouble => {
+                let wide = convert::<Dd>(&at.exact);
+                let numbers = given(self.scene, &wide).ok()?;
+                self.wide(&wide, &numbers, |v| v.high)
+            }
+            Route::Certified => {
+                let wide = convert::<Ball>(&at.exact);
+                let numbers = given(self.scene, &wide).ok()?;
+                self.certified(at, &wide, &numbers)
+            }
+            Route::Exact => {
+                let values = self.truth(&at.exact)?.iter().map(to_f64).collect();
+                Some(Found {
+                    values,
+                    motion: None,
+                })
+            }
+        }
+    }
+
+    /// A closure that does the work of a route once, from the numbers of the scene to its answers; what came before the
+    /// numbers (sines, positions from formulas) is not counted for any route.
+    pub fn work<'b>(&'b self, route: Route, at: &'b Place) -> Option<Box<dyn FnMut() -> f64 + 'b>> {
+        let sum = |f: Found| f.values.iter().sum::<f64>();
+        Some(match route {
+            Route::ClosedForm | Route::Arranged => {
+                let forms = self.forms.as_ref()?;
+                let programs = if route == Route::ClosedForm {
+                    &forms.derived
+                } else {
+                    &forms.arranged
+                };
+                let mut slots = Vec::new();
+                Box::new(move || {
+                    programs
+                        .iter()
+                        .map(|p| p.value(&at.inputs, &mut slots))
+                        .sum()
+                })
+            }
+            Route::DoubleDouble => {
+                let wide = convert::<Dd>(&at.exact);
+                let numbers = given(self.scene, &wide).ok()?;
+                Box::new(move || {
+                    self.wide(&wide, &numbers, |v: &Dd| v.high)
+                        .map_or(f64::NAN, sum)
+                })
+            }
+            Route::Certified => {
+                let wide = convert::<Ball>(&at.exact);
+                let numbers = given(self.scene, &wide).ok()?;
+                Box::new(move || self.certified(at, &wide, &numbers).map_or(f64::NAN, sum))
+            }
+            Route::Exact => {
+                let numbers = given(self.scene, &at.exact).ok()?;
+                Box::new(move || {
+                    let system = assemble(&numbers);
+                    let found = solve_exact(&system).ok().and_then(|s| {
+                        self.flat(&at.exact, &numbers, &motion(&numbers, &system, &s))
+                    });
+                    found.map_or(f64::NAN, |v| v.iter().map(to_f64).sum())
+                })
+            }
+            _ => Box::new(move || self.follow(route, at).map_or(f64::NAN, sum)),
+        })
+    }
+
+    fn of_motion(&self, at: &Place, motion: Motion<f64>) -> Found {
+        let nothing = || vec![f64::NAN; self.quantities.len()];
+        let values = self
+            .flat(&at.near, &at.given, &motion)
+            .unwrap_or_else(nothing);
+        Found {
+            values,
+            motion: Some(motion),
+        }
+    }
+
+    fn wide<T: Number>(
+        &self,
+        at: &Point<T>,
+        numbers: &Given<T>,
+        near: impl Fn(&T) -> f64,
+    ) -> Option<Found> {
+        let system = assemble(numbers);
+        let motion = motion(numbers, &system, &unique(eliminate(&system)?));
+        let values = self.flat(at, numbers, &motion)?.iter().map(near).collect();
+        Some(Found {
+            values,
+            motion: None,
+        })
+    }
+
+    fn certified(&self, at: &Place, wide: &Point<Ball>, numbers: &Given<Ball>) -> Option<Found> {
+        let system = assemble(numbers);
+        let balls = eliminate(&system).and_then(|values| {
+            self.flat(wide, numbers, &motion(numbers, &system, &unique(values)))
+        });
+        let rounded = balls.and_then(|v| v.iter().map(Ball::rounded).collect::<Option<Vec<f64>>>());
+        let values = match rounded {
+            Some(values) => values,
+            None => self.truth(&at.exact)?.iter().map(to_f64).collect(),
+        };
+        Some(Found {
+            values,
+            motion: None,
+        })
+    }
+
+    fn flat<T: Number>(
+        &self,
+        at: &Point<T>,
+        numbers: &Given<T>,
+        motion: &Motion<T>,
+    ) -> Option<Vec<T>> {
+        let mut out = Vec::with_capacity(self.quantities.len());
+        for q in self
+            .scene
+            .questions
+            .iter()
+            .filter(|q| !matches!(q.ask, Ask::Balance { .. } | Ask::Matrix { .. }))
+        {
+            match answer(&q.ask, at, numbers, motion).ok()? {
+                Answer::Scalar(v) => out.push(v),
+                Answer::Vector([x, y]) => out.extend([x, y]),
+            }
+        }
+        Some(out)
+    }
+}
+
+/// The unknowns of the full system by nalgebra's LU.
+fn full(route: Route, system: &System<f64>) -> Option<Vec<f64>> {
+    let n = system.unknowns.len();
+    if route == Route::LuScaled {
+        let solution = solve_f64(system).ok()?;
+        return solution.is_determined().then_some(solution.values);
+    }
+    if system.laws.len() != n {
+        return None;
+    }
+    let matrix = DMatrix::from_row_slice(n, n, &system.matrix);
+    let right = DVector::from_row_slice(&system.right);
+    let lu = matrix.clone().lu();
+    let mut x = lu.solve(&right)?;
+    if route == Route::LuRefined {
+        for _ in 0..3 {
+            let residual = &right - &matrix * &x;
+            x += lu.solve(&residual)?;
+        }
+    }
+    Some(x.iter().copied().collect())
+}
+
+fn unique<T>(values: Vec<T>) -> Solution<T> {
+    let n = values.len();
+    Solution {
+        values,
+        unique: vec![true; n],
+        rank: n,
+    }
+}
+
+fn convert<T: Scalar>(at: &Point<Rational>) -> Point<T> {
+    Point {
+        values: at
+            .values
+            .iter()
+            .map(|(n, v)| (n.clone(), T::from_rational(v)))
+            .collect(),
+        directions: at
+            .directions
+            .iter()
+            .map(|(n, (k, unit))| (n.clone(), (*k, unit.each_ref().map(T::from_rational))))
+            .collect(),
+    }
+}
+
+/// The closed forms of all quantities as programs; `None` where one has no closed form.
+fn forms(scene: &Scene, derivation: &Derivation, quantities: &[Quantity]) -> Option<Forms> {
+    let mut atoms = Atoms::new();
+    let mut closed: Vec<Expr> = Vec::new();
+    for quantity in quantities {
+        let answer = derivation
+            .answers
+            .iter()
+            .find(|a| a.name == quantity.name)?;
+        let Form::Value { closed: form, .. } = &answer.form else {
+            return None;
+        };
+        closed.push(without_angles(form, &mut atoms));
+    }
+    let mut inputs: Vec<Symbol> = closed.iter().flat_map(Expr::symbols).collect();
+    inputs.sort();
+    inputs.dedup();
+    let signs = signs(&scene.domains, &atoms);
+    let derived = closed
+        .iter()
+        .map(|e| as_derived(e, &inputs))
+        .collect::<Option<_>>()?;
+    let arranged = closed
+        .iter()
+        .map(|e| arranged(e, &inputs, &signs))
+        .collect::<Option<_>>()?;
+    Some(Forms {
+        inputs,
+        atoms,
+        derived,
+        arranged,
+    })
+}
