@@ -20,22 +20,29 @@ pub type Atoms = Vec<(Symbol, Expr)>;
 
 /// Replaces sines, cosines and tangents of angles by inputs of their own; `atoms` collects what each stands for.
 pub fn without_angles(e: &Expr, atoms: &mut Atoms) -> Expr {
-    if let Node::Call(f @ (Function::Sin | Function::Cos | Function::Tan), argument) = e.node() {
-        if angle(argument).is_some() {
-            if *f == Function::Tan {
-                let [sin, cos] =
-                    [argument.sin(), argument.cos()].map(|c| without_angles(&c, atoms));
-                return sin / cos;
-            }
-            if let Some((name, _)) = atoms.iter().find(|(_, of)| of == e) {
-                return Expr::symbol(name);
-            }
-            let name: Symbol = format!("{}_{}", f.name(), atoms.len()).into();
-            atoms.push((name.clone(), e.clone()));
-            return Expr::symbol(&name);
-        }
+    let Some((f, argument)) = angle_call(e) else {
+        return e.map_parts(|part| without_angles(part, atoms));
+    };
+    if f == Function::Tan {
+        let [sin, cos] = [argument.sin(), argument.cos()].map(|c| without_angles(&c, atoms));
+        return sin / cos;
     }
-    e.map_parts(|part| without_angles(part, atoms))
+    if let Some((name, _)) = atoms.iter().find(|(_, of)| of == e) {
+        return Expr::symbol(name);
+    }
+    let name: Symbol = format!("{}_{}", f.name(), atoms.len()).into();
+    atoms.push((name.clone(), e.clone()));
+    Expr::symbol(&name)
+}
+
+/// The function and the argument of a sine, cosine or tangent of an angle.
+fn angle_call(e: &Expr) -> Option<(Function, &Expr)> {
+    match e.node() {
+        Node::Call(f @ (Function::Sin | Function::Cos | Function::Tan), argument) => {
+            angle(argument).map(|_| (*f, argument))
+        }
+        _ => None,
+    }
 }
 
 /// Whether every value is ≥ 0 (`Some(true)`), every value ≤ 0 (`Some(false)`), or neither is known.
@@ -348,7 +355,7 @@ fn fraction(factors: &[Expr]) -> (Vec<Expr>, Vec<Expr>) {
     for factor in factors {
         match factor.node() {
             Node::Number(value) if !value.is_integer() => {
-                if !value.numer().as_i64().is_some_and(|n| n == 1) {
+                if value.numer().as_i64() != Some(1) {
                     above.push(Expr::from(Rational::from(value.numer().clone())));
                 }
                 below.push(Expr::from(Rational::from(value.denom().clone())));
