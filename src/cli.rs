@@ -7,6 +7,7 @@ mod draw;
 mod grade;
 #[cfg(feature = "report")]
 mod report;
+mod solution;
 
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -59,6 +60,11 @@ enum Command {
     },
     /// Draw a scene: before, the free-body diagram during, and after the collision
     Draw(draw::DrawArgs),
+    /// Write the worked solution of a scene: text, Markdown, LaTeX, HTML or JSON
+    #[command(visible_alias = "explain")]
+    Solution(solution::SolutionArgs),
+    /// Replay every step of a solution written as JSON
+    Check(solution::CheckArgs),
     /// Judge a formula: is it equivalent, how is that known, and what is wrong with it
     Grade(grade::GradeArgs),
     /// Measure error against run time of every route a scene has, towards every extreme
@@ -117,6 +123,8 @@ pub fn run() -> ExitCode {
         Command::Draw(args) => draw::run(&args),
         #[cfg(feature = "report")]
         Command::Report(args) => report::run(&args),
+        Command::Solution(args) => solution::run(&args),
+        Command::Check(args) => solution::check(&args),
         Command::Grade(args) => grade::run(&args),
         Command::Verify(args) => grade::verify(&args),
         Command::Read(args) => grade::read(&args),
@@ -273,6 +281,11 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
 
 /// Reads a scene and puts in the values given on the command line.
 fn read_scene(path: &Path, set: &[String]) -> Result<scene::Scene, Failure> {
+    read_scene_text(path, set).map(|(scene, _)| scene)
+}
+
+/// The same, with the text of the scene.
+fn read_scene_text(path: &Path, set: &[String]) -> Result<(scene::Scene, String), Failure> {
     let name = path.display().to_string();
     let mut text = String::new();
     let read = if name == "-" {
@@ -296,7 +309,7 @@ fn read_scene(path: &Path, set: &[String]) -> Result<scene::Scene, Failure> {
             ))
         })?;
     }
-    Ok(scene)
+    Ok((scene, text))
 }
 
 /// Writes a file whole or not at all: beside it first, then renamed.

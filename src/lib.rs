@@ -39,4 +39,8 @@ pub mod figure;
 
 pub mod plot;
 
+pub mod solution;
+
+pub mod check;
+
 pub mod render;

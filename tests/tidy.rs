@@ -121,6 +121,21 @@ const LAYERS: &[(&str, &[&str])] = &[
     ),
     ("plot", &["figure"]),
     (
+        "solution",
+        &[
+            "expr",
+            "domain",
+            "dimension",
+            "algebra",
+            "formula",
+            "scene",
+            "laws",
+            "derive",
+            "verify",
+        ],
+    ),
+    ("check", &["expr", "formula", "scene", "numeric"]),
+    (
         "render",
         &[
             "expr",
@@ -138,6 +153,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "report",
             "figure",
             "plot",
+            "solution",
         ],
     ),
 ];

@@ -20,12 +20,13 @@ pub use answer::{Answer, Form, Matrix, dimension, full_matrix};
 pub use count::{Counting, count};
 pub use left_out::LeftOut;
 pub use names::Names;
+pub use plan::{Attachment, Reduction, reduction};
 
 use crate::algebra::{self, Element, Field, Row, Sign};
 use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Affine, Geometry, Kinematics, Law, Unknown};
 use crate::scene::{ContactLaw, Scene};
-use plan::{Planner, Reduction};
+use plan::Planner;
 
 /// Most terms of a closed form that is printed as one formula; longer ones are given step by step. About a page.
 const LONGEST: usize = 160;

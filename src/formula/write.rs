@@ -255,7 +255,7 @@ impl Writer<'_> {
         }
         let simple = match base.node() {
             Node::Number(value) => value.is_integer() && !value.is_negative(),
-            Node::Symbol(name) => !name.contains(['^', '\'']),
+            Node::Symbol(name) => !self.has_mark(name),
             Node::Call(..) => self.style == Style::Plain,
             Node::Power(_, k) => {
                 self.style == Style::Plain && k.as_number().is_some_and(|k| *k == ratio(1, 2))
@@ -293,6 +293,13 @@ impl Writer<'_> {
                 self.out.push(')');
             }
         }
+    }
+
+    /// Whether a name carries a prime or a raised mark, beside which an exponent would be misread.
+    fn has_mark(&self, name: &str) -> bool {
+        let marked = |text: &str| text.contains(['^', '\'']);
+        marked(name)
+            || self.style != Style::Plain && (self.names)(name).is_some_and(|latex| marked(&latex))
     }
 
     fn call(&mut self, function: Function, argument: &Expr, power: Option<&Rational>) {

@@ -3,10 +3,17 @@
 
 pub mod certified;
 pub mod grade;
+pub mod html;
 pub mod json;
+pub mod latex_document;
+pub mod markdown;
+pub mod math;
+pub mod mathml;
+pub mod plain;
 pub mod printed;
 #[cfg(feature = "report")]
 pub mod report;
+pub mod steps;
 pub mod story;
 pub mod text;
 

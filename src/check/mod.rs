@@ -1,0 +1,363 @@
+//! Replays a worked solution: at random exact points of the domain, with every symbol at the value that the independent exact
+//! solution of the scene gives it, both sides of every claim must be equal.
+//!
+//! Comes in: the JSON of `carom solution`. Goes out: a [`Report`] that names every step that does not hold. Nothing of the
+//! deriving code is used: formulas are read and evaluated, the scene inside the file is read and solved in numbers.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde_json::Value;
+
+use crate::expr::{Expr, Point, Rational, Symbol};
+use crate::formula::{self, Symbols};
+use crate::numeric::{self, Answer, Number};
+use crate::scene::{self, Ask, BlowImpulse, ImpulseAt, Scene};
+
+/// Points tried; a wrong claim about rational functions is equal at a random point only by a rare chance, at three hardly ever.
+const POINTS: u64 = 3;
+/// Largest file, in bytes.
+const LONGEST: usize = 16 << 20;
+/// Most claims in a file.
+const MOST: usize = 20_000;
+/// Substeps within substeps.
+const DEEPEST: usize = 16;
+/// Relative difference allowed where a claim has no exact value and doubles must do.
+const ROUNDING: f64 = 1e-9;
+
+/// The outcome.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// Steps replayed.
+    pub steps: usize,
+    /// Claims that hold at every point tried.
+    pub held: usize,
+    /// Of these, the ones that could be compared in doubles only.
+    pub in_doubles: usize,
+    /// Claims that do not hold.
+    pub failed: Vec<Failure>,
+    /// Claims without a value at any point tried, by step.
+    pub open: Vec<String>,
+}
+
+/// A claim that does not hold.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    /// Id of the step.
+    pub step: String,
+    /// The claim as the file has it.
+    pub claim: String,
+    /// What was found.
+    pub why: String,
+}
+
+/// Why a file cannot be checked at all.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unusable(pub String);
+
+struct Claim {
+    step: String,
+    text: String,
+    left: Expr,
+    right: Expr,
+    defines: Option<Symbol>,
+}
+
+/// Replays every step of a solution file.
+pub fn check(text: &str) -> Result<Report, Unusable> {
+    if text.len() > LONGEST {
+        return unusable(format!(
+            "{} bytes; a solution has at most {LONGEST}",
+            text.len()
+        ));
+    }
+    let root: Value = serde_json::from_str(text).map_err(|e| Unusable(format!("not JSON: {e}")))?;
+    if root["format"] != "carom solution" {
+        return unusable("no solution: `format` is not \"carom solution\"");
+    }
+    let scene_text = root["scene"]
+        .as_str()
+        .ok_or_else(|| Unusable(String::from("the text of its scene is missing")))?;
+    let mut scene =
+        scene::read(scene_text).map_err(|faults| Unusable(faults.render("scene", scene_text)))?;
+    for value in root["set"].as_array().into_iter().flatten() {
+        let (name, value) = value
+            .as_str()
+            .and_then(|v| v.split_once('='))
+            .ok_or_else(|| Unusable(String::from("`set` holds something other than NAME=VALUE")))?;
+        scene::set(&mut scene, name.trim(), value.trim()).map_err(|f| Unusable(f.message))?;
+    }
+    let meanings = meanings(&scene, &root["symbols"])?;
+    let mut symbols = Symbols::strict();
+    for parameter in &scene.parameters {
+        symbols.declare(&parameter.name);
+    }
+    for name in meanings.keys() {
+        symbols.declare(name);
+    }
+    let mut report = Report::default();
+    let mut claims = Vec::new();
+    let steps = root["steps"]
+        .as_array()
+        .ok_or_else(|| Unusable(String::from("`steps` is missing")))?;
+    collect(steps, &symbols, &mut claims, &mut report, 0)?;
+    replay(&scene, &meanings, &claims, &mut report);
+    Ok(report)
+}
+
+fn unusable<T>(message: impl Into<String>) -> Result<T, Unusable> {
+    Err(Unusable(message.into()))
+}
+
+/// What a symbol stands for: a question to the motion, and the component of its answer.
+enum Meaning {
+    Asked(Ask, Option<usize>),
+    Defined,
+}
+
+fn meanings(scene: &Scene, symbols: &Value) -> Result<BTreeMap<Symbol, Meaning>, Unusable> {
+    let mut out = BTreeMap::new();
+    for (name, value) in symbols.as_object().into_iter().flatten() {
+        if scene.parameters.iter().any(|p| *p.name == **name) {
+            return unusable(format!("symbol {name} is a parameter of the scene"));
+        }
+        let meaning = meaning(scene, value)
+            .ok_or_else(|| Unusable(format!("symbol {name} stands for nothing in the scene")))?;
+        out.insert(Symbol::from(name.as_str()), meaning);
+    }
+    Ok(out)
+}
+
+fn meaning(scene: &Scene, value: &Value) -> Option<Meaning> {
+    let body = |v: &Value| {
+        let name = v.as_str()?;
+        scene.bodies.iter().position(|b| b.name == name)
+    };
+    let axis = match value["axis"].as_str() {
+        Some("x") => Some(0),
+        Some("y") => Some(1),
+        _ => None,
+    };
+    if value["defined"] == true {
+        return Some(Meaning::Defined);
+    }
+    if let Some(body) = body(&value["velocity"]) {
+        let ask = Ask::Velocity {
+            body,
+            point: None,
+            along: None,
+        };
+        return Some(Meaning::Asked(ask, Some(axis?)));
+    }
+    if let Some(body) = body(&value["spin"]) {
+        let clockwise = value["clockwise"] == true;
+        return Some(Meaning::Asked(Ask::Spin { body, clockwise }, None));
+    }
+    if let Some(question) = value["answer"].as_str() {
+        let question = scene.questions.iter().find(|q| q.name == question)?;
+        return Some(Meaning::Asked(question.ask.clone(), axis));
+    }
+    let place = value["impulse"].as_str()?;
+    let on = body(&value["on"])?;
+    let contact = scene
+        .contacts
+        .iter()
+        .position(|c| c.name == place && c.bodies.contains(&on));
+    let hinge = scene
+        .hinges
+        .iter()
+        .position(|h| h.name == place && h.bodies.contains(&on));
+    let blow = scene
+        .blows
+        .iter()
+        .position(|b| b.name == place && b.body == on);
+    let (from, direction) = match (contact, hinge, blow) {
+        (Some(c), ..) => (ImpulseAt::Contact(c), scene.contacts[c].normal.clone()),
+        (None, Some(h), _) => (ImpulseAt::Hinge(h), None),
+        (None, None, Some(i)) => {
+            let (BlowImpulse::Given(v) | BlowImpulse::Along(v)) = &scene.blows[i].impulse;
+            (ImpulseAt::Blow(i), Some(v.clone()))
+        }
+        _ => return None,
+    };
+    let along = match axis {
+        Some(_) => None,
+        None => Some(direction?),
+    };
+    Some(Meaning::Asked(Ask::Impulse { from, on, along }, axis))
+}
+
+fn collect(
+    steps: &[Value],
+    symbols: &Symbols,
+    claims: &mut Vec<Claim>,
+    report: &mut Report,
+    depth: usize,
+) -> Result<(), Unusable> {
+    if depth > DEEPEST {
+        return unusable(format!("substeps lie more than {DEEPEST} deep"));
+    }
+    for step in steps {
+        report.steps += 1;
+        let id = step["id"].as_str().unwrap_or("?").to_string();
+        let defines = step["defines"].as_str().map(Symbol::from);
+        for list in ["before", "after"] {
+            for claim in step[list].as_array().into_iter().flatten() {
+                let side = |name: &str| {
+                    let text = claim[name].as_str().unwrap_or_default();
+                    formula::read_expr(text, symbols).map_err(|fault| {
+                        Unusable(format!(
+                            "step {id}: `{text}` cannot be read: {}",
+                            fault.message
+                        ))
+                    })
+                };
+                let (left, right) = (side("left")?, side("right")?);
+                let defines = match (&defines, list) {
+                    (Some(name), "after") if left.as_symbol() == Some(name) => Some(name.clone()),
+                    _ => None,
+                };
+                claims.push(Claim {
+                    step: id.clone(),
+                    text: format!(
+                        "{} = {}",
+                        claim["left"].as_str().unwrap_or_default(),
+                        claim["right"].as_str().unwrap_or_default()
+                    ),
+                    left,
+                    right,
+                    defines,
+                });
+                if claims.len() > MOST {
+                    return unusable(format!("more than {MOST} claims"));
+                }
+            }
+        }
+        if let Some(inner) = step["substeps"].as_array() {
+            collect(inner, symbols, claims, report, depth + 1)?;
+        }
+    }
+    Ok(())
+}
+
+fn replay(
+    scene: &Scene,
+    meanings: &BTreeMap<Symbol, Meaning>,
+    claims: &[Claim],
+    report: &mut Report,
+) {
+    let mut needed = numeric::needed(scene);
+    for claim in claims {
+        needed.add(&claim.left);
+        needed.add(&claim.right);
+    }
+    needed.plain.retain(|name| !meanings.contains_key(name));
+    needed.angles.retain(|name, _| !meanings.contains_key(name));
+    let mut held: BTreeSet<usize> = BTreeSet::new();
+    let mut rounded: BTreeSet<usize> = BTreeSet::new();
+    let mut failed: BTreeMap<usize, String> = BTreeMap::new();
+    for seed in 1..=POINTS {
+        let mut point = numeric::random_point(&needed, &scene.domains, seed);
+        let mut doubles = numeric::rounded(&point);
+        symbols_at(scene, meanings, &mut point, numeric::solve_exact);
+        symbols_at(scene, meanings, &mut doubles, numeric::solve_f64);
+        for (i, claim) in claims.iter().enumerate() {
+            if let Some(name) = &claim.defines
+                && matches!(meanings.get(name), Some(Meaning::Defined))
+                && !doubles.values.contains_key(name)
+            {
+                if let Some(value) = claim.right.evaluate(&point) {
+                    point.values.insert(name.clone(), value);
+                }
+                if let Some(value) = claim.right.evaluate(&doubles) {
+                    doubles.values.insert(name.clone(), value);
+                }
+            }
+            match exact(claim, &point) {
+                Some(Ok(())) => {
+                    held.insert(i);
+                }
+                Some(Err(why)) => {
+                    failed.entry(i).or_insert(why);
+                }
+                None => match close(claim, &doubles) {
+                    Some(Ok(())) => {
+                        held.insert(i);
+                        rounded.insert(i);
+                    }
+                    Some(Err(why)) => {
+                        failed.entry(i).or_insert(why);
+                    }
+                    None => {}
+                },
+            }
+        }
+    }
+    for (i, claim) in claims.iter().enumerate() {
+        if let Some(why) = failed.get(&i) {
+            report.failed.push(Failure {
+                step: claim.step.clone(),
+                claim: claim.text.clone(),
+                why: why.clone(),
+            });
+        } else if held.contains(&i) {
+            report.held += 1;
+            report.in_doubles += usize::from(rounded.contains(&i));
+        } else {
+            report.open.push(claim.step.clone());
+        }
+    }
+}
+
+fn exact(claim: &Claim, point: &Point<Rational>) -> Option<Result<(), String>> {
+    let left = claim.left.evaluate(point)?;
+    let right = claim.right.evaluate(point)?;
+    Some(if left == right {
+        Ok(())
+    } else {
+        Err(format!(
+            "at an exact point the left side is {left}, the right side {right}"
+        ))
+    })
+}
+
+fn close(claim: &Claim, point: &Point<f64>) -> Option<Result<(), String>> {
+    let left = claim.left.evaluate(point)?;
+    let right = claim.right.evaluate(point)?;
+    let scale = left.abs().max(right.abs()).max(1.0);
+    Some(if (left - right).abs() <= ROUNDING * scale {
+        Ok(())
+    } else {
+        Err(format!(
+            "in doubles the left side is {left}, the right side {right}"
+        ))
+    })
+}
+
+/// Gives every symbol its value in the independent solution; symbols that the laws leave open get none.
+fn symbols_at<T: Number>(
+    scene: &Scene,
+    meanings: &BTreeMap<Symbol, Meaning>,
+    point: &mut Point<T>,
+    solve: impl Fn(&numeric::System<T>) -> Result<numeric::Solution<T>, numeric::Contradiction>,
+) {
+    let Ok(given) = numeric::given(scene, point) else {
+        return;
+    };
+    let system = numeric::assemble(&given);
+    let Ok(solution) = solve(&system) else {
+        return;
+    };
+    let motion = numeric::motion(&given, &system, &solution);
+    for (name, meaning) in meanings {
+        let Meaning::Asked(ask, axis) = meaning else {
+            continue;
+        };
+        let value = match (numeric::answer(ask, point, &given, &motion), axis) {
+            (Ok(Answer::Scalar(value)), _) => value,
+            (Ok(Answer::Vector([x, _])), Some(0)) => x,
+            (Ok(Answer::Vector([_, y])), Some(1)) => y,
+            _ => continue,
+        };
+        point.values.insert(name.clone(), value);
+    }
+}

@@ -1,0 +1,179 @@
+//! `carom solution` and `carom check`: the worked solution of a scene in any format, and the replay of its steps.
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use super::{Failure, pretty, print, read_scene_text, save};
+use carom::figure::{self, Which};
+use carom::render::html::Picture;
+use carom::solution::{self, Detail, Slot};
+use carom::{check, derive, render, scene::Scene, verify};
+
+/// Arguments of `carom solution`.
+#[derive(Args)]
+pub struct SolutionArgs {
+    /// Scene file, `-` for standard input
+    scene: PathBuf,
+    /// Output format; latex is a document that compiles, latex-fragment goes into one of yours
+    #[arg(long, value_enum, default_value_t = FormatArg::Text)]
+    format: FormatArg,
+    /// How much is shown: the key equations, what a textbook shows, or every line of algebra
+    #[arg(long, value_enum, default_value_t = DetailArg::Normal)]
+    detail: DetailArg,
+    /// Write here instead of to standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// With markdown and -o: write the figures as SVG files beside the output and link them
+    #[arg(long, requires = "output")]
+    figures: bool,
+    /// Give a parameter a value, such as v=2 or theta=acos(3/5); may be repeated
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+}
+
+/// Arguments of `carom check`.
+#[derive(Args)]
+pub struct CheckArgs {
+    /// Solution in JSON, as written by `carom solution --format json`; `-` for standard input
+    file: PathBuf,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum FormatArg {
+    Text,
+    Markdown,
+    Latex,
+    LatexFragment,
+    Html,
+    Json,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum DetailArg {
+    Brief,
+    Normal,
+    Full,
+}
+
+/// Writes the worked solution of a scene.
+pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
+    let (scene, text) = read_scene_text(&args.scene, &args.set)?;
+    if scene.story.is_some() {
+        return Err(Failure::Input(format!(
+            "{}: a scene with stages has no worked solution yet\nhint: carom derive tells its stages and answers",
+            args.scene.display()
+        )));
+    }
+    let derivation = derive::derive(&scene)
+        .map_err(|stop| Failure::Input(format!("{}: {stop}", args.scene.display())))?;
+    let proof = verify::prove(&scene, &derivation);
+    let detail = match args.detail {
+        DetailArg::Brief => Detail::Brief,
+        DetailArg::Normal => Detail::Normal,
+        DetailArg::Full => Detail::Full,
+    };
+    let solution = solution::write(&scene, &derivation, &proof, detail);
+    let output = match args.format {
+        FormatArg::Text => render::plain::solution(&solution),
+        FormatArg::Markdown => {
+            let mut linked = Vec::new();
+            if let (true, Some(path)) = (args.figures, &args.output) {
+                for (picture, name) in pictures(&scene) {
+                    let file = beside(path, name);
+                    save(&file, picture.svg.as_bytes())?;
+                    let link = file.file_name().unwrap_or_default().to_string_lossy();
+                    linked.push((picture, link.replace(' ', "%20")));
+                }
+            }
+            render::markdown::solution(&solution, &linked)
+        }
+        FormatArg::Latex => render::latex_document::document(&solution),
+        FormatArg::LatexFragment => render::latex_document::fragment(&solution),
+        FormatArg::Html => {
+            let pictures: Vec<Picture> = pictures(&scene).into_iter().map(|(p, _)| p).collect();
+            render::html::page(&solution, &pictures)
+        }
+        FormatArg::Json => pretty(&render::steps::solution(&solution, &text, &args.set)),
+    };
+    match &args.output {
+        Some(path) => save(path, output.as_bytes())?,
+        None => print(&output)?,
+    }
+    Ok(u8::from(
+        !proof.holds() || derivation.counting.contradictory,
+    ))
+}
+
+/// The pictures of a scene, each with a name for its file.
+fn pictures(scene: &Scene) -> Vec<(Picture, String)> {
+    let mut out = Vec::new();
+    for which in figure::kinds(scene) {
+        let (slot, name) = match which {
+            Which::Before | Which::All => (Slot::Before, String::from("before")),
+            Which::During(figure::Subject::System) => (Slot::During, String::from("during")),
+            Which::During(figure::Subject::Body(b)) => (Slot::During, format!("during-{}", b + 1)),
+            Which::After => (Slot::After, String::from("after")),
+        };
+        let drawing = figure::draw(scene, which);
+        let picture = Picture {
+            slot,
+            svg: drawing.svg,
+            caption: drawing.caption,
+            alternative: drawing.alternative,
+        };
+        out.push((picture, name));
+    }
+    out
+}
+
+fn beside(path: &Path, name: String) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}-{name}.svg"))
+}
+
+/// Replays a solution file.
+pub fn check(args: &CheckArgs) -> Result<u8, Failure> {
+    let name = args.file.display().to_string();
+    let mut text = String::new();
+    let read = if name == "-" {
+        std::io::stdin().read_to_string(&mut text).map(|_| ())
+    } else {
+        std::fs::read_to_string(&args.file).map(|t| text = t)
+    };
+    read.map_err(|e| Failure::Input(format!("{name}: cannot be read: {e}")))?;
+    let report = check::check(&text)
+        .map_err(|check::Unusable(message)| Failure::Input(format!("{name}: {message}")))?;
+    let mut out = String::new();
+    for failure in &report.failed {
+        out.push_str(&format!(
+            "step {} does not hold: {}\n    {}\n",
+            failure.step, failure.claim, failure.why
+        ));
+    }
+    if !report.open.is_empty() {
+        let mut steps = report.open.clone();
+        steps.dedup();
+        out.push_str(&format!(
+            "not checked, no value: step {}\n",
+            steps.join(", ")
+        ));
+    }
+    let doubles = match report.in_doubles {
+        0 => String::new(),
+        n => format!(", {n} of them in doubles"),
+    };
+    out.push_str(&format!(
+        "{} steps, {} claims hold{doubles}, {} do not\n",
+        report.steps,
+        report.held,
+        report.failed.len()
+    ));
+    print(&out)?;
+    Ok(match (report.failed.is_empty(), report.open.is_empty()) {
+        (false, _) => 1,
+        (true, false) => 3,
+        (true, true) => 0,
+    })
+}

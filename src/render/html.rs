@@ -1,0 +1,166 @@
+//! A worked solution as one page: native MathML, pictures inline, no script, nothing loaded from anywhere.
+
+use super::math::rows;
+use super::mathml::{escape, expr, formula};
+use crate::derive::Matrix;
+use crate::expr::Expr;
+use crate::solution::{Inline, Part, Slot, Solution};
+
+/// A picture that belongs into a solution.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Where.
+    pub slot: Slot,
+    /// The SVG element.
+    pub svg: String,
+    /// What it shows, plain text.
+    pub caption: String,
+    /// The picture in words, plain text.
+    pub alternative: String,
+}
+
+const STYLE: &str = "
+:root{color-scheme:light dark}
+*{box-sizing:border-box}
+body{margin:0 auto;max-width:46rem;padding:1.2rem 1rem 3rem;font:17px/1.55 Georgia,'Times New Roman',serif;color:#1a1a1a;background:#fff;overflow-wrap:break-word}
+h1{font-size:1.55rem;line-height:1.25;margin:.4rem 0 .1rem}
+h2{font-size:1.12rem;margin:1.9rem 0 .4rem;border-bottom:1px solid #ccc;padding-bottom:.15rem}
+p{margin:.55rem 0}
+.source{color:#555;font-style:italic;margin-top:0}
+.display{overflow-x:auto;overflow-y:hidden;margin:.5rem 0;padding:.15rem 0}
+.display math{margin:0 0 0 1.2rem;text-align:left}
+math{font-size:1.05em}
+mtable{border-spacing:0}
+mtd{padding:.22em .12em;text-align:left}
+mtd.l{text-align:right;white-space:nowrap}
+.matrix mtd{padding:.25em .5em;text-align:center}
+ul{padding-left:1.3rem}
+li{margin:.3rem 0}
+figure{margin:1rem 0;text-align:center}
+figure svg{max-width:100%;height:auto}
+figcaption{font-size:.86rem;color:#555;text-align:left}
+.figures{display:flex;flex-wrap:wrap;gap:1rem;justify-content:center}
+.figures figure{flex:1 1 300px;margin:0;min-width:0;max-width:26rem}
+@media (prefers-color-scheme:dark){body{color:#e6e6e6;background:#16181c}h2{border-color:#444}.source,figcaption{color:#aaa}}
+@media (max-width:480px){body{font-size:16px;padding:.8rem .8rem 2rem}.display math{margin-left:.2rem}}
+@media print{body{max-width:none;font-size:11pt;color:#000;background:#fff}h2,.display,figure{break-inside:avoid}h2{break-after:avoid}.display{overflow:visible}}
+";
+
+/// The whole page.
+pub fn page(s: &Solution, pictures: &[Picture]) -> String {
+    let title = if s.title.is_empty() {
+        "Worked solution"
+    } else {
+        &s.title
+    };
+    let title = escape(title);
+    let mut out = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n\
+         <link rel=\"icon\" href=\"data:,\">\n\
+         <title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n"
+    );
+    out = out.replace("<link rel=\"icon\" href=\"data:,\">\n", "");
+    if !s.source.is_empty() {
+        out.push_str(&format!("<p class=\"source\">{}</p>\n", escape(&s.source)));
+    }
+    for section in &s.sections {
+        out.push_str("<section>\n");
+        if !section.heading.is_empty() {
+            out.push_str(&format!("<h2>{}</h2>\n", sentence(s, &section.heading)));
+        }
+        for part in &section.parts {
+            out.push_str(&self::part(s, part, pictures));
+        }
+        out.push_str("</section>\n");
+    }
+    out.push_str("</main>\n</body>\n</html>\n");
+    out
+}
+
+fn part(s: &Solution, part: &Part, pictures: &[Picture]) -> String {
+    match part {
+        Part::Text(words) => format!("<p>{}</p>\n", sentence(s, words)),
+        Part::List(items) => {
+            let items: String = items
+                .iter()
+                .map(|i| format!("<li>{}</li>\n", sentence(s, i)))
+                .collect();
+            format!("<ul>\n{items}</ul>\n")
+        }
+        Part::Display(lines) => {
+            let rows: String = rows(s, lines)
+                .iter()
+                .map(|[l, r]| {
+                    format!(
+                        "<mtr><mtd class=\"l\">{}</mtd><mtd>{}</mtd></mtr>\n",
+                        formula(s, l),
+                        formula(s, r)
+                    )
+                })
+                .collect();
+            format!(
+                "<div class=\"display\" tabindex=\"0\"><math display=\"block\"><mtable displaystyle=\"true\">\n{rows}</mtable></math></div>\n"
+            )
+        }
+        Part::Matrix(m) => matrix(s, m),
+        Part::Figure(slot) => {
+            let figures: Vec<String> = pictures
+                .iter()
+                .filter(|p| p.slot == *slot)
+                .map(|p| {
+                    format!(
+                        "<figure>{}<figcaption>{}</figcaption></figure>\n",
+                        p.svg,
+                        escape(&p.caption)
+                    )
+                })
+                .collect();
+            match figures.len() {
+                0 => String::new(),
+                _ => format!("<div class=\"figures\">\n{}</div>\n", figures.concat()),
+            }
+        }
+    }
+}
+
+fn sentence(s: &Solution, pieces: &[Inline]) -> String {
+    pieces
+        .iter()
+        .map(|piece| match piece {
+            Inline::Text(words) => escape(words),
+            Inline::Math(math) => format!("<math>{}</math>", formula(s, math)),
+        })
+        .collect()
+}
+
+fn matrix(s: &Solution, m: &Matrix) -> String {
+    let table = |rows: Vec<Vec<String>>| {
+        let rows: String = rows
+            .into_iter()
+            .map(|r| {
+                let cells: String = r.into_iter().map(|c| format!("<mtd>{c}</mtd>")).collect();
+                format!("<mtr>{cells}</mtr>")
+            })
+            .collect();
+        format!("<mrow><mo>[</mo><mtable>{rows}</mtable><mo>]</mo></mrow>")
+    };
+    let entries = m
+        .entries
+        .iter()
+        .map(|r| r.iter().map(|e| expr(s, e)).collect())
+        .collect();
+    let symbols = m
+        .unknowns
+        .iter()
+        .map(|u| vec![expr(s, &Expr::symbol(u))])
+        .collect();
+    let rhs = m.rhs.iter().map(|e| vec![expr(s, e)]).collect();
+    format!(
+        "<div class=\"display matrix\" tabindex=\"0\"><math display=\"block\">{}{}<mo>=</mo>{}</math></div>\n",
+        table(entries),
+        table(symbols),
+        table(rhs)
+    )
+}

@@ -1,0 +1,124 @@
+//! A worked solution as Markdown with LaTeX mathematics, as GitHub, Jupyter and Quarto set it.
+
+use super::html::Picture;
+use super::math::{latex, rows};
+use super::mathml::is_hidden;
+use crate::derive::Matrix;
+use crate::solution::{Inline, Part, Solution};
+
+/// The whole solution; `pictures` are linked by their file names.
+pub fn solution(s: &Solution, pictures: &[(Picture, String)]) -> String {
+    let mut blocks: Vec<String> = Vec::new();
+    let title = if s.title.is_empty() {
+        "Worked solution"
+    } else {
+        &s.title
+    };
+    blocks.push(format!("# {}", text(title)));
+    if !s.source.is_empty() {
+        blocks.push(format!("*{}*", text(&s.source)));
+    }
+    for section in &s.sections {
+        if !section.heading.is_empty() {
+            blocks.push(format!("## {}", sentence(s, &section.heading)));
+        }
+        for part in &section.parts {
+            match part {
+                Part::Text(words) => blocks.push(sentence(s, words)),
+                Part::List(items) => {
+                    let items: Vec<String> = items
+                        .iter()
+                        .map(|i| format!("- {}", sentence(s, i)))
+                        .collect();
+                    blocks.push(items.join("\n"));
+                }
+                Part::Display(lines) => {
+                    let rows: Vec<String> = rows(s, lines)
+                        .iter()
+                        .map(|[l, r]| format!("{} & {}", latex(s, l), latex(s, r)))
+                        .collect();
+                    blocks.push(format!(
+                        "$$\n\\begin{{aligned}}\n{}\n\\end{{aligned}}\n$$",
+                        rows.join(" \\\\\n").replace("\n &", "\n&")
+                    ));
+                }
+                Part::Matrix(m) => blocks.push(format!("$$\n{}\n$$", matrix(s, m))),
+                Part::Figure(slot) => {
+                    for (picture, file) in pictures.iter().filter(|(p, _)| p.slot == *slot) {
+                        blocks.push(format!("![{}]({file})", text(&picture.alternative)));
+                        if !picture.caption.is_empty() {
+                            blocks.push(format!("*{}*", text(&picture.caption)));
+                        }
+                    }
+                }
+            }
+        }
+    }
+    let mut out = blocks.join("\n\n");
+    out.push('\n');
+    out
+}
+
+fn sentence(s: &Solution, pieces: &[Inline]) -> String {
+    let mut out = String::new();
+    for piece in pieces {
+        match piece {
+            Inline::Text(words) => out.push_str(&text(words)),
+            Inline::Math(math) => out.push_str(&format!("${}$", latex(s, math))),
+        }
+    }
+    out.trim().to_string()
+}
+
+/// Words with everything Markdown or HTML would act on made literal.
+pub fn text(words: &str) -> String {
+    let mut out = String::with_capacity(words.len());
+    for c in words.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '\\' | '`' | '*' | '_' | '[' | ']' | '#' | '|' | '~' | '{' | '}' => {
+                out.push('\\');
+                out.push(c);
+            }
+            // `\$` would still open mathematics in some readers.
+            '$' => out.push_str("&#36;"),
+            '!' => out.push_str("&#33;"),
+            '@' => out.push_str("&#64;"),
+            c if c.is_whitespace() => out.push(' '),
+            c if is_hidden(c) => out.push_str(&format!("\\[U+{:04X}\\]", u32::from(c))),
+            c => out.push(c),
+        }
+    }
+    // A line must not start a list, a quotation or a rule.
+    if out.starts_with(['-', '+', '=']) {
+        out.insert(0, '\\');
+    }
+    // An address must not become a link.
+    out.replace("://", "&#58;//").replace("www.", "www&#46;")
+}
+
+/// A system in matrix form.
+pub fn matrix(s: &Solution, m: &Matrix) -> String {
+    let names = |n: &str| s.names.get(n).cloned();
+    let write = |e: &crate::expr::Expr| crate::formula::write_latex(e, &names);
+    let rows: Vec<String> = m
+        .entries
+        .iter()
+        .map(|r| r.iter().map(write).collect::<Vec<_>>().join(" & "))
+        .collect();
+    let column = |cells: Vec<String>| {
+        format!(
+            "\\begin{{bmatrix}}\n{}\n\\end{{bmatrix}}",
+            cells.join(" \\\\\n")
+        )
+    };
+    let symbols = m
+        .unknowns
+        .iter()
+        .map(|u| write(&crate::expr::Expr::symbol(u)))
+        .collect();
+    let rhs = m.rhs.iter().map(write).collect();
+    format!("{}\n{}\n=\n{}", column(rows), column(symbols), column(rhs))
+}

@@ -1,0 +1,341 @@
+//! Formulas of a worked solution as Unicode and as LaTeX, and how long displayed lines are broken, the same in every format.
+
+use crate::expr::{Expr, Node};
+use crate::formula::{write_latex, write_unicode};
+use crate::solution::{Line, Math, Name, Solution};
+
+/// Longest displayed line, in characters of its Unicode form.
+const WIDE: usize = 76;
+
+/// A displayed row: what stands left of the relation, and the relation with what follows.
+pub type Cells = [Vec<Math>; 2];
+
+/// The rows a display is set in: one per line, more where a line is too long; relations stand below each other.
+pub fn rows(solution: &Solution, lines: &[Line]) -> Vec<Cells> {
+    lines
+        .iter()
+        .flat_map(|l| broken(solution, &l.math))
+        .collect()
+}
+
+fn broken(solution: &Solution, math: &[Math]) -> Vec<Cells> {
+    let is_relation = |m: &Math| matches!(m, Math::Op("=" | "≈" | "→"));
+    let Some(first) = math.iter().position(is_relation) else {
+        return vec![[Vec::new(), math.to_vec()]];
+    };
+    let (left, rest) = math.split_at(first);
+    if width(solution, math) <= WIDE {
+        return vec![[left.to_vec(), rest.to_vec()]];
+    }
+    let mut pieces: Vec<Vec<Math>> = Vec::new();
+    for m in rest {
+        if is_relation(m) || pieces.is_empty() {
+            pieces.push(Vec::new());
+        }
+        if let Some(piece) = pieces.last_mut() {
+            piece.push(m.clone());
+        }
+    }
+    let mut out: Vec<Cells> = Vec::new();
+    let mut left = left.to_vec();
+    if width(solution, &left) > WIDE / 2 {
+        for piece in terms(solution, &left) {
+            out.push([Vec::new(), piece]);
+        }
+        left = Vec::new();
+    }
+    for piece in pieces {
+        for part in terms(solution, &piece) {
+            out.push([std::mem::take(&mut left), part]);
+        }
+    }
+    out
+}
+
+/// A piece that ends in a long sum, with the sum spread over several rows.
+fn terms(solution: &Solution, piece: &[Math]) -> Vec<Vec<Math>> {
+    let Some((Math::Expr(last), head)) = piece.split_last() else {
+        return vec![piece.to_vec()];
+    };
+    let Node::Sum(all) = last.node() else {
+        return vec![piece.to_vec()];
+    };
+    if width(solution, piece) <= WIDE {
+        return vec![piece.to_vec()];
+    }
+    let mut rows: Vec<Vec<Math>> = Vec::new();
+    let mut chunk: Vec<Expr> = Vec::new();
+    let mut length = width(solution, head);
+    let mut flush = |chunk: &mut Vec<Expr>| {
+        if chunk.is_empty() {
+            return;
+        }
+        let e = Expr::sum(chunk.drain(..));
+        let mut row = if rows.is_empty() {
+            head.to_vec()
+        } else {
+            Vec::new()
+        };
+        if !rows.is_empty() && !crate::formula::write_plain(&e).starts_with('-') {
+            row.push(Math::Op("+"));
+        }
+        row.push(Math::Expr(e));
+        rows.push(row);
+    };
+    for term in all {
+        let size = width(solution, &[Math::Expr(term.clone())]) + 3;
+        if length + size > WIDE {
+            flush(&mut chunk);
+            length = 4;
+        }
+        length += size;
+        chunk.push(term.clone());
+    }
+    flush(&mut chunk);
+    rows
+}
+
+fn width(solution: &Solution, math: &[Math]) -> usize {
+    unicode(solution, math).chars().count()
+}
+
+/// Whether a scalar needs brackets as a factor.
+pub fn needs_brackets(e: &Expr) -> bool {
+    matches!(e.node(), Node::Sum(_)) || crate::formula::write_plain(e).starts_with('-')
+}
+
+/// The components of a vector that do not vanish: sign, size (`None` for 1), unit vector.
+pub fn components(v: &[(Expr, usize)]) -> Vec<(bool, Option<Expr>, usize)> {
+    let mut out = Vec::new();
+    for (e, axis) in v {
+        if e.is_zero() {
+            continue;
+        }
+        let negative =
+            !matches!(e.node(), Node::Sum(_)) && crate::formula::write_plain(e).starts_with('-');
+        let size = if negative { -e } else { e.clone() };
+        out.push((negative, (!size.is_one()).then_some(size), *axis));
+    }
+    out
+}
+
+/// The components of a vector-valued piece.
+pub fn vector_of(m: &Math) -> Option<Vec<(Expr, usize)>> {
+    match m {
+        Math::Vector([x, y]) => Some(vec![(x.clone(), 0), (y.clone(), 1)]),
+        Math::Along(z) => Some(vec![(z.clone(), 2)]),
+        _ => None,
+    }
+}
+
+/// A bracketed vector with one positive term needs no brackets to be read right after `×`; any other does.
+pub fn is_plain(inner: &[Math]) -> bool {
+    match inner {
+        [one] => vector_of(one).is_some_and(|v| {
+            let c = components(&v);
+            c.len() == 1
+                && !c[0].0
+                && !c[0]
+                    .1
+                    .as_ref()
+                    .is_some_and(|e| matches!(e.node(), Node::Sum(_)))
+        }),
+        _ => false,
+    }
+}
+
+/// A formula in one line of Unicode.
+pub fn unicode(solution: &Solution, math: &[Math]) -> String {
+    let names = |n: &str| solution.names.get(n).cloned();
+    let expr = |e: &Expr| write_unicode(e, &names);
+    let mut out = String::new();
+    for m in math {
+        let piece = match m {
+            Math::Expr(e) => expr(e),
+            Math::Factor(e) if needs_brackets(e) || expr(e).contains('/') => {
+                format!("({})", expr(e))
+            }
+            Math::Factor(e) => expr(e),
+            Math::Vector(_) | Math::Along(_) => {
+                let all = components(&vector_of(m).unwrap_or_default());
+                let mut text = String::new();
+                for (i, (negative, size, axis)) in all.iter().enumerate() {
+                    text.push_str(match (i, negative) {
+                        (0, true) => "−",
+                        (0, false) => "",
+                        (_, true) => " − ",
+                        (_, false) => " + ",
+                    });
+                    if let Some(e) = size {
+                        let brackets = matches!(e.node(), Node::Sum(_));
+                        text.push_str(&if brackets {
+                            format!("({})", expr(e))
+                        } else {
+                            expr(e)
+                        });
+                        text.push(' ');
+                    }
+                    text.push_str(["î", "ĵ", "k̂"][*axis]);
+                }
+                if all.is_empty() {
+                    String::from("0")
+                } else {
+                    text
+                }
+            }
+            Math::Name(name) => unicode_name(name),
+            Math::Op(",") => {
+                out.push(',');
+                continue;
+            }
+            Math::Op(op) => (*op).to_string(),
+            Math::Unit(axis) => ["î", "ĵ", "k̂"][*axis].to_string(),
+            Math::Brackets(inner) if is_plain(inner) => unicode(solution, inner),
+            Math::Brackets(inner) => format!("({})", unicode(solution, inner)),
+        };
+        let signed = out == "−" || out.ends_with("= −");
+        if !out.is_empty() && !signed {
+            out.push(' ');
+        }
+        out.push_str(&piece);
+    }
+    out
+}
+
+fn unicode_name(name: &Name) -> String {
+    let letter = if name.letter == "omega" {
+        "ω"
+    } else {
+        name.letter
+    };
+    let mark = match name.mark {
+        "+" => "⁺",
+        "-" => "⁻",
+        _ => "",
+    };
+    let index = &name.index;
+    let low = !index.is_empty() && index.chars().all(|c| c.is_ascii_digit());
+    if low {
+        let digits = index
+            .chars()
+            .filter_map(|c| char::from_u32(u32::from('₀') + c.to_digit(10)?));
+        return format!("{letter}{}{mark}", digits.collect::<String>());
+    }
+    let sub = if index.is_empty() {
+        String::new()
+    } else {
+        format!("_{index}")
+    };
+    format!("{letter}{sub}{mark}")
+}
+
+/// A formula in LaTeX.
+pub fn latex(solution: &Solution, math: &[Math]) -> String {
+    let names = |n: &str| solution.names.get(n).cloned();
+    let expr = |e: &Expr| write_latex(e, &names);
+    let mut out = String::new();
+    for m in math {
+        let piece = match m {
+            Math::Expr(e) => expr(e),
+            Math::Factor(e) if needs_brackets(e) => format!("\\left({}\\right)", expr(e)),
+            Math::Factor(e) => expr(e),
+            Math::Vector(_) | Math::Along(_) => {
+                let all = components(&vector_of(m).unwrap_or_default());
+                let mut text = String::new();
+                for (i, (negative, size, axis)) in all.iter().enumerate() {
+                    text.push_str(match (i, negative) {
+                        (0, true) => "-",
+                        (0, false) => "",
+                        (_, true) => " - ",
+                        (_, false) => " + ",
+                    });
+                    if let Some(e) = size {
+                        let brackets = matches!(e.node(), Node::Sum(_));
+                        text.push_str(&if brackets {
+                            format!("\\left({}\\right)", expr(e))
+                        } else {
+                            expr(e)
+                        });
+                        text.push_str("\\,");
+                    }
+                    text.push_str(UNITS[*axis]);
+                }
+                if all.is_empty() {
+                    String::from("0")
+                } else {
+                    text
+                }
+            }
+            Math::Name(name) => latex_name(name),
+            Math::Op(op) => latex_op(op).to_string(),
+            Math::Unit(axis) => UNITS[*axis].to_string(),
+            Math::Brackets(inner) if is_plain(inner) => latex(solution, inner),
+            Math::Brackets(inner) => format!("\\left({}\\right)", latex(solution, inner)),
+        };
+        if !out.is_empty() {
+            out.push(' ');
+        }
+        out.push_str(&piece);
+    }
+    out
+}
+
+const UNITS: [&str; 3] = ["\\hat{\\imath}", "\\hat{\\jmath}", "\\hat{k}"];
+
+fn latex_op(op: &str) -> &str {
+    match op {
+        "×" => "\\times",
+        "·" => "\\cdot",
+        "−" => "-",
+        "≈" => "\\approx",
+        "⇒" => "\\Rightarrow\\quad",
+        "→" => "\\to",
+        "∞" => "\\infty",
+        "≤" => "\\le",
+        "≠" => "\\ne",
+        "<" => "\\lt",
+        other => other,
+    }
+}
+
+fn latex_name(name: &Name) -> String {
+    let letter = if name.letter == "omega" {
+        "\\omega"
+    } else {
+        name.letter
+    };
+    let letter = if name.vector {
+        format!("\\vec{{{letter}}}")
+    } else {
+        letter.to_string()
+    };
+    let mark = if name.mark.is_empty() {
+        String::new()
+    } else {
+        format!("^{{{}}}", name.mark)
+    };
+    if name.index.is_empty() {
+        return format!("{letter}{mark}");
+    }
+    let mut index = String::new();
+    let mut word = String::new();
+    for c in name.index.chars().chain(['\0']) {
+        if c.is_alphanumeric() {
+            word.push(c);
+            continue;
+        }
+        match word.chars().count() {
+            0 => {}
+            1 => index.push_str(&word),
+            _ => index.push_str(&format!("\\mathrm{{{word}}}")),
+        }
+        word.clear();
+        match c {
+            '/' | ',' => index.push(c),
+            '\0' => {}
+            // Anything else in a name is a separator; nothing of it reaches TeX.
+            _ => index.push_str("\\,"),
+        }
+    }
+    format!("{letter}_{{{index}}}{mark}")
+}

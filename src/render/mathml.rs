@@ -1,0 +1,507 @@
+//! Formulas as native MathML. In: expressions and the pieces of a worked solution. Out: elements without namespace, as HTML
+//! takes them. Every character that comes from a scene is escaped.
+
+use num_traits::{One, Signed};
+
+use super::math::{components, is_plain, needs_brackets, vector_of};
+use crate::expr::{Expr, Function, Node, Rational, ratio};
+use crate::solution::{Math, Name, Solution};
+
+/// Text safe inside HTML elements and quoted attributes.
+pub fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            c if is_hidden(c) => out.push_str(&format!("[U+{:04X}]", u32::from(c))),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// Control, bidirectional and zero-width characters: shown, not obeyed.
+pub fn is_hidden(c: char) -> bool {
+    (c.is_control() && !matches!(c, '\n' | '\t'))
+        || matches!(c, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
+}
+
+/// The contents of a `<math>` element.
+pub fn formula(solution: &Solution, math: &[Math]) -> String {
+    let mut out = String::new();
+    for m in math {
+        match m {
+            Math::Expr(e) => out.push_str(&expr(solution, e)),
+            Math::Factor(e) if needs_brackets(e) => out.push_str(&brackets(&expr(solution, e))),
+            Math::Factor(e) => out.push_str(&expr(solution, e)),
+            Math::Vector(_) | Math::Along(_) => {
+                out.push_str(&vector(solution, &vector_of(m).unwrap_or_default()))
+            }
+            Math::Name(name) => out.push_str(&quantity(name)),
+            Math::Op(op) => {
+                let space = if *op == "⇒" {
+                    " rspace=\"0.8em\""
+                } else {
+                    ""
+                };
+                out.push_str(&format!("<mo{space}>{}</mo>", escape(op)));
+            }
+            Math::Unit(axis) => out.push_str(unit(*axis)),
+            Math::Brackets(inner) if is_plain(inner) => out.push_str(&formula(solution, inner)),
+            Math::Brackets(inner) => out.push_str(&brackets(&formula(solution, inner))),
+        }
+    }
+    out
+}
+
+fn unit(axis: usize) -> &'static str {
+    [
+        "<mover accent=\"true\"><mi>ı</mi><mo>^</mo></mover>",
+        "<mover accent=\"true\"><mi>ȷ</mi><mo>^</mo></mover>",
+        "<mover accent=\"true\"><mi>k</mi><mo>^</mo></mover>",
+    ][axis]
+}
+
+fn brackets(inner: &str) -> String {
+    format!("<mrow><mo>(</mo>{inner}<mo>)</mo></mrow>")
+}
+
+fn vector(solution: &Solution, v: &[(Expr, usize)]) -> String {
+    let all = components(v);
+    if all.is_empty() {
+        return String::from("<mn>0</mn>");
+    }
+    let mut out = String::from("<mrow>");
+    for (i, (negative, size, axis)) in all.iter().enumerate() {
+        match (i, negative) {
+            (_, true) => out.push_str("<mo>−</mo>"),
+            (0, false) => {}
+            (_, false) => out.push_str("<mo>+</mo>"),
+        }
+        if let Some(e) = size {
+            let inner = expr(solution, e);
+            let sum = matches!(e.node(), Node::Sum(_));
+            out.push_str(&if sum { brackets(&inner) } else { inner });
+            out.push_str("<mspace width=\"0.17em\"></mspace>");
+        }
+        out.push_str(unit(*axis));
+    }
+    out.push_str("</mrow>");
+    out
+}
+
+fn quantity(name: &Name) -> String {
+    let letter = if name.letter == "omega" {
+        "ω"
+    } else {
+        name.letter
+    };
+    let base = if name.vector {
+        format!("<mover accent=\"true\"><mi>{letter}</mi><mo stretchy=\"false\">→</mo></mover>")
+    } else {
+        format!("<mi>{letter}</mi>")
+    };
+    let index = match name.index.as_str() {
+        "" => String::new(),
+        index => format!("<mrow>{}</mrow>", words(index)),
+    };
+    let mark = match name.mark {
+        "" => String::new(),
+        "-" => String::from("<mo>−</mo>"),
+        mark => format!("<mo>{mark}</mo>"),
+    };
+    scripts(&base, &index, &mark)
+}
+
+fn scripts(base: &str, sub: &str, sup: &str) -> String {
+    match (sub.is_empty(), sup.is_empty()) {
+        (true, true) => base.to_string(),
+        (false, true) => format!("<msub>{base}{sub}</msub>"),
+        (true, false) => format!("<msup>{base}{sup}</msup>"),
+        (false, false) => format!("<msubsup>{base}{sub}{sup}</msubsup>"),
+    }
+}
+
+/// An index such as `G/C` or `ball 1`.
+fn words(index: &str) -> String {
+    let mut out = String::new();
+    let mut word = String::new();
+    let flush = |word: &mut String, out: &mut String| {
+        if !word.is_empty() {
+            let digits = word.chars().all(|c| c.is_ascii_digit());
+            let tag = if digits { "mn" } else { "mi" };
+            out.push_str(&format!("<{tag}>{}</{tag}>", escape(word)));
+            word.clear();
+        }
+    };
+    for c in index.chars() {
+        match c {
+            '/' | ',' => {
+                flush(&mut word, &mut out);
+                out.push_str(&format!("<mo lspace=\"0\" rspace=\"0\">{c}</mo>"));
+            }
+            c => word.push(if c == '_' { ' ' } else { c }),
+        }
+    }
+    flush(&mut word, &mut out);
+    out
+}
+
+/// An expression.
+pub fn expr(solution: &Solution, e: &Expr) -> String {
+    let terms = match e.node() {
+        Node::Sum(terms) => terms.as_slice(),
+        _ => std::slice::from_ref(e),
+    };
+    let mut out = String::from("<mrow>");
+    for (i, term) in terms.iter().enumerate() {
+        let quotient = Quotient::of(term);
+        match (i, quotient.negative) {
+            (_, true) => out.push_str("<mo>−</mo>"),
+            (0, false) => {}
+            (_, false) => out.push_str("<mo>+</mo>"),
+        }
+        out.push_str(&quotient.write(solution));
+    }
+    out.push_str("</mrow>");
+    out
+}
+
+/// A term as factors above and below the line.
+#[derive(Default)]
+struct Quotient {
+    negative: bool,
+    above: Vec<Expr>,
+    below: Vec<Expr>,
+}
+
+impl Quotient {
+    fn of(e: &Expr) -> Quotient {
+        let mut q = Quotient::default();
+        let factors = match e.node() {
+            Node::Product(factors) => factors.as_slice(),
+            _ => std::slice::from_ref(e),
+        };
+        q.take(factors);
+        q.above.sort_by_key(class);
+        q.below.sort_by_key(class);
+        q
+    }
+
+    fn take(&mut self, factors: &[Expr]) {
+        for factor in factors {
+            match factor.node() {
+                Node::Number(value) => {
+                    self.negative ^= value.is_negative();
+                    let size = value.abs();
+                    let whole = |n: &crate::expr::Int| Rational::from(n.clone());
+                    let (n, d) = (whole(size.numer()), whole(size.denom()));
+                    if !n.is_one() {
+                        self.above.push(Expr::from(n));
+                    }
+                    if !d.is_one() {
+                        self.below.push(Expr::from(d));
+                    }
+                }
+                Node::Power(base, exponent) => match exponent.as_number() {
+                    Some(k) if *k == ratio(-1, 1) => match base.node() {
+                        Node::Product(inner) => {
+                            std::mem::swap(&mut self.above, &mut self.below);
+                            self.take(inner);
+                            std::mem::swap(&mut self.above, &mut self.below);
+                        }
+                        _ => self.below.push(base.clone()),
+                    },
+                    Some(k) if k.is_negative() => self.below.push(base.power(Expr::from(-k))),
+                    _ => self.above.push(factor.clone()),
+                },
+                _ => self.above.push(factor.clone()),
+            }
+        }
+    }
+
+    fn write(&self, solution: &Solution) -> String {
+        if self.below.is_empty() {
+            return product(solution, &self.above, false);
+        }
+        format!(
+            "<mfrac><mrow>{}</mrow><mrow>{}</mrow></mfrac>",
+            product(solution, &self.above, true),
+            product(solution, &self.below, true)
+        )
+    }
+}
+
+/// Numbers, then names, then roots, then sums, then functions.
+fn class(e: &Expr) -> u8 {
+    match e.node() {
+        Node::Number(_) => 0,
+        Node::Symbol(_) => 1,
+        Node::Power(base, exponent) if !exponent.as_number().is_some_and(Rational::is_integer) => {
+            class(base).max(2)
+        }
+        Node::Power(base, _) => class(base),
+        Node::Product(_) => 2,
+        Node::Sum(_) | Node::Call(Function::Abs, _) => 3,
+        Node::Call(..) => 4,
+    }
+}
+
+fn product(solution: &Solution, factors: &[Expr], alone: bool) -> String {
+    if factors.is_empty() {
+        return String::from("<mn>1</mn>");
+    }
+    if let ([only], true) = (factors, alone)
+        && matches!(only.node(), Node::Sum(_))
+    {
+        return expr(solution, only);
+    }
+    let mut out = String::new();
+    for (i, factor) in factors.iter().enumerate() {
+        if i > 0 {
+            let digits = matches!(factor.node(), Node::Number(_));
+            out.push_str(if digits {
+                "<mo>·</mo>"
+            } else {
+                "<mspace width=\"0.13em\"></mspace>"
+            });
+        }
+        out.push_str(&one(solution, factor));
+    }
+    out
+}
+
+/// A factor, in brackets where it needs them.
+fn one(solution: &Solution, e: &Expr) -> String {
+    match e.node() {
+        Node::Number(value) if value.is_integer() && !value.is_negative() => {
+            format!("<mn>{value}</mn>")
+        }
+        Node::Number(_) | Node::Sum(_) | Node::Product(_) => brackets(&expr(solution, e)),
+        Node::Symbol(name) => symbol(solution, name),
+        Node::Call(Function::Abs, argument) => {
+            format!(
+                "<mrow><mo>|</mo>{}<mo>|</mo></mrow>",
+                expr(solution, argument)
+            )
+        }
+        Node::Call(function, argument) => call(solution, *function, argument, ""),
+        Node::Power(base, exponent) => power(solution, base, exponent),
+    }
+}
+
+fn power(solution: &Solution, base: &Expr, exponent: &Expr) -> String {
+    if exponent.as_number().is_some_and(|k| *k == ratio(1, 2)) {
+        return format!("<msqrt>{}</msqrt>", expr(solution, base));
+    }
+    let raised = expr(solution, exponent);
+    match base.node() {
+        Node::Call(function, argument) if *function != Function::Abs => {
+            call(solution, *function, argument, &raised)
+        }
+        // The index and the exponent of a name stand above each other only if the name has no mark of its own.
+        Node::Symbol(_) | Node::Number(_) if !one(solution, base).contains("<msup") => {
+            format!("<msup>{}{raised}</msup>", one(solution, base))
+        }
+        Node::Symbol(_) => format!("<msup>{}{raised}</msup>", brackets(&one(solution, base))),
+        _ => format!("<msup>{}{raised}</msup>", brackets(&expr(solution, base))),
+    }
+}
+
+fn call(solution: &Solution, function: Function, argument: &Expr, power: &str) -> String {
+    let name = match function {
+        Function::Asin => "arcsin",
+        Function::Acos => "arccos",
+        Function::Atan => "arctan",
+        other => other.name(),
+    };
+    let head = format!("<mi>{name}</mi>");
+    let head = if power.is_empty() {
+        head
+    } else {
+        format!("<msup>{head}{power}</msup>")
+    };
+    let bare = argument.as_symbol().is_some();
+    let inner = expr(solution, argument);
+    let inner = if bare {
+        format!("<mspace width=\"0.13em\"></mspace>{inner}")
+    } else {
+        brackets(&inner)
+    };
+    format!("<mrow>{head}<mo>&#x2061;</mo>{inner}</mrow>")
+}
+
+fn symbol(solution: &Solution, name: &str) -> String {
+    let latex = match solution.names.get(name) {
+        Some(latex) => latex.clone(),
+        None => crate::formula::latex_name(name),
+    };
+    from_latex(&latex)
+}
+
+/// A typeset symbol: base, indices and marks of the small LaTeX that names use.
+pub fn from_latex(latex: &str) -> String {
+    let chars: Vec<char> = latex.chars().collect();
+    let mut at = 0;
+    let inner = row(&chars, &mut at, 0);
+    format!("<mrow>{inner}</mrow>")
+}
+
+/// Depth of nested groups that is still read; the rest is dropped.
+const DEEPEST: usize = 12;
+
+fn row(chars: &[char], at: &mut usize, depth: usize) -> String {
+    let mut out = String::new();
+    while *at < chars.len() && chars[*at] != '}' {
+        let base = atom(chars, at, depth);
+        let (mut sub, mut sup) = (String::new(), String::new());
+        while *at < chars.len() && matches!(chars[*at], '_' | '^' | '\'') {
+            let kind = chars[*at];
+            *at += 1;
+            match kind {
+                '_' => sub.push_str(&atom(chars, at, depth)),
+                '^' => sup.push_str(&atom(chars, at, depth)),
+                _ => sup.push_str("<mo>′</mo>"),
+            }
+        }
+        let group = |s: String| {
+            if s.is_empty() {
+                s
+            } else {
+                format!("<mrow>{s}</mrow>")
+            }
+        };
+        out.push_str(&scripts(&base, &group(sub), &group(sup)));
+    }
+    out
+}
+
+fn atom(chars: &[char], at: &mut usize, depth: usize) -> String {
+    let Some(&c) = chars.get(*at) else {
+        return String::new();
+    };
+    *at += 1;
+    match c {
+        '{' => {
+            if depth > DEEPEST {
+                *at = chars.len();
+                return String::new();
+            }
+            let inner = row(chars, at, depth + 1);
+            *at += 1;
+            format!("<mrow>{inner}</mrow>")
+        }
+        '\\' => {
+            let start = *at;
+            while chars.get(*at).is_some_and(char::is_ascii_alphabetic) {
+                *at += 1;
+            }
+            let command: String = chars[start..*at].iter().collect();
+            if command.is_empty() {
+                let next = chars.get(*at).copied().unwrap_or(' ');
+                *at += 1;
+                return format!("<mi>{}</mi>", escape(&next.to_string()));
+            }
+            while chars.get(*at) == Some(&' ') {
+                *at += 1;
+            }
+            let accent = |mark: &str, chars: &[char], at: &mut usize| {
+                let inner = atom(chars, at, depth);
+                format!("<mover accent=\"true\">{inner}<mo stretchy=\"false\">{mark}</mo></mover>")
+            };
+            match command.as_str() {
+                "vec" => accent("→", chars, at),
+                "hat" => accent("^", chars, at),
+                "bar" => accent("¯", chars, at),
+                "tilde" => accent("~", chars, at),
+                "dot" => accent("˙", chars, at),
+                "ddot" => accent("¨", chars, at),
+                "mathrm" | "text" | "mathbf" | "mathit" | "boldsymbol" => upright(chars, at, depth),
+                other => format!("<mi>{}</mi>", escape(letter(other))),
+            }
+        }
+        c if c.is_ascii_digit() => {
+            let mut number = String::from(c);
+            while let Some(d) = chars.get(*at).filter(|d| d.is_ascii_digit()) {
+                number.push(*d);
+                *at += 1;
+            }
+            format!("<mn>{number}</mn>")
+        }
+        '+' | '*' | '/' | ',' | '(' | ')' => format!("<mo lspace=\"0\" rspace=\"0\">{c}</mo>"),
+        '-' => String::from("<mo lspace=\"0\" rspace=\"0\">−</mo>"),
+        '}' | ' ' => String::new(),
+        c => format!("<mi>{}</mi>", escape(&c.to_string())),
+    }
+}
+
+/// The argument of `\mathrm` as one upright word.
+fn upright(chars: &[char], at: &mut usize, depth: usize) -> String {
+    if chars.get(*at) != Some(&'{') {
+        return atom(chars, at, depth);
+    }
+    *at += 1;
+    let mut word = String::new();
+    while let Some(&c) = chars.get(*at) {
+        *at += 1;
+        match c {
+            '}' => break,
+            '\\' | '{' => {}
+            '_' => word.push(' '),
+            c => word.push(c),
+        }
+    }
+    format!("<mi mathvariant=\"normal\">{}</mi>", escape(&word))
+}
+
+fn letter(command: &str) -> &str {
+    const LETTERS: &[(&str, &str)] = &[
+        ("ell", "ℓ"),
+        ("prime", "′"),
+        ("alpha", "α"),
+        ("beta", "β"),
+        ("gamma", "γ"),
+        ("delta", "δ"),
+        ("epsilon", "ϵ"),
+        ("varepsilon", "ε"),
+        ("zeta", "ζ"),
+        ("eta", "η"),
+        ("theta", "θ"),
+        ("vartheta", "ϑ"),
+        ("iota", "ι"),
+        ("kappa", "κ"),
+        ("lambda", "λ"),
+        ("mu", "μ"),
+        ("nu", "ν"),
+        ("xi", "ξ"),
+        ("pi", "π"),
+        ("rho", "ρ"),
+        ("sigma", "σ"),
+        ("tau", "τ"),
+        ("upsilon", "υ"),
+        ("phi", "ϕ"),
+        ("varphi", "φ"),
+        ("chi", "χ"),
+        ("psi", "ψ"),
+        ("omega", "ω"),
+        ("Gamma", "Γ"),
+        ("Delta", "Δ"),
+        ("Theta", "Θ"),
+        ("Lambda", "Λ"),
+        ("Xi", "Ξ"),
+        ("Pi", "Π"),
+        ("Sigma", "Σ"),
+        ("Upsilon", "Υ"),
+        ("Phi", "Φ"),
+        ("Psi", "Ψ"),
+        ("Omega", "Ω"),
+    ];
+    LETTERS
+        .iter()
+        .find(|(c, _)| *c == command)
+        .map_or(command, |(_, l)| l)
+}

@@ -1,0 +1,69 @@
+//! A worked solution as data: the scene it belongs to, what its symbols stand for, and every step as a claim that another
+//! program can replay. `carom check` reads this.
+
+use serde_json::{Map, Value, json};
+
+use super::math::latex;
+use crate::formula::write_plain;
+use crate::solution::{Claim, Math, Meaning, Solution, Step};
+
+/// The whole solution. `scene` is the text of the scene file, `set` the values given besides.
+pub fn solution(s: &Solution, scene: &str, set: &[String]) -> Value {
+    let symbols: Map<String, Value> = s
+        .meanings
+        .iter()
+        .map(|(name, m)| (name.to_string(), meaning(m)))
+        .collect();
+    json!({
+        "format": "carom solution",
+        "version": 1,
+        "title": s.title,
+        "source": s.source,
+        "scene": scene,
+        "set": set,
+        "symbols": symbols,
+        "assumptions": s.assumptions,
+        "steps": s.steps.iter().map(|x| step(s, x)).collect::<Vec<_>>(),
+    })
+}
+
+fn meaning(m: &Meaning) -> Value {
+    const AXES: [&str; 2] = ["x", "y"];
+    match m {
+        Meaning::Velocity(body, axis) => json!({"velocity": body, "axis": AXES[*axis]}),
+        Meaning::Spin(body, clockwise) => json!({"spin": body, "clockwise": clockwise}),
+        Meaning::Impulse(at, on, axis) => {
+            json!({"impulse": at, "on": on, "axis": axis.map(|a| AXES[a])})
+        }
+        Meaning::Answer(question, axis) => {
+            json!({"answer": question, "axis": axis.map(|a| AXES[a])})
+        }
+        Meaning::Defined => json!({"defined": true}),
+    }
+}
+
+fn step(s: &Solution, x: &Step) -> Value {
+    let claims = |list: &[Claim]| list.iter().map(|c| claim(s, c)).collect::<Vec<_>>();
+    json!({
+        "id": x.id,
+        "before": claims(&x.before),
+        "after": claims(&x.after),
+        "reason": x.reason,
+        "assumptions": x.assumptions,
+        "defines": x.defines.as_deref(),
+        "substeps": x.substeps.iter().map(|y| step(s, y)).collect::<Vec<_>>(),
+    })
+}
+
+fn claim(s: &Solution, c: &Claim) -> Value {
+    let math = [
+        Math::Expr(c.left.clone()),
+        Math::Op("="),
+        Math::Expr(c.right.clone()),
+    ];
+    json!({
+        "left": write_plain(&c.left),
+        "right": write_plain(&c.right),
+        "latex": latex(s, &math),
+    })
+}

@@ -1,0 +1,427 @@
+//! Quantities that follow from what the blocks determine: velocities of points, components, energies, equations asked for.
+
+use super::words::{self, name, say};
+use super::{Claim, Detail, Line, Math, Part, Writer};
+use crate::derive::{Answer, Form};
+use crate::expr::{Expr, Vector};
+use crate::laws::{self, Place};
+use crate::scene::{Ask, EnergyWhen, ImpulseAt, Question};
+
+impl Writer<'_> {
+    /// Whether a question asks for more than the unknowns of the blocks.
+    pub(super) fn is_derived(&self, question: &Question) -> bool {
+        self.answers_of(question).iter().any(|a| {
+            let solved = self
+                .d
+                .blocks
+                .iter()
+                .flat_map(|b| &b.unknowns)
+                .any(|u| self.d.names.plain(*u) == a.name);
+            let given = self
+                .d
+                .given
+                .iter()
+                .any(|(u, _)| self.d.names.plain(*u) == a.name);
+            !solved && !given
+        })
+    }
+
+    /// Whether the laws leave the answer open.
+    pub(super) fn is_open(&self, question: &Question) -> bool {
+        self.answers_of(question)
+            .iter()
+            .any(|a| matches!(a.form, Form::Open(_)))
+    }
+
+    fn answers_of(&self, question: &Question) -> Vec<Answer> {
+        let mine = self
+            .d
+            .answers
+            .iter()
+            .filter(|a| a.question == question.name);
+        mine.cloned().collect()
+    }
+
+    /// The lines from the motion to what a question asks.
+    pub(super) fn derived(&mut self, question: &Question) {
+        let answers = self.answers_of(question);
+        match &question.ask {
+            Ask::Velocity { body, point, along } => {
+                let at = point
+                    .as_ref()
+                    .map_or(self.scene.bodies[*body].center.clone(), |(_, at)| {
+                        at.clone()
+                    });
+                let point_name = match point {
+                    Some((name, _)) => name.clone(),
+                    None => words::center(self.scene, *body),
+                };
+                self.velocity(*body, &point_name, &at, along.as_ref(), &answers);
+            }
+            Ask::Impulse { from, on, along } => self.impulse(*from, *on, along.as_ref(), &answers),
+            Ask::Energy { when, of } => self.energy(*when, *of, &answers),
+            Ask::Spin { body, clockwise } => {
+                let sign = if *clockwise {
+                    Expr::from(-1)
+                } else {
+                    Expr::one()
+                };
+                let raw = &sign * &self.spin_after(*body);
+                self.values(&[raw], &answers);
+            }
+            _ => self.asked_equation(&answers),
+        }
+    }
+
+    fn velocity(
+        &mut self,
+        body: usize,
+        point: &str,
+        at: &Vector,
+        along: Option<&Vector>,
+        answers: &[Answer],
+    ) {
+        let link = self.reduction.tree.iter().find(|l| l.body == body).copied();
+        let carrier = link.map_or(Place::Center(body), |l| l.at);
+        let base = words::point(self.scene, carrier);
+        let from = self.g.place(carrier).clone();
+        let raw = [&at[0] - &from[0], &at[1] - &from[1]];
+        let arm = self.tidy_vector(&raw);
+        let center = words::center(self.scene, body);
+        let forms = self.reduced.velocity_of(&self.g, body, at);
+        let v = [0, 1].map(|axis| {
+            let raw = self.form(&forms[axis]);
+            self.tidy(&raw)
+        });
+        let still = link.is_some_and(|l| {
+            self.scene.bodies[l.to].is_fixed() && {
+                let before = self.g.velocity_before(l.to, &from);
+                before.iter().all(Expr::is_zero)
+            }
+        });
+        let particle = self.scene.bodies[body].is_particle();
+        let turns = !arm.iter().all(Expr::is_zero) && !particle;
+        let mut math = vec![name("v", point, "+", true), Math::Op("=")];
+        if !still && (turns || base != point) {
+            math.push(name("v", &base, "+", true));
+            if turns {
+                math.push(Math::Op("+"));
+            }
+        }
+        if turns {
+            math.extend([
+                name("omega", &center, "+", true),
+                Math::Op("×"),
+                name("r", &format!("{point}/{base}"), "", true),
+            ]);
+            math.push(Math::Op("="));
+            if still {
+                math.extend([
+                    Math::Brackets(vec![Math::Along(self.spin_after(body))]),
+                    Math::Op("×"),
+                    Math::Brackets(vec![Math::Vector(arm)]),
+                    Math::Op("="),
+                ]);
+            }
+        } else if math.len() > 2 {
+            math.push(Math::Op("="));
+        }
+        math.push(Math::Vector(v.clone()));
+        match along {
+            None => {
+                let symbols: Vec<Expr> = answers.iter().map(|a| Expr::symbol(&a.name)).collect();
+                let claims = symbols
+                    .into_iter()
+                    .zip(&v)
+                    .filter(|(s, value)| s != *value)
+                    .map(|(left, right)| Claim {
+                        left,
+                        right: right.clone(),
+                    })
+                    .collect();
+                let lead = if turns && still {
+                    format!(
+                        "{} turns about {base}:",
+                        words::capital(&words::body(self.scene, body))
+                    )
+                } else if turns {
+                    format!(
+                        "{} is rigid:",
+                        words::capital(&words::body(self.scene, body))
+                    )
+                } else {
+                    String::from("In components,")
+                };
+                self.say(&lead);
+                let id = self.step(Vec::new(), claims, "velocities of a rigid body: v + ω × r");
+                self.show(math, Some(id));
+                self.values(&v, answers);
+            }
+            Some(d) => {
+                let raw = &v[0] * &d[0] + &v[1] * &d[1];
+                if turns {
+                    self.say(&format!(
+                        "{} is rigid:",
+                        words::capital(&words::body(self.scene, body))
+                    ));
+                    self.show(math, None);
+                }
+                self.component(d, name("v", point, "+", true), raw, answers);
+            }
+        }
+    }
+
+    /// A component along a direction, as a product with the unit vector.
+    fn component(&mut self, d: &Vector, whole: Math, raw: Expr, answers: &[Answer]) {
+        let Some(answer) = answers.first() else {
+            return;
+        };
+        let symbol = Expr::symbol(&answer.name);
+        let lead = vec![
+            say("The component along "),
+            super::Inline::Math(vec![Math::Vector(d.clone())]),
+            say(" is"),
+        ];
+        self.text(lead);
+        if symbol != raw {
+            let id = self.step(
+                Vec::new(),
+                vec![Claim {
+                    left: symbol.clone(),
+                    right: raw.clone(),
+                }],
+                "component along a direction",
+            );
+            self.show(
+                vec![
+                    Math::Expr(symbol),
+                    Math::Op("="),
+                    whole,
+                    Math::Op("·"),
+                    Math::Brackets(vec![Math::Vector(d.clone())]),
+                    Math::Op("="),
+                    Math::Expr(raw.clone()),
+                ],
+                Some(id),
+            );
+        }
+        self.values(&[raw], answers);
+    }
+
+    fn impulse(&mut self, from: ImpulseAt, on: usize, along: Option<&Vector>, answers: &[Answer]) {
+        let (place, second) = match from {
+            ImpulseAt::Contact(c) => (Place::Contact(c), self.scene.contacts[c].bodies[1]),
+            ImpulseAt::Hinge(h) => (Place::Hinge(h), self.scene.hinges[h].bodies[1]),
+            ImpulseAt::Blow(b) => (Place::Blow(b), self.scene.blows[b].body),
+        };
+        let sign = if on == second {
+            Expr::one()
+        } else {
+            Expr::from(-1)
+        };
+        let forms = laws::impulse_at(self.scene, &self.g, place);
+        let v = [0, 1].map(|axis| &sign * &self.form(&forms[axis]));
+        let v = self.tidy_vector(&v);
+        let q = words::point(self.scene, place);
+        match along {
+            Some(d) => {
+                let raw = &v[0] * &d[0] + &v[1] * &d[1];
+                let raw = self.tidy(&raw);
+                self.component(d, name("P", &q, "", true), raw, answers);
+            }
+            None => {
+                let symbols: Vec<Expr> = answers.iter().map(|a| Expr::symbol(&a.name)).collect();
+                let claims: Vec<Claim> = symbols
+                    .into_iter()
+                    .zip(&v)
+                    .filter(|(s, value)| s != *value)
+                    .map(|(left, right)| Claim {
+                        left,
+                        right: right.clone(),
+                    })
+                    .collect();
+                if !claims.is_empty() {
+                    let id = self.step(Vec::new(), claims, "components of the impulse");
+                    self.say("In components,");
+                    self.show(
+                        vec![
+                            name("P", &q, "", true),
+                            Math::Op("="),
+                            Math::Vector(v.clone()),
+                        ],
+                        Some(id),
+                    );
+                }
+                self.values(&v, answers);
+            }
+        }
+    }
+
+    fn energy(&mut self, when: EnergyWhen, of: Option<usize>, answers: &[Answer]) {
+        let moving: Vec<usize> = (0..self.scene.bodies.len())
+            .filter(|b| of.is_none_or(|o| o == *b) && !self.scene.bodies[*b].is_fixed())
+            .collect();
+        let half = Expr::ratio(1, 2);
+        let mut before = Vec::new();
+        let mut after = Vec::new();
+        for &b in &moving {
+            let (v, w) = self.g.before(b);
+            let (v, w) = (v.clone(), w.clone());
+            let mass = self.g.mass(b).clone();
+            let inertia = self.g.inertia(b).clone();
+            let inertia = self.tidy(&inertia);
+            let spins = !self.scene.bodies[b].is_particle() && !self.inertia_is_zero(&inertia);
+            let energy = |v: &Vector, w: &Expr| {
+                let mut terms = vec![&half * &mass * (v[0].powi(2) + v[1].powi(2))];
+                if spins {
+                    terms.push(&half * &inertia * w.powi(2));
+                }
+                terms
+            };
+            let zero = |v: &Vector, w: &Expr| v.iter().all(Expr::is_zero) && w.is_zero();
+            if !zero(&v, &w) {
+                before.extend(energy(&v, &w));
+            }
+            let v = self.velocity_after(b);
+            let w = self.spin_after(b);
+            if !zero(&v, &w) {
+                after.extend(energy(&v, &w));
+            }
+        }
+        let before = Expr::sum(before);
+        let after = Expr::sum(after);
+        let tidy_before = self.tidy(&before);
+        let tidy_after = self.tidy(&after);
+        let index = match of {
+            Some(b) => words::center(self.scene, b),
+            None => String::new(),
+        };
+        let t = |mark| name("T", &index, mark, false);
+        if when != EnergyWhen::After {
+            let id = self.step(
+                Vec::new(),
+                vec![Claim {
+                    left: before.clone(),
+                    right: tidy_before.clone(),
+                }],
+                "kinetic energy just before",
+            );
+            self.say("Kinetic energy of translation and rotation:");
+            let mut math = vec![t("-"), Math::Op("=")];
+            if self.detail() == Detail::Full && before != tidy_before && before.size() < 80 {
+                math.extend([Math::Expr(before.clone()), Math::Op("=")]);
+            }
+            math.push(Math::Expr(tidy_before.clone()));
+            self.show(math, Some(id));
+        }
+        if when != EnergyWhen::Before {
+            let id = self.step(
+                Vec::new(),
+                vec![Claim {
+                    left: after.clone(),
+                    right: tidy_after.clone(),
+                }],
+                "kinetic energy just after",
+            );
+            let mut math = vec![t("+"), Math::Op("=")];
+            if after != tidy_after && after.size() < 80 && self.detail() >= Detail::Normal {
+                math.extend([Math::Expr(after.clone()), Math::Op("=")]);
+            }
+            if tidy_after.size() < 200 {
+                math.push(Math::Expr(tidy_after.clone()));
+                self.show(math, Some(id));
+            }
+        }
+        let raw = match when {
+            EnergyWhen::Before => tidy_before,
+            EnergyWhen::After => tidy_after,
+            EnergyWhen::Lost => tidy_before - tidy_after,
+        };
+        self.values(&[raw], answers);
+    }
+
+    fn inertia_is_zero(&mut self, inertia: &Expr) -> bool {
+        self.vanishes(inertia)
+    }
+
+    /// Closed forms of answers, each from its expression in the symbols found above.
+    fn values(&mut self, raw: &[Expr], answers: &[Answer]) {
+        let mut lines = Vec::new();
+        for (answer, raw) in answers.iter().zip(raw) {
+            let Form::Value { closed, short } = &answer.form else {
+                continue;
+            };
+            let symbol = Expr::symbol(&answer.name);
+            // A symbol the blocks solved for has been shown with its value already.
+            if self.is_solved(&answer.name) {
+                continue;
+            }
+            let before = if symbol == *raw {
+                Vec::new()
+            } else {
+                vec![Claim {
+                    left: symbol.clone(),
+                    right: raw.clone(),
+                }]
+            };
+            let id = self.step(
+                before,
+                vec![Claim {
+                    left: symbol.clone(),
+                    right: closed.clone(),
+                }],
+                "with the values found above",
+            );
+            lines.push(Line {
+                math: vec![Math::Expr(symbol), Math::Op("="), Math::Expr(short.clone())],
+                step: Some(id),
+            });
+        }
+        if !lines.is_empty() {
+            if !raw.iter().all(|e| e.symbols().is_empty()) {
+                self.say("and with the values found,");
+            }
+            self.push(Part::Display(lines));
+        }
+    }
+
+    fn is_solved(&self, name: &str) -> bool {
+        self.d
+            .blocks
+            .iter()
+            .flat_map(|b| &b.unknowns)
+            .any(|u| self.d.names.plain(*u) == name)
+    }
+
+    fn asked_equation(&mut self, answers: &[Answer]) {
+        for answer in answers {
+            match &answer.form {
+                Form::Equation { left, right } => {
+                    self.say("Before = after, in the unknowns that are asked for:");
+                    self.claim(
+                        left.clone(),
+                        right.clone(),
+                        "linear momentum, before = after",
+                    );
+                }
+                Form::Matrix(m) => {
+                    let mut claims = Vec::new();
+                    for (row, rhs) in m.entries.iter().zip(&m.rhs) {
+                        let terms = row
+                            .iter()
+                            .zip(&m.unknowns)
+                            .map(|(k, u)| k * &Expr::symbol(u));
+                        claims.push(Claim {
+                            left: Expr::sum(terms.filter(|t| !t.is_zero())),
+                            right: rhs.clone(),
+                        });
+                    }
+                    self.step(Vec::new(), claims, "the rows of the matrix form");
+                    self.say("The equations in matrix form:");
+                    self.push(Part::Matrix(m.clone()));
+                }
+                _ => {}
+            }
+        }
+    }
+}

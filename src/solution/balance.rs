@@ -1,0 +1,670 @@
+//! Balances written out as the book does: the system and the reason first, then vectors, cross products, and the scalar line.
+
+use super::block::AXES;
+use super::words::{self, name, say};
+use super::{Claim, Detail, Inline, Math, Writer};
+use crate::derive::Equation;
+use crate::expr::{Expr, Vector};
+use crate::laws::{self, Direction, Law, Place};
+use crate::scene::ContactLaw;
+
+/// An impulse on a system from outside, as its equation takes it.
+struct Outside {
+    place: Place,
+    /// In the scene's symbols.
+    impulse: Vector,
+    /// Moment about the point of the balance.
+    moment: Expr,
+}
+
+impl Writer<'_> {
+    /// One law: why it is used, written out where `vectors` asks for it, and its scalar equation.
+    pub(super) fn balance(&mut self, equation: &Equation, vectors: bool) {
+        let (left, right) = self.sides(equation);
+        let reason = self.law_words(&equation.law);
+        match &equation.law {
+            Law::AngularMomentum { system, about } => {
+                self.angular_reason(system, *about);
+                if vectors {
+                    self.angular_momentum(system, *about);
+                    self.say("Equating the two,");
+                }
+            }
+            Law::LinearMomentum { system, along } => {
+                self.linear_reason(system, along);
+                if vectors {
+                    self.linear_momentum(system, along);
+                }
+            }
+            Law::Restitution(c) => self.restitution(*c),
+            Law::Sticking(c, axis) => {
+                let at = self.scene.contacts[*c].name.clone();
+                self.say(&format!(
+                    "The touching points at {at} move together just after, along {}:",
+                    AXES[*axis]
+                ));
+            }
+            Law::Hinged(h, axis) => {
+                let at = self.scene.hinges[*h].name.clone();
+                self.say(&format!(
+                    "The hinge at {at} holds: both its points have the same velocity along {}:",
+                    AXES[*axis]
+                ));
+            }
+            Law::Given(_) => self.say(&format!("{}:", words::capital(&reason))),
+        }
+        let shown = matches!(self.last_line(), Some((l, r)) if l == left && r == right);
+        if !shown {
+            self.claim(left, right, &reason);
+        }
+    }
+
+    fn last_line(&self) -> Option<(Expr, Expr)> {
+        let claim = self.solution.steps.last()?.after.last()?;
+        Some((claim.left.clone(), claim.right.clone()))
+    }
+
+    /// Impulses on a system from outside.
+    fn outside(&mut self, system: &[usize], about: Option<Place>) -> Vec<Outside> {
+        let mut places = Vec::new();
+        let joints = self
+            .scene
+            .contacts
+            .iter()
+            .enumerate()
+            .map(|(c, k)| (Place::Contact(c), k.bodies))
+            .chain(
+                self.scene
+                    .hinges
+                    .iter()
+                    .enumerate()
+                    .map(|(h, k)| (Place::Hinge(h), k.bodies)),
+            );
+        for (place, bodies) in joints {
+            let inside = bodies.map(|b| system.contains(&b));
+            if inside[0] != inside[1] {
+                places.push((place, inside[1]));
+            }
+        }
+        for (i, blow) in self.scene.blows.iter().enumerate() {
+            if system.contains(&blow.body) {
+                places.push((Place::Blow(i), true));
+            }
+        }
+        let mut out = Vec::new();
+        for (place, on_second) in places {
+            let forms = laws::impulse_at(self.scene, &self.g, place);
+            let sign = if on_second {
+                Expr::one()
+            } else {
+                Expr::from(-1)
+            };
+            let raw = [0, 1].map(|i| &sign * &self.form(&forms[i]));
+            let impulse = self.tidy_vector(&raw);
+            let moment = match about {
+                Some(about) => {
+                    let arm = self.arm(&self.g.place(place).clone(), about);
+                    let raw = &arm[0] * &impulse[1] - &arm[1] * &impulse[0];
+                    self.tidy(&raw)
+                }
+                None => Expr::zero(),
+            };
+            out.push(Outside {
+                place,
+                impulse,
+                moment,
+            });
+        }
+        out
+    }
+
+    /// Vector from a moment point to a position.
+    fn arm(&mut self, to: &Vector, about: Place) -> Vector {
+        let from = self.g.place(about).clone();
+        let raw = [&to[0] - &from[0], &to[1] - &from[1]];
+        self.tidy_vector(&raw)
+    }
+
+    /// Places whose impulses act between bodies of a system.
+    fn inside(&self, system: &[usize]) -> Vec<String> {
+        let within = |bodies: &[usize; 2]| bodies.iter().all(|b| system.contains(b));
+        let contacts = self.scene.contacts.iter().filter(|c| within(&c.bodies));
+        let hinges = self.scene.hinges.iter().filter(|h| within(&h.bodies));
+        contacts
+            .map(|c| c.name.clone())
+            .chain(hinges.map(|h| h.name.clone()))
+            .collect()
+    }
+
+    fn internal_words(&self, system: &[usize]) -> Option<String> {
+        let inside = self.inside(system);
+        let (subject, verb) = if inside.len() == 1 {
+            ("The impulse", "is")
+        } else {
+            ("The impulses", "are")
+        };
+        (!inside.is_empty()).then(|| {
+            format!(
+                "{subject} at {} {verb} internal to this system.",
+                words::list(&inside)
+            )
+        })
+    }
+
+    /// Which system, about which point, and why other impulses do not appear.
+    fn angular_reason(&mut self, system: &[usize], about: Place) {
+        let at = match (about, system) {
+            (Place::Center(b), [only]) if b == *only => String::from("its center of mass"),
+            _ => words::at(self.scene, about),
+        };
+        let whom = words::bodies(self.scene, system);
+        let mut text = if system.len() > 1 {
+            format!("Take {whom} together and balance angular momentum about {at}.")
+        } else {
+            format!("Balance angular momentum of {whom} about {at}.")
+        };
+        if let Some(internal) = self.internal_words(system) {
+            text.push(' ');
+            text.push_str(&internal);
+        }
+        let outside = self.outside(system, Some(about));
+        let mut silent = Vec::new();
+        let mut through = Vec::new();
+        for o in outside.iter().filter(|o| o.moment.is_zero()) {
+            let arm = self.arm(&self.g.place(o.place).clone(), about);
+            let place = words::point(self.scene, o.place);
+            if arm.iter().all(Expr::is_zero) {
+                silent.push(place);
+            } else if !o.impulse.iter().all(Expr::is_zero) {
+                through.push(place);
+            }
+        }
+        if let [one] = silent.as_slice() {
+            text.push_str(&format!(
+                " The impulse at {one} acts at that very point and has no moment about it."
+            ));
+        } else if !silent.is_empty() {
+            text.push_str(&format!(
+                " The impulses at {} act at that very point and have no moment about it.",
+                words::list(&silent)
+            ));
+        }
+        if let [one] = through.as_slice() {
+            text.push_str(&format!(
+                " The impulse at {one} points through it and has no moment about it."
+            ));
+        } else if !through.is_empty() {
+            text.push_str(&format!(
+                " The impulses at {} point through it and have no moment about it.",
+                words::list(&through)
+            ));
+        }
+        if outside.is_empty() {
+            text.push_str(" No impulse acts on it from outside.");
+        }
+        self.say(&text);
+    }
+
+    /// H⁻ and H⁺ in vectors, evaluated.
+    fn angular_momentum(&mut self, system: &[usize], about: Place) {
+        let o = words::point(self.scene, about);
+        let index = match about {
+            Place::Center(b) if self.scene.bodies.iter().filter(|b| !b.is_fixed()).count() == 1 => {
+                let _ = b;
+                String::from("G")
+            }
+            _ => o.clone(),
+        };
+        let outside: Vec<Outside> = self
+            .outside(system, Some(about))
+            .into_iter()
+            .filter(|x| !x.moment.is_zero())
+            .collect();
+        let h = |mark| name("H", &index, mark, true);
+        let mut law = vec![h("-")];
+        for x in &outside {
+            let q = words::point(self.scene, x.place);
+            law.extend([
+                Math::Op("+"),
+                name("r", &format!("{q}/{o}"), "", true),
+                Math::Op("×"),
+                name("P", &q, "", true),
+            ]);
+        }
+        law.extend([Math::Op("="), h("+")]);
+        self.show(law, None);
+        let mut definition = vec![name("H", &index, "", true), Math::Op("=")];
+        let mut any = false;
+        for &b in system {
+            let c = words::center(self.scene, b);
+            let arm = self.arm(&self.g.place(Place::Center(b)).clone(), about);
+            let spins = !self.scene.bodies[b].is_particle() && !self.inertia_vanishes(b);
+            let moves = !arm.iter().all(Expr::is_zero) && !self.vanishes(&self.g.mass(b).clone());
+            if moves {
+                if any {
+                    definition.push(Math::Op("+"));
+                }
+                definition.extend([
+                    name("r", &format!("{c}/{o}"), "", true),
+                    Math::Op("×"),
+                    Math::Factor(self.g.mass(b).clone()),
+                    name("v", &c, "", true),
+                ]);
+                any = true;
+            }
+            if spins {
+                if any {
+                    definition.push(Math::Op("+"));
+                }
+                definition.extend([self.inertia_name(b), name("omega", &c, "", true)]);
+                any = true;
+            }
+        }
+        if any {
+            self.show(definition, None);
+        }
+        // Just before.
+        let before: Vec<(Vector, Expr)> = system
+            .iter()
+            .map(|&b| {
+                let (v, w) = self.g.before(b);
+                (v.clone(), w.clone())
+            })
+            .collect();
+        let at_rest = before
+            .iter()
+            .all(|(v, w)| v.iter().all(Expr::is_zero) && w.is_zero());
+        if at_rest {
+            self.text(vec![
+                say("Just before, everything is at rest: "),
+                Inline::Math(vec![h("-"), Math::Op("="), Math::Expr(Expr::zero())]),
+                say("."),
+            ]);
+        } else {
+            self.say("Just before,");
+            self.momentum_line(
+                system,
+                about,
+                &before,
+                h("-"),
+                "angular momentum just before",
+            );
+        }
+        // Just after.
+        let after: Vec<(Vector, Expr)> = system
+            .iter()
+            .map(|&b| (self.velocity_after(b), self.spin_after(b)))
+            .collect();
+        self.motion_words(system, about);
+        self.momentum_line(system, about, &after, h("+"), "angular momentum just after");
+        for x in &outside {
+            let arm = self.arm(&self.g.place(x.place).clone(), about);
+            let q = words::point(self.scene, x.place);
+            let raw = &arm[0] * &x.impulse[1] - &arm[1] * &x.impulse[0];
+            let math = vec![
+                name("r", &format!("{q}/{o}"), "", true),
+                Math::Op("×"),
+                name("P", &q, "", true),
+                Math::Op("="),
+                Math::Brackets(vec![Math::Vector(arm)]),
+                Math::Op("×"),
+                Math::Brackets(vec![Math::Vector(x.impulse.clone())]),
+                Math::Op("="),
+                Math::Along(x.moment.clone()),
+            ];
+            let id = self.step(
+                Vec::new(),
+                vec![Claim {
+                    left: raw,
+                    right: x.moment.clone(),
+                }],
+                "the moment of the impulse",
+            );
+            self.show(math, Some(id));
+        }
+    }
+
+    fn inertia_vanishes(&mut self, b: usize) -> bool {
+        let inertia = self.g.inertia(b).clone();
+        self.vanishes(&inertia)
+    }
+
+    /// I as the scene names it, or I with the body's index.
+    fn inertia_name(&self, b: usize) -> Math {
+        let inertia = self.g.inertia(b);
+        if inertia.as_symbol().is_some() {
+            Math::Expr(inertia.clone())
+        } else {
+            name("I", &words::center(self.scene, b), "", false)
+        }
+    }
+
+    /// How the bodies move just after, in vectors, where joints leave only their spins free.
+    fn motion_words(&mut self, system: &[usize], about: Place) {
+        let mut said = false;
+        for &b in system {
+            let Some(link) = self.reduction.tree.iter().find(|l| l.body == b).copied() else {
+                continue;
+            };
+            let at = words::point(self.scene, link.at);
+            let c = words::center(self.scene, b);
+            let arm = self.arm(&self.g.place(Place::Center(b)).clone(), link.at);
+            let fixed = self.scene.bodies[link.to].is_fixed();
+            let v = self.velocity_after(b);
+            let whom = words::body(self.scene, b);
+            let still = fixed && {
+                let here = self.g.place(link.at).clone();
+                let v = self.g.velocity_before(link.to, &here);
+                v.iter().all(Expr::is_zero)
+            };
+            let mut math = vec![name("v", &c, "+", true), Math::Op("=")];
+            let lead = if still {
+                format!("Just after, {whom} turns about {at}, so")
+            } else {
+                format!(
+                    "Just after, {whom} moves with {} at {at}, so",
+                    words::body(self.scene, link.to)
+                )
+            };
+            if !still {
+                math.push(name("v", &at, "+", true));
+            }
+            if !arm.iter().all(Expr::is_zero) && !self.scene.bodies[b].is_particle() {
+                if !still {
+                    math.push(Math::Op("+"));
+                }
+                math.extend([
+                    name("omega", &c, "+", true),
+                    Math::Op("×"),
+                    name("r", &format!("{c}/{at}"), "", true),
+                ]);
+            }
+            math.extend([Math::Op("="), Math::Vector(v.clone())]);
+            let spin = laws::Unknown::Spin(b);
+            if self.d.names.is_reversed(spin) {
+                let symbol = Expr::symbol(self.d.names.plain(spin));
+                let lead = lead.strip_suffix(", so").unwrap_or(&lead).to_string();
+                self.text(vec![
+                    say(format!("{lead}, so with ")),
+                    words::formula(&symbol),
+                    say(" counted clockwise"),
+                ]);
+            } else {
+                self.say(&lead);
+            }
+            let mut claims = Vec::new();
+            for (axis, value) in v.iter().enumerate() {
+                let symbol = Expr::symbol(self.d.names.plain(laws::Unknown::Velocity(b, axis)));
+                if symbol != *value {
+                    claims.push(Claim {
+                        left: symbol,
+                        right: value.clone(),
+                    });
+                }
+            }
+            let id = self.step(Vec::new(), claims, "the joint leaves only the spin free");
+            if !self.scene.bodies[b].is_particle() {
+                let w = self.spin_after(b);
+                let math = vec![name("omega", &c, "+", true), Math::Op("="), Math::Along(w)];
+                self.show(math, None);
+            }
+            self.show(math, Some(id));
+            said = true;
+        }
+        let _ = about;
+        self.say(if said { "and" } else { "Just after," });
+    }
+
+    /// Σ r × m v + I ω = value, written out and evaluated.
+    fn momentum_line(
+        &mut self,
+        system: &[usize],
+        about: Place,
+        motion: &[(Vector, Expr)],
+        symbol: Math,
+        reason: &str,
+    ) {
+        let mut math = vec![symbol, Math::Op("=")];
+        let mut raw = Vec::new();
+        let mut pieces = 0;
+        for (&b, (v, w)) in system.iter().zip(motion) {
+            let mass = self.g.mass(b).clone();
+            let arm = self.arm(&self.g.place(Place::Center(b)).clone(), about);
+            let moves = !v.iter().all(Expr::is_zero) && !arm.iter().all(Expr::is_zero);
+            if moves && !mass.is_zero() {
+                if pieces > 0 {
+                    math.push(Math::Op("+"));
+                }
+                math.extend([
+                    Math::Brackets(vec![Math::Vector(arm.clone())]),
+                    Math::Op("×"),
+                    Math::Factor(mass.clone()),
+                    Math::Brackets(vec![Math::Vector(v.clone())]),
+                ]);
+                pieces += 1;
+            }
+            raw.push(&mass * &(&arm[0] * &v[1] - &arm[1] * &v[0]));
+            if !self.scene.bodies[b].is_particle() && !self.inertia_vanishes(b) && !w.is_zero() {
+                let inertia = self.g.inertia(b).clone();
+                let inertia = self.tidy(&inertia);
+                if pieces > 0 {
+                    math.push(Math::Op("+"));
+                }
+                math.extend([
+                    Math::Factor(inertia.clone()),
+                    Math::Brackets(vec![Math::Along(w.clone())]),
+                ]);
+                raw.push(&inertia * w);
+                pieces += 1;
+            }
+        }
+        let left = Expr::sum(raw);
+        let value = self.tidy(&left);
+        // I ω alone is the value already.
+        if pieces == 1
+            && system.len() == 1
+            && matches!(math.last(), Some(Math::Brackets(b)) if matches!(b.as_slice(), [Math::Along(_)]))
+        {
+            math.truncate(2);
+            pieces = 0;
+        }
+        if pieces > 0 {
+            math.push(Math::Op("="));
+        }
+        math.push(Math::Along(value.clone()));
+        let claim = Claim { left, right: value };
+        let id = self.step(Vec::new(), vec![claim], reason);
+        self.show(math, Some(id));
+    }
+
+    fn linear_reason(&mut self, system: &[usize], along: &Direction) {
+        let mut text = format!(
+            "Balance linear momentum of {} along {}.",
+            words::bodies(self.scene, system),
+            super::block::direction(along)
+        );
+        if let Some(internal) = self.internal_words(system) {
+            text.push(' ');
+            text.push_str(&internal);
+        }
+        let d = along.vector();
+        let outside = self.outside(system, None);
+        let mut silent = Vec::new();
+        for x in &outside {
+            let component = &x.impulse[0] * &d[0] + &x.impulse[1] * &d[1];
+            if self.vanishes(&component) && !x.impulse.iter().all(Expr::is_zero) {
+                silent.push(words::point(self.scene, x.place));
+            }
+        }
+        if let [one] = silent.as_slice() {
+            text.push_str(&format!(" The impulse at {one} is perpendicular to it."));
+        } else if !silent.is_empty() {
+            text.push_str(&format!(
+                " The impulses at {} are perpendicular to it.",
+                words::list(&silent)
+            ));
+        }
+        self.say(&text);
+    }
+
+    /// Momentum after − momentum before = impulses, along a direction.
+    fn linear_momentum(&mut self, system: &[usize], along: &Direction) {
+        let d = along.vector();
+        let dot = |v: &Vector| &v[0] * &d[0] + &v[1] * &d[1];
+        let mut left = Vec::new();
+        for &b in system {
+            let v = self.velocity_after(b);
+            let change = dot(&v) - dot(self.g.before(b).0);
+            let change = self.tidy(&change);
+            left.push(self.g.mass(b) * &change);
+        }
+        let mut right = Vec::new();
+        for x in self.outside(system, None) {
+            let p = dot(&x.impulse);
+            right.push(self.tidy(&p));
+        }
+        self.claim(
+            Expr::sum(left),
+            Expr::sum(right),
+            "change of linear momentum = impulses from outside",
+        );
+    }
+
+    /// Linear momentum along x and y as one balance of vectors.
+    pub(super) fn momentum_vector(&mut self, system: &[usize], x: &Equation, y: &Equation) {
+        let outside = self.outside(system, None);
+        let mut text = format!(
+            "Balance linear momentum of {}.",
+            words::bodies(self.scene, system)
+        );
+        if let Some(internal) = self.internal_words(system) {
+            text.push(' ');
+            text.push_str(&internal);
+        }
+        self.say(&text);
+        let mut math = Vec::new();
+        for o in &outside {
+            let q = words::point(self.scene, o.place);
+            let second = match o.place {
+                Place::Contact(c) => system.contains(&self.scene.contacts[c].bodies[1]),
+                Place::Hinge(h) => system.contains(&self.scene.hinges[h].bodies[1]),
+                _ => true,
+            };
+            // The impulse on the first body of a joint is the opposite of the one named after the joint.
+            let plus = second != self.is_named_on_first(o.place);
+            if !plus {
+                math.push(Math::Op("−"));
+            } else if !math.is_empty() {
+                math.push(Math::Op("+"));
+            }
+            math.push(name("P", &q, "", true));
+        }
+        if math.is_empty() {
+            math.push(Math::Expr(Expr::zero()));
+        }
+        math.push(Math::Op("="));
+        for (i, &b) in system.iter().enumerate() {
+            if i > 0 {
+                math.push(Math::Op("+"));
+            }
+            let c = words::center(self.scene, b);
+            math.push(Math::Factor(self.g.mass(b).clone()));
+            math.push(Math::Brackets(vec![
+                name("v", &c, "+", true),
+                Math::Op("−"),
+                name("v", &c, "-", true),
+            ]));
+        }
+        self.show(math, None);
+        // With the values of the velocities put in.
+        let mut sides = Vec::new();
+        for axis in [0, 1] {
+            let right = system.iter().map(|&b| {
+                let before = self.g.before(b).0[axis].clone();
+                (b, before)
+            });
+            let right: Vec<(usize, Expr)> = right.collect();
+            let mut total = Vec::new();
+            for (b, before) in right {
+                let after = self.velocity_after(b)[axis].clone();
+                let change = self.tidy(&(after - before));
+                total.push(self.g.mass(b) * &change);
+            }
+            let impulses = outside.iter().map(|o| o.impulse[axis].clone());
+            sides.push((Expr::sum(impulses), Expr::sum(total)));
+        }
+        if self.detail() == Detail::Full || sides.iter().all(|(_, r)| r.size() < 60) {
+            self.say("In components,");
+            let along = |axis: usize| format!("linear momentum along {}", AXES[axis]);
+            for (axis, (left, right)) in sides.into_iter().enumerate() {
+                self.claim(left, right, &along(axis));
+            }
+        } else {
+            for e in [x, y] {
+                let (left, right) = self.sides(e);
+                let words = self.law_words(&e.law);
+                self.claim(left, right, &words);
+            }
+        }
+    }
+
+    /// Whether the scene asks for the impulse on the first body, so that its symbol is the opposite of the usual one.
+    fn is_named_on_first(&self, place: Place) -> bool {
+        match place {
+            Place::Contact(c) => {
+                self.d.names.is_reversed(laws::Unknown::Contact(c, 0))
+                    || self.d.names.is_reversed(laws::Unknown::Normal(c))
+            }
+            Place::Hinge(h) => self.d.names.is_reversed(laws::Unknown::Hinge(h, 0)),
+            _ => false,
+        }
+    }
+
+    /// Restitution in vectors.
+    fn restitution(&mut self, c: usize) {
+        let contact = &self.scene.contacts[c];
+        let [one, two] = contact.bodies;
+        let at = contact.name.clone();
+        let ContactLaw::Frictionless { restitution } = contact.law.clone() else {
+            return;
+        };
+        let (first, second) = (words::body(self.scene, one), words::body(self.scene, two));
+        let rule = if restitution.is_one() {
+            "Nothing is lost at the contact (e = 1): along the normal the points separate as fast as they approached"
+        } else if restitution.is_zero() {
+            "The contact does not rebound (e = 0): along the normal the points do not separate"
+        } else {
+            "Restitution: along the normal the points separate at e times the speed at which they approached"
+        };
+        let rule = match restitution.as_symbol() {
+            Some(symbol) => rule.replace(" e times", &format!(" {symbol} times")),
+            None => rule.to_string(),
+        };
+        self.text(vec![
+            say(format!("{rule}. With ")),
+            Inline::Math(vec![name("n", "", "", true)]),
+            say(format!(" from {first} to {second} at {at},")),
+        ]);
+        let first = words::center(self.scene, one);
+        let second = words::center(self.scene, two);
+        let relative = |mark| {
+            Math::Brackets(vec![
+                name("v", &format!("{at},{second}"), mark, true),
+                Math::Op("−"),
+                name("v", &format!("{at},{first}"), mark, true),
+            ])
+        };
+        let n = || name("n", "", "", true);
+        let mut math = vec![relative("+"), Math::Op("·"), n(), Math::Op("=")];
+        if restitution.is_zero() {
+            math.push(Math::Expr(Expr::zero()));
+        } else {
+            math.push(Math::Op("−"));
+            if !restitution.is_one() {
+                math.push(Math::Factor(restitution));
+            }
+            math.extend([relative("-"), Math::Op("·"), n()]);
+        }
+        self.show(math, None);
+    }
+}

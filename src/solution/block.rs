@@ -1,0 +1,484 @@
+//! Blocks of equations: which question they answer, which law each line is, and how they are solved.
+
+use super::words::{self, say};
+use super::{Claim, Detail, Inline, Line, Math, Part, Writer};
+use crate::derive::{Block, Equation};
+use crate::expr::Expr;
+use crate::laws::{Direction, Law, Unknown};
+use crate::scene::{Ask, EnergyWhen, ImpulseAt, KnownQuantity, Question};
+
+/// Above this many equations in a block the balances are not written out in vectors.
+const WRITTEN_OUT: usize = 3;
+
+impl Writer<'_> {
+    /// What stands below the title: the figure before, and what is meant by the symbols.
+    pub(super) fn opening(&mut self) {
+        self.section(Vec::new());
+        if !self.solution.statement.is_empty() {
+            let statement = self.with_symbols(&self.solution.statement);
+            self.text(statement);
+        }
+        if self.detail() == Detail::Brief {
+            return;
+        }
+        let meant: Vec<_> = self
+            .scene
+            .parameters
+            .iter()
+            .filter(|p| !p.meaning.is_empty())
+            .collect();
+        if !meant.is_empty() {
+            let mut text = vec![say("Here ")];
+            for (i, p) in meant.iter().enumerate() {
+                text.push(words::formula(&Expr::symbol(&p.name)));
+                let article = if p.meaning.starts_with(|c: char| c.is_lowercase())
+                    && !["a ", "an ", "the ", "half ", "one ", "distance "]
+                        .iter()
+                        .any(|w| p.meaning.starts_with(w))
+                {
+                    "the "
+                } else {
+                    ""
+                };
+                let article = if p.meaning.starts_with("distance ") {
+                    "the "
+                } else {
+                    article
+                };
+                let end = match meant.len() - i {
+                    1 => ".",
+                    2 => " and ",
+                    _ => ", ",
+                };
+                text.push(say(format!(" is {article}")));
+                text.extend(self.with_symbols(&p.meaning));
+                text.push(say(end));
+            }
+            self.text(text);
+        }
+        self.push(Part::Figure(super::Slot::Before));
+        self.push(Part::Figure(super::Slot::During));
+        let mut text = String::from(
+            "Take x to the right and y up; angles and spins count counterclockwise unless said otherwise.",
+        );
+        let forces: Vec<String> = self.forces();
+        if !forces.is_empty() {
+            let one = forces.len() == 1 && !forces[0].starts_with("the weights ");
+            text.push_str(&format!(
+                " {} {}: over the vanishing time of the collision {} no impulse, so {} left out.",
+                words::capital(&words::list(&forces)),
+                if one {
+                    "is a finite force"
+                } else {
+                    "are finite forces"
+                },
+                if one { "it has" } else { "they have" },
+                if one { "it is" } else { "they are" },
+            ));
+        }
+        self.say(&text);
+        for (unknown, value) in self.d.given.clone() {
+            let symbol = Expr::symbol(self.d.names.plain(unknown));
+            self.text(vec![
+                say("It is given that just after "),
+                words::equation(&symbol, &value),
+                say("."),
+            ]);
+        }
+    }
+
+    /// The finite forces of the scene, those of one name together.
+    fn forces(&self) -> Vec<String> {
+        let mut by_name: Vec<(&str, Vec<usize>)> = Vec::new();
+        for force in &self.scene.forces {
+            match by_name.iter_mut().find(|(n, _)| *n == force.name) {
+                Some((_, bodies)) => bodies.push(force.body),
+                None => by_name.push((&force.name, vec![force.body])),
+            }
+        }
+        by_name
+            .into_iter()
+            .map(|(name, bodies)| {
+                let article = if name.to_lowercase().starts_with("the ") {
+                    ""
+                } else {
+                    "the "
+                };
+                let plural = if bodies.len() > 1 && name == "weight" {
+                    "s"
+                } else {
+                    ""
+                };
+                format!(
+                    "{article}{name}{plural} of {}",
+                    words::bodies(self.scene, &bodies)
+                )
+            })
+            .collect()
+    }
+
+    /// Every block with the question that needs it, then what the question still asks.
+    pub(super) fn blocks(&mut self) {
+        let blocks = &self.d.blocks;
+        for question in &self.scene.questions {
+            let mine: Vec<&Block> = blocks
+                .iter()
+                .filter(|b| b.asked_by.as_deref() == Some(question.name.as_str()))
+                .collect();
+            let derived = self.is_derived(question) && !self.is_open(question);
+            if mine.is_empty() && !derived {
+                continue;
+            }
+            if self.detail() == Detail::Brief && mine.is_empty() {
+                continue;
+            }
+            let several = mine
+                .iter()
+                .any(|b| b.unknowns.len() >= 4 && b.unknowns.iter().any(|u| u.is_impulse()));
+            let heading = if several {
+                vec![say("Just after the collision")]
+            } else {
+                self.heading(question)
+            };
+            self.section(heading);
+            let mut at = 0;
+            while at < mine.len() {
+                if at + 1 < mine.len() && pair(mine[at], mine[at + 1]) {
+                    self.momentum_pair(mine[at], mine[at + 1]);
+                    at += 2;
+                } else {
+                    self.block(mine[at]);
+                    at += 1;
+                }
+            }
+            if derived && self.detail() != Detail::Brief {
+                self.derived(question);
+            }
+        }
+    }
+
+    /// The heading of a question: what it asks for, and its symbol.
+    fn heading(&self, question: &Question) -> Vec<Inline> {
+        let body = |b: usize| words::body(self.scene, b);
+        let text = match &question.ask {
+            Ask::Velocity { body: b, point, .. } => match point {
+                Some((name, _)) if *name != self.scene.bodies[*b].name => {
+                    format!("Velocity of {name} on {}", body(*b))
+                }
+                _ => format!("Velocity of {}", body(*b)),
+            },
+            Ask::Spin { body: b, .. } => format!("Angular velocity of {}", body(*b)),
+            Ask::Impulse { from, on, .. } => {
+                let name = match from {
+                    ImpulseAt::Contact(c) => &self.scene.contacts[*c].name,
+                    ImpulseAt::Hinge(h) => &self.scene.hinges[*h].name,
+                    ImpulseAt::Blow(i) => &self.scene.blows[*i].name,
+                };
+                format!("Impulse at {name} on {}", body(*on))
+            }
+            Ask::Energy { when, of } => {
+                let whose = of.map_or(String::new(), |b| format!(" of {}", body(b)));
+                match when {
+                    EnergyWhen::Before => format!("Kinetic energy{whose} before"),
+                    EnergyWhen::After => format!("Kinetic energy{whose} after"),
+                    EnergyWhen::Lost => match of {
+                        Some(b) => format!("Kinetic energy lost by {}", body(*b)),
+                        None => String::from("Kinetic energy lost"),
+                    },
+                }
+            }
+            Ask::Balance { system, .. } => {
+                format!("Linear momentum of {}", words::bodies(self.scene, system))
+            }
+            Ask::Matrix { .. } => String::from("Matrix form"),
+        };
+        vec![say(text)]
+    }
+
+    fn block(&mut self, block: &Block) {
+        let n = block.equations.len();
+        if self.detail() == Detail::Brief {
+            for equation in &block.equations {
+                self.key_equation(equation);
+            }
+        } else if n == 1 {
+            self.balance(&block.equations[0], true);
+        } else {
+            let unknowns: Vec<Inline> = self.symbols(&block.unknowns);
+            let mut text = vec![say(format!(
+                "{} equations determine the {} unknowns ",
+                words::capital(&words::count(n)),
+                words::count(n)
+            ))];
+            text.extend(unknowns);
+            text.push(say("."));
+            self.text(text);
+            for equation in &block.equations {
+                self.balance(equation, n <= WRITTEN_OUT);
+            }
+        }
+        self.solved(&[block]);
+    }
+
+    /// `ω₁, v_x and P`.
+    fn symbols(&self, unknowns: &[Unknown]) -> Vec<Inline> {
+        let mut out = Vec::new();
+        for (i, u) in unknowns.iter().enumerate() {
+            if i > 0 {
+                out.push(say(if i + 1 == unknowns.len() {
+                    " and "
+                } else {
+                    ", "
+                }));
+            }
+            out.push(words::formula(&Expr::symbol(self.d.names.plain(*u))));
+        }
+        out
+    }
+
+    /// The key equation alone, for the brief solution.
+    fn key_equation(&mut self, equation: &Equation) {
+        let (left, right) = self.sides(equation);
+        let reason = self.law_words(&equation.law);
+        self.text(vec![say(format!("{}:", words::capital(&reason)))]);
+        self.claim(left, right, &reason);
+    }
+
+    /// A law's two sides in the scene's symbols.
+    pub(super) fn sides(&self, equation: &Equation) -> (Expr, Expr) {
+        let symbol = |u| Expr::symbol(self.d.names.plain(u));
+        let left = Expr::sum(equation.terms.iter().map(|(u, k)| k * &symbol(*u)));
+        (left, equation.known.clone())
+    }
+
+    /// A law in the words of a solution.
+    pub(super) fn law_words(&self, law: &Law) -> String {
+        match law {
+            Law::LinearMomentum { system, along } => format!(
+                "linear momentum of {} along {}",
+                words::bodies(self.scene, system),
+                direction(along)
+            ),
+            Law::AngularMomentum { system, about } => format!(
+                "angular momentum of {} about {}",
+                words::bodies(self.scene, system),
+                words::at(self.scene, *about)
+            ),
+            Law::Restitution(c) => format!("restitution at {}", self.scene.contacts[*c].name),
+            Law::Sticking(c, axis) => format!(
+                "sticking at {} along {}",
+                self.scene.contacts[*c].name, AXES[*axis]
+            ),
+            Law::Hinged(h, axis) => {
+                format!(
+                    "the hinge {} along {}",
+                    self.scene.hinges[*h].name, AXES[*axis]
+                )
+            }
+            Law::Given(k) => {
+                let known = &self.scene.after[*k];
+                let body = words::body(self.scene, known.body);
+                match known.what {
+                    KnownQuantity::Velocity { .. } => format!("the given velocity of {body}"),
+                    KnownQuantity::Spin => format!("the given spin of {body}"),
+                }
+            }
+        }
+    }
+
+    /// The values of a block's unknowns, and how they follow.
+    fn solved(&mut self, blocks: &[&Block]) {
+        let before: Vec<Claim> = blocks
+            .iter()
+            .flat_map(|b| &b.equations)
+            .map(|e| {
+                let (left, right) = self.sides(e);
+                Claim { left, right }
+            })
+            .collect();
+        let pairs: Vec<(Unknown, Expr)> = blocks
+            .iter()
+            .flat_map(|b| b.unknowns.iter().copied().zip(b.solution.iter().cloned()))
+            .collect();
+        // A single equation that already reads `unknown = value` needs no further line.
+        if let ([claim], [(u, value)]) = (before.as_slice(), pairs.as_slice()) {
+            let symbol = Expr::symbol(self.d.names.plain(*u));
+            if claim.left == symbol && claim.right == *value {
+                return;
+            }
+        }
+        if self.detail() == Detail::Full {
+            for block in blocks {
+                self.eliminate(block);
+            }
+        } else {
+            let earlier = earlier(blocks);
+            if !earlier.is_empty() && blocks[0].equations.len() == 1 {
+                let mut text = vec![say("With ")];
+                text.extend(self.symbols(&earlier));
+                text.push(say(" from above,"));
+                self.text(text);
+            } else if blocks[0].equations.len() > 1 {
+                self.say("Solving them gives");
+            }
+        }
+        let mut after = Vec::new();
+        let mut lines = Vec::new();
+        for (u, value) in &pairs {
+            let symbol = Expr::symbol(self.d.names.plain(*u));
+            let shown = self.short(*u, value);
+            lines.push(vec![
+                Math::Expr(symbol.clone()),
+                Math::Op("="),
+                Math::Expr(shown),
+            ]);
+            after.push(Claim {
+                left: symbol,
+                right: value.clone(),
+            });
+        }
+        let id = self.step(before, after, "solving for the unknowns");
+        let divisors: Vec<Expr> = blocks.iter().flat_map(|b| b.divided_by.clone()).collect();
+        let conditions: Vec<String> = divisors
+            .iter()
+            .map(|e| format!("{} ≠ 0", crate::formula::write_plain(e)))
+            .collect();
+        if let Some(step) = self.last_step() {
+            step.assumptions = conditions;
+        }
+        let too_long = pairs.iter().any(|(u, v)| self.short(*u, v).size() > 150);
+        if too_long {
+            self.say(
+                "Their closed forms are long; the results below give them with abbreviations.",
+            );
+        } else if let Some(Part::Display(_)) = self.last_part() {
+            for (i, mut math) in lines.into_iter().enumerate() {
+                if i == 0 {
+                    math.insert(0, Math::Op("⇒"));
+                }
+                self.show(math, Some(id.clone()));
+            }
+        } else {
+            let lines = lines
+                .into_iter()
+                .map(|math| Line {
+                    math,
+                    step: Some(id.clone()),
+                })
+                .collect();
+            self.push(Part::Display(lines));
+        }
+        for divisor in &divisors {
+            self.text(vec![
+                say("This divides by "),
+                words::formula(divisor),
+                say(", which must not be zero."),
+            ]);
+        }
+    }
+
+    fn last_part(&self) -> Option<&Part> {
+        self.solution.sections.last().and_then(|s| s.parts.last())
+    }
+
+    /// Words in which the names of parameters stand as their symbols.
+    fn with_symbols(&self, text: &str) -> Vec<Inline> {
+        let is_part = |c: char| c.is_alphanumeric() || c == '_';
+        let mut out = Vec::new();
+        let mut words = String::new();
+        let mut rest = text;
+        while let Some(c) = rest.chars().next() {
+            if !is_part(c) {
+                words.push(c);
+                rest = &rest[c.len_utf8()..];
+                continue;
+            }
+            let end = rest.find(|c: char| !is_part(c)).unwrap_or(rest.len());
+            let (word, after) = rest.split_at(end);
+            let parameter = self.scene.parameters.iter().any(|p| *p.name == *word);
+            // Words of the language stay words: the article a, the pronoun I, names that are spelled out.
+            let symbol = parameter
+                && !matches!(word, "a" | "A" | "I")
+                && (word.chars().count() == 1
+                    || word.contains(|c: char| c.is_ascii_digit() || c == '_')
+                    || crate::formula::latex_name(word).starts_with("\\"));
+            if symbol && !crate::formula::latex_name(word).starts_with("\\mathrm") {
+                out.push(say(std::mem::take(&mut words)));
+                out.push(words::formula(&Expr::symbol(word)));
+            } else {
+                words.push_str(word);
+            }
+            rest = after;
+        }
+        out.push(say(words));
+        out
+    }
+
+    /// The short form of an unknown's value where an answer has one.
+    fn short(&self, unknown: Unknown, value: &Expr) -> Expr {
+        let name = self.d.names.plain(unknown);
+        for answer in &self.d.answers {
+            if let crate::derive::Form::Value { closed, short } = &answer.form
+                && answer.name == name
+                && closed == value
+                && short.size() < value.size()
+            {
+                return short.clone();
+            }
+        }
+        value.clone()
+    }
+
+    /// Two balances of the same system along x and y, told as one balance of vectors.
+    fn momentum_pair(&mut self, x: &Block, y: &Block) {
+        if self.detail() == Detail::Brief {
+            self.block(x);
+            return self.block(y);
+        }
+        let (ex, ey) = (&x.equations[0], &y.equations[0]);
+        let Law::LinearMomentum { system, .. } = &ex.law else {
+            return;
+        };
+        self.momentum_vector(system, ex, ey);
+        self.solved(&[x, y]);
+    }
+}
+
+pub(super) const AXES: [&str; 2] = ["x", "y"];
+
+pub(super) fn direction(along: &Direction) -> String {
+    match along {
+        Direction::X => String::from("x"),
+        Direction::Y => String::from("y"),
+        Direction::Named(name, _) => name.clone(),
+    }
+}
+
+/// The unknowns of the blocks' equations that were found before.
+fn earlier(blocks: &[&Block]) -> Vec<Unknown> {
+    let mut found = Vec::new();
+    for (u, _) in blocks
+        .iter()
+        .flat_map(|b| &b.equations)
+        .flat_map(|e| &e.terms)
+    {
+        if !blocks.iter().any(|b| b.unknowns.contains(u)) && !found.contains(u) {
+            found.push(*u);
+        }
+    }
+    found
+}
+
+/// Whether two blocks are one balance of linear momentum along x and along y.
+fn pair(one: &Block, two: &Block) -> bool {
+    let ([a], [b]) = (one.equations.as_slice(), two.equations.as_slice()) else {
+        return false;
+    };
+    matches!(
+        (&a.law, &b.law),
+        (
+            Law::LinearMomentum { system: s, along: Direction::X },
+            Law::LinearMomentum { system: t, along: Direction::Y },
+        ) if s == t
+    )
+}

@@ -1,0 +1,144 @@
+//! The algebra of a block line by line: earlier results put in, unknowns eliminated one after another, values put back.
+
+use super::words::{self, say};
+use super::{Inline, Math, Writer};
+use crate::derive::Block;
+use crate::expr::Expr;
+use crate::laws::Unknown;
+
+/// Largest coefficient worth printing while eliminating.
+const READABLE: usize = 120;
+
+/// Coefficients of a block's unknowns, and the right side.
+type Row = (Vec<Expr>, Expr);
+
+impl Writer<'_> {
+    /// Every line from a block's equations to the values of its unknowns, except the last.
+    pub(super) fn eliminate(&mut self, block: &Block) {
+        let mut rows: Vec<Row> = Vec::new();
+        let mut put_in = false;
+        for equation in &block.equations {
+            let mut coeffs = vec![Expr::zero(); block.unknowns.len()];
+            let mut rhs = equation.known.clone();
+            for (u, k) in &equation.terms {
+                match block.unknowns.iter().position(|v| v == u) {
+                    Some(i) => coeffs[i] = k.clone(),
+                    None => {
+                        let Some(value) = self.value_of(*u) else {
+                            return;
+                        };
+                        rhs = rhs - k * &value;
+                        put_in = true;
+                    }
+                }
+            }
+            rows.push((coeffs, self.tidy(&rhs)));
+        }
+        if put_in {
+            self.say("With what was found before put in,");
+            for row in rows.clone() {
+                self.row_line(&block.unknowns, &row, "earlier results put in");
+            }
+        }
+        if let ([(coeffs, rhs)], [u]) = (rows.as_slice(), block.unknowns.as_slice()) {
+            if !coeffs[0].is_one() {
+                let symbol = Expr::symbol(self.d.names.plain(*u));
+                let quotient = rhs / &coeffs[0];
+                self.text(vec![
+                    say("Dividing by "),
+                    words::formula(&coeffs[0]),
+                    say(","),
+                ]);
+                self.claim(symbol, quotient, "dividing by the coefficient");
+            }
+            return;
+        }
+        self.forward(block, rows);
+    }
+
+    fn forward(&mut self, block: &Block, mut rows: Vec<Row>) {
+        let mut left: Vec<usize> = (0..block.unknowns.len()).collect();
+        while left.len() > 1 {
+            // The row with the fewest unknowns, and of these the simplest coefficient.
+            let weight = |row: &Row| {
+                row.0.iter().filter(|k| !k.is_zero()).count() * 1000
+                    + row.0.iter().map(Expr::size).sum::<usize>()
+            };
+            let Some(at) = (0..rows.len()).min_by_key(|i| weight(&rows[*i])) else {
+                return;
+            };
+            let (coeffs, rhs) = rows.swap_remove(at);
+            let Some(&pivot) = left
+                .iter()
+                .filter(|i| !coeffs[**i].is_zero())
+                .min_by_key(|i| coeffs[**i].size())
+            else {
+                return;
+            };
+            let symbol = |i: usize| Expr::symbol(self.d.names.plain(block.unknowns[i]));
+            let others: Vec<usize> = left.iter().copied().filter(|i| *i != pivot).collect();
+            let mut terms = vec![(Expr::one(), &rhs / &coeffs[pivot])];
+            for &i in &others {
+                if !coeffs[i].is_zero() {
+                    terms.push((symbol(i), -(&coeffs[i] / &coeffs[pivot])));
+                }
+            }
+            let named = symbol(pivot);
+            let tidied: Vec<(Expr, Expr)> =
+                terms.into_iter().map(|(s, k)| (s, self.tidy(&k))).collect();
+            if tidied.iter().any(|(_, k)| k.size() > READABLE) {
+                self.say("The remaining coefficients are long; eliminating the other unknowns in the same way ends in the values below.");
+                return;
+            }
+            let right = Expr::sum(tidied.iter().map(|(s, k)| k * s));
+            let mut next = Vec::new();
+            for (mut c, mut r) in rows {
+                let factor = c[pivot].clone();
+                if !factor.is_zero() {
+                    let raw = &r - &factor * &tidied[0].1;
+                    r = self.tidy(&raw);
+                    for &i in &others {
+                        let raw = &c[i] - &factor * &(&coeffs[i] / &coeffs[pivot]);
+                        c[i] = self.tidy(&raw);
+                    }
+                    c[pivot] = Expr::zero();
+                }
+                next.push((c, r));
+            }
+            rows = next;
+            left = others;
+            self.text(vec![
+                say("Solve for "),
+                Inline::Math(vec![Math::Expr(named.clone())]),
+                say(":"),
+            ]);
+            self.claim(named, right, "solved for one unknown");
+        }
+        if let Some(row) = rows.first().cloned()
+            && row.0.iter().chain([&row.1]).all(|e| e.size() <= READABLE)
+        {
+            self.say("Put into the last equation, this leaves");
+            self.row_line(&block.unknowns, &row, "the other unknowns eliminated");
+        }
+        self.say("and, putting back,");
+    }
+
+    fn row_line(&mut self, unknowns: &[Unknown], row: &Row, reason: &str) {
+        let terms = unknowns
+            .iter()
+            .zip(&row.0)
+            .map(|(u, k)| k * &Expr::symbol(self.d.names.plain(*u)));
+        let left = Expr::sum(terms.filter(|t| !t.is_zero()));
+        self.claim(left, row.1.clone(), reason);
+    }
+
+    /// The closed form of an unknown's symbol.
+    fn value_of(&mut self, u: Unknown) -> Option<Expr> {
+        let value = self.d.motion.get(&u)?.clone();
+        if self.d.names.is_reversed(u) {
+            Some(self.tidy(&-&value))
+        } else {
+            Some(value)
+        }
+    }
+}

@@ -1,0 +1,411 @@
+//! The worked solution as data: sections of sentences and displayed equations, and the list of claims they are made from.
+//!
+//! Comes in: a scene, its derivation and the proof of it. Goes out: a [`Solution`] that says what a teacher would say: which
+//! system, about which point, which impulses drop out and why, what was divided by, what to notice. Every equation shown is a
+//! [`Claim`] of a [`Step`], so that `check` can put exact numbers into both sides. This module knows no output format.
+
+mod answers;
+mod balance;
+mod block;
+mod eliminate;
+mod notice;
+mod results;
+mod words;
+
+use std::collections::BTreeMap;
+
+use crate::algebra::Field;
+use crate::derive::{self, Derivation, Form, Reduction};
+use crate::expr::{Expr, Symbol, Vector};
+use crate::laws::{self, Affine, Geometry, Kinematics, Unknown};
+use crate::scene::Scene;
+use crate::verify::Proof;
+
+/// How much is shown.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Detail {
+    /// The answers with their key equations.
+    Brief,
+    /// What a good textbook shows.
+    Normal,
+    /// Every line of algebra.
+    Full,
+}
+
+/// A worked solution.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// Heading.
+    pub title: String,
+    /// Where the problem comes from; may be empty.
+    pub source: String,
+    /// The problem in words; may be empty.
+    pub statement: String,
+    /// How much is shown.
+    pub detail: Detail,
+    /// LaTeX of the symbols that occur, where it differs from what their names give.
+    pub names: BTreeMap<Symbol, String>,
+    /// What every symbol that is no parameter stands for.
+    pub meanings: BTreeMap<Symbol, Meaning>,
+    /// The text.
+    pub sections: Vec<Section>,
+    /// The claims the text is made from, in order.
+    pub steps: Vec<Step>,
+    /// Everything the results rest on.
+    pub assumptions: Vec<String>,
+}
+
+/// What a symbol stands for, in terms of the scene, so that another program can find its value on its own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Meaning {
+    /// Component (0: x, 1: y) of the velocity of this body's center of mass just after.
+    Velocity(String, usize),
+    /// Spin of this body just after; the flag tells whether clockwise counts as positive.
+    Spin(String, bool),
+    /// Impulse at this contact, hinge or blow: on which body, and which component; `None` for its size along the normal of a
+    /// frictionless contact or the direction of a blow.
+    Impulse(String, String, Option<usize>),
+    /// The answer to this question, or a component of it.
+    Answer(String, Option<usize>),
+    /// An abbreviation that a step of the solution defines.
+    Defined,
+}
+
+/// A heading and what stands below it.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// The heading; empty for what stands directly below the title.
+    pub heading: Vec<Inline>,
+    /// The contents.
+    pub parts: Vec<Part>,
+}
+
+/// A piece of a section.
+#[derive(Clone, Debug)]
+pub enum Part {
+    /// Sentences.
+    Text(Vec<Inline>),
+    /// Equations, one a line.
+    Display(Vec<Line>),
+    /// Items.
+    List(Vec<Vec<Inline>>),
+    /// A system in matrix form.
+    Matrix(derive::Matrix),
+    /// The place of a figure.
+    Figure(Slot),
+}
+
+/// Which figure belongs somewhere.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Slot {
+    /// The bodies just before.
+    Before,
+    /// The free-body diagrams of the collision.
+    During,
+    /// The bodies just after.
+    After,
+    /// Quantities against a parameter.
+    Plot,
+}
+
+/// One displayed equation.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// The formula.
+    pub math: Vec<Math>,
+    /// The step that claims it; `None` for a definition in vectors that a later claim evaluates.
+    pub step: Option<String>,
+}
+
+/// A piece of a sentence.
+#[derive(Clone, Debug)]
+pub enum Inline {
+    /// Words.
+    Text(String),
+    /// A formula.
+    Math(Vec<Math>),
+}
+
+/// A piece of a formula.
+#[derive(Clone, Debug)]
+pub enum Math {
+    /// A scalar in the scene's symbols.
+    Expr(Expr),
+    /// A scalar factor: a sum stands in brackets.
+    Factor(Expr),
+    /// A vector in components along î and ĵ.
+    Vector(Vector),
+    /// A vector along k̂.
+    Along(Expr),
+    /// A named quantity of the textbook, such as r_{G/C} or H_C⁻.
+    Name(Name),
+    /// `=`, `+`, `−`, `×`, `·`, `≈`, `⇒`, `→` or a comma.
+    Op(&'static str),
+    /// Unit vector: 0 î, 1 ĵ, 2 k̂.
+    Unit(usize),
+    /// Something in brackets.
+    Brackets(Vec<Math>),
+}
+
+/// A quantity with a letter, an index and a mark.
+#[derive(Clone, Debug)]
+pub struct Name {
+    /// The letter; `omega` for ω.
+    pub letter: &'static str,
+    /// The index, such as `G/C` or `bar`; may be empty.
+    pub index: String,
+    /// `+` just after, `-` just before, or nothing.
+    pub mark: &'static str,
+    /// Whether an arrow stands above.
+    pub vector: bool,
+}
+
+/// Two sides that are equal.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Claim {
+    /// Left side.
+    pub left: Expr,
+    /// Right side.
+    pub right: Expr,
+}
+
+/// A step of the solution.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// Stable within the solution: `1`, `2`, …, substeps `2.1`.
+    pub id: String,
+    /// What is used: equations claimed earlier.
+    pub before: Vec<Claim>,
+    /// What follows.
+    pub after: Vec<Claim>,
+    /// Why.
+    pub reason: String,
+    /// What must hold for the step.
+    pub assumptions: Vec<String>,
+    /// The step in smaller steps.
+    pub substeps: Vec<Step>,
+    /// The symbol the step introduces as an abbreviation, if it does.
+    pub defines: Option<Symbol>,
+}
+
+/// Writes the solution of everything a scene asks.
+pub fn write(scene: &Scene, derivation: &Derivation, proof: &Proof, detail: Detail) -> Solution {
+    let mut writer = Writer::new(scene, derivation, proof, detail);
+    writer.opening();
+    writer.blocks();
+    writer.results();
+    if detail != Detail::Brief {
+        writer.notice();
+    }
+    writer.checked();
+    writer.solution
+}
+
+/// A solution under way.
+struct Writer<'a> {
+    scene: &'a Scene,
+    d: &'a Derivation,
+    proof: &'a Proof,
+    field: Field,
+    g: Geometry<Expr>,
+    reduction: Reduction,
+    reduced: Kinematics<Expr>,
+    solution: Solution,
+}
+
+impl<'a> Writer<'a> {
+    fn new(
+        scene: &'a Scene,
+        derivation: &'a Derivation,
+        proof: &'a Proof,
+        detail: Detail,
+    ) -> Writer<'a> {
+        let Ok(g) = Geometry::of(scene, |e| Ok::<_, std::convert::Infallible>(e.clone()));
+        let reduction = derive::reduction(scene);
+        let reduced = reduction.kinematics(scene, &g);
+        let mut names = BTreeMap::new();
+        let mut meanings = BTreeMap::new();
+        for p in &scene.parameters {
+            if let Some(latex) = p.latex.as_deref().filter(|l| words::is_safe_latex(l)) {
+                names.insert(p.name.clone(), latex.to_string());
+            }
+        }
+        for unknown in laws::unknowns(scene) {
+            let symbol = Symbol::from(derivation.names.plain(unknown));
+            let latex = derivation.names.latex(unknown);
+            if words::is_safe_latex(latex) {
+                names.insert(symbol.clone(), latex.to_string());
+            }
+            let reversed = derivation.names.is_reversed(unknown);
+            meanings.insert(symbol, words::meaning(scene, unknown, reversed));
+        }
+        for answer in &derivation.answers {
+            if matches!(answer.form, Form::Matrix(_) | Form::Equation { .. }) {
+                continue;
+            }
+            let symbol = Symbol::from(answer.name.as_str());
+            let axis = match answer.name.strip_prefix(answer.question.as_str()) {
+                Some("_x") => Some(0),
+                Some("_y") => Some(1),
+                _ => None,
+            };
+            if words::is_safe_latex(&answer.latex) {
+                names
+                    .entry(symbol.clone())
+                    .or_insert_with(|| answer.latex.clone());
+            }
+            meanings
+                .entry(symbol)
+                .or_insert_with(|| Meaning::Answer(answer.question.clone(), axis));
+        }
+        let mut field = Field::new(&scene.domains);
+        let symbols: Vec<Expr> = meanings.keys().map(|s| Expr::symbol(s)).collect();
+        let mut all: Vec<&Expr> = derivation.motion.values().collect();
+        for body in &scene.bodies {
+            all.extend([&body.mass, &body.inertia, &body.spin]);
+            all.extend(body.center.iter().chain(&body.velocity));
+        }
+        all.extend(&symbols);
+        field.prepare(all);
+        let assumptions = words::assumptions(scene, derivation, proof);
+        Writer {
+            scene,
+            d: derivation,
+            proof,
+            field,
+            g,
+            reduction,
+            reduced,
+            solution: Solution {
+                title: scene.title.clone(),
+                source: scene.source.clone(),
+                statement: scene.statement.clone(),
+                detail,
+                names,
+                meanings,
+                sections: Vec::new(),
+                steps: Vec::new(),
+                assumptions,
+            },
+        }
+    }
+
+    fn detail(&self) -> Detail {
+        self.solution.detail
+    }
+
+    fn section(&mut self, heading: Vec<Inline>) {
+        self.solution.sections.push(Section {
+            heading,
+            parts: Vec::new(),
+        });
+    }
+
+    fn push(&mut self, part: Part) {
+        if let Some(section) = self.solution.sections.last_mut() {
+            section.parts.push(part);
+        }
+    }
+
+    fn text(&mut self, text: Vec<Inline>) {
+        self.push(Part::Text(text));
+    }
+
+    fn say(&mut self, text: &str) {
+        self.push(Part::Text(vec![Inline::Text(text.to_string())]));
+    }
+
+    /// Adds a line to the display that stands last, or opens one.
+    fn show(&mut self, math: Vec<Math>, step: Option<String>) {
+        let line = Line { math, step };
+        if let Some(Part::Display(lines)) = self
+            .solution
+            .sections
+            .last_mut()
+            .and_then(|s| s.parts.last_mut())
+        {
+            lines.push(line);
+        } else {
+            self.push(Part::Display(vec![line]));
+        }
+    }
+
+    /// Records a step and gives its id.
+    fn step(&mut self, before: Vec<Claim>, after: Vec<Claim>, reason: &str) -> String {
+        let id = (self.solution.steps.len() + 1).to_string();
+        self.solution.steps.push(Step {
+            id: id.clone(),
+            before,
+            after,
+            reason: reason.to_string(),
+            assumptions: Vec::new(),
+            substeps: Vec::new(),
+            defines: None,
+        });
+        id
+    }
+
+    /// The last step, to add assumptions or substeps.
+    fn last_step(&mut self) -> Option<&mut Step> {
+        self.solution.steps.last_mut()
+    }
+
+    /// Records a single claim and shows it.
+    fn claim(&mut self, left: Expr, right: Expr, reason: &str) -> String {
+        let math = vec![
+            Math::Expr(left.clone()),
+            Math::Op("="),
+            Math::Expr(right.clone()),
+        ];
+        let id = self.step(Vec::new(), vec![Claim { left, right }], reason);
+        self.show(math, Some(id.clone()));
+        id
+    }
+
+    /// An expression as a person would write it; as it is where a limit of the algebra is met.
+    fn tidy(&mut self, e: &Expr) -> Expr {
+        match self.field.element(e) {
+            Ok(element) => self.field.expr(&element),
+            Err(_) => e.clone(),
+        }
+    }
+
+    fn tidy_vector(&mut self, v: &Vector) -> Vector {
+        [self.tidy(&v[0]), self.tidy(&v[1])]
+    }
+
+    /// Whether an expression is zero on the whole domain.
+    fn vanishes(&mut self, e: &Expr) -> bool {
+        e.is_zero() || self.field.element(e).is_ok_and(|x| self.field.is_zero(&x))
+    }
+
+    /// The symbol of an unknown with the sign that makes it the unknown.
+    fn unknown(&self, u: Unknown) -> Expr {
+        let symbol = Expr::symbol(self.d.names.plain(u));
+        if self.d.names.is_reversed(u) {
+            -symbol
+        } else {
+            symbol
+        }
+    }
+
+    /// An affine form in the symbols of its unknowns, untidied.
+    fn form(&self, form: &Affine<Expr>) -> Expr {
+        let terms = form.terms.iter().map(|(u, k)| k * &self.unknown(*u));
+        Expr::sum(terms.chain([form.constant.clone()]))
+    }
+
+    /// Velocity just after of a body's center of mass, in the symbols of what is left free.
+    fn velocity_after(&mut self, b: usize) -> Vector {
+        let v = self.reduced.velocity[b].clone();
+        [0, 1].map(|axis| {
+            let raw = self.form(&v[axis]);
+            self.tidy(&raw)
+        })
+    }
+
+    /// Spin just after in the symbol of the scene.
+    fn spin_after(&self, b: usize) -> Expr {
+        self.form(&self.reduced.spin[b])
+    }
+}

@@ -1,0 +1,407 @@
+//! What to notice in the results: units, signs, what does not matter, limits, energy. Each remark is computed and then proved by
+//! the algebra before it is said; what cannot be shown is not said.
+
+use std::collections::BTreeMap;
+
+use super::words::{self, say};
+use super::{Claim, Inline, Math, Part, Writer};
+use crate::algebra::{Field, Sign};
+use crate::derive::{Answer, Form};
+use crate::dimension;
+use crate::expr::{Expr, Symbol};
+use crate::laws::Unknown;
+use crate::scene::Ask;
+
+/// Remarks about limits that a reader is glad to have; more would bury them.
+const LIMITS: usize = 4;
+
+impl Writer<'_> {
+    /// The section of remarks; absent where there is nothing true to say.
+    pub(super) fn notice(&mut self) {
+        let mut items: Vec<Vec<Inline>> = Vec::new();
+        items.extend(self.energy_remark());
+        items.extend(self.signs());
+        items.extend(self.independent());
+        items.extend(self.limits());
+        items.extend(self.units());
+        if items.is_empty() {
+            return;
+        }
+        self.section(vec![say("What to notice")]);
+        self.push(Part::List(items));
+    }
+
+    fn closed(&self) -> Vec<(Answer, Expr)> {
+        self.d
+            .answers
+            .iter()
+            .filter_map(|a| match &a.form {
+                Form::Value { closed, .. } => Some((a.clone(), closed.clone())),
+                _ => None,
+            })
+            .collect()
+    }
+
+    fn sign(&mut self, e: &Expr) -> Option<Sign> {
+        let element = self.field.element(e).ok()?;
+        self.field.sign(&element)
+    }
+
+    /// Kinetic energy before, and what is lost of it.
+    fn energies(&mut self) -> Option<(Expr, Expr)> {
+        let half = Expr::ratio(1, 2);
+        let mut before = Vec::new();
+        let mut after = Vec::new();
+        for (b, body) in self.scene.bodies.iter().enumerate() {
+            if body.is_fixed() {
+                continue;
+            }
+            let squares = |v: &[Expr; 2], w: &Expr| {
+                let turning = if body.is_particle() {
+                    Expr::zero()
+                } else {
+                    &half * &body.inertia * w.powi(2)
+                };
+                &half * &body.mass * (v[0].powi(2) + v[1].powi(2)) + turning
+            };
+            before.push(squares(&body.velocity, &body.spin));
+            let v = [
+                self.d.motion.get(&Unknown::Velocity(b, 0))?.clone(),
+                self.d.motion.get(&Unknown::Velocity(b, 1))?.clone(),
+            ];
+            let w = match self.d.motion.get(&Unknown::Spin(b)) {
+                Some(w) => w.clone(),
+                None if body.is_particle() => Expr::zero(),
+                None => return None,
+            };
+            after.push(squares(&v, &w));
+        }
+        let before = Expr::sum(before);
+        let lost = &before - &Expr::sum(after);
+        let (before, lost) = (
+            self.field.element(&before).ok()?,
+            self.field.element(&lost).ok()?,
+        );
+        Some((self.field.expr(&before), self.field.expr(&lost)))
+    }
+
+    /// What happens to the kinetic energy, and where.
+    fn energy_remark(&mut self) -> Option<Vec<Inline>> {
+        let (before, lost) = self.energies()?;
+        if !self.scene.blows.is_empty() || before.is_zero() {
+            return None;
+        }
+        let moving_wall =
+            self.scene.bodies.iter().any(|b| {
+                b.is_fixed() && !(b.velocity.iter().all(Expr::is_zero) && b.spin.is_zero())
+            });
+        if moving_wall {
+            return None;
+        }
+        if lost.is_zero() {
+            return Some(vec![say(
+                "No kinetic energy is lost: before and after it is the same.",
+            )]);
+        }
+        let places: Vec<String> = self.scene.contacts.iter().map(|c| c.name.clone()).collect();
+        let element_before = self.field.element(&before).ok()?;
+        let element_lost = self.field.element(&lost).ok()?;
+        let fraction = self.field.div(&element_lost, &element_before).ok()?;
+        let fraction = self.field.expr(&fraction);
+        let sign = self.sign(&lost)?;
+        if !sign.is_not_negative() {
+            return None;
+        }
+        let at = match places.as_slice() {
+            [one] => format!(" at {one}"),
+            _ => String::from(" in the contacts"),
+        };
+        let joints = match self.scene.hinges.as_slice() {
+            [] => String::new(),
+            [one] => format!(", none at the hinge {}", one.name),
+            _ => String::from(", none at the hinges"),
+        };
+        let mut text = vec![];
+        if fraction.size() < 40 {
+            text.push(say("Of the kinetic energy, the fraction "));
+            text.push(words::formula(&fraction));
+            text.push(say(format!(" is lost{at}{joints}.")));
+            let claim = Claim {
+                left: lost,
+                right: fraction * before,
+            };
+            self.step(
+                Vec::new(),
+                vec![claim],
+                "the fraction of kinetic energy lost",
+            );
+        } else if sign == Sign::Positive {
+            text.push(say(format!(
+                "Kinetic energy is lost{at}{joints}: the loss is positive for all admitted values."
+            )));
+        } else {
+            text.push(say(format!(
+                "Kinetic energy is never gained; what is lost is lost{at}{joints}."
+            )));
+        }
+        Some(text)
+    }
+
+    /// Spins and impulses whose sign is proved.
+    fn signs(&mut self) -> Vec<Vec<Inline>> {
+        let mut items = Vec::new();
+        for (answer, closed) in self.closed() {
+            let question = self
+                .scene
+                .questions
+                .iter()
+                .find(|q| q.name == answer.question);
+            let Some(Ask::Spin { body, clockwise }) = question.map(|q| q.ask.clone()) else {
+                continue;
+            };
+            let whom = words::body(self.scene, body);
+            if closed.is_zero() {
+                continue;
+            }
+            let sense = match (self.sign(&closed), clockwise) {
+                (Some(Sign::Positive), true) | (Some(Sign::Negative), false) => "clockwise",
+                (Some(Sign::Negative), true) | (Some(Sign::Positive), false) => "counterclockwise",
+                _ => continue,
+            };
+            let sign = if matches!(self.sign(&closed), Some(Sign::Positive)) {
+                "positive"
+            } else {
+                "negative"
+            };
+            items.push(vec![
+                words::formula(&Expr::symbol(&answer.name)),
+                say(format!(" is {sign}: {whom} turns {sense}.")),
+            ]);
+        }
+        items
+    }
+
+    /// Masses that cancel, and lengths that do not matter.
+    fn independent(&mut self) -> Vec<Vec<Inline>> {
+        let mut items: Vec<(Symbol, Vec<Symbol>)> = Vec::new();
+        let answers = self.closed();
+        for parameter in &self.scene.parameters {
+            let used = self
+                .d
+                .motion
+                .values()
+                .any(|e| e.symbols().contains(&parameter.name));
+            if !used || parameter.dimension.mass == crate::expr::ratio(0, 1) {
+                continue;
+            }
+            let free: Vec<Symbol> = answers
+                .iter()
+                .filter(|(a, closed)| {
+                    !closed.is_zero()
+                        && !closed.symbols().contains(&parameter.name)
+                        && !a.dimension.is_none()
+                })
+                .map(|(a, _)| Symbol::from(a.name.as_str()))
+                .collect();
+            if !free.is_empty() {
+                items.push((parameter.name.clone(), free));
+            }
+        }
+        items
+            .into_iter()
+            .map(|(mass, free)| {
+                let one = free.len() == 1;
+                let mut text = Vec::new();
+                for (i, symbol) in free.iter().enumerate() {
+                    if i > 0 {
+                        text.push(say(if i + 1 == free.len() { " and " } else { ", " }));
+                    }
+                    text.push(words::formula(&Expr::symbol(symbol)));
+                }
+                text.push(say(if one {
+                    " does not depend on "
+                } else {
+                    " do not depend on "
+                }));
+                text.push(words::formula(&Expr::symbol(&mass)));
+                text.push(say("."));
+                text
+            })
+            .collect()
+    }
+
+    /// Ends of domains and one mass much larger than the others, where an answer becomes zero or much shorter.
+    fn limits(&mut self) -> Vec<Vec<Inline>> {
+        let mut found: Vec<(usize, Vec<Inline>)> = Vec::new();
+        let answers = self.closed();
+        for parameter in self.scene.parameters.clone() {
+            if self.is_in_unit_vector(&parameter.name) {
+                continue;
+            }
+            for (value, to) in self.ends(&parameter.name) {
+                let mut zeros = Vec::new();
+                let mut others = Vec::new();
+                for (answer, closed) in &answers {
+                    if !closed.symbols().contains(&parameter.name) || closed.size() > 200 {
+                        continue;
+                    }
+                    let Some(at_end) = self.value_at(closed, &parameter.name, &value, to) else {
+                        continue;
+                    };
+                    if at_end.is_zero() {
+                        zeros.push(answer.name.clone());
+                    } else if at_end.size() * 2 <= closed.size() || at_end.size() <= 4 {
+                        others.push((answer.name.clone(), at_end));
+                    }
+                }
+                if zeros.is_empty() && others.is_empty() {
+                    continue;
+                }
+                let symbol = Expr::symbol(&parameter.name);
+                let mut text = match to {
+                    To::Value => vec![say("At "), words::equation(&symbol, &value), say(", ")],
+                    To::Infinity => vec![
+                        say("As "),
+                        Inline::Math(vec![Math::Expr(symbol), Math::Op("→"), Math::Op("∞")]),
+                        say(", "),
+                    ],
+                };
+                let arrow = if to == To::Value { "=" } else { "→" };
+                let mut pieces: Vec<Inline> = zeros
+                    .iter()
+                    .map(|n| (n.clone(), Expr::zero()))
+                    .chain(others.iter().cloned())
+                    .take(3)
+                    .map(|(n, e)| {
+                        Inline::Math(vec![
+                            Math::Expr(Expr::symbol(&n)),
+                            Math::Op(arrow),
+                            Math::Expr(e),
+                        ])
+                    })
+                    .collect();
+                let count = pieces.len();
+                for (i, piece) in pieces.drain(..).enumerate() {
+                    if i > 0 {
+                        text.push(say(if i + 1 == count { " and " } else { ", " }));
+                    }
+                    text.push(piece);
+                }
+                text.push(say("."));
+                let rank = match to {
+                    To::Value => 0,
+                    To::Infinity => 1,
+                };
+                found.push((rank, text));
+            }
+        }
+        found.sort_by_key(|(rank, _)| *rank);
+        found.truncate(LIMITS);
+        found.into_iter().map(|(_, text)| text).collect()
+    }
+
+    fn is_in_unit_vector(&self, name: &Symbol) -> bool {
+        let pairs = &self.scene.domains.unit_vectors;
+        pairs.iter().any(|pair| pair.contains(name))
+    }
+
+    /// Closed ends of a parameter's domain; for masses 0 and ∞ as limits.
+    fn ends(&self, name: &Symbol) -> Vec<(Expr, To)> {
+        let mut out = Vec::new();
+        let Some(domain) = self.scene.domains.symbols.get(name) else {
+            return out;
+        };
+        for limit in [&domain.low, &domain.high].into_iter().flatten() {
+            let value = Expr::from(limit.value.clone());
+            let value = if limit.of_pi {
+                value * Expr::pi()
+            } else {
+                value
+            };
+            if !limit.open {
+                out.push((value, To::Value));
+            }
+        }
+        let mass = self
+            .scene
+            .parameters
+            .iter()
+            .find(|p| p.name == *name)
+            .is_some_and(|p| p.dimension == crate::dimension::Dimension::new(1, 0, 0));
+        let masses = self
+            .scene
+            .parameters
+            .iter()
+            .filter(|p| p.dimension == crate::dimension::Dimension::new(1, 0, 0))
+            .count();
+        if mass && masses > 1 {
+            out.push((Expr::zero(), To::Infinity));
+        }
+        out
+    }
+
+    /// The closed form at an end, where it has a value there.
+    fn value_at(&mut self, closed: &Expr, name: &Symbol, value: &Expr, to: To) -> Option<Expr> {
+        let put = match to {
+            To::Value => value.clone(),
+            To::Infinity => {
+                // x → ∞ is 1/x → 0: first in normal form, so that nothing is divided by zero on the way.
+                let inverse = BTreeMap::from([(name.clone(), Expr::symbol(name).powi(-1))]);
+                let turned = closed.substitute(&inverse);
+                let mut field = Field::new(&self.scene.domains);
+                field.prepare([&turned]);
+                let element = field.element(&turned).ok()?;
+                let tidy = field.expr(&element);
+                return self.put(&tidy, name, &Expr::zero());
+            }
+        };
+        self.put(closed, name, &put)
+    }
+
+    fn put(&mut self, e: &Expr, name: &Symbol, value: &Expr) -> Option<Expr> {
+        let at = e.substitute(&BTreeMap::from([(name.clone(), value.clone())]));
+        let mut field = Field::new(&self.scene.domains);
+        field.prepare([&at]);
+        let element = field.element(&at).ok()?;
+        Some(field.expr(&element))
+    }
+
+    /// Whether all answers have the dimension of what they answer.
+    fn units(&mut self) -> Option<Vec<Inline>> {
+        let answers = self.closed();
+        let symbols = |name: &str| {
+            let parameter = self.scene.parameters.iter().find(|p| *p.name == *name);
+            parameter.map(|p| p.dimension.clone())
+        };
+        let mut count = 0;
+        for (answer, closed) in &answers {
+            match dimension::of(closed, &symbols) {
+                Ok(Some(found)) if found == answer.dimension => count += 1,
+                Ok(None) => {}
+                _ => return None,
+            }
+        }
+        (count > 1).then(|| {
+            let mut seen: Vec<String> = Vec::new();
+            for (answer, closed) in &answers {
+                let unit = words::unit(&answer.dimension.si());
+                if !closed.is_zero() && !seen.contains(&unit) {
+                    seen.push(unit);
+                }
+            }
+            vec![say(format!(
+                "The units agree in every term: the results are in {}.",
+                words::list(&seen)
+            ))]
+        })
+    }
+}
+
+/// How a parameter reaches a value.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum To {
+    /// It takes the value.
+    Value,
+    /// It grows beyond all bounds.
+    Infinity,
+}

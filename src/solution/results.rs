@@ -1,0 +1,262 @@
+//! The results in one place, their abbreviations, and what was checked.
+
+use super::words::{self, say};
+use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Writer};
+use crate::derive::Form;
+use crate::expr::Expr;
+
+impl Writer<'_> {
+    /// All answers, with abbreviations below.
+    pub(super) fn results(&mut self) {
+        self.section(vec![say("Results")]);
+        let mut lines = Vec::new();
+        let mut open = Vec::new();
+        for answer in &self.d.answers {
+            match &answer.form {
+                Form::Value { closed, short } => {
+                    let symbol = Expr::symbol(&answer.name);
+                    let mut math = vec![
+                        Math::Expr(symbol.clone()),
+                        Math::Op("="),
+                        Math::Expr(short.clone()),
+                    ];
+                    if short == &symbol {
+                        math[2] = Math::Expr(closed.clone());
+                    }
+                    let id = self.step(
+                        Vec::new(),
+                        vec![Claim {
+                            left: symbol,
+                            right: closed.clone(),
+                        }],
+                        "result",
+                    );
+                    lines.push(Line {
+                        math,
+                        step: Some(id),
+                    });
+                }
+                Form::Open(_) => open.push(Expr::symbol(&answer.name)),
+                Form::Equation { .. } | Form::Matrix(_) => {}
+            }
+        }
+        if !lines.is_empty() {
+            self.push(Part::Display(lines));
+        }
+        if !open.is_empty() {
+            let mut text = vec![say("Momentum balance and the given laws do not determine ")];
+            for (i, e) in open.iter().enumerate() {
+                if i > 0 {
+                    text.push(say(if i + 1 == open.len() { " and " } else { ", " }));
+                }
+                text.push(words::formula(e));
+            }
+            let counting = &self.d.counting;
+            text.push(say(format!(
+                ": {} equations, {} of them independent, for {} unknowns.",
+                counting.equations, counting.rank, counting.unknowns
+            )));
+            self.text(text);
+            let closing = &self.d.counting.closing_laws;
+            if !closing.is_empty() {
+                let items = closing.iter().map(|c| vec![say(c.clone())]).collect();
+                self.say("One of these would:");
+                self.push(Part::List(items));
+            }
+        }
+        if !self.d.definitions.is_empty() {
+            self.say("where");
+            let mut lines = Vec::new();
+            let mut meanings = Vec::new();
+            for definition in &self.d.definitions {
+                let symbol = Expr::symbol(&definition.name);
+                self.solution
+                    .meanings
+                    .entry(definition.name.clone())
+                    .or_insert(Meaning::Defined);
+                let id = self.step(
+                    Vec::new(),
+                    vec![Claim {
+                        left: symbol.clone(),
+                        right: definition.value.clone(),
+                    }],
+                    &words::named(self.scene, &definition.meaning),
+                );
+                let fresh = self.solution.meanings.get(&definition.name) == Some(&Meaning::Defined);
+                if let Some(step) = self.last_step() {
+                    step.defines = fresh.then(|| definition.name.clone());
+                }
+                lines.push(Line {
+                    math: vec![
+                        Math::Expr(symbol.clone()),
+                        Math::Op("="),
+                        Math::Expr(definition.value.clone()),
+                    ],
+                    step: Some(id),
+                });
+                meanings.push(vec![
+                    words::formula(&symbol),
+                    say(format!(
+                        ": {}",
+                        words::named(self.scene, &definition.meaning)
+                    )),
+                ]);
+            }
+            self.push(Part::Display(lines));
+            if self.detail() != Detail::Brief {
+                self.push(Part::List(meanings));
+            }
+            self.short_forms();
+        }
+        self.numbers();
+        self.push(Part::Figure(super::Slot::After));
+        self.push(Part::Figure(super::Slot::Plot));
+    }
+
+    /// Answers written with abbreviations are claims of their own.
+    fn short_forms(&mut self) {
+        for answer in &self.d.answers {
+            if let Form::Value { closed, short } = &answer.form {
+                let symbol = Expr::symbol(&answer.name);
+                if short != closed && *short != symbol {
+                    let claim = Claim {
+                        left: symbol,
+                        right: short.clone(),
+                    };
+                    self.step(Vec::new(), vec![claim], "result, with abbreviations");
+                }
+            }
+        }
+    }
+
+    /// The answers in numbers where the scene gives values.
+    fn numbers(&mut self) {
+        let mut items = Vec::new();
+        for answer in &self.d.answers {
+            let Form::Value { closed, .. } = &answer.form else {
+                continue;
+            };
+            let values: std::collections::BTreeMap<_, _> = self
+                .scene
+                .parameters
+                .iter()
+                .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
+                .collect();
+            let symbols = closed.symbols();
+            if symbols.is_empty() || !symbols.iter().all(|s| values.contains_key(s)) {
+                continue;
+            }
+            let put_in = closed.substitute(&values);
+            let Some(value) = put_in.evaluate(&crate::expr::Point::<f64>::default()) else {
+                continue;
+            };
+            if !items.is_empty() {
+                items.push(say(", "));
+            }
+            items.push(words::formula(&Expr::symbol(&answer.name)));
+            items.push(say(format!(
+                " = {} {}",
+                words::digits(value),
+                words::unit(&answer.dimension.si())
+            )));
+        }
+        if !items.is_empty() {
+            items.insert(0, say("In numbers: "));
+            items.push(say("."));
+            self.text(items);
+        }
+    }
+
+    /// How the results were checked, and what they rest on.
+    pub(super) fn checked(&mut self) {
+        let identity = self.proof.scene.iter().find(|c| c.kind == "identity");
+        let points = self
+            .proof
+            .answers
+            .iter()
+            .flatten()
+            .filter(|c| c.kind == "exact points" && c.holds == Some(true))
+            .count();
+        let mut text: Vec<Inline> = Vec::new();
+        if identity.is_some_and(|c| c.holds == Some(true)) {
+            let which = if self.d.counting.open.is_empty() {
+                "every equation"
+            } else {
+                "every equation that is determined"
+            };
+            text.push(say(format!(
+                "Checked: put into the laws of all bodies, joints and contacts, the results satisfy {which} identically"
+            )));
+            if points > 0 {
+                text.push(say(
+                    ", and an exact numerical solution found independently gives the same values",
+                ));
+            }
+            text.push(say("."));
+        }
+        if !self.proof.holds() {
+            text = vec![say(
+                "A check failed: do not use these results before the fault is found.",
+            )];
+        }
+        if self.detail() != Detail::Brief {
+            let conditions = self.conditions();
+            if !conditions.is_empty() {
+                text.push(say(if text.is_empty() {
+                    "Valid for "
+                } else {
+                    " Valid for "
+                }));
+                let count = conditions.len();
+                for (i, condition) in conditions.into_iter().enumerate() {
+                    if i > 0 {
+                        text.push(say(if i + 1 == count { " and " } else { ", " }));
+                    }
+                    text.push(condition);
+                }
+                text.push(say("."));
+            }
+        }
+        if !text.is_empty() {
+            self.text(text);
+        }
+    }
+
+    /// What must hold beyond positive parameters.
+    fn conditions(&self) -> Vec<Inline> {
+        let mut all = Vec::new();
+        for (name, domain) in &self.scene.domains.symbols {
+            let in_pair = self
+                .scene
+                .domains
+                .unit_vectors
+                .iter()
+                .any(|pair| pair.contains(name));
+            let positive = *domain == crate::domain::Domain::positive();
+            if in_pair || positive || (domain.low.is_none() && domain.high.is_none()) {
+                continue;
+            }
+            let end = |l: &crate::domain::Limit| {
+                let value = Expr::from(l.value.clone());
+                if l.of_pi { value * Expr::pi() } else { value }
+            };
+            let sign = |open: bool| if open { "<" } else { "≤" };
+            let mut math = Vec::new();
+            if let Some(low) = &domain.low {
+                math.extend([Math::Expr(end(low)), Math::Op(sign(low.open))]);
+            }
+            math.push(Math::Expr(Expr::symbol(name)));
+            if let Some(high) = &domain.high {
+                math.extend([Math::Op(sign(high.open)), Math::Expr(end(high))]);
+            }
+            all.push(Inline::Math(math));
+        }
+        for [a, b] in &self.scene.domains.unit_vectors {
+            let squares = Expr::symbol(a).powi(2) + Expr::symbol(b).powi(2);
+            all.push(words::equation(&squares, &Expr::one()));
+        }
+        let others = self.d.assumptions.iter().chain(&self.proof.assumptions);
+        all.extend(others.map(|a| say(a.replace("the bodies approach", "bodies that approach"))));
+        all
+    }
+}

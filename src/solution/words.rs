@@ -1,0 +1,305 @@
+//! How bodies, points and quantities are called in a sentence, and which LaTeX of a scene may be set as it stands.
+
+use super::{Inline, Math, Meaning, Name};
+use crate::derive::Derivation;
+use crate::expr::Expr;
+use crate::laws::{Place, Unknown};
+use crate::scene::Scene;
+use crate::verify::Proof;
+
+/// `the bar`, `ball 1`, `body A`.
+pub fn body(scene: &Scene, b: usize) -> String {
+    let name = scene.bodies[b].name.replace('_', " ");
+    let name = name.trim();
+    if name.to_lowercase().starts_with("the ") {
+        return name.to_string();
+    }
+    if name.chars().count() == 1 {
+        return format!("body {name}");
+    }
+    let digits = name.chars().rev().take_while(char::is_ascii_digit).count();
+    let count = name.chars().count();
+    if digits > 0 && digits < count {
+        let word: String = name.chars().take(count - digits).collect();
+        let number: String = name.chars().skip(count - digits).collect();
+        let word = word.trim();
+        let word = if word.chars().count() == 1 {
+            format!("body {word}{number}")
+        } else {
+            format!("{word} {number}")
+        };
+        return word;
+    }
+    match name.chars().next() {
+        Some(first) if first.is_uppercase() => name.to_string(),
+        _ => format!("the {name}"),
+    }
+}
+
+/// `the bar and the ball`.
+pub fn bodies(scene: &Scene, system: &[usize]) -> String {
+    list(&system.iter().map(|b| body(scene, *b)).collect::<Vec<_>>())
+}
+
+/// `a, b and c`.
+pub fn list(items: &[String]) -> String {
+    match items {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+/// A sentence starts with a capital.
+pub fn capital(text: &str) -> String {
+    let mut chars = text.chars();
+    match chars.next() {
+        Some(first) => first.to_uppercase().chain(chars).collect(),
+        None => String::new(),
+    }
+}
+
+/// A number up to twelve in words.
+pub fn count(n: usize) -> String {
+    const WORDS: [&str; 13] = [
+        "no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
+        "eleven", "twelve",
+    ];
+    WORDS.get(n).map_or(n.to_string(), |w| (*w).to_string())
+}
+
+/// The letter of a point: its own name, or `G` for the center of mass of the only body that moves.
+pub fn point(scene: &Scene, place: Place) -> String {
+    match place {
+        Place::Center(b) => center(scene, b),
+        Place::Contact(c) => scene.contacts[c].name.clone(),
+        Place::Hinge(h) => scene.hinges[h].name.clone(),
+        Place::Blow(b) => scene.blows[b].name.clone(),
+    }
+}
+
+/// The letter of a center of mass.
+pub fn center(scene: &Scene, b: usize) -> String {
+    let moving = scene.bodies.iter().filter(|b| !b.is_fixed()).count();
+    if moving == 1 {
+        String::from("G")
+    } else {
+        scene.bodies[b].name.clone()
+    }
+}
+
+/// A point in a sentence.
+pub fn at(scene: &Scene, place: Place) -> String {
+    match place {
+        Place::Center(b) if scene.bodies[b].is_particle() => body(scene, b),
+        Place::Center(b) => {
+            let moving = scene.bodies.iter().filter(|b| !b.is_fixed()).count();
+            if moving == 1 {
+                String::from("its center of mass G")
+            } else {
+                format!("the center of mass of {}", body(scene, b))
+            }
+        }
+        _ => point(scene, place),
+    }
+}
+
+/// A quantity of the textbook.
+pub fn name(letter: &'static str, index: &str, mark: &'static str, vector: bool) -> Math {
+    Math::Name(Name {
+        letter,
+        index: index.to_string(),
+        mark,
+        vector,
+    })
+}
+
+/// Words of a sentence.
+pub fn say(text: impl Into<String>) -> Inline {
+    Inline::Text(text.into())
+}
+
+/// A formula in a sentence.
+pub fn formula(e: &Expr) -> Inline {
+    Inline::Math(vec![Math::Expr(e.clone())])
+}
+
+/// An equation in a sentence.
+pub fn equation(left: &Expr, right: &Expr) -> Inline {
+    Inline::Math(vec![
+        Math::Expr(left.clone()),
+        Math::Op("="),
+        Math::Expr(right.clone()),
+    ])
+}
+
+/// What an unknown is, for another program.
+pub fn meaning(scene: &Scene, unknown: Unknown, reversed: bool) -> Meaning {
+    let on = |bodies: [usize; 2]| scene.bodies[bodies[usize::from(!reversed)]].name.clone();
+    match unknown {
+        Unknown::Velocity(b, axis) => Meaning::Velocity(scene.bodies[b].name.clone(), axis),
+        Unknown::Spin(b) => Meaning::Spin(scene.bodies[b].name.clone(), reversed),
+        Unknown::Contact(c, axis) => {
+            let contact = &scene.contacts[c];
+            Meaning::Impulse(contact.name.clone(), on(contact.bodies), Some(axis))
+        }
+        Unknown::Normal(c) => {
+            let contact = &scene.contacts[c];
+            Meaning::Impulse(contact.name.clone(), on(contact.bodies), None)
+        }
+        Unknown::Hinge(h, axis) => {
+            let hinge = &scene.hinges[h];
+            Meaning::Impulse(hinge.name.clone(), on(hinge.bodies), Some(axis))
+        }
+        Unknown::Blow(i) => {
+            let blow = &scene.blows[i];
+            let body = scene.bodies[blow.body].name.clone();
+            Meaning::Impulse(blow.name.clone(), body, None)
+        }
+    }
+}
+
+/// What the results rest on beyond positive parameters.
+pub fn assumptions(scene: &Scene, d: &Derivation, proof: &Proof) -> Vec<String> {
+    let mut all: Vec<String> = Vec::new();
+    for (name, domain) in &scene.domains.symbols {
+        if domain.low.is_some() || domain.high.is_some() {
+            all.push(domain.words(name));
+        }
+    }
+    let pairs = scene.domains.unit_vectors.iter();
+    all.extend(pairs.map(|[a, b]| format!("{a}^2 + {b}^2 = 1")));
+    all.extend(d.assumptions.iter().cloned());
+    all.extend(proof.assumptions.iter().cloned());
+    all
+}
+
+/// Commands that only set a symbol; nothing here reads files, defines macros or runs anything.
+const COMMANDS: &[&str] = &[
+    "vec",
+    "hat",
+    "bar",
+    "dot",
+    "ddot",
+    "tilde",
+    "mathrm",
+    "mathbf",
+    "mathit",
+    "boldsymbol",
+    "text",
+    "ell",
+    "prime",
+    "alpha",
+    "beta",
+    "gamma",
+    "delta",
+    "epsilon",
+    "varepsilon",
+    "zeta",
+    "eta",
+    "theta",
+    "vartheta",
+    "iota",
+    "kappa",
+    "lambda",
+    "mu",
+    "nu",
+    "xi",
+    "pi",
+    "rho",
+    "sigma",
+    "tau",
+    "upsilon",
+    "phi",
+    "varphi",
+    "chi",
+    "psi",
+    "omega",
+    "Gamma",
+    "Delta",
+    "Theta",
+    "Lambda",
+    "Xi",
+    "Pi",
+    "Sigma",
+    "Upsilon",
+    "Phi",
+    "Psi",
+    "Omega",
+    "_",
+];
+
+/// Whether the LaTeX a scene gives for a symbol only sets a symbol: known commands, balanced braces, plain characters.
+pub fn is_safe_latex(latex: &str) -> bool {
+    if latex.is_empty() || latex.len() > 80 {
+        return false;
+    }
+    let mut depth = 0_i32;
+    let mut chars = latex.chars().peekable();
+    while let Some(c) = chars.next() {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            '\\' => {
+                let mut command = String::new();
+                while let Some(letter) = chars.next_if(char::is_ascii_alphabetic) {
+                    command.push(letter);
+                }
+                if command.is_empty() {
+                    command.extend(chars.next());
+                }
+                if !COMMANDS.contains(&command.as_str()) {
+                    return false;
+                }
+            }
+            c if c.is_alphanumeric() || "_^ ,+-*'/().".contains(c) => {}
+            _ => return false,
+        }
+        if depth < 0 {
+            return false;
+        }
+    }
+    depth == 0
+}
+
+/// A number with four significant digits.
+pub fn digits(value: f64) -> String {
+    if value == 0.0 {
+        return String::from("0");
+    }
+    let magnitude = value.abs().log10().floor();
+    if !(-4.0..6.0).contains(&magnitude) {
+        return format!("{value:.3e}");
+    }
+    let text = format!("{value:.*}", (3.0 - magnitude).max(0.0) as usize);
+    let text = if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        &text
+    };
+    text.replace('-', "−")
+}
+
+/// A unit as a person says it: rad/s, N s, J.
+pub fn unit(si: &str) -> String {
+    match si {
+        "1/s" => "rad/s",
+        "kg m/s" => "N s",
+        "kg m^2/s^2" | "kg m²/s²" => "J",
+        other => other,
+    }
+    .to_string()
+}
+
+/// A text of the derivation in which bodies are called as they are in sentences.
+pub fn named(scene: &Scene, text: &str) -> String {
+    let mut out = text.to_string();
+    for (b, of) in scene.bodies.iter().enumerate() {
+        let tail = format!(" of {}", of.name);
+        if out.ends_with(&tail) {
+            out.truncate(out.len() - tail.len());
+            out.push_str(&format!(" of {}", body(scene, b)));
+        }
+    }
+    out
+}

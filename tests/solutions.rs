@@ -1,0 +1,196 @@
+//! Worked solutions: generated beside every scene, replayed step by step, safe whatever the scene is called.
+//! `UPDATE=1 cargo test --test solutions` writes the expected texts anew; reading that diff is the review.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use carom::solution::{Detail, Solution};
+use carom::{check, derive, render, scene, solution, verify};
+
+/// The scenes with a worked solution: those without stages.
+fn scenes() -> Vec<(PathBuf, String, scene::Scene)> {
+    let mut files = Vec::new();
+    for folder in ["derivations/book", "derivations/more"] {
+        for entry in fs::read_dir(folder).expect("a folder of scenes") {
+            let path = entry.expect("a readable entry").path();
+            if path.extension().is_some_and(|e| e == "json") {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    let read = |path: PathBuf| {
+        let text = fs::read_to_string(&path).expect("a readable scene");
+        let scene = scene::read(&text).ok()?;
+        scene.story.is_none().then_some((path, text, scene))
+    };
+    files.into_iter().filter_map(read).collect()
+}
+
+fn solved(scene: &scene::Scene, detail: Detail) -> Solution {
+    let derivation = derive::derive(scene).expect("a derivation");
+    let proof = verify::prove(scene, &derivation);
+    solution::write(scene, &derivation, &proof, detail)
+}
+
+#[test]
+fn every_scene_has_its_generated_solution_beside_it() {
+    let mut stale = Vec::new();
+    for (path, _, scene) in scenes() {
+        let text = render::markdown::solution(&solved(&scene, Detail::Normal), &[]);
+        let file = path.with_extension("md");
+        if std::env::var_os("UPDATE").is_some() {
+            fs::write(&file, &text).expect("a writable folder");
+        } else if fs::read_to_string(&file).unwrap_or_default() != text {
+            stale.push(file);
+        }
+    }
+    assert!(stale.is_empty(), "differ from what is generated: {stale:?}");
+}
+
+#[test]
+fn every_step_of_every_solution_can_be_replayed() {
+    for (path, text, scene) in scenes() {
+        let derivation = derive::derive(&scene).expect("a derivation");
+        let proof = verify::prove(&scene, &derivation);
+        for detail in [Detail::Brief, Detail::Normal, Detail::Full] {
+            let written = solution::write(&scene, &derivation, &proof, detail);
+            let json = render::steps::solution(&written, &text, &[]).to_string();
+            let report = check::check(&json).expect("a usable solution");
+            assert!(
+                report.failed.is_empty(),
+                "{}: {:?}",
+                path.display(),
+                report.failed
+            );
+            assert!(
+                report.open.is_empty(),
+                "{}: {:?}",
+                path.display(),
+                report.open
+            );
+        }
+    }
+}
+
+#[test]
+fn a_tampered_step_is_caught_and_named() {
+    let text = fs::read_to_string("derivations/book/falling-stick.json").expect("a scene");
+    let scene = scene::read(&text).expect("a valid scene");
+    let json = render::steps::solution(&solved(&scene, Detail::Full), &text, &[]);
+    let count = json["steps"].as_array().map_or(0, Vec::len);
+    assert!(count > 10);
+    for i in 0..count {
+        for list in ["before", "after"] {
+            let claims = json["steps"][i][list].as_array().map_or(0, Vec::len);
+            for k in 0..claims {
+                let mut tampered = json.clone();
+                let side = &mut tampered["steps"][i][list][k]["right"];
+                *side = format!("1 + ({})", side.as_str().expect("a formula")).into();
+                let report = check::check(&tampered.to_string()).expect("a usable solution");
+                let id = json["steps"][i]["id"].as_str().expect("an id");
+                assert_eq!(report.failed.len(), 1, "step {id}, {list} {k}");
+                assert_eq!(report.failed[0].step, id);
+            }
+        }
+    }
+}
+
+#[test]
+fn words_of_a_scene_are_never_obeyed() {
+    let text = fs::read_to_string("derivations/book/falling-stick.json").expect("a scene");
+    let mut scene = scene::read(&text).expect("a valid scene");
+    for hostile in [
+        "<script>alert(1)</script>",
+        "\\input{/etc/passwd} $x$ %",
+        "\"'><img src=x onerror=alert(1)>",
+        "![x](http://a.b/c) `code` \u{202e}abc",
+    ] {
+        scene.title = hostile.to_string();
+        scene.source = hostile.to_string();
+        scene.statement = hostile.to_string();
+        scene.parameters[0].meaning = hostile.to_string();
+        scene.parameters[0].latex = Some(hostile.to_string());
+        let s = solved(&scene, Detail::Normal);
+        let page = render::html::page(&s, &[]);
+        assert!(
+            !page.contains("<script") && !page.contains("<img"),
+            "{page}"
+        );
+        let tex = render::latex_document::document(&s);
+        assert!(!tex.contains("\\input"), "{tex}");
+        let markdown = render::markdown::solution(&s, &[]);
+        assert!(!markdown.contains("<script") && !markdown.contains("<img"));
+        assert!(!markdown.contains("http://") && !markdown.contains("\\input{"));
+        for written in [page, tex, markdown, render::plain::solution(&s)] {
+            assert!(!written.contains('\u{202e}'));
+        }
+    }
+}
+
+#[test]
+fn the_page_needs_no_script_and_no_network() {
+    for (path, _, scene) in scenes() {
+        let page = render::html::page(&solved(&scene, Detail::Normal), &[]);
+        for part in ["<script", "src=", "@import", "url(", "http://", "https://"] {
+            assert!(!page.contains(part), "{}: {part}", path.display());
+        }
+    }
+}
+
+#[test]
+fn the_latex_document_compiles() {
+    if Command::new("pdflatex").arg("--version").output().is_err() {
+        println!("skipped: no LaTeX");
+        return;
+    }
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("latex");
+    fs::create_dir_all(&folder).expect("a folder");
+    for (path, _, scene) in scenes() {
+        let file = folder.join("solution.tex");
+        let text = render::latex_document::document(&solved(&scene, Detail::Normal));
+        fs::write(&file, text).expect("a writable folder");
+        let run = Command::new("pdflatex")
+            .args([
+                "-interaction=nonstopmode",
+                "-halt-on-error",
+                "-no-shell-escape",
+                "solution.tex",
+            ])
+            .current_dir(&folder)
+            .output()
+            .expect("pdflatex runs");
+        assert!(
+            run.status.success(),
+            "{}: {}",
+            path.display(),
+            String::from_utf8_lossy(&run.stdout)
+        );
+    }
+}
+
+#[test]
+fn an_output_that_cannot_be_written_is_one_message_and_leaves_nothing() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
+        .join("nowhere")
+        .join("deeper");
+    let run = Command::new(env!("CARGO_BIN_EXE_carom"))
+        .args([
+            "solution",
+            "derivations/book/falling-stick.json",
+            "--format",
+            "html",
+            "-o",
+        ])
+        .arg(folder.join("page.html"))
+        .output()
+        .expect("carom runs");
+    assert_eq!(run.status.code(), Some(2));
+    assert!(run.stdout.is_empty());
+    assert_eq!(
+        String::from_utf8_lossy(&run.stderr).trim().lines().count(),
+        1
+    );
+    assert!(!folder.exists());
+}
