@@ -194,6 +194,8 @@ impl Echo<'_> {
     fn argument(&mut self, w: &Written) {
         match &w.shape {
             Shape::Number(_) if !self.is_plain(w) => self.enclosed(w),
+            // Brackets right behind the function would close before the degrees.
+            Shape::Degrees(inner) if !self.is_plain(inner) => self.enclosed(w),
             Shape::Bracket(inner) => self.enclosed(inner),
             Shape::Symbol(name) if greek_letter(name).is_some() && (self.names)(name).is_none() => {
                 self.piece(w)

@@ -303,7 +303,10 @@ impl Writer<'_> {
     }
 
     fn call(&mut self, function: Function, argument: &Expr, power: Option<&Rational>) {
-        if function == Function::Abs && self.style != Style::Plain {
+        // Bars inside bars cannot tell which ones close, so beyond LaTeX's \left and \right the name is written out.
+        let bars =
+            self.style == Style::Latex || self.style == Style::Unicode && !has_bars(argument);
+        if function == Function::Abs && bars {
             self.out.push_str(if self.style == Style::Latex {
                 "\\left|"
             } else {
@@ -410,6 +413,13 @@ fn superscript(digits: &str) -> String {
         .filter_map(|c| c.to_digit(10))
         .map(|d| RAISED[d as usize])
         .collect()
+}
+
+/// Whether an absolute value stands inside.
+fn has_bars(e: &Expr) -> bool {
+    let mut found = false;
+    e.walk(&mut |part| found |= matches!(part.node(), Node::Call(Function::Abs, _)));
+    found
 }
 
 pub(super) fn latex_function(function: Function) -> &'static str {
