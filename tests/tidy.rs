@@ -132,6 +132,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "laws",
             "derive",
             "verify",
+            "story",
         ],
     ),
     ("check", &["expr", "formula", "scene", "numeric"]),

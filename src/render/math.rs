@@ -292,6 +292,8 @@ fn latex_op(op: &str) -> &str {
         "→" => "\\to",
         "∞" => "\\infty",
         "≤" => "\\le",
+        "≥" => "\\ge",
+        ">" => "\\gt",
         "≠" => "\\ne",
         "<" => "\\lt",
         other => other,

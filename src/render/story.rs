@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 use super::{latex, unicode};
 use crate::formula::write_plain;
 use crate::scene::Scene;
-use crate::story::{Answer, StageTold, Told};
+use crate::story::{Answer, Sentence, StageTold, Told};
 use crate::verify::Check;
 
 /// What an answer rests on: the domains and its own assumptions.
@@ -16,7 +16,7 @@ fn assumptions(scene: &Scene, told: &Told, answer: &Answer) -> Vec<String> {
         .map(|(name, d)| d.words(name))
         .collect();
     all.extend(told.readings.iter().cloned());
-    all.extend(answer.assumptions.iter().cloned());
+    all.extend(answer.assumptions.iter().map(ToString::to_string));
     all
 }
 
@@ -65,10 +65,10 @@ fn answer(scene: &Scene, told: &Told, a: &Answer) -> Value {
         );
     }
     if !a.text.is_empty() {
-        out.insert("text".into(), json!(a.text));
+        out.insert("text".into(), json!(plain(&a.text)));
     }
     if !a.discarded.is_empty() {
-        out.insert("discarded".into(), json!(a.discarded));
+        out.insert("discarded".into(), json!(plain(&a.discarded)));
     }
     out.insert("symbol".into(), json!(a.latex));
     out.insert("dimension".into(), json!(a.dimension.plain()));
@@ -101,8 +101,8 @@ fn stage(scene: &Scene, s: &StageTold) -> Value {
     json!({
         "name": s.name,
         "kind": s.kind,
-        "words": s.words,
-        "conserved": s.kept.iter().map(|k| json!({"what": k.what, "conserved": k.conserved, "why": k.why})).collect::<Vec<_>>(),
+        "words": plain(&s.words),
+        "conserved": s.kept.iter().map(|k| json!({"what": k.what, "conserved": k.conserved, "why": k.why.to_string()})).collect::<Vec<_>>(),
         "cases": s.cases.iter().map(|c| json!({
             "active": c.active,
             "conditions": c.conditions.iter().map(|(why, e)| format!("{} >= 0 ({why})", write_plain(e))).collect::<Vec<_>>(),
@@ -110,9 +110,13 @@ fn stage(scene: &Scene, s: &StageTold) -> Value {
         })).collect::<Vec<_>>(),
         "energy": s.energy.as_ref().map(|[a, b]| json!({"before": write_plain(a), "after": write_plain(b)})),
         "bodies": bodies,
-        "assumptions": s.assumptions,
+        "assumptions": plain(&s.assumptions),
         "checks": s.checks.iter().map(check).collect::<Vec<_>>(),
     })
+}
+
+fn plain(all: &[Sentence]) -> Vec<String> {
+    all.iter().map(ToString::to_string).collect()
 }
 
 fn check(c: &Check) -> Value {

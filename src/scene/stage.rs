@@ -151,6 +151,21 @@ pub struct StoryQuestion {
     pub ask: StoryAsk,
 }
 
+impl StoryAsk {
+    /// Index of the stage that is asked about; `None` for a question about formulas alone.
+    pub fn stage(&self) -> Option<usize> {
+        match self {
+            StoryAsk::Quantity { stage, .. }
+            | StoryAsk::Reaction { stage, .. }
+            | StoryAsk::AngularMomentum { stage, .. }
+            | StoryAsk::Impulsive { stage }
+            | StoryAsk::Describe { stage }
+            | StoryAsk::Missing { stage } => Some(*stage),
+            _ => None,
+        }
+    }
+}
+
 /// The kinds of question about a story. Formulas may hold names of earlier answers.
 #[derive(Clone, Debug)]
 pub enum StoryAsk {

@@ -5,6 +5,7 @@
 //! [`Claim`] of a [`Step`], so that `check` can put exact numbers into both sides. This module knows no output format.
 
 mod answers;
+mod asked;
 mod balance;
 mod block;
 mod eliminate;
@@ -13,6 +14,8 @@ mod results;
 mod words;
 
 use std::collections::BTreeMap;
+
+pub use asked::{answered, full_sentence, known, sentence};
 
 use crate::algebra::Field;
 use crate::derive::{self, Derivation, Form, Reduction};

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::calc::{is_zero, tidy};
 use super::{Answer, Case, Refused, StageTold, Told, integrate, motion, optimum, threshold, words};
+use super::{Sentence, sentence::sentence};
 use crate::derive::{self, Form};
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
@@ -30,11 +31,7 @@ pub(super) fn all(
     let mut known = Known::new();
     for question in &story.questions {
         let new = one(scene, story, &stages, question, &known, &answers)?;
-        for answer in &new {
-            if let Some(formula) = &answer.formula {
-                known.insert(Symbol::from(answer.name.as_str()), formula.clone());
-            }
-        }
+        remember(&new, &mut known);
         answers.extend(new);
     }
     let unused = unused(scene, &answers);
@@ -44,6 +41,40 @@ pub(super) fn all(
         readings: story.readings.clone(),
         unused,
     })
+}
+
+/// Answers questions about formulas alone, in their order: values, thresholds, largest values, limits, identities and words.
+/// `known` holds the answers found before; no stage is needed, and a question about one is refused.
+pub fn about(
+    scene: &Scene,
+    questions: &[StoryQuestion],
+    known: &BTreeMap<Symbol, Expr>,
+) -> Result<Vec<Answer>, Refused> {
+    let mut known = known.clone();
+    let mut answers: Vec<Answer> = Vec::new();
+    let story = Story::default();
+    for question in questions {
+        if question.ask.stage().is_some() {
+            return Err(Refused {
+                at: format!("question `{}`", question.name),
+                reason: String::from("it asks about a stage, and there are none"),
+                hint: String::from("add \"stages\", or ask about a formula"),
+            });
+        }
+        let new = one(scene, &story, &[], question, &known, &answers)?;
+        remember(&new, &mut known);
+        answers.extend(new);
+    }
+    Ok(answers)
+}
+
+/// Later formulas may use the answers by name.
+fn remember(answers: &[Answer], known: &mut Known) {
+    for answer in answers {
+        if let Some(formula) = &answer.formula {
+            known.insert(Symbol::from(answer.name.as_str()), formula.clone());
+        }
+    }
 }
 
 /// An answer without content yet.
@@ -60,6 +91,8 @@ fn blank(question: &StoryQuestion, name: &str, words: impl Into<String>) -> Answ
         formula: None,
         range: Vec::new(),
         equation: None,
+        stated: None,
+        put_in: Vec::new(),
         text: Vec::new(),
         dimension: Dimension::none(),
         assumptions: Vec::new(),
@@ -169,6 +202,7 @@ fn one(
                 }
             }
             out.text.extend(with_words(with));
+            out.stated = Some((left.clone(), *relation, right.clone()));
             threshold::fill(&mut out, parameter, &left, *relation, &right, scene);
             out.checks.extend(out.formula.as_ref().and_then(|value| {
                 tipping(story, stages, &(&left - &right), parameter, value, domains)
@@ -211,13 +245,9 @@ fn one(
             out.checks.push(identity(&left, &right, domains));
             out.dimension = dimension_of(scene, &left, name)?;
             out.text.push(match out.checks[0].holds {
-                Some(true) => format!("{statement}: both are {}", write_plain(&left)),
-                Some(false) => format!(
-                    "{statement} does not hold: {} against {}",
-                    write_plain(&left),
-                    write_plain(&right)
-                ),
-                None => format!("{statement} could not be decided"),
+                Some(true) => sentence![statement, ": both are ", &left],
+                Some(false) => sentence![statement, " does not hold: ", &left, " against ", &right],
+                None => sentence![statement, " could not be decided"],
             });
             out.equation = Some((left, right));
             out
@@ -301,7 +331,7 @@ fn one(
         }
         StoryAsk::Remark(words) => {
             let mut out = blank(question, name, "words of the scene's author, not derived");
-            out.text.push(words.clone());
+            out.text.push(words.into());
             out
         }
         StoryAsk::Assumed => {
@@ -318,9 +348,9 @@ fn one(
                 .collect();
             let unused = unused(scene, &asked);
             out.text.push(if unused.is_empty() {
-                format!("`{of}` needs all of the data")
+                sentence!["`", of, "` needs all of the data"]
             } else {
-                format!("`{of}` does not need {}", unused.join(", "))
+                sentence!["`", of, "` does not need ", unused.join(", ")]
             });
             out
         }
@@ -330,9 +360,9 @@ fn one(
     Ok(vec![out])
 }
 
-fn with_words(with: &[(Symbol, Expr)]) -> Vec<String> {
+fn with_words(with: &[(Symbol, Expr)]) -> Vec<Sentence> {
     with.iter()
-        .map(|(s, v)| format!("taken at {s} = {}", write_plain(v)))
+        .map(|(s, v)| sentence!["taken at ", s, " = ", v])
         .collect()
 }
 
@@ -438,27 +468,35 @@ fn of_case(question: &StoryQuestion, case: &Case, number: Option<usize>) -> Vec<
             }
             Form::Matrix(_) => a
                 .text
-                .push(String::from("a matrix; ask it of the impact by itself")),
+                .push(Sentence::words("a matrix; ask it of the impact by itself")),
             Form::Open(unknowns) => {
                 let names: Vec<&str> = unknowns
                     .iter()
                     .map(|u| case.derivation.names.plain(*u))
                     .collect();
                 a.text
-                    .push(format!("not determined: it hangs on {}", names.join(", ")));
+                    .push(sentence!["not determined: it hangs on ", names.join(", ")]);
             }
         }
         for (name, value) in &case.handed {
-            a.text.push(format!(
-                "derived and checked for any {name}, then {name} = {} put in",
-                write_plain(value)
-            ));
+            a.text.push(sentence![
+                "derived and checked for any ",
+                name,
+                ", then ",
+                name,
+                " = ",
+                value,
+                " put in"
+            ]);
         }
-        a.assumptions = case.derivation.assumptions.clone();
-        a.assumptions.extend(case.proof.assumptions.iter().cloned());
+        let taken = case
+            .derivation
+            .assumptions
+            .iter()
+            .chain(&case.proof.assumptions);
+        a.assumptions.extend(taken.map(Sentence::from));
         for (why, e) in &case.conditions {
-            a.assumptions
-                .push(format!("{} ≥ 0 ({why})", write_plain(e)));
+            a.assumptions.push(sentence![e, " ≥ 0 (", why, ")"]);
         }
         a.checks = case
             .proof
@@ -476,13 +514,12 @@ fn of_case(question: &StoryQuestion, case: &Case, number: Option<usize>) -> Vec<
             a.name = format!("{}_case{}", question.name, i + 1);
         }
         a.formula = Some(Expr::zero());
-        a.text.push(format!(
-            "nothing is transmitted there: {}",
+        a.text.push(sentence![
+            "nothing is transmitted there: ",
             words::active(case)
-        ));
+        ]);
         for (why, e) in &case.conditions {
-            a.assumptions
-                .push(format!("{} ≥ 0 ({why})", write_plain(e)));
+            a.assumptions.push(sentence![e, " ≥ 0 (", why, ")"]);
         }
         a.dimension = Dimension::new(1, 1, -1);
         out.push(a);

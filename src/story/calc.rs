@@ -7,10 +7,10 @@ use std::collections::BTreeMap;
 
 use num_integer::Integer;
 
+use super::{Sentence, sentence::sentence};
 use crate::algebra::{Element, Field, Powers, Sign, Stop};
 use crate::domain::{Domain, Domains, roles, samples};
 use crate::expr::{Expr, Node, Symbol};
-use crate::formula::write_plain;
 use crate::interval::{Interval, Outcome, evaluate};
 
 /// Points at which a sign that could not be proved is looked at.
@@ -148,7 +148,7 @@ pub struct Root {
     /// Whether the expression with the value put in is identically zero.
     pub proved: bool,
     /// What must hold for it to lie within the domain, where that is not sure.
-    pub given: Vec<String>,
+    pub given: Vec<Sentence>,
 }
 
 /// All values of a symbol within its domain at which an expression is zero.
@@ -157,7 +157,7 @@ pub struct Roots {
     /// Those within the domain.
     pub inside: Vec<Root>,
     /// The others, with the reason.
-    pub discarded: Vec<String>,
+    pub discarded: Vec<Sentence>,
     /// Coefficients, ascending, of a factor of higher degree than closed forms are given for.
     pub open: Option<Vec<Expr>>,
 }
@@ -210,7 +210,7 @@ pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unso
             });
         } else {
             out.discarded
-                .push(format!("{symbol} = 0, outside {}", domain.words(symbol)));
+                .push(sentence![symbol, " = 0, outside ", within(&domain, symbol)]);
         }
     }
     for coefficients in factors {
@@ -275,6 +275,16 @@ fn tidied(field: &mut Field, e: &Expr) -> Result<Expr, Unsolved> {
     }
 }
 
+/// The domain as a sentence, such as `x > 0`.
+fn within(domain: &Domain, symbol: &Symbol) -> Sentence {
+    let words = domain.words("\u{1}");
+    let around: Vec<Sentence> = words.split('\u{1}').map(Sentence::from).collect();
+    match around.as_slice() {
+        [before, after] => sentence![before, symbol, after],
+        _ => words.into(),
+    }
+}
+
 /// Keeps a candidate, or says why not.
 fn take(
     e: &Expr,
@@ -285,12 +295,12 @@ fn take(
     domains: &Domains,
     out: &mut Roots,
 ) {
-    let words = format!("{symbol} = {}", write_plain(&value));
-    let mut given: Vec<String> = Vec::new();
+    let words = sentence![symbol, " = ", &value];
+    let mut given: Vec<Sentence> = Vec::new();
     let mut probe = Field::new(domains);
     probe.prepare([&value]);
     if matches!(probe.element(&value), Err(Stop::NotReal)) {
-        out.discarded.push(format!("{words}, which is not real"));
+        out.discarded.push(sentence![words, ", which is not real"]);
         return;
     }
     for (limit, is_low) in [(&domain.low, true), (&domain.high, false)] {
@@ -306,10 +316,14 @@ fn take(
         };
         if seen == Seen::Mixed {
             let relation = if limit.open { ">" } else { "≥" };
-            given.push(format!(
-                "{} {relation} 0, so that {symbol} lies within its domain",
-                write_plain(&essential(&gap, domains))
-            ));
+            given.push(sentence![
+                &essential(&gap, domains),
+                " ",
+                relation,
+                " 0, so that ",
+                symbol,
+                " lies within its domain"
+            ]);
         }
         let how = if seen.is_proved() {
             ""
@@ -318,7 +332,7 @@ fn take(
         };
         if outside {
             out.discarded
-                .push(format!("{words}, outside {}{how}", domain.words(symbol)));
+                .push(sentence![words, ", outside ", within(domain, symbol), how]);
             return;
         }
     }
@@ -337,9 +351,10 @@ fn take(
                     proved: false,
                     given,
                 }),
-                _ => out.discarded.push(format!(
-                    "{words}, brought in by squaring: it does not fulfil the equation"
-                )),
+                _ => out.discarded.push(sentence![
+                    words,
+                    ", brought in by squaring: it does not fulfil the equation"
+                ]),
             }
         }
         _ => out.inside.push(Root {

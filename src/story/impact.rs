@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use super::calc::{Seen, essential, is_zero, sign, tidy};
 use super::{Case, Kept, Refused, StageTold, State};
+use super::{Sentence, sentence::sentence};
 use crate::algebra::Sign;
 use crate::derive::{self, Form};
 use crate::domain::Domain;
@@ -74,9 +75,9 @@ pub(super) fn tell(
     }
     let after = cases[0].after.clone();
     let kept = kept(&base, one_sided, &cases[0]);
-    let mut assumptions = Vec::new();
+    let mut assumptions: Vec<Sentence> = Vec::new();
     for (words, e) in &cases[0].conditions {
-        assumptions.push(format!("{} ≥ 0 ({words})", crate::formula::write_plain(e)));
+        assumptions.push(sentence![e, " ≥ 0 (", words, ")"]);
     }
     let checks = cases[0].proof.scene.clone();
     Ok(StageTold {
@@ -376,16 +377,18 @@ fn kept(scene: &Scene, one_sided: &[OneSided], case: &Case) -> Vec<Kept> {
         _ => Kept {
             what: "momentum".into(),
             conserved: false,
-            why: format!("an impulse from outside acts at {}", names.join(", ")),
+            why: sentence!["an impulse from outside acts at ", names.join(", ")],
         },
     });
     if let [(name, _)] = outside.as_slice() {
         out.push(Kept {
             what: format!("angular momentum about {name}"),
             conserved: true,
-            why: format!(
-                "the only impulse from outside acts at `{name}` and has no moment about it"
-            ),
+            why: sentence![
+                "the only impulse from outside acts at `",
+                name,
+                "` and has no moment about it"
+            ],
         });
     }
     if let Some(closed) = &case.value(ENERGY) {
@@ -399,10 +402,7 @@ fn kept(scene: &Scene, one_sided: &[OneSided], case: &Case) -> Vec<Kept> {
             Kept {
                 what: "kinetic energy".into(),
                 conserved: false,
-                why: format!(
-                    "the loss comes out as {}",
-                    crate::formula::write_plain(closed)
-                ),
+                why: sentence!["the loss comes out as ", closed],
             }
         });
     }

@@ -11,6 +11,7 @@ mod integrate;
 mod motion;
 mod optimum;
 mod roots;
+mod sentence;
 mod sheet;
 mod threshold;
 mod words;
@@ -18,6 +19,8 @@ mod words;
 use std::collections::BTreeMap;
 use std::fmt;
 
+pub use answer::about;
+pub use sentence::{Piece, Sentence};
 pub use sheet::{impact, sheet};
 
 use crate::derive::{Derivation, Stop};
@@ -46,7 +49,7 @@ pub struct Kept {
     /// Whether it is the same at the end.
     pub conserved: bool,
     /// Why, or why not.
-    pub why: String,
+    pub why: Sentence,
 }
 
 /// One outcome of an impact with one-sided supports.
@@ -88,9 +91,9 @@ pub struct StageTold {
     /// The same at the end, put together from velocity and spin.
     pub kinetic: Option<Expr>,
     /// What happens, in words.
-    pub words: Vec<String>,
+    pub words: Vec<Sentence>,
     /// What the stage takes for granted.
-    pub assumptions: Vec<String>,
+    pub assumptions: Vec<Sentence>,
     /// What was checked.
     pub checks: Vec<Check>,
 }
@@ -112,14 +115,18 @@ pub struct Answer {
     pub range: Vec<(Symbol, Relation, Expr)>,
     /// An equation that was proved.
     pub equation: Option<(Expr, Expr)>,
+    /// What is asked, put into parameters: an equation or inequality to be solved, or the formula that is to be largest.
+    pub stated: Option<(Expr, Relation, Expr)>,
+    /// Identities that show the answer: both sides are the same in the parameters, with the reason.
+    pub put_in: Vec<(Expr, Expr, &'static str)>,
     /// The answer in sentences.
-    pub text: Vec<String>,
+    pub text: Vec<Sentence>,
     /// Dimension of the value.
     pub dimension: Dimension,
     /// What it rests on beyond the domains.
-    pub assumptions: Vec<String>,
+    pub assumptions: Vec<Sentence>,
     /// Solutions that were discarded, with the reason.
-    pub discarded: Vec<String>,
+    pub discarded: Vec<Sentence>,
     /// What was checked.
     pub checks: Vec<Check>,
 }

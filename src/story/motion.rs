@@ -6,6 +6,7 @@
 use super::calc::Seen;
 use super::calc::{is_zero, sign, tidy};
 use super::{Kept, Refused, StageTold, State, integrate};
+use super::{Sentence, sentence::sentence};
 use crate::algebra::Sign;
 use crate::domain::Domains;
 use crate::expr::{Expr, Vector, dot, minus};
@@ -80,7 +81,7 @@ pub(super) fn sense(
     stage: &Stage,
     spin: &Expr,
     turn: &Turn,
-) -> Result<(i64, Option<String>), Refused> {
+) -> Result<(i64, Option<Sentence>), Refused> {
     let domains = &stage.scene.domains;
     let body = &stage.scene.bodies[turn.body].name;
     let begins = sign(spin, domains);
@@ -131,7 +132,7 @@ pub(super) fn sense(
             }
         }
         // A spin of either sign keeps it: the end is told for a positive one.
-        (None, None) => Ok((1, Some(format!("`{body}` turns counterclockwise")))),
+        (None, None) => Ok((1, Some(sentence!["`", body, "` turns counterclockwise"]))),
     }
 }
 
@@ -196,7 +197,8 @@ pub(super) fn turn(stage: &Stage, before: State, turn: &Turn) -> Result<StageTol
         ));
     }
     let (way, assumed) = sense(stage, &spin, turn)?;
-    let mut assumptions: Vec<String> = hurdle(stage, turn, &r, &start, way)?.into_iter().collect();
+    let mut assumptions: Vec<Sentence> =
+        hurdle(stage, turn, &r, &start, way)?.into_iter().collect();
     let spin_end = if work.is_zero() {
         spin.clone()
     } else {
@@ -252,11 +254,13 @@ pub(super) fn turn(stage: &Stage, before: State, turn: &Turn) -> Result<StageTol
     out.kinetic = Some(half(&(&inertia * &out.after.spin[turn.body].powi(2))));
     out.energy = Some([start, end.clone()]);
     if !matches!(reaches, Seen::Proved(s) if s.is_not_negative()) && !work.is_zero() {
-        assumptions.push(format!(
-            "for what is told of the end of `{}`: {} ≥ 0, so that it gets there",
-            stage.name,
-            crate::formula::write_plain(&super::calc::essential(&end, domains))
-        ));
+        assumptions.push(sentence![
+            "for what is told of the end of `",
+            &stage.name,
+            "`: ",
+            &super::calc::essential(&end, domains),
+            " ≥ 0, so that it gets there"
+        ]);
     }
     out.assumptions = assumptions;
     out.checks.extend(integrate::turn(stage, &out, turn, way));
@@ -271,15 +275,16 @@ fn hurdle(
     r: &Vector,
     start: &Expr,
     way: i64,
-) -> Result<Option<String>, Refused> {
+) -> Result<Option<Sentence>, Refused> {
     let (Until::By(by), Some(g)) = (&turn.until, &turn.gravity) else {
         return Ok(None);
     };
     if turn.torque.is_some() {
-        return Ok(Some(format!(
-            "the body does not come to rest on the way through `{}`",
-            stage.name
-        )));
+        return Ok(Some(sentence![
+            "the body does not come to rest on the way through `",
+            &stage.name,
+            "`"
+        ]));
     }
     let passes = integrate::points(stage, &[&r[0], &r[1], by], 12)
         .iter()
@@ -308,12 +313,15 @@ fn hurdle(
             ),
             "end the stage before, or give it more energy",
         )),
-        _ => Ok(Some(format!(
-            "where the way through `{}` leads over its highest place, {} ≥ 0, so that `{}` gets over it",
-            stage.name,
-            crate::formula::write_plain(&super::calc::essential(&left, &stage.scene.domains)),
-            body.name
-        ))),
+        _ => Ok(Some(sentence![
+            "where the way through `",
+            &stage.name,
+            "` leads over its highest place, ",
+            &super::calc::essential(&left, &stage.scene.domains),
+            " ≥ 0, so that `",
+            &body.name,
+            "` gets over it"
+        ])),
     }
 }
 
@@ -490,7 +498,7 @@ pub(super) fn wind(stage: &Stage, before: State, wind: &Wind) -> Result<StageTol
         ),
     ];
     out.energy = Some([energy.clone(), energy]);
-    out.assumptions = vec![String::from(
+    out.assumptions = vec![Sentence::words(
         "the pole is thin against the rope, and the axes at the end are turned along the rope",
     )];
     out.checks

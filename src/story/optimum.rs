@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use super::calc::{Unsolved, essential, sign, solve, tidy};
 use super::{Answer, Refused};
+use super::{Sentence, sentence::sentence};
 use crate::algebra::Field;
 use crate::domain::{Domain, Domains};
 use crate::expr::{Expr, Node, Symbol};
@@ -39,7 +40,7 @@ pub(super) fn maximum(
     let plays = |s: &Symbol| !tidy(&of.derivative(s), &domains).is_ok_and(|d| d.is_zero());
     let idle: Vec<&Symbol> = over.iter().filter(|s| !plays(s)).collect();
     for s in &idle {
-        out.text.push(format!("{s} plays no part"));
+        out.text.push(sentence![*s, " plays no part"]);
     }
     let free: Vec<Symbol> = over.iter().filter(|s| !idle.contains(s)).cloned().collect();
     let (reduced, variable, combination) = match free.as_slice() {
@@ -68,10 +69,8 @@ pub(super) fn maximum(
             }
             let combination = tidy(&(&Expr::symbol(p) * &Expr::symbol(q).power(k)), &domains)
                 .map_err(|s| refused(&s.to_string()))?;
-            out.text.push(format!(
-                "only the combination {} matters",
-                write_plain(&combination)
-            ));
+            out.text
+                .push(sentence!["only the combination ", &combination, " matters"]);
             (reduced, joint, combination)
         }
         _ => return Err(refused("more than two parameters")),
@@ -126,7 +125,7 @@ pub(super) fn maximum(
     out.discarded = roots
         .discarded
         .iter()
-        .map(|d| d.replace(ROOT, &format!("√({words})")))
+        .map(|d| d.put_in(&BTreeMap::from([(root.clone(), combination.sqrt())])))
         .collect();
     out.dimension = super::answer::dimension_of(scene, &value, &name)?;
     let proved = if before.is_proved() && after.is_proved() {
@@ -149,14 +148,19 @@ pub(super) fn maximum(
     at.latex = format!("\\arg {}", out.latex);
     at.words = format!("{words} for which it is largest");
     at.text = vec![if free.len() == 2 {
-        format!(
-            "every pair {}, {} with {words} = {} does it: the maximisers form a curve",
-            free[0],
-            free[1],
-            write_plain(&place)
-        )
+        sentence![
+            "every pair ",
+            &free[0],
+            ", ",
+            &free[1],
+            " with ",
+            words,
+            " = ",
+            &place,
+            " does it: the maximisers form a curve"
+        ]
     } else {
-        format!("{words} = {}", write_plain(&place))
+        sentence![words, " = ", &place]
     }];
     if free.len() == 1 {
         at.range
@@ -235,11 +239,20 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
             };
             let value = Expr::from(end.value.clone());
             let value = if end.of_pi { value * Expr::pi() } else { value };
-            out.text.push(format!(
-                "the derivative by {p} does not vanish inside: the largest value is {} the bound {p} = {}",
-                if end.open { "approached at, and not reached, as the domain excludes" } else { "at" },
-                write_plain(&value)
-            ));
+            out.text.push(sentence![
+                "the derivative by ",
+                p,
+                " does not vanish inside: the largest value is ",
+                if end.open {
+                    "approached at, and not reached, as the domain excludes"
+                } else {
+                    "at"
+                },
+                " the bound ",
+                p,
+                " = ",
+                &value
+            ]);
             value
         }
         _ => {
@@ -272,11 +285,27 @@ fn at_the_rim(mut out: Answer, slope: &Expr, words: &str, domains: &Domains) -> 
         "seen at points"
     };
     out.text.push(if s.is_positive() {
-        format!("there is no largest value inside: it grows with {words} without end ({how}), so it is approached as {words} → ∞ and never reached")
+        sentence![
+            "there is no largest value inside: it grows with ",
+            words,
+            " without end (",
+            how,
+            "), so it is approached as ",
+            words,
+            " → ∞ and never reached"
+        ]
     } else if s.is_negative() {
-        format!("there is no largest value inside: it falls as {words} grows ({how}), so it is approached as {words} → 0 and not reached there")
+        sentence![
+            "there is no largest value inside: it falls as ",
+            words,
+            " grows (",
+            how,
+            "), so it is approached as ",
+            words,
+            " → 0 and not reached there"
+        ]
     } else {
-        String::from("whether there is a largest value could not be decided")
+        Sentence::words("whether there is a largest value could not be decided")
     });
     out
 }
@@ -308,8 +337,7 @@ pub(super) fn limit(
                 words: how.to_string(),
                 holds: Some(true),
             });
-            out.text
-                .push(format!("it tends to {}", write_plain(&value)));
+            out.text.push(sentence!["it tends to ", &value]);
             out.formula = Some(value);
         }
         Some((None, how)) => {
@@ -318,9 +346,9 @@ pub(super) fn limit(
                 words: how.to_string(),
                 holds: Some(true),
             });
-            out.text.push(String::from("it grows beyond all bounds"));
+            out.text.push(Sentence::words("it grows beyond all bounds"));
         }
-        None => out.text.push(String::from("the limit was not found")),
+        None => out.text.push(Sentence::words("the limit was not found")),
     }
 }
 

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 
 use super::Answer;
 use super::calc::{Roots, Seen, Unsolved, essential, sign, solve, tidy};
+use super::{Sentence, sentence::sentence};
 use crate::algebra::Sign;
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol};
@@ -31,16 +32,20 @@ pub(super) fn fill(
         Ok(roots) => roots,
         Err(Unsolved::Absent) => {
             let words = always(&gap, relation, domains);
-            out.text.push(format!("{words}; {parameter} plays no part"));
+            out.text
+                .push(sentence![words, "; ", parameter, " plays no part"]);
             return;
         }
         Err(Unsolved::Inside) => {
-            out.text
-                .push(format!("not solved: {parameter} stands inside a function"));
+            out.text.push(sentence![
+                "not solved: ",
+                parameter,
+                " stands inside a function"
+            ]);
             return;
         }
         Err(Unsolved::Limit(what)) => {
-            out.text.push(format!("not solved: {what}"));
+            out.text.push(sentence!["not solved: ", what]);
             return;
         }
     };
@@ -54,6 +59,12 @@ pub(super) fn fill(
         return;
     }
     for root in &roots.inside {
+        if root.proved {
+            let put = BTreeMap::from([(parameter.clone(), root.value.clone())]);
+            let sides = (left.substitute(&put), right.substitute(&put));
+            out.put_in
+                .push((sides.0, sides.1, "both sides with the value put in"));
+        }
         out.assumptions.extend(root.given.iter().cloned());
         out.checks.push(Check {
             kind: "identity",
@@ -79,7 +90,8 @@ pub(super) fn fill(
         if let [root] = roots.inside.as_slice() {
             out.formula = Some(root.value.clone());
         } else {
-            out.text.push(format!("{} solutions", roots.inside.len()));
+            out.text
+                .push(sentence![roots.inside.len().to_string(), " solutions"]);
         }
         return;
     }
@@ -96,15 +108,21 @@ fn sides(
     domains: &Domains,
 ) {
     let [root] = roots.inside.as_slice() else {
-        let values: Vec<String> = roots.inside.iter().map(|r| write_plain(&r.value)).collect();
+        let values: Vec<Sentence> = roots
+            .inside
+            .iter()
+            .map(|r| Sentence::from(&r.value))
+            .collect();
         for r in &roots.inside {
             out.range
                 .push((parameter.clone(), Relation::Equal, r.value.clone()));
         }
-        out.text.push(format!(
-            "the sides meet at {parameter} = {}",
-            values.join(" and at ")
-        ));
+        out.text.push(sentence![
+            "the sides meet at ",
+            parameter,
+            " = ",
+            Sentence::join(values, " and at ")
+        ]);
         return;
     };
     let value = &root.value;
@@ -162,15 +180,34 @@ fn sides(
                 ),
                 holds: proved.then_some(true),
             });
-            let only = if strict { "there the two sides are equal and it fails" } else { "there the two sides are equal and it holds" };
-            out.text.push(format!("it holds for {parameter} {} {}; {only}", relation.sign(), write_plain(value)));
+            let only = if strict {
+                "there the two sides are equal and it fails"
+            } else {
+                "there the two sides are equal and it holds"
+            };
+            out.text.push(sentence![
+                "it holds for ",
+                parameter,
+                " ",
+                relation.sign(),
+                " ",
+                value,
+                "; ",
+                only
+            ]);
         }
-        None => out.text.push(format!("the sides meet at {parameter} = {}, but do not change places there, or it could not be told", write_plain(value))),
+        None => out.text.push(sentence![
+            "the sides meet at ",
+            parameter,
+            " = ",
+            value,
+            ", but do not change places there, or it could not be told"
+        ]),
     }
 }
 
 /// Words for an inequality without a threshold.
-fn always(gap: &Expr, relation: Relation, domains: &Domains) -> String {
+fn always(gap: &Expr, relation: Relation, domains: &Domains) -> Sentence {
     let s = sign(gap, domains);
     let reason = |what: &str| {
         format!(
@@ -212,11 +249,11 @@ fn always(gap: &Expr, relation: Relation, domains: &Domains) -> String {
         " (seen at points, not proved)"
     };
     if yes {
-        format!("it always holds: {}{how}", reason(sign_words))
+        sentence!["it always holds: ", reason(sign_words), how]
     } else if no {
-        format!("it never holds: {}{how}", reason(sign_words))
+        sentence!["it never holds: ", reason(sign_words), how]
     } else {
-        format!("not decided: {}", reason(sign_words))
+        sentence!["not decided: ", reason(sign_words)]
     }
 }
 
@@ -239,9 +276,7 @@ fn isolate(out: &mut Answer, parameter: &Symbol, gap: &Expr, coefficients: &[Exp
         })
         .collect();
     let Some(numbers) = numbers else {
-        out.text.push(format!(
-            "a polynomial of degree {degree} in {parameter} has to vanish, which has no closed form here; with fractions as values of all other symbols its roots are enclosed"
-        ));
+        out.text.push(sentence!["a polynomial of degree ", degree.to_string(), " in ", parameter, " has to vanish, which has no closed form here; with fractions as values of all other symbols its roots are enclosed"]);
         return;
     };
     let domain = scene.domains.symbols.get(parameter);
@@ -253,7 +288,7 @@ fn isolate(out: &mut Answer, parameter: &Symbol, gap: &Expr, coefficients: &[Exp
             decimal(&high, 12)
         );
         if domain.is_some_and(|d| !d.contains(&low) && !d.contains(&high)) {
-            out.discarded.push(format!("{words}, outside the domain"));
+            out.discarded.push(sentence![words, ", outside the domain"]);
             continue;
         }
         // Squaring may have brought the root in: the two sides must change places across it.
@@ -265,13 +300,23 @@ fn isolate(out: &mut Answer, parameter: &Symbol, gap: &Expr, coefficients: &[Exp
         };
         match (side(&low), side(&high)) {
             (Some(a), Some(b)) if a * b <= 0.0 => {
-                out.text.push(format!("{words}: one root of degree {degree}, isolated exactly (Sturm); the sides change places there"));
+                out.text.push(sentence![
+                    words,
+                    ": one root of degree ",
+                    degree.to_string(),
+                    ", isolated exactly (Sturm); the sides change places there"
+                ]);
             }
-            _ => out.text.push(format!("{words}: one root of degree {degree}, isolated exactly (Sturm); the sides do not change places there")),
+            _ => out.text.push(sentence![
+                words,
+                ": one root of degree ",
+                degree.to_string(),
+                ", isolated exactly (Sturm); the sides do not change places there"
+            ]),
         }
     }
     if out.text.is_empty() {
-        out.text.push(String::from(
+        out.text.push(Sentence::words(
             "no real root within the domain: the sides never meet",
         ));
     }

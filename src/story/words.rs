@@ -2,10 +2,10 @@
 
 use super::calc::{essential, is_zero, sign};
 use super::{Case, StageTold};
+use super::{Sentence, sentence::sentence};
 use crate::derive;
 use crate::domain::Domains;
 use crate::expr::{Expr, minus};
-use crate::formula::write_plain;
 use crate::scene::{BlowImpulse, ContactLaw, Scene, Stage, StageKind, Story};
 
 /// Which supports act in an outcome.
@@ -20,19 +20,20 @@ pub(super) fn active(case: &Case) -> String {
     }
 }
 
+/// `a − h ≥ 0 and b ≥ 0`.
+fn conditions(case: &Case) -> Sentence {
+    let each = case.conditions.iter().map(|(_, e)| sentence![e, " ≥ 0"]);
+    Sentence::join(each, " and ")
+}
+
 /// What happens in a stage.
-pub(super) fn stage(stage: &Stage, told: &StageTold) -> Vec<String> {
+pub(super) fn stage(stage: &Stage, told: &StageTold) -> Vec<Sentence> {
     let scene = &stage.scene;
-    let mut out = Vec::new();
+    let mut out: Vec<Sentence> = Vec::new();
     match &stage.kind {
         StageKind::Impact { one_sided, .. } => {
             for case in &told.cases {
                 if told.cases.len() > 1 || !one_sided.is_empty() {
-                    let conditions: Vec<String> = case
-                        .conditions
-                        .iter()
-                        .map(|(_, e)| format!("{} ≥ 0", write_plain(e)))
-                        .collect();
                     let resting: Vec<&str> = one_sided
                         .iter()
                         .filter(|o| !case.active.contains(&o.name))
@@ -47,10 +48,10 @@ pub(super) fn stage(stage: &Stage, told: &StageTold) -> Vec<String> {
                             if resting.len() == 1 { "comes" } else { "come" }
                         )
                     };
-                    out.push(if conditions.is_empty() {
-                        format!("{}{left}, for all values in the domain", active(case))
+                    out.push(if case.conditions.is_empty() {
+                        sentence![active(case), left, ", for all values in the domain"]
                     } else {
-                        format!("where {}: {}{left}", conditions.join(" and "), active(case))
+                        sentence!["where ", conditions(case), ": ", active(case), left]
                     });
                 }
                 let moving = scene
@@ -68,16 +69,20 @@ pub(super) fn stage(stage: &Stage, told: &StageTold) -> Vec<String> {
                             domains: &scene.domains,
                             given: &given,
                         }
-                        .words(&body.name, body.is_particle()),
+                        .words(&body.name, body.is_particle())
+                        .into(),
                     );
                 }
             }
         }
         StageKind::Turn(turn) => {
             let name = &scene.bodies[turn.body].name;
-            out.push(format!(
-                "`{name}` turns about {}; {}",
-                turn.about_name,
+            out.push(sentence![
+                "`",
+                name,
+                "` turns about ",
+                &turn.about_name,
+                "; ",
                 spin_words(
                     "spin",
                     &told.before.spin[turn.body],
@@ -85,30 +90,35 @@ pub(super) fn stage(stage: &Stage, told: &StageTold) -> Vec<String> {
                     &scene.domains,
                     &[]
                 )
-            ));
+            ]);
         }
-        StageKind::Slide(slide) => out.push(format!(
-            "`{}` moves along a line through {}",
-            scene.bodies[slide.body].name,
-            write_plain(&slide.distance)
-        )),
+        StageKind::Slide(slide) => out.push(sentence![
+            "`",
+            &scene.bodies[slide.body].name,
+            "` moves along a line through ",
+            &slide.distance
+        ]),
         StageKind::Fall(fall) => {
             let name = &scene.bodies[fall.body].name;
             out.push(match &fall.height {
-                Some(h) => format!("`{name}` falls freely through {}", write_plain(h)),
-                None => format!("`{name}` moves freely"),
+                Some(h) => sentence!["`", name, "` falls freely through ", h],
+                None => sentence!["`", name, "` moves freely"],
             });
             if is_zero(&told.after.spin[fall.body], &scene.domains) == Some(false) {
-                out.push(format!(
-                    "`{name}` keeps its spin, since nothing has a moment about its center of mass"
-                ));
+                out.push(sentence![
+                    "`",
+                    name,
+                    "` keeps its spin, since nothing has a moment about its center of mass"
+                ]);
             }
         }
-        StageKind::Wind(wind) => out.push(format!(
-            "the rope winds up until {} of it is free; `{}` keeps its speed",
-            write_plain(&wind.to),
-            scene.bodies[wind.body].name
-        )),
+        StageKind::Wind(wind) => out.push(sentence![
+            "the rope winds up until ",
+            &wind.to,
+            " of it is free; `",
+            &scene.bodies[wind.body].name,
+            "` keeps its speed"
+        ]),
     }
     out
 }
@@ -227,64 +237,67 @@ fn spin_words(
 }
 
 /// Which forces have an impulse, and why; which have none.
-pub(super) fn impulsive(stage: &Stage, told: &StageTold) -> Vec<String> {
+pub(super) fn impulsive(stage: &Stage, told: &StageTold) -> Vec<Sentence> {
     let StageKind::Impact { one_sided, .. } = &stage.kind else {
-        return vec![format!(
-            "`{}` is a motion: nothing jumps, so no force has an impulse in no time",
-            stage.name
-        )];
+        return vec![sentence![
+            "`",
+            &stage.name,
+            "` is a motion: nothing jumps, so no force has an impulse in no time"
+        ]];
     };
     let scene = &stage.scene;
-    let mut out = Vec::new();
+    let mut out: Vec<Sentence> = Vec::new();
     for blow in &scene.blows {
         let size = match &blow.impulse {
-            BlowImpulse::Given(v) => format!(" ({}, {})", write_plain(&v[0]), write_plain(&v[1])),
-            BlowImpulse::Along(_) => String::new(),
+            BlowImpulse::Given([x, y]) => sentence![" (", x, ", ", y, ")"],
+            BlowImpulse::Along(_) => Sentence::default(),
         };
-        out.push(format!(
-            "`{}` is a blow: its impulse{size} is what is given, however short it lasts",
-            blow.name
-        ));
+        out.push(sentence![
+            "`",
+            &blow.name,
+            "` is a blow: its impulse",
+            size,
+            " is what is given, however short it lasts"
+        ]);
     }
     for c in &scene.contacts {
-        out.push(format!("`{}` is impulsive: the bodies are stiff there, and only a force that grows without bound as the time shrinks can change a velocity at once", c.name));
+        out.push(sentence!["`", &c.name, "` is impulsive: the bodies are stiff there, and only a force that grows without bound as the time shrinks can change a velocity at once"]);
     }
     for h in &scene.hinges {
-        out.push(format!("`{}` is impulsive: the joint cannot give way, and answers with whatever impulse keeps it together", h.name));
+        out.push(sentence!["`", &h.name, "` is impulsive: the joint cannot give way, and answers with whatever impulse keeps it together"]);
     }
     for o in one_sided {
         let verb = if o.is_string { "pull" } else { "push" };
         let mut cases = Vec::new();
         for case in &told.cases {
             let value = case.value(&format!("\u{1}{}", o.name));
-            let conditions: Vec<String> = case
-                .conditions
-                .iter()
-                .map(|(_, e)| format!("{} ≥ 0", write_plain(e)))
-                .collect();
-            let place = if conditions.is_empty() {
-                String::new()
-            } else {
-                format!(" where {}", conditions.join(" and "))
+            let size = match &value {
+                Some(v) => Sentence::from(v),
+                None => "none".into(),
             };
-            cases.push(match value {
-                Some(v) => format!("{}{place}", write_plain(&v)),
-                None => format!("none{place}"),
+            cases.push(if case.conditions.is_empty() {
+                size
+            } else {
+                sentence![size, " where ", conditions(case)]
             });
         }
-        out.push(format!("`{}` can only {verb}, and is stiff, so it is impulsive where it is needed: its impulse is {}", o.name, cases.join(", and ")));
+        out.push(sentence![
+            "`",
+            &o.name,
+            "` can only ",
+            verb,
+            ", and is stiff, so it is impulsive where it is needed: its impulse is ",
+            Sentence::join(cases, ", and ")
+        ]);
     }
     for f in &scene.forces {
-        out.push(format!(
-            "`{}` on `{}` is finite: over a contact time τ its impulse is at most its largest size times τ, which vanishes with τ; it is left out",
-            f.name, scene.bodies[f.body].name
-        ));
+        out.push(sentence!["`", &f.name, "` on `", &scene.bodies[f.body].name, "` is finite: over a contact time τ its impulse is at most its largest size times τ, which vanishes with τ; it is left out"]);
     }
     out
 }
 
 /// What the balances alone leave open, and what would close them.
-pub(super) fn missing(stage: &Stage, told: &StageTold) -> Vec<String> {
+pub(super) fn missing(stage: &Stage, told: &StageTold) -> Vec<Sentence> {
     let mut bare: Scene = stage.scene.clone();
     for (body, (v, w)) in bare
         .bodies
@@ -294,17 +307,18 @@ pub(super) fn missing(stage: &Stage, told: &StageTold) -> Vec<String> {
         body.velocity = v.clone();
         body.spin = w.clone();
     }
-    let mut out = Vec::new();
-    let mut used = Vec::new();
+    let mut out: Vec<Sentence> = Vec::new();
+    let mut used: Vec<Sentence> = Vec::new();
     for c in &mut bare.contacts {
         used.push(match &c.law {
-            ContactLaw::Sticking => format!("at `{}` the bodies stick", c.name),
-            ContactLaw::Frictionless { restitution } => format!(
-                "at `{}` there is no friction, the normal is the one given, and e = {}",
-                c.name,
-                write_plain(restitution)
-            ),
-            ContactLaw::None => format!("nothing is supposed at `{}`", c.name),
+            ContactLaw::Sticking => sentence!["at `", &c.name, "` the bodies stick"],
+            ContactLaw::Frictionless { restitution } => sentence![
+                "at `",
+                &c.name,
+                "` there is no friction, the normal is the one given, and e = ",
+                restitution
+            ],
+            ContactLaw::None => sentence!["nothing is supposed at `", &c.name, "`"],
         });
         c.law = ContactLaw::None;
         c.normal = None;
@@ -313,25 +327,27 @@ pub(super) fn missing(stage: &Stage, told: &StageTold) -> Vec<String> {
         for case in &told.cases {
             for o in one_sided {
                 used.push(if case.active.contains(&o.name) {
-                    format!(
-                        "`{}` {}",
-                        o.name,
+                    sentence![
+                        "`",
+                        &o.name,
+                        "` ",
                         if o.is_string {
                             "is taut, cannot stretch, and does not rebound"
                         } else {
                             "pushes and does not rebound"
                         }
-                    )
+                    ]
                 } else {
-                    format!(
-                        "`{}` {}",
-                        o.name,
+                    sentence![
+                        "`",
+                        &o.name,
+                        "` ",
                         if o.is_string {
                             "goes slack and has no impulse"
                         } else {
                             "is left and has no impulse"
                         }
-                    )
+                    ]
                 });
             }
         }
@@ -339,36 +355,39 @@ pub(super) fn missing(stage: &Stage, told: &StageTold) -> Vec<String> {
     let counting = match derive::count(&bare) {
         Ok(counting) => counting,
         Err(stop) => {
-            out.push(format!("not counted: {stop}"));
+            out.push(sentence!["not counted: ", stop.to_string()]);
             return out;
         }
     };
-    out.push(format!(
-        "the balances of `{}` alone are {} equations for {} unknowns, of rank {}: {} short",
-        stage.name,
-        counting.equations,
-        counting.unknowns,
-        counting.rank,
-        counting.unknowns.saturating_sub(counting.rank)
-    ));
+    out.push(
+        format!(
+            "the balances of `{}` alone are {} equations for {} unknowns, of rank {}: {} short",
+            stage.name,
+            counting.equations,
+            counting.unknowns,
+            counting.rank,
+            counting.unknowns.saturating_sub(counting.rank)
+        )
+        .into(),
+    );
     out.extend(
         counting
             .closing_laws
             .iter()
-            .map(|law| format!("missing, for instance: {law}")),
+            .map(|law| sentence!["missing, for instance: ", law]),
     );
-    out.extend(used.into_iter().map(|u| format!("supposed here: {u}")));
+    out.extend(used.into_iter().map(|u| sentence!["supposed here: ", u]));
     out
 }
 
 /// Everything the story takes for granted.
-pub(super) fn assumed(story: &Story, stages: &[StageTold]) -> Vec<String> {
-    let mut out = story.readings.clone();
+pub(super) fn assumed(story: &Story, stages: &[StageTold]) -> Vec<Sentence> {
+    let mut out: Vec<Sentence> = story.readings.iter().map(Sentence::from).collect();
     for (stage, told) in story.stages.iter().zip(stages) {
         match &stage.kind {
-            StageKind::Impact { .. } => out.push(format!("`{}` takes no time: nothing moves while velocities jump, and finite forces have no impulse", stage.name)),
-            StageKind::Turn(turn) => out.push(format!("in `{}` the body is rigid, and {} is frictionless and does not move", stage.name, turn.about_name)),
-            StageKind::Fall(_) => out.push(format!("in `{}` there is no drag", stage.name)),
+            StageKind::Impact { .. } => out.push(sentence!["`", &stage.name, "` takes no time: nothing moves while velocities jump, and finite forces have no impulse"]),
+            StageKind::Turn(turn) => out.push(sentence!["in `", &stage.name, "` the body is rigid, and ", &turn.about_name, " is frictionless and does not move"]),
+            StageKind::Fall(_) => out.push(sentence!["in `", &stage.name, "` there is no drag"]),
             StageKind::Slide(_) | StageKind::Wind(_) => {}
         }
         out.extend(told.assumptions.iter().cloned());

@@ -1,0 +1,335 @@
+//! What is asked beyond the motion: thresholds, largest values, limits, identities, words. One function turns an answer into
+//! the section of a worked solution, whether the scene has stages or not.
+
+use super::words::{self, say};
+use super::{Claim, Inline, Line, Math, Meaning, Part, Section, Solution, Step};
+use crate::expr::Expr;
+use crate::formula::Relation;
+use crate::scene::{Scene, StoryAsk};
+use crate::story::{Answer, Piece, Sentence};
+use crate::verify::Check;
+
+/// Adds a section with the answers to one question, in the order they were found.
+pub fn answered(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answers: &[Answer]) {
+    let Some(first) = answers.first() else {
+        return;
+    };
+    solution.sections.push(Section {
+        heading: heading(ask, first),
+        parts: Vec::new(),
+    });
+    for answer in answers {
+        body(solution, scene, ask, answer);
+    }
+}
+
+/// A sentence with its formulas set, and what stands around a relation in one piece with it.
+pub fn sentence(text: &Sentence) -> Vec<Inline> {
+    let mut out: Vec<Inline> = Vec::new();
+    let mut relation = None;
+    for piece in &text.0 {
+        match piece {
+            Piece::Words(words) => {
+                relation = relation_in(words);
+                match (relation, out.last_mut()) {
+                    (Some(op), Some(Inline::Math(math))) => math.push(Math::Op(op)),
+                    _ => {
+                        relation = None;
+                        out.push(say(words.clone()));
+                    }
+                }
+            }
+            Piece::Formula(e) => match (relation.take(), out.last_mut()) {
+                (Some(_), Some(Inline::Math(math))) => math.push(Math::Expr(e.clone())),
+                _ => out.push(words::formula(e)),
+            },
+        }
+    }
+    // A relation that words follow is words itself.
+    if let (Some(op), Some(Inline::Math(math))) = (relation, out.last_mut()) {
+        math.pop();
+        out.push(say(format!(" {op} ")));
+    }
+    out
+}
+
+/// The relation that these words are, if they are one and nothing else.
+fn relation_in(words: &str) -> Option<&'static str> {
+    ["=", "≤", "≥", "<", ">", "≠"]
+        .into_iter()
+        .find(|op| words.trim() == *op)
+}
+
+/// A sentence that begins with a capital and ends with a full stop.
+pub fn full_sentence(text: &Sentence) -> Vec<Inline> {
+    let mut out = sentence(text);
+    if let Some(Inline::Text(first)) = out.first_mut() {
+        *first = words::capital(first);
+    }
+    match out.last_mut() {
+        Some(Inline::Text(last)) if last.ends_with(['.', ':', '?', '!']) => {}
+        Some(Inline::Text(last)) => last.push('.'),
+        _ => out.push(say(".")),
+    }
+    out
+}
+
+/// What is asked, in a line.
+fn heading(ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
+    let math = |e: &Expr| words::formula(e);
+    let related = |left: &Expr, relation: Relation, right: &Expr| {
+        Inline::Math(vec![
+            Math::Expr(left.clone()),
+            Math::Op(relation.sign()),
+            Math::Expr(right.clone()),
+        ])
+    };
+    match ask {
+        StoryAsk::Value { formula, .. } => vec![say("Value of "), math(formula)],
+        StoryAsk::Condition {
+            parameter,
+            left,
+            relation: Relation::Equal,
+            right,
+            ..
+        } => vec![
+            say("For which "),
+            math(&Expr::symbol(parameter)),
+            say(" is "),
+            related(left, Relation::Equal, right),
+            say("?"),
+        ],
+        StoryAsk::Condition {
+            parameter,
+            left,
+            relation,
+            right,
+            ..
+        } => vec![
+            say("For which "),
+            math(&Expr::symbol(parameter)),
+            say(" does "),
+            related(left, *relation, right),
+            say(" hold?"),
+        ],
+        StoryAsk::Maximum { of, over } => {
+            let mut out = vec![say("Largest value of "), math(of), say(" over ")];
+            for (i, p) in over.iter().enumerate() {
+                if i > 0 {
+                    out.push(say(" and "));
+                }
+                out.push(math(&Expr::symbol(p)));
+            }
+            out
+        }
+        StoryAsk::Limit { of, parameter, to } => {
+            let p = Math::Expr(Expr::symbol(parameter));
+            let end = match to {
+                Some(to) => Math::Expr(to.clone()),
+                None => Math::Op("∞"),
+            };
+            vec![
+                say("Limit of "),
+                math(of),
+                say(" as "),
+                Inline::Math(vec![p, Math::Op("→"), end]),
+            ]
+        }
+        StoryAsk::Show { left, right } => {
+            vec![say("To show: "), related(left, Relation::Equal, right)]
+        }
+        _ => vec![say(words::capital(&answer.words.replace('`', "")))],
+    }
+}
+
+fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer) {
+    let symbol = Expr::symbol(&answer.name);
+    let name = crate::expr::Symbol::from(answer.name.as_str());
+    let parameter = scene.parameters.iter().any(|p| *p.name == *answer.name);
+    let fresh = !parameter && !solution.meanings.contains_key(&name);
+    if fresh && words::is_safe_latex(&answer.latex) {
+        solution.names.insert(name.clone(), answer.latex.clone());
+    }
+    let mut lines: Vec<Line> = Vec::new();
+    if let Some((left, relation, right)) = &answer.stated {
+        lines.push(Line {
+            math: vec![
+                Math::Expr(left.clone()),
+                Math::Op(relation.sign()),
+                Math::Expr(right.clone()),
+            ],
+            step: None,
+        });
+    }
+    let shown: Vec<Claim> = answer
+        .put_in
+        .iter()
+        .map(|(left, right, _)| Claim {
+            left: left.clone(),
+            right: right.clone(),
+        })
+        .collect();
+    let reason = answer.put_in.first().map_or("what is asked", |p| p.2);
+    let shown = (!shown.is_empty()).then(|| add_step(solution, shown, reason));
+    for (p, relation, value) in &answer.range {
+        let mut math = vec![
+            Math::Expr(Expr::symbol(p)),
+            Math::Op(relation.sign()),
+            Math::Expr(value.clone()),
+        ];
+        if !lines.is_empty() {
+            math.insert(0, Math::Op("⇒"));
+        }
+        lines.push(Line {
+            math,
+            step: shown.clone(),
+        });
+    }
+    if let Some(formula) = &answer.formula {
+        // A parameter is what is asked for, and its value stands above; the name of the question is for later formulas.
+        let defined = if parameter {
+            shown.clone()
+        } else {
+            let claim = Claim {
+                left: symbol.clone(),
+                right: formula.clone(),
+            };
+            let id = add_step(solution, vec![claim], &answer.words);
+            if fresh {
+                solution.meanings.insert(name.clone(), Meaning::Defined);
+                if let Some(step) = solution.steps.last_mut() {
+                    step.defines = Some(name);
+                }
+            }
+            Some(id)
+        };
+        if answer.range.is_empty() {
+            lines.push(Line {
+                math: vec![
+                    Math::Expr(symbol.clone()),
+                    Math::Op("="),
+                    Math::Expr(formula.clone()),
+                ],
+                step: defined,
+            });
+        }
+    }
+    if let Some((left, right)) = &answer.equation
+        && answer.stated.is_none()
+    {
+        let claim = Claim {
+            left: left.clone(),
+            right: right.clone(),
+        };
+        let proved = answer.checks.iter().all(|c| c.holds == Some(true));
+        let step = (proved && matches!(ask, StoryAsk::Show { .. }))
+            .then(|| add_step(solution, vec![claim], "an identity"));
+        lines.push(Line {
+            math: vec![
+                Math::Expr(left.clone()),
+                Math::Op("="),
+                Math::Expr(right.clone()),
+            ],
+            step,
+        });
+    }
+    let part = |solution: &mut Solution, part: Part| {
+        if let Some(section) = solution.sections.last_mut() {
+            section.parts.push(part);
+        }
+    };
+    if !lines.is_empty() {
+        part(solution, Part::Display(lines));
+    }
+    if let Some(value) = number(scene, answer) {
+        part(
+            solution,
+            Part::Text(vec![
+                say("In numbers: "),
+                words::formula(&symbol),
+                say(value),
+            ]),
+        );
+    }
+    match answer.text.as_slice() {
+        [] => {}
+        [one] => part(solution, Part::Text(full_sentence(one))),
+        all => part(
+            solution,
+            Part::List(all.iter().map(full_sentence).collect()),
+        ),
+    }
+    if !answer.discarded.is_empty() {
+        let mut text = vec![say("Discarded: ")];
+        text.extend(sentence(&Sentence::join(answer.discarded.clone(), "; ")));
+        text.push(say("."));
+        part(solution, Part::Text(text));
+    }
+    if !answer.assumptions.is_empty() {
+        let mut text = vec![say("Given that ")];
+        text.extend(sentence(&Sentence::join(answer.assumptions.clone(), "; ")));
+        text.push(say("."));
+        part(solution, Part::Text(text));
+    }
+    if let Some(words) = known(&answer.checks) {
+        part(solution, Part::Text(vec![say(words)]));
+    }
+}
+
+/// Records a step and gives its id.
+pub(super) fn add_step(solution: &mut Solution, after: Vec<Claim>, reason: &str) -> String {
+    let id = (solution.steps.len() + 1).to_string();
+    solution.steps.push(Step {
+        id: id.clone(),
+        before: Vec::new(),
+        after,
+        reason: reason.to_string(),
+        assumptions: Vec::new(),
+        substeps: Vec::new(),
+        defines: None,
+    });
+    id
+}
+
+/// ` = 1.2 m/s` where the scene gives every value.
+fn number(scene: &Scene, answer: &Answer) -> Option<String> {
+    let formula = answer.formula.as_ref()?;
+    if formula.symbols().is_empty() && formula.as_number().is_some() {
+        return None;
+    }
+    let values = scene
+        .parameters
+        .iter()
+        .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
+        .collect();
+    let value = formula
+        .substitute(&values)
+        .evaluate(&crate::expr::Point::<f64>::default())?;
+    let unit = words::unit(&answer.dimension.si());
+    Some(format!(" = {} {unit}.", words::digits(value)).replace(" .", "."))
+}
+
+/// How an answer is known: what was checked, what failed, what stayed open.
+pub fn known(checks: &[Check]) -> Option<String> {
+    let list = |holds: Option<bool>| {
+        let mut all: Vec<&str> = checks
+            .iter()
+            .filter(|c| c.holds == holds)
+            .map(|c| c.words.as_str())
+            .collect();
+        all.dedup();
+        all.join("; ")
+    };
+    let mut out = Vec::new();
+    for (holds, lead) in [
+        (Some(true), "Checked"),
+        (None, "Not proved"),
+        (Some(false), "A check failed, do not use this"),
+    ] {
+        let words = list(holds);
+        if !words.is_empty() {
+            out.push(format!("{lead}: {words}."));
+        }
+    }
+    (!out.is_empty()).then(|| out.join(" "))
+}

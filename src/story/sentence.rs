@@ -1,0 +1,108 @@
+//! A sentence with formulas in it, so that every format can typeset them.
+//!
+//! In: words and expressions. Out: pieces in order; as plain text the formulas are written the way people type them.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use crate::expr::{Expr, Symbol};
+use crate::formula::write_plain;
+
+/// Words or a formula.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Piece {
+    /// Words.
+    Words(String),
+    /// A formula.
+    Formula(Expr),
+}
+
+/// Pieces in order.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Sentence(pub Vec<Piece>);
+
+impl fmt::Display for Sentence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for piece in &self.0 {
+            match piece {
+                Piece::Words(words) => f.write_str(words)?,
+                Piece::Formula(e) => f.write_str(&write_plain(e))?,
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Sentence {
+    /// Words without a formula.
+    pub fn words(words: impl Into<String>) -> Sentence {
+        Sentence(vec![Piece::Words(words.into())])
+    }
+
+    /// The sentence with values put in for symbols.
+    pub fn put_in(&self, values: &BTreeMap<Symbol, Expr>) -> Sentence {
+        let put = |piece: &Piece| match piece {
+            Piece::Words(words) => Piece::Words(words.clone()),
+            Piece::Formula(e) => Piece::Formula(e.substitute(values)),
+        };
+        Sentence(self.0.iter().map(put).collect())
+    }
+
+    /// Sentences with something between every two.
+    pub fn join(all: impl IntoIterator<Item = Sentence>, between: &str) -> Sentence {
+        let mut out = Sentence::default();
+        for (i, one) in all.into_iter().enumerate() {
+            if i > 0 {
+                out.0.push(Piece::Words(between.to_string()));
+            }
+            out.0.extend(one.0);
+        }
+        out
+    }
+}
+
+impl From<&str> for Sentence {
+    fn from(words: &str) -> Sentence {
+        Sentence::words(words)
+    }
+}
+
+impl From<String> for Sentence {
+    fn from(words: String) -> Sentence {
+        Sentence::words(words)
+    }
+}
+
+impl From<&String> for Sentence {
+    fn from(words: &String) -> Sentence {
+        Sentence::words(words)
+    }
+}
+
+impl From<&Expr> for Sentence {
+    fn from(e: &Expr) -> Sentence {
+        Sentence(vec![Piece::Formula(e.clone())])
+    }
+}
+
+impl From<&Symbol> for Sentence {
+    fn from(name: &Symbol) -> Sentence {
+        Sentence::from(&Expr::symbol(name))
+    }
+}
+
+impl From<&Sentence> for Sentence {
+    fn from(other: &Sentence) -> Sentence {
+        other.clone()
+    }
+}
+
+/// A sentence from words, formulas and other sentences, in order: `sentence!["it holds for ", &h, " ≤ ", &limit]`.
+macro_rules! sentence {
+    ($($piece:expr),* $(,)?) => {
+        $crate::story::Sentence(
+            [$($crate::story::Sentence::from($piece).0),*].concat()
+        )
+    };
+}
+pub(crate) use sentence;
