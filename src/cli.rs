@@ -234,10 +234,10 @@ fn solve_command(
         let answers = numeric::answers(&scene, &point, numeric::solve_exact).map_err(no_answer)?;
         render::exact_numbers(answers)
     } else {
-        let point = numeric::values(&scene).map_err(no_point)?;
-        render::double_numbers(
-            numeric::answers(&scene, &point, numeric::solve_f64).map_err(no_answer)?,
-        )
+        render::double_numbers(numeric::doubles(&scene).map_err(|reason| match reason {
+            numeric::NoDoubles::NoPoint(reason) => no_point(reason),
+            numeric::NoDoubles::NoAnswer(reason) => no_answer(reason),
+        })?)
     };
     print(&match format {
         Format::Text => render::text::numbers(&scene, &numbers),

@@ -37,8 +37,9 @@ pub enum Correct {
     Rounded(f64, How),
     /// The laws leave it open.
     Open,
-    /// Irrational, and too close to a middle between two doubles or to zero for the widest enclosure tried.
-    Undecided,
+    /// Irrational, and too close to a middle between two doubles or to zero for the widest enclosure tried: the middle of
+    /// that enclosure, zero where it holds zero.
+    Undecided(f64),
 }
 
 /// Correctly rounded numbers of a scene.
@@ -53,7 +54,7 @@ pub struct CorrectAnswers {
 impl CorrectAnswers {
     /// Whether nothing was left undecided.
     pub fn is_complete(&self) -> bool {
-        let decided = |c: &Correct| *c != Correct::Undecided;
+        let decided = |c: &Correct| !matches!(c, Correct::Undecided(_));
         self.unknowns.iter().all(|(_, c)| decided(c))
             && self
                 .answers
@@ -77,8 +78,16 @@ pub enum NoCorrect {
 pub fn correct(scene: &Scene) -> Result<CorrectAnswers, NoCorrect> {
     let ball =
         enclosed(scene, |e| e.evaluate(&Point::<Ball>::default())).map_err(NoCorrect::NoPoint)?;
-    let mut best =
-        ball.and_then(|at| attempt(scene, &at, unique, |v: &Ball| v.rounded(), How::Ball));
+    let mut best = ball.and_then(|at| {
+        attempt(
+            scene,
+            &at,
+            unique,
+            Ball::rounded,
+            |v| v.middle.high,
+            How::Ball,
+        )
+    });
     if best.as_ref().is_some_and(CorrectAnswers::is_complete) {
         return best.ok_or(NoCorrect::Undecided);
     }
@@ -93,6 +102,7 @@ pub fn correct(scene: &Scene) -> Result<CorrectAnswers, NoCorrect> {
                     &at,
                     |_| Some(solution.clone()),
                     |v| Some(to_f64(v)),
+                    to_f64,
                     How::Exact,
                 );
                 if let Some(exact) = exact {
@@ -108,7 +118,7 @@ pub fn correct(scene: &Scene) -> Result<CorrectAnswers, NoCorrect> {
     macro_rules! try_bits {
         ($($bits:literal)*) => {$(
             let at = enclosed(scene, |e| e.evaluate(&Point::<Deep<$bits>>::default())).map_err(NoCorrect::NoPoint)?;
-            let found = at.and_then(|at| attempt(scene, &at, unique, Deep::<$bits>::rounded, How::Bits($bits)));
+            let found = at.and_then(|at| attempt(scene, &at, unique, Deep::<$bits>::rounded, Deep::<$bits>::near, How::Bits($bits)));
             if let Some(found) = found {
                 let joined = join(best, found);
                 if joined.is_complete() {
@@ -148,12 +158,16 @@ fn attempt<T: Number>(
     at: &Point<T>,
     solve: impl Fn(&System<T>) -> Option<Solution<T>>,
     round: impl Fn(&T) -> Option<f64>,
+    near: impl Fn(&T) -> f64,
     how: How,
 ) -> Option<CorrectAnswers> {
     let numbers = given(scene, at).ok()?;
     let system = assemble(&numbers);
     let solution = solve(&system)?;
-    let rounded = |v: &T| round(v).map_or(Correct::Undecided, |v| Correct::Rounded(v, how));
+    let rounded = |v: &T| match round(v) {
+        Some(v) => Correct::Rounded(v, how),
+        None => Correct::Undecided(near(v)),
+    };
     let motion = motion(&numbers, &system, &solution);
     let unknowns = system.unknowns.iter().enumerate().map(|(i, u)| {
         let value = if solution.unique[i] {
@@ -285,6 +299,6 @@ mod tests {
     #[test]
     fn a_velocity_that_cancels_for_irrational_values_is_left_undecided() {
         let all = numbers(&[("theta", "acos(1/sqrt(5))"), ("e", "3/5")]);
-        assert_eq!(all[1], Correct::Undecided);
+        assert_eq!(all[1], Correct::Undecided(0.0));
     }
 }

@@ -29,6 +29,21 @@ impl<const BITS: u32> Deep<BITS> {
         (low == high && low.is_finite()).then_some(low)
     }
 
+    /// A double inside or near: the middle, zero where zero is inside; NaN where nothing is known.
+    pub fn near(&self) -> f64 {
+        let Some(Big(interval)) = &self.0 else {
+            return f64::NAN;
+        };
+        if interval.has_zero() {
+            return 0.0;
+        }
+        let [low, high] = [
+            interval.low.to_f64(Round::Down),
+            interval.high.to_f64(Round::Up),
+        ];
+        0.5 * low + 0.5 * high
+    }
+
     fn known(outcome: Outcome<Big<BITS>>) -> Option<Deep<BITS>> {
         outcome.value().map(|v| Deep(Some(v)))
     }

@@ -1,14 +1,21 @@
 //! Solution in doubles by nalgebra, and the honest answer where the system leaves something open.
 //!
 //! Rows and columns are first scaled by powers of two, which is exact and takes the units out. A square system whose
-//! triangular factor shows no vanishing pivot is solved by LU; everything else by elimination with complete pivoting, which
-//! tells which unknowns are unique. Rank in doubles is a judgement (threshold 64·n·2⁻⁵² on the scaled matrix); rank in
-//! fractions, from `exact`, is a fact.
+//! triangular factor shows no vanishing pivot is regular. Where one seems to vanish, a mass of 1e−15 beside one of 1 may
+//! be the reason: double-doubles then tell whether any matrix within a few roundings of this one, entry by entry, is
+//! singular. The values come from double-doubles with bounds, from fractions where those are too wide, and from LU with
+//! refinement only beyond 64 unknowns: a light body loses no digits to a heavy one. All else goes to elimination with complete pivoting, which tells which unknowns are
+//! unique. Rank in doubles is a judgement (threshold 64·n·2⁻⁵² on the scaled matrix); rank in fractions, from `exact`, is
+//! a fact.
 
 use nalgebra::{DMatrix, DVector};
 
+use super::ball::Ball;
+use super::exact::solve_exact;
+use super::field::eliminate;
 use super::solution::{Contradiction, Solution};
 use super::system::System;
+use crate::expr::number::{from_f64, to_f64};
 
 /// Solves a system in doubles.
 pub fn solve_f64(system: &System<f64>) -> Result<Solution<f64>, Contradiction> {
@@ -26,25 +33,102 @@ pub fn solve_f64(system: &System<f64>) -> Result<Solution<f64>, Contradiction> {
         };
     }
     let scaled = Scaled::of(system);
-    let matrix = DMatrix::from_row_slice(m, n, &scaled.matrix);
-    let right = DVector::from_row_slice(&scaled.right);
-    let threshold = 64.0 * n as f64 * f64::EPSILON;
     if m == n {
-        let lu = matrix.clone().lu();
-        let diagonal = (0..n).map(|i| lu.lu_internal()[(i, i)].abs());
-        let regular = diagonal.fold(f64::INFINITY, f64::min) > threshold;
-        if let (true, Some(x)) = (regular, lu.solve(&right)) {
-            let values: Vec<f64> = x.iter().zip(&scaled.columns).map(|(x, s)| x * s).collect();
-            if values.iter().all(|v| v.is_finite()) {
-                return Ok(Solution {
-                    values,
-                    unique: vec![true; n],
-                    rank: n,
-                });
-            }
+        let near = lu(&scaled, 2, threshold(n));
+        let refined = wide(system, &scaled.columns, near.is_some()).or(near);
+        if let Some(values) = refined {
+            return Ok(Solution {
+                values,
+                unique: vec![true; n],
+                rank: n,
+            });
         }
     }
-    by_complete_pivoting(&scaled, threshold)
+    by_complete_pivoting(&scaled, threshold(n))
+}
+
+/// What counts as zero in a scaled matrix of n unknowns.
+fn threshold(n: usize) -> f64 {
+    64.0 * n as f64 * f64::EPSILON
+}
+
+/// LU of the scaled system and nothing more; `None` where it is not square or a pivot seems to vanish.
+pub fn lu_scaled(system: &System<f64>) -> Option<Vec<f64>> {
+    (system.laws.len() == system.unknowns.len())
+        .then(|| lu(&Scaled::of(system), 0, threshold(system.unknowns.len())))
+        .flatten()
+}
+
+/// LU with steps of refinement, after which small unknowns are as good as large ones (Skeel 1980).
+fn lu(scaled: &Scaled, steps: usize, least: f64) -> Option<Vec<f64>> {
+    let n = scaled.columns.len();
+    let matrix = DMatrix::from_row_slice(n, n, &scaled.matrix);
+    let right = DVector::from_row_slice(&scaled.right);
+    let lu = matrix.clone().lu();
+    let diagonal = (0..n).map(|i| lu.lu_internal()[(i, i)].abs());
+    if diagonal.fold(f64::INFINITY, f64::min) <= least {
+        return None;
+    }
+    let mut x = lu.solve(&right)?;
+    for _ in 0..steps {
+        let change = lu.solve(&(&right - &matrix * &x))?;
+        x += change;
+    }
+    let values: Vec<f64> = x.iter().zip(&scaled.columns).map(|(x, s)| x * s).collect();
+    values.iter().all(|v| v.is_finite()).then_some(values)
+}
+
+/// The solution where every matrix whose entries differ from these by 64·2⁻⁵² of themselves is regular too, which no choice
+/// of units changes: the spectral radius of |A⁻¹||A| is below 2⁵²/64 (Oettli & Prager 1964; Bauer 1966).
+fn wide(system: &System<f64>, units: &[f64], regular: bool) -> Option<Vec<f64>> {
+    let n = system.unknowns.len();
+    let values = nearest(system)?;
+    if regular {
+        return Some(values);
+    }
+    let mut unit = system.clone();
+    let mut inverse = Vec::with_capacity(n);
+    for column in 0..n {
+        unit.right.fill(0.0);
+        unit.right[column] = 1.0;
+        inverse.push(nearest(&unit)?);
+    }
+    // Powers bring the start near the vector of Perron, for which the bound is sharp; with any positive one it is a bound.
+    let mut vector = units.to_vec();
+    let mut radius = f64::INFINITY;
+    for _ in 0..4 {
+        let sizes: Vec<f64> = (0..n)
+            .map(|r| {
+                system
+                    .row(r)
+                    .iter()
+                    .zip(&vector)
+                    .map(|(a, d)| a.abs() * d)
+                    .sum()
+            })
+            .collect();
+        let next: Vec<f64> = (0..n)
+            .map(|i| (0..n).map(|j| inverse[j][i].abs() * sizes[j]).sum())
+            .collect();
+        let growth = next.iter().zip(&vector).map(|(b, d)| b / d);
+        radius = radius.min(growth.fold(0.0, |a, b| if b > a || b.is_nan() { b } else { a }));
+        vector = next;
+    }
+    (radius < 1.0 / (64.0 * f64::EPSILON)).then_some(values)
+}
+
+/// The nearest doubles to the solution, the coefficients taken as exact.
+fn nearest(system: &System<f64>) -> Option<Vec<f64>> {
+    let balls = eliminate(&system.map(|v| Ball::exact(*v)));
+    if let Some(values) = balls.and_then(|x| x.iter().map(Ball::rounded).collect()) {
+        return Some(values);
+    }
+    let mut cells = system.matrix.iter().chain(&system.right);
+    let exact = cells
+        .all(|v| v.is_finite())
+        .then(|| system.map(|v| from_f64(*v).unwrap_or_default()))?;
+    let found = solve_exact(&exact).ok().filter(Solution::is_determined)?;
+    Some(found.values.iter().map(to_f64).collect())
 }
 
 /// Gauss–Jordan with complete pivoting. What remains below the threshold counts as zero, on the left and on the right.

@@ -12,9 +12,16 @@ pub fn text(scene: &Scene, answers: &CorrectAnswers) -> String {
     let mut out = String::new();
     let mut line = |name: &str, unit: &str, value: &Correct| {
         let _ = match value {
-            Correct::Rounded(v, how) => writeln!(out, "{name} = {v} {unit}  [{}]", words(*how)),
+            Correct::Rounded(v, how) => {
+                writeln!(
+                    out,
+                    "{name} = {} {unit}  [{}]",
+                    super::double(*v),
+                    words(*how)
+                )
+            }
             Correct::Open => writeln!(out, "{name}: not determined by the laws"),
-            Correct::Undecided => writeln!(out, "{name}: too close to call, even in 4096 bits"),
+            Correct::Undecided(_) => writeln!(out, "{name}: too close to call, even in 4096 bits"),
         };
     };
     for (question, answer) in &answers.answers {
@@ -43,7 +50,7 @@ pub fn json(scene: &Scene, answers: &CorrectAnswers) -> Value {
             json!({"name": name, "value": v, "unit": unit, "certified_by": words(*how)})
         }
         Correct::Open => json!({"name": name, "value": null, "reason": "not determined"}),
-        Correct::Undecided => json!({"name": name, "value": null, "reason": "undecided"}),
+        Correct::Undecided(_) => json!({"name": name, "value": null, "reason": "undecided"}),
     };
     let mut list = Vec::new();
     for (question, answer) in &answers.answers {

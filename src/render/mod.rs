@@ -165,6 +165,15 @@ pub fn answer_value(scene: &Scene, derivation: &Derivation, closed: &Expr) -> Op
     })
 }
 
+/// The shortest digits that read back as the same double; with an exponent where there would be a row of zeros.
+pub fn double(value: f64) -> String {
+    match value.abs() {
+        size if size == f64::INFINITY => "beyond the largest double".into(),
+        size if size == 0.0 || (1e-5..1e16).contains(&size) => format!("{value}"),
+        _ => format!("{value:e}"),
+    }
+}
+
 /// A number with six significant digits, without trailing zeros.
 pub fn digits(value: f64) -> String {
     if value == 0.0 {

@@ -149,7 +149,7 @@ pub fn numbers(scene: &Scene, numbers: &[super::Number]) -> String {
         let text = match &number.value {
             Ok(value) => match &value.exact {
                 Some(exact) => format!("{exact} {unit} ≈ {}", super::digits(value.approximate)),
-                None => format!("{} {unit}", value.approximate),
+                None => format!("{} {unit}", super::double(value.approximate)),
             },
             Err(reason) => reason.clone(),
         };

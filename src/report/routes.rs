@@ -15,8 +15,8 @@ use crate::numeric::ball::Ball;
 use crate::numeric::dd::Dd;
 use crate::numeric::solution::Solution;
 use crate::numeric::{
-    Answer, Given, Motion, Number, System, answer, assemble, eliminate, given, motion, rounded,
-    solve_exact, solve_f64,
+    Answer, Given, Motion, Number, System, answer, assemble, eliminate, given, lu_scaled, motion,
+    rounded, solve_exact,
 };
 use crate::scene::{Ask, EnergyWhen, Scene};
 
@@ -399,8 +399,7 @@ impl<'a> Prepared<'a> {
 fn full(route: Route, system: &System<f64>) -> Option<Vec<f64>> {
     let n = system.unknowns.len();
     if route == Route::LuScaled {
-        let solution = solve_f64(system).ok()?;
-        return solution.is_determined().then_some(solution.values);
+        return lu_scaled(system);
     }
     if system.laws.len() != n {
         return None;

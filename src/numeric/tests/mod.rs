@@ -1,8 +1,10 @@
-//! Tests of the numeric side: known numbers (`cases`), laws over random scenes (`laws`).
+//! Tests of the numeric side: known numbers (`cases`), laws over random scenes (`laws`), the same at
+//! extreme scales (`extreme`).
 
 mod build;
 mod cases;
 mod certified;
+mod extreme;
 mod laws;
 mod random;
 
