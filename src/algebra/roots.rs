@@ -77,13 +77,8 @@ impl Field {
         if product.is_one() {
             return Ok(outside);
         }
-        if (odd.len() != 1 || !rest.is_one())
-            && let Some(hidden) = self.hidden_square(&product)
-        {
-            let hidden = self.abs(&hidden)?;
-            return self.mul(&outside, &hidden);
-        }
         // √(ab) = √a √b for factors known not to be negative; the others stay under one root.
+        let several = odd.len() != 1 || !rest.is_one();
         let mut together = Poly::one();
         let mut atoms = Vec::new();
         for f in odd {
@@ -107,6 +102,14 @@ impl Field {
         if !together.is_one() {
             atoms.push(together);
         }
+        // A search for a hidden square would find a product of roots already there as well, but not its sign.
+        if several
+            && !atoms.iter().all(|a| self.known_root(a).is_some())
+            && let Some(hidden) = self.hidden_square(&product)
+        {
+            let hidden = self.abs(&hidden)?;
+            return self.mul(&outside, &hidden);
+        }
         for atom in atoms {
             let root = self.root_of(&atom)?;
             outside = self.mul(&outside, &root)?;
@@ -116,14 +119,8 @@ impl Field {
 
     /// √p as an element, by a new generator if need be.
     fn root_of(&mut self, p: &Poly) -> Result<Element, Stop> {
-        for (v, g) in self.gens.iter().enumerate() {
-            if matches!(&g.kind, Kind::Root)
-                && g.relation
-                    .as_ref()
-                    .is_some_and(|(n, value)| *n == 2 && value == p)
-            {
-                return Ok(Element::var(v));
-            }
+        if let Some(v) = self.known_root(p) {
+            return Ok(Element::var(v));
         }
         if let Some(hidden) = self.hidden_square(p) {
             return self.abs(&hidden);
@@ -134,6 +131,16 @@ impl Field {
         let v = self.adjoin(Kind::Root);
         self.relate(v, 2, p.clone());
         Ok(Element::var(v))
+    }
+
+    /// The generator that is √p, if there is one.
+    fn known_root(&self, p: &Poly) -> Option<usize> {
+        self.gens.iter().position(|g| {
+            matches!(&g.kind, Kind::Root)
+                && g.relation
+                    .as_ref()
+                    .is_some_and(|(n, value)| *n == 2 && value == p)
+        })
     }
 
     /// √(a + b√d) = g + b√d/(2g) with g = √((a + n)/2), when a² − b²d is a square n²: two plain roots for a nested one.

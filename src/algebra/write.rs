@@ -63,22 +63,23 @@ impl Field {
         for (parts, sign) in [(above, 1i64), (below, -1)] {
             for (f, k) in &parts.factors {
                 let mut power = ratio(i64::from(*k) * sign, 1);
-                let (expr, rank, joins) = if f.len() == 1 {
+                let (expr, rank, under_root) = if f.len() == 1 {
                     let v = f.variables()[0];
                     let (expr, own) = self.generator(v);
                     let root = !own.is_one();
                     power *= own;
-                    let joins = root
-                        && self.gens[v].relation.as_ref().is_some_and(|(_, p)| {
+                    let under_root = root.then(|| {
+                        self.gens[v].relation.as_ref().is_some_and(|(_, p)| {
                             self.sign_poly(p).is_some_and(|s| s.is_not_negative())
-                        });
+                        })
+                    });
                     let rank = match expr.node() {
                         Node::Number(_) => Rank::Number,
                         Node::Symbol(name) if name.starts_with(['m', 'M']) => Rank::Mass,
                         Node::Symbol(_) => Rank::Symbol,
                         _ => Rank::Other,
                     };
-                    (expr, rank, joins)
+                    (expr, rank, under_root)
                 } else {
                     let (expr, flipped, mixed) = self.sum(f);
                     if flipped && k % 2 == 1 {
@@ -87,18 +88,18 @@ impl Field {
                     if mixed && k % 2 == 1 && turnable.is_none() {
                         turnable = Some(expr.clone());
                     }
-                    (expr, Rank::Sum, false)
+                    (expr, Rank::Sum, None)
                 };
                 match factors.iter_mut().find(|other| other.base == expr) {
                     Some(other) => {
                         other.power += power;
-                        other.joins |= joins;
+                        other.under_root = other.under_root.max(under_root);
                     }
                     None => factors.push(Factor {
                         rank,
                         base: expr,
                         power,
-                        joins,
+                        under_root,
                     }),
                 }
             }
@@ -113,40 +114,42 @@ impl Field {
         }
         factors.retain(|f| !f.power.is_zero());
         factors.sort_by(|a, b| (a.rank, &a.base).cmp(&(b.rank, &b.base)));
-        // √a·√b/√c is written √(ab/c) where each of them is known to be real.
         let mut out = vec![Expr::from(number)];
-        let mut rooted: Vec<Expr> = Vec::new();
-        let mut rooted_below = 0;
-        for Factor {
-            base, power, joins, ..
-        } in factors
-        {
-            if !joins || *power.denom() != Int::from(2) {
-                out.push(base.power(Expr::from(power)));
-                continue;
+        // √a·√b/√c is written √(ab/c) where each of them is known to be real; if all but one are, so is that one.
+        let half = |f: &Factor| f.under_root.is_some() && *f.power.denom() == Int::from(2);
+        let unsure = |f: &Factor| half(f) && f.under_root == Some(false);
+        let apart = factors.iter().filter(|f| unsure(f)).count() > 1;
+        let (rooted, rest): (Vec<Factor>, Vec<Factor>) = factors
+            .into_iter()
+            .partition(|f| half(f) && !(apart && unsure(f)));
+        // 1/√2 is written √2/2, and numbers stand in front.
+        let numeric = rooted.iter().all(|f| f.rank == Rank::Number);
+        let all_below = !numeric && rooted.iter().all(|f| f.power.is_negative());
+        let mut whole = Vec::new();
+        let mut inside = Vec::new();
+        for f in rooted {
+            let below = f.power.is_negative() && !numeric;
+            let half = ratio(if below { -1 } else { 1 }, 2);
+            if f.power != half {
+                whole.push(f.base.power(Expr::from(&f.power - &half)));
             }
-            let half = if power.is_negative() {
-                ratio(-1, 2)
+            inside.push(if below && !all_below {
+                f.base.powi(-1)
             } else {
-                ratio(1, 2)
-            };
-            let whole = &power - &half;
-            if !whole.is_zero() {
-                out.push(base.power(Expr::from(whole)));
-            }
-            rooted_below += usize::from(power.is_negative());
-            rooted.push(if power.is_negative() {
-                base.powi(-1)
-            } else {
-                base
+                f.base
             });
         }
-        if rooted_below == rooted.len() && rooted_below > 0 {
+        let root = (!inside.is_empty()).then(|| {
             // Nothing above: 1/√(ab).
-            let inverse = rooted.iter().map(|e| e.powi(-1));
-            out.push(Expr::product(inverse).power(Expr::ratio(-1, 2)));
-        } else if !rooted.is_empty() {
-            out.push(Expr::product(rooted).power(Expr::ratio(1, 2)));
+            Expr::product(inside).power(Expr::ratio(if all_below { -1 } else { 1 }, 2))
+        });
+        out.extend(whole);
+        if numeric {
+            out.extend(root);
+            out.extend(rest.into_iter().map(Factor::written));
+        } else {
+            out.extend(rest.into_iter().map(Factor::written));
+            out.extend(root);
         }
         Expr::product(out)
     }
@@ -399,8 +402,14 @@ struct Factor {
     rank: Rank,
     base: Expr,
     power: Rational,
-    /// Whether its square root may go under a common root sign.
-    joins: bool,
+    /// For a root, whether what stands under it is known not to be negative.
+    under_root: Option<bool>,
+}
+
+impl Factor {
+    fn written(self) -> Expr {
+        self.base.power(Expr::from(self.power))
+    }
 }
 
 /// Order of factors.

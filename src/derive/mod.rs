@@ -16,6 +16,8 @@ mod steps;
 use std::collections::BTreeMap;
 use std::fmt;
 
+use num_integer::Integer;
+
 pub use answer::{Answer, Form, Matrix, dimension, full_matrix};
 pub use count::{Counting, count};
 pub use left_out::LeftOut;
@@ -23,7 +25,7 @@ pub use names::Names;
 pub use plan::{Attachment, Reduction, reduction};
 
 use crate::algebra::{self, Element, Field, Row, Sign};
-use crate::expr::{Expr, Symbol, Vector};
+use crate::expr::{Expr, Int, Node, Rational, Symbol, Vector};
 use crate::laws::{self, Affine, Geometry, Kinematics, Law, Unknown};
 use crate::scene::{ContactLaw, Scene};
 use plan::Planner;
@@ -300,8 +302,17 @@ impl<'a> Work<'a> {
 
     /// Solves the first plan that determines a target; false where none does.
     fn try_plans(&mut self, target: Unknown, asked_by: Option<&str>) -> Result<bool, Stop> {
-        for (laws, unknowns) in self.plans(target) {
-            if self.solve(&laws, &unknowns, asked_by)? {
+        for plan in self.plans(target) {
+            let known = |u: Unknown| self.values.contains_key(&u);
+            let pieces = match &self.planner {
+                Some(planner) => planner.pieces(plan, &known),
+                None => vec![plan],
+            };
+            let mut solved = true;
+            for (laws, unknowns) in pieces {
+                solved = solved && self.solve(&laws, &unknowns, asked_by)?;
+            }
+            if solved {
                 return Ok(self.values.contains_key(&target));
             }
         }
@@ -322,7 +333,7 @@ impl<'a> Work<'a> {
             let at = usize::from(
                 plans
                     .first()
-                    .is_some_and(|p| p.0.len() < 4 && p.0.len() < plan.0.len()),
+                    .is_some_and(|p| p.0.len() < 4 && p.0.len() <= plan.0.len()),
             );
             plans.insert(at.min(plans.len()), plan);
         }
@@ -478,9 +489,7 @@ impl<'a> Work<'a> {
         let held: Vec<Law> = laws::of(self.scene)
             .into_iter()
             .filter(|law| match law {
-                Law::Hinged(..) | Law::Sticking(..) => {
-                    self.reduction.loops.iter().any(|l| same_joint(l, law))
-                }
+                Law::Hinged(..) | Law::Sticking(..) => self.reduction.loops.contains(law),
                 _ => true,
             })
             .collect();
@@ -542,7 +551,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// An equation as a person writes it: in the scene's symbols, and not with a minus on both sides.
+    /// An equation as a person writes it: in the scene's symbols, and not with minus signs alone on the left.
     fn written(&self, law: Law, terms: &[(Unknown, Element)], known: &Element) -> Equation {
         let symbols: Vec<(Unknown, Element)> = terms
             .iter()
@@ -566,8 +575,7 @@ impl<'a> Work<'a> {
             }
         };
         let minus = |x: &Element| crate::formula::write_plain(&print(false, x)).starts_with('-');
-        let all_minus =
-            symbols.iter().all(|(_, k)| minus(k)) && (self.field.is_zero(known) || minus(known));
+        let all_minus = symbols.iter().all(|(_, k)| minus(k));
         Equation {
             law,
             terms: symbols
@@ -683,19 +691,42 @@ impl<'a> Work<'a> {
         })
     }
 
+    /// What stands under square roots of the scene and is not known to have one.
+    fn radicands(&mut self) -> Vec<Expr> {
+        let mut found = Vec::new();
+        for e in formulas(self.scene) {
+            radicands(&e, &mut found);
+        }
+        found.retain(|base| {
+            let known = self
+                .field
+                .element(base)
+                .ok()
+                .and_then(|x| self.field.sign(&x));
+            !known.is_some_and(Sign::is_not_negative)
+        });
+        found
+    }
+
     fn is_positive(&mut self, e: &Expr) -> bool {
         let element = self.field.element(e);
         element.is_ok_and(|x| self.field.sign(&x) == Some(Sign::Positive))
     }
 
     /// What the closed forms rest on: signs taken for roots, and conditions `… ≠ 0` under which the blocks were solved.
-    fn assumptions(&self) -> Vec<String> {
+    fn assumptions(&mut self) -> Vec<String> {
         let sign = |a: &algebra::Assumption| match a {
             algebra::Assumption::NotNegative(e) => {
                 format!("{} ≥ 0", crate::formula::write_plain(e))
             }
         };
         let mut all: Vec<String> = self.field.assumptions().iter().map(sign).collect();
+        for base in self.radicands() {
+            let condition = format!("{} ≥ 0", crate::formula::write_plain(&base));
+            if !all.contains(&condition) {
+                all.push(condition);
+            }
+        }
         let bouncing = self
             .scene
             .contacts
@@ -717,12 +748,19 @@ impl<'a> Work<'a> {
     }
 }
 
-fn same_joint(a: &Law, b: &Law) -> bool {
-    match (a, b) {
-        (Law::Hinged(i, j), Law::Hinged(k, l)) | (Law::Sticking(i, j), Law::Sticking(k, l)) => {
-            (i, j) == (k, l)
+/// The bases of powers with an even root.
+fn radicands(e: &Expr, found: &mut Vec<Expr>) {
+    match e.node() {
+        Node::Number(_) | Node::Symbol(_) => {}
+        Node::Sum(parts) | Node::Product(parts) => parts.iter().for_each(|p| radicands(p, found)),
+        Node::Power(base, exponent) => {
+            let even = |k: &Rational| k.denom().is_multiple_of(&Int::from(2));
+            if exponent.as_number().is_some_and(even) && !found.contains(base) {
+                found.push(base.clone());
+            }
+            radicands(base, found);
         }
-        _ => false,
+        Node::Call(_, argument) => radicands(argument, found),
     }
 }
 

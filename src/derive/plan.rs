@@ -213,6 +213,51 @@ impl Planner {
         Some((laws, unknowns))
     }
 
+    /// A plan in pieces that can be solved one after the other, each as small as can be: what a single equation tells is
+    /// taken from it first.
+    pub fn pieces(
+        &self,
+        plan: (Vec<Law>, Vec<Unknown>),
+        known: &dyn Fn(Unknown) -> bool,
+    ) -> Vec<(Vec<Law>, Vec<Unknown>)> {
+        let (mut laws, mut unknowns) = plan;
+        let mut pieces = Vec::new();
+        let mut done = self.mask(self.unknowns.iter().copied().filter(|u| known(*u)));
+        while laws.len() > 1 && laws.len() <= LARGEST {
+            let Some((chosen, union)) = self.smallest_closed(&laws, done) else {
+                break;
+            };
+            let (piece, rest): (Vec<_>, Vec<_>) = laws
+                .into_iter()
+                .enumerate()
+                .partition(|(i, _)| chosen >> i & 1 == 1);
+            let found: Vec<Unknown> = bits(union).map(|i| self.unknowns[i]).collect();
+            unknowns.retain(|u| !found.contains(u));
+            pieces.push((piece.into_iter().map(|(_, law)| law).collect(), found));
+            laws = rest.into_iter().map(|(_, law)| law).collect();
+            done |= union;
+        }
+        pieces.push((laws, unknowns));
+        pieces
+    }
+
+    /// The smallest proper subset of laws with as many unknowns as laws.
+    fn smallest_closed(&self, laws: &[Law], known: u128) -> Option<(u32, u128)> {
+        let masks: Vec<u128> = laws
+            .iter()
+            .map(|law| self.candidates.iter().find(|c| c.law == *law))
+            .map(|c| c.map(|c| c.mask & !known))
+            .collect::<Option<_>>()?;
+        let mut subsets: Vec<u32> = (1..(1 << laws.len()) - 1).collect();
+        subsets.sort_by_key(|s| (s.count_ones(), *s));
+        subsets.into_iter().find_map(|subset| {
+            let union = (0..laws.len())
+                .filter(|i| subset >> i & 1 == 1)
+                .fold(0, |union, i| union | masks[i]);
+            (union.count_ones() == subset.count_ones()).then_some((subset, union))
+        })
+    }
+
     /// As many independent laws without unknown impulses as there are free velocities; for scenes too large to search.
     pub fn without_impulses(
         &self,
@@ -383,7 +428,7 @@ impl Search<'_> {
     fn cost(&self, candidate: usize) -> usize {
         let candidate = &self.planner.candidates[candidate];
         let open = (candidate.mask & !self.known).count_ones() as usize;
-        candidate.cost + 4 * open + (candidate.row.len() - open)
+        candidate.cost + 4 * open + 2 * (candidate.row.len() - open)
     }
 
     fn record(&mut self, chosen: &[usize], union: u128) {

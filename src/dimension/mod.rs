@@ -90,6 +90,19 @@ impl Dimension {
         self.spell(["kg", "m", "s"], " ", superscript)
     }
 
+    /// The SI unit as a person says it of the quantities of a collision: rad/s, N s and J where they fit, else as [`si`].
+    ///
+    /// [`si`]: Dimension::si
+    pub fn spoken(&self) -> String {
+        let si = self.si();
+        match si.as_str() {
+            "1/s" => String::from("rad/s"),
+            "kg m/s" => String::from("N s"),
+            "kg m²/s²" => String::from("J"),
+            _ => si,
+        }
+    }
+
     fn spell(&self, names: [&str; 3], times: &str, raise: impl Fn(&Rational) -> String) -> String {
         let part = |positive: bool| {
             let mut parts = Vec::new();

@@ -109,13 +109,16 @@ fn divide(factors: &[Expr], q: &mut Quotient) {
     }
 }
 
-/// Numbers, then names, then roots, then sums, then functions.
+/// Numbers and their roots, then names, then other roots, then sums, then functions.
 fn class(e: &Expr) -> u8 {
     match e.node() {
         Node::Number(_) => 0,
         Node::Symbol(_) => 1,
         Node::Power(base, exponent) if !exponent.as_number().is_some_and(Rational::is_integer) => {
-            class(base).max(2)
+            match (class(base), exponent.as_number()) {
+                (0, Some(_)) => 0,
+                (base, _) => base.max(2),
+            }
         }
         Node::Power(base, _) => class(base),
         Node::Product(_) => 2,

@@ -45,7 +45,7 @@ impl Unknown {
 }
 
 /// A law applied to a body or system, at a point or along a direction.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub enum Law {
     /// Balance of linear momentum of the bodies along a direction.
     LinearMomentum {
@@ -72,7 +72,7 @@ pub enum Law {
 }
 
 /// A direction with a name.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub enum Direction {
     /// The x axis.
     X,

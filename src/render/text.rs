@@ -53,13 +53,15 @@ pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof) -> String {
     for answer in &d.answers {
         match &answer.form {
             Form::Value { closed, short } => {
-                let value = super::answer_value(scene, d, closed).map_or(String::new(), |v| {
-                    format!(
-                        " = {} {}",
-                        super::digits(v.approximate),
-                        answer.dimension.si()
-                    )
-                });
+                let value = super::answer_value(scene, d, closed)
+                    .filter(|_| closed.as_number().is_none())
+                    .map_or(String::new(), |v| {
+                        format!(
+                            " = {} {}",
+                            super::digits(v.approximate),
+                            answer.dimension.spoken()
+                        )
+                    });
                 line(
                     &mut out,
                     "  ",
@@ -68,7 +70,7 @@ pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof) -> String {
                 line(
                     &mut out,
                     "      ",
-                    &format!("{} [{}]", answer.words, answer.dimension.si()),
+                    &format!("{} [{}]", answer.words, answer.dimension.spoken()),
                 );
             }
             Form::Equation { left, right } => {

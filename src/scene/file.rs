@@ -189,10 +189,12 @@ record! {
     }
 }
 
-/// A direction: the components [x, y] of a unit vector, or an angle counterclockwise from x.
+/// A direction: an axis, the components [x, y] of a unit vector, or an angle counterclockwise from x.
 #[derive(Clone, Debug, schemars::JsonSchema)]
 #[schemars(untagged)]
 pub(super) enum DirectionFile {
+    /// An axis.
+    Axis(AxisName),
     /// Components of a unit vector.
     Components(Pair<Formula>),
     /// An angle.
@@ -202,10 +204,25 @@ pub(super) enum DirectionFile {
 impl Read for DirectionFile {
     fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
         match node.value {
+            Value::Text(_) => AxisName::read(node, faults).map(DirectionFile::Axis),
             Value::List(_) => Pair::read(node, faults).map(DirectionFile::Components),
             Value::Object(_) => AngleFile::read(node, faults).map(DirectionFile::Angle),
-            _ => unexpected(node, "a direction: [x, y] or {\"angle\": …}", faults),
+            _ => unexpected(node, "a direction: \"x\", [x, y] or {\"angle\": …}", faults),
         }
+    }
+}
+
+choice! {
+    /// One of the four directions of the axes.
+    AxisName {
+        /// To the right.
+        Right = "x",
+        /// To the left.
+        Left = "-x",
+        /// Up.
+        Up = "y",
+        /// Down.
+        Down = "-y",
     }
 }
 

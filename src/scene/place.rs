@@ -7,7 +7,7 @@ use super::Body;
 use super::body::Solid;
 use super::check::{Claim, Claimed};
 use super::fault::Fault;
-use super::file::{DirectionFile, PositionFile, ShapeName, StepFile};
+use super::file::{AxisName, DirectionFile, PositionFile, ShapeName, StepFile};
 use super::formulas::Quantity;
 use super::geometry;
 use super::record::Text;
@@ -218,6 +218,15 @@ impl<'f> Resolver<'f> {
     /// A direction, claimed to be a unit vector.
     pub fn direction(&mut self, direction: &DirectionFile) -> Option<Vector> {
         match direction {
+            DirectionFile::Axis(axis) => {
+                let [x, y] = match axis {
+                    AxisName::Right => [1, 0],
+                    AxisName::Left => [-1, 0],
+                    AxisName::Up => [0, 1],
+                    AxisName::Down => [0, -1],
+                };
+                Some([Expr::from(x), Expr::from(y)])
+            }
             DirectionFile::Components(pair) => {
                 let vector = self
                     .symbols

@@ -384,7 +384,7 @@ impl Writer<'_> {
         (count > 1).then(|| {
             let mut seen: Vec<String> = Vec::new();
             for (answer, closed) in &answers {
-                let unit = words::unit(&answer.dimension.si());
+                let unit = answer.dimension.spoken();
                 if !closed.is_zero() && !seen.contains(&unit) {
                     seen.push(unit);
                 }

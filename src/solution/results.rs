@@ -157,7 +157,7 @@ impl Writer<'_> {
             items.push(say(format!(
                 " = {} {}",
                 words::digits(value),
-                words::unit(&answer.dimension.si())
+                answer.dimension.spoken()
             )));
         }
         if !items.is_empty() {

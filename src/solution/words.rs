@@ -280,17 +280,6 @@ pub fn digits(value: f64) -> String {
     text.replace('-', "−")
 }
 
-/// A unit as a person says it: rad/s, N s, J.
-pub fn unit(si: &str) -> String {
-    match si {
-        "1/s" => "rad/s",
-        "kg m/s" => "N s",
-        "kg m^2/s^2" | "kg m²/s²" => "J",
-        other => other,
-    }
-    .to_string()
-}
-
 /// A text of the derivation in which bodies are called as they are in sentences.
 pub fn named(scene: &Scene, text: &str) -> String {
     let mut out = text.to_string();
