@@ -305,7 +305,7 @@ fn number(scene: &Scene, answer: &Answer) -> Option<String> {
     let value = formula
         .substitute(&values)
         .evaluate(&crate::expr::Point::<f64>::default())?;
-    let unit = words::unit(&answer.dimension.si());
+    let unit = answer.dimension.spoken();
     Some(format!(" = {} {unit}.", words::digits(value)).replace(" .", "."))
 }
 
