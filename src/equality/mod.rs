@@ -4,6 +4,7 @@
 //! fractions at an exact point of the domain, or disjoint enclosures there. Proof is `algebra`'s normal form. Nothing here is
 //! probabilistic: agreement at points is evidence and is called that.
 
+mod arcs;
 mod branch;
 mod exact;
 mod extreme;
@@ -212,7 +213,12 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
     let proof = if a == b {
         Proof::Equal(Vec::new())
     } else {
-        proof::compare(a, b, domains)
+        match proof::compare(a, b, domains) {
+            Proof::Unequal { settled: false } => {
+                arcs::prove(a, b, domains).unwrap_or(Proof::Unequal { settled: false })
+            }
+            proof => proof,
+        }
     };
     match proof {
         Proof::Invalid(side) => {

@@ -41,6 +41,7 @@ pub(crate) enum Tok {
     Relation(Relation),
     Vulgar(i64, i64),
     Degree,
+    Percent,
     Unit(Box<Unit>),
 }
 
@@ -83,6 +84,19 @@ pub(crate) struct Lexer<'a> {
     after_value: bool,
     /// Where the current run of letters starts, functions and Greek names apart.
     pub(super) run_from: usize,
+    /// Whether a comma between digits separates components here.
+    pub list: bool,
+    /// How the components of a column or row are separated.
+    pub(super) matrix: Matrix,
+}
+
+/// Whether a LaTeX matrix is being read, and which separator it has shown so far.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Matrix {
+    Outside,
+    Open,
+    Row,
+    Column,
 }
 
 impl<'a> Lexer<'a> {
@@ -107,6 +121,8 @@ impl<'a> Lexer<'a> {
             before: Before::Nothing,
             after_value: false,
             run_from: 0,
+            list: false,
+            matrix: Matrix::Outside,
         }
     }
 
@@ -138,7 +154,9 @@ impl<'a> Lexer<'a> {
             Tok::Number(literal) => Before::Number {
                 decimal: literal.decimal,
             },
-            Tok::Vulgar(..) | Tok::Close(_) | Tok::Raised(_) | Tok::Degree => Before::Value,
+            Tok::Vulgar(..) | Tok::Close(_) | Tok::Raised(_) | Tok::Degree | Tok::Percent => {
+                Before::Value
+            }
             Tok::Name(name) if &**name == "pi" => Before::Value,
             _ => Before::Nothing,
         };
@@ -205,12 +223,26 @@ impl<'a> Lexer<'a> {
                     decimal: false,
                 }));
             }
+            b'1' if self.units_first && second == b'/' => match self.unit_below() {
+                Some(tok) => return Ok(tok),
+                None => return self.number(),
+            },
             b'0'..=b'9' => return self.number(),
             b'.' if second.is_ascii_digit() => return self.number(),
+            b'x' | b'X' if self.times_ten(rest) => (1, Tok::Times),
             b'a'..=b'z' | b'A'..=b'Z' => return self.word(single),
             b'\\' => return self.command(single),
-            b'+' if second == b'-' || rest[1..].starts_with("/-") => {
-                (if second == b'-' { 2 } else { 3 }, Tok::PlusMinus)
+            b'+' if rest[1..].starts_with("/-") => (3, Tok::PlusMinus),
+            // `a +- b` is a pair; `a+-b` is as often a machine's way to add something negative.
+            b'+' if second == b'-' => {
+                let tight = self.pos > 0
+                    && !self.text[..self.pos].ends_with(|c: char| c.is_whitespace() || c == '=')
+                    && !rest[2..].starts_with(char::is_whitespace);
+                if tight && self.after_value {
+                    let fault = Fault::new("two signs in a row", self.pos, self.pos + 2);
+                    return Err(fault.hint("write ± for both signs, or a + (-b)"));
+                }
+                (2, Tok::PlusMinus)
             }
             b'+' => (1, Tok::Plus),
             b'-' if rest.starts_with("->") => {
@@ -224,6 +256,10 @@ impl<'a> Lexer<'a> {
             b'*' if second == b'*' => (2, Tok::Caret),
             b'*' => (1, Tok::Times),
             b'/' if second == b'=' => (2, Tok::Relation(Relation::NotEqual)),
+            b'/' if self.units_first => match self.unit_below() {
+                Some(tok) => return Ok(tok),
+                None => (1, Tok::Slash),
+            },
             b'/' => (1, Tok::Slash),
             b'^' if degree_mark(&rest[1..]).is_some() => {
                 (1 + degree_mark(&rest[1..]).unwrap_or(0), Tok::Degree)
@@ -237,6 +273,8 @@ impl<'a> Lexer<'a> {
             },
             b'|' => (1, Tok::Bar),
             b',' | b';' => (1, Tok::Comma),
+            b'%' => return self.percent(self.pos, 1),
+            b'&' if self.matrix != Matrix::Outside => return self.component(Matrix::Row, 1),
             b'=' if second == b'<' => (2, Tok::Relation(Relation::LessEqual)),
             b'=' if second == b'>' => {
                 return Err(Fault::new("`=>` is no relation", self.pos, self.pos + 2)
@@ -263,7 +301,7 @@ impl<'a> Lexer<'a> {
             return Ok(Tok::End);
         };
         let tok = match c {
-            '−' | '–' | '﹣' | '－' => Tok::Minus,
+            '−' | '–' | '—' | '‐' | '‑' | '﹣' | '－' => Tok::Minus,
             '＋' => Tok::Plus,
             '±' => Tok::PlusMinus,
             '∓' => Tok::MinusPlus,
@@ -297,11 +335,17 @@ impl<'a> Lexer<'a> {
             '°' | '∘' => Tok::Degree,
             '⟨' => Tok::Open('<'),
             '⟩' => Tok::Close('>'),
-            'π' => Tok::Name("pi".into()),
+            'π' | '𝜋' | '𝛑' | '𝝅' => Tok::Name("pi".into()),
             '⁰' | '¹' | '²' | '³' | '⁴'..='⁹' | '⁺' | '⁻' => return self.raised(),
             'ⁿ' => {
                 let message = "a raised letter is not read here";
                 return Err(Fault::new(message, self.pos, self.pos + c.len_utf8()).hint("write ^n"));
+            }
+            'µ' | 'μ' if self.units_first && self.before != Before::Nothing => {
+                return match self.unit(false) {
+                    Some(tok) => Ok(tok),
+                    None => self.name(self.pos, self.pos + c.len_utf8()),
+                };
             }
             _ if greek_name(c).is_some() || matches!(c, 'î' | 'ĵ' | 'ŷ') => {
                 return self.name(self.pos, self.pos + c.len_utf8());
@@ -416,9 +460,47 @@ impl<'a> Lexer<'a> {
                 };
             }
         }
-        let (literal, end) = number::literal(self.text, start, exponent)?;
+        let (literal, end) = number::literal(self.text, start, exponent, self.list)?;
         self.pos = end;
         Ok(Tok::Number(literal))
+    }
+
+    /// Whether a comma between digits in round brackets separates components.
+    pub fn lists(&self) -> bool {
+        self.symbols.lists()
+    }
+
+    /// Whether an x stands for the times sign of a power of ten, as in `6.02 x 10^23`.
+    fn times_ten(&self, rest: &str) -> bool {
+        let behind = rest[1..].trim_start();
+        matches!(self.before, Before::Number { .. })
+            && (behind.starts_with("10^") || behind.starts_with("10**"))
+            && self.symbols.find(&rest[..1]).is_none()
+    }
+
+    /// A percent sign behind a number, with nothing behind it that could make it a remainder.
+    pub(super) fn percent(&mut self, start: usize, length: usize) -> Faulty<Tok> {
+        let end = start + length;
+        let behind = self.text[end..].trim_start().chars().next();
+        let alone = behind.is_none_or(|c| "+-−±*·/=<>≤≥≈)]},;.$|".contains(c));
+        if !alone || !matches!(self.before, Before::Number { .. }) {
+            let fault = Fault::new("a percent sign belongs behind a number", start, end);
+            return Err(fault.hint("write 5% or 0.05"));
+        }
+        self.pos = end;
+        Ok(Tok::Percent)
+    }
+
+    /// A separator of components inside a matrix: all of one kind, so that it is a row or a column.
+    pub(super) fn component(&mut self, kind: Matrix, length: usize) -> Faulty<Tok> {
+        let start = self.pos;
+        if self.matrix != Matrix::Open && self.matrix != kind {
+            let fault = Fault::new("a matrix is no answer", start, start + length);
+            return Err(fault.hint("a column or a row of two or three components is a vector"));
+        }
+        self.matrix = kind;
+        self.pos = start + length;
+        Ok(Tok::Comma)
     }
 
     /// Whether a name is known to be, or looks like, an angle.

@@ -13,6 +13,7 @@ mod name;
 mod note;
 mod number;
 mod parser;
+mod prose;
 mod symbols;
 mod tex;
 mod units;
@@ -144,6 +145,9 @@ pub struct Reading {
     pub written: Vec<Written>,
     /// The number with its digits, when the last side is a single number as written.
     pub literal: Option<Literal>,
+    /// The unit behind the last side, where that is no plain quantity: a formula in symbols, a vector, a pair. Numbers in
+    /// the content are in SI units all the same.
+    pub unit: Option<Unit>,
     /// Remarks on how it was read.
     pub notes: Vec<Note>,
     /// How many places could be read in another way; see [`other_readings`].
@@ -164,9 +168,27 @@ impl Reading {
     }
 }
 
-/// Reads a formula. Of several `\boxed{}` the last counts, and what stands around it is passed over.
+/// Reads a formula. Of several `\boxed{}` the last counts, and what stands around it is passed over; so are words
+/// around a single formula in dollars.
 pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
-    read_as(text, symbols, 0).map_err(|fault| *fault)
+    let usual = read_as(text, symbols, 0);
+    let worded = match &usual {
+        Ok(reading) => reading.notes.iter().any(|n| n.remark == Remark::Letters),
+        Err(_) => text.len() <= MAX_BYTES,
+    };
+    if worded
+        && let Some((start, end)) = prose::formula_in_words(text)
+        && let Ok(mut reading) = read_inner(&text[..end], start, symbols, false, 0)
+    {
+        reading.notes.push(Note {
+            remark: Remark::Words,
+            start,
+            middle: start,
+            end,
+        });
+        return Ok(reading);
+    }
+    usual.map_err(|fault| *fault)
 }
 
 /// Reads a formula that is a single expression, such as those in scenes.
@@ -250,8 +272,11 @@ fn read_inner(
         lexer.note(Remark::Punctuation, stop.0, stop.0, stop.1);
     }
     let mut contents = Vec::with_capacity(sides.len());
+    let mut unit = None;
     for side in &sides {
-        contents.push(content(side, text, &mut lexer)?);
+        let (content, behind) = content(side, text, &mut lexer)?;
+        contents.push(content);
+        unit = behind;
     }
     let literal = sides.last().and_then(|side| side.written.literal());
     let content = match contents.pop() {
@@ -267,33 +292,57 @@ fn read_inner(
         content,
         written,
         literal,
+        unit,
         notes: lexer.notes,
         choices: lexer.sites,
     })
 }
 
-fn content(side: &Side, text: &str, lexer: &mut lexer::Lexer) -> Faulty<Content> {
-    let upper = convert::value(&side.written, true)?;
-    let plain = match upper {
-        Value::Vector(v) => return Ok(Content::Vector(v)),
-        Value::Scalar(e) => e,
+/// The content of a side, and the unit behind it unless the content is a quantity and holds it.
+fn content(side: &Side, text: &str, lexer: &mut lexer::Lexer) -> Faulty<(Content, Option<Unit>)> {
+    let pair = has_both_signs(&side.written);
+    let (content, constant) = match convert::value(&side.written, true)? {
+        Value::Vector(_) if pair => {
+            let (start, end) = (side.written.start, side.written.end);
+            return Err(Fault::new("a pair of vectors is not read", start, end));
+        }
+        Value::Vector(v) => {
+            let constant = v.iter().all(|c| c.symbols().is_empty());
+            (Content::Vector(v), constant)
+        }
+        Value::Scalar(e) => {
+            let constant = e.symbols().is_empty();
+            match pair {
+                true => {
+                    let lower = convert::one(&side.written, false)?;
+                    (Content::Either([e, lower]), constant)
+                }
+                false => (Content::Scalar(e), constant),
+            }
+        }
     };
-    if let Some((unit, start, end)) = &side.unit {
-        if plain.symbols().is_empty() {
-            return Ok(Content::Quantity(Box::new(Quantity {
-                value: &plain * &unit.value(),
-                written: plain,
+    let Some((unit, start, end)) = &side.unit else {
+        return Ok((content, None));
+    };
+    if !constant {
+        lexer.note(Remark::UnitOfSymbols, *start, *start, *end);
+        return Ok((content, Some(unit.clone())));
+    }
+    let si = unit.value();
+    Ok(match content {
+        Content::Scalar(written) => {
+            let quantity = Quantity {
+                value: &written * &si,
+                written,
                 unit: unit.clone(),
                 unit_text: text[*start..*end].trim().to_string(),
-            })));
+            };
+            (Content::Quantity(Box::new(quantity)), None)
         }
-        lexer.note(Remark::UnitOfSymbols, *start, *start, *end);
-    }
-    if !has_both_signs(&side.written) {
-        return Ok(Content::Scalar(plain));
-    }
-    let lower = convert::one(&side.written, false)?;
-    Ok(Content::Either([plain, lower]))
+        Content::Either(pair) => (Content::Either(pair.map(|e| &e * &si)), Some(unit.clone())),
+        Content::Vector(v) => (Content::Vector(v.map(|e| &e * &si)), Some(unit.clone())),
+        other => (other, Some(unit.clone())),
+    })
 }
 
 fn has_both_signs(w: &Written) -> bool {

@@ -60,6 +60,8 @@ pub enum Remark {
     Punctuation,
     /// A unit behind a formula in symbols says nothing.
     UnitOfSymbols,
+    /// Words around the formula were passed over.
+    Words,
 }
 
 impl Note {
@@ -133,6 +135,7 @@ impl Note {
                 "{whole} under the function counts as radians; degrees are written {whole}°"
             ),
             Remark::Punctuation => format!("I passed over the {whole} behind the formula"),
+            Remark::Words => format!("I read {whole} and passed over the words around it"),
             Remark::UnitOfSymbols => {
                 format!("a formula in symbols has the unit of its symbols; {whole} was not used")
             }

@@ -18,8 +18,13 @@ pub(crate) enum Exponent {
     Symbol,
 }
 
-/// Reads the number that starts at byte `at`; gives it and the byte after it.
-pub(crate) fn literal(text: &str, at: usize, exponent: Exponent) -> Faulty<(Literal, usize)> {
+/// Reads the number that starts at byte `at`; gives it and the byte after it. In a `list` a comma separates components.
+pub(crate) fn literal(
+    text: &str,
+    at: usize,
+    exponent: Exponent,
+    list: bool,
+) -> Faulty<(Literal, usize)> {
     let bytes = text.as_bytes();
     let run = |mut i: usize| {
         while bytes.get(i).is_some_and(u8::is_ascii_digit) {
@@ -36,7 +41,9 @@ pub(crate) fn literal(text: &str, at: usize, exponent: Exponent) -> Faulty<(Lite
         end = stop;
     }
     let decimal = end > whole_end;
-    comma(text, at, end)?;
+    if !list {
+        comma(text, at, end)?;
+    }
     if bytes.get(end) == Some(&b'.') {
         let mut stop = end;
         while bytes

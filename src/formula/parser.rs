@@ -323,6 +323,9 @@ impl<'a> Parser<'a> {
                 return Err(self.unexpected(&token).hint("write * for a product"));
             }
             let factor = self.factor()?;
+            if let Some((_, before)) = factors.last() {
+                beside(before, &factor)?;
+            }
             end = factor.end;
             factors.push((Link::Beside, factor));
         }
@@ -385,6 +388,12 @@ impl<'a> Parser<'a> {
                         .hint("write brackets"));
                     }
                 }
+                Tok::Percent => {
+                    let end = self.next()?.end;
+                    let start = base.start;
+                    let hundred = Box::new(whole_number(100, start, end));
+                    base = Written::new(Shape::Fraction(Box::new(base), hundred), start, end);
+                }
                 Tok::Degree => {
                     let token = self.next()?;
                     if !base.is_numeric() {
@@ -426,6 +435,7 @@ impl<'a> Parser<'a> {
             Tok::Name(name) => Ok(Written::new(Shape::Symbol(name), start, end)),
             Tok::Vulgar(n, d) => Ok(vulgar(n, d, start, end)),
             Tok::Open(open) => self.bracket(open, start),
+            Tok::Relation(Relation::Less) => self.bracket('<', start),
             Tok::Bar => {
                 let outer = std::mem::replace(&mut self.bars, 1);
                 let inner = self.sum()?;
@@ -484,6 +494,8 @@ impl<'a> Parser<'a> {
 
     fn bracket(&mut self, open: char, start: usize) -> Faulty<Written> {
         let outer = std::mem::replace(&mut self.bars, 0);
+        let lists = open == '[' || open == '<' || open == '(' && self.lexer.lists();
+        let list = std::mem::replace(&mut self.lexer.list, lists);
         let mut parts = vec![self.sum()?];
         let mut token = self.next()?;
         while token.tok == Tok::Comma && open != '{' {
@@ -498,16 +510,23 @@ impl<'a> Parser<'a> {
             token = self.next()?;
         }
         self.bars = outer;
+        self.lexer.list = list;
         let close = match open {
             '(' => ')',
             '[' => ']',
             '{' => '}',
+            'm' => 'm',
             _ => '>',
         };
-        if token.tok != Tok::Close(close) {
+        let angled = open == '<' && token.tok == Tok::Relation(Relation::Greater);
+        if token.tok != Tok::Close(close) && !(angled && parts.len() > 1) {
             return Err(self.unclosed(&open.to_string(), start, start + open.len_utf8(), &token));
         }
         let shape = match parts.pop() {
+            Some(_) if parts.is_empty() && matches!(open, 'm' | '<') => {
+                let fault = Fault::new("a vector has two or three components", start, token.end);
+                return Err(fault);
+            }
             Some(only) if parts.is_empty() => Shape::Bracket(Box::new(only)),
             Some(last) => {
                 parts.push(last);
@@ -540,6 +559,34 @@ impl<'a> Parser<'a> {
                 ))
             }
         }
+    }
+}
+
+/// Two neighbours that people read as a sum or as one number: `1½`, `2\frac12`, `x^1 0`.
+fn beside(before: &Written, factor: &Written) -> Faulty<()> {
+    let whole = |w: &Written| matches!(&w.shape, Shape::Number(n) if !n.decimal);
+    let inner = |w: &Written| match &w.shape {
+        Shape::Bracket(inner) => whole(inner),
+        _ => whole(w),
+    };
+    let mixed = match &factor.shape {
+        Shape::Fraction(above, below) => whole(before) && inner(above) && inner(below),
+        _ => false,
+    };
+    if mixed {
+        let fault = Fault::new("a mixed number or a product", before.start, factor.end);
+        return Err(fault.hint("write 3/2 or 1 + 1/2 for one and a half, and * for a product"));
+    }
+    match (&before.shape, &factor.shape) {
+        (Shape::Power(_, exponent), Shape::Number(_)) if whole(exponent) => {
+            let fault = Fault::new(
+                "a number directly behind an exponent",
+                before.start,
+                factor.end,
+            );
+            Err(fault.hint("write braces around the exponent, or * for a product"))
+        }
+        _ => Ok(()),
     }
 }
 

@@ -28,6 +28,7 @@ pub struct Symbols {
     bases: HashSet<String>,
     longest_base: usize,
     open: bool,
+    lists: bool,
 }
 
 impl Symbols {
@@ -42,6 +43,17 @@ impl Symbols {
             open: true,
             ..Symbols::default()
         }
+    }
+
+    /// The same names, where a comma between digits in round brackets separates components: `(2,3)` is a vector.
+    pub fn with_lists(mut self) -> Symbols {
+        self.lists = true;
+        self
+    }
+
+    /// Whether a comma between digits in round brackets separates components.
+    pub(crate) fn lists(&self) -> bool {
+        self.lists
     }
 
     /// Whether undeclared names are collected rather than refused.
@@ -284,8 +296,32 @@ pub(crate) fn greek_name(c: char) -> Option<&'static str> {
         'Ψ' => "Psi",
         'Ω' | '\u{2126}' => "Omega",
         'ℓ' => "l",
-        _ => return None,
+        c => return mathematical(c),
     })
+}
+
+/// The plain letter behind one of the styled mathematical letters of Unicode, such as an italic m.
+fn mathematical(c: char) -> Option<&'static str> {
+    const LATIN: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+    const CAPITALS: &str = "ΑΒΓΔΕΖΗΘΙΚΛΜΝΞΟΠΡΘΣΤΥΦΧΨΩ";
+    const SMALL: &str = "∇αβγδεζηθικλμνξοπρςστυφχψω∂εθκφρπ";
+    match u32::from(c) {
+        code @ 0x1d400..=0x1d6a3 => {
+            let at = (code - 0x1d400) as usize % 52;
+            LATIN.get(at..=at)
+        }
+        code @ 0x1d6a8..=0x1d7c9 => {
+            let at = (code - 0x1d6a8) as usize % 58;
+            let mut letters = CAPITALS.chars().chain(SMALL.chars());
+            letters.nth(at).and_then(greek_name)
+        }
+        _ => match c {
+            'ℎ' => Some("h"),
+            '𝚤' => Some("i"),
+            '𝚥' => Some("j"),
+            _ => None,
+        },
+    }
 }
 
 /// The letter of a Greek name.

@@ -2,7 +2,7 @@
 
 use super::Relation;
 use super::fault::{Fault, Faulty, is_invisible};
-use super::lexer::{Before, Lexer, Tok};
+use super::lexer::{Before, Lexer, Matrix, Tok};
 use super::name;
 use super::note::Remark;
 use super::symbols::Parts;
@@ -61,6 +61,11 @@ impl<'a> Lexer<'a> {
                     self.pos += 1;
                     Tok::Close('}')
                 }
+                Some('%') => return self.percent(start, 2),
+                Some('\\') if self.matrix != Matrix::Outside => {
+                    self.pos = start;
+                    return self.component(Matrix::Column, 2);
+                }
                 Some(c) => {
                     let shown = if is_invisible(c) || c.is_control() {
                         '\u{fffd}'
@@ -76,6 +81,7 @@ impl<'a> Lexer<'a> {
                 None => return Err(Fault::new("a lone backslash", start, end)),
             },
             "operatorname" => return self.operator(start),
+            "begin" | "end" => return self.environment(start, word == "begin"),
             "mathrm" | "text" | "textrm" | "mathsf" | "mathbf" | "mathit" | "textbf" | "textit"
             | "boldsymbol" | "bm" | "mathcal" => {
                 return self.font(start, word);
@@ -120,6 +126,25 @@ impl<'a> Lexer<'a> {
         Ok(tok)
     }
 
+    /// A column or row of components; of other environments nothing is read.
+    fn environment(&mut self, start: usize, begins: bool) -> Faulty<Tok> {
+        let (name, end) = self.group(start)?;
+        let known = matches!(name, "pmatrix" | "bmatrix" | "matrix");
+        if !known || begins != (self.matrix == Matrix::Outside) {
+            let shown: String = name.chars().take(24).collect();
+            let fault = Fault::new(format!("`{shown}` is no environment I read"), start, end);
+            return Err(fault.hint("a vector is written [a, b] or in a pmatrix"));
+        }
+        self.pos = end;
+        if begins {
+            self.matrix = Matrix::Open;
+            Ok(Tok::Open('m'))
+        } else {
+            self.matrix = Matrix::Outside;
+            Ok(Tok::Close('m'))
+        }
+    }
+
     pub(super) fn operator(&mut self, start: usize) -> Faulty<Tok> {
         let (inside, end) = self.group(start)?;
         let word: String = inside.chars().filter(|c| !c.is_whitespace()).collect();
@@ -158,6 +183,15 @@ impl<'a> Lexer<'a> {
             if let Some(tok) = function(trimmed) {
                 self.pos = end;
                 return Ok(tok);
+            }
+            let bold = matches!(word, "mathbf" | "boldsymbol" | "bm" | "textbf");
+            if bold
+                && self.symbols.find(trimmed).is_none()
+                && let Some(vector) = super::words::unit_vector(&format!("{trimmed}_hat"))
+                    .filter(|_| matches!(trimmed, "i" | "j" | "k"))
+            {
+                self.pos = end;
+                return Ok(Tok::Name(vector.into()));
             }
             if trimmed == "pi" || trimmed == "\\pi" {
                 self.pos = end;

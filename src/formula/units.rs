@@ -8,23 +8,42 @@ use crate::dimension;
 const LONGEST_UNIT: usize = 120;
 
 impl Lexer<'_> {
-    /// A unit that fills the rest of this side, where one can stand.
-    pub(super) fn unit(&mut self, marked: bool) -> Option<Tok> {
-        let start = self.pos;
-        let rest = &self.text[start..];
-        if !marked && !starts_like_a_unit(rest) {
+    /// A unit below a slash behind a number, as in `2.4/s` or `2.4 1/s`.
+    pub(super) fn unit_below(&mut self) -> Option<Tok> {
+        if !matches!(self.before, Before::Number { .. }) {
             return None;
         }
+        let start = self.pos;
+        let side = self.rest_of_side()?;
+        let below = side.trim_start_matches('1').strip_prefix('/')?.trim_start();
+        if !below.starts_with(|c: char| c.is_ascii_alphabetic() || c == '(') {
+            return None;
+        }
+        let read = dimension::unit(&format!("1/{}", plain_unit(below)?)).ok()?;
+        self.pos = start + side.len();
+        Some(Tok::Unit(Box::new(read)))
+    }
+
+    /// The text up to the next relation, where it is short enough for a unit.
+    fn rest_of_side(&self) -> Option<&str> {
+        let rest = &self.text[self.pos..];
         let ends = |c: char| matches!(c, '=' | '<' | '>' | '≤' | '≥' | '≠' | '≈');
         let stop = rest
             .char_indices()
             .take(LONGEST_UNIT)
             .find(|(_, c)| ends(*c))
             .map_or(rest.len(), |(at, _)| at);
-        let side = &rest[..stop];
-        if side.len() > LONGEST_UNIT {
+        (stop <= LONGEST_UNIT).then(|| &rest[..stop])
+    }
+
+    /// A unit that fills the rest of this side, where one can stand.
+    pub(super) fn unit(&mut self, marked: bool) -> Option<Tok> {
+        let start = self.pos;
+        if !marked && !starts_like_a_unit(&self.text[start..]) {
             return None;
         }
+        let side = self.rest_of_side()?;
+        let stop = side.len();
         let plain = plain_unit(side)?;
         let read = dimension::unit(&plain).ok()?;
         if !marked {
@@ -81,12 +100,15 @@ impl Lexer<'_> {
 
 /// Whether the text starts with a word that is a unit, so that trying is worth it.
 fn starts_like_a_unit(side: &str) -> bool {
+    let micro = side.starts_with(['µ', 'μ']);
     let length = side
         .bytes()
-        .take(8)
+        .skip(if micro { 2 } else { 0 })
+        .take(12)
         .take_while(u8::is_ascii_alphabetic)
         .count();
-    (1..8).contains(&length) && dimension::unit(&side[..length]).is_ok()
+    let length = length + if micro { 2 } else { 0 };
+    (1..14).contains(&length) && dimension::unit(&side[..length]).is_ok()
 }
 
 /// Stands for `\frac` until its groups are found.
@@ -153,6 +175,7 @@ fn plain_unit(side: &str) -> Option<String> {
             c => plain.push(c),
         }
     }
+    let plain = plain.replace(" per ", "/");
     let trimmed = plain.trim().trim_end_matches(['.', ',', ';']).trim_end();
     (open.is_empty() && !trimmed.is_empty()).then(|| trimmed.to_string())
 }

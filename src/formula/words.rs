@@ -78,7 +78,7 @@ impl Lexer<'_> {
             }
         }
         if self.symbols.is_open() {
-            if run > 3
+            if run > 2
                 && self.before == Before::Nothing
                 && !self.notes.iter().any(|n| n.end >= start + run)
             {
@@ -200,8 +200,8 @@ impl Lexer<'_> {
             return Ok(Tok::Name(found.name.clone()));
         }
         let key = whole.key();
-        if matches!(key.as_str(), "i_hat" | "j_hat" | "k_hat") {
-            return Ok(Tok::Name(key.as_str().into()));
+        if let Some(vector) = unit_vector(&key) {
+            return Ok(Tok::Name(vector.into()));
         }
         if !self.symbols.is_open() {
             return self.refuse(&key, start, stop);
@@ -236,6 +236,16 @@ impl Lexer<'_> {
     }
 }
 
+/// The unit vector an accented name means, where it is not declared as something else.
+pub(super) fn unit_vector(key: &str) -> Option<&'static str> {
+    Some(match key {
+        "i_hat" | "i_vec" | "x_hat" | "e_hat_x" | "e_vec_x" => "i_hat",
+        "j_hat" | "j_vec" | "y_hat" | "e_hat_y" | "e_vec_y" => "j_hat",
+        "k_hat" | "k_vec" | "z_hat" | "e_hat_z" | "e_vec_z" => "k_hat",
+        _ => return None,
+    })
+}
+
 /// A function by name; capitals are accepted.
 pub(super) fn function(word: &str) -> Option<Tok> {
     if word.len() < 2 || word.len() > 7 {
@@ -252,7 +262,7 @@ pub(super) fn function(word: &str) -> Option<Tok> {
         b"tan" => Tok::Call(Tan),
         b"asin" | b"arcsin" => Tok::Call(Asin),
         b"acos" | b"arccos" => Tok::Call(Acos),
-        b"atan" | b"arctan" => Tok::Call(Atan),
+        b"atan" | b"arctan" | b"arctg" => Tok::Call(Atan),
         b"sinh" => Tok::Call(Sinh),
         b"cosh" => Tok::Call(Cosh),
         b"tanh" => Tok::Call(Tanh),
@@ -261,7 +271,7 @@ pub(super) fn function(word: &str) -> Option<Tok> {
         b"abs" => Tok::Call(Abs),
         b"sec" => Tok::Reciprocal(Cos),
         b"csc" | b"cosec" => Tok::Reciprocal(Sin),
-        b"cot" => Tok::Reciprocal(Tan),
+        b"cot" | b"cotg" | b"ctg" => Tok::Reciprocal(Tan),
         b"sqrt" => Tok::Root(2),
         b"cbrt" => Tok::Root(3),
         _ => return None,

@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use super::number::{self, Tolerance};
 use super::{
     Apart, Diagnosis, Key, Options, Proof, Strength, Verdict, fraction, modular, partial, relation,
-    show,
+    show, unit,
 };
 use crate::algebra::Field;
-use crate::dimension::{self, Dimension};
+use crate::dimension::Dimension;
 use crate::equality::{self, Assumption, Condition, Equality, How, Reason, Side};
 use crate::expr::{Expr, Symbol};
-use crate::formula::{Content, Quantity, Reading, Relation, write_plain, write_unicode};
+use crate::formula::{Content, Reading, Relation, write_plain, write_unicode};
 
 /// What a comparison found; the grade without what concerns the text.
 #[derive(Clone, Debug)]
@@ -285,9 +285,9 @@ fn chain(ctx: &Context, answer: &Reading, finding: &mut Finding) {
 fn values(ctx: &Context, expected: &Content, answer: &Content, reading: &Reading) -> Finding {
     match (expected, answer) {
         (Content::Scalar(e), Content::Scalar(a)) => scalars(ctx, e, a),
-        (Content::Quantity(e), Content::Quantity(a)) => quantities(ctx, e, a),
-        (Content::Quantity(e), Content::Scalar(a)) => without_unit(ctx, e, a),
-        (Content::Scalar(e), Content::Quantity(a)) => with_unit(ctx, e, a),
+        (Content::Quantity(e), Content::Quantity(a)) => unit::quantities(ctx, e, a),
+        (Content::Quantity(e), Content::Scalar(a)) => unit::without(ctx, e, a),
+        (Content::Scalar(e), Content::Quantity(a)) => unit::with(ctx, e, a),
         (Content::Vector(e), Content::Vector(a)) => all_of(ctx, e, a),
         (Content::Either(e), Content::Either(a)) => pairs(ctx, e, a),
         (Content::Either(e), Content::Scalar(a)) => {
@@ -551,116 +551,6 @@ pub(crate) fn quotient(a: &Expr, b: &Expr, ctx: &Context) -> Option<Expr> {
     }
     let q = field.expr(&field.div(&x, &y).ok()?);
     q.symbols().is_empty().then_some(q)
-}
-
-fn quantities(ctx: &Context, expected: &Quantity, answer: &Quantity) -> Finding {
-    let (asked, given) = (&expected.unit.dimension, &answer.unit.dimension);
-    if asked != given {
-        let number_right =
-            scalars(ctx, &expected.value, &answer.value).verdict == Verdict::Equivalent;
-        return wrong_unit(asked, given, &answer.unit_text, number_right);
-    }
-    let mut finding = scalars(ctx, &expected.value, &answer.value);
-    if finding.verdict == Verdict::Equivalent && expected.unit.value() != answer.unit.value() {
-        let words = format!(
-            "{} is the same in {}",
-            format_args!("{} {}", write_plain(&answer.written), answer.unit_text),
-            expected.unit_text
-        );
-        finding
-            .diagnosis
-            .push(Diagnosis::new("UNIT_CONVERTED", words.clone(), words));
-    } else if finding.verdict == Verdict::Different
-        && scalars(ctx, &expected.written, &answer.written).verdict == Verdict::Equivalent
-    {
-        finding.note = "DIFF_UNIT";
-        let words = format!(
-            "the number is right for {}, not for {}",
-            expected.unit_text, answer.unit_text
-        );
-        finding.diagnosis.insert(
-            0,
-            Diagnosis::new(
-                "UNIT_PREFIX",
-                words,
-                "check the prefix or scale of your unit",
-            ),
-        );
-    }
-    finding
-}
-
-fn wrong_unit(asked: &Dimension, given: &Dimension, unit: &str, number_right: bool) -> Finding {
-    let words = format!("{unit} measures {given}, and {asked} is asked for");
-    let mut message = words.clone();
-    if number_right {
-        message.push_str("; the number is right");
-    }
-    Finding::different("DIFF_UNIT", "dimension", words).with(Diagnosis::new(
-        "UNIT_WRONG",
-        message,
-        format!("the unit {unit} does not fit what is asked"),
-    ))
-}
-
-fn without_unit(ctx: &Context, expected: &Quantity, answer: &Expr) -> Finding {
-    if expected.unit.dimension.is_none() {
-        return scalars(ctx, &expected.value, answer);
-    }
-    // A formula in symbols carries its unit with them.
-    if !answer.symbols().is_empty() {
-        return scalars(ctx, &expected.value, answer);
-    }
-    if answer.is_zero() && expected.value.is_zero() {
-        return scalars(ctx, &expected.value, answer);
-    }
-    let right = scalars(ctx, &expected.written, answer).verdict == Verdict::Equivalent;
-    let words = match right {
-        true => format!(
-            "the number is right, and its unit {} is missing",
-            expected.unit_text
-        ),
-        false => "the unit is missing, and the number is not the expected one".to_string(),
-    };
-    Finding::different("DIFF_UNIT_MISSING", "dimension", words.clone()).with(Diagnosis::new(
-        "UNIT_MISSING",
-        words,
-        "a unit is missing",
-    ))
-}
-
-fn with_unit(ctx: &Context, expected: &Expr, answer: &Quantity) -> Finding {
-    if answer.unit.dimension.is_none() {
-        return scalars(ctx, expected, &answer.value);
-    }
-    let dimension = ctx.key.question.dimension.clone().or_else(|| {
-        dimension::of(expected, &|name| ctx.dimension_of(name))
-            .ok()
-            .flatten()
-    });
-    match dimension {
-        Some(asked) if asked == answer.unit.dimension && !asked.is_none() => {
-            scalars(ctx, expected, &answer.value)
-        }
-        Some(asked) if !asked.is_none() => {
-            wrong_unit(&asked, &answer.unit.dimension, &answer.unit_text, false)
-        }
-        _ => {
-            let right = scalars(ctx, expected, &answer.written).verdict == Verdict::Equivalent;
-            let words = match right {
-                true => format!(
-                    "a pure number is expected; without {} it would be right",
-                    answer.unit_text
-                ),
-                false => format!("a pure number is expected, not one in {}", answer.unit_text),
-            };
-            Finding::different("DIFF_UNIT_EXTRA", "dimension", words.clone()).with(Diagnosis::new(
-                "UNIT_EXTRA",
-                words,
-                "a unit stands where none is asked",
-            ))
-        }
-    }
 }
 
 /// Components of vectors, one by one; the first that differs decides.

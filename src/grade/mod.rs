@@ -13,9 +13,11 @@ mod form;
 mod modular;
 mod number;
 mod partial;
+mod read;
 mod relation;
 pub mod sheet;
 pub mod steps;
+mod unit;
 
 use std::collections::BTreeSet;
 
@@ -200,6 +202,8 @@ pub struct Key {
     pub(crate) readable: Symbols,
     /// Values modulo a prime, for the fast comparison.
     pub(crate) residues: Option<modular::Residues>,
+    /// The key as a quantity, where its text is one as well as a product: `5 m`.
+    pub(crate) quantity: Option<Box<Key>>,
 }
 
 /// Reads an expected formula.
@@ -210,12 +214,29 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
         Symbols::open()
     };
     declare(&mut symbols, question);
-    let mut key = from_reading(formula::read(expected, &symbols)?, question);
+    let quantity = (!question.closed)
+        .then(|| read::quantity(expected, question))
+        .flatten();
+    let mut key = from_reading(read::expected(expected, &symbols)?, question);
+    if let Some(reading) = quantity {
+        let closed = Question {
+            closed: true,
+            ..question.clone()
+        };
+        let same = reading.content == key.reading.content;
+        let alone = from_reading(reading, &closed);
+        if same {
+            return Ok(alone);
+        }
+        key.quantity = Some(Box::new(alone));
+    }
     // With its names declared a text may split otherwise; the same text has to mean the same in key and answer.
     for _ in 0..3 {
-        match read_answer(&key, expected) {
+        match read::answer(&key, expected) {
             Ok(again) if again.content != key.reading.content => {
-                key = from_reading(again, question)
+                let quantity = key.quantity.take();
+                key = from_reading(again, question);
+                key.quantity = quantity;
             }
             _ => break,
         }
@@ -229,6 +250,7 @@ pub fn key_of(content: Content, question: &Question) -> Key {
         content,
         written: Vec::new(),
         literal: None,
+        unit: None,
         notes: Vec::new(),
         choices: 0,
     };
@@ -266,6 +288,7 @@ fn from_reading(reading: Reading, question: &Question) -> Key {
         question,
         readable,
         residues,
+        quantity: None,
     }
 }
 
@@ -300,7 +323,19 @@ pub fn unreadable_key(fault: Fault) -> Grade {
 
 /// Judges an answer against an expected formula that was read before.
 pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
-    let reading = match read_answer(key, answer) {
+    if let Some(quantity) = &key.quantity
+        && read::is_quantity(quantity, answer)
+    {
+        let mut grade = judge_against(quantity, answer, options);
+        let unit = match quantity.reading.content.answer() {
+            Content::Quantity(q) => q.unit_text.as_str(),
+            _ => "what follows the number",
+        };
+        let words = format!("{unit} is a unit, not a symbol");
+        grade.assumed.push(words);
+        return grade;
+    }
+    let reading = match read::answer(key, answer) {
         Ok(reading) => reading,
         Err(fault) => {
             return Grade {
@@ -319,6 +354,7 @@ pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
         }
     };
     let mut finding = compare::contents(key, &reading, options);
+    unit::behind(key, &reading, &mut finding);
     let open_to_doubt = reading.choices > 0 || power_of_function(&reading.content).is_some();
     if options.strength == Strength::Identity && open_to_doubt {
         ambiguity(key, answer, options, &reading, &mut finding);
@@ -345,56 +381,6 @@ pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
         diagnosis: finding.diagnosis,
         read_as: Some(show(&reading.content)),
         symbols: reading.symbols().into_iter().collect(),
-    }
-}
-
-/// Quantities of mechanics that students bring in although a collision does not know them.
-const STRANGERS: [&str; 6] = ["g", "t", "mu", "h", "dt", "F"];
-
-/// Reads an answer. Beside the declared symbols it may begin with a name of its own for the quantity asked for, and it
-/// may use what students wrongly bring in, so that the answer is wrong rather than unreadable.
-fn read_answer(key: &Key, answer: &str) -> Result<Reading, Fault> {
-    // Where a quantity is expected, `250 g` is one and no product with a symbol g.
-    if !key.question.closed
-        && matches!(key.reading.content.answer(), Content::Quantity(_))
-        && let Ok(reading) = formula::read(answer, &Symbols::strict())
-    {
-        return Ok(reading);
-    }
-    let fault = match formula::read(answer, &key.readable) {
-        Ok(reading) => return Ok(reading),
-        Err(fault) => fault,
-    };
-    if !key.question.closed {
-        return Err(fault);
-    }
-    let mut open = Symbols::open();
-    declare(&mut open, &key.question);
-    let Ok(reading) = formula::read(answer, &open) else {
-        return Err(fault);
-    };
-    let left = match &reading.content {
-        Content::Relations(sides, _) => sides[0].expr().and_then(|e| e.as_symbol().cloned()),
-        _ => None,
-    };
-    let declared = |name: &Symbol| {
-        key.question
-            .symbols
-            .iter()
-            .chain(&key.question.asked)
-            .any(|g| g.name == *name)
-    };
-    let strange = |name: &Symbol| STRANGERS.contains(&&**name) || left.as_ref() == Some(name);
-    let split = reading.notes.iter().any(|n| n.remark == Remark::Letters);
-    if !split
-        && reading
-            .symbols()
-            .iter()
-            .all(|name| declared(name) || strange(name))
-    {
-        Ok(reading)
-    } else {
-        Err(fault)
     }
 }
 
@@ -466,9 +452,9 @@ fn ambiguity(
 fn remarks(reading: &Reading, answer: &str, verdict: Verdict) -> Vec<Diagnosis> {
     let wrong = verdict != Verdict::Equivalent;
     let worth = |note: &&Note| match note.remark {
-        Remark::Letters | Remark::Radians | Remark::UnitOfSymbols | Remark::NaturalLogarithm => {
-            wrong
-        }
+        Remark::Letters => wrong && note.end > note.start + 3,
+        Remark::Radians | Remark::NaturalLogarithm => wrong,
+        Remark::UnitOfSymbols | Remark::Words => true,
         Remark::Inverse | Remark::UnitNotSymbols => wrong,
         _ => false,
     };

@@ -159,7 +159,7 @@ impl Sheet {
     /// Judges an answer for a quantity of the scene; a wrong one is held against the beliefs students have.
     pub fn judge(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
         let mut grade = judge_against(&entry.key, answer, options);
-        let Ok(reading) = super::read_answer(&entry.key, answer) else {
+        let Ok(reading) = super::read::answer(&entry.key, answer) else {
             return grade;
         };
         let numeric = self.numeric(entry, &reading, answer, options);

@@ -1,0 +1,151 @@
+//! Identities the normal form cannot see by itself: sums of arcs, hyperbolic functions, powers with symbols above.
+//!
+//! Arcs: where sin D = 0 and cos D = 1 hold identically, D is a whole number of turns everywhere; where in addition the
+//! ranges of its arcs and angles keep D within less than a turn of zero, D is zero. Hyperbolic functions and powers of
+//! something positive are written with the exponential function, whose laws the normal form knows.
+
+use super::proof::{Proof, compare};
+use crate::algebra::{Field, Sign};
+use crate::domain::{Domains, Limit};
+use crate::expr::number::to_f64;
+use crate::expr::{Expr, Function, Node, Rational};
+
+/// What is left to try when the normal forms differ and a function occurs whose laws they do not know.
+pub(super) fn prove(a: &Expr, b: &Expr, domains: &Domains) -> Option<Proof> {
+    let difference = a - b;
+    if has_arc(&difference) {
+        return whole_turns(&difference, domains);
+    }
+    let (x, y) = (exponentials(a, domains), exponentials(b, domains));
+    if x == *a && y == *b {
+        return None;
+    }
+    Some(compare(&x, &y, domains)).filter(|proof| matches!(proof, Proof::Equal(_)))
+}
+
+fn has_arc(e: &Expr) -> bool {
+    let mut found = false;
+    e.walk(&mut |part| {
+        let arcs = [Function::Asin, Function::Acos, Function::Atan];
+        found |= matches!(part.node(), Node::Call(f, _) if arcs.contains(f));
+    });
+    found
+}
+
+/// Whether a difference is zero because it is a whole number of turns and less than one.
+fn whole_turns(difference: &Expr, domains: &Domains) -> Option<Proof> {
+    let terms = match difference.node() {
+        Node::Sum(terms) => terms.as_slice(),
+        _ => std::slice::from_ref(difference),
+    };
+    let parts: Option<Vec<(Rational, Expr)>> = terms.iter().map(coefficient).collect();
+    let parts = parts?;
+    let common = parts.iter().fold(crate::expr::Int::from(1), |n, (k, _)| {
+        num_integer::lcm(n, k.denom().clone())
+    });
+    let common = Rational::from(common);
+    let (mut low, mut high) = (0.0, 0.0);
+    for (k, atom) in &parts {
+        let times = to_f64(&(k * &common));
+        let [from, to] = range(atom, domains)?;
+        let (p, q) = (times * from, times * to);
+        low += p.min(q);
+        high += p.max(q);
+    }
+    // Ranges are open or touched at single points; the margin is far above the rounding of a few sums.
+    let turn = 2.0 * std::f64::consts::PI * (1.0 - 1e-9);
+    if low <= -turn || high >= turn {
+        return None;
+    }
+    let d = &Expr::from(common) * difference;
+    let Proof::Equal(mut assumed) = compare(&d.sin(), &Expr::zero(), domains) else {
+        return None;
+    };
+    let Proof::Equal(more) = compare(&d.cos(), &Expr::one(), domains) else {
+        return None;
+    };
+    assumed.extend(
+        more.into_iter()
+            .filter(|a| !assumed.contains(a))
+            .collect::<Vec<_>>(),
+    );
+    Some(Proof::Equal(assumed))
+}
+
+/// A term as a number times the rest.
+fn coefficient(term: &Expr) -> Option<(Rational, Expr)> {
+    match term.node() {
+        Node::Product(factors) => match factors.as_slice() {
+            [k, atom] => Some((k.as_number()?.clone(), atom.clone())),
+            _ => None,
+        },
+        Node::Number(_) => None,
+        _ => Some((Rational::from(crate::expr::Int::from(1)), term.clone())),
+    }
+}
+
+/// Bounds of an arc, of π, or of an angle that lives between two ends.
+fn range(atom: &Expr, domains: &Domains) -> Option<[f64; 2]> {
+    use std::f64::consts::{FRAC_PI_2, PI};
+    match atom.node() {
+        Node::Call(function, argument) => {
+            let mut field = Field::new(domains);
+            field.prepare([argument]);
+            let sign = field.element(argument).ok().and_then(|x| field.sign(&x));
+            let positive = matches!(sign, Some(Sign::Positive | Sign::NotNegative | Sign::Zero));
+            let negative = matches!(sign, Some(Sign::Negative | Sign::NotPositive | Sign::Zero));
+            let (low, high) = (
+                if positive { 0.0 } else { -FRAC_PI_2 },
+                if negative { 0.0 } else { FRAC_PI_2 },
+            );
+            match function {
+                Function::Asin | Function::Atan => Some([low, high]),
+                Function::Acos => Some([FRAC_PI_2 - high, FRAC_PI_2 - low]),
+                _ => None,
+            }
+        }
+        Node::Symbol(name) if &**name == "pi" => Some([PI, PI]),
+        Node::Symbol(name) => {
+            let domain = domains.symbols.get(name)?;
+            let end = |limit: &Option<Limit>| limit.as_ref().map(Limit::approximate);
+            Some([end(&domain.low)?, end(&domain.high)?])
+        }
+        _ => None,
+    }
+}
+
+/// Hyperbolic functions, and powers of something positive with a symbol above, by the exponential function.
+fn exponentials(e: &Expr, domains: &Domains) -> Expr {
+    let e = e.map_parts(|part| exponentials(part, domains));
+    let exp = |x: Expr| Expr::call(Function::Exp, x);
+    match e.node() {
+        Node::Call(function @ (Function::Sinh | Function::Cosh | Function::Tanh), x) => {
+            let (up, down) = (exp(x.clone()), exp(-x));
+            match function {
+                Function::Sinh => (up - down) * Expr::ratio(1, 2),
+                Function::Cosh => (up + down) * Expr::ratio(1, 2),
+                _ => (&up - &down) / (up + down),
+            }
+        }
+        Node::Call(Function::Ln, x) => match x.node() {
+            Node::Call(Function::Exp, inner) => inner.clone(),
+            _ => e,
+        },
+        Node::Power(base, k) if k.as_number().is_none() => {
+            let mut field = Field::new(domains);
+            field.prepare([base]);
+            let sign = field.element(base).ok().and_then(|x| field.sign(&x));
+            match sign {
+                Some(Sign::Positive) => {
+                    let ln = match base.node() {
+                        Node::Call(Function::Exp, inner) => inner.clone(),
+                        _ => Expr::call(Function::Ln, base.clone()),
+                    };
+                    exp(k * &ln)
+                }
+                _ => e,
+            }
+        }
+        _ => e,
+    }
+}

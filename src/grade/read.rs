@@ -1,0 +1,129 @@
+//! Reads an answer with the names its key allows, and a key that may be a quantity.
+//!
+//! Beside the declared symbols an answer may begin with a name of its own for the quantity asked for, and it may use what
+//! students wrongly bring in, so that it is wrong rather than unreadable. A word that is no name is refused: read letter by
+//! letter it would be a formula nobody wrote.
+
+use super::{Key, Question, declare};
+use crate::expr::{Expr, Symbol};
+use crate::formula::{self, Content, Fault, Reading, Remark, Symbols};
+
+/// Quantities of mechanics that students bring in although a collision does not know them.
+const STRANGERS: [&str; 6] = ["g", "t", "mu", "h", "dt", "F"];
+
+/// Reads an expected formula; numbers in round brackets are components there.
+pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
+    formula::read(text, symbols).or_else(|fault| {
+        match formula::read(text, &symbols.clone().with_lists()) {
+            Ok(reading) if vector(&reading) => Ok(reading),
+            _ => Err(fault),
+        }
+    })
+}
+
+/// Reads an answer.
+pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
+    let fault = match formula::read(text, &key.readable) {
+        Ok(reading) => return worded(key, text, reading),
+        Err(fault) => fault,
+    };
+    if vector(&key.reading)
+        && let Ok(reading) = formula::read(text, &key.readable.clone().with_lists())
+        && vector(&reading)
+    {
+        return worded(key, text, reading);
+    }
+    if !key.question.closed {
+        return Err(fault);
+    }
+    let mut open = Symbols::open();
+    declare(&mut open, &key.question);
+    let Ok(reading) = formula::read(text, &open) else {
+        return Err(fault);
+    };
+    let left = match &reading.content {
+        Content::Relations(sides, _) => sides[0].expr().and_then(|e| e.as_symbol().cloned()),
+        _ => None,
+    };
+    let strange = |name: &Symbol| STRANGERS.contains(&&**name) || left.as_ref() == Some(name);
+    let split = reading.notes.iter().any(|n| n.remark == Remark::Letters);
+    let measured = matches!(key.reading.content.answer(), Content::Quantity(_));
+    let named_quantity = measured && left.is_some();
+    if !split
+        && reading
+            .symbols()
+            .iter()
+            .all(|name| declared(key, name) || strange(name))
+        && !named_quantity
+    {
+        return Ok(reading);
+    }
+    // `v = 5 m/s`, where v is not declared and m is the unit.
+    let named = left.filter(|name| !declared(key, name)).and_then(|name| {
+        let mut symbols = key.readable.clone();
+        symbols.declare(&name);
+        formula::read(text, &symbols).ok()
+    });
+    named.ok_or(fault)
+}
+
+/// A text as a quantity with a unit, where no undeclared symbol is needed to read it.
+pub(super) fn quantity(text: &str, question: &Question) -> Option<Reading> {
+    let mut symbols = Symbols::strict();
+    declare(&mut symbols, question);
+    let reading = formula::read(text, &symbols).or_else(|fault| {
+        match formula::read(text, &symbols.clone().with_lists()) {
+            Ok(reading) if vector(&reading) => Ok(reading),
+            _ => Err(fault),
+        }
+    });
+    reading.ok().filter(|reading| {
+        let plain = matches!(reading.content.answer(), Content::Quantity(_));
+        plain || reading.unit.is_some() && reading.symbols().is_empty()
+    })
+}
+
+/// Whether an answer to a key that is a quantity is one too, or a bare number.
+pub(super) fn is_quantity(key: &Key, text: &str) -> bool {
+    answer(key, text).is_ok_and(|reading| {
+        matches!(reading.content.answer(), Content::Quantity(_)) || {
+            let mut none = true;
+            let answer = reading.content.answer();
+            answer.each(&mut |e: &Expr| none &= e.symbols().is_empty());
+            none && !matches!(answer, Content::Relations(..))
+        }
+    })
+}
+
+fn declared(key: &Key, name: &Symbol) -> bool {
+    let known = key.question.symbols.iter().chain(&key.question.asked);
+    known.into_iter().any(|g| g.name == *name)
+}
+
+fn vector(reading: &Reading) -> bool {
+    matches!(reading.content.answer(), Content::Vector(_))
+}
+
+/// Refuses a word that was read letter by letter although its letters are no names of the question.
+fn worded(key: &Key, text: &str, reading: Reading) -> Result<Reading, Fault> {
+    for note in reading.notes.iter().filter(|n| n.remark == Remark::Letters) {
+        let word = text.get(note.start..note.end).unwrap_or_default();
+        let strange = |c: &char| {
+            let name = Symbol::from(c.to_string().as_str());
+            !declared(key, &name) && !STRANGERS.contains(&&*name)
+        };
+        if word.chars().filter(strange).count() > 1 {
+            return Err(Fault {
+                message: format!("`{word}` is no name of the question"),
+                start: note.start,
+                end: note.end,
+                hint: Some(
+                    "write * between the factors of a product; words do not belong to a formula"
+                        .into(),
+                ),
+                also: Vec::new(),
+            });
+        }
+    }
+    Ok(reading)
+}

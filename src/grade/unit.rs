@@ -1,0 +1,196 @@
+//! Units of answers: missing, wrong, compatible, in excess, or standing behind a formula that carries its own.
+
+use super::compare::{Context, Finding, scalars};
+use super::{Diagnosis, Key, Proof, Verdict};
+use crate::dimension::{self, Dimension, Unit};
+use crate::expr::Expr;
+use crate::formula::{Content, Quantity, Reading, write_plain};
+
+/// The unit behind a vector, a pair, or a formula in symbols, which carry none in their content.
+///
+/// Behind a formula whose symbols have dimensions the unit has to fit and to be the coherent one, and says nothing new;
+/// where dimensions are not known it cannot be checked, and the reader's remark says that it was not used.
+pub(super) fn behind(key: &Key, reading: &Reading, finding: &mut Finding) {
+    let content = reading.content.answer();
+    if matches!(content, Content::Quantity(_)) {
+        return;
+    }
+    let mut constant = true;
+    let mut zero = true;
+    content.each(&mut |e: &Expr| {
+        constant &= e.symbols().is_empty();
+        zero &= e.is_zero();
+    });
+    let asked = asked(key);
+    let Some(unit) = &reading.unit else {
+        let needed = key.reading.unit.as_ref().filter(|u| !u.dimension.is_none());
+        let bare = matches!(content, Content::Vector(_) | Content::Either(_));
+        if let Some(needed) = needed
+            && bare
+            && constant
+            && !zero
+        {
+            let words = format!("the unit {} is missing", needed.dimension.si());
+            *finding = Finding::different("DIFF_UNIT_MISSING", "dimension", words.clone())
+                .with(Diagnosis::new("UNIT_MISSING", words, "a unit is missing"));
+        }
+        return;
+    };
+    match asked {
+        Some(asked) if asked != unit.dimension && finding.verdict != Verdict::Undecided => {
+            let right = finding.verdict == Verdict::Equivalent;
+            *finding = wrong(&asked, &unit.dimension, &unit.dimension.si(), right);
+        }
+        Some(_) if !constant && !is_coherent(unit) && finding.verdict == Verdict::Equivalent => {
+            let words = "the symbols carry their units; the unit behind the formula is another one";
+            *finding =
+                Finding::new(Verdict::Invalid, "INVALID_UNIT", Proof::of("none", words)).with(
+                    Diagnosis::new("UNIT_OF_SYMBOLS", words, "leave the unit away"),
+                );
+        }
+        None if constant && !unit.dimension.is_none() => {
+            *finding = extra(&unit.dimension.si(), false)
+        }
+        _ => {}
+    }
+}
+
+fn is_coherent(unit: &Unit) -> bool {
+    unit.value().is_one()
+}
+
+/// Dimension of what is asked, where it is known and not that of a number.
+fn asked(key: &Key) -> Option<Dimension> {
+    if let Some(unit) = &key.reading.unit {
+        return Some(unit.dimension.clone());
+    }
+    if let Some(dimension) = &key.question.dimension {
+        return Some(dimension.clone());
+    }
+    let known = |name: &str| {
+        let all = key.question.symbols.iter().chain(&key.question.asked);
+        let mut all = all.into_iter();
+        all.find(|g| *g.name == *name)?.dimension.clone()
+    };
+    let mut found = None;
+    key.reading.content.answer().each(&mut |e: &Expr| {
+        if found.is_none() && !e.is_zero() && !e.symbols().is_empty() {
+            found = dimension::of(e, &known).ok().flatten();
+        }
+    });
+    found
+}
+
+/// Two quantities with units.
+pub(super) fn quantities(ctx: &Context, expected: &Quantity, answer: &Quantity) -> Finding {
+    let (asked, given) = (&expected.unit.dimension, &answer.unit.dimension);
+    if asked != given {
+        let number_right =
+            scalars(ctx, &expected.value, &answer.value).verdict == Verdict::Equivalent;
+        return wrong(asked, given, &answer.unit_text, number_right);
+    }
+    let mut finding = scalars(ctx, &expected.value, &answer.value);
+    if finding.verdict == Verdict::Equivalent && expected.unit.value() != answer.unit.value() {
+        let words = format!(
+            "{} is the same in {}",
+            format_args!("{} {}", write_plain(&answer.written), answer.unit_text),
+            expected.unit_text
+        );
+        finding
+            .diagnosis
+            .push(Diagnosis::new("UNIT_CONVERTED", words.clone(), words));
+    } else if finding.verdict == Verdict::Different
+        && scalars(ctx, &expected.written, &answer.written).verdict == Verdict::Equivalent
+    {
+        finding.note = "DIFF_UNIT";
+        let words = format!(
+            "the number is right for {}, not for {}",
+            expected.unit_text, answer.unit_text
+        );
+        finding.diagnosis.insert(
+            0,
+            Diagnosis::new(
+                "UNIT_PREFIX",
+                words,
+                "check the prefix or scale of your unit",
+            ),
+        );
+    }
+    finding
+}
+
+fn wrong(asked: &Dimension, given: &Dimension, unit: &str, number_right: bool) -> Finding {
+    let words = format!("{unit} measures {given}, and {asked} is asked for");
+    let mut message = words.clone();
+    if number_right {
+        message.push_str("; the number is right");
+    }
+    Finding::different("DIFF_UNIT", "dimension", words).with(Diagnosis::new(
+        "UNIT_WRONG",
+        message,
+        format!("the unit {unit} does not fit what is asked"),
+    ))
+}
+
+/// A number or formula for a quantity with a unit.
+pub(super) fn without(ctx: &Context, expected: &Quantity, answer: &Expr) -> Finding {
+    if expected.unit.dimension.is_none() {
+        return scalars(ctx, &expected.value, answer);
+    }
+    // A formula in symbols carries its unit with them.
+    if !answer.symbols().is_empty() {
+        return scalars(ctx, &expected.value, answer);
+    }
+    if answer.is_zero() && expected.value.is_zero() {
+        return scalars(ctx, &expected.value, answer);
+    }
+    let right = scalars(ctx, &expected.written, answer).verdict == Verdict::Equivalent;
+    let words = match right {
+        true => format!(
+            "the number is right, and its unit {} is missing",
+            expected.unit_text
+        ),
+        false => "the unit is missing, and the number is not the expected one".to_string(),
+    };
+    Finding::different("DIFF_UNIT_MISSING", "dimension", words.clone()).with(Diagnosis::new(
+        "UNIT_MISSING",
+        words,
+        "a unit is missing",
+    ))
+}
+
+/// A quantity with a unit for a number or formula.
+pub(super) fn with(ctx: &Context, expected: &Expr, answer: &Quantity) -> Finding {
+    if answer.unit.dimension.is_none() {
+        return scalars(ctx, expected, &answer.value);
+    }
+    let dimension = ctx.key.question.dimension.clone().or_else(|| {
+        dimension::of(expected, &|name| ctx.dimension_of(name))
+            .ok()
+            .flatten()
+    });
+    match dimension {
+        Some(asked) if asked == answer.unit.dimension && !asked.is_none() => {
+            scalars(ctx, expected, &answer.value)
+        }
+        Some(asked) if !asked.is_none() => {
+            wrong(&asked, &answer.unit.dimension, &answer.unit_text, false)
+        }
+        _ => {
+            let right = scalars(ctx, expected, &answer.written).verdict == Verdict::Equivalent;
+            extra(&answer.unit_text, right)
+        }
+    }
+}
+
+fn extra(unit: &str, right: bool) -> Finding {
+    let words = match right {
+        true => format!("a pure number is expected; without {unit} it would be right"),
+        false => format!("a pure number is expected, not one in {unit}"),
+    };
+    Finding::different("DIFF_UNIT_EXTRA", "dimension", words.clone()).with(Diagnosis::new(
+        "UNIT_EXTRA",
+        words,
+        "a unit stands where none is asked",
+    ))
+}
