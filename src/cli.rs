@@ -176,12 +176,20 @@ fn derive_command(
     }
     let derivation = derive::derive(&scene).map_err(stopped)?;
     let proof = verify::prove(&scene, &derivation);
+    let special = story::special(&scene, &derivation, &proof)
+        .map_err(|reason| Failure::Input(format!("{}: {reason}", path.display())))?;
     print(&match format {
-        Format::Text => render::text::derivation(&scene, &derivation, &proof),
-        Format::Json => pretty(&render::json::derivation(&scene, &derivation, &proof)),
+        Format::Text => render::text::derivation(&scene, &derivation, &proof, &special),
+        Format::Json => pretty(&render::json::derivation(
+            &scene,
+            &derivation,
+            &proof,
+            &special,
+        )),
     })?;
+    let special_holds = special.iter().all(story::Answer::holds);
     Ok(u8::from(
-        !proof.holds() || derivation.counting.contradictory,
+        !proof.holds() || !special_holds || derivation.counting.contradictory,
     ))
 }
 

@@ -8,17 +8,25 @@ use crate::expr::{Expr, Symbol};
 use crate::formula::write_plain;
 use crate::laws;
 use crate::scene::Scene;
+use crate::story::Answer as Special;
 use crate::verify::{Check, Proof};
 
 /// Everything about a derivation and its proof.
-pub fn derivation(scene: &Scene, derivation: &Derivation, proof: &Proof) -> Value {
+pub fn derivation(
+    scene: &Scene,
+    derivation: &Derivation,
+    proof: &Proof,
+    special: &[Special],
+) -> Value {
     let counting = &derivation.counting;
-    let answers: Vec<Value> = derivation
+    let mut answers: Vec<Value> = derivation
         .answers
         .iter()
         .zip(&proof.answers)
         .map(|(a, checks)| answer(scene, derivation, a, checks, proof))
         .collect();
+    // What is asked about these answers stands behind them.
+    answers.extend(special.iter().map(|a| super::story::answer(scene, &[], a)));
     let used: usize = derivation.blocks.iter().map(|b| b.equations.len()).sum();
     json!({
         "title": scene.title,
@@ -43,7 +51,7 @@ pub fn derivation(scene: &Scene, derivation: &Derivation, proof: &Proof) -> Valu
         "left_out": derivation.left_out.iter().map(|l| json!({"what": l.what, "why": l.why})).collect::<Vec<_>>(),
         "assumptions": assumptions(scene, derivation, proof),
         "checks": proof.scene.iter().map(check).collect::<Vec<_>>(),
-        "verified": proof.holds(),
+        "verified": proof.holds() && special.iter().all(Special::holds),
     })
 }
 

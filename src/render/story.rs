@@ -8,14 +8,14 @@ use crate::scene::Scene;
 use crate::story::{Answer, Sentence, StageTold, Told};
 use crate::verify::Check;
 
-/// What an answer rests on: the domains and its own assumptions.
-fn assumptions(scene: &Scene, told: &Told, answer: &Answer) -> Vec<String> {
+/// What an answer rests on: the domains, how the statement is read, and its own assumptions.
+fn assumptions(scene: &Scene, readings: &[String], answer: &Answer) -> Vec<String> {
     let domains = scene.domains.symbols.iter();
     let mut all: Vec<String> = domains
         .filter(|(_, d)| d.low.is_some() || d.high.is_some())
         .map(|(name, d)| d.words(name))
         .collect();
-    all.extend(told.readings.iter().cloned());
+    all.extend(readings.iter().cloned());
     all.extend(answer.assumptions.iter().map(ToString::to_string));
     all
 }
@@ -25,7 +25,7 @@ pub fn json(scene: &Scene, told: &Told) -> Value {
     json!({
         "title": scene.title,
         "source": scene.source,
-        "answers": told.answers.iter().map(|a| answer(scene, told, a)).collect::<Vec<_>>(),
+        "answers": told.answers.iter().map(|a| answer(scene, &told.readings, a)).collect::<Vec<_>>(),
         "stages": told.stages.iter().map(|s| stage(scene, s)).collect::<Vec<_>>(),
         "readings": told.readings,
         "unused": told.unused,
@@ -34,7 +34,8 @@ pub fn json(scene: &Scene, told: &Told) -> Value {
     })
 }
 
-fn answer(scene: &Scene, told: &Told, a: &Answer) -> Value {
+/// An answer as data.
+pub fn answer(scene: &Scene, readings: &[String], a: &Answer) -> Value {
     let mut out = Map::new();
     out.insert("name".into(), json!(a.name));
     out.insert("question".into(), json!(a.question));
@@ -73,7 +74,7 @@ fn answer(scene: &Scene, told: &Told, a: &Answer) -> Value {
     out.insert("symbol".into(), json!(a.latex));
     out.insert("dimension".into(), json!(a.dimension.plain()));
     out.insert("unit".into(), json!(a.dimension.si()));
-    out.insert("assumptions".into(), json!(assumptions(scene, told, a)));
+    out.insert("assumptions".into(), json!(assumptions(scene, readings, a)));
     out.insert(
         "checks".into(),
         json!(a.checks.iter().map(check).collect::<Vec<_>>()),
@@ -161,7 +162,21 @@ pub fn text(scene: &Scene, told: &Told) -> String {
     }
     line(String::new());
     line(String::from("answers"));
-    for a in &told.answers {
+    out.push_str(&answers(scene, &told.answers));
+    if !told.unused.is_empty() {
+        out.push_str(&format!("\nnot needed: {}\n", told.unused.join(", ")));
+    }
+    out
+}
+
+/// Answers one after the other, each with what it rests on and how it was checked.
+pub fn answers(scene: &Scene, answers: &[Answer]) -> String {
+    let mut out = String::new();
+    let mut line = |text: String| {
+        out.push_str(text.trim_end());
+        out.push('\n');
+    };
+    for a in answers {
         line(String::new());
         let value = a.formula.as_ref().map(|e| unicode(scene, e));
         match (&value, a.range.as_slice()) {
@@ -195,10 +210,6 @@ pub fn text(scene: &Scene, told: &Told) -> String {
         for c in &a.checks {
             line(format!("      {} {}", mark(c), c.words));
         }
-    }
-    if !told.unused.is_empty() {
-        line(String::new());
-        line(format!("not needed: {}", told.unused.join(", ")));
     }
     out
 }

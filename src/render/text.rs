@@ -6,10 +6,11 @@ use super::unicode;
 use crate::derive::{Derivation, Form, Matrix};
 use crate::laws;
 use crate::scene::Scene;
+use crate::story::Answer as Special;
 use crate::verify::{Check, Proof};
 
 /// The whole derivation as plain text.
-pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof) -> String {
+pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof, special: &[Special]) -> String {
     let mut out = String::new();
     let title = [scene.title.as_str(), scene.source.as_str()];
     let title: Vec<&str> = title.into_iter().filter(|t| !t.is_empty()).collect();
@@ -139,6 +140,10 @@ pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof) -> String {
         for c in checks {
             check(&mut out, &format!("  {}: ", answer.name), c);
         }
+    }
+    if !special.is_empty() {
+        line(&mut out, "\n", "asked about these answers:");
+        out.push_str(&super::story::answers(scene, special));
     }
     out
 }

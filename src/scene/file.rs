@@ -46,6 +46,8 @@ record! {
         assumptions: Option<Vec<Text>>,
         /// What is asked, under the name of the answer.
         questions: Option<Map<QuestionFile>>,
+        /// Curves to be drawn, by name.
+        plots: Option<Map<PlotFile>>,
         /// What a book prints about the scene, for `carom verify`.
         printed: Option<Vec<PrintedFile>>,
     }
@@ -478,7 +480,8 @@ choice! {
 }
 
 record! {
-    /// Something asked: exactly one of velocity, spin, impulse, energy, balance and matrix, with what belongs to it.
+    /// Something asked: exactly one of velocity, spin, impulse, energy, balance and matrix, with what belongs to it; or one of
+    /// value, solve, threshold, maximum, limit, approximate and show, about the answers to those.
     QuestionFile {
         /// How the answer's name is typeset.
         latex: Option<Text>,
@@ -519,7 +522,7 @@ record! {
         about: Option<PositionFile>,
         /// A formula of parameters and earlier answers.
         value: Option<Formula>,
-        /// Parameters and the formulas that stand for them, in a value, a threshold or a solution.
+        /// Parameters and the formulas that stand for them, in a value, a threshold, a solution or what is to be shown.
         with: Option<Map<Formula>>,
         /// The parameter for whose values the relation `holds` is true.
         threshold: Option<Text>,
@@ -537,8 +540,18 @@ record! {
         tends: Option<Text>,
         /// What it tends to: a formula, or "infinity".
         to: Option<Formula>,
+        /// A formula, or the name of a vector, to be written as a polynomial in the small difference between the parameter that
+        /// `tends` and what it tends `to` (missing: 0), up to the power `order`.
+        approximate: Option<Formula>,
+        /// Highest power kept: 0, 1, 2, ….
+        order: Option<Formula>,
         /// An equation to be proved.
         show: Option<Text>,
+        /// Names of answers that must not vanish for what is shown to mean something, such as velocities between which an angle is
+        /// measured; where they vanish is found and told.
+        unless: Option<Vec<Text>>,
+        /// What the equation to be proved says, in words.
+        claim: Option<Text>,
         /// Name of the stage: which forces have an impulse in it, and why?
         impulsive: Option<Text>,
         /// Name of the stage: what happens in it, in words?
@@ -551,5 +564,29 @@ record! {
         assumed: Option<bool>,
         /// Name of an earlier answer: which data does it not need?
         unused: Option<Text>,
+    }
+}
+
+record! {
+    /// A curve of a quantity against a parameter, or against a name that stands for a formula.
+    PlotFile {
+        /// Heading. Missing: the quantity against the parameter.
+        title: Option<Text>,
+        /// A formula of parameters and answers.
+        quantity: Formula,
+        /// What is written at its axis, such as "P_A/(m_1 v)". Missing: the formula.
+        label: Option<Text>,
+        /// The parameter along the other axis, or a new name that `stands_for` explains.
+        against: Text,
+        /// What the new name stands for, such as "l/d".
+        stands_for: Option<Formula>,
+        /// The parameter of that formula that varies.
+        varying: Option<Text>,
+        /// Smallest value shown.
+        from: Formula,
+        /// Largest value shown.
+        to: Formula,
+        /// One curve for each entry: parameters and the formulas that stand for them. Missing: one curve.
+        curves: Option<Vec<Map<Formula>>>,
     }
 }

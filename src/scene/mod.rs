@@ -17,6 +17,7 @@ mod proof;
 mod question;
 mod record;
 mod resolve;
+mod special;
 mod stage;
 mod stage_file;
 mod stages;
@@ -28,8 +29,8 @@ use crate::expr::{Expr, Symbol, Vector};
 pub use fault::{Fault, Faults, Span};
 pub use printed::{Print, Printed};
 pub use stage::{
-    Fall, OneSided, Relation, Slide, Stage, StageKind, Story, StoryAsk, StoryQuestion, Turn, Until,
-    Wind,
+    Fall, OneSided, PlotAsk, Relation, Slide, Stage, StageKind, Story, StoryAsk, StoryQuestion,
+    Turn, Until, Wind,
 };
 
 /// Longest text of a scene file, in bytes.
@@ -131,6 +132,11 @@ pub struct Scene {
     pub forces: Vec<Force>,
     /// What is asked.
     pub questions: Vec<Question>,
+    /// What is asked about the answers to those: zeros, limits, forms for a small parameter, identities. Empty for a scene with
+    /// stages, whose [`Story`] holds all of its questions.
+    pub special: Vec<StoryQuestion>,
+    /// Curves to be drawn.
+    pub plots: Vec<PlotAsk>,
     /// What a book prints about the scene.
     pub printed: Vec<Printed>,
     /// Stages before and after collisions, where the scene tells them; hinges, contacts, blows and questions then stand

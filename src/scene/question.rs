@@ -6,7 +6,7 @@ use super::fault::{Fault, Span};
 use super::file::{EnergyName, QuestionFile};
 use super::record::{Text, is_sound};
 use super::resolve::Resolver;
-use super::{Ask, EnergyWhen, ImpulseAt, Question, Scene};
+use super::{Ask, EnergyWhen, ImpulseAt, Question, Scene, special};
 
 /// Reads all questions.
 pub(super) fn resolve(resolver: &mut Resolver<'_>, scene: &mut Scene) {
@@ -36,6 +36,10 @@ pub(super) fn resolve(resolver: &mut Resolver<'_>, scene: &mut Scene) {
                 .faults
                 .push(fault.hint("what is asked and what is given need different names"));
         }
+        // Questions about the answers are read when all of these are known.
+        if special::is_asked(question) && !is_motion(question) {
+            continue;
+        }
         let ask = ask(resolver, scene, name, question);
         if let Some(ask) = ask {
             let latex = question.latex.as_ref().map(|t| t.text.clone());
@@ -49,6 +53,31 @@ pub(super) fn resolve(resolver: &mut Resolver<'_>, scene: &mut Scene) {
     for (name, question) in &all {
         matrix_names(resolver, scene, name, question);
     }
+}
+
+/// The kind of question that only a scene with stages can answer, if this is one.
+fn about_stage(q: &QuestionFile) -> Option<&'static str> {
+    let kinds = [
+        ("reaction", q.reaction.is_some()),
+        ("angular_momentum", q.angular_momentum.is_some()),
+        ("impulsive", q.impulsive.is_some()),
+        ("describe", q.describe.is_some()),
+        ("missing", q.missing.is_some()),
+        ("remark", q.remark.is_some()),
+        ("assumed", q.assumed.is_some()),
+        ("unused", q.unused.is_some()),
+    ];
+    kinds.into_iter().find(|k| k.1).map(|k| k.0)
+}
+
+/// Whether the question is about the motion just after, and not about formulas of answers.
+pub(super) fn is_motion(q: &QuestionFile) -> bool {
+    q.velocity.is_some()
+        || q.spin.is_some()
+        || q.impulse.is_some()
+        || q.energy.is_some()
+        || q.balance.is_some()
+        || q.matrix.is_some()
 }
 
 fn ask(
@@ -75,6 +104,10 @@ fn ask(
             return None;
         }
         let message = match asked.as_slice() {
+            [] if about_stage(question).is_some() => format!(
+                "`{}` is asked of a stage, and this scene has none",
+                about_stage(question).unwrap_or_default()
+            ),
             [] => "this question asks nothing".to_owned(),
             several => {
                 let names: Vec<&str> = several.iter().map(|(kind, ..)| *kind).collect();
@@ -88,7 +121,7 @@ fn ask(
         let fault = Fault::new(name.span, message);
         resolver
             .faults
-            .push(fault.hint("give one of velocity, spin, impulse, energy, balance, matrix"));
+            .push(fault.hint("give one of velocity, spin, impulse, energy, balance, matrix, or of value, solve, threshold, maximum, limit, approximate, show"));
         return None;
     };
     let others = [
@@ -99,7 +132,7 @@ fn ask(
         ("system", question.system.is_some()),
         ("unknowns", question.unknowns.is_some()),
     ];
-    for (other, given) in others {
+    for (other, given) in others.into_iter().chain(special::companions(question)) {
         if given && !companions.contains(&other) {
             let message = format!("a question about {kind} has no `{other}`");
             resolver.faults.push(Fault::new(name.span, message));

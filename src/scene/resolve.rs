@@ -15,7 +15,7 @@ use super::place::Place;
 use super::record::{Map, Text, is_sound};
 use super::{
     Blow, BlowImpulse, Body, Contact, ContactLaw, Force, Hinge, Known, KnownQuantity, NamedPoint,
-    Scene, Shape, parameters, question,
+    Scene, Shape, parameters, question, special,
 };
 use crate::expr::{Expr, Vector, minus};
 
@@ -73,6 +73,11 @@ pub(super) fn resolve(file: &SceneFile, mut faults: Vec<Fault>) -> (Scene, Vec<F
     }
     if resolver.faults.is_empty() && file.stages.is_some() {
         super::stages::resolve(&mut resolver, &mut scene);
+    } else if resolver.faults.is_empty() {
+        special::resolve(&mut resolver, &mut scene);
+    }
+    if resolver.faults.is_empty() {
+        special::plots(&mut resolver, &mut scene);
     }
     let Resolver {
         symbols,

@@ -232,12 +232,29 @@ pub enum StoryAsk {
         /// To what; `None` beyond all bounds.
         to: Option<Expr>,
     },
+    /// What a formula is near a value of a parameter, as a polynomial in the small difference.
+    Approximate {
+        /// The formula.
+        of: Expr,
+        /// The parameter that is near `to`.
+        parameter: Symbol,
+        /// The value it is near to.
+        to: Expr,
+        /// Highest power of the difference.
+        order: u32,
+    },
     /// An identity to be proved.
     Show {
         /// Left side.
         left: Expr,
         /// Right side.
         right: Expr,
+        /// Parameters and what stands for them.
+        with: Vec<(Symbol, Expr)>,
+        /// Answers, single or with two components, that must not vanish for the statement to mean something.
+        unless: Vec<Symbol>,
+        /// What the identity says, in words; may be empty.
+        claim: String,
     },
     /// Which forces have an impulse in this stage, and why.
     Impulsive {
@@ -260,4 +277,27 @@ pub enum StoryAsk {
     Assumed,
     /// Which given data an earlier answer, by name, does not need.
     Unused(String),
+}
+
+/// A picture that is asked for: a quantity against a parameter.
+#[derive(Clone, Debug)]
+pub struct PlotAsk {
+    /// Name.
+    pub name: String,
+    /// Heading; may be empty.
+    pub title: String,
+    /// The quantity, in parameters and answers.
+    pub quantity: Expr,
+    /// What is written at its axis; `None` for the formula itself.
+    pub label: Option<String>,
+    /// What it is drawn against: a parameter, or a name for `stands_for`.
+    pub against: Symbol,
+    /// What the name stands for, and the parameter that varies.
+    pub stands_for: Option<(Expr, Symbol)>,
+    /// Smallest value shown.
+    pub from: Expr,
+    /// Largest value shown.
+    pub to: Expr,
+    /// One curve for each: parameters and what stands for them. Never empty; an entry may be.
+    pub curves: Vec<Vec<(Symbol, Expr)>>,
 }

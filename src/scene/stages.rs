@@ -13,13 +13,11 @@ use super::place::Place;
 use super::record::{Formula, Map, Text};
 use super::resolve::{Resolver, entries};
 use super::stage::{
-    Fall, OneSided, Relation, Slide, Stage, StageKind, Story, StoryAsk, StoryQuestion, Turn, Until,
-    Wind,
+    Fall, OneSided, Slide, Stage, StageKind, Story, StoryAsk, StoryQuestion, Turn, Until, Wind,
 };
 use super::stage_file::{EndName, ImpactFile, StageFile, StartFile, TurnFile, UntilName};
-use super::{Scene, geometry};
-use crate::expr::{Expr, Symbol, Vector, dot, minus};
-use crate::formula::{Content, read};
+use super::{Scene, geometry, question, special};
+use crate::expr::{Expr, Vector, dot, minus};
 
 /// Most stages a scene may have.
 const STAGES: usize = 40;
@@ -115,23 +113,13 @@ fn homes(base: &mut Resolver<'_>, stages: &[StageFile]) -> HashMap<usize, usize>
     let mut out = HashMap::new();
     for (k, (_, q)) in base.file.questions.iter().flat_map(|m| &m.0).enumerate() {
         let Some(q) = q else { continue };
-        if is_motion(q)
+        if question::is_motion(q)
             && let Some(i) = stage_named(&mut base.faults, stages, q.at.as_ref())
         {
             out.insert(k, i);
         }
     }
     out
-}
-
-/// Whether the question is one of those a single impact knows.
-fn is_motion(q: &QuestionFile) -> bool {
-    q.velocity.is_some()
-        || q.spin.is_some()
-        || q.impulse.is_some()
-        || q.energy.is_some()
-        || q.balance.is_some()
-        || q.matrix.is_some()
 }
 
 fn stage_named(
@@ -661,6 +649,7 @@ fn story_ask(
         ("solve", q.solve.is_some()),
         ("maximum", q.maximum.is_some()),
         ("limit", q.limit.is_some()),
+        ("approximate", q.approximate.is_some()),
         ("show", q.show.is_some()),
         ("reaction", q.reaction.is_some()),
         ("angular_momentum", q.angular_momentum.is_some()),
@@ -685,85 +674,9 @@ fn story_ask(
         base.faults.push(Fault::new(name.span, message).hint(hint));
         return None;
     }
-    let read = |base: &mut Resolver<'_>, f: &Formula| formula(base, symbols, f);
     let at_end = q.when != Some(EndName::Start);
-    if let Some(f) = &q.value {
-        return Some(StoryAsk::Value {
-            formula: read(base, f)?,
-            with: with(base, symbols, q)?,
-        });
-    }
-    if let Some(of) = &q.maximum {
-        let over = q
-            .over
-            .iter()
-            .flatten()
-            .filter_map(|t| parameter(base, t))
-            .collect::<Vec<_>>();
-        if over.is_empty() {
-            base.faults.push(Fault::new(
-                name.span,
-                "a maximum needs the parameters that may be chosen, `over`",
-            ));
-            return None;
-        }
-        return Some(StoryAsk::Maximum {
-            of: read(base, of)?,
-            over,
-        });
-    }
-    if let Some(of) = &q.limit {
-        let (Some(tends), Some(to)) = (&q.tends, &q.to) else {
-            let fault = Fault::new(
-                name.span,
-                "a limit needs the parameter that `tends` and what it tends `to`",
-            );
-            base.faults
-                .push(fault.hint("\"tends\": \"phi\", \"to\": \"0\""));
-            return None;
-        };
-        let to = if to.text.trim() == "infinity" {
-            None
-        } else {
-            Some(read(base, to)?)
-        };
-        return Some(StoryAsk::Limit {
-            of: read(base, of)?,
-            parameter: parameter(base, tends)?,
-            to,
-        });
-    }
-    if let Some(equation) = &q.show {
-        let (left, relation, right) = relation(base, symbols, equation)?;
-        if relation != Relation::Equal {
-            base.faults.push(Fault::new(
-                equation.span,
-                "what is to be shown is an equation",
-            ));
-            return None;
-        }
-        return Some(StoryAsk::Show { left, right });
-    }
-    if let Some(of) = q.threshold.as_ref().or(q.solve.as_ref()) {
-        let Some(holds) = &q.holds else {
-            let fault = Fault::new(name.span, "a threshold needs the relation that `holds`");
-            base.faults
-                .push(fault.hint("\"threshold\": \"v\", \"holds\": \"K_top <= 0\""));
-            return None;
-        };
-        let (left, relation, right) = relation(base, symbols, holds)?;
-        if q.solve.is_some() != (relation == Relation::Equal) {
-            let message = "a threshold holds an inequality, and what is to be solved an equation";
-            base.faults.push(Fault::new(holds.span, message));
-            return None;
-        }
-        return Some(StoryAsk::Condition {
-            parameter: parameter(base, of)?,
-            left,
-            relation,
-            right,
-            with: with(base, symbols, q)?,
-        });
+    if special::is_asked(q) {
+        return special::ask(base, symbols, name, q);
     }
     if let Some(stage) = &q.reaction {
         let i = stage_named(&mut base.faults, stages, Some(stage))?;
@@ -829,7 +742,7 @@ fn story_ask(
             .iter()
             .map(|d| d.name.to_string());
         if !names.clone().any(|n| n == of.text)
-            || parameter_names(base.file).contains(&of.text.as_str())
+            || special::parameter_names(base.file).contains(&of.text.as_str())
         {
             base.faults.push(Fault::new(
                 of.span,
@@ -840,75 +753,4 @@ fn story_ask(
         return Some(StoryAsk::Unused(of.text.clone()));
     }
     Some(StoryAsk::Assumed)
-}
-
-/// A formula of parameters and earlier answers.
-fn formula(base: &mut Resolver<'_>, symbols: &Symbols, f: &Formula) -> Option<Expr> {
-    let e = symbols.expression(f, &mut base.faults)?;
-    e.symbols().iter().for_each(|name| symbols.mark_used(name));
-    Some(e)
-}
-
-/// Parameters and what stands for them.
-fn with(
-    base: &mut Resolver<'_>,
-    symbols: &Symbols,
-    q: &QuestionFile,
-) -> Option<Vec<(Symbol, Expr)>> {
-    let mut out = Vec::new();
-    for (name, value) in entries(q.with.as_ref()) {
-        let value = formula(base, symbols, value)?;
-        out.push((parameter(base, name)?, value));
-    }
-    Some(out)
-}
-
-/// The symbol of a parameter.
-fn parameter(base: &mut Resolver<'_>, name: &Text) -> Option<Symbol> {
-    let all: Vec<&str> = parameter_names(base.file);
-    if all.contains(&name.text.as_str()) {
-        base.symbols.mark_used(&name.text);
-        return Some(name.text.as_str().into());
-    }
-    base.unknown(name, "parameter", |_| all);
-    None
-}
-
-fn parameter_names(file: &SceneFile) -> Vec<&str> {
-    file.parameters
-        .iter()
-        .flat_map(|m| &m.0)
-        .map(|(n, _)| n.text.as_str())
-        .collect()
-}
-
-/// A relation between two formulas.
-fn relation(
-    base: &mut Resolver<'_>,
-    symbols: &Symbols,
-    text: &Text,
-) -> Option<(Expr, Relation, Expr)> {
-    let reading = match read(&text.text, symbols.names()) {
-        Ok(reading) => reading,
-        Err(trouble) => {
-            let mut fault = Fault::new(text.span, &trouble.message);
-            fault.hint = trouble.hint.clone();
-            base.faults.push(fault);
-            return None;
-        }
-    };
-    for name in reading.symbols() {
-        symbols.mark_used(&name);
-    }
-    if let Content::Relations(sides, relations) = &reading.content
-        && let ([left, right], [relation]) = (sides.as_slice(), relations.as_slice())
-        && let (Some(left), Some(right)) = (left.expr(), right.expr())
-        && !matches!(relation, Relation::NotEqual | Relation::Approximately)
-    {
-        return Some((left.clone(), *relation, right.clone()));
-    }
-    let fault = Fault::new(text.span, "expected one relation between two formulas");
-    base.faults
-        .push(fault.hint("such as \"K_top <= 0\" or \"omega_end = 0\""));
-    None
 }

@@ -135,7 +135,9 @@ fn heading(ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
                 Inline::Math(vec![p, Math::Op("→"), end]),
             ]
         }
-        StoryAsk::Show { left, right } => {
+        StoryAsk::Show {
+            left, right, claim, ..
+        } if claim.is_empty() => {
             vec![say("To show: "), related(left, Relation::Equal, right)]
         }
         _ => vec![say(words::capital(&answer.words.replace('`', "")))],

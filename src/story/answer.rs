@@ -1,21 +1,17 @@
 //! The questions of a story, answered in their order; formulas may use the answers before them.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::calc::{is_zero, tidy};
-use super::{Answer, Case, Refused, StageTold, Told, integrate, motion, optimum, threshold, words};
+use super::special::{self, Known, blank, remember};
+use super::{Answer, Case, Refused, StageTold, Told, integrate, motion, words};
 use super::{Sentence, sentence::sentence};
 use crate::derive::{self, Form};
-use crate::dimension::{self, Dimension};
+use crate::dimension::Dimension;
 use crate::domain::Domains;
-use crate::equality::{self, Equality, How};
 use crate::expr::{Expr, Symbol, Vector, cross, dot, minus};
-use crate::formula::write_plain;
 use crate::scene::{Ask, EnergyWhen, Question, Scene, StageKind, Story, StoryAsk, StoryQuestion};
 use crate::verify::Check;
-
-/// What earlier answers stand for.
-type Known = BTreeMap<Symbol, Expr>;
 
 /// Answers all questions.
 pub(super) fn all(
@@ -43,83 +39,6 @@ pub(super) fn all(
     })
 }
 
-/// Answers questions about formulas alone, in their order: values, thresholds, largest values, limits, identities and words.
-/// `known` holds the answers found before; no stage is needed, and a question about one is refused.
-pub fn about(
-    scene: &Scene,
-    questions: &[StoryQuestion],
-    known: &BTreeMap<Symbol, Expr>,
-) -> Result<Vec<Answer>, Refused> {
-    let mut known = known.clone();
-    let mut answers: Vec<Answer> = Vec::new();
-    let story = Story::default();
-    for question in questions {
-        if question.ask.stage().is_some() {
-            return Err(Refused {
-                at: format!("question `{}`", question.name),
-                reason: String::from("it asks about a stage, and there are none"),
-                hint: String::from("add \"stages\", or ask about a formula"),
-            });
-        }
-        let new = one(scene, &story, &[], question, &known, &answers)?;
-        remember(&new, &mut known);
-        answers.extend(new);
-    }
-    Ok(answers)
-}
-
-/// Later formulas may use the answers by name.
-fn remember(answers: &[Answer], known: &mut Known) {
-    for answer in answers {
-        if let Some(formula) = &answer.formula {
-            known.insert(Symbol::from(answer.name.as_str()), formula.clone());
-        }
-    }
-}
-
-/// An answer without content yet.
-fn blank(question: &StoryQuestion, name: &str, words: impl Into<String>) -> Answer {
-    let latex = question
-        .latex
-        .clone()
-        .unwrap_or_else(|| crate::formula::latex_name(name));
-    Answer {
-        question: question.name.clone(),
-        name: name.to_string(),
-        latex,
-        words: words.into(),
-        formula: None,
-        range: Vec::new(),
-        equation: None,
-        stated: None,
-        put_in: Vec::new(),
-        text: Vec::new(),
-        dimension: Dimension::none(),
-        assumptions: Vec::new(),
-        discarded: Vec::new(),
-        checks: Vec::new(),
-    }
-}
-
-/// Dimension of an expression in the scene's parameters.
-pub(super) fn dimension_of(scene: &Scene, e: &Expr, at: &str) -> Result<Dimension, Refused> {
-    let of = |name: &str| {
-        scene
-            .parameters
-            .iter()
-            .find(|p| *p.name == *name)
-            .map(|p| p.dimension.clone())
-    };
-    match dimension::of(e, &of) {
-        Ok(found) => Ok(found.unwrap_or_else(Dimension::none)),
-        Err(clash) => Err(Refused {
-            at: format!("question `{at}`"),
-            reason: clash.message(&write_plain),
-            hint: String::from("both sides of a sum or relation have the same dimension"),
-        }),
-    }
-}
-
 fn one(
     scene: &Scene,
     story: &Story,
@@ -135,122 +54,28 @@ fn one(
         reason,
         hint: hint.into(),
     };
-    let put = |e: &Expr, with: &[(Symbol, Expr)]| -> Result<Expr, Refused> {
-        let open = e
-            .symbols()
-            .into_iter()
-            .find(|s| !known.contains_key(s) && !scene.parameters.iter().any(|p| p.name == *s));
-        if let Some(open) = open {
-            return Err(refused(
-                format!("`{open}` has no single value that could be put in"),
-                "name an earlier answer that is a formula",
-            ));
+    if let Some(mut answers) = special::formulas(scene, question, known)? {
+        if let (
+            StoryAsk::Condition {
+                parameter,
+                left,
+                right,
+                with,
+                ..
+            },
+            [out],
+        ) = (&question.ask, answers.as_mut_slice())
+            && let Some(value) = &out.formula
+        {
+            let gap = special::put(scene, name, known, &(left - right), with)?;
+            let check = tipping(story, stages, &gap, parameter, value, domains);
+            out.checks.extend(check);
         }
-        let with: Known = with
-            .iter()
-            .map(|(s, v)| (s.clone(), v.substitute(known)))
-            .collect();
-        let e = e.substitute(known).substitute(&with);
-        tidy(&e, domains).map_err(|stop| refused(format!("not calculated: {stop}"), ""))
-    };
+        return Ok(answers);
+    }
     let mut out = match &question.ask {
         StoryAsk::Quantity { stage, question: q } => {
             return quantity(scene, story, stages, question, *stage, *q);
-        }
-        StoryAsk::Value { formula, with } => {
-            let mut out = blank(question, name, format!("value of {}", write_plain(formula)));
-            let value = put(formula, with)?;
-            out.dimension = dimension_of(scene, &value, name)?;
-            out.formula = Some(value);
-            out.text.extend(with_words(with));
-            out
-        }
-        StoryAsk::Condition {
-            parameter,
-            left,
-            relation,
-            right,
-            with,
-        } => {
-            let statement = format!(
-                "{} {} {}",
-                write_plain(left),
-                relation.sign(),
-                write_plain(right)
-            );
-            let what = if *relation == crate::formula::Relation::Equal {
-                "value"
-            } else {
-                "threshold"
-            };
-            let mut out = blank(
-                question,
-                name,
-                format!("{what} of {parameter} for {statement}"),
-            );
-            let (left, right) = (put(left, with)?, put(right, with)?);
-            if !left.is_zero() && !right.is_zero() {
-                let (l, r) = (
-                    dimension_of(scene, &left, name)?,
-                    dimension_of(scene, &right, name)?,
-                );
-                if l != r {
-                    return Err(refused(
-                        format!("the sides of {statement} are {l} and {r}"),
-                        "compare quantities of the same kind",
-                    ));
-                }
-            }
-            out.text.extend(with_words(with));
-            out.stated = Some((left.clone(), *relation, right.clone()));
-            threshold::fill(&mut out, parameter, &left, *relation, &right, scene);
-            out.checks.extend(out.formula.as_ref().and_then(|value| {
-                tipping(story, stages, &(&left - &right), parameter, value, domains)
-            }));
-            out.dimension = dimension_of(scene, &Expr::symbol(parameter), name)?;
-            out
-        }
-        StoryAsk::Maximum { of, over } => {
-            let value = put(of, &[])?;
-            return optimum::maximum(
-                scene,
-                blank(
-                    question,
-                    name,
-                    format!("largest value of {}", write_plain(of)),
-                ),
-                &value,
-                over,
-            );
-        }
-        StoryAsk::Limit { of, parameter, to } => {
-            let target = to.as_ref().map_or_else(|| String::from("∞"), write_plain);
-            let mut out = blank(
-                question,
-                name,
-                format!("limit of {} as {parameter} → {target}", write_plain(of)),
-            );
-            let value = put(of, &[])?;
-            let to = to.as_ref().map(|t| put(t, &[])).transpose()?;
-            optimum::limit(&mut out, &value, parameter, to.as_ref(), domains);
-            if let Some(formula) = &out.formula {
-                out.dimension = dimension_of(scene, formula, name)?;
-            }
-            out
-        }
-        StoryAsk::Show { left, right } => {
-            let statement = format!("{} = {}", write_plain(left), write_plain(right));
-            let mut out = blank(question, name, format!("to be shown: {statement}"));
-            let (left, right) = (put(left, &[])?, put(right, &[])?);
-            out.checks.push(identity(&left, &right, domains));
-            out.dimension = dimension_of(scene, &left, name)?;
-            out.text.push(match out.checks[0].holds {
-                Some(true) => sentence![statement, ": both are ", &left],
-                Some(false) => sentence![statement, " does not hold: ", &left, " against ", &right],
-                None => sentence![statement, " could not be decided"],
-            });
-            out.equation = Some((left, right));
-            out
         }
         StoryAsk::Reaction {
             stage,
@@ -329,6 +154,13 @@ fn one(
             out.text = words::missing(&story.stages[*stage], &stages[*stage]);
             out
         }
+        // Those about formulas have been answered above.
+        StoryAsk::Value { .. }
+        | StoryAsk::Condition { .. }
+        | StoryAsk::Maximum { .. }
+        | StoryAsk::Limit { .. }
+        | StoryAsk::Approximate { .. }
+        | StoryAsk::Show { .. } => return Ok(Vec::new()),
         StoryAsk::Remark(words) => {
             let mut out = blank(question, name, "words of the scene's author, not derived");
             out.text.push(words.into());
@@ -360,12 +192,6 @@ fn one(
     Ok(vec![out])
 }
 
-fn with_words(with: &[(Symbol, Expr)]) -> Vec<Sentence> {
-    with.iter()
-        .map(|(s, v)| sentence!["taken at ", s, " = ", v])
-        .collect()
-}
-
 /// Parameters that no answer so far depends on.
 fn unused(scene: &Scene, answers: &[Answer]) -> Vec<String> {
     let mut used: BTreeSet<Symbol> = BTreeSet::new();
@@ -383,35 +209,6 @@ fn unused(scene: &Scene, answers: &[Answer]) -> Vec<String> {
         .filter(|p| !used.contains(&p.name))
         .map(|p| p.name.to_string())
         .collect()
-}
-
-/// An identity, decided.
-pub(super) fn identity(left: &Expr, right: &Expr, domains: &Domains) -> Check {
-    let decision = equality::decide(left, right, domains).equality;
-    let (words, holds) = match decision {
-        Equality::Same {
-            how: How::Identity { .. },
-        } => (
-            String::from("identity: the difference is zero in the normal form"),
-            Some(true),
-        ),
-        Equality::Same {
-            how: How::OnBranch { elsewhere, .. },
-        } => (
-            format!(
-                "holds on a part of the domain only, not at {}",
-                elsewhere.at.words()
-            ),
-            Some(false),
-        ),
-        Equality::Different(point) => (format!("different at {}", point.at.words()), Some(false)),
-        _ => (String::from("not decided"), None),
-    };
-    Check {
-        kind: "identity",
-        words,
-        holds,
-    }
 }
 
 /// Velocities, spins, impulses and energies at the end of a stage.

@@ -190,7 +190,7 @@ pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unso
         squared,
     }) = field.powers(&x, symbol)?
     else {
-        return Err(Unsolved::Inside);
+        return super::zeros::angle(e, symbol, domains);
     };
     if factors.is_empty() && !has_zero {
         return Err(Unsolved::Absent);
@@ -276,7 +276,7 @@ fn tidied(field: &mut Field, e: &Expr) -> Result<Expr, Unsolved> {
 }
 
 /// The domain as a sentence, such as `x > 0`.
-fn within(domain: &Domain, symbol: &Symbol) -> Sentence {
+pub fn within(domain: &Domain, symbol: &Symbol) -> Sentence {
     let words = domain.words("\u{1}");
     let around: Vec<Sentence> = words.split('\u{1}').map(Sentence::from).collect();
     match around.as_slice() {

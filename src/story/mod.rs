@@ -8,20 +8,23 @@ mod answer;
 mod calc;
 mod impact;
 mod integrate;
+mod limit;
 mod motion;
 mod optimum;
 mod roots;
 mod sentence;
 mod sheet;
+mod special;
 mod threshold;
 mod words;
+mod zeros;
 
 use std::collections::BTreeMap;
 use std::fmt;
 
-pub use answer::about;
 pub use sentence::{Piece, Sentence};
 pub use sheet::{impact, sheet};
+pub use special::{about, special};
 
 use crate::derive::{Derivation, Stop};
 use crate::dimension::Dimension;
@@ -127,8 +130,32 @@ pub struct Answer {
     pub assumptions: Vec<Sentence>,
     /// Solutions that were discarded, with the reason.
     pub discarded: Vec<Sentence>,
+    /// What stands for a formula close to a value of a parameter.
+    pub near: Vec<Near>,
     /// What was checked.
     pub checks: Vec<Check>,
+}
+
+/// The closer the parameter comes to the value, the less the sides differ, even divided by the distance to a power.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Near {
+    /// Left side.
+    pub left: Expr,
+    /// Right side.
+    pub right: Expr,
+    /// The parameter.
+    pub parameter: Symbol,
+    /// The value it comes to.
+    pub to: Expr,
+    /// The power.
+    pub order: u32,
+}
+
+impl Answer {
+    /// Whether no check failed.
+    pub fn holds(&self) -> bool {
+        self.checks.iter().all(|c| c.holds != Some(false))
+    }
 }
 
 /// A story, told.

@@ -1,4 +1,4 @@
-//! Largest values over one or two parameters, and limits.
+//! Largest values over one or two parameters.
 //!
 //! Two parameters are looked at together first: where only one combination p·qᵏ of them matters, its best value is a curve
 //! of maximisers and is told as such. Square roots of the parameter are taken away by p = x², so that the derivative becomes
@@ -9,9 +9,8 @@ use std::collections::BTreeMap;
 use super::calc::{Unsolved, essential, sign, solve, tidy};
 use super::{Answer, Refused};
 use super::{Sentence, sentence::sentence};
-use crate::algebra::Field;
 use crate::domain::{Domain, Domains};
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Symbol};
 use crate::formula::{Relation, write_plain};
 use crate::scene::Scene;
 use crate::verify::Check;
@@ -127,7 +126,7 @@ pub(super) fn maximum(
         .iter()
         .map(|d| d.put_in(&BTreeMap::from([(root.clone(), combination.sqrt())])))
         .collect();
-    out.dimension = super::answer::dimension_of(scene, &value, &name)?;
+    out.dimension = super::special::dimension_of(scene, &value, &name)?;
     let proved = if before.is_proved() && after.is_proved() {
         "proved"
     } else {
@@ -143,6 +142,15 @@ pub(super) fn maximum(
         words: String::from("the derivative at that place is zero in the normal form"),
         holds: best.proved.then_some(true),
     });
+    let at_best = BTreeMap::from([(root.clone(), best.value.clone())]);
+    out.put_in = vec![
+        (
+            slope.substitute(&at_best),
+            Expr::zero(),
+            "the derivative at that place",
+        ),
+        (f.substitute(&at_best), value.clone(), "the value there"),
+    ];
     let mut at = out.clone();
     at.name = format!("{name}_at");
     at.latex = format!("\\arg {}", out.latex);
@@ -168,7 +176,7 @@ pub(super) fn maximum(
     } else {
         at.equation = Some((combination.clone(), place.clone()));
     }
-    at.dimension = super::answer::dimension_of(scene, &combination, &name)?;
+    at.dimension = super::special::dimension_of(scene, &combination, &name)?;
     at.formula = Some(place);
     out.formula = Some(value);
     Ok(vec![out, at])
@@ -262,7 +270,10 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
         }
     };
     let value = at(&place, f).map_err(|s| refused(s.to_string()))?;
-    out.dimension = super::answer::dimension_of(scene, &value, &name)?;
+    out.dimension = super::special::dimension_of(scene, &value, &name)?;
+    let there = BTreeMap::from([(p.clone(), place.clone())]);
+    out.put_in
+        .push((f.substitute(&there), value.clone(), "the value there"));
     out.range.push((p.clone(), Relation::Equal, place));
     out.formula = Some(value);
     Ok(vec![out])
@@ -308,161 +319,4 @@ fn at_the_rim(mut out: Answer, slope: &Expr, words: &str, domains: &Domains) -> 
         Sentence::words("whether there is a largest value could not be decided")
     });
     out
-}
-
-/// A limit: by putting in, by the quotient of derivatives, or by the lowest powers.
-pub(super) fn limit(
-    out: &mut Answer,
-    of: &Expr,
-    parameter: &Symbol,
-    to: Option<&Expr>,
-    domains: &Domains,
-) {
-    let found = match to {
-        Some(to) => putting_in(of, parameter, to, domains)
-            .or_else(|| {
-                if to.is_zero() {
-                    by_powers(of, parameter, false, domains)
-                } else {
-                    None
-                }
-            })
-            .or_else(|| by_derivatives(of, parameter, to, domains)),
-        None => by_powers(of, parameter, true, domains),
-    };
-    match found {
-        Some((Some(value), how)) => {
-            out.checks.push(Check {
-                kind: "limit",
-                words: how.to_string(),
-                holds: Some(true),
-            });
-            out.text.push(sentence!["it tends to ", &value]);
-            out.formula = Some(value);
-        }
-        Some((None, how)) => {
-            out.checks.push(Check {
-                kind: "limit",
-                words: how.to_string(),
-                holds: Some(true),
-            });
-            out.text.push(Sentence::words("it grows beyond all bounds"));
-        }
-        None => out.text.push(Sentence::words("the limit was not found")),
-    }
-}
-
-/// A limit, `None` for infinity, and how it was found.
-type Found = (Option<Expr>, &'static str);
-
-fn putting_in(of: &Expr, p: &Symbol, to: &Expr, domains: &Domains) -> Option<Found> {
-    let tidied = tidy(of, domains).ok()?;
-    let value = tidied.substitute(&BTreeMap::from([(p.clone(), to.clone())]));
-    Some((
-        Some(tidy(&value, domains).ok()?),
-        "the formula has a value there and is continuous",
-    ))
-}
-
-/// L'Hôpital's rule, a few times over.
-fn by_derivatives(of: &Expr, p: &Symbol, to: &Expr, domains: &Domains) -> Option<Found> {
-    let e = common(of, domains)?;
-    let (mut above, mut below) = e;
-    let at = |e: &Expr| {
-        tidy(
-            &e.substitute(&BTreeMap::from([(p.clone(), to.clone())])),
-            domains,
-        )
-        .ok()
-    };
-    for _ in 0..6 {
-        let (a, b) = (at(&above)?, at(&below)?);
-        if !b.is_zero() {
-            return Some((
-                Some(tidy(&(&a / &b), domains).ok()?),
-                "quotient of the derivatives of numerator and denominator",
-            ));
-        }
-        if !a.is_zero() {
-            return Some((
-                None,
-                "the denominator vanishes there and the numerator does not",
-            ));
-        }
-        above = above.derivative(p);
-        below = below.derivative(p);
-    }
-    None
-}
-
-/// Numerator and denominator.
-fn common(of: &Expr, domains: &Domains) -> Option<(Expr, Expr)> {
-    let over = |e: &Expr| -> (Expr, Expr) {
-        let factors = match e.node() {
-            Node::Product(factors) => factors.clone(),
-            _ => vec![e.clone()],
-        };
-        let (mut up, mut down) = (Vec::new(), Vec::new());
-        for f in factors {
-            match f.node() {
-                Node::Power(base, k)
-                    if k.as_number().is_some_and(num_traits::Signed::is_negative) =>
-                {
-                    down.push(base.power(-k))
-                }
-                _ => up.push(f),
-            }
-        }
-        (Expr::product(up), Expr::product(down))
-    };
-    let tidied = tidy(of, domains).ok()?;
-    match tidied.node() {
-        Node::Sum(terms) => {
-            let parts: Vec<(Expr, Expr)> = terms.iter().map(over).collect();
-            let below = Expr::product(parts.iter().map(|p| p.1.clone()));
-            let above = Expr::sum(parts.iter().enumerate().map(|(i, p)| {
-                Expr::product(
-                    std::iter::once(p.0.clone()).chain(
-                        parts
-                            .iter()
-                            .enumerate()
-                            .filter(|(j, _)| *j != i)
-                            .map(|(_, q)| q.1.clone()),
-                    ),
-                )
-            }));
-            Some((above, below))
-        }
-        _ => Some(over(&tidied)),
-    }
-}
-
-/// The lowest powers of x where the parameter is x², or 1/x² for a limit at infinity.
-fn by_powers(of: &Expr, p: &Symbol, at_infinity: bool, domains: &Domains) -> Option<Found> {
-    let mut domains = domains.clone();
-    domains.symbols.insert(ROOT.into(), Domain::positive());
-    let x = Expr::symbol(ROOT).powi(if at_infinity { -2 } else { 2 });
-    let e = of.substitute(&BTreeMap::from([(p.clone(), x)]));
-    let mut field = Field::new(&domains);
-    field.prepare([&e]);
-    let element = field.element(&e).ok()?;
-    if field.is_zero(&element) {
-        return Some((Some(Expr::zero()), "it is zero throughout"));
-    }
-    let inverse = field.div(&field.integer(1), &element).ok()?;
-    let (low, above) = lowest(&mut field, &element)?;
-    let (down, below) = lowest(&mut field, &inverse)?;
-    let how = "lowest powers of numerator and denominator";
-    match low.cmp(&down) {
-        std::cmp::Ordering::Greater => Some((Some(Expr::zero()), how)),
-        std::cmp::Ordering::Less => Some((None, how)),
-        std::cmp::Ordering::Equal => Some((Some(tidy(&(&above / &below), &domains).ok()?), how)),
-    }
-}
-
-/// The lowest power of x in a numerator, and its coefficient.
-fn lowest(field: &mut Field, e: &crate::algebra::Element) -> Option<(usize, Expr)> {
-    let coefficients = field.numerator(e, ROOT).ok()??;
-    let k = coefficients.iter().position(|c| !field.is_zero(c))?;
-    Some((k, field.expr(&coefficients[k])))
 }

@@ -5,16 +5,19 @@
 
 use std::collections::BTreeMap;
 
-use super::Answer;
 use super::calc::{Roots, Seen, Unsolved, essential, sign, solve, tidy};
+use super::{Answer, limit};
 use super::{Sentence, sentence::sentence};
 use crate::algebra::Sign;
-use crate::domain::Domains;
+use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Relation, write_plain};
 use crate::interval::enclosure::decimal;
 use crate::scene::Scene;
 use crate::verify::Check;
+
+/// A step away from a value, of any size.
+const STEP: &str = "u_step";
 
 /// Fills in the answer.
 pub(super) fn fill(
@@ -126,16 +129,23 @@ fn sides(
         return;
     };
     let value = &root.value;
-    let at = |factor: i64, over: i64| {
-        let put = if value.is_zero() {
-            Expr::from(factor - over)
-        } else {
-            &Expr::ratio(factor, over) * value
-        };
-        let e = gap.substitute(&BTreeMap::from([(parameter.clone(), put)]));
-        sign(&essential(&e, domains), domains)
-    };
-    let (below, above) = (at(1, 2), at(2, 1));
+    if let Some(words) = jumps(gap, parameter, domains) {
+        out.formula = Some(value.clone());
+        out.text.push(sentence![
+            "the sides meet at ",
+            parameter,
+            " = ",
+            value,
+            "; ",
+            words,
+            ", so that it is not told where it holds"
+        ]);
+        return;
+    }
+    let domain = domains.symbols.get(parameter).cloned();
+    let domain = domain.unwrap_or_else(Domain::positive);
+    let below = beside(gap, parameter, value, domain.low.as_ref(), -1, domains);
+    let above = beside(gap, parameter, value, domain.high.as_ref(), 1, domains);
     let wants_negative = matches!(relation, Relation::Less | Relation::LessEqual);
     let strict = matches!(relation, Relation::Less | Relation::Greater);
     let holds = |s: Seen| {
@@ -175,8 +185,8 @@ fn sides(
             out.checks.push(Check {
                 kind: "sign",
                 words: format!(
-                    "at half and at twice the value the sides differ with opposite signs{}, and there is no other value at which they meet",
-                    if proved { ", proved on the whole domain" } else { ", seen at points" }
+                    "below and above that value the sides differ with opposite signs{}, and there is no other value at which they meet",
+                    if proved { " (proved)" } else { " (seen at points)" }
                 ),
                 holds: proved.then_some(true),
             });
@@ -203,6 +213,64 @@ fn sides(
             value,
             ", but do not change places there, or it could not be told"
         ]),
+    }
+}
+
+/// The sign of the difference at a place between its zero and the end of the domain on one side.
+fn beside(
+    gap: &Expr,
+    parameter: &Symbol,
+    value: &Expr,
+    end: Option<&Limit>,
+    way: i64,
+    domains: &Domains,
+) -> Seen {
+    let mut domains = domains.clone();
+    let place = match end {
+        Some(end) => {
+            let number = Expr::from(end.value.clone());
+            let number = if end.of_pi {
+                number * Expr::pi()
+            } else {
+                number
+            };
+            &Expr::ratio(1, 2) * &(value + &number)
+        }
+        None if way > 0 && sign(value, &domains).is_positive() => Expr::from(2) * value.clone(),
+        None => {
+            // Any distance does: there is no other zero on this side.
+            domains.symbols.insert(STEP.into(), Domain::positive());
+            value + &(Expr::from(way) * Expr::symbol(STEP))
+        }
+    };
+    let e = gap.substitute(&BTreeMap::from([(parameter.clone(), place)]));
+    sign(&essential(&e, &domains), &domains)
+}
+
+/// Words for a difference that has no value somewhere, and may change its sign there without being zero.
+fn jumps(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence> {
+    let (_, below) = limit::common(gap, domains)?;
+    if matches!(
+        sign(&below, domains),
+        Seen::Proved(Sign::Positive | Sign::Negative)
+    ) {
+        return None;
+    }
+    match solve(&below, parameter, domains) {
+        Ok(poles) if poles.open.is_none() && poles.inside.is_empty() => None,
+        Err(Unsolved::Absent) => None,
+        Ok(poles) if poles.open.is_none() => {
+            let places = poles.inside.iter().map(|r| Sentence::from(&r.value));
+            Some(sentence![
+                "their difference has no value at ",
+                parameter,
+                " = ",
+                Sentence::join(places, " and ")
+            ])
+        }
+        _ => Some(Sentence::words(
+            "their difference may have no value elsewhere",
+        )),
     }
 }
 

@@ -1,0 +1,550 @@
+//! Limits, and polynomials that stand for a formula near a value of a parameter.
+//!
+//! In: a formula in parameters. Out: the answer with the reason. Numerator and denominator are developed in powers of the
+//! distance from the value (Taylor's theorem, coefficients exact), and the lowest powers decide; far out, and where square
+//! roots of the parameter stand, the powers themselves are read off. Whether a leading coefficient may vanish for special values of
+//! other parameters is proved, or told as a condition. Apart from that, the formula is tried in numbers close by.
+
+use std::collections::BTreeMap;
+
+use num_traits::Signed;
+
+use super::calc::{essential, is_zero, sign, tidy, within};
+use super::{Answer, Near};
+use super::{Sentence, sentence::sentence};
+use crate::algebra::{Element, Field, Sign};
+use crate::domain::{Domain, Domains, roles, samples};
+use crate::expr::{Expr, Node, Point, Symbol};
+use crate::formula::write_plain;
+use crate::interval::{Interval, Outcome, evaluate};
+use crate::verify::Check;
+
+/// The symbol whose square stands for the parameter.
+const ROOT: &str = "x_root";
+/// Highest power of the distance that is looked at.
+const POWERS: usize = 12;
+/// Largest formula whose derivatives are followed, in nodes.
+const LONGEST: usize = 4_000;
+
+/// What a formula tends to.
+enum Tends {
+    /// A value.
+    To(Expr),
+    /// Beyond all bounds, upwards, downwards, or with a sign that hangs on other parameters.
+    Beyond(Option<bool>),
+    /// Up on one side and down on the other.
+    Apart,
+}
+
+/// What was found, the reason, and what must not vanish for it.
+struct Found {
+    tends: Tends,
+    how: &'static str,
+    given: Vec<Sentence>,
+}
+
+/// From which sides a parameter can come to a value.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Above,
+    Below,
+    Both,
+}
+
+/// A limit: value, none, or not found, with the reason.
+pub(super) fn fill(
+    out: &mut Answer,
+    of: &Expr,
+    parameter: &Symbol,
+    to: Option<&Expr>,
+    domains: &Domains,
+) {
+    if let Some(to) = to
+        && let Some(words) = outside(to, parameter, domains)
+    {
+        out.text.push(words);
+        out.checks.push(open("limit"));
+        return;
+    }
+    let found = match to {
+        Some(to) => by_taylor(of, parameter, to, domains).or_else(|| {
+            let at_root = to.is_zero() && side(parameter, to, domains) == Side::Above;
+            if at_root {
+                by_powers(of, parameter, false, domains)
+            } else {
+                None
+            }
+        }),
+        None => by_powers(of, parameter, true, domains),
+    };
+    let Some(found) = found else {
+        out.text.push(Sentence::words("the limit was not found"));
+        out.checks.push(open("limit"));
+        return;
+    };
+    out.assumptions.extend(found.given);
+    out.checks.push(Check {
+        kind: "limit",
+        words: found.how.to_string(),
+        holds: Some(true),
+    });
+    match found.tends {
+        Tends::To(value) => {
+            out.text.push(sentence!["it tends to ", &value]);
+            if let Some(to) = to {
+                out.checks
+                    .extend(tried(of, &value, parameter, to, 0, domains));
+                out.near.push(Near {
+                    left: of.clone(),
+                    right: value.clone(),
+                    parameter: parameter.clone(),
+                    to: to.clone(),
+                    order: 0,
+                });
+            }
+            out.formula = Some(value);
+        }
+        Tends::Beyond(Some(true)) => {
+            out.text.push(Sentence::words(
+                "it grows beyond all bounds: there is no limit",
+            ));
+        }
+        Tends::Beyond(Some(false)) => {
+            out.text.push(Sentence::words(
+                "it falls below all bounds: there is no limit",
+            ));
+        }
+        Tends::Beyond(None) => out.text.push(Sentence::words(
+            "its size grows beyond all bounds: there is no limit",
+        )),
+        Tends::Apart => out.text.push(Sentence::words(
+            "there is no limit: beyond all bounds upwards on one side and downwards on the other",
+        )),
+    }
+}
+
+/// The polynomial in the distance that stands for a formula near a value.
+pub(super) fn approximate(
+    out: &mut Answer,
+    of: &Expr,
+    parameter: &Symbol,
+    to: &Expr,
+    order: u32,
+    domains: &Domains,
+) {
+    if let Some(words) = outside(to, parameter, domains) {
+        out.text.push(words);
+        out.checks.push(open("series"));
+        return;
+    }
+    let wanted = order as usize;
+    // Two powers more tell what is left out.
+    let Some(series) = Series::of(of, parameter, to, wanted + 3, domains) else {
+        out.text.push(sentence![
+            "no power series in ",
+            parameter,
+            " was found there"
+        ]);
+        out.checks.push(open("series"));
+        return;
+    };
+    out.assumptions.extend(series.given);
+    if series.lowest < 0 {
+        out.text.push(sentence![
+            "there is no such form: near ",
+            parameter,
+            " = ",
+            to,
+            format!(
+                " it grows like the power {} of the distance, beyond all bounds",
+                series.lowest
+            )
+        ]);
+        return;
+    }
+    let distance = &Expr::symbol(parameter) - to;
+    let terms = series.coefficients.iter().enumerate();
+    let kept = terms.clone().take(wanted + 1);
+    let polynomial = Expr::sum(kept.map(|(k, c)| c * &distance.powi(k as i64)));
+    let polynomial = tidy(&polynomial, domains).unwrap_or(polynomial);
+    let mut later = terms.skip(wanted + 1).filter(|(_, c)| !c.is_zero());
+    out.text.push(match later.next() {
+        Some((k, c)) => sentence![
+            "what is left out begins with ",
+            &(c * &distance.powi(k as i64))
+        ],
+        None if is_zero(&(of - &polynomial), domains) == Some(true) => {
+            Sentence::words("nothing is left out: it is this polynomial")
+        }
+        None => Sentence::words(format!(
+            "what is left out is of order {} or higher",
+            series.coefficients.len()
+        )),
+    });
+    out.checks.push(Check {
+        kind: "series",
+        words: format!(
+            "Taylor's theorem: value and derivatives of the closed form at {parameter} = {}, exact",
+            write_plain(to)
+        ),
+        holds: Some(true),
+    });
+    out.checks
+        .extend(tried(of, &polynomial, parameter, to, order, domains));
+    out.near.push(Near {
+        left: of.clone(),
+        right: polynomial.clone(),
+        parameter: parameter.clone(),
+        to: to.clone(),
+        order,
+    });
+    out.formula = Some(polynomial);
+}
+
+fn open(kind: &'static str) -> Check {
+    Check {
+        kind,
+        words: String::from("not found"),
+        holds: None,
+    }
+}
+
+/// Words for a value that the parameter cannot come to.
+fn outside(to: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence> {
+    let domain = domains.symbols.get(parameter)?;
+    let below = domain.low.as_ref().map(|l| to - &end(l));
+    let above = domain.high.as_ref().map(|h| &end(h) - to);
+    let out = below
+        .iter()
+        .chain(&above)
+        .any(|gap| sign(gap, domains).is_negative());
+    out.then(|| {
+        sentence![
+            parameter,
+            " cannot come to ",
+            to,
+            ": ",
+            within(domain, parameter)
+        ]
+    })
+}
+
+fn end(limit: &crate::domain::Limit) -> Expr {
+    let value = Expr::from(limit.value.clone());
+    if limit.of_pi {
+        value * Expr::pi()
+    } else {
+        value
+    }
+}
+
+/// The sides within the domain.
+fn side(parameter: &Symbol, to: &Expr, domains: &Domains) -> Side {
+    let domain = domains
+        .symbols
+        .get(parameter)
+        .cloned()
+        .unwrap_or_else(Domain::positive);
+    let is_end = |limit: &Option<crate::domain::Limit>| {
+        limit
+            .as_ref()
+            .is_some_and(|l| is_zero(&(to - &end(l)), domains) == Some(true))
+    };
+    if is_end(&domain.low) {
+        Side::Above
+    } else if is_end(&domain.high) {
+        Side::Below
+    } else {
+        Side::Both
+    }
+}
+
+/// A formula in powers of the distance from a value.
+struct Series {
+    /// The lowest power; negative where it grows beyond all bounds.
+    lowest: i64,
+    /// Coefficients from the power 0 on, or from the lowest one where that is negative.
+    coefficients: Vec<Expr>,
+    /// What must not vanish.
+    given: Vec<Sentence>,
+}
+
+impl Series {
+    /// Coefficients up to the power `last`.
+    fn of(of: &Expr, p: &Symbol, to: &Expr, last: usize, domains: &Domains) -> Option<Series> {
+        let (above, below) = common(of, domains)?;
+        if is_zero(&above, domains) == Some(true) {
+            return Some(Series {
+                lowest: 0,
+                coefficients: vec![Expr::zero(); last + 1],
+                given: Vec::new(),
+            });
+        }
+        let mut above = Taylor::new(above, p, to, domains);
+        let mut below = Taylor::new(below, p, to, domains);
+        let k = above.lowest()?;
+        let j = below.lowest()?;
+        let mut given = Vec::new();
+        let mut lead = below.coefficient(j)?;
+        given.extend(not_zero(&lead, domains));
+        if k < j {
+            given.extend(not_zero(&above.coefficient(k)?, domains));
+            lead = tidy(&(&above.coefficient(k)? / &lead), domains).ok()?;
+            return Some(Series {
+                lowest: k as i64 - j as i64,
+                coefficients: vec![lead],
+                given,
+            });
+        }
+        let mut out: Vec<Expr> = Vec::new();
+        for m in 0..=last {
+            // above = quotient × below, power by power.
+            let mut rest = above.coefficient(m + j)?;
+            for (i, q) in out.iter().enumerate() {
+                rest = &rest - &(q * &below.coefficient(m + j - i)?);
+            }
+            out.push(tidy(&(&rest / &lead), domains).ok()?);
+        }
+        Some(Series {
+            lowest: (k - j) as i64,
+            coefficients: out,
+            given,
+        })
+    }
+}
+
+/// Derivatives at a value, one after the other.
+struct Taylor<'a> {
+    p: &'a Symbol,
+    to: &'a Expr,
+    domains: &'a Domains,
+    derivative: Expr,
+    coefficients: Vec<Expr>,
+}
+
+impl<'a> Taylor<'a> {
+    fn new(e: Expr, p: &'a Symbol, to: &'a Expr, domains: &'a Domains) -> Taylor<'a> {
+        Taylor {
+            p,
+            to,
+            domains,
+            derivative: e,
+            coefficients: Vec::new(),
+        }
+    }
+
+    /// The coefficient of a power; `None` where a derivative has no value.
+    fn coefficient(&mut self, n: usize) -> Option<Expr> {
+        while self.coefficients.len() <= n {
+            let done = self.coefficients.len();
+            if done > 2 * POWERS {
+                return None;
+            }
+            if done > 0 {
+                self.derivative = tidy(&self.derivative.derivative(self.p), self.domains).ok()?;
+            }
+            if self.derivative.size() > LONGEST {
+                return None;
+            }
+            let at = BTreeMap::from([(self.p.clone(), self.to.clone())]);
+            let value = tidy(&self.derivative.substitute(&at), self.domains).ok()?;
+            let factorial: i64 = (1..=done as i64).product();
+            let scaled = &value / &Expr::from(factorial);
+            self.coefficients.push(tidy(&scaled, self.domains).ok()?);
+        }
+        self.coefficients.get(n).cloned()
+    }
+
+    /// The lowest power whose coefficient is not zero.
+    fn lowest(&mut self) -> Option<usize> {
+        for n in 0..POWERS {
+            let c = self.coefficient(n)?;
+            if is_zero(&c, self.domains)? {
+                continue;
+            }
+            return Some(n);
+        }
+        None
+    }
+}
+
+/// What must not vanish, in words; nothing where that is proved.
+fn not_zero(e: &Expr, domains: &Domains) -> Option<Sentence> {
+    use super::calc::Seen::Proved;
+    match sign(e, domains) {
+        Proved(Sign::Positive | Sign::Negative) => None,
+        _ => Some(sentence![&essential(e, domains), " ≠ 0"]),
+    }
+}
+
+fn by_taylor(of: &Expr, p: &Symbol, to: &Expr, domains: &Domains) -> Option<Found> {
+    let series = Series::of(of, p, to, 0, domains)?;
+    let lead = series.coefficients.first()?;
+    let side = side(p, to, domains);
+    let tends = if series.lowest >= 0 {
+        Tends::To(lead.clone())
+    } else if side == Side::Both && series.lowest % 2 != 0 {
+        Tends::Apart
+    } else {
+        let seen = sign(lead, domains);
+        let turned = side == Side::Below && series.lowest % 2 != 0;
+        if !seen.is_proved() {
+            Tends::Beyond(None)
+        } else {
+            Tends::Beyond(Some(seen.is_positive() != turned))
+        }
+    };
+    let how = match series.lowest {
+        0.. => "numerator and denominator developed there: their lowest powers are compared",
+        _ => "the denominator vanishes there more strongly than the numerator",
+    };
+    Some(Found {
+        tends,
+        how,
+        given: series.given,
+    })
+}
+
+/// Numerator and denominator.
+pub(super) fn common(of: &Expr, domains: &Domains) -> Option<(Expr, Expr)> {
+    let over = |e: &Expr| -> (Expr, Expr) {
+        let factors = match e.node() {
+            Node::Product(factors) => factors.clone(),
+            _ => vec![e.clone()],
+        };
+        let (mut up, mut down) = (Vec::new(), Vec::new());
+        for f in factors {
+            match f.node() {
+                Node::Power(base, k) if k.as_number().is_some_and(Signed::is_negative) => {
+                    down.push(base.power(-k));
+                }
+                _ => up.push(f),
+            }
+        }
+        (Expr::product(up), Expr::product(down))
+    };
+    let tidied = tidy(of, domains).ok()?;
+    match tidied.node() {
+        Node::Sum(terms) => {
+            let parts: Vec<(Expr, Expr)> = terms.iter().map(over).collect();
+            let below = Expr::product(parts.iter().map(|p| p.1.clone()));
+            let above = Expr::sum(parts.iter().enumerate().map(|(i, p)| {
+                let others = parts.iter().enumerate().filter(|(j, _)| *j != i);
+                &p.0 * &Expr::product(others.map(|(_, q)| q.1.clone()))
+            }));
+            Some((above, below))
+        }
+        _ => Some(over(&tidied)),
+    }
+}
+
+/// The lowest powers of x where the parameter is x², or 1/x² for a limit at infinity.
+fn by_powers(of: &Expr, p: &Symbol, at_infinity: bool, domains: &Domains) -> Option<Found> {
+    let mut domains = domains.clone();
+    domains.symbols.insert(ROOT.into(), Domain::positive());
+    let x = Expr::symbol(ROOT).powi(if at_infinity { -2 } else { 2 });
+    let e = of.substitute(&BTreeMap::from([(p.clone(), x)]));
+    let mut field = Field::new(&domains);
+    field.prepare([&e]);
+    let element = field.element(&e).ok()?;
+    if field.is_zero(&element) {
+        return Some(Found {
+            tends: Tends::To(Expr::zero()),
+            how: "it is zero throughout",
+            given: Vec::new(),
+        });
+    }
+    // The numerator over the element is the denominator, with its sign.
+    let coefficients = field.numerator(&element, ROOT).ok()??;
+    let mut numerator = field.integer(0);
+    for (k, c) in coefficients.iter().enumerate() {
+        let power = field.element(&Expr::symbol(ROOT).powi(k as i64)).ok()?;
+        numerator = field.add(&numerator, &field.mul(c, &power).ok()?).ok()?;
+    }
+    let denominator = field.div(&numerator, &element).ok()?;
+    let (low, above) = lowest(&mut field, &numerator)?;
+    let (down, below) = lowest(&mut field, &denominator)?;
+    let ratio = tidy(&(&above / &below), &domains).ok()?;
+    let mut given: Vec<Sentence> = not_zero(&below, &domains).into_iter().collect();
+    let tends = match low.cmp(&down) {
+        std::cmp::Ordering::Greater => Tends::To(Expr::zero()),
+        std::cmp::Ordering::Equal => Tends::To(ratio),
+        std::cmp::Ordering::Less => {
+            given.extend(not_zero(&above, &domains));
+            let seen = sign(&ratio, &domains);
+            Tends::Beyond(seen.is_proved().then(|| seen.is_positive()))
+        }
+    };
+    Some(Found {
+        tends,
+        how: "lowest powers of numerator and denominator",
+        given,
+    })
+}
+
+/// The lowest power of x in a numerator, and its coefficient.
+fn lowest(field: &mut Field, e: &Element) -> Option<(usize, Expr)> {
+    let coefficients = field.numerator(e, ROOT).ok()??;
+    let k = coefficients.iter().position(|c| !field.is_zero(c))?;
+    Some((k, field.expr(&coefficients[k])))
+}
+
+/// The formula against what stands for it, in doubles close by: what is left out must shrink faster than the power kept.
+fn tried(
+    of: &Expr,
+    stands: &Expr,
+    p: &Symbol,
+    to: &Expr,
+    order: u32,
+    domains: &Domains,
+) -> Option<Check> {
+    let way = if side(p, to, domains) == Side::Below {
+        -1.0
+    } else {
+        1.0
+    };
+    let gap = of - stands;
+    let roles = roles(&[&gap, to]);
+    let (domains, _) = domains.completed(&roles);
+    // 8 times closer, more than 8ⁿ times smaller; rounding is no remainder.
+    let power = 8f64.powi(order as i32);
+    let mut seen = 0;
+    for sample in samples(&roles, &domains, 6) {
+        let mut point: Point<f64> = Point::default();
+        let exact = sample.point::<Interval>(true);
+        for name in sample.coordinates.keys() {
+            if let Outcome::Value(v) = evaluate(&Expr::symbol(name), &exact) {
+                point.values.insert(name.clone(), 0.5 * (v.low + v.high));
+            }
+        }
+        let at = to.evaluate(&point)?;
+        let mut left_out = |h: f64| {
+            point.values.insert(p.clone(), at + way * h);
+            let scale = of
+                .evaluate(&point)?
+                .abs()
+                .max(stands.evaluate(&point)?.abs());
+            Some((gap.evaluate(&point)?.abs(), scale))
+        };
+        let (h, small) = (0.0625 / 8.0, 0.0625 / 64.0);
+        let (Some((first, scale)), Some((second, _))) = (left_out(h), left_out(small)) else {
+            continue;
+        };
+        if second <= 1e-13 * scale || second * power * 4.0 <= first {
+            seen += 1;
+        } else {
+            return Some(Check {
+                kind: "numbers",
+                words: String::from("in numbers close by this could not be seen"),
+                holds: None,
+            });
+        }
+    }
+    (seen > 0).then(|| Check {
+        kind: "numbers",
+        words: format!(
+            "at {seen} points: 8 times closer, what is left out is more than {power} times smaller"
+        ),
+        holds: Some(true),
+    })
+}

@@ -1,0 +1,489 @@
+//! Questions about formulas of answers: values, thresholds, largest values, limits, forms for a small parameter, identities.
+//!
+//! In: a question and what earlier answers stand for, in parameters. Out: answers with how each is known. A scene of one
+//! impact and a scene with stages come here alike; what happened in stages is not known here.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::calc::{essential, is_zero, tidy};
+use super::{Answer, Refused, limit, optimum, threshold, zeros};
+use super::{Sentence, sentence::sentence};
+use crate::derive::{Derivation, Form};
+use crate::dimension::{self, Dimension};
+use crate::domain::Domains;
+use crate::equality::{self, Equality, How};
+use crate::expr::{Expr, Symbol};
+use crate::formula::{Relation, write_plain};
+use crate::scene::{Scene, StoryAsk, StoryQuestion};
+use crate::verify::{Check, Proof};
+
+/// What earlier answers stand for.
+pub(super) type Known = BTreeMap<Symbol, Expr>;
+
+/// Answers the questions of a scene of one impact that are about its answers.
+pub fn special(
+    scene: &Scene,
+    derivation: &Derivation,
+    proof: &Proof,
+) -> Result<Vec<Answer>, Refused> {
+    if scene.special.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut answers = about(scene, &scene.special, &known(derivation))?;
+    for answer in &mut answers {
+        let given = derivation.assumptions.iter().chain(&proof.assumptions);
+        answer.assumptions.extend(given.map(Sentence::from));
+        answer.assumptions.sort();
+        answer.assumptions.dedup();
+    }
+    Ok(answers)
+}
+
+/// Answers questions about formulas alone, in their order; `known` holds the answers found before. A question about a stage is
+/// refused.
+pub fn about(
+    scene: &Scene,
+    questions: &[StoryQuestion],
+    known: &Known,
+) -> Result<Vec<Answer>, Refused> {
+    let mut known = known.clone();
+    let mut answers = Vec::new();
+    for question in questions {
+        let Some(new) = formulas(scene, question, &known)? else {
+            return Err(Refused {
+                at: format!("question `{}`", question.name),
+                reason: String::from("it asks about a stage, and there are none"),
+                hint: String::from("add \"stages\", or ask about a formula"),
+            });
+        };
+        remember(&new, &mut known);
+        answers.extend(new);
+    }
+    Ok(answers)
+}
+
+/// Later formulas may use the answers by name.
+pub(super) fn remember(answers: &[Answer], known: &mut Known) {
+    for answer in answers {
+        if let Some(formula) = &answer.formula {
+            known.insert(Symbol::from(answer.name.as_str()), formula.clone());
+        }
+    }
+}
+
+/// The answers of a derivation in parameters alone.
+pub(super) fn known(derivation: &Derivation) -> Known {
+    let mut known = Known::new();
+    let mut defined = Known::new();
+    if derivation.in_steps {
+        for definition in &derivation.definitions {
+            let value = definition.value.substitute(&defined);
+            // Written out, a definition of a long chain may grow beyond use; what hangs on it is then not answered.
+            if value.size() <= LONGEST {
+                defined.insert(definition.name.clone(), value);
+            }
+        }
+    }
+    for answer in &derivation.answers {
+        if let Form::Value { closed, .. } = &answer.form {
+            let value = closed.substitute(&defined);
+            if value.size() <= LONGEST {
+                known.insert(Symbol::from(answer.name.as_str()), value);
+            }
+        }
+    }
+    known
+}
+
+/// Longest formula that is worked on, in nodes.
+const LONGEST: usize = 20_000;
+
+/// Answers a question about formulas; `None` for a question of another kind.
+pub(super) fn formulas(
+    scene: &Scene,
+    question: &StoryQuestion,
+    known: &Known,
+) -> Result<Option<Vec<Answer>>, Refused> {
+    let of = match &question.ask {
+        StoryAsk::Value { formula, .. } => formula,
+        StoryAsk::Limit { of, .. } | StoryAsk::Approximate { of, .. } => of,
+        StoryAsk::Condition { .. } | StoryAsk::Maximum { .. } | StoryAsk::Show { .. } => {
+            return one(scene, question, question.name.clone(), None, known).map(Some);
+        }
+        _ => return Ok(None),
+    };
+    // The name of a vector alone asks for both components.
+    let parts = of.as_symbol().and_then(|s| components(s, known));
+    let Some(parts) = parts else {
+        return one(scene, question, question.name.clone(), None, known).map(Some);
+    };
+    let mut out = Vec::new();
+    for (part, axis) in parts.iter().zip(["x", "y"]) {
+        let name = format!("{}_{axis}", question.name);
+        let of = Expr::symbol(part);
+        out.extend(one(scene, question, name, Some(&of), known)?);
+    }
+    Ok(Some(out))
+}
+
+/// The two components of an answer that is a vector.
+fn components(name: &Symbol, known: &Known) -> Option<[Symbol; 2]> {
+    if known.contains_key(name) {
+        return None;
+    }
+    let parts = ["x", "y"].map(|axis| Symbol::from(format!("{name}_{axis}").as_str()));
+    parts.iter().all(|p| known.contains_key(p)).then_some(parts)
+}
+
+/// A formula in parameters alone.
+pub(super) fn put(
+    scene: &Scene,
+    name: &str,
+    known: &Known,
+    e: &Expr,
+    with: &[(Symbol, Expr)],
+) -> Result<Expr, Refused> {
+    let refused = |reason: String, hint: &str| Refused {
+        at: format!("question `{name}`"),
+        reason,
+        hint: hint.into(),
+    };
+    let open = e
+        .symbols()
+        .into_iter()
+        .find(|s| !known.contains_key(s) && s.as_ref() != "pi" && !is_parameter(scene, s));
+    if let Some(open) = open {
+        return Err(match components(&open, known) {
+            Some([x, y]) => refused(
+                format!("`{open}` is a vector"),
+                &format!("its components are {x} and {y}"),
+            ),
+            None => refused(
+                format!("`{open}` has no single value that could be put in"),
+                "name an earlier answer that is a formula",
+            ),
+        });
+    }
+    let with: Known = with
+        .iter()
+        .map(|(s, v)| (s.clone(), v.substitute(known)))
+        .collect();
+    let e = e.substitute(known).substitute(&with);
+    if e.size() > LONGEST {
+        return Err(refused(String::from("not calculated: too long"), ""));
+    }
+    tidy(&e, &scene.domains).map_err(|stop| refused(format!("not calculated: {stop}"), ""))
+}
+
+fn is_parameter(scene: &Scene, name: &Symbol) -> bool {
+    scene.parameters.iter().any(|p| p.name == *name)
+}
+
+/// One answer, of `of` in place of what the question names where a component is asked; a maximum also tells its place.
+fn one(
+    scene: &Scene,
+    question: &StoryQuestion,
+    name: String,
+    of: Option<&Expr>,
+    known: &Known,
+) -> Result<Vec<Answer>, Refused> {
+    let domains = &scene.domains;
+    let put = |e: &Expr, with: &[(Symbol, Expr)]| put(scene, &name, known, e, with);
+    let out = match &question.ask {
+        StoryAsk::Value { formula, with } => {
+            let formula = of.unwrap_or(formula);
+            let mut out = blank(
+                question,
+                &name,
+                format!("value of {}", write_plain(formula)),
+            );
+            let value = put(formula, with)?;
+            out.dimension = dimension_of(scene, &value, &name)?;
+            out.formula = Some(value);
+            out.text.extend(with_words(with));
+            out
+        }
+        StoryAsk::Condition {
+            parameter,
+            left,
+            relation,
+            right,
+            with,
+        } => {
+            let sides = [put(left, with)?, put(right, with)?];
+            let statement = statement(left, *relation, right);
+            condition(
+                scene, question, &statement, parameter, *relation, sides, with,
+            )?
+        }
+        StoryAsk::Maximum { of, over } => {
+            let value = put(of, &[])?;
+            let words = format!("largest value of {}", write_plain(of));
+            return optimum::maximum(scene, blank(question, &name, words), &value, over);
+        }
+        StoryAsk::Limit {
+            of: whole,
+            parameter,
+            to,
+        } => {
+            let of = of.unwrap_or(whole);
+            let target = to.as_ref().map_or_else(|| String::from("∞"), write_plain);
+            let words = format!("limit of {} as {parameter} → {target}", write_plain(of));
+            let mut out = blank(question, &name, words);
+            let value = put(of, &[])?;
+            let to = to.as_ref().map(|t| put(t, &[])).transpose()?;
+            limit::fill(&mut out, &value, parameter, to.as_ref(), domains);
+            if let Some(formula) = &out.formula {
+                out.dimension = dimension_of(scene, formula, &name)?;
+            }
+            out
+        }
+        StoryAsk::Approximate {
+            of: whole,
+            parameter,
+            to,
+            order,
+        } => {
+            let of = of.unwrap_or(whole);
+            let near = if to.is_zero() {
+                format!("small {parameter}")
+            } else {
+                format!("{parameter} near {}", write_plain(to))
+            };
+            let words = format!("{} for {near}, to order {order}", write_plain(of));
+            let mut out = blank(question, &name, words);
+            let value = put(of, &[])?;
+            out.dimension = dimension_of(scene, &value, &name)?;
+            let to = put(to, &[])?;
+            limit::approximate(&mut out, &value, parameter, &to, *order, domains);
+            out
+        }
+        StoryAsk::Show {
+            left,
+            right,
+            with,
+            unless,
+            claim,
+        } => {
+            let sides = [put(left, with)?, put(right, with)?];
+            let mut out = show(scene, question, (left, right), claim, sides)?;
+            out.text.extend(with_words(with));
+            for name in unless {
+                let parts = components(name, known).map_or_else(|| vec![name.clone()], Vec::from);
+                let mut square = Expr::zero();
+                for part in parts {
+                    square = &square + &put(&Expr::symbol(&part), with)?.powi(2);
+                }
+                let (words, exception) = vanishing(name, &square, domains);
+                out.text.push(words);
+                out.assumptions.extend(exception);
+            }
+            out
+        }
+        _ => return Ok(Vec::new()),
+    };
+    Ok(vec![out])
+}
+
+fn statement(left: &Expr, relation: Relation, right: &Expr) -> String {
+    format!(
+        "{} {} {}",
+        write_plain(left),
+        relation.sign(),
+        write_plain(right)
+    )
+}
+
+fn condition(
+    scene: &Scene,
+    question: &StoryQuestion,
+    statement: &str,
+    parameter: &Symbol,
+    relation: Relation,
+    [left, right]: [Expr; 2],
+    with: &[(Symbol, Expr)],
+) -> Result<Answer, Refused> {
+    let name = question.name.as_str();
+    let what = if relation == Relation::Equal {
+        "value"
+    } else {
+        "threshold"
+    };
+    let mut out = blank(
+        question,
+        name,
+        format!("{what} of {parameter} for {statement}"),
+    );
+    if !left.is_zero() && !right.is_zero() {
+        let (l, r) = (
+            dimension_of(scene, &left, name)?,
+            dimension_of(scene, &right, name)?,
+        );
+        if l != r {
+            return Err(Refused {
+                at: format!("question `{name}`"),
+                reason: format!("the sides of {statement} are {l} and {r}"),
+                hint: String::from("compare quantities of the same kind"),
+            });
+        }
+    }
+    out.text.extend(with_words(with));
+    out.stated = Some((left.clone(), relation, right.clone()));
+    threshold::fill(&mut out, parameter, &left, relation, &right, scene);
+    if let Some(root) = &out.formula {
+        // What stands in the equation and not in its solution plays no part, which is worth saying.
+        let used = root.symbols();
+        let all: BTreeSet<Symbol> = left.symbols().union(&right.symbols()).cloned().collect();
+        let idle: Vec<Sentence> = all
+            .iter()
+            .filter(|s| *s != parameter && s.as_ref() != "pi" && !used.contains(*s))
+            .map(Sentence::from)
+            .collect();
+        if !idle.is_empty() {
+            out.text
+                .push(sentence!["it does not depend on ", list(&idle)]);
+        }
+    }
+    out.dimension = dimension_of(scene, &Expr::symbol(parameter), name)?;
+    Ok(out)
+}
+
+fn show(
+    scene: &Scene,
+    question: &StoryQuestion,
+    shown: (&Expr, &Expr),
+    claim: &str,
+    [left, right]: [Expr; 2],
+) -> Result<Answer, Refused> {
+    let name = question.name.as_str();
+    let words = match claim {
+        "" => statement(shown.0, Relation::Equal, shown.1),
+        claim => claim.to_string(),
+    };
+    let mut out = blank(question, name, format!("to be shown: {words}"));
+    out.checks.push(identity(&left, &right, &scene.domains));
+    out.dimension = dimension_of(scene, &left, name)?;
+    let equation = sentence![shown.0, " = ", shown.1];
+    out.text.push(match out.checks[0].holds {
+        Some(true) => sentence![equation, ": both are ", &left],
+        Some(false) => sentence![equation, " does not hold: ", &left, " against ", &right],
+        None => sentence![equation, " could not be decided"],
+    });
+    out.equation = Some((left, right));
+    Ok(out)
+}
+
+/// Where a quantity vanishes whose square this is, in a sentence; and what must not hold.
+fn vanishing(name: &Symbol, square: &Expr, domains: &Domains) -> (Sentence, Option<Sentence>) {
+    if is_zero(square, domains) == Some(true) {
+        return (
+            sentence![name, " is zero throughout: the statement is empty"],
+            Some(sentence![name, " is zero"]),
+        );
+    }
+    let places = zeros::of(&essential(square, domains), domains);
+    if places.is_empty() {
+        return (sentence![name, " is nowhere zero"], None);
+    }
+    let places = Sentence::join(places, " or ");
+    (
+        sentence![
+            "except where ",
+            &places,
+            ": there ",
+            name,
+            " is zero and the statement is empty"
+        ],
+        Some(sentence!["not ", places, ", where ", name, " is zero"]),
+    )
+}
+
+/// `a, b and c`.
+fn list(all: &[Sentence]) -> Sentence {
+    match all {
+        [] => Sentence::default(),
+        [one] => one.clone(),
+        [first @ .., last] => {
+            sentence![Sentence::join(first.iter().cloned(), ", "), " and ", last]
+        }
+    }
+}
+
+/// An identity, decided.
+pub(super) fn identity(left: &Expr, right: &Expr, domains: &Domains) -> Check {
+    let decision = equality::decide(left, right, domains).equality;
+    let (words, holds) = match decision {
+        Equality::Same {
+            how: How::Identity { .. },
+        } => (
+            String::from("identity: the difference is zero in the normal form"),
+            Some(true),
+        ),
+        Equality::Same {
+            how: How::OnBranch { elsewhere, .. },
+        } => (
+            format!(
+                "holds on a part of the domain only, not at {}",
+                elsewhere.at.words()
+            ),
+            Some(false),
+        ),
+        Equality::Different(point) => (format!("different at {}", point.at.words()), Some(false)),
+        _ => (String::from("not decided"), None),
+    };
+    Check {
+        kind: "identity",
+        words,
+        holds,
+    }
+}
+
+fn with_words(with: &[(Symbol, Expr)]) -> Vec<Sentence> {
+    with.iter()
+        .map(|(s, v)| sentence!["taken at ", s, " = ", v])
+        .collect()
+}
+
+/// An answer without content yet.
+pub(super) fn blank(question: &StoryQuestion, name: &str, words: impl Into<String>) -> Answer {
+    let latex = question
+        .latex
+        .clone()
+        .unwrap_or_else(|| crate::formula::latex_name(name));
+    Answer {
+        question: question.name.clone(),
+        name: name.to_string(),
+        latex,
+        words: words.into(),
+        formula: None,
+        range: Vec::new(),
+        equation: None,
+        stated: None,
+        put_in: Vec::new(),
+        text: Vec::new(),
+        dimension: Dimension::none(),
+        assumptions: Vec::new(),
+        discarded: Vec::new(),
+        near: Vec::new(),
+        checks: Vec::new(),
+    }
+}
+
+/// Dimension of an expression in the scene's parameters.
+pub(super) fn dimension_of(scene: &Scene, e: &Expr, at: &str) -> Result<Dimension, Refused> {
+    let of = |name: &str| {
+        scene
+            .parameters
+            .iter()
+            .find(|p| *p.name == *name)
+            .map(|p| p.dimension.clone())
+    };
+    match dimension::of(e, &of) {
+        Ok(found) => Ok(found.unwrap_or_else(Dimension::none)),
+        Err(clash) => Err(Refused {
+            at: format!("question `{at}`"),
+            reason: clash.message(&write_plain),
+            hint: String::from("both sides of a sum or relation have the same dimension"),
+        }),
+    }
+}
