@@ -1,9 +1,11 @@
 //! The generators of a field, the relations between them, and arithmetic of its elements.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use num_integer::Integer;
 use num_traits::One;
+use rustc_hash::FxHashMap;
 
 use super::Stop;
 use super::element::{Den, Element};
@@ -82,7 +84,9 @@ pub struct Field {
     pub(crate) samples: Vec<Vec<f64>>,
     pub(crate) fuel: Fuel,
     /// Normal forms found so far; the same few formulas are read again and again.
-    pub(crate) read: HashMap<Expr, Element>,
+    pub(crate) read: FxHashMap<Expr, Element>,
+    /// What was written last; the same values are asked for in equations, answers and proofs.
+    pub(crate) wrote: RefCell<VecDeque<(Element, Expr)>>,
 }
 
 impl Field {
@@ -99,7 +103,8 @@ impl Field {
             complete: true,
             samples: Vec::new(),
             fuel: Fuel::new(),
-            read: HashMap::new(),
+            read: FxHashMap::default(),
+            wrote: RefCell::default(),
         }
     }
 

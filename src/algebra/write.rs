@@ -15,6 +15,9 @@ use crate::expr::{Expr, Function, Int, Node, Rational, ratio};
 /// Longest sum whose terms are grouped.
 const MOST_GROUPED: usize = 300;
 
+/// Most values whose written form is remembered; they are searched one by one.
+const MOST_REMEMBERED: usize = 64;
+
 /// A term of a sum, with a factor cos(α ± β) or sin(α ± β) gathered from two terms.
 #[derive(Clone)]
 struct Term {
@@ -27,7 +30,18 @@ impl Field {
     /// The element as a person would write it. Read again, it gives the same element.
     pub fn expr(&self, x: &Element) -> Expr {
         self.fuel.refill();
-        self.written(x)
+        let known =
+            |(y, e): &(Element, Expr)| (y.num == x.num && y.den == x.den).then(|| e.clone());
+        if let Some(e) = self.wrote.borrow().iter().find_map(known) {
+            return e;
+        }
+        let e = self.written(x);
+        let mut wrote = self.wrote.borrow_mut();
+        if wrote.len() == MOST_REMEMBERED {
+            wrote.pop_front();
+        }
+        wrote.push_back((x.clone(), e.clone()));
+        e
     }
 
     fn written(&self, x: &Element) -> Expr {

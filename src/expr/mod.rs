@@ -8,12 +8,15 @@ pub mod angle;
 pub mod eval;
 pub mod number;
 
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
+use std::hash::{BuildHasher, Hash, Hasher};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::Arc;
 
 use num_traits::{One, Signed, Zero};
+use rustc_hash::FxBuildHasher;
 
 pub use eval::{Point, Scalar};
 pub use number::{Int, Rational, ratio};
@@ -21,9 +24,15 @@ pub use number::{Int, Rational, ratio};
 /// The name of a symbol as the scene writes it, such as `m1`, `theta` or `v_G`.
 pub type Symbol = Arc<str>;
 
-/// An immutable mathematical expression; cheap to clone.
-#[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Expr(Arc<Node>);
+/// An immutable mathematical expression; cheap to clone and to look up.
+#[derive(Clone)]
+pub struct Expr(Arc<Tree>);
+
+/// A node with the hash of all below it, so that looking up a formula does not walk through it.
+struct Tree {
+    hash: u64,
+    node: Node,
+}
 
 /// The six kinds of expression.
 #[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -98,12 +107,13 @@ impl Function {
 
 impl Expr {
     fn new(node: Node) -> Expr {
-        Expr(Arc::new(node))
+        let hash = FxBuildHasher.hash_one(&node);
+        Expr(Arc::new(Tree { hash, node }))
     }
 
     /// The outermost node.
     pub fn node(&self) -> &Node {
-        &self.0
+        &self.0.node
     }
 
     /// A symbol of the given name.
@@ -417,6 +427,37 @@ impl Expr {
             _ => {}
         });
         total
+    }
+}
+
+impl PartialEq for Expr {
+    fn eq(&self, other: &Expr) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+            || (self.0.hash == other.0.hash && self.0.node == other.0.node)
+    }
+}
+
+impl Eq for Expr {}
+
+impl Hash for Expr {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        state.write_u64(self.0.hash);
+    }
+}
+
+impl PartialOrd for Expr {
+    fn partial_cmp(&self, other: &Expr) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Expr {
+    /// By the nodes alone, so that no order depends on hashes.
+    fn cmp(&self, other: &Expr) -> Ordering {
+        if Arc::ptr_eq(&self.0, &other.0) {
+            return Ordering::Equal;
+        }
+        self.0.node.cmp(&other.0.node)
     }
 }
 
