@@ -4,6 +4,7 @@
 //! failed or an answer was refuted; 2 unusable input; 3 undecided; 70 a fault of carom itself.
 
 mod draw;
+mod emit;
 mod grade;
 #[cfg(feature = "report")]
 mod report;
@@ -67,6 +68,8 @@ enum Command {
     Check(solution::CheckArgs),
     /// Judge a formula: is it equivalent, how is that known, and what is wrong with it
     Grade(grade::GradeArgs),
+    /// Write the closed forms of a scene as code: arranged for accuracy, with a bound of the error
+    Emit(emit::EmitArgs),
     /// Measure error against run time of every route a scene has, towards every extreme
     #[cfg(feature = "report")]
     Report(report::ReportArgs),
@@ -121,6 +124,7 @@ pub fn run() -> ExitCode {
             certify,
         } => solve_command(&scene, format, &set, exact, certify),
         Command::Draw(args) => draw::run(&args),
+        Command::Emit(args) => emit::run(&args),
         #[cfg(feature = "report")]
         Command::Report(args) => report::run(&args),
         Command::Solution(args) => solution::run(&args),

@@ -30,9 +30,15 @@ pub fn without_angles(e: &Expr, atoms: &mut Atoms) -> Expr {
     if let Some((name, _)) = atoms.iter().find(|(_, of)| of == e) {
         return Expr::symbol(name);
     }
-    let name: Symbol = format!("{}_{}", f.name(), atoms.len()).into();
+    // No scene has a symbol with a blank.
+    let name: Symbol = format!("{} {}", f.name(), atoms.len()).into();
     atoms.push((name.clone(), e.clone()));
     Expr::symbol(&name)
+}
+
+/// Whether the input is a cosine or sine rather than a symbol of the scene.
+fn is_wave(name: &str) -> bool {
+    name.contains(' ')
 }
 
 /// The function and the argument of a sine, cosine or tangent of an angle.
@@ -330,6 +336,10 @@ impl<'a> Builder<'a> {
                     self.step(Step::Widen(plain))
                 }
             },
+            Node::Symbol(name) if is_wave(name) => {
+                let input = self.inputs.iter().position(|i| i == name)?;
+                self.step(Step::WideInput(input))
+            }
             Node::Symbol(_) | Node::Call(..) => {
                 let plain = self.plain(e)?;
                 self.step(Step::Widen(plain))
@@ -340,10 +350,19 @@ impl<'a> Builder<'a> {
     }
 
     fn wide_chain(&mut self, factors: &[Expr]) -> Option<Option<usize>> {
+        let minus_one = |f: &Expr| f.as_number().is_some_and(|v| *v == -Rational::one());
         let mut total = None;
+        let mut negative = false;
         for factor in factors {
+            if minus_one(factor) && factors.len() > 1 {
+                negative = !negative;
+                continue;
+            }
             let factor = self.wide(factor)?;
             total = Some(total.map_or(factor, |t| self.step(Step::WideMultiply(t, factor))));
+        }
+        if negative {
+            total = total.map(|t| self.step(Step::WideNegate(t)));
         }
         Some(total)
     }
@@ -408,9 +427,7 @@ fn difference_of_squares(terms: &[Expr]) -> Option<[Expr; 2]> {
 fn is_exact_atom(e: &Expr) -> bool {
     match e.node() {
         Node::Number(v) => from_f64(to_f64(v)).as_ref() == Some(v),
-        Node::Symbol(name) => {
-            &**name != "pi" && !name.starts_with("sin_") && !name.starts_with("cos_")
-        }
+        Node::Symbol(name) => &**name != "pi" && !is_wave(name),
         Node::Product(_) => {
             negated(e).is_some_and(|p| p.as_symbol().is_some() && is_exact_atom(&p))
         }

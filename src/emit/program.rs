@@ -33,6 +33,8 @@ pub enum Step {
     Round(usize),
     /// A plain step made wide.
     Widen(usize),
+    /// An input with all digits it has, where the plain one is it rounded: the cosine of an angle, say.
+    WideInput(usize),
     /// A number to 106 bits.
     WideNumber(Dd),
     /// Wide sum.
@@ -45,6 +47,47 @@ pub enum Step {
     WideNegate(usize),
     /// Wide square root.
     WideRoot(usize),
+}
+
+impl Step {
+    /// The earlier steps it uses.
+    pub fn operands(self) -> [Option<usize>; 2] {
+        match self {
+            Step::Number(_) | Step::Input(_) | Step::WideNumber(_) | Step::WideInput(_) => {
+                [None, None]
+            }
+            Step::Negate(a)
+            | Step::Root(a)
+            | Step::Call(_, a)
+            | Step::Round(a)
+            | Step::Widen(a)
+            | Step::WideNegate(a)
+            | Step::WideRoot(a) => [Some(a), None],
+            Step::Add(a, b)
+            | Step::Subtract(a, b)
+            | Step::Multiply(a, b)
+            | Step::Divide(a, b)
+            | Step::Power(a, b)
+            | Step::WideAdd(a, b)
+            | Step::WideMultiply(a, b)
+            | Step::WideDivide(a, b) => [Some(a), Some(b)],
+        }
+    }
+
+    /// Whether its value is a double-double.
+    pub fn is_wide(self) -> bool {
+        matches!(
+            self,
+            Step::Widen(_)
+                | Step::WideInput(_)
+                | Step::WideNumber(_)
+                | Step::WideAdd(..)
+                | Step::WideMultiply(..)
+                | Step::WideDivide(..)
+                | Step::WideNegate(_)
+                | Step::WideRoot(_)
+        )
+    }
 }
 
 /// A program for one value.
@@ -90,12 +133,13 @@ impl Program {
                 }
             };
             bounds.push(match *step {
-                Step::Number(_) => 1.0,
-                Step::Input(i) => errors[i],
+                Step::Number(v) => number_error(v),
+                Step::Input(i) | Step::WideInput(i) => errors[i],
                 Step::Add(a, b) | Step::Subtract(a, b) => weighted(a, b) + 1.0,
                 Step::Multiply(a, b) | Step::Divide(a, b) => bounds[a] + bounds[b] + 1.0,
                 Step::Negate(a) | Step::WideNegate(a) | Step::Widen(a) => bounds[a],
                 Step::Root(a) => 0.5 * bounds[a] + 1.0,
+                Step::Call(Function::Abs, a) => bounds[a],
                 Step::Power(..) | Step::Call(..) => f64::INFINITY,
                 Step::Round(a) => bounds[a] + 1.0,
                 Step::WideNumber(_) => FINE,
@@ -110,9 +154,10 @@ impl Program {
         (value, bounds.last().copied().unwrap_or(f64::INFINITY))
     }
 
-    /// The bound that holds wherever no sum cancels, in units of 2⁻⁵³; `None` where a function makes it depend on more.
-    /// `errors` as in [`Program::value_with_bound`]. Where wide sums cancel κ-fold, κ times `wide` is added.
-    pub fn bound(&self, errors: &[f64]) -> Option<Bound> {
+    /// The bound that holds at every point, in units of 2⁻⁵³ and to first order; `None` where a function makes it depend on
+    /// more. `errors` as in [`Program::value_with_bound`], `wide_errors` those of [`Step::WideInput`]. Where wide sums cancel
+    /// κ-fold, κ times `wide` is added.
+    pub fn bound(&self, errors: &[f64], wide_errors: &[f64]) -> Option<Bound> {
         let mut bounds: Vec<Bound> = Vec::with_capacity(self.steps.len());
         for step in &self.steps {
             let of = |a: usize| bounds[a];
@@ -133,8 +178,8 @@ impl Program {
                 ..b
             };
             bounds.push(match *step {
-                Step::Number(_) => Bound {
-                    plain: 1.0,
+                Step::Number(v) => Bound {
+                    plain: number_error(v),
                     wide: 0.0,
                 },
                 Step::Input(i) => Bound {
@@ -143,13 +188,17 @@ impl Program {
                 },
                 Step::Add(a, b) | Step::Subtract(a, b) => plain(larger(a, b)),
                 Step::Multiply(a, b) | Step::Divide(a, b) => plain(both(a, b)),
-                Step::Negate(a) | Step::WideNegate(a) => of(a),
+                Step::Negate(a) | Step::WideNegate(a) | Step::Call(Function::Abs, a) => of(a),
                 Step::Root(a) | Step::Round(a) => plain(of(a)),
                 Step::Power(..) | Step::Call(..) => return None,
                 // What was rounded before it became wide is amplified with the rest.
                 Step::Widen(a) => Bound {
                     plain: 0.0,
                     wide: of(a).plain + of(a).wide,
+                },
+                Step::WideInput(i) => Bound {
+                    plain: 0.0,
+                    wide: wide_errors[i],
                 },
                 Step::WideNumber(_) => Bound {
                     plain: 0.0,
@@ -170,6 +219,12 @@ impl Program {
     }
 }
 
+/// Error of a number written in a program: whole numbers below 2⁵³ are exact.
+fn number_error(value: f64) -> f64 {
+    let exact = value.fract() == 0.0 && value.abs() < (1u64 << 53) as f64;
+    if exact { 0.0 } else { 1.0 }
+}
+
 /// Relative error: `plain` everywhere, and `wide` times the factor by which wide sums cancel; units of 2⁻⁵³.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bound {
@@ -184,7 +239,7 @@ fn perform(step: Step, slots: &[Dd], inputs: &[f64]) -> Dd {
     let wide = |i: usize| slots[i];
     match step {
         Step::Number(v) => Dd::exact(v),
-        Step::Input(i) => Dd::exact(inputs[i]),
+        Step::Input(i) | Step::WideInput(i) => Dd::exact(inputs[i]),
         Step::Add(a, b) => Dd::exact(plain(a) + plain(b)),
         Step::Subtract(a, b) => Dd::exact(plain(a) - plain(b)),
         Step::Multiply(a, b) => Dd::exact(plain(a) * plain(b)),

@@ -1,0 +1,92 @@
+//! `carom emit`: closed forms as source code, arranged for accuracy.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::{Failure, print, read_scene, save};
+use carom::emit::{Heading, Language, file, functions};
+use carom::{derive, render, verify};
+
+/// Arguments of `carom emit`.
+#[derive(Args)]
+pub struct EmitArgs {
+    /// Scene file, `-` for standard input
+    scene: PathBuf,
+    /// Language of the code
+    #[arg(long, value_enum, default_value_t = Lang::Rust)]
+    lang: Lang,
+    /// Only this answer, such as omega or v_x; may be repeated
+    #[arg(long, value_name = "NAME")]
+    quantity: Vec<String>,
+    /// File to write instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Lang {
+    Rust,
+    C,
+    Python,
+}
+
+/// Runs `carom emit`: exit status 0, or 1 where the closed forms did not stand their proof and nothing is written.
+pub fn run(args: &EmitArgs) -> Result<u8, Failure> {
+    let scene = read_scene(&args.scene, &[])?;
+    let name = args.scene.display();
+    if scene.story.is_some() {
+        return Err(Failure::Input(format!(
+            "{name}: a scene with stages has no single closed form to write as code\nhint: write a scene of one collision"
+        )));
+    }
+    let derivation =
+        derive::derive(&scene).map_err(|stop| Failure::Input(format!("{name}: {stop}")))?;
+    let proof = verify::prove(&scene, &derivation);
+    if !proof.holds() || derivation.counting.contradictory {
+        eprintln!(
+            "{name}: the closed forms are not proved, so no code is written\nhint: `carom derive` tells what failed"
+        );
+        return Ok(1);
+    }
+    let (mut found, without) = functions(&scene, &derivation);
+    if let Some(unknown) = args
+        .quantity
+        .iter()
+        .find(|q| !found.iter().any(|f| f.name == **q))
+    {
+        let all: Vec<&str> = found.iter().map(|f| f.name.as_str()).collect();
+        return Err(Failure::Input(format!(
+            "{name}: no number {unknown}\nhint: there are {}",
+            all.join(", ")
+        )));
+    }
+    found.retain(|f| args.quantity.is_empty() || args.quantity.contains(&f.name));
+    if found.is_empty() {
+        return Err(Failure::Input(format!(
+            "{name}: asks for no number with a closed form\nhint: add a question for a velocity, a spin, an impulse or an energy"
+        )));
+    }
+    if args.quantity.is_empty() && !without.is_empty() {
+        eprintln!(
+            "{name}: no function for {}: no closed form in numbers",
+            without.join(", ")
+        );
+    }
+    let heading = Heading {
+        title: scene.title.clone(),
+        source: scene.source.clone(),
+        assumptions: render::assumptions(&scene, &derivation, &proof),
+    };
+    let language = match args.lang {
+        Lang::Rust => Language::Rust,
+        Lang::C => Language::C,
+        Lang::Python => Language::Python,
+    };
+    let text = file(language, &heading, &found);
+    match &args.output {
+        Some(path) => save(path, text.as_bytes())?,
+        None => print(&text)?,
+    }
+    Ok(0)
+}

@@ -1,0 +1,116 @@
+//! Within what sizes of its arguments a program neither over- nor underflows, and whether what it divides by can cancel.
+//!
+//! Sizes are followed as powers of ten, from the smallest a value can have, zero aside, to the largest. Sums count as
+//! their smallest term at least: what cancels is told to the reader apart.
+
+use super::program::{Program, Step};
+
+/// What is known of an input: whether it is an argument, and its sign.
+#[derive(Clone, Copy, Debug)]
+pub struct Input {
+    /// An argument, rather than a cosine or sine.
+    pub is_argument: bool,
+    /// At least zero (`Some(true)`), at most zero, or neither known.
+    pub sign: Option<bool>,
+}
+
+/// The largest k such that nothing over- or underflows while every argument is zero or within 10^−k … 10^k; what a cosine
+/// or sine of a double leaves is above 1e−20.
+pub fn reach(program: &Program, inputs: &[Input]) -> i32 {
+    (0..=300)
+        .rev()
+        .find(|k| fits(program, inputs, f64::from(*k)))
+        .unwrap_or(0)
+}
+
+/// Doubles, with what their products leave below them: 2⁻⁵³ and 2⁻¹⁰⁶ of the value.
+const LARGEST: f64 = 290.0;
+const SMALLEST: f64 = -290.0;
+const PLAIN_SMALLEST: f64 = -307.0;
+
+fn fits(program: &Program, inputs: &[Input], k: f64) -> bool {
+    let mut sizes: Vec<[f64; 2]> = Vec::with_capacity(program.steps.len());
+    let number = |v: f64| {
+        let size = if v == 0.0 { 0.0 } else { v.abs().log10() };
+        [size, size]
+    };
+    let input = |i: usize| {
+        if inputs[i].is_argument {
+            [-k, k]
+        } else {
+            [-20.0, 0.0]
+        }
+    };
+    for step in &program.steps {
+        let of = |a: usize| sizes[a];
+        let sum = |a: usize, b: usize| [of(a)[0].min(of(b)[0]), of(a)[1].max(of(b)[1]) + 0.31];
+        let times = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
+        let per = |a: [f64; 2], b: [f64; 2]| [a[0] - b[1], a[1] - b[0]];
+        let (size, wide) = match *step {
+            Step::Number(v) => (number(v), false),
+            Step::WideNumber(v) => (number(v.high), true),
+            Step::Input(i) => (input(i), false),
+            Step::WideInput(i) => (input(i), true),
+            Step::Add(a, b) | Step::Subtract(a, b) => (sum(a, b), false),
+            Step::WideAdd(a, b) => (sum(a, b), true),
+            Step::Multiply(a, b) => (times(of(a), of(b)), false),
+            Step::WideMultiply(a, b) => (times(of(a), of(b)), true),
+            Step::Divide(a, b) => (per(of(a), of(b)), false),
+            // The reciprocal is formed first.
+            Step::WideDivide(a, b) => {
+                let inverse = per([0.0, 0.0], of(b));
+                if inverse[0] < SMALLEST || inverse[1] > LARGEST {
+                    return false;
+                }
+                (times(of(a), inverse), true)
+            }
+            Step::Negate(a) | Step::Round(a) | Step::Call(_, a) => (of(a), false),
+            Step::Widen(a) | Step::WideNegate(a) => (of(a), true),
+            Step::Root(a) => (of(a).map(|v| 0.5 * v), false),
+            Step::WideRoot(a) => (of(a).map(|v| 0.5 * v), true),
+            Step::Power(..) => return false,
+        };
+        let smallest = if wide { SMALLEST } else { PLAIN_SMALLEST };
+        if size[0] < smallest || size[1] > LARGEST {
+            return false;
+        }
+        sizes.push(size);
+    }
+    true
+}
+
+/// Whether every divisor has one sign, whatever the arguments: a sum of terms that cannot cancel.
+pub fn divides_safely(program: &Program, inputs: &[Input]) -> bool {
+    let signs = signs(program, inputs);
+    program.steps.iter().all(|step| match *step {
+        Step::Divide(_, b) | Step::WideDivide(_, b) => signs[b].is_some(),
+        _ => true,
+    })
+}
+
+/// The sign of every step, as far as those of the inputs tell.
+fn signs(program: &Program, inputs: &[Input]) -> Vec<Option<bool>> {
+    let mut signs: Vec<Option<bool>> = Vec::with_capacity(program.steps.len());
+    for step in &program.steps {
+        let both = |a: usize, b: usize| signs[a].zip(signs[b]);
+        signs.push(match *step {
+            Step::Number(v) => Some(v >= 0.0),
+            Step::WideNumber(v) => Some(v.high >= 0.0),
+            Step::Input(i) | Step::WideInput(i) => inputs[i].sign,
+            Step::Add(a, b) | Step::WideAdd(a, b) => {
+                both(a, b).and_then(|(a, b)| (a == b).then_some(a))
+            }
+            Step::Subtract(a, b) => both(a, b).and_then(|(a, b)| (a != b).then_some(a)),
+            Step::Multiply(a, b) | Step::WideMultiply(a, b) if a == b => Some(true),
+            Step::Multiply(a, b)
+            | Step::WideMultiply(a, b)
+            | Step::Divide(a, b)
+            | Step::WideDivide(a, b) => both(a, b).map(|(a, b)| a == b),
+            Step::Negate(a) | Step::WideNegate(a) => signs[a].map(|s| !s),
+            Step::Round(a) | Step::Widen(a) => signs[a],
+            Step::Root(_) | Step::WideRoot(_) => Some(true),
+            Step::Power(..) | Step::Call(..) => None,
+        });
+    }
+    signs
+}

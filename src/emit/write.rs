@@ -1,0 +1,543 @@
+//! Functions as source text: Rust, C or Python, self-contained, with everything a reader needs in the comment.
+//!
+//! Steps used once are written where they are used, with brackets that keep their order; every rounding is that of the
+//! program, so the three languages give the same bits wherever their library gives the same cosines.
+
+use std::collections::BTreeSet;
+
+use super::function::{Function, LIBRARY, Turn};
+use super::helpers::{self, Helper};
+use super::program::Step;
+use crate::numeric::dd::Dd;
+
+/// The languages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Language {
+    /// A module of functions on `f64`.
+    Rust,
+    /// A translation unit of functions on `double`; C99.
+    C,
+    /// A module of functions on floats; Python 3.
+    Python,
+}
+
+/// What stands at the head of a file.
+#[derive(Clone, Debug, Default)]
+pub struct Heading {
+    /// Title of the scene.
+    pub title: String,
+    /// Where it comes from.
+    pub source: String,
+    /// What all functions take for granted.
+    pub assumptions: Vec<String>,
+}
+
+/// The functions with what they need, as one file.
+pub fn file(language: Language, heading: &Heading, functions: &[Function]) -> String {
+    let mut used = BTreeSet::new();
+    let mut names = Names::default();
+    let bodies: Vec<String> = functions
+        .iter()
+        .map(|f| {
+            // Functions of the C library stand beside ours; arguments may be called like them.
+            let name = match C_LIBRARY.split_whitespace().any(|n| n == f.name) {
+                true => names.fresh(&format!("{}_after", f.name)),
+                false => names.fresh(&f.name),
+            };
+            Writer::new(language, f, &mut used).function(&name)
+        })
+        .collect();
+    let mut out = comment(language, &head(heading), true);
+    out.push('\n');
+    out.push_str(&helpers::text(language, &used));
+    out.push_str(&bodies.join("\n"));
+    out
+}
+
+fn head(heading: &Heading) -> Vec<String> {
+    let mut lines = vec![match heading.source.is_empty() {
+        true => heading.title.clone(),
+        false => format!("{} ({})", heading.title, heading.source),
+    }];
+    lines.push(String::new());
+    lines.push(format!(
+        "Written by carom {}. Values are in SI units, angles in radians; x points right, y up.",
+        env!("CARGO_PKG_VERSION")
+    ));
+    if !heading.assumptions.is_empty() {
+        lines.push(format!("Assumes {}.", heading.assumptions.join(", ")));
+    }
+    lines
+}
+
+/// Lines as a comment: of the file, or of the item that follows.
+fn comment(language: Language, lines: &[String], of_file: bool) -> String {
+    let safe = |l: &String| l.replace("*/", "* /").replace("\\", "/").replace('"', "'");
+    let lines: Vec<String> = lines.iter().flat_map(|l| wrapped(&safe(l))).collect();
+    let mut out = String::new();
+    match language {
+        Language::Rust => {
+            let mark = if of_file { "//!" } else { "///" };
+            for line in &lines {
+                out.push_str(format!("{mark} {line}").trim_end());
+                out.push('\n');
+            }
+        }
+        Language::C => {
+            out.push_str("/* ");
+            out.push_str(&lines.join("\n   ").replace("   \n", "\n"));
+            out.push_str(" */\n");
+        }
+        Language::Python => {
+            let indent = if of_file { "" } else { "    " };
+            out.push_str(&format!("{indent}\"\"\"{}", lines[0]));
+            for line in &lines[1..] {
+                out.push('\n');
+                out.push_str(format!("{indent}{line}").trim_end());
+            }
+            let end = if lines.len() > 1 {
+                format!("\n{indent}")
+            } else {
+                String::new()
+            };
+            out.push_str(&format!("{end}\"\"\"\n"));
+        }
+    }
+    out
+}
+
+/// Breaks at blanks, about a hundred characters a line.
+fn wrapped(line: &str) -> Vec<String> {
+    let mut out = vec![String::new()];
+    for word in line.split(' ') {
+        let last = out.last_mut().expect("never empty");
+        if !last.is_empty() && last.chars().count() + word.chars().count() > 100 {
+            out.push(format!("  {word}"));
+        } else {
+            if !last.is_empty() {
+                last.push(' ');
+            }
+            last.push_str(word);
+        }
+    }
+    out
+}
+
+/// How tightly a piece of text holds together.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Holds {
+    Sum,
+    Product,
+    Atom,
+}
+
+struct Writer<'a> {
+    language: Language,
+    function: &'a Function,
+    used: &'a mut BTreeSet<Helper>,
+    names: Names,
+    arguments: Vec<String>,
+    /// Plain and wide name of each input after the arguments.
+    waves: Vec<[String; 2]>,
+    lines: Vec<String>,
+}
+
+impl<'a> Writer<'a> {
+    fn new(
+        language: Language,
+        function: &'a Function,
+        used: &'a mut BTreeSet<Helper>,
+    ) -> Writer<'a> {
+        let mut names = Names::default();
+        let arguments = function
+            .arguments
+            .iter()
+            .map(|a| names.fresh(&a.symbol))
+            .collect();
+        let waves = vec![Default::default(); function.program.inputs];
+        Writer {
+            language,
+            function,
+            used,
+            names,
+            arguments,
+            waves,
+            lines: Vec::new(),
+        }
+    }
+
+    fn function(mut self, name: &str) -> String {
+        let documentation = documentation(self.function, &self.arguments);
+        for turn in &self.function.turns {
+            self.turn(turn);
+        }
+        let value = self.steps();
+        let list = |of: &str| {
+            let each = self.arguments.iter().map(|a| of.replace('#', a));
+            each.collect::<Vec<_>>().join(", ")
+        };
+        let mut out = String::new();
+        match self.language {
+            Language::Rust => {
+                out.push_str(&comment(self.language, &documentation, false));
+                let odd = name
+                    .chars()
+                    .chain(list("#").chars())
+                    .any(char::is_uppercase);
+                if odd {
+                    out.push_str("#[allow(non_snake_case)]\n");
+                }
+                if self.arguments.len() > 7 {
+                    out.push_str("#[allow(clippy::too_many_arguments)]\n");
+                }
+                out.push_str(&format!("pub fn {name}({}) -> f64 {{\n", list("#: f64")));
+                self.lines
+                    .iter()
+                    .for_each(|l| out.push_str(&format!("    {l}\n")));
+                out.push_str(&format!("    {value}\n}}\n"));
+            }
+            Language::C => {
+                out.push_str(&comment(self.language, &documentation, false));
+                let list = if self.arguments.is_empty() {
+                    "void".into()
+                } else {
+                    list("double #")
+                };
+                out.push_str(&format!("double {name}({list}) {{\n"));
+                self.lines
+                    .iter()
+                    .for_each(|l| out.push_str(&format!("    {l}\n")));
+                out.push_str(&format!("    return {value};\n}}\n"));
+            }
+            Language::Python => {
+                out.push_str(&format!("\ndef {name}({}):\n", list("#")));
+                out.push_str(&comment(self.language, &documentation, false));
+                self.lines
+                    .iter()
+                    .for_each(|l| out.push_str(&format!("    {l}\n")));
+                out.push_str(&format!("    return {value}\n"));
+            }
+        }
+        out
+    }
+
+    fn assign(&mut self, name: &str, value: &str, wide: bool) {
+        self.lines.push(match self.language {
+            Language::Rust => format!("let {name} = {value};"),
+            Language::C if wide => format!("const wide {name} = {value};"),
+            Language::C => format!("const double {name} = {value};"),
+            Language::Python => format!("{name} = {value}"),
+        });
+    }
+
+    fn call(&mut self, helper: Helper, arguments: &[&str]) -> String {
+        helper.with_needs(self.used);
+        format!("{}({})", helper.name(), arguments.join(", "))
+    }
+
+    /// The cosine and sine of one angle.
+    fn turn(&mut self, turn: &Turn) {
+        let bare = match turn.terms.as_slice() {
+            [(k, a)] if *k == 1.0 && turn.is_plain() => Some(self.arguments[*a].clone()),
+            _ => None,
+        };
+        let suffix = bare.clone().unwrap_or_else(|| "angle".into());
+        let product = |w: &Writer, (k, a): &(f64, usize)| match *k {
+            1.0 => w.arguments[*a].clone(),
+            k => format!("{} * {}", number(k), w.arguments[*a]),
+        };
+        if !turn.wide {
+            let text = product(self, &turn.terms[0]);
+            let argument = match &bare {
+                Some(name) => name.clone(),
+                None => {
+                    let name = self.names.fresh("angle");
+                    self.assign(&name, &text, false);
+                    name
+                }
+            };
+            for (wave, name) in [(turn.cos, "cos"), (turn.sin, "sin")] {
+                if let Some(input) = wave {
+                    let fresh = self.names.fresh(&format!("{name}_{suffix}"));
+                    let value = self.library(name, &argument, Holds::Atom);
+                    self.assign(&fresh, &value, false);
+                    self.waves[input] = [fresh, String::new()];
+                }
+            }
+            return;
+        }
+        let mut angle = (turn.pi != Dd::default()).then(|| self.wide_number(turn.pi));
+        for term in &turn.terms {
+            // A power of two times a double is a double; other coefficients go wide.
+            let (k, a) = (term.0, self.arguments[term.1].clone());
+            let text = if k.abs().log2().fract() == 0.0 {
+                let text = product(self, term);
+                self.widened(&text)
+            } else {
+                let [k, a] = [self.widened(&number(k)), self.widened(&a)];
+                self.call(Helper::Multiply, &[&k, &a])
+            };
+            angle = Some(match angle {
+                None => text,
+                Some(sum) => self.call(Helper::Add, &[&sum, &text]),
+            });
+        }
+        let angle = angle.unwrap_or_else(|| self.widened("0.0"));
+        for (wave, name, helper) in [
+            (turn.cos, "cos", Helper::Cos),
+            (turn.sin, "sin", Helper::Sin),
+        ] {
+            if let Some(input) = wave {
+                let fresh = self.names.fresh(&format!("{name}_{suffix}"));
+                let value = self.call(helper, &[&angle]);
+                self.assign(&fresh, &value, true);
+                self.waves[input] = [self.high(&fresh), fresh];
+            }
+        }
+    }
+
+    fn library(&self, name: &str, argument: &str, holds: Holds) -> String {
+        match self.language {
+            Language::Rust if holds == Holds::Atom => format!("{argument}.{name}()"),
+            Language::Rust => format!("({argument}).{name}()"),
+            Language::C if name == "abs" => format!("fabs({argument})"),
+            Language::C => format!("{name}({argument})"),
+            Language::Python if name == "abs" => format!("abs({argument})"),
+            Language::Python => format!("math.{name}({argument})"),
+        }
+    }
+
+    fn high(&self, wide: &str) -> String {
+        match self.language {
+            Language::Rust => format!("{wide}.0"),
+            Language::C => format!("{wide}.high"),
+            Language::Python => format!("{wide}[0]"),
+        }
+    }
+
+    fn widened(&mut self, plain: &str) -> String {
+        match self.language {
+            Language::C => self.call(Helper::Widen, &[plain]),
+            _ => format!("({plain}, 0.0)"),
+        }
+    }
+
+    fn wide_number(&mut self, v: Dd) -> String {
+        let (high, low) = (number(v.high), number(v.low));
+        match self.language {
+            Language::C => self.call(Helper::Pair, &[&high, &low]),
+            _ => format!("({high}, {low})"),
+        }
+    }
+
+    /// Writes all steps and gives the text of the last.
+    fn steps(&mut self) -> String {
+        let steps = &self.function.program.steps;
+        let mut uses = vec![0usize; steps.len()];
+        for step in steps {
+            step.operands()
+                .into_iter()
+                .flatten()
+                .for_each(|i| uses[i] += 1);
+        }
+        let mut texts: Vec<(String, Holds)> = Vec::with_capacity(steps.len());
+        for (i, step) in steps.iter().enumerate() {
+            let (text, holds) = self.step(*step, &texts);
+            let trivial = matches!(step, Step::Number(_) | Step::Input(_) | Step::WideInput(_));
+            let long = text.len() > 70;
+            let keep = i + 1 == steps.len() || trivial || (uses[i] < 2 && !long);
+            texts.push(if keep {
+                (text, holds)
+            } else {
+                let name = self.names.fresh(if step.is_wide() { "w1" } else { "t1" });
+                self.assign(&name, &text, step.is_wide());
+                (name, Holds::Atom)
+            });
+        }
+        texts.pop().map_or_else(|| "0.0".into(), |(text, _)| text)
+    }
+
+    fn step(&mut self, step: Step, texts: &[(String, Holds)]) -> (String, Holds) {
+        // A left operand of the same strength needs no brackets: these operations are read from the left.
+        let left = |i: usize, least: Holds| match &texts[i] {
+            (text, holds) if *holds >= least => text.clone(),
+            (text, _) => format!("({text})"),
+        };
+        let right = |i: usize| left(i, Holds::Atom);
+        let infix = |a: usize, sign: &str, b: usize, holds: Holds| {
+            let second = match holds {
+                Holds::Sum => left(b, Holds::Product),
+                _ => right(b),
+            };
+            (format!("{} {sign} {second}", left(a, holds)), holds)
+        };
+        let text = |i: usize| texts[i].0.as_str();
+        match step {
+            Step::Number(v) if v < 0.0 => (number(v), Holds::Product),
+            Step::Number(v) => (number(v), Holds::Atom),
+            Step::Input(i) => match self.arguments.get(i) {
+                Some(name) => (name.clone(), Holds::Atom),
+                None => (self.waves[i][0].clone(), Holds::Atom),
+            },
+            Step::WideInput(i) => match self.arguments.get(i).cloned() {
+                Some(name) => (self.widened(&name), Holds::Atom),
+                None => (self.waves[i][1].clone(), Holds::Atom),
+            },
+            Step::Add(a, b) => infix(a, "+", b, Holds::Sum),
+            Step::Subtract(a, b) => infix(a, "-", b, Holds::Sum),
+            Step::Multiply(a, b) => infix(a, "*", b, Holds::Product),
+            Step::Divide(a, b) => infix(a, "/", b, Holds::Product),
+            Step::Negate(a) => (format!("-{}", right(a)), Holds::Product),
+            Step::Root(a) => (self.library("sqrt", &texts[a].0, texts[a].1), Holds::Atom),
+            Step::Power(a, b) => (
+                match self.language {
+                    Language::Rust => format!("{}.powf({})", right(a), text(b)),
+                    Language::C => format!("pow({}, {})", text(a), text(b)),
+                    Language::Python => format!("{} ** {}", right(a), right(b)),
+                },
+                Holds::Atom,
+            ),
+            Step::Call(f, a) => {
+                let name = match (self.language, f.name()) {
+                    (Language::Rust, "log") => "ln",
+                    (Language::C | Language::Python, "ln") => "log",
+                    (_, name) => name,
+                };
+                (self.library(name, &texts[a].0, texts[a].1), Holds::Atom)
+            }
+            Step::Round(a) => (self.high(text(a)), Holds::Atom),
+            Step::Widen(a) => (self.widened(text(a)), Holds::Atom),
+            Step::WideNumber(v) => (self.wide_number(v), Holds::Atom),
+            Step::WideAdd(a, b) => (self.call(Helper::Add, &[text(a), text(b)]), Holds::Atom),
+            Step::WideMultiply(a, b) => (
+                self.call(Helper::Multiply, &[text(a), text(b)]),
+                Holds::Atom,
+            ),
+            Step::WideDivide(a, b) => (self.call(Helper::Divide, &[text(a), text(b)]), Holds::Atom),
+            Step::WideNegate(a) => (self.call(Helper::Negate, &[text(a)]), Holds::Atom),
+            Step::WideRoot(a) => (self.call(Helper::Root, &[text(a)]), Holds::Atom),
+        }
+    }
+}
+
+/// A double as all three languages read it.
+pub(super) fn number(v: f64) -> String {
+    format!("{v:?}")
+}
+
+/// What the comment of a function says.
+fn documentation(f: &Function, names: &[String]) -> Vec<String> {
+    let mut lines = vec![format!("{}: {}.", f.name, f.words.trim_end_matches('.'))];
+    lines.push(String::new());
+    lines.push(format!("`{}`", f.formula));
+    lines.push(String::new());
+    for (argument, name) in f.arguments.iter().zip(names) {
+        let meaning = match argument.meaning.is_empty() {
+            true => String::new(),
+            false => format!(": {}", argument.meaning),
+        };
+        let domain = match argument.domain.is_empty() {
+            true => String::new(),
+            false => format!(", {}", argument.domain),
+        };
+        lines.push(format!("{name} [{}]{meaning}{domain}", argument.unit));
+    }
+    if !f.arguments.is_empty() {
+        lines.push(String::new());
+    }
+    lines.extend(promise(f));
+    lines
+}
+
+/// The bound in words, and what it covers.
+fn promise(f: &Function) -> Vec<String> {
+    let Some(bound) = f.bound else {
+        return vec![
+            "Error: no bound is stated, for it rests on a library function of unknown error."
+                .into(),
+        ];
+    };
+    // First order made safe: the terms left out are below 10⁻⁹ of those kept. One decimal, rounded up.
+    let up = |v: f64| (v * 10.0 * (1.0 + 1e-9) + 1e-9).ceil() / 10.0;
+    if bound.plain == 0.0 && bound.wide == 0.0 {
+        return vec!["Error: none, the value is exact.".into()];
+    }
+    let size = |v: f64| format!("{:.1e}", v * super::program::UNIT * 1.05);
+    let plain = up(bound.plain);
+    let mut text = format!(
+        "Error: at most {plain} * 2^-53 of the value (relative {})",
+        size(plain)
+    );
+    if bound.wide > 0.0 {
+        text.push_str(&format!(
+            ", plus {:.1e} times how far sums cancel: the sizes of the terms added, over the size of their sum, for \
+             the sum that cancels most (for nested sums the product)",
+            bound.wide * super::program::UNIT * 1.1
+        ));
+    }
+    text.push_str(". It holds for the arguments as given, in round-to-nearest and without contraction or fast-math");
+    if f.turns.iter().any(|t| !t.wide) {
+        text.push_str(&format!(
+            ", with cosines and sines of the library good to {} unit in the last place",
+            LIBRARY / 2.0
+        ));
+    }
+    if f.turns.iter().any(|t| t.wide) {
+        text.push_str(", for angles up to 100");
+    }
+    text.push_str(&format!(
+        ". Nothing over- or underflows while every argument is zero or of a size within 1e-{0} to 1e{0}",
+        f.reach
+    ));
+    text.push_str(match bound.wide > 0.0 {
+        true => ", unless a sum cancels to less.",
+        false => ".",
+    });
+    vec![text]
+}
+
+/// Names already given, and words that languages keep for themselves.
+#[derive(Default)]
+struct Names(BTreeSet<String>);
+
+const KEPT: &str = "False None True abs abstract alignas and as assert async auto await become bool box break case char class const \
+    continue cos crate def default del do double dyn elif else enum except extern fabs false final finally float fn \
+    for from gen global goto if impl import in inline int is lambda let long loop macro main match math mod \
+    move mut nonlocal not or override pass pow priv pub raise ref register remainder restrict return round self short signed sin \
+    sizeof sqrt static struct super switch tan trait true try type typedef typeof union unsafe unsigned unsized use virtual \
+    void volatile where while wide with yield Self";
+
+/// Names of the C library that a question may well have.
+const C_LIBRARY: &str = "abort bsearch ceil clock div exit exp floor free gamma hypot index j0 j1 jn labs ldiv link log printf puts \
+    rand read remove rename signal sleep time times tgamma lgamma trunc wait write y0 y1 yn";
+
+impl Names {
+    /// The name as an identifier of all three languages, not given before.
+    fn fresh(&mut self, name: &str) -> String {
+        let mut base: String = name
+            .chars()
+            .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
+            .collect();
+        if base.is_empty() || base.starts_with(|c: char| c.is_ascii_digit() || c == '_') {
+            base = format!("q{base}");
+        }
+        let free = |n: &String, given: &BTreeSet<String>| {
+            !given.contains(n) && !KEPT.split_whitespace().any(|k| k == n) && !helpers::is_helper(n)
+        };
+        let mut fresh = base.clone();
+        if !free(&fresh, &self.0) {
+            let stem = base
+                .trim_end_matches(|c: char| c.is_ascii_digit())
+                .to_string();
+            fresh = (1..)
+                .map(|k| match stem.as_str() {
+                    "t" | "w" | "angle" => format!("{stem}{}", k + 1),
+                    _ => format!("{base}_{k}"),
+                })
+                .find(|n| free(n, &self.0))
+                .unwrap_or(base);
+        }
+        self.0.insert(fresh.clone());
+        fresh
+    }
+}

@@ -1,0 +1,398 @@
+//! Emitted code, compiled and run: what it gives lies within the bound its comment states, in every language.
+//!
+//! The truth is the closed form in 512 bits at exactly the arguments given, and, where doubles can be a unit vector, the
+//! independent solver. A language whose compiler is absent is skipped by name.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::OnceLock;
+
+use carom::derive;
+use carom::domain::Limit;
+use carom::emit::{Function, Heading, Language, file, functions};
+use carom::expr::number::from_f64;
+use carom::expr::{Expr, Point, Scalar};
+use carom::formula::{Symbols, read_expr};
+use carom::numeric::deep::Deep;
+use carom::numeric::{Correct, correct};
+use carom::scene::{self, Scene};
+
+/// A scene with its functions, and for each function some arguments.
+struct Case {
+    name: String,
+    scene: Scene,
+    functions: Vec<Function>,
+    arguments: Vec<Vec<Vec<f64>>>,
+}
+
+/// How many points of a function are ordinary ones; the rest all but cancel.
+const USUAL: usize = 12;
+
+fn cases() -> &'static [Case] {
+    static CASES: OnceLock<Vec<Case>> = OnceLock::new();
+    CASES.get_or_init(read_cases)
+}
+
+fn read_cases() -> Vec<Case> {
+    let mut files: Vec<PathBuf> = ["derivations/book", "derivations/more"]
+        .iter()
+        .flat_map(|folder| fs::read_dir(folder).expect("a folder"))
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension().is_some_and(|e| e == "json"))
+        .collect();
+    files.sort();
+    let mut cases = Vec::new();
+    for path in files {
+        let scene = scene::read(&fs::read_to_string(&path).expect("a file")).expect("a scene");
+        let derivation = derive::derive(&scene).expect("closed forms");
+        let (functions, _) = functions(&scene, &derivation);
+        let mut dice = Dice(17);
+        let arguments = functions
+            .iter()
+            .map(|f| {
+                let mut points: Vec<Vec<f64>> = (0..USUAL).map(|_| dice.point(&scene, f)).collect();
+                points.extend(nearly_cancelling(&points, f));
+                points
+            })
+            .collect();
+        let name = path
+            .file_stem()
+            .expect("a name")
+            .to_string_lossy()
+            .replace('-', "_");
+        cases.push(Case {
+            name,
+            scene,
+            functions,
+            arguments,
+        });
+    }
+    cases
+}
+
+/// Points at which the value is about to change sign: found by bisection between points of either sign.
+fn nearly_cancelling(points: &[Vec<f64>], f: &Function) -> Vec<Vec<f64>> {
+    let value = |x: &[f64]| in_bits::<256>(&formula_inputs(f, x), f).near();
+    let mut found = Vec::new();
+    for pair in points.windows(2) {
+        if found.len() == 2 {
+            break;
+        }
+        let [mut low, mut high] = [pair[0].clone(), pair[1].clone()];
+        if value(&low) * value(&high) >= 0.0 {
+            continue;
+        }
+        let sign = value(&low) > 0.0;
+        for _ in 0..60 {
+            let middle: Vec<f64> = low
+                .iter()
+                .zip(&high)
+                .map(|(a, b)| 0.5 * a + 0.5 * b)
+                .collect();
+            match (value(&middle) > 0.0) == sign {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        found.push(low);
+    }
+    found
+}
+
+/// The formula of a function, read back from its comment's text, with its arguments put in.
+fn formula_inputs<const BITS: u32>(f: &Function, x: &[f64]) -> Point<Deep<BITS>> {
+    let mut point = Point::default();
+    for (argument, v) in f.arguments.iter().zip(x) {
+        let exact = from_f64(*v).expect("finite");
+        point
+            .values
+            .insert(argument.symbol.clone(), Deep::from_rational(&exact));
+    }
+    point
+}
+
+fn in_bits<const BITS: u32>(at: &Point<Deep<BITS>>, f: &Function) -> Deep<BITS> {
+    let mut symbols = Symbols::strict();
+    f.arguments.iter().for_each(|a| symbols.declare(&a.symbol));
+    let e = read_expr(&f.formula, &symbols).expect("carom reads what it writes");
+    e.evaluate(at).expect("a value")
+}
+
+/// Random numbers from a seed.
+struct Dice(u64);
+
+impl Dice {
+    fn unit(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Arguments in the domains of the scene: between their ends, or of sizes from 1/100 to 100.
+    fn point(&mut self, scene: &Scene, f: &Function) -> Vec<f64> {
+        let end = |l: &Option<Limit>| l.as_ref().map(Limit::approximate);
+        f.arguments
+            .iter()
+            .map(|a| {
+                let domain = scene.domains.symbols.get(&a.symbol);
+                let ends = domain.map_or((Some(0.0), None), |d| (end(&d.low), end(&d.high)));
+                let size = 10f64.powf(4.0 * self.unit() - 2.0);
+                match ends {
+                    (Some(low), Some(high)) => low + (high - low) * (0.001 + 0.998 * self.unit()),
+                    (Some(low), None) => low + size,
+                    (None, Some(high)) => high - size,
+                    (None, None) if self.unit() < 0.5 => -size,
+                    (None, None) => size,
+                }
+            })
+            .collect()
+    }
+}
+
+/// A folder of this test's own below the build's.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("emitted-{name}"));
+    fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+/// Whether a tool is there; says so by name where it is not.
+fn is_there(tool: &str) -> bool {
+    let found = Command::new(tool)
+        .arg("--version")
+        .output()
+        .is_ok_and(|o| o.status.success());
+    if !found {
+        eprintln!("skipped: no {tool} on this machine");
+    }
+    found
+}
+
+fn output(command: &mut Command) -> String {
+    let done = command.output().expect("a tool that starts");
+    assert!(
+        done.status.success(),
+        "{command:?}:\n{}",
+        String::from_utf8_lossy(&done.stderr)
+    );
+    String::from_utf8(done.stdout).expect("text")
+}
+
+/// The calls of a case, in the order in which [`hold`] expects their values.
+fn calls<'a>(case: &'a Case, text: &'a str) -> impl Iterator<Item = String> + 'a {
+    let names = text.lines().filter_map(|l| {
+        let rest = l
+            .strip_prefix("pub fn ")
+            .or(l.strip_prefix("double "))
+            .or(l.strip_prefix("def "))?;
+        let name = rest.split('(').next()?;
+        let helper = ["wide_", "two_", "quick_"]
+            .iter()
+            .any(|h| name.starts_with(h));
+        (!helper).then_some(name)
+    });
+    names.zip(&case.arguments).flat_map(|(name, points)| {
+        points.iter().map(move |x| {
+            let list: Vec<String> = x.iter().map(|v| format!("{v:?}")).collect();
+            format!("{name}({})", list.join(", "))
+        })
+    })
+}
+
+/// Every value against the closed form in 512 bits.
+fn hold(cases: &[Case], language: &str, output: &str) {
+    let mut values = output
+        .lines()
+        .map(|l| l.trim().parse::<f64>().expect("a number"));
+    let mut cancelled = 0;
+    for case in cases {
+        for (f, points) in case.functions.iter().zip(&case.arguments) {
+            for (i, x) in points.iter().enumerate() {
+                let value = values.next().expect("a value for every call");
+                let truth = in_bits::<512>(&formula_inputs(f, x), f).near();
+                let bound = f.bound.expect("no scene has a function without a bound");
+                // What cancels to neighbouring doubles cancels by 2⁵³, times the number of terms.
+                let cancels = if i < USUAL { 1e4 } else { 2f64.powi(56) };
+                cancelled += usize::from(i >= USUAL);
+                let allowed =
+                    (bound.plain + bound.wide * cancels + 1.0) * 2f64.powi(-53) * truth.abs();
+                assert!(
+                    (value - truth).abs() <= allowed,
+                    "{language}, {} {} at {x:?}: {value:e}, not {truth:e}; allowed {allowed:e}",
+                    case.name,
+                    f.name
+                );
+                assert!(
+                    allowed <= 1e-9 * truth.abs(),
+                    "{} {}: a bound that says little",
+                    case.name,
+                    f.name
+                );
+            }
+        }
+    }
+    assert!(values.next().is_none());
+    assert!(
+        cancelled > 30,
+        "only {cancelled} points at which the answer cancels"
+    );
+}
+
+fn text(case: &Case, language: Language) -> String {
+    let heading = Heading {
+        title: case.scene.title.clone(),
+        ..Heading::default()
+    };
+    file(language, &heading, &case.functions)
+}
+
+#[test]
+fn rust_compiles_without_remarks_and_keeps_its_bound() {
+    if !is_there("rustc") {
+        return;
+    }
+    let cases = cases();
+    let folder = folder("rust");
+    let mut whole = String::new();
+    let mut main = String::from("fn main() {\n");
+    for case in cases {
+        let text = text(case, Language::Rust);
+        for call in calls(case, &text) {
+            main.push_str(&format!(
+                "    println!(\"{{:?}}\", {}::{call});\n",
+                case.name
+            ));
+        }
+        whole.push_str(&format!("mod {} {{\n{text}}}\n", case.name));
+    }
+    fs::write(folder.join("all.rs"), format!("{whole}{main}}}\n")).expect("written");
+    let arguments = ["--edition", "2021", "-D", "warnings", "-o", "all", "all.rs"];
+    output(Command::new("rustc").current_dir(&folder).args(arguments));
+    hold(
+        cases,
+        "Rust",
+        &output(&mut Command::new(folder.join("all"))),
+    );
+}
+
+#[test]
+fn c_compiles_without_remarks_and_keeps_its_bound() {
+    if !is_there("cc") {
+        return;
+    }
+    let cases = cases();
+    let folder = folder("c");
+    let mut printed = String::new();
+    for case in cases {
+        let text = text(case, Language::C);
+        let mut main = String::from("#include <stdio.h>\nint main(void) {\n");
+        for call in calls(case, &text) {
+            main.push_str(&format!("    printf(\"%.17g\\n\", {call});\n"));
+        }
+        let source = format!("{}.c", case.name);
+        fs::write(
+            folder.join(&source),
+            format!("{text}{main}    return 0;\n}}\n"),
+        )
+        .expect("written");
+        let flags = [
+            "-std=c99",
+            "-Wall",
+            "-Wextra",
+            "-Werror",
+            "-O1",
+            "-ffp-contract=off",
+        ];
+        let target = folder.join(&case.name);
+        output(
+            Command::new("cc")
+                .current_dir(&folder)
+                .args(flags)
+                .arg("-o")
+                .args([&target, Path::new(&source)])
+                .arg("-lm"),
+        );
+        printed.push_str(&output(&mut Command::new(target)));
+    }
+    hold(cases, "C", &printed);
+}
+
+#[test]
+fn python_runs_and_keeps_its_bound() {
+    if !is_there("python3") {
+        return;
+    }
+    let cases = cases();
+    let folder = folder("python");
+    let mut driver = String::new();
+    for case in cases {
+        let text = text(case, Language::Python);
+        driver.push_str(&format!("import {}\n", case.name));
+        for call in calls(case, &text) {
+            driver.push_str(&format!("print(repr({}.{call}))\n", case.name));
+        }
+        fs::write(folder.join(format!("{}.py", case.name)), text).expect("written");
+    }
+    fs::write(folder.join("driver.py"), driver).expect("written");
+    let mut python = Command::new("python3");
+    hold(
+        cases,
+        "Python",
+        &output(python.current_dir(&folder).args(["-B", "driver.py"])),
+    );
+}
+
+#[test]
+fn the_formula_in_the_comment_is_what_the_independent_solver_finds() {
+    let mut compared = 0;
+    for case in cases() {
+        // No double but 0 and 1 is part of a unit vector, so those scenes have no such point.
+        if !case.scene.domains.unit_vectors.is_empty() {
+            continue;
+        }
+        for (f, points) in case.functions.iter().zip(&case.arguments) {
+            for x in &points[..3] {
+                let mut scene = case.scene.clone();
+                for parameter in &mut scene.parameters {
+                    let given = f.arguments.iter().position(|a| a.symbol == parameter.name);
+                    parameter.value = Some(match given {
+                        Some(i) => Expr::from(from_f64(x[i]).expect("finite")),
+                        // What the answer does not name may have any value.
+                        None => parameter.value.clone().unwrap_or(Expr::ratio(1, 2)),
+                    });
+                }
+                let truth = in_bits::<512>(&formula_inputs(f, x), f).near();
+                let found = correct(&scene).expect("determined");
+                let numbers = found.answers.iter().flat_map(|(name, a)| {
+                    let parts = a.as_ref().map_or(&[][..], |v| v.as_slice());
+                    let name = |i: usize| match parts.len() {
+                        1 => name.clone(),
+                        _ => format!("{name}_{}", ["x", "y"][i]),
+                    };
+                    parts
+                        .iter()
+                        .enumerate()
+                        .map(move |(i, c)| (name(i), c.clone()))
+                        .collect::<Vec<_>>()
+                });
+                let (_, solved) = numbers
+                    .into_iter()
+                    .find(|(name, _)| *name == f.name)
+                    .expect("the same names");
+                if let Correct::Rounded(v, _) = solved {
+                    compared += 1;
+                    assert!(
+                        (v - truth).abs() <= 2f64.powi(-52) * truth.abs(),
+                        "{} {}",
+                        case.name,
+                        f.name
+                    );
+                }
+            }
+        }
+    }
+    assert!(compared > 60, "{compared}");
+}
