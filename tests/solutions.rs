@@ -6,12 +6,16 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use carom::solution::{Detail, Solution};
-use carom::{check, derive, render, scene, solution, verify};
+use carom::{check, derive, render, scene, solution, story, verify};
 
-/// The scenes with a worked solution: those without stages.
+/// All shipped scenes.
 fn scenes() -> Vec<(PathBuf, String, scene::Scene)> {
     let mut files = Vec::new();
-    for folder in ["derivations/book", "derivations/more"] {
+    for folder in [
+        "derivations/book",
+        "derivations/more",
+        "derivations/problems",
+    ] {
         for entry in fs::read_dir(folder).expect("a folder of scenes") {
             let path = entry.expect("a readable entry").path();
             if path.extension().is_some_and(|e| e == "json") {
@@ -23,12 +27,16 @@ fn scenes() -> Vec<(PathBuf, String, scene::Scene)> {
     let read = |path: PathBuf| {
         let text = fs::read_to_string(&path).expect("a readable scene");
         let scene = scene::read(&text).ok()?;
-        scene.story.is_none().then_some((path, text, scene))
+        Some((path, text, scene))
     };
     files.into_iter().filter_map(read).collect()
 }
 
 fn solved(scene: &scene::Scene, detail: Detail) -> Solution {
+    if let Some(stages) = &scene.story {
+        let told = story::tell(scene, stages).expect("a story that fits");
+        return solution::tell(scene, stages, &told, detail);
+    }
     let derivation = derive::derive(scene).expect("a derivation");
     let proof = verify::prove(scene, &derivation);
     solution::write(scene, &derivation, &proof, detail)
@@ -52,10 +60,8 @@ fn every_scene_has_its_generated_solution_beside_it() {
 #[test]
 fn every_step_of_every_solution_can_be_replayed() {
     for (path, text, scene) in scenes() {
-        let derivation = derive::derive(&scene).expect("a derivation");
-        let proof = verify::prove(&scene, &derivation);
         for detail in [Detail::Brief, Detail::Normal, Detail::Full] {
-            let written = solution::write(&scene, &derivation, &proof, detail);
+            let written = solved(&scene, detail);
             let json = render::steps::solution(&written, &text, &[]).to_string();
             let report = check::check(&json).expect("a usable solution");
             assert!(
@@ -94,6 +100,41 @@ fn a_tampered_step_is_caught_and_named() {
                 assert_eq!(report.failed[0].step, id);
             }
         }
+    }
+}
+
+#[test]
+fn a_tampered_step_of_a_story_is_caught_and_so_is_another_motion_handed_on() {
+    for name in ["acrobat-to-handstand", "crude-see-saw"] {
+        let text = fs::read_to_string(format!("derivations/problems/{name}.json"));
+        let text = text.expect("a scene");
+        let scene = scene::read(&text).expect("a valid scene");
+        let json = render::steps::solution(&solved(&scene, Detail::Normal), &text, &[]);
+        let failed = |json: &serde_json::Value| {
+            let report = check::check(&json.to_string()).expect("a usable solution");
+            report
+                .failed
+                .into_iter()
+                .map(|f| f.step)
+                .collect::<Vec<_>>()
+        };
+        for i in 0..json["steps"].as_array().map_or(0, Vec::len) {
+            let mut tampered = json.clone();
+            let side = &mut tampered["steps"][i]["after"][0]["right"];
+            *side = format!("1 + ({})", side.as_str().expect("a formula")).into();
+            // The name of a threshold means what its step defines, and nothing else knows it.
+            if json["steps"][i]["defines"].is_string() {
+                continue;
+            }
+            let id = json["steps"][i]["id"].as_str().expect("an id");
+            assert_eq!(failed(&tampered), [id], "{name}");
+        }
+        let mut tampered = json.clone();
+        let symbol = tampered["impacts"][0]["handed"].as_object();
+        let symbol = symbol.and_then(|h| h.keys().next()).cloned();
+        let value = &mut tampered["impacts"][0]["handed"][symbol.expect("a speed")];
+        *value = format!("2*({})", value.as_str().expect("a formula")).into();
+        assert!(!failed(&tampered).is_empty(), "{name}");
     }
 }
 

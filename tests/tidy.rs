@@ -135,7 +135,10 @@ const LAYERS: &[(&str, &[&str])] = &[
             "story",
         ],
     ),
-    ("check", &["expr", "formula", "scene", "numeric"]),
+    (
+        "check",
+        &["expr", "dimension", "formula", "scene", "numeric"],
+    ),
     (
         "render",
         &[

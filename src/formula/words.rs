@@ -45,6 +45,9 @@ impl Lexer<'_> {
                 return Ok(tok);
             }
         }
+        if let Some(tok) = self.spelled_out(start) {
+            return Ok(tok);
+        }
         for length in (1..=run.min(self.symbols.longest_word())).rev() {
             let word = &rest[..length];
             let base = length == 1 || self.symbols.has_base(word);
@@ -87,6 +90,29 @@ impl Lexer<'_> {
             return self.name(start, start + 1);
         }
         self.unknown_word(start, run)
+    }
+
+    /// A declared name with several indices, written exactly so: `v_bat_x` stays one name where `vb` is declared too.
+    fn spelled_out(&mut self, start: usize) -> Option<Tok> {
+        let is_part = |b: &u8| b.is_ascii_alphanumeric() || *b == b'_';
+        let bytes = self.text.as_bytes();
+        if start > 0 && is_part(&bytes[start - 1]) {
+            return None;
+        }
+        let length = bytes[start..]
+            .iter()
+            .take(100)
+            .take_while(|b| is_part(b))
+            .count();
+        let word = &self.text[start..start + length];
+        let marked = bytes.get(start + length) == Some(&b'\'');
+        if marked || word.bytes().filter(|b| *b == b'_').count() < 2 {
+            return None;
+        }
+        let found = self.symbols.find(word).filter(|d| *d.name == *word)?;
+        let tok = Tok::Name(found.name.clone());
+        self.pos = start + length;
+        Some(tok)
     }
 
     /// `asin` is the arcsine unless `a` is declared and the other reading is asked for.

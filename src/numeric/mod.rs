@@ -40,7 +40,7 @@ pub use float::{lu_scaled, solve_f64};
 pub use given::{Given, Reason, Undefined, given};
 pub use invariants::{Approach, ContactReport, Identity, Invariant, contact_reports, identities};
 pub use number::Number;
-pub use points::{needed, random_point, rounded};
+pub use points::{Needed, needed, random_point, rounded};
 pub use solution::{Contradiction, Motion, Solution, motion};
 pub use system::{Law, System, Unknown, assemble};
 pub use values::{NoPoint, exact_values, values};

@@ -25,6 +25,7 @@ const STYLE: &str = "
 body{margin:0 auto;max-width:46rem;padding:1.2rem 1rem 3rem;font:17px/1.55 Georgia,'Times New Roman',serif;color:#1a1a1a;background:#fff;overflow-wrap:break-word}
 h1{font-size:1.55rem;line-height:1.25;margin:.4rem 0 .1rem}
 h2{font-size:1.12rem;margin:1.9rem 0 .4rem;border-bottom:1px solid #ccc;padding-bottom:.15rem}
+h3{font-size:1rem;margin:1.2rem 0 .3rem}
 p{margin:.55rem 0}
 .source{color:#555;font-style:italic;margin-top:0}
 .display{overflow-x:auto;overflow-y:hidden;margin:.5rem 0;padding:.15rem 0}
@@ -68,7 +69,11 @@ pub fn page(s: &Solution, pictures: &[Picture]) -> String {
     for section in &s.sections {
         out.push_str("<section>\n");
         if !section.heading.is_empty() {
-            out.push_str(&format!("<h2>{}</h2>\n", sentence(s, &section.heading)));
+            let level = 2 + section.depth.min(1);
+            out.push_str(&format!(
+                "<h{level}>{}</h{level}>\n",
+                sentence(s, &section.heading)
+            ));
         }
         for part in &section.parts {
             out.push_str(&self::part(s, part, pictures));

@@ -45,7 +45,8 @@ fn body(s: &Solution) -> String {
     for section in &s.sections {
         if !section.heading.is_empty() {
             out.push_str(&format!(
-                "\\subsection*{{{}}}\n",
+                "\\{}section*{{{}}}\n",
+                "sub".repeat(1 + section.depth.min(1)),
                 sentence(s, &section.heading)
             ));
         }

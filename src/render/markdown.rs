@@ -20,7 +20,8 @@ pub fn solution(s: &Solution, pictures: &[(Picture, String)]) -> String {
     }
     for section in &s.sections {
         if !section.heading.is_empty() {
-            blocks.push(format!("## {}", sentence(s, &section.heading)));
+            let marks = "#".repeat(2 + section.depth.min(1));
+            blocks.push(format!("{marks} {}", sentence(s, &section.heading)));
         }
         for part in &section.parts {
             match part {

@@ -293,7 +293,6 @@ fn latex_op(op: &str) -> &str {
         "∞" => "\\infty",
         "≤" => "\\le",
         "≥" => "\\ge",
-        ">" => "\\gt",
         "≠" => "\\ne",
         "<" => "\\lt",
         other => other,

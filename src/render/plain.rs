@@ -29,7 +29,8 @@ pub fn solution(s: &Solution) -> String {
             let heading = sentence(s, &section.heading);
             line(&mut out, "");
             line(&mut out, &heading);
-            line(&mut out, &"─".repeat(heading.chars().count().min(WIDTH)));
+            let rule = if section.depth == 0 { "─" } else { "╌" };
+            line(&mut out, &rule.repeat(heading.chars().count().min(WIDTH)));
         }
         for (i, part) in section.parts.iter().enumerate() {
             let after_text = i > 0 && matches!(section.parts[i - 1], Part::Text(_) | Part::List(_));

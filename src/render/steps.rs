@@ -1,29 +1,65 @@
 //! A worked solution as data: the scene it belongs to, what its symbols stand for, and every step as a claim that another
 //! program can replay. `carom check` reads this.
 
+use std::collections::BTreeMap;
+
 use serde_json::{Map, Value, json};
 
 use super::math::latex;
+use crate::expr::Symbol;
 use crate::formula::write_plain;
-use crate::solution::{Claim, Math, Meaning, Solution, Step};
+use crate::solution::{Claim, Math, Meaning, Scope, Solution, Step};
 
 /// The whole solution. `scene` is the text of the scene file, `set` the values given besides.
 pub fn solution(s: &Solution, scene: &str, set: &[String]) -> Value {
-    let symbols: Map<String, Value> = s
-        .meanings
-        .iter()
-        .map(|(name, m)| (name.to_string(), meaning(m)))
-        .collect();
-    json!({
+    let mut out = json!({
         "format": "carom solution",
         "version": 1,
         "title": s.title,
         "source": s.source,
         "scene": scene,
         "set": set,
-        "symbols": symbols,
+        "symbols": symbols(&s.meanings),
         "assumptions": s.assumptions,
         "steps": s.steps.iter().map(|x| step(s, x)).collect::<Vec<_>>(),
+    });
+    if !s.scopes.is_empty() {
+        out["impacts"] = s.scopes.iter().map(scope).collect();
+    }
+    out
+}
+
+fn symbols(meanings: &BTreeMap<Symbol, Meaning>) -> Map<String, Value> {
+    let each = meanings.iter();
+    each.map(|(name, m)| (name.to_string(), meaning(m)))
+        .collect()
+}
+
+/// An impact of a scene with stages: what goes into it, so that its steps can be replayed by themselves.
+fn scope(x: &Scope) -> Value {
+    let before: Map<String, Value> = x
+        .before
+        .iter()
+        .map(|(body, v, w)| {
+            let motion = json!({
+                "velocity": [write_plain(&v[0]), write_plain(&v[1])],
+                "spin": write_plain(w),
+            });
+            (body.clone(), motion)
+        })
+        .collect();
+    let handed: Map<String, Value> = x
+        .handed
+        .iter()
+        .map(|(name, value)| (name.to_string(), json!(write_plain(value))))
+        .collect();
+    json!({
+        "name": x.name,
+        "stage": x.stage,
+        "active": x.active,
+        "handed": handed,
+        "before": before,
+        "symbols": symbols(&x.meanings),
     })
 }
 
@@ -49,6 +85,7 @@ fn step(s: &Solution, x: &Step) -> Value {
         "before": claims(&x.before),
         "after": claims(&x.after),
         "reason": x.reason,
+        "impact": x.scope,
         "assumptions": x.assumptions,
         "defines": x.defines.as_deref(),
         "substeps": x.substeps.iter().map(|y| step(s, y)).collect::<Vec<_>>(),

@@ -15,7 +15,8 @@ pub fn answered(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answers:
         return;
     };
     solution.sections.push(Section {
-        heading: heading(ask, first),
+        depth: 0,
+        heading: heading(scene, ask, first),
         parts: Vec::new(),
     });
     for answer in answers {
@@ -23,19 +24,28 @@ pub fn answered(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answers:
     }
 }
 
-/// A sentence with its formulas set, and what stands around a relation in one piece with it.
-pub fn sentence(text: &Sentence) -> Vec<Inline> {
+/// A sentence with its formulas set, what stands around a relation in one piece with it, and bodies called as in the rest of
+/// a solution.
+pub fn sentence(scene: &Scene, text: &Sentence) -> Vec<Inline> {
     let mut out: Vec<Inline> = Vec::new();
     let mut relation = None;
+    let mut pieces: Vec<Piece> = Vec::new();
     for piece in &text.0 {
+        match (piece, pieces.last_mut()) {
+            (Piece::Words(more), Some(Piece::Words(words))) => words.push_str(more),
+            _ => pieces.push(piece.clone()),
+        }
+    }
+    for piece in &pieces {
         match piece {
             Piece::Words(words) => {
-                relation = relation_in(words);
+                let words = called(scene, words);
+                relation = relation_in(&words);
                 match (relation, out.last_mut()) {
                     (Some(op), Some(Inline::Math(math))) => math.push(Math::Op(op)),
                     _ => {
                         relation = None;
-                        out.push(say(words.clone()));
+                        out.push(say(words));
                     }
                 }
             }
@@ -53,6 +63,19 @@ pub fn sentence(text: &Sentence) -> Vec<Inline> {
     out
 }
 
+/// Names between backquotes: bodies get their article, others stand as they are.
+pub(super) fn called(scene: &Scene, words: &str) -> String {
+    let mut out = String::new();
+    for (i, part) in words.split('`').enumerate() {
+        let body = scene.bodies.iter().position(|b| b.name == part);
+        match body.filter(|_| i % 2 == 1) {
+            Some(b) => out.push_str(&words::body(scene, b)),
+            None => out.push_str(part),
+        }
+    }
+    out
+}
+
 /// The relation that these words are, if they are one and nothing else.
 fn relation_in(words: &str) -> Option<&'static str> {
     ["=", "≤", "≥", "<", ">", "≠"]
@@ -61,8 +84,8 @@ fn relation_in(words: &str) -> Option<&'static str> {
 }
 
 /// A sentence that begins with a capital and ends with a full stop.
-pub fn full_sentence(text: &Sentence) -> Vec<Inline> {
-    let mut out = sentence(text);
+pub fn full_sentence(scene: &Scene, text: &Sentence) -> Vec<Inline> {
+    let mut out = sentence(scene, text);
     if let Some(Inline::Text(first)) = out.first_mut() {
         *first = words::capital(first);
     }
@@ -75,7 +98,7 @@ pub fn full_sentence(text: &Sentence) -> Vec<Inline> {
 }
 
 /// What is asked, in a line.
-fn heading(ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
+fn heading(scene: &Scene, ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
     let math = |e: &Expr| words::formula(e);
     let related = |left: &Expr, relation: Relation, right: &Expr| {
         Inline::Math(vec![
@@ -140,7 +163,7 @@ fn heading(ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
         } if claim.is_empty() => {
             vec![say("To show: "), related(left, Relation::Equal, right)]
         }
-        _ => vec![say(words::capital(&answer.words.replace('`', "")))],
+        _ => vec![say(words::capital(&called(scene, &answer.words)))],
     }
 }
 
@@ -255,26 +278,32 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
     }
     match answer.text.as_slice() {
         [] => {}
-        [one] => part(solution, Part::Text(full_sentence(one))),
+        [one] => part(solution, Part::Text(full_sentence(scene, one))),
         all => part(
             solution,
-            Part::List(all.iter().map(full_sentence).collect()),
+            Part::List(all.iter().map(|t| full_sentence(scene, t)).collect()),
         ),
     }
     if !answer.discarded.is_empty() {
         let mut text = vec![say("Discarded: ")];
-        text.extend(sentence(&Sentence::join(answer.discarded.clone(), "; ")));
+        text.extend(sentence(
+            scene,
+            &Sentence::join(answer.discarded.clone(), "; "),
+        ));
         text.push(say("."));
         part(solution, Part::Text(text));
     }
     if !answer.assumptions.is_empty() {
         let mut text = vec![say("Given that ")];
-        text.extend(sentence(&Sentence::join(answer.assumptions.clone(), "; ")));
+        text.extend(sentence(
+            scene,
+            &Sentence::join(answer.assumptions.clone(), "; "),
+        ));
         text.push(say("."));
         part(solution, Part::Text(text));
     }
     if let Some(words) = known(&answer.checks) {
-        part(solution, Part::Text(vec![say(words)]));
+        part(solution, Part::Text(vec![say(called(scene, &words))]));
     }
 }
 
@@ -286,6 +315,7 @@ pub(super) fn add_step(solution: &mut Solution, after: Vec<Claim>, reason: &str)
         before: Vec::new(),
         after,
         reason: reason.to_string(),
+        scope: None,
         assumptions: Vec::new(),
         substeps: Vec::new(),
         defines: None,
@@ -294,7 +324,7 @@ pub(super) fn add_step(solution: &mut Solution, after: Vec<Claim>, reason: &str)
 }
 
 /// ` = 1.2 m/s` where the scene gives every value.
-fn number(scene: &Scene, answer: &Answer) -> Option<String> {
+pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
     let formula = answer.formula.as_ref()?;
     if formula.symbols().is_empty() && formula.as_number().is_some() {
         return None;

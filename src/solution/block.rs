@@ -15,45 +15,13 @@ impl Writer<'_> {
     pub(super) fn opening(&mut self) {
         self.section(Vec::new());
         if !self.solution.statement.is_empty() {
-            let statement = self.with_symbols(&self.solution.statement);
+            let statement = words::with_symbols(self.scene, &self.solution.statement);
             self.text(statement);
         }
         if self.detail() == Detail::Brief {
             return;
         }
-        let meant: Vec<_> = self
-            .scene
-            .parameters
-            .iter()
-            .filter(|p| !p.meaning.is_empty())
-            .collect();
-        if !meant.is_empty() {
-            let mut text = vec![say("Here ")];
-            for (i, p) in meant.iter().enumerate() {
-                text.push(words::formula(&Expr::symbol(&p.name)));
-                let article = if p.meaning.starts_with(|c: char| c.is_lowercase())
-                    && !["a ", "an ", "the ", "half ", "one ", "distance "]
-                        .iter()
-                        .any(|w| p.meaning.starts_with(w))
-                {
-                    "the "
-                } else {
-                    ""
-                };
-                let article = if p.meaning.starts_with("distance ") {
-                    "the "
-                } else {
-                    article
-                };
-                let end = match meant.len() - i {
-                    1 => ".",
-                    2 => " and ",
-                    _ => ", ",
-                };
-                text.push(say(format!(" is {article}")));
-                text.extend(self.with_symbols(&p.meaning));
-                text.push(say(end));
-            }
+        if let Some(text) = words::meant(self.scene) {
             self.text(text);
         }
         self.push(Part::Figure(super::Slot::Before));
@@ -160,6 +128,9 @@ impl Writer<'_> {
     /// The heading of a question: what it asks for, and its symbol.
     fn heading(&self, question: &Question) -> Vec<Inline> {
         let body = |b: usize| words::body(self.scene, b);
+        if question.name.starts_with('\u{1}') {
+            return vec![say("The motion just after")];
+        }
         let text = match &question.ask {
             Ask::Velocity { body: b, point, .. } => match point {
                 Some((name, _)) if *name != self.scene.bodies[*b].name => {
@@ -379,39 +350,6 @@ impl Writer<'_> {
 
     fn last_part(&self) -> Option<&Part> {
         self.solution.sections.last().and_then(|s| s.parts.last())
-    }
-
-    /// Words in which the names of parameters stand as their symbols.
-    fn with_symbols(&self, text: &str) -> Vec<Inline> {
-        let is_part = |c: char| c.is_alphanumeric() || c == '_';
-        let mut out = Vec::new();
-        let mut words = String::new();
-        let mut rest = text;
-        while let Some(c) = rest.chars().next() {
-            if !is_part(c) {
-                words.push(c);
-                rest = &rest[c.len_utf8()..];
-                continue;
-            }
-            let end = rest.find(|c: char| !is_part(c)).unwrap_or(rest.len());
-            let (word, after) = rest.split_at(end);
-            let parameter = self.scene.parameters.iter().any(|p| *p.name == *word);
-            // Words of the language stay words: the article a, the pronoun I, names that are spelled out.
-            let symbol = parameter
-                && !matches!(word, "a" | "A" | "I")
-                && (word.chars().count() == 1
-                    || word.contains(|c: char| c.is_ascii_digit() || c == '_')
-                    || crate::formula::latex_name(word).starts_with("\\"));
-            if symbol && !crate::formula::latex_name(word).starts_with("\\mathrm") {
-                out.push(say(std::mem::take(&mut words)));
-                out.push(words::formula(&Expr::symbol(word)));
-            } else {
-                words.push_str(word);
-            }
-            rest = after;
-        }
-        out.push(say(words));
-        out
     }
 
     /// The short form of an unknown's value where an answer has one.

@@ -11,11 +11,13 @@ mod block;
 mod eliminate;
 mod notice;
 mod results;
+mod story;
 mod words;
 
 use std::collections::BTreeMap;
 
 pub use asked::{answered, full_sentence, known, sentence};
+pub use story::tell;
 
 use crate::algebra::Field;
 use crate::derive::{self, Derivation, Form, Reduction};
@@ -54,6 +56,8 @@ pub struct Solution {
     pub sections: Vec<Section>,
     /// The claims the text is made from, in order.
     pub steps: Vec<Step>,
+    /// Impacts of a scene with stages, whose symbols stand for something within them only.
+    pub scopes: Vec<Scope>,
     /// Everything the results rest on.
     pub assumptions: Vec<String>,
 }
@@ -74,9 +78,28 @@ pub enum Meaning {
     Defined,
 }
 
+/// An impact of a scene with stages: the motion that goes in, what acts one way, and what its symbols stand for.
+#[derive(Clone, Debug)]
+pub struct Scope {
+    /// Name, unique in the solution: that of the stage, with a number where it has several outcomes.
+    pub name: String,
+    /// Name of the stage.
+    pub stage: String,
+    /// Names of the supports and strings that act.
+    pub active: Vec<String>,
+    /// Symbols for what an earlier stage hands on, and what they are.
+    pub handed: BTreeMap<Symbol, Expr>,
+    /// Bodies with the velocity of their center of mass and their spin just before.
+    pub before: Vec<(String, Vector, Expr)>,
+    /// What the other symbols stand for.
+    pub meanings: BTreeMap<Symbol, Meaning>,
+}
+
 /// A heading and what stands below it.
 #[derive(Clone, Debug)]
 pub struct Section {
+    /// 0 for a section, 1 for a part of the section before.
+    pub depth: usize,
     /// The heading; empty for what stands directly below the title.
     pub heading: Vec<Inline>,
     /// The contents.
@@ -109,6 +132,8 @@ pub enum Slot {
     After,
     /// Quantities against a parameter.
     Plot,
+    /// The stage of this index.
+    Stage(usize),
 }
 
 /// One displayed equation.
@@ -183,6 +208,8 @@ pub struct Step {
     pub after: Vec<Claim>,
     /// Why.
     pub reason: String,
+    /// Name of the scope its symbols belong to; `None` for the whole solution.
+    pub scope: Option<String>,
     /// What must hold for the step.
     pub assumptions: Vec<String>,
     /// The step in smaller steps.
@@ -214,6 +241,8 @@ struct Writer<'a> {
     reduction: Reduction,
     reduced: Kinematics<Expr>,
     solution: Solution,
+    /// Whether its sections are parts of a larger one.
+    nested: bool,
 }
 
 impl<'a> Writer<'a> {
@@ -288,8 +317,10 @@ impl<'a> Writer<'a> {
                 meanings,
                 sections: Vec::new(),
                 steps: Vec::new(),
+                scopes: Vec::new(),
                 assumptions,
             },
+            nested: false,
         }
     }
 
@@ -299,6 +330,7 @@ impl<'a> Writer<'a> {
 
     fn section(&mut self, heading: Vec<Inline>) {
         self.solution.sections.push(Section {
+            depth: usize::from(self.nested),
             heading,
             parts: Vec::new(),
         });
@@ -341,6 +373,7 @@ impl<'a> Writer<'a> {
             before,
             after,
             reason: reason.to_string(),
+            scope: None,
             assumptions: Vec::new(),
             substeps: Vec::new(),
             defines: None,

@@ -81,7 +81,7 @@ pub fn point(scene: &Scene, place: Place) -> String {
 /// The letter of a center of mass.
 pub fn center(scene: &Scene, b: usize) -> String {
     let moving = scene.bodies.iter().filter(|b| !b.is_fixed()).count();
-    if moving == 1 {
+    if moving == 1 && !scene.bodies[b].is_fixed() {
         String::from("G")
     } else {
         scene.bodies[b].name.clone()
@@ -112,6 +112,87 @@ pub fn name(letter: &'static str, index: &str, mark: &'static str, vector: bool)
         mark,
         vector,
     })
+}
+
+/// `Here m is the mass and ℓ is the length.`
+pub fn meant(scene: &Scene) -> Option<Vec<Inline>> {
+    let meant: Vec<_> = scene
+        .parameters
+        .iter()
+        .filter(|p| !p.meaning.is_empty())
+        .collect();
+    if meant.is_empty() {
+        return None;
+    }
+    let mut text = vec![say("Here ")];
+    for (i, p) in meant.iter().enumerate() {
+        text.push(formula(&Expr::symbol(&p.name)));
+        let article = if p.meaning.starts_with(|c: char| c.is_lowercase())
+            && !["a ", "an ", "the ", "half ", "one ", "distance "]
+                .iter()
+                .any(|w| p.meaning.starts_with(w))
+        {
+            "the "
+        } else {
+            ""
+        };
+        let article = if p.meaning.starts_with("distance ") {
+            "the "
+        } else {
+            article
+        };
+        let end = match meant.len() - i {
+            1 => ".",
+            2 => " and ",
+            _ => ", ",
+        };
+        text.push(say(format!(" is {article}")));
+        text.extend(with_symbols(scene, &p.meaning));
+        text.push(say(end));
+    }
+    Some(text)
+}
+
+/// Words of two letters that are no symbols in a sentence.
+const WORDS: [&str; 20] = [
+    "am", "an", "as", "at", "be", "by", "do", "go", "he", "if", "in", "is", "it", "no", "of", "on",
+    "or", "so", "to", "up",
+];
+
+/// Words in which the names of parameters stand as their symbols.
+pub fn with_symbols(scene: &Scene, text: &str) -> Vec<Inline> {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_';
+    let mut out = Vec::new();
+    let mut words = String::new();
+    let mut rest = text;
+    while let Some(c) = rest.chars().next() {
+        if !is_part(c) {
+            words.push(c);
+            rest = &rest[c.len_utf8()..];
+            continue;
+        }
+        let end = rest.find(|c: char| !is_part(c)).unwrap_or(rest.len());
+        let (word, after) = rest.split_at(end);
+        let parameter = scene.parameters.iter().find(|p| *p.name == *word);
+        let made = crate::formula::latex_name(word);
+        // Words of the language stay words: the article a, the pronoun I, names that are spelled out.
+        let symbol = parameter.is_some_and(|p| {
+            let typeset = p.latex.as_deref().is_some_and(is_safe_latex);
+            let short = word.len() == 2 && typeset && !WORDS.contains(&word);
+            let one = word.chars().count() == 1 && !matches!(word, "a" | "A" | "I");
+            let indexed = word.contains(|c: char| c.is_ascii_digit() || c == '_');
+            short || (one || indexed || made.starts_with("\\")) && !made.starts_with("\\mathrm")
+        });
+        if symbol {
+            out.push(say(std::mem::take(&mut words)));
+            out.push(formula(&Expr::symbol(word)));
+        } else {
+            words.push_str(word);
+        }
+        rest = after;
+    }
+    out.push(say(words));
+    out
 }
 
 /// Words of a sentence.

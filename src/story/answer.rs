@@ -254,7 +254,7 @@ fn of_case(question: &StoryQuestion, case: &Case, number: Option<usize>) -> Vec<
         };
         let mut a = blank(question, &name, words);
         a.latex = match number {
-            Some(i) if i > 0 => format!("{}^{{({})}}", answer.latex, i + 1),
+            Some(i) if i > 0 => numbered(&answer.latex, i + 1),
             _ => answer.latex.clone(),
         };
         a.dimension = answer.dimension.clone();
@@ -322,6 +322,15 @@ fn of_case(question: &StoryQuestion, case: &Case, number: Option<usize>) -> Vec<
         out.push(a);
     }
     out
+}
+
+/// The LaTeX of a symbol with a number at the end of its index.
+fn numbered(latex: &str, number: usize) -> String {
+    match latex.strip_suffix('}').filter(|l| l.contains("_{")) {
+        Some(open) => format!("{open},{number}}}"),
+        None if latex.contains('_') => format!("{{{latex}}}_{number}"),
+        None => format!("{latex}_{number}"),
+    }
 }
 
 /// A threshold at which a rotation just gets to its end, integrated on both sides.

@@ -27,6 +27,7 @@ pub(super) fn tell(
     before: State,
     one_sided: &[OneSided],
     supposed: Option<&[String]>,
+    named: &[(Symbol, Expr)],
 ) -> Result<StageTold, Refused> {
     let mut base = stage.scene.clone();
     for (body, (v, w)) in base
@@ -39,7 +40,7 @@ pub(super) fn tell(
     }
     hinges_fit(stage, &base)?;
     let approaching = approach(stage, &base)?;
-    let handed = hand_on(&mut base);
+    let handed = hand_on(&mut base, named);
     let mut cases: Vec<Case> = Vec::new();
     let mut contradiction = None;
     for set in subsets(one_sided, supposed) {
@@ -74,7 +75,7 @@ pub(super) fn tell(
         case.after = state_after(stage, &before, case)?;
     }
     let after = cases[0].after.clone();
-    let kept = kept(&base, one_sided, &cases[0]);
+    let kept = kept(&base, one_sided, &cases);
     let mut assumptions: Vec<Sentence> = Vec::new();
     for (words, e) in &cases[0].conditions {
         assumptions.push(sentence![e, " ≥ 0 (", words, ")"]);
@@ -89,6 +90,8 @@ pub(super) fn tell(
         cases,
         energy: None,
         kinetic: None,
+        inertia: None,
+        work: Vec::new(),
         words: Vec::new(),
         assumptions,
         checks,
@@ -178,7 +181,11 @@ fn case(
                     },
                 ));
             }
-            let what = if o.is_string { "goes slack" } else { "is left" };
+            let what = if o.is_string {
+                "goes slack"
+            } else {
+                "comes free"
+            };
             wanted.push((name, format!("`{}` {what}", o.name)));
         }
     }
@@ -347,7 +354,7 @@ fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<State, Refu
 }
 
 /// What an impact conserves.
-fn kept(scene: &Scene, one_sided: &[OneSided], case: &Case) -> Vec<Kept> {
+fn kept(scene: &Scene, one_sided: &[OneSided], cases: &[Case]) -> Vec<Kept> {
     let fixed = |bodies: &[usize; 2]| bodies.iter().any(|b| scene.bodies[*b].is_fixed());
     // Where impulses from outside act, by name and place.
     let mut outside: Vec<(String, [Expr; 2])> = Vec::new();
@@ -359,7 +366,7 @@ fn kept(scene: &Scene, one_sided: &[OneSided], case: &Case) -> Vec<Kept> {
     }
     for o in one_sided
         .iter()
-        .filter(|o| fixed(&o.bodies) && case.active.contains(&o.name))
+        .filter(|o| fixed(&o.bodies) && cases.iter().any(|c| c.active.contains(&o.name)))
     {
         outside.push((o.name.clone(), o.at.clone()));
     }
@@ -391,7 +398,9 @@ fn kept(scene: &Scene, one_sided: &[OneSided], case: &Case) -> Vec<Kept> {
             ],
         });
     }
-    if let Some(closed) = &case.value(ENERGY) {
+    if let ([case], true) = (cases, scene.blows.is_empty())
+        && let Some(closed) = &case.value(ENERGY)
+    {
         out.push(if closed.is_zero() {
             Kept {
                 what: "kinetic energy".into(),
@@ -410,12 +419,18 @@ fn kept(scene: &Scene, one_sided: &[OneSided], case: &Case) -> Vec<Kept> {
 }
 
 /// Replaces what an earlier stage hands on by symbols where it holds roots: the impact is then a matter of fractions, proved
-/// and tried at exact points for any motion handed on, and the roots are put in afterwards. Gives what the symbols stand for.
-fn hand_on(scene: &mut Scene) -> BTreeMap<Symbol, Expr> {
+/// and tried at exact points for any motion handed on, and the roots are put in afterwards. A speed or spin that a question
+/// names keeps that name. Gives what the symbols stand for.
+fn hand_on(scene: &mut Scene, named: &[(Symbol, Expr)]) -> BTreeMap<Symbol, Expr> {
     let mut handed: Vec<(Symbol, Expr)> = Vec::new();
     let mut domains = scene.domains.clone();
     let original = scene.domains.clone();
-    let mut replace = |e: &mut Expr| {
+    let parameters = scene.parameters.clone();
+    let asked = scene.questions.clone();
+    let is_taken = |n: &Symbol| {
+        parameters.iter().any(|p| p.name == *n) || asked.iter().any(|q| *q.name == **n)
+    };
+    let mut replace = |e: &mut Expr, is_spin: bool| {
         if !has_root(e) {
             return;
         }
@@ -427,30 +442,56 @@ fn hand_on(scene: &mut Scene) -> BTreeMap<Symbol, Expr> {
                 return;
             }
         }
-        let sign = sign(e, &original);
-        let (value, factor) = if sign.is_negative() {
-            (-&*e, -1)
-        } else {
-            (e.clone(), 1)
+        let of_question = named.iter().find_map(|(name, value)| {
+            let ratio = tidy(&(&*e / value), &original).ok()?;
+            (!has_root(&ratio) && !ratio.is_zero()).then_some((name, value, ratio))
+        });
+        let (name, value, factor) = match of_question {
+            Some((name, value, ratio)) => (name.clone(), value.clone(), ratio),
+            None => {
+                let letter = if is_spin { "omega" } else { "v" };
+                let name = (1..1000)
+                    .map(|k| Symbol::from(format!("{letter}_in{k}").as_str()))
+                    .find(|n| !domains.symbols.contains_key(n) && !is_taken(n))
+                    .unwrap_or_else(|| Symbol::from("handed"));
+                if sign(e, &original).is_negative() {
+                    (name, -&*e, Expr::from(-1))
+                } else {
+                    (name, e.clone(), Expr::one())
+                }
+            }
         };
-        let name = (1..)
-            .map(|k| Symbol::from(format!("handed{k}").as_str()))
-            .find(|n| !domains.symbols.contains_key(n))
-            .unwrap_or_else(|| Symbol::from("handed"));
+        let sign = sign(&value, &original);
         let domain = if matches!(sign, Seen::Proved(Sign::Positive | Sign::Negative)) {
             Domain::positive()
         } else {
             Domain::real()
         };
         domains.symbols.insert(name.clone(), domain);
-        *e = Expr::from(factor) * Expr::symbol(&name);
+        *e = &factor * &Expr::symbol(&name);
         handed.push((name, value));
     };
     for body in &mut scene.bodies {
-        replace(&mut body.spin);
-        body.velocity.iter_mut().for_each(&mut replace);
+        replace(&mut body.spin, true);
+        body.velocity.iter_mut().for_each(|v| replace(v, false));
     }
     scene.domains = domains;
+    for (name, value) in &handed {
+        let of = |p: &str| {
+            let known = scene.parameters.iter().find(|q| *q.name == *p)?;
+            Some(known.dimension.clone())
+        };
+        let dimension = crate::dimension::of(value, &of).ok().flatten();
+        let dimension = dimension.unwrap_or_else(crate::dimension::Dimension::none);
+        scene.parameters.push(crate::scene::Parameter {
+            name: name.clone(),
+            latex: None,
+            unit: dimension.si(),
+            dimension,
+            value: None,
+            meaning: String::from("handed on by the stage before"),
+        });
+    }
     handed.into_iter().collect()
 }
 

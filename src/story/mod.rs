@@ -30,7 +30,7 @@ use crate::derive::{Derivation, Stop};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::Relation;
-use crate::scene::{Scene, StageKind, Story};
+use crate::scene::{Ask, Scene, StageKind, Story, StoryAsk};
 use crate::verify::{Check, Proof};
 
 /// Where all bodies are and how they move, by index of body.
@@ -93,6 +93,10 @@ pub struct StageTold {
     pub energy: Option<[Expr; 2]>,
     /// The same at the end, put together from velocity and spin.
     pub kinetic: Option<Expr>,
+    /// Moment of inertia about the fixed point of a rotation: as m r² is added to it, and tidy \[kg m²\].
+    pub inertia: Option<[Expr; 2]>,
+    /// Work done on the body during a motion: by what, and how much, as force times distance \[J\].
+    pub work: Vec<(&'static str, Expr)>,
     /// What happens, in words.
     pub words: Vec<Sentence>,
     /// What the stage takes for granted.
@@ -172,6 +176,11 @@ pub struct Told {
 }
 
 impl Told {
+    /// Everything that is taken for granted: how the statement is read, and what the stages suppose.
+    pub fn assumed(&self, story: &Story) -> Vec<Sentence> {
+        words::assumed(story, &self.stages)
+    }
+
     /// Whether no check failed.
     pub fn holds(&self) -> bool {
         let stages = self.stages.iter();
@@ -246,7 +255,10 @@ pub fn tell(scene: &Scene, story: &Story) -> Result<Told, Refused> {
             StageKind::Impact {
                 one_sided,
                 supposed,
-            } => impact::tell(stage, before, one_sided, supposed.as_deref())?,
+            } => {
+                let named = named(story, &stages);
+                impact::tell(stage, before, one_sided, supposed.as_deref(), &named)?
+            }
             StageKind::Turn(turn) => motion::turn(stage, before, turn)?,
             StageKind::Slide(slide) => motion::slide(stage, before, slide)?,
             StageKind::Fall(fall) => motion::fall(stage, before, fall)?,
@@ -255,6 +267,33 @@ pub fn tell(scene: &Scene, story: &Story) -> Result<Told, Refused> {
         stages.push(told);
     }
     answer::all(scene, story, stages)
+}
+
+/// Speeds and spins at the end of motions that have the name of a question, for the impacts after them to go on with.
+fn named(story: &Story, stages: &[StageTold]) -> Vec<(Symbol, Expr)> {
+    let mut out = Vec::new();
+    for question in &story.questions {
+        let StoryAsk::Quantity { stage, question: q } = &question.ask else {
+            continue;
+        };
+        let Some(told) = stages.get(*stage).filter(|s| s.cases.is_empty()) else {
+            continue;
+        };
+        let value = match &story.stages[*stage].scene.questions[*q].ask {
+            Ask::Spin { body, clockwise } => {
+                let w = &told.after.spin[*body];
+                if *clockwise { -w } else { w.clone() }
+            }
+            Ask::Velocity {
+                body,
+                point: None,
+                along: Some(along),
+            } => crate::expr::dot(&told.after.velocity[*body], along),
+            _ => continue,
+        };
+        out.push((Symbol::from(question.name.as_str()), value));
+    }
+    out
 }
 
 /// The motion as the file gives it.

@@ -39,6 +39,8 @@ fn told(stage: &Stage, kind: &'static str, before: State, after: State) -> Stage
         cases: Vec::new(),
         energy: None,
         kinetic: None,
+        inertia: None,
+        work: Vec::new(),
         words: Vec::new(),
         assumptions: Vec::new(),
         checks: Vec::new(),
@@ -156,7 +158,9 @@ pub(super) fn turn(stage: &Stage, before: State, turn: &Turn) -> Result<StageTol
             ));
         }
     }
-    let inertia = tidied(stage, &inertia_about(stage, turn))?;
+    let square = tidied(stage, &dot(&r, &r))?;
+    let about = &body.inertia + &(&body.mass * &square);
+    let inertia = tidied(stage, &about)?;
     if is_zero(&inertia, domains) == Some(true) {
         return Err(Refused::new(
             &stage.name,
@@ -170,7 +174,8 @@ pub(super) fn turn(stage: &Stage, before: State, turn: &Turn) -> Result<StageTol
     let start = tidied(stage, &half(&(&inertia * &spin.powi(2))))?;
     let mut work = Vec::new();
     if let Some(g) = &turn.gravity {
-        work.push(&(&body.mass * g) * &(&r[1] - &r_end[1]));
+        let height = tidied(stage, &(&r[1] - &r_end[1]))?;
+        work.push(("weight", &(&body.mass * g) * &height));
     }
     if let Some(torque) = &turn.torque {
         let Until::By(by) = &turn.until else {
@@ -180,9 +185,10 @@ pub(super) fn turn(stage: &Stage, before: State, turn: &Turn) -> Result<StageTol
                 "end the stage with `by`",
             ));
         };
-        work.push(torque * by);
+        work.push(("the applied moment", torque * by));
     }
-    let work = tidied(stage, &Expr::sum(work))?;
+    let parts = work;
+    let work = tidied(stage, &Expr::sum(parts.iter().map(|(_, w)| w.clone())))?;
     let end = tidied(stage, &(&start + &work))?;
     let reaches = sign(&end, domains);
     if let Seen::Proved(Sign::Negative) = reaches {
@@ -251,6 +257,8 @@ pub(super) fn turn(stage: &Stage, before: State, turn: &Turn) -> Result<StageTol
         false,
         &format!("the force at {at} leads the center of mass round"),
     ));
+    out.inertia = Some([about, inertia.clone()]);
+    out.work = parts;
     out.kinetic = Some(half(&(&inertia * &out.after.spin[turn.body].powi(2))));
     out.energy = Some([start, end.clone()]);
     if !matches!(reaches, Seen::Proved(s) if s.is_not_negative()) && !work.is_zero() {
@@ -347,12 +355,14 @@ pub(super) fn slide(stage: &Stage, before: State, slide: &Slide) -> Result<Stage
     let start = tidied(stage, &half(&(&body.mass * &speed.powi(2))))?;
     let mut work = Vec::new();
     if let Some(g) = &slide.gravity {
-        work.push(-&(&(&body.mass * g) * &(&slide.along[1] * &slide.distance)));
+        let lost = -&(&slide.along[1] * &slide.distance);
+        work.push(("weight", &(&body.mass * g) * &lost));
     }
     if let Some(force) = &slide.force {
-        work.push(force * &slide.distance);
+        work.push(("the applied force", force * &slide.distance));
     }
-    let work = tidied(stage, &Expr::sum(work))?;
+    let parts = work;
+    let work = tidied(stage, &Expr::sum(parts.iter().map(|(_, w)| w.clone())))?;
     let end = tidied(stage, &(&start + &work))?;
     if let Seen::Proved(Sign::Negative) = sign(&end, domains) {
         return Err(Refused::new(
@@ -385,6 +395,7 @@ pub(super) fn slide(stage: &Stage, before: State, slide: &Slide) -> Result<Stage
         },
     )];
     out.energy = Some([start, end]);
+    out.work = parts;
     Ok(out)
 }
 
@@ -451,6 +462,9 @@ pub(super) fn fall(stage: &Stage, before: State, fall: &Fall) -> Result<StageTol
         ),
     ];
     out.energy = Some([start, end]);
+    if let (Some(g), Some(h)) = (&fall.gravity, &fall.height) {
+        out.work = vec![("weight", &(&body.mass * g) * h)];
+    }
     out.checks.extend(integrate::fall(stage, &out, fall));
     Ok(out)
 }

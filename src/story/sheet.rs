@@ -99,6 +99,8 @@ fn put_together(scene: &Scene, case: &Case) -> Scene {
     out.printed = scene.printed.clone();
     out.domains = scene.domains.clone();
     out.questions.clear();
+    out.parameters
+        .retain(|p| !case.handed.contains_key(&p.name));
     let put = |e: &mut Expr| *e = case.put_in(e);
     for body in &mut out.bodies {
         put(&mut body.spin);

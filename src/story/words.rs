@@ -6,7 +6,7 @@ use super::{Sentence, sentence::sentence};
 use crate::derive;
 use crate::domain::Domains;
 use crate::expr::{Expr, minus};
-use crate::scene::{BlowImpulse, ContactLaw, Scene, Stage, StageKind, Story};
+use crate::scene::{BlowImpulse, ContactLaw, Scene, Stage, StageKind, Story, Turn};
 
 /// Which supports act in an outcome.
 pub(super) fn active(case: &Case) -> String {
@@ -83,13 +83,7 @@ pub(super) fn stage(stage: &Stage, told: &StageTold) -> Vec<Sentence> {
                 "` turns about ",
                 &turn.about_name,
                 "; ",
-                spin_words(
-                    "spin",
-                    &told.before.spin[turn.body],
-                    &told.after.spin[turn.body],
-                    &scene.domains,
-                    &[]
-                )
+                turning(stage, told, turn)
             ]);
         }
         StageKind::Slide(slide) => out.push(sentence![
@@ -121,6 +115,30 @@ pub(super) fn stage(stage: &Stage, told: &StageTold) -> Vec<Sentence> {
         ]),
     }
     out
+}
+
+/// How a rotation goes on: it keeps its sense, and weight or a moment makes it faster or slower.
+fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> String {
+    let domains = &stage.scene.domains;
+    let (before, after) = (&told.before.spin[turn.body], &told.after.spin[turn.body]);
+    let same = is_zero(&(before - after), domains) == Some(true);
+    let sense = match super::motion::sense(stage, before, turn) {
+        Ok((1, None)) => "counterclockwise",
+        Ok((-1, None)) => "clockwise",
+        _ => return spin_words("spin", before, after, domains, &[]),
+    };
+    if same {
+        return format!("it goes on {sense} as before");
+    }
+    if is_zero(before, domains) == Some(true) {
+        return format!("it begins at rest and turns {sense}");
+    }
+    let gain = Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
+    match way(&gain, domains, &[]) {
+        Some(true) => format!("it goes on {sense}, and faster at the end"),
+        Some(false) => format!("it goes on {sense}, and slower at the end"),
+        None => format!("it goes on {sense}"),
+    }
 }
 
 /// How an impact changes a body's motion, where its conditions hold.

@@ -1,0 +1,582 @@
+//! The worked solution of a scene with stages: a section for each stage, then what is asked, then what it all rests on.
+//!
+//! In: a scene and its story as told. Out: a [`Solution`]. An impact is written by the same code as a single collision, with
+//! the motion handed on by the stage before; a motion is an energy balance, whose lines are claims like all others.
+
+use super::asked::{self, add_step, answered, full_sentence, known};
+use super::words::{self, name, say};
+use super::{
+    Claim, Detail, Inline, Line, Math, Meaning, Part, Scope, Section, Slot, Solution, Writer,
+};
+use crate::derive::Derivation;
+use crate::expr::{Expr, Symbol};
+use crate::scene::{Ask, Question, Scene, Stage, StageKind, Story, StoryAsk};
+use crate::story::{Answer, Case, Sentence, StageTold, Told};
+
+/// Questions that `story` adds to an impact begin so.
+const HIDDEN: char = '\u{1}';
+
+/// Writes the solution of a story.
+pub fn tell(scene: &Scene, story: &Story, told: &Told, detail: Detail) -> Solution {
+    let mut page = Page {
+        scene,
+        story,
+        told,
+        solution: blank(scene, told, detail),
+    };
+    page.opening();
+    for i in 0..told.stages.len() {
+        page.stage(i);
+    }
+    page.questions();
+    page.results();
+    page.rests_on();
+    page.solution
+}
+
+fn blank(scene: &Scene, told: &Told, detail: Detail) -> Solution {
+    let mut names = std::collections::BTreeMap::new();
+    let mut put = |name: &str, latex: &str| {
+        if words::is_safe_latex(latex) {
+            names.insert(Symbol::from(name), latex.to_string());
+        }
+    };
+    for p in &scene.parameters {
+        if let Some(latex) = &p.latex {
+            put(&p.name, latex);
+        }
+    }
+    for a in &told.answers {
+        put(&a.name, &a.latex);
+    }
+    let stages = told.stages.iter().flat_map(|s| &s.assumptions);
+    let given = told.answers.iter().flat_map(|a| &a.assumptions);
+    let mut assumptions = told.readings.clone();
+    assumptions.extend(stages.chain(given).map(ToString::to_string));
+    let mut seen = std::collections::BTreeSet::new();
+    assumptions.retain(|a| seen.insert(a.clone()));
+    Solution {
+        title: scene.title.clone(),
+        source: scene.source.clone(),
+        statement: scene.statement.clone(),
+        detail,
+        names,
+        meanings: Default::default(),
+        sections: Vec::new(),
+        steps: Vec::new(),
+        scopes: Vec::new(),
+        assumptions,
+    }
+}
+
+/// A solution under way.
+struct Page<'a> {
+    scene: &'a Scene,
+    story: &'a Story,
+    told: &'a Told,
+    solution: Solution,
+}
+
+impl Page<'_> {
+    fn section(&mut self, depth: usize, heading: Vec<Inline>) {
+        self.solution.sections.push(Section {
+            depth,
+            heading,
+            parts: Vec::new(),
+        });
+    }
+
+    fn push(&mut self, part: Part) {
+        if let Some(section) = self.solution.sections.last_mut() {
+            section.parts.push(part);
+        }
+    }
+
+    fn text(&mut self, text: Vec<Inline>) {
+        self.push(Part::Text(text));
+    }
+
+    /// What is told, and how it is read.
+    fn opening(&mut self) {
+        self.section(0, Vec::new());
+        if !self.solution.statement.is_empty() {
+            let statement = words::with_symbols(self.scene, &self.solution.statement);
+            self.text(statement);
+        }
+        if self.solution.detail == Detail::Brief {
+            return;
+        }
+        if let Some(text) = words::meant(self.scene) {
+            self.text(text);
+        }
+        if !self.told.readings.is_empty() {
+            self.text(vec![say("The statement is read as follows:")]);
+            self.readings();
+        }
+        self.text(vec![say(
+            "Take x to the right and y up; angles and spins count counterclockwise unless said otherwise.",
+        )]);
+    }
+
+    fn readings(&mut self) {
+        let each = self.told.readings.iter();
+        let items = each.map(|r| {
+            let mut item = words::with_symbols(self.scene, r);
+            item.push(say("."));
+            item
+        });
+        let items = items.collect();
+        self.push(Part::List(items));
+    }
+
+    fn stage(&mut self, i: usize) {
+        let (told, stage) = (&self.told.stages[i], &self.story.stages[i]);
+        let number = match self.told.stages.len() {
+            1 => String::new(),
+            _ => format!("{}. ", i + 1),
+        };
+        let title = words::capital(&told.name.replace('_', " "));
+        self.section(0, vec![say(format!("{number}{title}"))]);
+        let brief = self.solution.detail == Detail::Brief;
+        if !brief {
+            self.from(i);
+            match told.words.as_slice() {
+                [] => {}
+                [one] => self.text(full_sentence(self.scene, one)),
+                all => {
+                    let items = all.iter().map(|w| full_sentence(self.scene, w)).collect();
+                    self.push(Part::List(items));
+                }
+            }
+        }
+        self.push(Part::Figure(Slot::Stage(i)));
+        if !brief {
+            let items = told.kept.iter().map(|k| {
+                let is = if k.conserved { "is" } else { "is not" };
+                let lead = format!("{} {is} conserved: ", k.what);
+                let text = Sentence([Sentence::words(lead).0, k.why.0.clone()].concat());
+                full_sentence(self.scene, &text)
+            });
+            let items = items.collect();
+            self.push(Part::List(items));
+        }
+        if told.cases.is_empty() {
+            self.motion(stage, told);
+        }
+        for (k, case) in told.cases.iter().enumerate() {
+            self.impact(stage, told, case, k);
+        }
+        self.asked_of(i);
+        if brief {
+            return;
+        }
+        if told.cases.is_empty() {
+            if !told.assumptions.is_empty() {
+                let mut text = vec![say("This takes for granted: ")];
+                text.extend(asked::sentence(
+                    self.scene,
+                    &Sentence::join(told.assumptions.clone(), "; "),
+                ));
+                text.push(say("."));
+                self.text(text);
+            }
+            if let Some(words) = known(&told.checks) {
+                self.text(vec![say(asked::called(self.scene, &words))]);
+            }
+        }
+    }
+
+    /// Where a stage begins, if that is not where the one before it ends.
+    fn from(&mut self, i: usize) {
+        let text = match self.story.stages[i].from {
+            None if i > 0 => String::from("This begins anew, with the bodies as they are given."),
+            Some(j) if j + 1 != i => {
+                format!("This goes on from the end of {}.", self.told.stages[j].name)
+            }
+            _ => return,
+        };
+        self.text(vec![say(text)]);
+    }
+
+    /// An impact, written like a collision by itself.
+    fn impact(&mut self, stage: &Stage, told: &StageTold, case: &Case, k: usize) {
+        let several = told.cases.len() > 1;
+        let id = if several {
+            format!("{}/{}", told.name, k + 1)
+        } else {
+            told.name.clone()
+        };
+        if several {
+            let mut heading = vec![say(format!("Case {}: ", k + 1))];
+            heading.extend(asked::sentence(
+                self.scene,
+                &Sentence::join(
+                    case.conditions.iter().map(|(_, e)| {
+                        Sentence([Sentence::from(e).0, Sentence::words(" ≥ 0").0].concat())
+                    }),
+                    " and ",
+                ),
+            ));
+            self.section(1, heading);
+        }
+        let (scene, derivation) = visible(case, several.then_some(k));
+        if self.solution.detail != Detail::Brief {
+            self.handed(case);
+        }
+        let mut writer = Writer::new(&scene, &derivation, &case.proof, self.solution.detail);
+        writer.nested = true;
+        // The text goes on where it stands; symbols belong to the impact.
+        let first = self.solution.steps.len();
+        std::mem::swap(&mut writer.solution.sections, &mut self.solution.sections);
+        std::mem::swap(&mut writer.solution.steps, &mut self.solution.steps);
+        let mut names = self.solution.names.clone();
+        names.append(&mut writer.solution.names);
+        writer.solution.names = names;
+        writer.blocks();
+        if !derivation.definitions.is_empty() {
+            writer.results();
+        }
+        if self.solution.detail != Detail::Brief {
+            writer.checked();
+        }
+        std::mem::swap(&mut writer.solution.sections, &mut self.solution.sections);
+        std::mem::swap(&mut writer.solution.steps, &mut self.solution.steps);
+        self.solution.names = writer.solution.names;
+        for step in &mut self.solution.steps[first..] {
+            step.scope = Some(id.clone());
+        }
+        let before = scene
+            .bodies
+            .iter()
+            .filter(|b| !b.is_fixed())
+            .map(|b| (b.name.clone(), b.velocity.clone(), b.spin.clone()))
+            .collect();
+        self.solution.scopes.push(Scope {
+            name: id,
+            stage: stage.name.clone(),
+            active: case.active.clone(),
+            handed: case.handed.clone(),
+            before,
+            meanings: writer.solution.meanings,
+        });
+    }
+
+    /// What an earlier stage hands on, where it got a symbol of its own.
+    fn handed(&mut self, case: &Case) {
+        if case.handed.is_empty() {
+            return;
+        }
+        let mut text = vec![say("From the stage before, ")];
+        for (i, (name, value)) in case.handed.iter().enumerate() {
+            if i > 0 {
+                text.push(say(" and "));
+            }
+            text.push(words::equation(&Expr::symbol(name), value));
+        }
+        text.push(say("."));
+        self.text(text);
+    }
+
+    /// A motion: inertia, work and energy, from the beginning to the end.
+    fn motion(&mut self, stage: &Stage, told: &StageTold) {
+        let Some([start, end]) = &told.energy else {
+            return;
+        };
+        let mut lines = Vec::new();
+        let claim = |s: &mut Solution, left: &Expr, right: &Expr, why: &str| {
+            let claim = Claim {
+                left: left.clone(),
+                right: right.clone(),
+            };
+            Some(add_step(s, vec![claim], why))
+        };
+        let chain = |head: Vec<Math>, raw: &Expr, value: &Expr| {
+            let mut math = head;
+            math.push(Math::Op("="));
+            if raw != value {
+                math.extend([Math::Expr(raw.clone()), Math::Op("=")]);
+            }
+            math.push(Math::Expr(value.clone()));
+            math
+        };
+        if let (Some([raw, tidy]), StageKind::Turn(turn)) = (&told.inertia, &stage.kind) {
+            let math = chain(vec![name("I", &turn.about_name, "", false)], raw, tidy);
+            let step = claim(
+                &mut self.solution,
+                raw,
+                tidy,
+                "moment of inertia about the fixed point: I + m r²",
+            );
+            lines.push(Line { math, step });
+        }
+        let t = |mark| vec![name("T", "", mark, false)];
+        let raw = self.start_energy(stage, told);
+        let math = chain(t("-"), &raw, start);
+        let step = claim(
+            &mut self.solution,
+            &raw,
+            start,
+            "kinetic energy at the beginning",
+        );
+        lines.push(Line { math, step });
+        let total = Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
+        let gain = end - start;
+        for (what, raw) in &told.work {
+            let value = if told.work.len() == 1 {
+                &tidied(self.scene, &gain)
+            } else {
+                raw
+            };
+            let index = if told.work.len() == 1 { "" } else { what };
+            let math = chain(vec![name("W", index, "", false)], raw, value);
+            let step = claim(
+                &mut self.solution,
+                raw,
+                value,
+                &format!("work of {what}: force times the way in its direction"),
+            );
+            lines.push(Line { math, step });
+        }
+        let after = start + &total;
+        let mut math = t("+");
+        math.extend([Math::Op("="), name("T", "", "-", false)]);
+        if !told.work.is_empty() {
+            math.extend([Math::Op("+"), name("W", "", "", false)]);
+        }
+        let math = chain(math, end, end);
+        let step = claim(
+            &mut self.solution,
+            &after,
+            end,
+            "work changes kinetic energy",
+        );
+        lines.push(Line { math, step });
+        self.push(Part::Display(lines));
+    }
+
+    /// Kinetic energy at the beginning of a motion from its velocities, untidied; a spin or speed that has a name by now
+    /// stands by its name.
+    fn start_energy(&self, stage: &Stage, told: &StageTold) -> Expr {
+        let half = Expr::ratio(1, 2);
+        let body = match &stage.kind {
+            StageKind::Turn(t) => t.body,
+            StageKind::Slide(s) => s.body,
+            StageKind::Fall(f) => f.body,
+            StageKind::Wind(w) => w.body,
+            StageKind::Impact { .. } => return Expr::zero(),
+        };
+        let square = |e: &Expr| {
+            let minus = -e;
+            let named = self.told.answers.iter().find(|a| {
+                let known = self.solution.meanings.contains_key(a.name.as_str());
+                known && a.formula.as_ref().is_some_and(|f| f == e || *f == minus)
+            });
+            match named {
+                Some(answer) if !e.symbols().is_empty() => Expr::symbol(&answer.name).powi(2),
+                _ => e.powi(2),
+            }
+        };
+        if let Some([_, inertia]) = &told.inertia {
+            return &half * inertia * square(&told.before.spin[body]);
+        }
+        let b = &stage.scene.bodies[body];
+        let v = &told.before.velocity[body];
+        let moving = &half * &b.mass * (square(&v[0]) + square(&v[1]));
+        moving + &half * &b.inertia * square(&told.before.spin[body])
+    }
+
+    /// Answers about the end of a stage.
+    fn asked_of(&mut self, i: usize) {
+        let mut lines = Vec::new();
+        let mut numbers = Vec::new();
+        for question in &self.story.questions {
+            let StoryAsk::Quantity { stage, question: q } = &question.ask else {
+                continue;
+            };
+            if *stage != i {
+                continue;
+            }
+            let mine: Vec<&Answer> = self
+                .told
+                .answers
+                .iter()
+                .filter(|a| a.question == question.name)
+                .collect();
+            for answer in mine {
+                let Some(formula) = &answer.formula else {
+                    continue;
+                };
+                let symbol = Symbol::from(answer.name.as_str());
+                let axis = match answer.name.strip_prefix(question.name.as_str()) {
+                    Some("") => Some(None),
+                    Some("_x") => Some(Some(0)),
+                    Some("_y") => Some(Some(1)),
+                    _ => None,
+                };
+                let is_fresh = axis.is_none();
+                let meaning = match axis {
+                    Some(axis) => Meaning::Answer(question.name.clone(), axis),
+                    None => Meaning::Defined,
+                };
+                self.solution.meanings.insert(symbol.clone(), meaning);
+                let claim = Claim {
+                    left: Expr::symbol(&symbol),
+                    right: formula.clone(),
+                };
+                let id = add_step(&mut self.solution, vec![claim], &answer.words);
+                if let Some(step) = self.solution.steps.last_mut() {
+                    step.defines = is_fresh.then(|| symbol.clone());
+                }
+                let mut math = vec![Math::Expr(Expr::symbol(&symbol)), Math::Op("=")];
+                if let Some(raw) = self.before_tidying(i, *q, formula) {
+                    math.extend([Math::Expr(raw), Math::Op("=")]);
+                }
+                math.push(Math::Expr(formula.clone()));
+                lines.push(Line {
+                    math,
+                    step: Some(id),
+                });
+                if let Some(value) = asked::number(self.scene, answer) {
+                    numbers.push(vec![words::formula(&Expr::symbol(&symbol)), say(value)]);
+                }
+            }
+        }
+        if lines.is_empty() {
+            return;
+        }
+        let (told, scene) = (&self.told.stages[i], self.scene);
+        let lead = match told.cases.as_slice() {
+            [] => String::from("So that at the end"),
+            [one] if one.handed.is_empty() => String::from("Just after, in all"),
+            _ if !told.cases.iter().all(|c| c.handed.is_empty()) => {
+                String::from("With what was handed on put in,")
+            }
+            _ => String::from("Just after, in all"),
+        };
+        let repeats = told.cases.len() == 1 && told.cases[0].handed.is_empty();
+        if !repeats {
+            self.text(vec![say(lead)]);
+            self.push(Part::Display(lines));
+        }
+        let _ = scene;
+        if !numbers.is_empty() {
+            self.push(Part::List(numbers));
+        }
+    }
+
+    /// The root a spin or speed was taken from, where the motion changed it: √(2 T⁺/I).
+    fn before_tidying(&self, i: usize, question: usize, value: &Expr) -> Option<Expr> {
+        let told = &self.told.stages[i];
+        let [_, end] = told.energy.as_ref()?;
+        let [_, inertia] = told.inertia.as_ref()?;
+        if !told.cases.is_empty() || told.work.is_empty() || end.size() > 40 {
+            return None;
+        }
+        let Ask::Spin { .. } = self.story.stages[i].scene.questions.get(question)?.ask else {
+            return None;
+        };
+        let raw = (&(&Expr::from(2) * end) / inertia).sqrt();
+        let positive = crate::formula::write_plain(value);
+        (!positive.starts_with('-') && raw != *value).then_some(raw)
+    }
+
+    /// What is asked beyond the motion.
+    fn questions(&mut self) {
+        for question in &self.story.questions {
+            if matches!(question.ask, StoryAsk::Quantity { .. } | StoryAsk::Assumed) {
+                continue;
+            }
+            let mine = self.told.answers.iter();
+            let mine: Vec<Answer> = mine
+                .filter(|a| a.question == question.name)
+                .cloned()
+                .collect();
+            answered(&mut self.solution, self.scene, &question.ask, &mine);
+        }
+    }
+
+    /// All formulas once more.
+    fn results(&mut self) {
+        let mut lines = Vec::new();
+        for a in &self.told.answers {
+            let mut line = |left: Expr, op: &'static str, right: &Expr| {
+                lines.push(Line {
+                    math: vec![Math::Expr(left), Math::Op(op), Math::Expr(right.clone())],
+                    step: None,
+                });
+            };
+            match (&a.formula, a.range.as_slice()) {
+                (_, [(p, relation, value)]) => {
+                    line(Expr::symbol(p), relation.sign(), value);
+                }
+                (Some(formula), []) => line(Expr::symbol(&a.name), "=", formula),
+                _ => {}
+            }
+        }
+        if lines.is_empty() {
+            return;
+        }
+        self.section(0, vec![say("Results")]);
+        self.push(Part::Display(lines));
+    }
+
+    /// Readings and everything else that is taken for granted, and data that no answer needs.
+    fn rests_on(&mut self) {
+        let assumed = self.told.assumed(self.story);
+        self.section(0, vec![say("What this rests on")]);
+        let mut items: Vec<Vec<Inline>> = Vec::new();
+        for a in &assumed {
+            items.push(full_sentence(self.scene, a));
+        }
+        if !items.is_empty() {
+            self.push(Part::List(items));
+        }
+        if !self.told.unused.is_empty() {
+            let mut text = vec![say("Given, but needed for no answer: ")];
+            for (i, p) in self.told.unused.iter().enumerate() {
+                if i > 0 {
+                    text.push(say(", "));
+                }
+                text.push(words::formula(&Expr::symbol(p)));
+            }
+            text.push(say("."));
+            self.text(text);
+        }
+        if !self.told.holds() {
+            self.text(vec![say(
+                "A check failed: do not use these results before the fault is found.",
+            )]);
+        }
+    }
+}
+
+/// An expression as a person would write it.
+fn tidied(scene: &Scene, e: &Expr) -> Expr {
+    let mut field = crate::algebra::Field::new(&scene.domains);
+    field.prepare([e]);
+    match field.element(e) {
+        Ok(x) => field.expr(&x),
+        Err(_) => e.clone(),
+    }
+}
+
+/// The scene and the derivation of an outcome without the questions that were only asked to find it; where several outcomes
+/// are told, names of answers stay those of the first.
+fn visible(case: &Case, _number: Option<usize>) -> (Scene, Derivation) {
+    let mut scene = case.scene.clone();
+    let mut derivation = case.derivation.clone();
+    derivation
+        .answers
+        .retain(|a| !a.question.starts_with(HIDDEN));
+    let has_block = |q: &Question| {
+        derivation
+            .blocks
+            .iter()
+            .any(|b| b.asked_by.as_deref() == Some(q.name.as_str()))
+    };
+    let asked = scene.questions.iter().any(|q| !q.name.starts_with(HIDDEN));
+    scene
+        .questions
+        .retain(|q| !q.name.starts_with(HIDDEN) || (!asked && has_block(q)));
+    (scene, derivation)
+}
