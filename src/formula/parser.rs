@@ -434,8 +434,8 @@ impl<'a> Parser<'a> {
             Tok::Number(literal) => Ok(Written::new(Shape::Number(literal), start, end)),
             Tok::Name(name) => Ok(Written::new(Shape::Symbol(name), start, end)),
             Tok::Vulgar(n, d) => Ok(vulgar(n, d, start, end)),
-            Tok::Open(open) => self.bracket(open, start),
-            Tok::Relation(Relation::Less) => self.bracket('<', start),
+            Tok::Open(open) => self.bracket(open, start, end),
+            Tok::Relation(Relation::Less) => self.bracket('<', start, end),
             Tok::Bar => {
                 let outer = std::mem::replace(&mut self.bars, 1);
                 let inner = self.sum()?;
@@ -492,7 +492,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn bracket(&mut self, open: char, start: usize) -> Faulty<Written> {
+    fn bracket(&mut self, open: char, start: usize, opened: usize) -> Faulty<Written> {
         let outer = std::mem::replace(&mut self.bars, 0);
         let lists = open == '[' || open == '<' || open == '(' && self.lexer.lists();
         let list = std::mem::replace(&mut self.lexer.list, lists);
@@ -520,7 +520,8 @@ impl<'a> Parser<'a> {
         };
         let angled = open == '<' && token.tok == Tok::Relation(Relation::Greater);
         if token.tok != Tok::Close(close) && !(angled && parts.len() > 1) {
-            return Err(self.unclosed(&open.to_string(), start, start + open.len_utf8(), &token));
+            let shown = self.lexer.text[start..opened].to_string();
+            return Err(self.unclosed(&shown, start, opened, &token));
         }
         let shape = match parts.pop() {
             Some(_) if parts.is_empty() && matches!(open, 'm' | '<') => {

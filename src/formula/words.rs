@@ -30,6 +30,14 @@ impl Lexer<'_> {
             .take(64)
             .take_while(u8::is_ascii_alphabetic)
             .count();
+        let long = rest
+            .as_bytes()
+            .get(run)
+            .is_some_and(u8::is_ascii_alphabetic);
+        if long {
+            let message = "a run of more than 64 letters is no name and no product";
+            return Err(Fault::new(message, start, start + run));
+        }
         if !(start > 0 && self.text.as_bytes()[start - 1].is_ascii_alphabetic()) {
             self.run_from = start;
         }

@@ -61,6 +61,7 @@ pub fn entry(line: &str, defaults: &Options) -> Result<Entry, BadLine> {
             format!("a line has at most {MAX_LINE} bytes"),
         ));
     }
+    let line = line.trim_start_matches('\u{feff}');
     let value: Value =
         serde_json::from_str(line).map_err(|e| bad(&Value::Null, format!("no JSON: {e}")))?;
     let Value::Object(fields) = value else {
@@ -322,8 +323,8 @@ pub fn judge(
     in_scene: &dyn Fn(&Entry, &str) -> Result<Grade, String>,
 ) -> Grade {
     match (&entry.scene, &entry.expected) {
-        (Some(scene), None) => in_scene(entry, scene).unwrap_or_else(refused),
-        (_, Some(expected)) => match &*keys.key(entry, expected) {
+        (Some(scene), _) => in_scene(entry, scene).unwrap_or_else(refused),
+        (None, Some(expected)) => match &*keys.key(entry, expected) {
             Ok(key) => super::judge_against(key, &entry.answer, &entry.options),
             Err(fault) => super::unreadable_key(fault.clone()),
         },

@@ -315,7 +315,9 @@ impl<'a> Trial<'a> {
             .iter()
             .map(|g| g.name.clone())
             .collect();
-        if !shown.symbols().is_subset(&known) || shown.size() > 12 {
+        let mut calls = false;
+        shown.walk(&mut |e| calls |= matches!(e.node(), Node::Call(..)));
+        if calls || !shown.symbols().is_subset(&known) || shown.size() > 12 {
             return None;
         }
         let message = format!("too large by the factor {}", ctx.say(&shown));

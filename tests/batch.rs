@@ -1,0 +1,301 @@
+//! `carom grade --batch`: a line out for every line in, in order, whatever comes in.
+
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+use serde_json::{Value, json};
+
+/// Sends bytes through a batch and gives the lines that come out.
+fn batch(input: &[u8], more: &[&str]) -> Vec<Value> {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_carom"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(["grade", "--batch"])
+        .args(more)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let mut pipe = child.stdin.take().expect("a pipe");
+    let input = input.to_vec();
+    let writer = std::thread::spawn(move || pipe.write_all(&input));
+    let out = child.wait_with_output().expect("an end");
+    writer.join().expect("a thread").expect("all was taken");
+    assert!(
+        out.status.success(),
+        "a batch ends well however wrong the answers are"
+    );
+    assert!(
+        out.stderr.is_empty(),
+        "{}",
+        String::from_utf8_lossy(&out.stderr)
+    );
+    let text = String::from_utf8(out.stdout).expect("UTF-8 out");
+    text.lines()
+        .map(|l| serde_json::from_str(l).expect("JSON out"))
+        .collect()
+}
+
+fn one(line: Value) -> Value {
+    let mut all = batch(line.to_string().as_bytes(), &[]);
+    assert_eq!(all.len(), 1);
+    all.remove(0)
+}
+
+fn judged(line: Value) -> String {
+    let out = one(line);
+    format!(
+        "{} {}",
+        out["verdict"].as_str().unwrap_or(""),
+        out["note"].as_str().unwrap_or("")
+    )
+}
+
+#[test]
+fn every_line_has_an_answer_in_its_place() {
+    let mut input: Vec<u8> = Vec::new();
+    let lines: [&[u8]; 16] = [
+        b"\xef\xbb\xbf{\"id\": \"a\", \"expected\": \"2 x\", \"answer\": \"x + x\"}\r",
+        b"{\"id\": \"a\", \"expected\": \"2 x\", \"answer\": \"x\"}",
+        b"",
+        b"   \t",
+        b"no JSON",
+        b"[1, 2]",
+        b"null",
+        b"{\"id\": 7, \"expected\": \"a\"}",
+        b"{\"id\": [1, {\"x\": 2.50}], \"expected\": \"a\", \"answer\": \"a\", \"extra\": 1}",
+        b"{\"id\": 1, \"expected\": \"a\", \"answer\": \"\xff\xfe\"}",
+        b"{\"id\": 2, \"expected\": \"a\", \"answer\": \"\\ud800\"}",
+        b"{\"id\": 3, \"expected\": \"2*\", \"answer\": \"a\"}",
+        b"{\"id\": 4, \"expected\": \"a\", \"answer\": \"\"}",
+        b"{\"id\": 5, \"expected\": \"1/2\", \"answer\": 0.5}",
+        b"{\"id\": 123456789012345678901234567890, \"expected\": \"a\", \"answer\": \"a\"}",
+        b"{\"id\": 6, \"expected\": \"x^y*z\", \"answer\": null}",
+    ];
+    for line in lines {
+        input.extend_from_slice(line);
+        input.push(b'\n');
+    }
+    let long = format!(
+        "{{\"id\": 8, \"expected\": \"a\", \"answer\": \"{}\"}}\n",
+        "9".repeat(400_000)
+    );
+    input.extend_from_slice(long.as_bytes());
+    // The last line need not end.
+    input.extend_from_slice(b"{\"id\": \"last\", \"expected\": \"a\", \"answer\": \"a\"}");
+    let out = batch(&input, &[]);
+    let told: Vec<String> = out
+        .iter()
+        .map(|line| {
+            for field in [
+                "id", "verdict", "reward", "proof", "note", "read_as", "symbols",
+            ] {
+                assert!(line.get(field).is_some(), "{line} lacks {field}");
+            }
+            let reward = match line["verdict"].as_str() {
+                Some("equivalent") => json!(1),
+                Some("different") => json!(0),
+                _ => json!(null),
+            };
+            assert_eq!(line["reward"], reward, "{line}");
+            format!("{} {}", line["id"], line["note"].as_str().unwrap_or(""))
+        })
+        .collect();
+    assert_eq!(
+        told,
+        [
+            "\"a\" EQUIV_IDENTITY",
+            "\"a\" DIFF_FACTOR",
+            "null INVALID_LINE",
+            "null INVALID_LINE",
+            "null INVALID_LINE",
+            "7 INVALID_LINE",
+            "[1,{\"x\":2.50}] INVALID_LINE",
+            "null INVALID_LINE",
+            "null INVALID_LINE",
+            "3 INVALID_EXPECTED",
+            "4 INVALID_SYNTAX",
+            "5 EQUIV_IDENTITY",
+            "123456789012345678901234567890 EQUIV_IDENTITY",
+            "6 INVALID_LINE",
+            "null INVALID_LINE",
+            "\"last\" EQUIV_IDENTITY",
+        ]
+    );
+}
+
+#[test]
+fn the_order_is_kept_on_any_number_of_threads() {
+    let lines: String = (0..3_000)
+        .map(|i| {
+            format!(
+                "{}\n",
+                json!({"id": i, "expected": "a + b", "answer": format!("b + a + {}", i % 3)})
+            )
+        })
+        .collect();
+    for jobs in ["1", "4"] {
+        let out = batch(lines.as_bytes(), &["--jobs", jobs]);
+        assert_eq!(out.len(), 3_000);
+        for (i, line) in out.iter().enumerate() {
+            assert_eq!(line["id"], json!(i));
+            assert_eq!(line["reward"], json!(u8::from(i % 3 == 0)), "{line}");
+        }
+    }
+}
+
+#[test]
+fn declared_symbols_say_where_they_live_and_what_they_measure() {
+    let line = |symbols: Value| json!({"expected": "sqrt(v^2)", "answer": "v", "symbols": symbols});
+    assert_eq!(
+        judged(line(json!({"v": {"domain": "positive"}}))),
+        "equivalent EQUIV_IDENTITY"
+    );
+    assert_eq!(
+        judged(line(json!({"v": {"domain": "nonnegative"}}))),
+        "equivalent EQUIV_IDENTITY"
+    );
+    assert_eq!(
+        judged(line(json!({"v": {"domain": "real"}}))),
+        "different DIFF_BRANCH"
+    );
+    assert_eq!(judged(line(json!({"v": "real"}))), "different DIFF_BRANCH");
+    assert_eq!(
+        judged(line(json!({"v": {"domain": {"min": 0, "max": 2}}}))),
+        "equivalent EQUIV_IDENTITY"
+    );
+    assert_eq!(
+        judged(line(
+            json!({"v": {"domain": {"min": "-pi", "max": "pi/2"}}})
+        )),
+        "different DIFF_BRANCH"
+    );
+    let assumed = one(line(json!({})));
+    assert_eq!(assumed["assumed"], json!(["v > 0"]));
+    let measured = one(json!({"expected": "v t", "answer": "v",
+        "symbols": {"v": {"domain": "real", "dimension": "m/s"}, "t": {"dimension": "s"}}}));
+    assert_eq!(measured["note"], "DIFF_DIMENSION");
+    assert_eq!(measured["diagnosis"][0]["code"], "DIMENSION");
+    for wrong in [
+        json!({"v": {"domain": "imaginary"}}),
+        json!({"v": {"domain": {"min": 2, "max": 1}}}),
+        json!({"v": {"dimension": "quux"}}),
+        json!({"v": {"colour": "red"}}),
+        json!({"a b": {}}),
+        json!({"v": 3}),
+        json!("v"),
+    ] {
+        assert_eq!(
+            judged(line(wrong.clone())),
+            "invalid INVALID_LINE",
+            "{wrong}"
+        );
+    }
+}
+
+#[test]
+fn e_d_i_a_and_m_are_what_the_question_declares() {
+    let symbols =
+        json!({"e": {"domain": {"min": 0, "max": 1}}, "d": {}, "I1": {}, "a": "real", "m": {}});
+    let same = json!({"expected": "e*I1*d*a*m", "answer": "m a d I_1 e", "symbols": symbols});
+    assert_eq!(judged(same), "equivalent EQUIV_IDENTITY");
+    let euler = json!({"expected": "e", "answer": "2.718281828", "symbols": {"e": {}}});
+    assert_eq!(one(euler)["reward"], json!(0));
+    let meters = json!({"expected": "2 m", "answer": "200 cm", "symbols": {"m": {}}});
+    assert_ne!(one(meters)["verdict"], "equivalent");
+}
+
+#[test]
+fn a_tolerance_is_relative_absolute_or_in_digits() {
+    let line = |answer: &str, tolerance: Value| {
+        judged(json!({"expected": "9.81 m/s^2", "answer": answer, "tolerance": tolerance}))
+    };
+    assert_eq!(line("9.7 m/s^2", json!("2%")), "equivalent EQUIV_TOLERANCE");
+    assert_eq!(
+        line("9.7 m/s^2", json!({"relative": 0.02})),
+        "equivalent EQUIV_TOLERANCE"
+    );
+    assert_eq!(
+        line("9.6 m/s^2", json!({"relative": 0.02})),
+        "different DIFF_TOLERANCE"
+    );
+    assert_eq!(
+        line("980 cm/s^2", json!({"absolute": "0.05"})),
+        "equivalent EQUIV_TOLERANCE"
+    );
+    assert_eq!(
+        line("9.7 m/s^2", json!({"absolute": 0.05})),
+        "different DIFF_TOLERANCE"
+    );
+    assert_eq!(
+        line("9.8 m/s^2", json!({"significant": 2})),
+        "equivalent EQUIV_TOLERANCE"
+    );
+    assert_eq!(
+        line("9.8 m/s^2", json!({"significant": 3})),
+        "different DIFF_TOLERANCE"
+    );
+    // The edge of a tolerance belongs to it, exactly.
+    let edge =
+        |answer: &str| judged(json!({"expected": "10", "answer": answer, "tolerance": "1%"}));
+    assert_eq!(edge("10.1"), "equivalent EQUIV_TOLERANCE");
+    assert_eq!(
+        edge("10.1000000000000000000001"),
+        "different DIFF_TOLERANCE"
+    );
+    for wrong in [
+        json!(-1),
+        json!("two"),
+        json!({"significant": 0}),
+        json!({"relative": 1, "absolute": 1}),
+    ] {
+        assert_eq!(
+            line("9.8 m/s^2", wrong.clone()),
+            "invalid INVALID_LINE",
+            "{wrong}"
+        );
+    }
+}
+
+#[test]
+fn a_form_may_be_asked_for() {
+    let line = |answer: &str, form: Value| {
+        judged(json!({"expected": "(a+b)^2", "answer": answer, "form": form}))
+    };
+    assert_eq!(
+        line("(b+a)^2", json!("factored")),
+        "equivalent EQUIV_IDENTITY"
+    );
+    assert_eq!(
+        line("a^2+2 a b+b^2", json!("factored")),
+        "different DIFF_FORM_FACTORED"
+    );
+    assert_eq!(
+        line("a^2+2 a b+b^2", json!(["simplified"])),
+        "different DIFF_FORM_SIMPLIFIED"
+    );
+    assert_eq!(line("(a+b)^2", json!("pretty")), "invalid INVALID_LINE");
+}
+
+#[test]
+fn a_scene_below_the_working_folder_gives_key_and_symbols() {
+    let scene = "derivations/book/falling-stick.json";
+    let right = json!({"scene": scene, "quantity": "omega", "answer": "3 v cosθ/(2ℓ)"});
+    assert_eq!(judged(right), "equivalent EQUIV_IDENTITY");
+    let believed = one(json!({"scene": scene, "quantity": "omega", "answer": "6 v cosθ/ℓ"}));
+    assert_eq!(believed["diagnosis"][0]["code"], "PARALLEL_AXIS_DROPPED");
+    // With a formula of its own the line takes the meaning of symbols from the scene.
+    let own = json!({"scene": scene, "expected": "m v", "answer": "v m"});
+    assert_eq!(judged(own), "equivalent EQUIV_IDENTITY");
+    let strange = json!({"scene": scene, "expected": "m v", "answer": "M v"});
+    assert_eq!(judged(strange), "invalid INVALID_SYNTAX");
+    for (path, quantity) in [
+        (scene, "spin"),
+        ("derivations/none.json", "omega"),
+        ("../main/derivations/book/falling-stick.json", "omega"),
+        ("/etc/passwd", "omega"),
+    ] {
+        let line = json!({"scene": path, "quantity": quantity, "answer": "1"});
+        assert_eq!(judged(line), "invalid INVALID_LINE", "{path}");
+    }
+}
