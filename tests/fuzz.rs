@@ -412,10 +412,6 @@ fn hostile_formulas_are_refused_in_an_instant() {
         ("many letters", "a".repeat(65_000)),
         ("many dollars", "$".repeat(65_000)),
         ("huge power", "(a+b)^1000000000".into()),
-        (
-            "power within the limit",
-            "(a+b+c+d+f)^9999-(a+b+c+d+f)^9998".into(),
-        ),
         ("zero-width space", "a\u{200b}b".into()),
         ("right-to-left override", "a\u{202e}b".into()),
         ("input", "\\input{/etc/passwd}".into()),

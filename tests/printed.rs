@@ -112,3 +112,51 @@ fn a_velocity_before_printed_as_the_one_after_is_recognized() {
     let explained = found[0].explained.as_deref().unwrap_or_default();
     assert!(explained.contains("before the collision"), "{explained}");
 }
+
+#[test]
+fn answers_in_a_file_beside_the_scene_are_held_against_it() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/printed");
+    let text = |name: &str| fs::read_to_string(folder.join(name)).expect("a file");
+    let mut wrong = Vec::new();
+    let mut known: Vec<(String, Vec<Finding>)> = Vec::new();
+    let table = text("expected.tsv");
+    for line in table.lines().filter(|l| !l.starts_with('#')) {
+        let cells: Vec<&str> = line.split('\t').collect();
+        let [name, place, holds, explained] = cells.as_slice() else {
+            panic!("four cells: {line}")
+        };
+        if !known.iter().any(|(n, _)| n == name) {
+            let scene = scene::read(&text(&format!("{name}.json"))).expect("a sound scene");
+            let mut sheet = sheet::sheet(scene).expect("a derivation");
+            let answers = text(&format!("{name}.answers.json"));
+            sheet.scene.printed = scene::read_printed(&answers).expect("a sound list");
+            let mut found = printed::check(&sheet.scene, &sheet.derivation);
+            sheet.explain(&mut found);
+            known.push((name.to_string(), found));
+        }
+        let all = known.iter().find(|(n, _)| n == name);
+        let finding = all.and_then(|(_, f)| f.iter().find(|f| f.place == *place));
+        let finding = finding.unwrap_or_else(|| panic!("{name} prints no {place}"));
+        let told = format!(
+            "{} {} {}",
+            finding.because,
+            finding.explained.as_deref().unwrap_or_default(),
+            finding.caught_by.as_deref().unwrap_or_default()
+        );
+        if finding.holds != Some(*holds == "yes") || !told.contains(explained) {
+            wrong.push(format!("{name} [{place}]: {:?}, {told}", finding.holds));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    let rows: usize = known.iter().map(|(_, f)| f.len()).sum();
+    assert_eq!(rows, table.lines().count() - 1, "every entry has a row");
+}
+
+#[test]
+fn a_list_of_answers_that_is_none_is_refused_with_its_place() {
+    let faults = scene::read_printed("[\n  {\"where\": \"p. 1\", \"item\": \"omega\"}\n]")
+        .expect_err("a fault");
+    assert!(faults.list[0].message.contains("not complete"));
+    assert!(scene::read_printed("{}").is_err());
+    assert!(scene::read_printed("[").is_err());
+}

@@ -80,6 +80,9 @@ pub struct VerifyArgs {
     /// Scene files with `printed` entries
     #[arg(required = true)]
     scenes: Vec<PathBuf>,
+    /// A file with a list of printed things, in the form they have in a scene, held against the one scene named
+    #[arg(long, value_name = "FILE")]
+    answers: Option<PathBuf>,
     /// Show only what does not hold
     #[arg(long)]
     wrong: bool,
@@ -454,13 +457,29 @@ impl Sheets {
     }
 }
 
+/// The list of printed things in a file beside the scene.
+fn printed_list(path: &Path) -> Result<Vec<carom::scene::Printed>, Failure> {
+    let name = path.display().to_string();
+    let text = std::fs::read_to_string(path)
+        .map_err(|e| Failure::Input(format!("{name}: cannot be read: {e}")))?;
+    carom::scene::read_printed(&text).map_err(|faults| Failure::Input(faults.render(&name, &text)))
+}
+
 /// Runs `carom verify`: 0 when everything printed holds, 1 when something does not, 3 when something is not decided.
 pub fn verify(args: &VerifyArgs) -> Result<u8, Failure> {
     let mut worst = 0;
     let mut all = Vec::new();
+    if args.answers.is_some() && args.scenes.len() > 1 {
+        let message = "--answers belongs to one scene, and several are named";
+        return Err(Failure::Input(message.into()));
+    }
     for path in &args.scenes {
-        let sheet = open(path)?;
+        let mut sheet = open(path)?;
+        if let Some(answers) = &args.answers {
+            sheet.scene.printed = printed_list(answers)?;
+        }
         let mut findings = carom::verify::printed::check(&sheet.scene, &sheet.derivation);
+        sheet.explain(&mut findings);
         for finding in &findings {
             worst = match (finding.holds, worst) {
                 (Some(false), _) => 1,

@@ -13,6 +13,9 @@ use super::written::Literal;
 use crate::dimension::Unit;
 use crate::expr::{Function, Rational, Symbol, ratio};
 
+/// Most tokens of one formula.
+const MAX_TOKENS: u32 = 20_000;
+
 /// A token.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Tok {
@@ -84,6 +87,8 @@ pub(crate) struct Lexer<'a> {
     after_value: bool,
     /// Where the current run of letters starts, functions and Greek names apart.
     pub(super) run_from: usize,
+    /// Tokens so far.
+    count: u32,
     /// Whether a comma between digits separates components here.
     pub list: bool,
     /// How the components of a column or row are separated.
@@ -121,6 +126,7 @@ impl<'a> Lexer<'a> {
             before: Before::Nothing,
             after_value: false,
             run_from: 0,
+            count: 0,
             list: false,
             matrix: Matrix::Outside,
         }
@@ -149,6 +155,11 @@ impl<'a> Lexer<'a> {
         let spaced = self.skip_blanks()?;
         let single = std::mem::take(&mut self.single);
         let start = self.pos;
+        self.count += 1;
+        if self.count > MAX_TOKENS {
+            let message = format!("a formula has at most {MAX_TOKENS} pieces");
+            return Err(Fault::new(message, start, start));
+        }
         let tok = self.token(single)?;
         self.before = match &tok {
             Tok::Number(literal) => Before::Number {

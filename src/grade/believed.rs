@@ -17,6 +17,8 @@ const POINTS: u64 = 4;
 const PAIRS: usize = 6_000;
 /// Beliefs and quantities named at most.
 const NAMED: usize = 4;
+/// Pairs of beliefs named at most.
+const PAIRS_NAMED: usize = 3;
 
 /// What the student wrote: one expression, or two components.
 pub struct Written<'a> {
@@ -44,20 +46,30 @@ pub fn beliefs(written: &Written) -> Vec<Diagnosis> {
     let Some(trials) = trials(written) else {
         return Vec::new();
     };
+    // What is right, and wrong only in its unit or form, comes from no belief.
+    let truth = Slip {
+        scene: written.scene.clone(),
+        changes: Vec::new(),
+        place: String::new(),
+    };
+    if trials.fits(written, &truth) {
+        return Vec::new();
+    }
     let mut found: Vec<Diagnosis> = Vec::new();
     let mut slips: Vec<(&Belief, Slip)> = Vec::new();
     for belief in BELIEFS {
         let mut named = false;
         for slip in (belief.slips)(written.scene) {
             if !named && trials.fits(written, &slip) {
-                found.push(words(belief, &slip));
+                found.push(words(belief, &slip, written.rounding.is_some()));
                 named = true;
             }
             slips.push((belief, slip));
         }
-        if found.len() == NAMED {
-            break;
-        }
+    }
+    // What follows from very many beliefs tells none of them.
+    if found.len() > NAMED {
+        return Vec::new();
     }
     if found.is_empty() {
         found = opposite(written, &trials, &slips);
@@ -79,7 +91,7 @@ fn opposite(written: &Written, trials: &Trials, slips: &[(&Belief, Slip)]) -> Ve
     let mirrored = trials.times(-1.0);
     let hit = slips.iter().find(|(_, slip)| mirrored.fits(&turned, slip));
     hit.map(|(belief, slip)| {
-        let mut d = words(belief, slip);
+        let mut d = words(belief, slip, written.rounding.is_some());
         d.message.push_str(", with the opposite sign");
         d.hint = format!("{} Check the sign too.", d.hint);
         vec![d]
@@ -87,7 +99,7 @@ fn opposite(written: &Written, trials: &Trials, slips: &[(&Belief, Slip)]) -> Ve
     .unwrap_or_default()
 }
 
-fn words(belief: &Belief, slip: &Slip) -> Diagnosis {
+fn words(belief: &Belief, slip: &Slip, rounded: bool) -> Diagnosis {
     let place = if slip.place.is_empty() {
         String::new()
     } else {
@@ -95,14 +107,20 @@ fn words(belief: &Belief, slip: &Slip) -> Diagnosis {
     };
     Diagnosis::new(
         belief.code,
-        format!("exactly what comes out when {}{place}", belief.belief),
+        match rounded {
+            true => format!("what comes out, rounded, when {}{place}", belief.belief),
+            false => format!("exactly what comes out when {}{place}", belief.belief),
+        },
         belief.hint,
     )
 }
 
-/// Two beliefs at a time: the second is applied to the scene of the first.
+/// Two beliefs at a time: the second is applied to the scene of the first. Several pairs that explain the answer equally
+/// well are all named, unless they are too many to mean anything.
 fn pairs(written: &Written, trials: &Trials, slips: &[(&Belief, Slip)]) -> Vec<Diagnosis> {
     let mut tried = 0;
+    let mut found: Vec<Diagnosis> = Vec::new();
+    let mut named: Vec<[&str; 2]> = Vec::new();
     for (i, (first, slip)) in slips.iter().enumerate() {
         // A change of the equations is combined as it is; one of the scene carries the second along.
         for second in BELIEFS.iter().filter(|b| b.code > first.code) {
@@ -112,22 +130,27 @@ fn pairs(written: &Written, trials: &Trials, slips: &[(&Belief, Slip)]) -> Vec<D
             for other in (second.slips)(&slip.scene) {
                 tried += 1;
                 if tried > PAIRS {
-                    return Vec::new();
+                    return found;
                 }
-                if trials.fits(written, &other) {
-                    let mut d = words(first, &slips[i].1);
+                let pair = [first.code, second.code];
+                if !named.contains(&pair) && trials.fits(written, &other) {
+                    named.push(pair);
+                    if found.len() == PAIRS_NAMED {
+                        return Vec::new();
+                    }
+                    let mut d = words(first, &slips[i].1, false);
                     d.code = "TWO_BELIEFS";
                     d.message = format!(
                         "{} and, with it, {} ({})",
                         d.message, second.belief, other.place
                     );
                     d.hint = format!("two things to look at: {} And: {}", first.hint, second.hint);
-                    return vec![d];
+                    found.push(d);
                 }
             }
         }
     }
-    Vec::new()
+    found
 }
 
 fn trials(written: &Written) -> Option<Trials> {

@@ -8,7 +8,8 @@ use super::{
 use crate::derive::{self, Answer, Derivation, Form};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Quantity, Reading, Relation};
-use crate::scene::{Ask, Scene};
+use crate::scene::{Ask, Print, Scene};
+use crate::verify::printed::Finding;
 
 /// A scene with its answers.
 #[derive(Clone, Debug)]
@@ -222,6 +223,37 @@ impl Sheet {
         found.append(&mut grade.diagnosis);
         grade.diagnosis = found;
         grade
+    }
+
+    /// Adds to findings about printed formulas and numbers the belief that produces exactly what is printed.
+    pub fn explain(&self, findings: &mut [Finding]) {
+        for (printed, finding) in self.scene.printed.iter().zip(findings) {
+            let (name, text) = match &printed.what {
+                Print::Formula { item, text } => (item, text),
+                Print::Number { of, text, .. } => (of, text),
+                _ => continue,
+            };
+            let as_it_stands =
+                printed.at.is_empty() && printed.short.is_empty() && printed.small.is_empty();
+            let slip = "comes out when";
+            let open = finding
+                .explained
+                .as_ref()
+                .is_none_or(|e| e.starts_with(slip));
+            if finding.holds != Some(false) || !as_it_stands || !open {
+                continue;
+            }
+            let Ok(entry) = self.entry(name) else {
+                continue;
+            };
+            let grade = self.judge(&entry, text, &Options::default());
+            if let ("DIFF_BELIEF", Some(first)) = (grade.note, grade.diagnosis.first()) {
+                finding.explained = Some(match &finding.explained {
+                    Some(known) => format!("{known}; or {}", first.message),
+                    None => first.message.clone(),
+                });
+            }
+        }
     }
 
     /// An answer in numbers, where the scene gives values: right when it is the exact value rounded to its own digits, three

@@ -62,6 +62,27 @@ pub fn read(text: &str) -> Result<Scene, Faults> {
     Err(faults)
 }
 
+/// Reads a list of printed things from a file of its own, in the form they have in a scene.
+pub fn read_printed(text: &str) -> Result<Vec<Printed>, Faults> {
+    if text.len() > LONGEST {
+        let message = format!("{} bytes; a list has at most {LONGEST}", text.len());
+        let fault = Fault::new(Span::default(), message);
+        return Err(Faults::gather(vec![fault], text));
+    }
+    let root = json::parse(text).map_err(|fault| Faults::gather(vec![fault], text))?;
+    let mut faults = Vec::new();
+    let list: Option<Vec<file::PrintedFile>> = record::Read::read(&root, &mut faults);
+    let printed = printed::entries(list.as_deref().unwrap_or_default(), &mut faults);
+    if faults.is_empty() {
+        return Ok(printed);
+    }
+    let mut faults = Faults::gather(faults, text);
+    for fault in &mut faults.list {
+        fault.pointer = root.pointer_to(fault.span);
+    }
+    Err(faults)
+}
+
 /// The JSON Schema of scene files, for editors.
 pub fn schema() -> String {
     let schema = schemars::schema_for!(file::SceneFile);

@@ -78,7 +78,11 @@ const PRINTED: usize = 500;
 
 /// Reads the list; entries that say nothing, or two things, are reported.
 pub(super) fn resolve(file: &SceneFile, faults: &mut Vec<Fault>) -> Vec<Printed> {
-    let all = file.printed.as_deref().unwrap_or_default();
+    entries(file.printed.as_deref().unwrap_or_default(), faults)
+}
+
+/// The same for a list that stands in a file of its own.
+pub(super) fn entries(all: &[PrintedFile], faults: &mut Vec<Fault>) -> Vec<Printed> {
     if let Some(first) = all.get(PRINTED) {
         faults.push(Fault::new(
             first.span,

@@ -6,7 +6,7 @@
 
 use num_traits::Zero;
 
-use crate::expr::{Expr, Point, Rational};
+use crate::expr::{Expr, Function, Node, Point, Rational};
 use crate::numeric::{self, Given, Law, System, Unknown};
 use crate::scene::{Ask, ImpulseAt, Scene};
 
@@ -15,10 +15,19 @@ use crate::scene::{Ask, ImpulseAt, Scene};
 pub enum Row {
     /// It is a law.
     Law,
-    /// The solution fulfils it, and it is no law; a column and the entry that would make it one.
-    Masked(Option<(usize, Expr)>),
-    /// The solution does not fulfil it; a column and the entry that would make it a law.
-    Wrong(Option<(usize, Expr)>),
+    /// The solution fulfils it, and it is no law; with the change of one place that would make it one.
+    Masked(Option<Mend>),
+    /// The solution does not fulfil it; with the change of one place that would make it a law.
+    Wrong(Option<Mend>),
+}
+
+/// A change of one place in a row.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Mend {
+    /// The column; none for the right side.
+    pub column: Option<usize>,
+    /// What should stand there.
+    pub value: Expr,
 }
 
 /// Exact points at which rows are tried.
@@ -66,22 +75,7 @@ pub fn judge(
             if law(row) {
                 return Row::Law;
             }
-            let mend = (0..row.0.len())
-                .filter(|i| !row.0[*i].is_zero())
-                .find_map(|i| {
-                    [
-                        -&row.0[i],
-                        Expr::zero(),
-                        &row.0[i] * &Expr::from(2),
-                        &row.0[i] * &Expr::ratio(1, 2),
-                    ]
-                    .into_iter()
-                    .find_map(|other| {
-                        let mut changed = row.clone();
-                        changed.0[i] = other.clone();
-                        law(&changed).then_some((i, other))
-                    })
-                });
+            let mend = mend(row, rows, &law);
             if places.iter().all(|p| fulfilled(p, row)) {
                 Row::Masked(mend)
             } else {
@@ -89,6 +83,69 @@ pub fn judge(
             }
         })
         .collect())
+}
+
+/// The change of one place that makes a row a law: its sign, a factor of two, sine for cosine, nothing, or what stands
+/// elsewhere in the matrix.
+fn mend(
+    row: &(Vec<Expr>, Expr),
+    rows: &[(Vec<Expr>, Expr)],
+    law: &dyn Fn(&(Vec<Expr>, Expr)) -> bool,
+) -> Option<Mend> {
+    let mut elsewhere: Vec<&Expr> = Vec::new();
+    for e in rows
+        .iter()
+        .flat_map(|(row, right)| row.iter().chain([right]))
+    {
+        if !e.is_zero() && !elsewhere.contains(&e) {
+            elsewhere.push(e);
+        }
+    }
+    let places = (0..row.0.len()).map(Some).chain([None]);
+    let tries: Vec<(Option<usize>, &Expr)> = places
+        .map(|column| (column, column.map_or(&row.1, |i| &row.0[i])))
+        .collect();
+    let changed = |column: Option<usize>, value: Expr| {
+        let mut new = row.clone();
+        match column {
+            Some(i) => new.0[i] = value.clone(),
+            None => new.1 = value.clone(),
+        }
+        law(&new).then_some(Mend { column, value })
+    };
+    let near = |e: &Expr| {
+        let two = Expr::from(2);
+        [
+            -e,
+            Expr::zero(),
+            e * &two,
+            e * &Expr::ratio(1, 2),
+            exchanged(e),
+        ]
+    };
+    let simple = tries
+        .iter()
+        .filter(|(_, e)| !e.is_zero())
+        .find_map(|(column, e)| {
+            near(e)
+                .into_iter()
+                .find_map(|value| changed(*column, value))
+        });
+    simple.or_else(|| {
+        tries.iter().find_map(|(column, _)| {
+            let mut others = elsewhere.iter().flat_map(|e| [(*e).clone(), -*e]);
+            others.find_map(|value| changed(*column, value))
+        })
+    })
+}
+
+/// Sines and cosines exchanged.
+fn exchanged(e: &Expr) -> Expr {
+    match e.node() {
+        Node::Call(Function::Sin, x) => x.cos(),
+        Node::Call(Function::Cos, x) => x.sin(),
+        _ => e.map_parts(exchanged),
+    }
 }
 
 /// A printed row over the unknowns, right side last.

@@ -4,30 +4,53 @@
 
 use crate::expr::{Expr, Function, Node, Point, Symbol, ratio};
 
-/// Words for the first slip that takes the formula's value to within `room` of `wanted`.
+/// What a changed formula has to give: a value at a point, and how far it may be off.
+pub struct Target {
+    /// The point.
+    pub at: Point<f64>,
+    /// The value.
+    pub wanted: f64,
+    /// How far off it may be.
+    pub room: f64,
+}
+
+/// Explanations told at most; when there are more, none is worth much.
+const TOLD: usize = 3;
+
+/// Words for the slips that take the formula's value to every target; `only` says which names may be exchanged.
 pub fn explains(
     e: &Expr,
-    values: &Point<f64>,
-    wanted: f64,
-    room: f64,
+    targets: &[Target],
     kin: &dyn Fn(&Symbol, &Symbol) -> bool,
     say: &dyn Fn(&Expr) -> String,
 ) -> Option<String> {
-    let names: Vec<Symbol> = values.values.keys().cloned().collect();
-    let mut found = None;
+    let names: Vec<Symbol> = targets.first()?.at.values.keys().cloned().collect();
+    let mut found: Vec<String> = Vec::new();
     sites(e, &|whole| whole, &mut |part, put_back| {
-        if found.is_some() {
-            return;
-        }
         for (changed, words) in changes(part, &names, kin, say) {
-            let value = put_back(changed).evaluate(values);
-            if value.is_some_and(|v| (v - wanted).abs() <= room) {
-                found = Some(format!("comes out when {words}"));
-                return;
+            let whole = put_back(changed);
+            let fits = |t: &Target| {
+                let value = whole.evaluate(&t.at);
+                value.is_some_and(|v| (v - t.wanted).abs() <= t.room)
+            };
+            if targets.iter().all(fits) && !found.contains(&words) {
+                found.push(words);
             }
         }
     });
-    found
+    // At several points a slip is known by the formula it makes: whatever else was found makes the same one.
+    if targets.len() > 1 {
+        found.truncate(1);
+    }
+    match found.len() {
+        0 => None,
+        n if n <= TOLD => Some(format!("comes out when {}", found.join("; or when "))),
+        n => Some(format!(
+            "comes out when {}; or by one of {} other slips, too many to tell which",
+            found[0],
+            n - 1
+        )),
+    }
 }
 
 /// Takes a part of an expression, and a function that puts another part in its place.
@@ -85,7 +108,7 @@ fn changes(
                 out.push((Expr::symbol(other), format!("{other} stands for {name}")));
             }
             for (k, words) in [(Expr::from(2), "twice"), (Expr::ratio(1, 2), "half")] {
-                out.push((e * &k, format!("{words} {} stands for it", say(e))));
+                out.push((e * &k, format!("{words} {} stands for {}", say(e), say(e))));
             }
         }
         Node::Sum(terms) => {

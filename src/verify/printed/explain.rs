@@ -1,0 +1,329 @@
+//! What explains a printed formula, equation or number that does not hold, and the cheap check that would have caught it.
+
+use std::collections::BTreeMap;
+
+use num_traits::Signed;
+
+use super::number::{last_place, number_of};
+use super::{Desk, Finding};
+use crate::algebra::Field;
+use crate::dimension;
+use crate::equality::{self, Equality};
+use crate::expr::{Expr, Point, Rational, Symbol, ratio};
+use crate::formula::Content;
+use crate::numeric;
+use crate::scene::{Print, Printed};
+use crate::verify::rounding::ten_to;
+use crate::verify::slip::{self, Target};
+
+impl Desk<'_> {
+    /// A velocity or spin before the collision, printed as the one after.
+    pub(super) fn before(&self, item: &str, pairs: &[(Expr, Expr)]) -> Option<String> {
+        use crate::scene::Ask;
+        let question = self.scene.questions.iter().find(|q| q.name == item)?;
+        let before = match &question.ask {
+            Ask::Velocity {
+                body,
+                point: None,
+                along: None,
+            } => self.scene.bodies[*body].velocity.to_vec(),
+            Ask::Spin { body, .. } => vec![self.scene.bodies[*body].spin.clone()],
+            _ => return None,
+        };
+        let same = |(b, (_, value)): (&Expr, &(Expr, Expr))| {
+            matches!(
+                equality::decide(b, value, &self.scene.domains).equality,
+                Equality::Same { .. }
+            )
+        };
+        before
+            .iter()
+            .zip(pairs)
+            .all(same)
+            .then(|| "it is the value before the collision: the superscript is wrong".to_string())
+    }
+
+    /// Sides that agree when two parameters of one kind are exchanged in one of them.
+    pub(super) fn exchanged(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
+        let parameters = &self.scene.parameters;
+        for (i, p) in parameters.iter().enumerate() {
+            for q in parameters[i + 1..]
+                .iter()
+                .filter(|q| q.dimension == p.dimension)
+            {
+                let swap = BTreeMap::from([
+                    (p.name.clone(), Expr::symbol(&q.name)),
+                    (q.name.clone(), Expr::symbol(&p.name)),
+                ]);
+                let same = |(a, b): &(Expr, Expr)| {
+                    matches!(
+                        equality::decide(a, &b.substitute(&swap), &self.scene.domains).equality,
+                        Equality::Same { .. }
+                    )
+                };
+                if pairs.iter().all(same) {
+                    return Some(format!(
+                        "it holds with {} and {} exchanged on one side",
+                        p.name, q.name
+                    ));
+                }
+            }
+        }
+        None
+    }
+
+    /// An equation that would hold with the sign of one side turned.
+    pub(super) fn turned(&self, sides: &[Content], printed: &Printed) -> Option<String> {
+        let [left, right] = sides else { return None };
+        let (l, r) = (
+            self.put_in(left.expr()?, printed).ok()?,
+            self.put_in(right.expr()?, printed).ok()?,
+        );
+        let same = matches!(
+            equality::decide(&l, &-&r, &self.scene.domains).equality,
+            Equality::Same { .. }
+        );
+        same.then(|| "it holds with the sign of one side turned".to_string())
+    }
+
+    /// Sides, or a value and the printed one, that agree up to one number.
+    pub(super) fn factor(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
+        let mut found: Option<Rational> = None;
+        for (closed, value) in pairs.iter().filter(|(a, b)| !(a.is_zero() && b.is_zero())) {
+            let mut field = Field::new(&self.scene.domains);
+            field.prepare([closed, value]);
+            let (a, b) = (field.element(closed).ok()?, field.element(value).ok()?);
+            let k = field.expr(&field.div(&b, &a).ok()?).as_number()?.clone();
+            if found.as_ref().is_some_and(|known| *known != k) {
+                return None;
+            }
+            found = Some(k);
+        }
+        let k = found.filter(|k| *k != ratio(0, 1))?;
+        Some(match k == ratio(-1, 1) {
+            true => "right up to the sign".into(),
+            false => format!("right up to the factor {k}"),
+        })
+    }
+
+    /// Whether a slip may put one name for another: both given or both found, and of one dimension.
+    fn kin(&self, a: &Symbol, b: &Symbol) -> bool {
+        let found = |name: &Symbol| self.closed.contains_key(name);
+        self.dimensions.get(a) == self.dimensions.get(b) && found(a) == found(b)
+    }
+
+    /// Exact points of the domain in doubles, with the values of everything that has a closed form.
+    fn points(&self, e: &[&Expr]) -> Vec<Point<f64>> {
+        let mut needed = numeric::needed(self.scene);
+        e.iter().for_each(|e| needed.add(e));
+        self.closed.values().for_each(|e| needed.add(e));
+        let point = |seed| {
+            let random = numeric::random_point(&needed, &self.scene.domains, seed);
+            let mut point: Point<f64> = numeric::rounded(&random);
+            let known: Vec<(Symbol, f64)> = self
+                .closed
+                .iter()
+                .filter_map(|(name, value)| Some((name.clone(), value.evaluate(&point)?)))
+                .collect();
+            point.values.extend(known);
+            point
+        };
+        (31..34).map(point).collect()
+    }
+
+    /// The slips of the pen that turn a formula into what gives the wanted values.
+    fn slip_of(&self, formula: &Expr, wanted: &Expr) -> Option<String> {
+        let targets: Option<Vec<Target>> = self
+            .points(&[formula, wanted])
+            .into_iter()
+            .map(|at| {
+                let value = wanted.evaluate(&at).filter(|v| v.is_finite())?;
+                let room = 1e-9 * value.abs().max(1e-12);
+                Some(Target {
+                    at,
+                    wanted: value,
+                    room,
+                })
+            })
+            .collect();
+        let kin = |a: &Symbol, b: &Symbol| self.kin(a, b);
+        slip::explains(formula, &targets?, &kin, &|e| self.say(e))
+    }
+
+    /// One slip that makes the printed formula out of the derived one.
+    pub(super) fn slip(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
+        let same = |(a, b): &&(Expr, Expr)| {
+            let found = equality::decide(a, b, &self.scene.domains).equality;
+            !matches!(found, Equality::Same { .. })
+        };
+        let wrong: Vec<&(Expr, Expr)> = pairs.iter().filter(same).collect();
+        match wrong.as_slice() {
+            [(closed, value)] => self.slip_of(closed, value),
+            _ => None,
+        }
+    }
+
+    /// One change of a printed side after which the equation holds.
+    pub(super) fn slip_in_equation(&self, sides: &[Content], printed: &Printed) -> Option<String> {
+        let [left, right] = sides else { return None };
+        if !printed.at.is_empty() || !printed.small.is_empty() || !printed.short.is_empty() {
+            return None;
+        }
+        let (left, right) = (left.expr()?, right.expr()?);
+        let found = self
+            .slip_of(right, left)
+            .or_else(|| self.slip_of(left, right))?;
+        Some(found.replacen("comes out when", "it would hold if", 1))
+    }
+
+    /// The cheapest check that shows a pair to be wrong.
+    pub(super) fn caught(&self, pairs: &[(Expr, Expr)], finding: &mut Finding) {
+        let known = |name: &str| self.dimensions.get(name).cloned();
+        for (closed, value) in pairs {
+            if matches!(
+                equality::decide(closed, value, &self.scene.domains).equality,
+                Equality::Same { .. }
+            ) {
+                continue;
+            }
+            let dimensions = [closed, value].map(|e| dimension::of(e, &known).ok().flatten());
+            if let [Some(a), Some(b)] = &dimensions
+                && a != b
+            {
+                finding.caught_by = Some(format!("dimensions: {b} instead of {a}"));
+                return;
+            }
+            let minus = -value;
+            if matches!(
+                equality::decide(closed, &minus, &self.scene.domains).equality,
+                Equality::Same { .. }
+            ) {
+                finding.caught_by =
+                    Some("signs: a sketch of the motion, since only the sign is wrong".into());
+                return;
+            }
+            // Limits: each parameter at 0, where both sides have a value.
+            for p in &self.scene.parameters {
+                let at_zero = BTreeMap::from([(p.name.clone(), Expr::zero())]);
+                let (a, b) = (closed.substitute(&at_zero), value.substitute(&at_zero));
+                let shorter =
+                    a.symbols().len() + 1 < closed.symbols().len() || a.size() < closed.size() / 2;
+                if shorter
+                    && let Equality::Different(_) =
+                        equality::decide(&a, &b, &self.scene.domains).equality
+                {
+                    finding.caught_by = Some(format!("limit: let {} go to 0", p.name));
+                    return;
+                }
+            }
+        }
+        finding.caught_by =
+            Some("putting simple numbers in, or the result back into the laws".into());
+    }
+
+    /// A single slip in evaluating a formula for the same quantity that gives the printed number.
+    pub(super) fn slips(&self, of: &Expr, wanted: f64, room: f64) -> Option<String> {
+        let name = of.as_symbol()?;
+        // The book's own formula first, as it stands; then carom's.
+        let mut formulas: Vec<Expr> = Vec::new();
+        let mut places: Vec<&str> = Vec::new();
+        for p in &self.scene.printed {
+            let Print::Formula { item, text } = &p.what else {
+                continue;
+            };
+            let Ok(reading) = self.read(text, p) else {
+                continue;
+            };
+            let component = match reading.content.answer() {
+                Content::Vector(v) if **name == *format!("{item}_x") => Some(v[0].clone()),
+                Content::Vector(v) if **name == *format!("{item}_y") => Some(v[1].clone()),
+                other if **name == **item => other.expr().cloned(),
+                _ => None,
+            };
+            places.extend(component.as_ref().map(|_| p.place.as_str()));
+            formulas.extend(component);
+        }
+        formulas.extend(self.closed.get(name).cloned());
+        let mut values = Point::<f64>::default();
+        for p in &self.scene.parameters {
+            values.values.insert(
+                p.name.clone(),
+                p.value.as_ref()?.evaluate(&Point::default())?,
+            );
+        }
+        let kin = |a: &Symbol, b: &Symbol| self.kin(a, b);
+        let printed = formulas.iter().zip(&places).find(|(e, _)| {
+            let value = e.evaluate(&values);
+            value.is_some_and(|v| (v - wanted).abs() <= room)
+        });
+        if let Some((_, place)) = printed {
+            let words = format!("follows from the formula printed at [{place}]");
+            return Some(format!("{words}; no misprint of its own"));
+        }
+        let target = Target {
+            at: values,
+            wanted,
+            room,
+        };
+        let targets = [target];
+        formulas
+            .iter()
+            .find_map(|e| slip::explains(e, &targets, &kin, &|e| self.say(e)))
+    }
+
+    /// Wrong numbers that follow from wrong numbers before them.
+    pub(super) fn consequences(&self, findings: &mut [Finding]) {
+        let printed = &self.scene.printed;
+        for i in 0..findings.len() {
+            let Print::Number {
+                text,
+                from: Some(from),
+                ..
+            } = &printed[i].what
+            else {
+                continue;
+            };
+            if findings[i].holds != Some(false) {
+                continue;
+            }
+            let Ok(reading) = self.read(from, &printed[i]) else {
+                continue;
+            };
+            let Some(formula) = reading.expr() else {
+                continue;
+            };
+            for j in 0..i {
+                let Print::Number {
+                    text: earlier, of, ..
+                } = &printed[j].what
+                else {
+                    continue;
+                };
+                if findings[j].holds != Some(false)
+                    || !formula.symbols().iter().any(|s| **s == **of)
+                {
+                    continue;
+                }
+                let Some(wrong) = number_of(earlier) else {
+                    continue;
+                };
+                let with = formula.substitute(&BTreeMap::from([(
+                    Symbol::from(of.as_str()),
+                    Expr::from(wrong),
+                )]));
+                let Ok([low, _]) = self.put_in(&with, &printed[i]).and_then(|e| self.value(&e))
+                else {
+                    continue;
+                };
+                let Some(mine) = number_of(text) else {
+                    continue;
+                };
+                if (mine - low).abs() <= ten_to(last_place(text)) * ratio(1, 2) {
+                    findings[i].explained = Some(format!(
+                        "follows from the earlier {earlier} for {of}; no misprint of its own"
+                    ));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! Printed numbers: the exact value, rounded to the digits that are printed, in the unit that is printed.
+
+use std::collections::BTreeMap;
+
+use num_traits::Signed;
+
+use super::{Desk, Finding};
+use crate::dimension;
+use crate::expr::number::to_f64;
+use crate::expr::{Expr, Point, Rational, Symbol, ratio};
+use crate::formula::{self, Content, Symbols, write_plain};
+use crate::scene::Printed;
+use crate::verify::rounding::{bounds, fraction, magnitude_or_zero, ten_to};
+
+impl Desk<'_> {
+    pub(super) fn number(
+        &self,
+        printed: &Printed,
+        text: &str,
+        of: &str,
+        finding: &mut Finding,
+    ) -> Result<(), String> {
+        let reading = formula::read(text, &Symbols::strict()).map_err(|f| f.to_string())?;
+        let target = self.read(of, printed)?;
+        let of_expr = target
+            .expr()
+            .ok_or_else(|| format!("{of} is no single expression"))?;
+        let (value, unit) = match &reading.content {
+            Content::Quantity(q) => {
+                let known = |name: &str| self.dimensions.get(name).cloned();
+                if let Ok(Some(is)) = dimension::of(of_expr, &known)
+                    && is != q.unit.dimension
+                {
+                    finding.holds = Some(false);
+                    finding.carom = is.si();
+                    finding.because = format!(
+                        "{} measures {}, and {of} is {is}",
+                        q.unit_text, q.unit.dimension
+                    );
+                    finding.caught_by = Some("dimensions".into());
+                    return Ok(());
+                }
+                (q.written.clone(), q.unit.value())
+            }
+            other => (
+                other
+                    .expr()
+                    .cloned()
+                    .ok_or("the printed number is no number")?,
+                Expr::one(),
+            ),
+        };
+        // In the printed unit, which may hold π: 286 deg/s.
+        let [low, high] = self.value(&(self.put_in(of_expr, printed)? * unit.powi(-1)))?;
+        let written = fraction(&value).ok_or("the printed number is no fraction")?;
+        let place = reading
+            .literal
+            .as_ref()
+            .map_or_else(|| last_place(text), |l| l.place);
+        let half = ten_to(place) * ratio(1, 2);
+        let off = (&written - &low).abs().max((&written - &high).abs());
+        let digits = (magnitude_or_zero(&low) - place + 2).max(3) as u32;
+        finding.carom = crate::interval::enclosure::decimal(&low, digits);
+        if off <= half {
+            finding.holds = Some(true);
+            finding.because = "the exact value, rounded to the printed digits".into();
+            return Ok(());
+        }
+        finding.holds = Some(false);
+        finding.because = format!(
+            "the exact value is {}, not within half a unit of the last printed digit",
+            finding.carom
+        );
+        finding.caught_by = Some("putting the numbers into the printed formula".into());
+        let power = (-6..=6).filter(|k| *k != 0).find(|k| {
+            let off = (&written / ten_to(*k) - &low).abs();
+            off <= &half / ten_to(*k)
+        });
+        finding.explained = if off < ten_to(place) {
+            Some("the last digit was cut off or rounded the wrong way".into())
+        } else if (&written + &low).abs() <= half {
+            Some("the sign is wrong".into())
+        } else if let Some(k) = power {
+            let size = to_f64(&ten_to(k.abs()));
+            Some(match k > 0 {
+                true => format!("it is {size} times too large: a power of ten, or the unit"),
+                false => format!("it is {size} times too small: a power of ten, or the unit"),
+            })
+        } else {
+            let unit = unit.evaluate(&Point::<f64>::default());
+            let unit = unit.ok_or("the unit has no size")?;
+            let [wanted, room] = [&written, &half].map(|v| to_f64(v) * unit);
+            self.slips(of_expr, wanted, room * 1.000_001)
+        };
+        Ok(())
+    }
+
+    /// Bounds of an expression at the scene's values.
+    pub(super) fn value(&self, e: &Expr) -> Result<[Rational; 2], String> {
+        let values: BTreeMap<Symbol, Expr> = self
+            .scene
+            .parameters
+            .iter()
+            .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
+            .collect();
+        let put_in = e.substitute(&values);
+        if let Some(name) = put_in.symbols().into_iter().next() {
+            return Err(format!("the scene gives {name} no value"));
+        }
+        bounds(&put_in).ok_or_else(|| format!("{} has no value", write_plain(e)))
+    }
+}
+
+/// The number at the head of a text such as `-2.08 m/s`, in the unit written.
+pub(super) fn number_of(text: &str) -> Option<Rational> {
+    let reading = formula::read(text, &Symbols::strict()).ok()?;
+    match &reading.content {
+        Content::Quantity(q) => crate::verify::rounding::fraction(&q.value),
+        other => crate::verify::rounding::fraction(other.expr()?),
+    }
+}
+
+/// The power of ten of the last digit of the number at the head of a text.
+pub(super) fn last_place(text: &str) -> i32 {
+    let digits: String = text
+        .trim_start_matches(['-', '+', '−', ' '])
+        .chars()
+        .take_while(|c| c.is_ascii_digit() || *c == '.')
+        .collect();
+    let after = digits.split_once('.').map_or(0, |(_, d)| d.len());
+    -(after as i32)
+}
