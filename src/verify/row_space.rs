@@ -30,6 +30,9 @@ pub struct Mend {
     pub value: Expr,
 }
 
+/// Entries of a printed row, and its right side.
+type PrintedRow = (Vec<Expr>, Expr);
+
 /// Exact points at which rows are tried.
 const POINTS: u64 = 2;
 
@@ -69,9 +72,7 @@ pub fn judge(
     Ok(rows
         .iter()
         .map(|row| {
-            let law = |row: &(Vec<Expr>, Expr)| {
-                places.iter().zip(&stated).all(|(p, s)| is_law(p, s, row))
-            };
+            let law = |row: &PrintedRow| places.iter().zip(&stated).all(|(p, s)| is_law(p, s, row));
             if law(row) {
                 return Row::Law;
             }
@@ -87,11 +88,7 @@ pub fn judge(
 
 /// The change of one place that makes a row a law: its sign, a factor of two, sine for cosine, nothing, or what stands
 /// elsewhere in the matrix.
-fn mend(
-    row: &(Vec<Expr>, Expr),
-    rows: &[(Vec<Expr>, Expr)],
-    law: &dyn Fn(&(Vec<Expr>, Expr)) -> bool,
-) -> Option<Mend> {
+fn mend(row: &PrintedRow, rows: &[PrintedRow], law: &dyn Fn(&PrintedRow) -> bool) -> Option<Mend> {
     let mut elsewhere: Vec<&Expr> = Vec::new();
     for e in rows
         .iter()
@@ -149,7 +146,7 @@ fn exchanged(e: &Expr) -> Expr {
 }
 
 /// A printed row over the unknowns, right side last.
-fn spread(place: &Place, (entries, right): &(Vec<Expr>, Expr)) -> Option<Vec<Rational>> {
+fn spread(place: &Place, (entries, right): &PrintedRow) -> Option<Vec<Rational>> {
     let n = place.laws.unknowns.len();
     let mut out = vec![Rational::zero(); n + 1];
     for (entry, (form, constant)) in entries.iter().zip(&place.columns) {
@@ -170,7 +167,7 @@ fn law_row(place: &Place, i: usize) -> Vec<Rational> {
 }
 
 /// The contact laws and givens that some printed row repeats.
-fn stated(place: &Place, rows: &[(Vec<Expr>, Expr)]) -> Vec<usize> {
+fn stated(place: &Place, rows: &[PrintedRow]) -> Vec<usize> {
     let closing = |law: &Law| {
         matches!(
             law,
@@ -189,7 +186,7 @@ fn stated(place: &Place, rows: &[(Vec<Expr>, Expr)]) -> Vec<usize> {
         .collect()
 }
 
-fn is_law(place: &Place, stated: &[usize], row: &(Vec<Expr>, Expr)) -> bool {
+fn is_law(place: &Place, stated: &[usize], row: &PrintedRow) -> bool {
     let Some(row) = spread(place, row) else {
         return false;
     };
@@ -209,7 +206,7 @@ fn is_law(place: &Place, stated: &[usize], row: &(Vec<Expr>, Expr)) -> bool {
     within(rest, row)
 }
 
-fn fulfilled(place: &Place, row: &(Vec<Expr>, Expr)) -> bool {
+fn fulfilled(place: &Place, row: &PrintedRow) -> bool {
     let all: Vec<Vec<Rational>> = (0..place.laws.laws.len())
         .map(|i| law_row(place, i))
         .collect();
