@@ -250,7 +250,9 @@ fn read_anything(cases: u64) {
                 if let Some(e) = reading.expr() {
                     let _ = formula::write_latex(e, &|_| None);
                 }
-                let _ = reading.notes.iter().map(|n| n.message(&text)).count();
+                for note in &reading.notes {
+                    assert!(!note.message(&text).is_empty());
+                }
                 assert!(!shown.is_empty());
             }
             Err(fault) => {
