@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::solution::chapters;
 use super::{Failure, print, read_scene, save};
-use carom::figure::{self, Subject, Which};
+use carom::figure::{self, Chapter, Drawing, Subject, Which};
 
 /// Arguments of `carom draw`.
 #[derive(Args)]
@@ -18,7 +19,7 @@ pub struct DrawArgs {
     /// Draw the free-body diagram of this body alone (with --which during)
     #[arg(long, value_name = "BODY")]
     body: Option<String>,
-    /// Name of the impact to draw, where the scene has stages; the first one without it
+    /// Name of the stage to draw, where the scene has stages; all of them without it
     #[arg(long, value_name = "NAME")]
     stage: Option<String>,
     /// File to write, `.svg` or `.png`; without it the SVG goes to standard output
@@ -48,15 +49,22 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
         let refused =
             |reason: String| Failure::Input(format!("{}: {reason}", args.scene.display()));
         let told = carom::story::tell(&scene, stages).map_err(|r| refused(r.to_string()))?;
-        let stage = carom::story::impact(&scene, &told, args.stage.as_deref());
-        scene = stage.ok_or_else(|| {
-            let all = told.stages.iter().filter(|s| !s.cases.is_empty());
-            let names: Vec<&str> = all.map(|s| s.name.as_str()).collect();
-            refused(format!(
-                "no impact to draw\nhint: impacts here: {}",
-                names.join(", ")
-            ))
-        })?;
+        let mut all = chapters(&scene, stages, &told);
+        if let Some(name) = &args.stage {
+            let names: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();
+            all.retain(|(stage, _)| stage == name);
+            if all.is_empty() {
+                let known = names.join(", ");
+                return Err(refused(format!(
+                    "no stage {name}\nhint: stages here: {known}"
+                )));
+            }
+        }
+        match all.as_slice() {
+            // One impact by itself has the pictures of a collision.
+            [(_, Chapter::Impact(impact))] => scene = impact.clone(),
+            all => return write(args, &figure::chapters(&scene, all)),
+        }
     }
     let subject = match &args.body {
         None => Subject::System,
@@ -85,8 +93,13 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
         Picture::After => Which::After,
         Picture::All => Which::All,
     };
+    write(args, &figure::draw(&scene, which))
+}
+
+/// Writes a drawing where it belongs.
+fn write(args: &DrawArgs, drawing: &Drawing) -> Result<u8, Failure> {
     let Some(output) = &args.output else {
-        print(&figure::draw(&scene, which).svg)?;
+        print(&drawing.svg)?;
         return Ok(0);
     };
     let kind = output
@@ -94,9 +107,9 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
         .and_then(|e| e.to_str())
         .map(str::to_ascii_lowercase);
     let bytes = match kind.as_deref() {
-        Some("svg") => figure::draw(&scene, which).svg.into_bytes(),
+        Some("svg") => drawing.svg.clone().into_bytes(),
         #[cfg(feature = "png")]
-        Some("png") => figure::png(&figure::draw(&scene, which).svg)
+        Some("png") => figure::png(&drawing.svg)
             .map_err(|fault| Failure::Input(format!("{}: {fault}", output.display())))?,
         _ => {
             return Err(Failure::Input(format!(

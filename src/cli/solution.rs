@@ -6,10 +6,14 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::{Failure, pretty, print, read_scene_text, save};
-use carom::figure::{self, Which};
+use carom::figure::{self, Chapter, Which};
 use carom::render::html::Picture;
 use carom::solution::{self, Detail, Slot};
-use carom::{check, derive, render, scene::Scene, story, verify};
+use carom::{
+    check, derive, render,
+    scene::{Scene, Story},
+    story, verify,
+};
 
 /// Arguments of `carom solution`.
 #[derive(Args)]
@@ -77,9 +81,9 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         let holds = proof.holds() && !derivation.counting.contradictory;
         (solution, holds, None)
     };
-    let drawn = || match &told {
-        Some(told) => stage_pictures(&scene, told),
-        None => pictures(&scene),
+    let drawn = || match (&scene.story, &told) {
+        (Some(stages), Some(told)) => stage_pictures(&scene, stages, told),
+        _ => pictures(&scene),
     };
     let output = match args.format {
         FormatArg::Text => render::plain::solution(&solution),
@@ -111,30 +115,57 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
 }
 
 /// The pictures of a story, by stage.
-fn stage_pictures(_scene: &Scene, _told: &story::Told) -> Vec<(Picture, String)> {
-    Vec::new()
+fn stage_pictures(scene: &Scene, stages: &Story, told: &story::Told) -> Vec<(Picture, String)> {
+    let mut out = Vec::new();
+    for (i, (name, chapter)) in chapters(scene, stages, told).iter().enumerate() {
+        for (drawing, kind) in figure::chapter(name, chapter) {
+            out.push((
+                picture(Slot::Stage(i), drawing),
+                format!("{}-{kind}", i + 1),
+            ));
+        }
+    }
+    out
+}
+
+/// What is to be drawn of every stage.
+pub fn chapters(scene: &Scene, stages: &Story, told: &story::Told) -> Vec<(String, Chapter)> {
+    let each = stages.stages.iter().zip(&told.stages);
+    each.map(|(stage, told_stage)| {
+        let chapter = match story::impact(scene, told, Some(&stage.name)) {
+            Some(impact) => Chapter::Impact(impact),
+            None => {
+                let clockwise = story::is_clockwise(stage, told_stage);
+                Chapter::Motion(stage.scene.clone(), stage.kind.clone(), clockwise)
+            }
+        };
+        (stage.name.clone(), chapter)
+    })
+    .collect()
 }
 
 /// The pictures of a scene, each with a name for its file.
 fn pictures(scene: &Scene) -> Vec<(Picture, String)> {
     let mut out = Vec::new();
     for which in figure::kinds(scene) {
-        let (slot, name) = match which {
-            Which::Before | Which::All => (Slot::Before, String::from("before")),
-            Which::During(figure::Subject::System) => (Slot::During, String::from("during")),
-            Which::During(figure::Subject::Body(b)) => (Slot::During, format!("during-{}", b + 1)),
-            Which::After => (Slot::After, String::from("after")),
+        let slot = match which {
+            Which::Before | Which::All => Slot::Before,
+            Which::During(_) => Slot::During,
+            Which::After => Slot::After,
         };
-        let drawing = figure::draw(scene, which);
-        let picture = Picture {
-            slot,
-            svg: drawing.svg,
-            caption: drawing.caption,
-            alternative: drawing.alternative,
-        };
-        out.push((picture, name));
+        let picture = picture(slot, figure::draw(scene, which));
+        out.push((picture, figure::file_name(which)));
     }
     out
+}
+
+fn picture(slot: Slot, drawing: figure::Drawing) -> Picture {
+    Picture {
+        slot,
+        svg: drawing.svg,
+        caption: drawing.caption,
+        alternative: drawing.alternative,
+    }
 }
 
 fn beside(path: &Path, name: String) -> PathBuf {

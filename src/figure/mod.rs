@@ -8,6 +8,7 @@ mod during;
 mod label;
 mod marks;
 mod measure;
+mod motion;
 mod picture;
 mod place;
 #[cfg(feature = "png")]
@@ -23,7 +24,7 @@ use std::collections::BTreeSet;
 
 use crate::expr::{Expr, Symbol};
 use crate::numeric::Motion;
-use crate::scene::{BlowImpulse, ContactLaw, KnownQuantity, Scene, Shape};
+use crate::scene::{BlowImpulse, ContactLaw, KnownQuantity, Scene, Shape, StageKind};
 pub(crate) use label::visible;
 use label::{Label, advance};
 use place::Room;
@@ -99,6 +100,90 @@ pub fn draw(scene: &Scene, which: Which) -> Drawing {
             finish(scene, panels)
         }
         one => finish(scene, vec![panel(&stage, motion.as_ref(), one)]),
+    }
+}
+
+/// A stage of a story, to be drawn.
+#[derive(Clone, Debug)]
+pub enum Chapter {
+    /// An impact, with the motion handed on put in.
+    Impact(Scene),
+    /// A motion: the bodies at its beginning, what happens, and whether a rotation is clockwise.
+    Motion(Scene, StageKind, bool),
+}
+
+/// The pictures of a stage, each with a name for its file.
+pub fn chapter(name: &str, chapter: &Chapter) -> Vec<(Drawing, String)> {
+    match chapter {
+        Chapter::Impact(scene) => kinds(scene)
+            .into_iter()
+            .map(|which| (draw(scene, which), file_name(which)))
+            .collect(),
+        Chapter::Motion(scene, kind, clockwise) => {
+            let panel = motion_panel(name, scene, kind, *clockwise);
+            vec![(finish(scene, vec![panel]), String::from("motion"))]
+        }
+    }
+}
+
+/// What a file with this picture is called.
+pub fn file_name(which: Which) -> String {
+    match which {
+        Which::Before | Which::All => String::from("before"),
+        Which::During(Subject::System) => String::from("during"),
+        Which::During(Subject::Body(b)) => format!("during-{}", b + 1),
+        Which::After => String::from("after"),
+    }
+}
+
+/// All stages of a story in one column.
+pub fn chapters(scene: &Scene, all: &[(String, Chapter)]) -> Drawing {
+    let mut panels = Vec::new();
+    for (name, chapter) in all {
+        match chapter {
+            Chapter::Impact(scene) => {
+                let values = values::representative(scene);
+                let stage = is_readable(scene).then(|| stage::stage(scene, &values));
+                let Some(stage) = stage.flatten() else {
+                    continue;
+                };
+                let motion = picture::outcome(&stage);
+                for which in kinds(scene) {
+                    let mut one = panel(&stage, motion.as_ref(), which);
+                    one.heading = format!("{name}: {}", one.heading);
+                    panels.push(one);
+                }
+            }
+            Chapter::Motion(scene, kind, clockwise) => {
+                panels.push(motion_panel(name, scene, kind, *clockwise));
+            }
+        }
+    }
+    if panels.is_empty() {
+        return nothing(scene);
+    }
+    finish(scene, panels)
+}
+
+fn motion_panel(name: &str, scene: &Scene, kind: &StageKind, clockwise: bool) -> Panel {
+    let scene = motion::stand_in(scene, kind);
+    let values = values::representative(&scene);
+    let sheet = is_readable(&scene)
+        .then(|| motion::motion(&scene, &values, kind, clockwise))
+        .flatten();
+    let mut notes = Vec::new();
+    if sheet.is_none() {
+        notes.push(String::from("Not drawn: something has no finite place."));
+    }
+    let sheet = sheet.unwrap_or_default();
+    let labels = labels(&sheet);
+    let caption = format!("{name}: broken lines at the beginning, full lines at the end.");
+    Panel {
+        heading: name.to_string(),
+        alternative: format!("Motion {name}. Marked: {labels}."),
+        sheet,
+        notes,
+        caption,
     }
 }
 

@@ -83,10 +83,24 @@ pub const THICK: f64 = 3.5;
 
 /// Puts a scene on stage; `None` where something has no finite place.
 pub fn stage<'a>(scene: &'a Scene, values: &'a Values) -> Option<Stage<'a>> {
-    let mut poses = Vec::new();
-    for (i, body) in scene.bodies.iter().enumerate() {
-        poses.push(pose(scene, values, body, Some(i))?);
-    }
+    spanning(scene, values, posed(scene, values)?, &[])
+}
+
+/// Every body in its place; `None` where one has no finite place.
+pub fn posed(scene: &Scene, values: &Values) -> Option<Vec<Pose>> {
+    let bodies = scene.bodies.iter().enumerate();
+    bodies
+        .map(|(i, body)| pose(scene, values, body, Some(i)))
+        .collect()
+}
+
+/// A stage with room for more than the bodies where they are.
+pub fn spanning<'a>(
+    scene: &'a Scene,
+    values: &'a Values,
+    poses: Vec<Pose>,
+    more: &[Pose],
+) -> Option<Stage<'a>> {
     let mut stage = Stage {
         scene,
         values,
@@ -94,7 +108,12 @@ pub fn stage<'a>(scene: &'a Scene, values: &'a Values) -> Option<Stage<'a>> {
         scale: 1.0,
         middle: [0.0, 0.0],
     };
-    let mut points: Vec<Pair> = stage.poses.iter().flat_map(Pose::outline).collect();
+    let mut points: Vec<Pair> = stage
+        .poses
+        .iter()
+        .chain(more)
+        .flat_map(Pose::outline)
+        .collect();
     for v in scene
         .points
         .iter()

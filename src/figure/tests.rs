@@ -34,9 +34,26 @@ fn sheets(scene: &Scene) -> Vec<Sheet> {
     let values = values::representative(scene);
     let stage = stage::stage(scene, &values).expect("a shipped scene has a place on paper");
     let motion = picture::outcome(&stage);
-    kinds(scene)
+    let mut sheets: Vec<Sheet> = kinds(scene)
         .into_iter()
         .map(|which| panel(&stage, motion.as_ref(), which).sheet)
+        .collect();
+    for chapter in motions(scene) {
+        if let Chapter::Motion(scene, kind, clockwise) = chapter {
+            sheets.push(motion_panel("way", &scene, &kind, clockwise).sheet);
+        }
+    }
+    sheets
+}
+
+/// The motions of a story, each in both senses.
+fn motions(scene: &Scene) -> Vec<Chapter> {
+    let stages = scene.story.iter().flat_map(|s| &s.stages);
+    stages
+        .filter(|s| !matches!(s.kind, StageKind::Impact { .. }))
+        .flat_map(|s| {
+            [true, false].map(|sense| Chapter::Motion(s.scene.clone(), s.kind.clone(), sense))
+        })
         .collect()
 }
 
@@ -45,6 +62,9 @@ fn every_picture_is_well_formed_stays_inside_and_is_the_same_twice() {
     for (name, scene) in scenes() {
         let mut drawings = all(&scene);
         drawings.push(draw(&scene, Which::All));
+        for chapter in motions(&scene) {
+            drawings.extend(super::chapter("way", &chapter).into_iter().map(|d| d.0));
+        }
         for drawing in &drawings {
             let document =
                 roxmltree::Document::parse(&drawing.svg).unwrap_or_else(|e| panic!("{name}: {e}"));
@@ -75,7 +95,8 @@ fn every_picture_is_well_formed_stays_inside_and_is_the_same_twice() {
                 );
             }
         }
-        assert_eq!(drawings[..drawings.len() - 1], all(&scene), "{name}");
+        let again = all(&scene);
+        assert_eq!(drawings[..again.len()], again, "{name}");
     }
     if let Ok(folder) = std::env::var("CAROM_GALLERY") {
         for (name, scene) in scenes() {

@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 pub use sentence::{Piece, Sentence};
-pub use sheet::{impact, sheet};
+pub use sheet::{impact, is_clockwise, sheet};
 pub use special::{about, special};
 
 use crate::derive::{Derivation, Stop};

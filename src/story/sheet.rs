@@ -3,10 +3,11 @@
 //! In: a scene and its story as told. Out: the scene of an impact with the motion handed on put in, and its derivation with
 //! the answers of the whole story in place of its own. Nothing is derived here.
 
-use super::{Case, Told};
+use super::calc::sign;
+use super::{Case, StageTold, Told};
 use crate::derive::{self, Answer, Derivation, Form, Stop};
-use crate::expr::Expr;
-use crate::scene::{Ask, EnergyWhen, Question, Scene, StoryAsk};
+use crate::expr::{Expr, cross, minus};
+use crate::scene::{Ask, EnergyWhen, Question, Scene, Stage, StageKind, StoryAsk};
 
 /// The scene of an impact, by name of its stage; the first one for `None`. `None` where there is no such impact.
 pub fn impact(scene: &Scene, told: &Told, stage: Option<&str>) -> Option<Scene> {
@@ -15,6 +16,22 @@ pub fn impact(scene: &Scene, told: &Told, stage: Option<&str>) -> Option<Scene> 
         .iter()
         .find(|s| stage.map_or(!s.cases.is_empty(), |name| s.name == name))?;
     Some(put_together(scene, found.cases.first()?))
+}
+
+/// Whether a rotation, or a rope that winds up, goes clockwise.
+pub fn is_clockwise(stage: &Stage, told: &StageTold) -> bool {
+    match &stage.kind {
+        StageKind::Turn(turn) => {
+            let way = super::motion::sense(stage, &told.before.spin[turn.body], turn);
+            way.is_ok_and(|(way, _)| way < 0)
+        }
+        StageKind::Wind(wind) => {
+            let arm = minus(&stage.scene.bodies[wind.body].center, &wind.around);
+            let turning = cross(&arm, &told.before.velocity[wind.body]);
+            sign(&turning, &stage.scene.domains).is_negative()
+        }
+        _ => false,
+    }
 }
 
 /// The story as one scene and one derivation.

@@ -1,0 +1,324 @@
+//! A motion between impacts: the body at the beginning and at the end, the way of its center, and what is known of the way.
+//!
+//! In: a scene with the bodies where they are when the motion begins, what happens, and the sense of a rotation. Out: a
+//! sheet. Where the motion ends is geometry; how fast it is there plays no part here.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use super::label::Label;
+use super::marks::centers;
+use super::place::{Spot, Wish};
+use super::sheet::{Ink, Line, SIZE, SMALL, Sheet, arc};
+use super::stage::{Look, Pose, Stage, posed, spanning};
+use super::values::{Pair, Values, size};
+use crate::expr::Expr;
+use crate::scene::{Body, Hinge, Scene, StageKind, Turn, Until};
+
+/// The scene as it is drawn: a point that is turned about is a hinge here, so that its support is seen.
+pub fn stand_in(scene: &Scene, kind: &StageKind) -> Scene {
+    let mut out = scene.clone();
+    out.contacts.clear();
+    out.hinges.clear();
+    out.blows.clear();
+    let mut hold = |name: &str, at: &crate::expr::Vector, body: usize| {
+        if let Some(fixed) = scene.bodies.iter().position(Body::is_fixed) {
+            out.hinges.push(Hinge {
+                name: name.to_string(),
+                bodies: [fixed, body],
+                at: at.clone(),
+            });
+        }
+    };
+    match kind {
+        StageKind::Turn(turn) => hold(&turn.about_name, &turn.about, turn.body),
+        StageKind::Wind(wind) => hold("pole", &wind.around, wind.body),
+        _ => {}
+    }
+    out
+}
+
+/// Draws the motion; `None` where something has no finite place.
+pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool) -> Option<Sheet> {
+    let mut sheet = Sheet::default();
+    let begin = posed(scene, values)?;
+    let body = match kind {
+        StageKind::Turn(t) => t.body,
+        StageKind::Slide(s) => s.body,
+        StageKind::Fall(f) => f.body,
+        StageKind::Wind(w) => w.body,
+        StageKind::Impact { .. } => return None,
+    };
+    let from = begin.get(body)?;
+    let path = way(values, kind, clockwise, from)?;
+    let end = path
+        .last()
+        .map_or_else(|| from.clone(), |(pose, _)| pose.clone());
+    let poses: Vec<Pose> = path.iter().map(|(pose, _)| pose.clone()).collect();
+    let stage = spanning(scene, values, begin.clone(), &poses)?;
+    stage.fixed(&mut sheet);
+    for (i, pose) in begin.iter().enumerate() {
+        if i != body {
+            stage.body(&mut sheet, pose, [0.0, 0.0]);
+        }
+    }
+    // The beginning is broken lines, the end is the body as usual.
+    let outline: Vec<Pair> = from.outline().into_iter().map(|p| stage.px(p)).collect();
+    match from.look {
+        Look::Dot => sheet.circle(stage.px(from.center), 6.0, Line::dashed(Ink::Body)),
+        _ => sheet.path(outline, true, Line::dashed(Ink::Body), 1.0),
+    }
+    stage.body(&mut sheet, &end, [0.0, 0.0]);
+    stage.hinges(&mut sheet, &|_| true);
+    let points: Vec<Pair> = path.iter().map(|(pose, _)| stage.px(pose.center)).collect();
+    if let [.., last_but, last] = points.as_slice() {
+        sheet.path(
+            points[..points.len() - 1].to_vec(),
+            false,
+            Line::dashed(Ink::Motion),
+            2.0,
+        );
+        let d = [last[0] - last_but[0], last[1] - last_but[1]];
+        if size(d) > 1e-6 {
+            let u = [d[0] / size(d), d[1] / size(d)];
+            let tail = [last[0] - u[0] * 11.0, last[1] - u[1] * 11.0];
+            sheet.arrow(tail, *last, Ink::Motion, 1.6);
+        }
+    }
+    match kind {
+        StageKind::Turn(turn) => angle(&stage, &mut sheet, turn, from, &end, clockwise),
+        StageKind::Slide(s) => along(&stage, &mut sheet, &points, &s.distance),
+        StageKind::Fall(f) => {
+            if let Some(h) = &f.height {
+                along(&stage, &mut sheet, &points, h);
+            }
+        }
+        StageKind::Wind(w) => {
+            if let Some(pole) = stage.spot(&w.around) {
+                let ends = [(from, None), (&end, Some(&w.to))];
+                for (pose, length) in ends {
+                    let at = stage.px(pose.center);
+                    sheet.segment(pole, at, Line::thin(Ink::Body), 1.0);
+                    if let Some(e) = length {
+                        beside(&stage, &mut sheet, pole, at, e);
+                    }
+                }
+            }
+        }
+        StageKind::Impact { .. } => {}
+    }
+    forces(&stage, &mut sheet, kind, body, &end);
+    centers(&stage, &mut sheet, &[body]);
+    for (pose, word) in [(from, "beginning"), (&end, "end")] {
+        sheet.wish(Wish {
+            label: Label::words(word),
+            size: SMALL,
+            spot: Spot::Point {
+                at: stage.px(pose.center),
+                toward: [0.0, 0.0],
+                reach: 9.0,
+            },
+        });
+    }
+    sheet.settle();
+    Some(sheet)
+}
+
+/// Poses on the way, the first one the beginning, each with the angle turned through.
+fn way(
+    values: &Values,
+    kind: &StageKind,
+    clockwise: bool,
+    from: &Pose,
+) -> Option<Vec<(Pose, f64)>> {
+    const STEPS: u32 = 40;
+    let part = |k: u32| f64::from(k) / f64::from(STEPS);
+    let straight = |d: Pair| {
+        let at = |k: u32| {
+            (
+                moved(from, from.center, 0.0, [d[0] * part(k), d[1] * part(k)]),
+                0.0,
+            )
+        };
+        (0..=STEPS).map(at).collect::<Vec<_>>()
+    };
+    Some(match kind {
+        StageKind::Turn(turn) => {
+            let about = values.pair(&turn.about)?;
+            let by = turned(values, turn, from.center, about, clockwise)?;
+            let at = |k: u32| (moved(from, about, by * part(k), [0.0, 0.0]), by * part(k));
+            (0..=STEPS).map(at).collect()
+        }
+        StageKind::Slide(s) => {
+            let (along, far) = (values.pair(&s.along)?, values.of(&s.distance)?);
+            straight([along[0] * far, along[1] * far])
+        }
+        StageKind::Fall(f) => match &f.height {
+            Some(h) => straight([0.0, -values.of(h)?]),
+            None => vec![(from.clone(), 0.0)],
+        },
+        StageKind::Wind(w) => {
+            let (pole, to) = (values.pair(&w.around)?, values.of(&w.to)?);
+            let arm = [from.center[0] - pole[0], from.center[1] - pole[1]];
+            let (long, phi) = (size(arm), arm[1].atan2(arm[0]));
+            let turns = 1.75 * TAU * if clockwise { -1.0 } else { 1.0 };
+            let at = |k: u32| {
+                let (s, c) = (phi + turns * part(k)).sin_cos();
+                let r = long + (to - long) * part(k);
+                let shift = [
+                    pole[0] + r * c - from.center[0],
+                    pole[1] + r * s - from.center[1],
+                ];
+                (moved(from, from.center, 0.0, shift), 0.0)
+            };
+            (0..=STEPS).map(at).collect()
+        }
+        StageKind::Impact { .. } => return None,
+    })
+}
+
+/// The angle of a rotation, counterclockwise.
+fn turned(values: &Values, turn: &Turn, center: Pair, about: Pair, clockwise: bool) -> Option<f64> {
+    let way = if clockwise { -1.0 } else { 1.0 };
+    let phi = (center[1] - about[1]).atan2(center[0] - about[0]);
+    let to = match &turn.until {
+        Until::By(by) => return Some(way * values.of(by)?),
+        Until::For(_) => return Some(way * 1.2),
+        Until::Above => FRAC_PI_2,
+        Until::Below => -FRAC_PI_2,
+    };
+    Some(way * (way * (to - phi)).rem_euclid(TAU))
+}
+
+/// A pose turned about a point and shifted.
+fn moved(pose: &Pose, about: Pair, by: f64, shift: Pair) -> Pose {
+    let (s, c) = by.sin_cos();
+    let turn = |p: Pair| [p[0] * c - p[1] * s, p[0] * s + p[1] * c];
+    let arm = turn([pose.center[0] - about[0], pose.center[1] - about[1]]);
+    let look = match &pose.look {
+        Look::Blob(points) => Look::Blob(points.iter().map(|p| turn(*p)).collect()),
+        Look::Parts(parts) => {
+            Look::Parts(parts.iter().map(|p| moved(p, about, by, shift)).collect())
+        }
+        other => other.clone(),
+    };
+    Pose {
+        center: [about[0] + arm[0] + shift[0], about[1] + arm[1] + shift[1]],
+        angle: pose.angle + by,
+        look,
+        massless: pose.massless,
+    }
+}
+
+/// The angle a rotation goes through, at the point it turns about.
+fn angle(stage: &Stage, sheet: &mut Sheet, turn: &Turn, from: &Pose, end: &Pose, clockwise: bool) {
+    let Some(at) = stage.spot(&turn.about) else {
+        return;
+    };
+    let ray = |pose: &Pose| {
+        let p = stage.px(pose.center);
+        [p[0] - at[0], p[1] - at[1]]
+    };
+    let (a, b) = (ray(from), ray(end));
+    let start = a[1].atan2(a[0]);
+    let way = if clockwise { -1.0 } else { 1.0 };
+    let sweep = way * (way * (b[1].atan2(b[0]) - start)).rem_euclid(TAU);
+    sheet.wish(Wish {
+        label: Label::words(&turn.about_name),
+        size: SIZE,
+        spot: Spot::Point {
+            at,
+            toward: [0.0, 0.0],
+            reach: 6.0,
+        },
+    });
+    if size(a) < 8.0 || sweep.abs() < 0.03 {
+        return;
+    }
+    let reach = (0.55 * size(a).min(size(b))).clamp(16.0, 44.0);
+    let tip = |phi: f64, r: f64| [at[0] + r * phi.cos(), at[1] + r * phi.sin()];
+    for phi in [start, start + sweep] {
+        sheet.segment(at, tip(phi, reach + 8.0), Line::dashed(Ink::Dimension), 1.0);
+    }
+    sheet.path(
+        arc(at, reach, start, start + sweep),
+        false,
+        Line::thin(Ink::Dimension),
+        3.0,
+    );
+    if let Until::By(by) = &turn.until {
+        let half = start + sweep / 2.0;
+        sheet.wish(Wish {
+            label: Label::formula(by, stage.scene),
+            size: SIZE,
+            spot: Spot::Point {
+                at: tip(half, reach),
+                toward: [half.cos(), half.sin()],
+                reach: 1.5,
+            },
+        });
+    }
+}
+
+/// The length of a straight way.
+fn along(stage: &Stage, sheet: &mut Sheet, points: &[Pair], length: &Expr) {
+    if let (Some(a), Some(b)) = (points.first(), points.last()) {
+        beside(stage, sheet, *a, *b, length);
+    }
+}
+
+fn beside(stage: &Stage, sheet: &mut Sheet, from: Pair, to: Pair, e: &Expr) {
+    sheet.wish(Wish {
+        label: Label::formula(e, stage.scene),
+        size: SIZE,
+        spot: Spot::Along { from, to },
+    });
+}
+
+/// What does work: weight at the center, a moment at the fixed point, a force along the way.
+fn forces(stage: &Stage, sheet: &mut Sheet, kind: &StageKind, body: usize, end: &Pose) {
+    let (gravity, torque, push) = match kind {
+        StageKind::Turn(t) => (&t.gravity, &t.torque, None),
+        StageKind::Slide(s) => (&s.gravity, &None, s.force.as_ref().map(|f| (f, &s.along))),
+        StageKind::Fall(f) => (&f.gravity, &None, None),
+        _ => return,
+    };
+    let at = stage.px(end.center);
+    let mut arrow = |to: Pair, e: &Expr| {
+        sheet.arrow(at, to, Ink::Impulse, 1.8);
+        sheet.wish(Wish {
+            label: Label::formula(e, stage.scene),
+            size: SIZE,
+            spot: Spot::Along { from: at, to },
+        });
+    };
+    if let Some(g) = gravity {
+        arrow([at[0], at[1] - 40.0], &(&stage.scene.bodies[body].mass * g));
+    }
+    if let Some((force, direction)) = push
+        && let Some(d) = stage.values.pair(direction)
+    {
+        arrow([at[0] + 40.0 * d[0], at[1] + 40.0 * d[1]], force);
+    }
+    if let (Some(torque), StageKind::Turn(turn)) = (torque, kind)
+        && let Some(at) = stage.spot(&turn.about)
+    {
+        let sign = if turn.clockwise == Some(true) {
+            -1.0
+        } else {
+            1.0
+        };
+        let (radius, sweep) = (24.0, sign * 1.1 * FRAC_PI_2 * 2.0);
+        let start = FRAC_PI_2 + 0.3;
+        sheet.turning(at, radius, start, sweep, Ink::Impulse);
+        let half: f64 = start + sweep / 2.0;
+        sheet.wish(Wish {
+            label: Label::formula(torque, stage.scene),
+            size: SIZE,
+            spot: Spot::Point {
+                at: [at[0] + radius * half.cos(), at[1] + radius * half.sin()],
+                toward: [half.cos(), half.sin()],
+                reach: 2.0,
+            },
+        });
+    }
+}
