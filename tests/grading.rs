@@ -209,6 +209,53 @@ fn a_worked_solution_is_followed_beyond_its_first_slip() {
 }
 
 #[test]
+fn worked_solutions_are_judged_line_by_line() {
+    use carom::grade::steps::{Status, check};
+    let mut wrong = String::new();
+    let mut files: Vec<PathBuf> = fs::read_dir(root().join("tests/grading/steps"))
+        .expect("a folder of solutions")
+        .map(|e| e.expect("an entry").path())
+        .collect();
+    files.sort();
+    assert!(files.len() >= 7);
+    for file in files {
+        let text = fs::read_to_string(&file).expect("a solution");
+        let (head, rows) = text.split_once('\n').expect("a scene and lines");
+        let path = head.split_whitespace().nth(1).expect("the scene's path");
+        let scene = fs::read_to_string(root().join("derivations").join(path)).expect("a scene");
+        let sheet =
+            sheet::sheet(scene::read(&scene).expect("a sound scene")).expect("a derivation");
+        let (told, lines): (Vec<&str>, Vec<&str>) = rows
+            .lines()
+            .map(|row| row.split_once('\t').expect("two cells"))
+            .unzip();
+        let found = check(&sheet, &lines.join("\n"), &Options::default());
+        assert_eq!(found.len(), lines.len(), "{}", file.display());
+        for (line, told) in found.iter().zip(told) {
+            let word = match &line.status {
+                Status::Holds => "holds",
+                Status::Defines => "defines",
+                Status::Wrong => "WRONG",
+                Status::Carried(_) => "carried",
+                Status::Unreadable(_) => "unread",
+                Status::Comment => "words",
+                Status::Undecided => "open",
+            };
+            if word != told {
+                let _ = writeln!(
+                    wrong,
+                    "{}:{} {} is {word}, not {told}",
+                    file.display(),
+                    line.number,
+                    line.text
+                );
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
 fn a_line_of_a_batch_is_the_grade_as_data() {
     let rows = rows(|name| name != "scenes.tsv");
     for (_, line, cells) in &rows {

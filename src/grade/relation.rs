@@ -178,6 +178,15 @@ fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     }
 }
 
+/// Whether `g = 0` says the same as `f = 0`, or follows from it: up to a factor without zeros, or solved for a symbol.
+pub(crate) fn follows(f: &Expr, g: &Expr, domains: &Domains) -> bool {
+    let [f_normal, g_normal] = [f, g].map(|e| Normal {
+        difference: e.clone(),
+        relation: Relation::Equal,
+    });
+    same_sign(&f_normal, &g_normal, domains).is_some() || solved_in(g, f, domains)
+}
+
 /// Whether the quotient of the differences is positive (true) or negative (false) on the whole domain.
 fn same_sign(expected: &Normal, answer: &Normal, domains: &Domains) -> Option<bool> {
     let (domains, _) = domains.completed(&roles(&[&expected.difference, &answer.difference]));

@@ -5,9 +5,9 @@
 //! introduces. It holds when it is an identity in the derived motion. After a line that does not hold, later lines are
 //! also tried in the motion that line would imply.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::relation::solve_for;
+use super::relation::{follows, solve_for};
 use super::sheet::Sheet;
 use super::{Diagnosis, Options};
 use crate::derive::Form;
@@ -15,6 +15,7 @@ use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Content, Fault, Reading, Relation, Symbols};
 use crate::laws;
+use crate::scene::{Ask, ContactLaw, Scene};
 
 /// What is found of one line.
 #[derive(Clone, PartialEq, Debug)]
@@ -77,6 +78,10 @@ struct Desk<'a> {
     closed: BTreeMap<Symbol, Expr>,
     /// What wrong lines imply: for each the value of one name, under all that came before.
     believed: Vec<(usize, BTreeMap<Symbol, Expr>)>,
+    /// The wrong lines themselves, left minus right, with the student's own names put in.
+    wrong: Vec<(usize, Expr)>,
+    /// Names of velocities and spins that all follow from any one of them; empty unless the motion has one freedom.
+    moving: BTreeSet<Symbol>,
     /// Names the student introduced.
     own: BTreeMap<Symbol, Expr>,
 }
@@ -84,6 +89,7 @@ struct Desk<'a> {
 impl<'a> Desk<'a> {
     fn new(sheet: &'a Sheet) -> Desk<'a> {
         let mut closed = BTreeMap::new();
+        let mut moving = BTreeSet::new();
         let d = &sheet.derivation;
         for unknown in laws::unknowns(&sheet.scene) {
             if let Some(value) = d.motion.get(&unknown) {
@@ -92,11 +98,25 @@ impl<'a> Desk<'a> {
                 } else {
                     value.clone()
                 };
-                closed.insert(Symbol::from(d.names.plain(unknown)), value);
+                let name = Symbol::from(d.names.plain(unknown));
+                if !unknown.is_impulse() {
+                    moving.insert(name.clone());
+                }
+                closed.insert(name, value);
             }
         }
         for answer in &d.answers {
             if let Form::Value { closed: value, .. } = &answer.form {
+                let question = sheet
+                    .scene
+                    .questions
+                    .iter()
+                    .find(|q| q.name == answer.question);
+                if question
+                    .is_some_and(|q| matches!(q.ask, Ask::Velocity { .. } | Ask::Spin { .. }))
+                {
+                    moving.insert(Symbol::from(answer.name.as_str()));
+                }
                 closed.insert(Symbol::from(answer.name.as_str()), value.clone());
             }
         }
@@ -104,6 +124,12 @@ impl<'a> Desk<'a> {
             sheet,
             closed,
             believed: Vec::new(),
+            wrong: Vec::new(),
+            moving: if one_freedom(&sheet.scene) {
+                moving
+            } else {
+                BTreeSet::new()
+            },
             own: BTreeMap::new(),
         }
     }
@@ -114,7 +140,7 @@ impl<'a> Desk<'a> {
             symbols.declare_as(&p.name, p.latex.as_deref(), Some(p.dimension.clone()));
         }
         for q in &self.sheet.scene.questions {
-            if self.closed.contains_key(q.name.as_str()) {
+            if self.closed.contains_key(q.name.as_str()) || self.components(&q.name).is_some() {
                 symbols.declare_as(&q.name, q.latex.as_deref(), None);
             }
         }
@@ -123,6 +149,39 @@ impl<'a> Desk<'a> {
             .chain(self.own.keys())
             .for_each(|name| symbols.declare(name));
         symbols
+    }
+
+    /// The components of a vector that is asked for.
+    fn components(&self, name: &str) -> Option<[Expr; 3]> {
+        let part = |axis: &str| {
+            let component = format!("{name}_{axis}");
+            let known = self.closed.contains_key(component.as_str());
+            known.then(|| Expr::symbol(&component))
+        };
+        Some([part("x")?, part("y")?, Expr::zero()])
+    }
+
+    /// Left minus right of every equation of a line, components of vectors one by one.
+    fn differences(&self, reading: &Reading) -> Option<Vec<Expr>> {
+        let Content::Relations(sides, signs) = &reading.content else {
+            return None;
+        };
+        let equal = |s: &Relation| matches!(s, Relation::Equal | Relation::Approximately);
+        if !signs.iter().all(equal) {
+            return None;
+        }
+        let vector = |side: &Content| match side {
+            Content::Vector(v) => Some(v.clone()),
+            other => self.components(other.expr()?.as_symbol()?),
+        };
+        let mut out = Vec::new();
+        for pair in sides.windows(2) {
+            match (vector(&pair[0]), vector(&pair[1])) {
+                (Some(a), Some(b)) => out.extend(a.iter().zip(&b).map(|(a, b)| a - b)),
+                _ => out.push(pair[0].expr()? - pair[1].expr()?),
+            }
+        }
+        Some(out)
     }
 
     fn line(&mut self, number: usize, text: &str, options: &Options) -> (Status, Vec<Diagnosis>) {
@@ -135,10 +194,14 @@ impl<'a> Desk<'a> {
             Ok(reading) => reading,
             Err(fault) => match self.definition(text) {
                 Some(status) => return (status, none()),
+                // A name that looks like one of the scene's is a slip of the pen rather than a new name.
+                None if !is_near(&fault) && self.new_name(text).is_some() => {
+                    return (Status::Defines, none());
+                }
                 None => return (Status::Unreadable(fault), none()),
             },
         };
-        let Some(differences) = left_minus_right(&reading) else {
+        let Some(differences) = self.differences(&reading) else {
             return (Status::Undecided, none());
         };
         match self.all_zero(&differences, &BTreeMap::new()) {
@@ -149,18 +212,20 @@ impl<'a> Desk<'a> {
             None => return (Status::Undecided, none()),
             Some(false) => {}
         }
-        // Under what the wrong lines before imply, the latest first.
-        for (cause, values) in self.believed.iter().rev() {
-            if self.all_zero(&differences, values) == Some(true) {
-                let cause = *cause;
-                self.believe(cause, &differences);
-                return (Status::Carried(cause), none());
-            }
+        if let Some(cause) = self.cause(&differences) {
+            self.believe(cause, &differences);
+            return (Status::Carried(cause), none());
         }
         // The student may have meant the other reading of a slash.
         for other in formula::other_readings(text, &symbols).into_iter().take(4) {
-            let fits = left_minus_right(&other);
-            if fits.is_some_and(|d| self.all_zero(&d, &BTreeMap::new()) == Some(true)) {
+            let Some(differences) = self.differences(&other) else {
+                continue;
+            };
+            if let Some(cause) = self.cause(&differences) {
+                self.believe(cause, &differences);
+                return (Status::Carried(cause), none());
+            }
+            if self.all_zero(&differences, &BTreeMap::new()) == Some(true) {
                 self.link(&other);
                 let message = format!("holds when read as {}", super::show(&other.content));
                 let hint = "this line can be read in two ways; use brackets to say which is meant";
@@ -171,7 +236,71 @@ impl<'a> Desk<'a> {
             }
         }
         self.believe(number, &differences);
+        if let [one] = differences.as_slice() {
+            self.wrong.push((number, self.with_own(one)));
+        }
         (Status::Wrong, self.diagnosis(&reading, text, options))
+    }
+
+    /// The wrong line from which equations follow: they hold in the motion it implies, or say the same.
+    fn cause(&self, differences: &[Expr]) -> Option<usize> {
+        // The latest first.
+        let implied = self.believed.iter().rev();
+        let found = implied
+            .filter(|(_, values)| self.all_zero(differences, values) == Some(true))
+            .map(|(cause, _)| *cause)
+            .next();
+        found.or_else(|| {
+            let [one] = differences else { return None };
+            let one = self.with_own(one);
+            let domains = &self.sheet.scene.domains;
+            let said = self.wrong.iter().rev().take(8);
+            said.filter(|(_, f)| follows(f, &one, domains))
+                .map(|(cause, _)| *cause)
+                .next()
+        })
+    }
+
+    /// An equation with one name that is new: it says what the name stands for.
+    fn new_name(&mut self, text: &str) -> Option<Status> {
+        let mut open = Symbols::open();
+        for p in &self.sheet.scene.parameters {
+            open.declare_as(&p.name, p.latex.as_deref(), Some(p.dimension.clone()));
+        }
+        let known = self.closed.keys().chain(self.own.keys());
+        known.for_each(|name| open.declare(name));
+        let reading = formula::read(text, &open).ok()?;
+        let given = |name: &Symbol| {
+            let parameters = &self.sheet.scene.parameters;
+            self.closed.contains_key(name)
+                || self.own.contains_key(name)
+                || parameters.iter().any(|p| p.name == *name)
+        };
+        let letters = reading
+            .notes
+            .iter()
+            .any(|n| n.remark == formula::Remark::Letters);
+        let new: Vec<Symbol> = reading
+            .symbols()
+            .into_iter()
+            .filter(|n| !given(n))
+            .collect();
+        let ([name], false, true) = (new.as_slice(), letters, self.own.len() < 100) else {
+            return None;
+        };
+        let [one] = &self.differences(&reading)?[..] else {
+            return None;
+        };
+        let value = solve_for(&self.with_own(one), name, &self.sheet.scene.domains)?;
+        self.own.insert(name.clone(), value);
+        Some(Status::Defines)
+    }
+
+    /// An expression with the student's own names put in.
+    fn with_own(&self, e: &Expr) -> Expr {
+        // Own names may use one another.
+        let rounds = 0..self.own.len().min(8);
+        rounds.fold(e.clone(), |e, _| e.substitute(&self.own))
     }
 
     /// A new name for something: `h = l/2 sin(theta)`.
@@ -205,12 +334,9 @@ impl<'a> Desk<'a> {
     }
 
     fn put_in(&self, e: &Expr, instead: &BTreeMap<Symbol, Expr>) -> Expr {
-        let mut out = e.clone();
-        // Own names may use one another.
-        for _ in 0..self.own.len().min(8) {
-            out = out.substitute(&self.own);
-        }
-        out.substitute(instead).substitute(&self.closed)
+        self.with_own(e)
+            .substitute(instead)
+            .substitute(&self.closed)
     }
 
     /// A line `name = …` that holds says what the name is under every belief about the others.
@@ -225,10 +351,7 @@ impl<'a> Desk<'a> {
         else {
             return;
         };
-        let mut value = value.clone();
-        for _ in 0..self.own.len().min(8) {
-            value = value.substitute(&self.own);
-        }
+        let value = self.with_own(value);
         let used = value.symbols();
         for (_, values) in &mut self.believed {
             if values.keys().any(|n| used.contains(n)) && !values.contains_key(name) {
@@ -248,10 +371,7 @@ impl<'a> Desk<'a> {
             .map(|(_, v)| v.clone())
             .unwrap_or_default();
         for d in differences {
-            let mut d = d.clone();
-            for _ in 0..self.own.len().min(8) {
-                d = d.substitute(&self.own);
-            }
+            let d = self.with_own(d);
             let names: Vec<Symbol> = d
                 .symbols()
                 .into_iter()
@@ -265,6 +385,7 @@ impl<'a> Desk<'a> {
                 let reduced = d.substitute(&known).substitute(&others);
                 if let Some(root) = solve_for(&reduced, &name, &self.sheet.scene.domains) {
                     let mut values = earlier.clone();
+                    self.carry_along(&name, &root, &mut values);
                     values.insert(name, root);
                     self.believed.push((cause, values));
                 }
@@ -272,6 +393,22 @@ impl<'a> Desk<'a> {
         }
         let excess = self.believed.len().saturating_sub(64);
         self.believed.drain(..excess);
+    }
+
+    /// In a motion with one freedom all velocities are what they are, times the same wrong number.
+    fn carry_along(&self, name: &Symbol, root: &Expr, values: &mut BTreeMap<Symbol, Expr>) {
+        let Some(truth) = self.closed.get(name).filter(|t| !t.is_zero()) else {
+            return;
+        };
+        if !self.moving.contains(name) {
+            return;
+        }
+        for other in self.moving.iter().filter(|other| *other != name) {
+            if let Some(value) = self.closed.get(other) {
+                let scaled = value * &(root * &truth.powi(-1));
+                values.entry(other.clone()).or_insert(scaled);
+            }
+        }
     }
 
     /// For a line that states a quantity of the scene: the belief behind it.
@@ -291,25 +428,24 @@ impl<'a> Desk<'a> {
     }
 }
 
-/// Left minus right of every equation of a line, components of vectors one by one.
-fn left_minus_right(reading: &Reading) -> Option<Vec<Expr>> {
-    let Content::Relations(sides, signs) = &reading.content else {
-        return None;
-    };
-    if signs
+/// Whether a refused name of several letters resembles a declared one.
+fn is_near(fault: &Fault) -> bool {
+    let offered = fault
+        .hint
+        .as_ref()
+        .is_some_and(|h| h.starts_with("did you"));
+    offered && fault.end - fault.start > 1
+}
+
+/// Whether hinges and sticking contacts leave the bodies one freedom, so that all velocities go in step.
+fn one_freedom(scene: &Scene) -> bool {
+    let free: usize = scene
+        .bodies
         .iter()
-        .any(|s| !matches!(s, Relation::Equal | Relation::Approximately))
-    {
-        return None;
-    }
-    let mut out = Vec::new();
-    for pair in sides.windows(2) {
-        match (&pair[0], &pair[1]) {
-            (Content::Vector(a), Content::Vector(b)) => {
-                out.extend(a.iter().zip(b).map(|(a, b)| a - b))
-            }
-            (a, b) => out.push(a.expr()? - b.expr()?),
-        }
-    }
-    Some(out)
+        .filter(|b| !b.is_fixed())
+        .map(|b| if b.is_particle() { 2 } else { 3 })
+        .sum();
+    let sticking = scene.contacts.iter().all(|c| c.law == ContactLaw::Sticking);
+    let held = 2 * (scene.hinges.len() + scene.contacts.len());
+    sticking && free == held + 1
 }

@@ -221,14 +221,19 @@ pub fn steps_text(lines: &[Line]) -> String {
 
 fn summary(lines: &[Line]) -> String {
     let count = |f: &dyn Fn(&Status) -> bool| lines.iter().filter(|l| f(&l.status)).count();
-    let holds = count(&|s| matches!(s, Status::Holds | Status::Defines));
+    let holds = count(&|s| matches!(s, Status::Holds));
+    let defined = match count(&|s| matches!(s, Status::Defines)) {
+        0 => String::new(),
+        1 => ", 1 gives a name".to_string(),
+        n => format!(", {n} give names"),
+    };
     let carried = count(&|s| matches!(s, Status::Carried(_)));
     let wrong = count(&|s| matches!(s, Status::Wrong));
     let first = lines.iter().find(|l| l.status == Status::Wrong);
     match first {
-        None => format!("{holds} lines hold, none is wrong"),
+        None => format!("{holds} lines hold{defined}, none is wrong"),
         Some(first) => format!(
-            "first wrong line: {}; {holds} lines hold, {carried} follow from a slip, {wrong} have a slip of their own",
+            "first wrong line: {}; {holds} lines hold{defined}, {carried} follow from a slip, {wrong} have a slip of their own",
             first.number
         ),
     }
