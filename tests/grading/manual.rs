@@ -1,0 +1,201 @@
+//! Writes GRADING.md from the tables of cases: how formulas are read, what verdicts and notes mean, which beliefs are known.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use carom::grade::belief::BELIEFS;
+use carom::grade::{Options, judge};
+
+/// Rows shown of each table.
+const SHOWN: usize = 10;
+
+/// Tables in the order of the manual, with what they are about.
+const TABLES: [(&str, &str, &str); 13] = [
+    (
+        "typing.tsv",
+        "Formulas as people type them",
+        "Plain text, Unicode and LaTeX are read by one reader, alone or mixed. What is declared decides where a name ends.",
+    ),
+    (
+        "notation.tsv",
+        "Numbers, fractions, roots and functions",
+        "Numbers are exact: 0.1 is one tenth, and a rounded number is not the exact one.",
+    ),
+    (
+        "signs.tsv",
+        "Letters and signs of Unicode, and vectors",
+        "A vector is written with brackets, as a column, or with unit vectors.",
+    ),
+    (
+        "sentences.tsv",
+        "Words, boxes and precedence",
+        "A product without a sign binds tighter than a slash; where another reading would change the verdict the grade says so.",
+    ),
+    (
+        "hostile.tsv",
+        "What is refused",
+        "The whole text is read or it is invalid, with the place of the fault. Nothing is expanded.",
+    ),
+    (
+        "answers.tsv",
+        "Answers of collisions",
+        "The same formula written otherwise, and the usual near misses.",
+    ),
+    (
+        "mechanics.tsv",
+        "More of mechanics",
+        "`e`, `d`, `I`, `m` and `g` are what the question declares, never a constant or a unit.",
+    ),
+    (
+        "algebra.tsv",
+        "Algebra and trigonometry",
+        "Equality is an identity in a normal form; a difference is shown at the simplest exact point.",
+    ),
+    (
+        "domains.tsv",
+        "Domains",
+        "Undeclared symbols are positive, undeclared angles lie in the first quadrant; the grade lists what it assumed.",
+    ),
+    (
+        "arcs.tsv",
+        "Arcs",
+        "Sums of arcs are compared by their sine and cosine and by the range they can have.",
+    ),
+    (
+        "units.tsv",
+        "Units",
+        "Missing, wrong and compatible units are three different remarks.",
+    ),
+    (
+        "quantities.tsv",
+        "Numbers with units",
+        "A unit stands behind a number. Behind a formula in symbols it has to fit the symbols, and says nothing new.",
+    ),
+    (
+        "relations.tsv",
+        "Equations, inequalities, pairs",
+        "Equations are the same where they have the same solutions on the domain.",
+    ),
+];
+
+/// One row of a table: expected, answer, verdict, reason, symbols.
+pub type Row = (String, usize, Vec<String>);
+
+/// The whole page.
+pub fn page(
+    rows: &[Row],
+    steps: &str,
+    question: &dyn Fn(&str) -> carom::grade::Question,
+) -> String {
+    let mut out = String::from(
+        "# How carom grades\n\n\
+         <!-- Written by `UPDATE=1 cargo test --test grading` from the tables in tests/grading; do not edit. -->\n\n\
+         `carom grade --expected F --answer G` compares two formulas, `carom grade SCENE --quantity Q --answer G` an answer with the\n\
+         derivation of a scene, `carom grade --batch` many of them as JSON lines. Every row below is a test.\n\n\
+         ## Verdicts\n\n\
+         | verdict | reward | meaning |\n| --- | --- | --- |\n\
+         | equivalent | 1 | the same value on the whole domain, proved |\n\
+         | different | 0 | not the same; with a point of the domain at which the two part |\n\
+         | invalid | null | no readable answer, or one without any value |\n\
+         | undecided | null | not known, with the reason; never to be counted as wrong |\n\n\
+         ## Tables of cases\n",
+    );
+    let mut notes: BTreeMap<&'static str, (usize, String)> = BTreeMap::new();
+    let mut shown: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for (file, _, cells) in rows {
+        *counts.entry(file).or_default() += 1;
+        let symbols = question(cells.get(4).map_or("", String::as_str));
+        let grade = judge(&cells[0], &cells[1], &symbols, &Options::default());
+        let example = format!("{} for {}", code(&cells[1]), code(&cells[0]));
+        notes.entry(grade.note).or_insert_with(|| (0, example)).0 += 1;
+        let domain = match cells.get(4).map_or("", String::as_str) {
+            "" => String::new(),
+            declared => format!(" ({})", code(declared)),
+        };
+        shown.entry(file).or_default().push(format!(
+            "| {} | {} | {} | {}{domain} | {} |",
+            code(&cells[0]),
+            code(&cells[1]),
+            cells[2],
+            cells[3],
+            grade.note,
+        ));
+    }
+    for (file, title, words) in TABLES {
+        let Some(lines) = shown.get(file) else {
+            continue;
+        };
+        let _ = write!(out, "\n### {title}\n\n{words}\n\n");
+        out.push_str(
+            "| expected | answer | verdict | why | note |\n| --- | --- | --- | --- | --- |\n",
+        );
+        let step = lines.len().div_ceil(SHOWN).max(1);
+        for line in lines.iter().step_by(step) {
+            out.push_str(line);
+            out.push('\n');
+        }
+        let _ = write!(
+            out,
+            "\n{} of {} rows of `tests/grading/{file}`.\n",
+            lines.iter().step_by(step).count(),
+            lines.len()
+        );
+    }
+    out.push_str("\n## Notes\n\nA note is a stable code that depends on neither points nor texts.\n\n| note | rows | for instance |\n| --- | --- | --- |\n");
+    for (note, (count, example)) in &notes {
+        let _ = writeln!(out, "| {note} | {count} | {example} |");
+    }
+    out.push_str(
+        "\n## Beliefs\n\nA wrong answer to a scene is held against what comes out when a law or the geometry is believed to be otherwise. A belief is\n\
+         named only where it gives exactly that answer, and where more than a handful do, none is. `tests/grading/scenes.tsv` has the cases.\n\n\
+         | code | what is believed | what the student is asked |\n| --- | --- | --- |\n",
+    );
+    for belief in BELIEFS {
+        let _ = writeln!(
+            out,
+            "| {} | {} | {} |",
+            belief.code, belief.belief, belief.hint
+        );
+    }
+    out.push_str("\n## Worked solutions\n\n`carom grade SCENE --steps FILE` judges a solution line by line: a line holds, gives a name, is wrong, or follows from an\nearlier wrong line.\n\n```text\n");
+    out.push_str(steps);
+    out.push_str(
+        "```\n\n## Batches\n\n`carom grade --batch` reads one JSON object a line and writes one, in order, whatever comes in.\n\n\
+         | field in | meaning |\n| --- | --- |\n\
+         | `id` | anything; given back as it came |\n\
+         | `expected`, `answer` | the two formulas |\n\
+         | `scene`, `quantity` | a scene below the working folder, and which of its questions; `expected` may then stand for the scene's own answer |\n\
+         | `symbols` | name: `{\"domain\": \"positive\" or \"nonnegative\" or \"real\" or {\"min\", \"max\"}, \"dimension\": unit, \"latex\"}` |\n\
+         | `tolerance` | `\"2%\"`, `{\"relative\"}`, `{\"absolute\"}` or `{\"significant\"}` |\n\
+         | `form` | `simplified`, `factored`, `unit`, `digits=3`, `only=m,v`, or a list of them |\n\n\
+         | field out | meaning |\n| --- | --- |\n\
+         | `id`, `verdict`, `reward`, `note` | as above |\n\
+         | `proof` | `kind` and `words`; `error_bound` where it is probabilistic |\n\
+         | `assumed`, `counterexample`, `error`, `diagnosis` | where there are such |\n\
+         | `read_as`, `symbols` | how the answer was read, and the names in it |\n",
+    );
+    out
+}
+
+/// A text as code in a cell of a table; what cannot be seen is named.
+fn code(text: &str) -> String {
+    if text.trim().is_empty() {
+        return "(blank)".into();
+    }
+    let mut shown = String::new();
+    for c in text.chars() {
+        match c {
+            '|' => shown.push_str("\\|"),
+            c if c.is_control()
+                || matches!(c, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{ad}' | '\u{feff}') =>
+            {
+                let _ = write!(shown, "\\u{{{:x}}}", u32::from(c));
+            }
+            c => shown.push(c),
+        }
+    }
+    let fence = if shown.contains('`') { "``" } else { "`" };
+    let gap = if shown.contains('`') { " " } else { "" };
+    format!("{fence}{gap}{shown}{gap}{fence}")
+}
