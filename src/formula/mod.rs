@@ -14,6 +14,7 @@ mod note;
 mod number;
 mod parser;
 mod prose;
+pub mod stream;
 mod symbols;
 mod tex;
 mod units;

@@ -1,0 +1,365 @@
+//! Equality at random points modulo a prime near 2⁶¹: fast, and right up to a probability that is stated.
+//!
+//! For quotients of polynomials in symbols, in sines and cosines of rational multiples of angles, and in square roots.
+//! In: texts or expressions and the domains of their symbols; out: equal or not, with the bound. A difference is certain: an
+//! identity over ℚ holds modulo every prime that divides no denominator. An equality is wrong with at most the probability
+//! stated (Schwartz and Zippel: degree over p for each point), where coefficients are shown to be smaller than the prime.
+//! Roots follow the rules told in [`lanes`]. Whatever fits none of this is declined, and [`crate::equality`] decides.
+
+mod lanes;
+mod prime;
+mod walk;
+
+use super::compare::Finding;
+use super::{Proof, Verdict};
+use crate::domain::{Domain, Domains, roles};
+use crate::expr::{Expr, Symbol};
+use crate::formula::stream::{Names, Seen, Table, stream};
+use lanes::{Compared, Lanes, Place, Points, Sign, State, Value};
+use prime::{PLAIN, ROOTS};
+
+/// Points for formulas without roots; each divides the chance of an error by p over the degree.
+const FEW: usize = 2;
+/// Points for formulas with roots: each root makes about half of them useless.
+const MANY: usize = 8;
+/// Real points that go with them.
+const REAL: usize = 3;
+/// Finest division of an angle.
+const FINEST: i32 = 24;
+
+/// What a comparison at points found.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Quick {
+    /// Whether the values agree.
+    pub equal: bool,
+    /// Largest probability that agreement is chance.
+    pub bound: f64,
+    /// Whether roots occur.
+    pub roots: bool,
+}
+
+impl Quick {
+    fn of(compared: Compared, roots: bool) -> Quick {
+        Quick {
+            equal: compared.equal,
+            bound: compared.bound,
+            roots,
+        }
+    }
+
+    /// The finding for a grade.
+    pub fn finding(&self, assumed: Vec<String>) -> Finding {
+        let modulus = if self.roots {
+            "2^61 - 139666593"
+        } else {
+            "2^61 - 1"
+        };
+        let mut finding = if self.equal {
+            let mut proof = Proof::of(
+                "modular",
+                format!("equal at random points modulo {modulus}"),
+            );
+            proof.bound = Some(self.bound);
+            Finding::new(Verdict::Equivalent, "EQUIV_MODULAR", proof)
+        } else {
+            Finding::different(
+                "DIFF",
+                "modular",
+                format!("no identity: the values differ modulo {modulus}"),
+            )
+        };
+        finding.assumed = assumed;
+        finding
+    }
+}
+
+/// Names under sines and elsewhere, as bits.
+#[derive(Clone, Copy, Default, Debug)]
+pub(crate) struct Uses {
+    turned: u64,
+    bare: u64,
+}
+
+impl Uses {
+    /// Whether no name is both an angle known by its direction and a value.
+    fn fit(self, other: Uses) -> bool {
+        (self.turned | other.turned) & (self.bare | other.bare) == 0
+    }
+}
+
+impl From<&Seen> for Uses {
+    fn from(seen: &Seen) -> Uses {
+        Uses {
+            turned: seen.turned,
+            bare: seen.bare,
+        }
+    }
+}
+
+/// Values of an expected formula at fixed points, kept for many answers.
+#[derive(Clone, Debug)]
+pub(crate) struct Residues {
+    /// The names in play: their place in the list is their index.
+    list: Vec<Symbol>,
+    places: Vec<Option<Place>>,
+    uses: Uses,
+    side: Side,
+    /// Domains assumed, in words.
+    assumed: Vec<String>,
+}
+
+#[derive(Clone, Debug)]
+enum Side {
+    Plain(Box<Kept<PLAIN, FEW, 0>>),
+    Roots(Box<Kept<ROOTS, MANY, REAL>>),
+    /// Not found yet.
+    None,
+}
+
+/// The value of an expected formula, and what it takes to find those of answers at the same points.
+#[derive(Clone, Debug)]
+struct Kept<const C: u64, const L: usize, const R: usize> {
+    points: Points<L, R>,
+    divisor: i32,
+    value: Value<L, R>,
+    state: State<L, R>,
+}
+
+/// How to go on where lanes stopped.
+enum Again {
+    Divide(i32),
+    Roots,
+    Never,
+}
+
+impl Again {
+    fn of<const C: u64, const L: usize, const R: usize>(lanes: &Lanes<C, L, R>) -> Again {
+        if lanes.rooted {
+            Again::Roots
+        } else if lanes.wanted > lanes.divisor && lanes.wanted <= FINEST {
+            Again::Divide(lanes.wanted)
+        } else {
+            Again::Never
+        }
+    }
+}
+
+impl Residues {
+    /// Values of an expected formula; `names` are the names in play. `None` where it is not of the kind this is for.
+    pub fn of(e: &Expr, domains: &Domains, mut names: Vec<Symbol>) -> Option<Residues> {
+        // A domain without inside, or a single value, is no place for identities.
+        let flat =
+            |d: &Domain| matches!((&d.low, &d.high), (Some(l), Some(h)) if l.value == h.value);
+        if domains.symbols.values().any(flat) {
+            return None;
+        }
+        let roles = roles(&[e]);
+        let strange: Vec<Symbol> = e
+            .symbols()
+            .into_iter()
+            .filter(|s| !names.contains(s))
+            .collect();
+        names.extend(strange);
+        let mut residues = Residues {
+            places: names.iter().map(|name| place(name, domains)).collect(),
+            list: names,
+            uses: Uses::default(),
+            side: Side::None,
+            assumed: domains.completed(&roles).1,
+        };
+        let (mut divisor, mut roots) = (1, false);
+        loop {
+            let kept = match roots {
+                false => residues.keep(e, divisor).map(Side::Plain),
+                true => residues.keep(e, divisor).map(Side::Roots),
+            };
+            match kept {
+                Ok(side) => {
+                    residues.side = side;
+                    return residues.uses.fit(Uses::default()).then_some(residues);
+                }
+                Err(Again::Divide(finer)) => divisor = finer,
+                Err(Again::Roots) => roots = true,
+                Err(Again::Never) => return None,
+            }
+        }
+    }
+
+    fn keep<const C: u64, const L: usize, const R: usize>(
+        &mut self,
+        e: &Expr,
+        divisor: i32,
+    ) -> Result<Box<Kept<C, L, R>>, Again> {
+        let none = Points::EMPTY;
+        let mut lanes = Lanes::<C, L, R>::new(&none, &self.places, divisor);
+        let (mut list, mut uses) = (self.list.clone(), Uses::default());
+        let Some(value) = walk::value(e, &mut list, &mut uses, &mut lanes) else {
+            return Err(Again::of(&lanes));
+        };
+        for (index, name) in self.list.iter().enumerate() {
+            lanes.prepare(index, name.as_bytes());
+        }
+        let (points, state) = (
+            std::mem::replace(&mut lanes.points, Points::EMPTY),
+            lanes.state,
+        );
+        self.uses = uses;
+        Ok(Box::new(Kept {
+            points,
+            divisor,
+            value,
+            state,
+        }))
+    }
+
+    /// Compares an answer; `None` where it is not of the kind this is for.
+    pub fn compare(&self, answer: &Expr) -> Option<Finding> {
+        let mut list = self.list.clone();
+        let mut uses = Uses::default();
+        let quick = match &self.side {
+            Side::Plain(kept) => kept.judge(self, |lanes| {
+                walk::value(answer, &mut list, &mut uses, lanes)
+            }),
+            Side::Roots(kept) => kept.judge(self, |lanes| {
+                walk::value(answer, &mut list, &mut uses, lanes)
+            }),
+            Side::None => None,
+        }?;
+        uses.fit(self.uses)
+            .then(|| quick.finding(self.assumed.clone()))
+    }
+
+    /// Compares an answer that is read in one pass with a table of the names given when this was made.
+    pub fn judge(&self, answer: &str, names: &Names, seen: &mut Seen) -> Option<Quick> {
+        let quick = match &self.side {
+            Side::Plain(kept) => kept.judge(self, |lanes| {
+                stream(answer, Table::Known(names), lanes, seen)
+            }),
+            Side::Roots(kept) => kept.judge(self, |lanes| {
+                stream(answer, Table::Known(names), lanes, seen)
+            }),
+            Side::None => None,
+        }?;
+        Uses::from(&*seen).fit(self.uses).then_some(quick)
+    }
+
+    /// The names in play.
+    pub fn list(&self) -> &[Symbol] {
+        &self.list
+    }
+
+    /// The domains that are assumed, in words.
+    pub fn assumed(&self) -> &[String] {
+        &self.assumed
+    }
+}
+
+impl<const C: u64, const L: usize, const R: usize> Kept<C, L, R> {
+    #[inline]
+    fn judge(
+        &self,
+        with: &Residues,
+        read: impl FnOnce(&mut Lanes<C, L, R>) -> Option<Value<L, R>>,
+    ) -> Option<Quick> {
+        let mut lanes = Lanes::new(&self.points, &with.places, self.divisor);
+        lanes.state = self.state;
+        lanes.state.used = 0;
+        let answer = read(&mut lanes)?;
+        let (mine, theirs) = (self.state.used, lanes.state.used);
+        let compared = lanes.compare((&self.value, mine), (&answer, theirs))?;
+        Some(Quick::of(compared, C == ROOTS))
+    }
+}
+
+/// Where the question says that a symbol lives; `None` where it says nothing.
+fn place(name: &Symbol, domains: &Domains) -> Option<Place> {
+    let unit = domains.unit_vectors.iter().find(|pair| pair.contains(name));
+    if let Some(pair) = unit {
+        return Some(Place {
+            sign: Sign::Unknown,
+            range: [-1.0, 1.0],
+            unit: Some((pair[0].clone(), pair[1] == *name)),
+        });
+    }
+    let domain = domains.symbols.get(name)?;
+    let [low, high] = [&domain.low, &domain.high].map(|l| l.as_ref().map(|l| l.approximate()));
+    let sign = match low {
+        Some(low) if low > 0.0 => Sign::Positive,
+        Some(low) if low == 0.0 && domain.low.as_ref().is_some_and(|l| l.open) => Sign::Positive,
+        Some(low) if low == 0.0 => Sign::NotNegative,
+        _ => Sign::Unknown,
+    };
+    let range = match (low, high) {
+        (Some(low), Some(high)) => [low, high],
+        (Some(low), None) => [low + 0.5, low + 2.5],
+        (None, Some(high)) => [high - 2.5, high - 0.5],
+        (None, None) => [-2.0, 2.5],
+    };
+    Some(Place {
+        sign,
+        range,
+        unit: None,
+    })
+}
+
+/// Two formulas compared with nothing declared and nothing kept.
+pub(crate) struct Pair {
+    /// What was found.
+    pub quick: Quick,
+    /// The names, collected from the expected formula.
+    pub names: Names,
+    /// What was seen of the expected formula and of the answer.
+    pub seen: [Seen; 2],
+}
+
+/// Compares two texts, the first read on its own and the second with its names.
+pub(crate) fn pair(expected: &str, answer: &str) -> Option<Pair> {
+    let (mut divisor, mut roots) = (1, false);
+    loop {
+        let again = match roots {
+            false => match pair_in::<PLAIN, FEW, 0>(expected, answer, divisor) {
+                Ok(pair) => return Some(pair),
+                Err(again) => again,
+            },
+            true => match pair_in::<ROOTS, MANY, REAL>(expected, answer, divisor) {
+                Ok(pair) => return Some(pair),
+                Err(again) => again,
+            },
+        };
+        match again {
+            Again::Divide(finer) => divisor = finer,
+            Again::Roots => roots = true,
+            Again::Never => return None,
+        }
+    }
+}
+
+fn pair_in<const C: u64, const L: usize, const R: usize>(
+    expected: &str,
+    answer: &str,
+    divisor: i32,
+) -> Result<Pair, Again> {
+    let none = Points::EMPTY;
+    let mut lanes = Lanes::<C, L, R>::new(&none, &[], divisor);
+    let mut names = Names::collecting();
+    let mut seen = [Seen::default(), Seen::default()];
+    let table = Table::Collect(&mut names);
+    let Some(left) = stream(expected, table, &mut lanes, &mut seen[0]) else {
+        return Err(Again::of(&lanes));
+    };
+    names.close();
+    let mine = std::mem::take(&mut lanes.state.used);
+    let Some(right) = stream(answer, Table::Known(&names), &mut lanes, &mut seen[1]) else {
+        return Err(Again::of(&lanes));
+    };
+    let compared = lanes.compare((&left, mine), (&right, lanes.state.used));
+    let fit = Uses::from(&seen[0]).fit(Uses::from(&seen[1]));
+    match compared {
+        Some(compared) if fit => Ok(Pair {
+            quick: Quick::of(compared, C == ROOTS),
+            names,
+            seen,
+        }),
+        _ => Err(Again::Never),
+    }
+}
