@@ -78,6 +78,20 @@ fn different_with_diagnosis(bencher: divan::Bencher, class: usize) {
 }
 
 #[divan::bench(args = CLASSES)]
+fn equal_pair_fast(bencher: divan::Bencher, class: usize) {
+    let (_, expected, equal, _) = PAIRS[class];
+    let options = options(Strength::Fast);
+    bencher.bench(|| judge(expected, equal, &Question::default(), &options));
+}
+
+#[divan::bench(args = CLASSES)]
+fn different_pair_fast(bencher: divan::Bencher, class: usize) {
+    let (_, expected, _, other) = PAIRS[class];
+    let options = options(Strength::Fast);
+    bencher.bench(|| judge(expected, other, &Question::default(), &options));
+}
+
+#[divan::bench(args = CLASSES)]
 fn equal_fast_against_a_stored_key(bencher: divan::Bencher, class: usize) {
     let (_, expected, equal, _) = PAIRS[class];
     let key = key(expected, &Question::default()).expect("a readable formula");
