@@ -326,6 +326,9 @@ impl<B: Builder> Reader<'_, B> {
                 return None;
             }
             self.at += 1;
+        } else if self.byte(0) == b'\'' || self.starts("′") {
+            // Where the index ends could depend on the names without the prime.
+            return None;
         }
         Some(())
     }
