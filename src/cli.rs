@@ -3,6 +3,7 @@
 //! Results go to standard output, everything else to standard error. Exit status: 0 done and everything held; 1 a check
 //! failed or an answer was refuted; 2 unusable input; 3 undecided; 70 a fault of carom itself.
 
+mod batch;
 mod draw;
 mod emit;
 mod grade;

@@ -1,18 +1,15 @@
 //! `carom grade` and `carom read`: one answer, a batch of answers, or how a formula is understood.
 
 use std::collections::HashMap;
-use std::io::{BufRead, BufReader, IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
 
 use clap::{Args, ValueEnum};
-use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::{Failure, Format, pretty, print, read_scene};
-use carom::grade::entry::{self, Entry, Keys};
+use carom::grade::entry;
 use carom::grade::sheet::{self, Sheet};
-use carom::grade::{Form, Given, Grade, Options, Question, Strength, Verdict};
+use carom::grade::{Form, Given, Options, Question, Strength, Verdict};
 use carom::{dimension, formula, grade, render};
 
 /// Arguments of `carom grade`.
@@ -42,7 +39,7 @@ pub struct GradeArgs {
     batch: bool,
     /// Threads of a batch; by default one per core
     #[arg(long, requires = "batch")]
-    jobs: Option<usize>,
+    pub(super) jobs: Option<usize>,
     /// How strong a proof of equality has to be
     #[arg(long, value_enum, default_value_t = ProofArg::Identity)]
     proof: ProofArg,
@@ -103,7 +100,7 @@ enum ProofArg {
 pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
     let options = options(args)?;
     if args.batch {
-        return batch(args, &options);
+        return super::batch::batch(args, &options);
     }
     if let (Some(scene), Some(file)) = (&args.scene, &args.steps) {
         return steps(scene, file, &options, args.format);
@@ -185,14 +182,14 @@ fn steps(scene: &Path, file: &Path, options: &Options, format: Format) -> Result
     Ok(u8::from(lines.iter().any(wrong)))
 }
 
-fn only_quantity(sheet: &Sheet) -> Option<String> {
+pub(super) fn only_quantity(sheet: &Sheet) -> Option<String> {
     match sheet.scene.questions.as_slice() {
         [one] => Some(one.name.clone()),
         _ => None,
     }
 }
 
-fn open(path: &Path) -> Result<Sheet, Failure> {
+pub(super) fn open(path: &Path) -> Result<Sheet, Failure> {
     let scene = read_scene(path, &[])?;
     if let Some(stages) = &scene.story {
         let told = carom::story::tell(&scene, stages)
@@ -252,209 +249,6 @@ fn question(args: &GradeArgs) -> Result<Question, Failure> {
         });
     }
     Ok(question)
-}
-
-/// Lines handled by one task; keys are shared within it.
-const TASK: usize = 256;
-/// Lines read before they are handed out: memory stays bounded whatever comes in.
-const CHUNK: usize = 64 * TASK;
-
-fn batch(args: &GradeArgs, options: &Options) -> Result<u8, Failure> {
-    let mut pool = rayon::ThreadPoolBuilder::new();
-    if let Some(jobs) = args.jobs {
-        pool = pool.num_threads(jobs.clamp(1, 1024));
-    }
-    let pool = pool
-        .build()
-        .map_err(|e| Failure::Input(format!("--jobs: {e}")))?;
-    let sheets = Sheets::default();
-    let progress = std::io::stderr().is_terminal().then(|| {
-        let bar = indicatif::ProgressBar::new_spinner();
-        bar.set_style(
-            indicatif::ProgressStyle::with_template("{human_pos} lines, {per_sec}, {elapsed}")
-                .unwrap_or_else(|_| indicatif::ProgressStyle::default_spinner()),
-        );
-        bar
-    });
-    let mut input = BufReader::with_capacity(1 << 22, std::io::stdin().lock());
-    let mut out = std::io::BufWriter::with_capacity(1 << 16, std::io::stdout().lock());
-    loop {
-        let lines = lines(&mut input, CHUNK)?;
-        if lines.is_empty() {
-            break;
-        }
-        let judged: Vec<String> = pool.install(|| {
-            lines
-                .par_chunks(TASK)
-                .map(|task| {
-                    let mut keys = Keys::default();
-                    let mut text = String::with_capacity(task.len() * 256);
-                    for line in task {
-                        one(line, options, &mut keys, &sheets, &mut text);
-                    }
-                    text
-                })
-                .collect()
-        });
-        for text in judged {
-            out.write_all(text.as_bytes())?;
-        }
-        out.flush()?;
-        if let Some(bar) = &progress {
-            bar.inc(lines.len() as u64);
-        }
-    }
-    if let Some(bar) = progress {
-        bar.finish_and_clear();
-    }
-    Ok(0)
-}
-
-/// A line of input, or what is wrong with its bytes.
-type Line = Result<String, String>;
-
-/// Up to `count` lines that are not blank. Lines that are there are not made to wait for more: whoever asks line by line
-/// gets each answer before the next question.
-fn lines(input: &mut BufReader<impl std::io::Read>, count: usize) -> Result<Vec<Line>, Failure> {
-    let mut out = Vec::new();
-    while out.len() < count && (out.is_empty() || input.buffer().contains(&b'\n')) {
-        let mut line = Vec::new();
-        let mut long = false;
-        let mut ended = false;
-        loop {
-            let buffer = input
-                .fill_buf()
-                .map_err(|e| Failure::Input(format!("standard input: {e}")))?;
-            if buffer.is_empty() {
-                break;
-            }
-            let (taken, done) = match buffer.iter().position(|b| *b == b'\n') {
-                Some(at) => (at + 1, true),
-                None => (buffer.len(), false),
-            };
-            // The rest of a line that is too long is read and forgotten.
-            if line.len() + taken <= entry::MAX_LINE + 1 {
-                line.extend_from_slice(&buffer[..taken]);
-            } else {
-                long = true;
-            }
-            input.consume(taken);
-            if done {
-                ended = true;
-                break;
-            }
-        }
-        if line.is_empty() && !long {
-            break;
-        }
-        if long {
-            out.push(Err(format!("a line has at most {} bytes", entry::MAX_LINE)));
-        } else if line.iter().any(|b| !b.is_ascii_whitespace()) {
-            out.push(
-                String::from_utf8(line)
-                    .map_err(|e| format!("no UTF-8 at byte {}", e.utf8_error().valid_up_to())),
-            );
-        }
-        if !ended {
-            break;
-        }
-    }
-    Ok(out)
-}
-
-fn one(line: &Line, options: &Options, keys: &mut Keys, sheets: &Sheets, out: &mut String) {
-    let read = match line {
-        Ok(line) => entry::entry(line, options),
-        Err(message) => Err(entry::BadLine {
-            id: Value::Null,
-            message: message.clone(),
-        }),
-    };
-    match read {
-        Ok(entry) => {
-            let grade = entry::judge(&entry, keys, &|entry, scene| sheets.judge(entry, scene));
-            let text = match grade.note {
-                "INVALID_EXPECTED" => entry.expected.as_deref().unwrap_or_default(),
-                "INVALID_LINE" => "",
-                _ => &entry.answer,
-            };
-            render::grade::line(out, &entry.id, &grade, text);
-        }
-        Err(bad) => render::grade::line(out, &bad.id, &entry::refused(bad.message), ""),
-    }
-}
-
-/// Scenes named in a batch, each derived once.
-#[derive(Default)]
-struct Sheets {
-    known: Mutex<HashMap<String, Arc<Result<Sheet, String>>>>,
-}
-
-/// Scenes kept at a time.
-const SHEETS: usize = 256;
-
-impl Sheets {
-    fn judge(&self, entry: &Entry, path: &str) -> Result<Grade, String> {
-        let sheet = self.sheet(path);
-        let sheet = sheet.as_ref().as_ref().map_err(Clone::clone)?;
-        // With a formula of its own a line takes from the scene what its symbols mean.
-        if let Some(expected) = &entry.expected {
-            let mut question = sheet.question();
-            if let Some(name) = &entry.quantity {
-                question.asked = sheet.entry(name)?.key.question.asked;
-            }
-            return Ok(grade::judge(
-                expected,
-                &entry.answer,
-                &question,
-                &entry.options,
-            ));
-        }
-        let name = entry
-            .quantity
-            .clone()
-            .or_else(|| only_quantity(sheet))
-            .ok_or_else(|| {
-                format!(
-                    "\"quantity\" is missing: one of {}",
-                    sheet.quantities().join(", ")
-                )
-            })?;
-        let found = sheet.entry(&name)?;
-        Ok(sheet.judge(&found, &entry.answer, &entry.options))
-    }
-
-    fn sheet(&self, path: &str) -> Arc<Result<Sheet, String>> {
-        let lock = |known: &Mutex<HashMap<String, Arc<Result<Sheet, String>>>>| match known.lock() {
-            Ok(map) => map.get(path).cloned(),
-            Err(poisoned) => poisoned.into_inner().get(path).cloned(),
-        };
-        if let Some(sheet) = lock(&self.known) {
-            return sheet;
-        }
-        // Lines come from strangers: no way out of the folder, and nothing of a file's text in a message.
-        let inside = Path::new(path).components().all(|c| {
-            matches!(
-                c,
-                std::path::Component::Normal(_) | std::path::Component::CurDir
-            )
-        });
-        let sheet = Arc::new(match inside {
-            true => open(Path::new(path)).map_err(|_| {
-                format!("{path}: not a readable scene; `carom derive {path}` tells why")
-            }),
-            false => Err(format!(
-                "{path}: a scene is named by a path below the working folder, without `..`"
-            )),
-        });
-        if let Ok(mut map) = self.known.lock() {
-            if map.len() >= SHEETS {
-                map.clear();
-            }
-            map.insert(path.to_string(), sheet.clone());
-        }
-        sheet
-    }
 }
 
 /// The list of printed things in a file beside the scene.

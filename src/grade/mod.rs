@@ -13,6 +13,7 @@ mod form;
 mod modular;
 mod number;
 mod partial;
+pub mod plain;
 mod read;
 mod relation;
 pub mod sheet;
@@ -29,6 +30,7 @@ use crate::formula::{self, Content, Fault, Note, Reading, Remark, Symbols};
 pub(crate) use crate::verify::rounding::fraction;
 
 pub use form::Form;
+pub use modular::Quick;
 pub use number::Tolerance;
 
 /// What a question declares about its symbols.
@@ -362,6 +364,24 @@ fn assumed(list: &[Symbol], seen: &Seen) -> Vec<String> {
     used.into_iter().map(words).collect()
 }
 
+/// The verdict on an answer at the first strength, with nothing around it: for those who judge millions. It is the one
+/// [`judge_against`] gives; `None` where it takes more than one pass over the text, or where more is asked for.
+pub fn quick(key: &Key, answer: &str, options: &Options, seen: &mut Seen) -> Option<Quick> {
+    if !options.is_quick() || key.quantity.is_some() {
+        return None;
+    }
+    let residues = key.residues.as_ref()?;
+    residues.judge(answer, key.names.as_ref()?, seen)
+}
+
+impl Key {
+    /// The domains taken for granted, in words, and the names in play by their index in [`Seen`].
+    pub fn assumed(&self) -> Option<(&[String], &[Symbol])> {
+        let residues = self.residues.as_ref()?;
+        Some((residues.assumed(), residues.list()))
+    }
+}
+
 /// The grade from a comparison at points, with what was seen of the answer.
 fn quick_grade(quick: &modular::Quick, assumed: Vec<String>, list: &[Symbol], seen: Seen) -> Grade {
     let finding = quick.finding(assumed);
@@ -413,15 +433,10 @@ pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
         grade.assumed.push(words);
         return grade;
     }
-    if options.is_quick()
-        && key.quantity.is_none()
-        && let (Some(residues), Some(names)) = (&key.residues, &key.names)
-    {
-        let mut seen = Seen::default();
-        if let Some(quick) = residues.judge(answer, names, &mut seen) {
-            let assumed = residues.assumed().to_vec();
-            return quick_grade(&quick, assumed, residues.list(), seen);
-        }
+    let mut seen = Seen::default();
+    if let (Some(quick), Some(residues)) = (quick(key, answer, options, &mut seen), &key.residues) {
+        let assumed = residues.assumed().to_vec();
+        return quick_grade(&quick, assumed, residues.list(), seen);
     }
     let reading = match read::answer(key, answer) {
         Ok(reading) => reading,

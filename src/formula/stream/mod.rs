@@ -114,6 +114,7 @@ pub fn stream<B: Builder>(
         seen: Seen::default(),
     };
     reader.echo.clear();
+    reader.echo.reserve(2 * text.len());
     let read = reader.sum();
     let whole = read.is_some() && matches!(reader.peek(), Some(Peek::End));
     let (echo, found) = (reader.echo, reader.seen);

@@ -10,7 +10,10 @@
 //! is alive its radicand is no square: then it is no square in the field before either, adjoining it is a true extension,
 //! and either choice of its sign in the lanes is as good as the real one. Lanes where it has no root are dead from there.
 
-use super::prime::{self, ROOTS, SMOOTH, add, each, negative, random, roots, times};
+use super::prime::{
+    self, ROOTS, SMOOTH, add, each, negative, one, random, residue, roots, seed, times,
+};
+use super::real::Real;
 use crate::expr::{Function, Symbol};
 use crate::formula::stream::{Angle, Builder};
 
@@ -44,10 +47,19 @@ impl Bound {
             norm: self.norm + other.norm,
         }
     }
-    fn power(self, k: f64) -> Bound {
+    fn power(self, k: u32) -> Bound {
         Bound {
-            degree: self.degree * k,
-            norm: self.norm.powf(k),
+            degree: self.degree * f64::from(k),
+            norm: match k {
+                2 => self.norm * self.norm,
+                _ => self.norm.powi(k.min(10_000) as i32),
+            },
+        }
+    }
+    fn root(self) -> Bound {
+        Bound {
+            degree: self.degree / 2.0,
+            norm: self.norm.sqrt(),
         }
     }
 }
@@ -68,8 +80,8 @@ pub(super) struct Value<const L: usize, const R: usize> {
     /// Whether `below` is 1 everywhere.
     whole: bool,
     bounds: [Bound; 2],
-    /// At real points, in doubles.
-    real: [f64; R],
+    /// At real points.
+    real: [Real; R],
     sign: Sign,
     /// Whether it is a product of positive symbols and a constant made of small primes.
     monomial: bool,
@@ -115,6 +127,8 @@ pub(super) struct Lanes<'a, const C: u64, const L: usize, const R: usize> {
     pub wanted: i32,
     /// Whether reading ended at a root that these lanes do not take.
     pub rooted: bool,
+    /// Another one gives other points.
+    pub round: u64,
     pub state: State<L, R>,
 }
 
@@ -176,6 +190,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
             divisor,
             wanted: divisor,
             rooted: false,
+            round: 0,
             state: State {
                 generators: [None; MOST_ROOTS],
                 alive: (1 << L) - 1,
@@ -195,11 +210,11 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
             norm: norm as f64,
         };
         Value {
-            above: [prime::residue::<C>(above); L],
-            below: [prime::residue::<C>(below); L],
+            above: [residue::<C>(above); L],
+            below: [residue::<C>(below); L],
             whole: below == 1,
             bounds: [bound(above), bound(below)],
-            real: [above as f64 / below as f64; R],
+            real: [Real::quotient(above, below); R],
             sign: if above == 0 {
                 Sign::NotNegative
             } else {
@@ -226,12 +241,16 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         } else {
             1
         };
+        let seed = seed(name) ^ self.round;
         for (lane, above) in value.above.iter_mut().enumerate() {
-            let drawn = random::<C>(name, lane as u64);
-            *above = prime::power::<C>(drawn, power);
+            let drawn = random::<C>(seed, lane as u64);
+            *above = match power {
+                1 => drawn,
+                _ => prime::power::<C>(drawn, 4),
+            };
         }
         value.bounds[0].degree = power as f64;
-        value.real = real(name, place.map_or([0.5, 2.5], |p| p.range));
+        value.real = real(seed, place.map_or([0.5, 2.5], |p| p.range));
         value.sign = sign;
         value.monomial = power == 4;
         value.odd = 0;
@@ -241,17 +260,18 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
     /// Cosine and sine of an angle of which nothing is known but its name.
     fn unit(&self, name: &[u8], range: [f64; 2]) -> [Value<L, R>; 2] {
         let mut both = [self.constant(1, 1); 2];
+        let seed = seed(name) ^ self.round;
         for lane in 0..L {
-            let t = random::<C>(name, lane as u64);
+            let t = random::<C>(seed, lane as u64);
             let square = times::<C>(t, t);
-            both[0].above[lane] = add::<C>(1, negative::<C>(square));
+            both[0].above[lane] = add::<C>(one::<C>(), negative::<C>(square));
             both[1].above[lane] = add::<C>(t, t);
-            both[0].below[lane] = add::<C>(1, square);
+            both[0].below[lane] = add::<C>(one::<C>(), square);
         }
         both[1].below = both[0].below;
-        let angles = real::<R>(name, range);
-        both[0].real = angles.map(f64::cos);
-        both[1].real = angles.map(f64::sin);
+        let units = real::<R>(seed, range).map(Real::unit);
+        both[0].real = units.map(|[cos, _]| cos);
+        both[1].real = units.map(|[_, sin]| sin);
         for value in &mut both {
             value.whole = false;
             value.bounds = [Bound {
@@ -280,6 +300,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         }
         let value = self.fresh(index, name);
         if self.points.symbols.len() <= index {
+            self.points.symbols.reserve(16);
             self.points.symbols.resize(index + 1, None);
         }
         self.points.symbols[index] = Some(value);
@@ -343,24 +364,29 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         let inner = a.bounds[0].times(a.bounds[1]);
         let root = Value {
             above,
-            bounds: [inner.power(0.5), a.bounds[1]],
-            real: a.real.map(f64::sqrt),
+            bounds: [inner.root(), a.bounds[1]],
+            real: a.real.map(Real::sqrt),
             sign: a.sign.max(Sign::NotNegative),
             monomial: false,
             ..a
         };
         if a.monomial {
-            self.state.adjoin(a.odd)?;
-            return (exists & self.state.alive == self.state.alive).then_some(root);
+            if self.state.adjoin(a.odd).is_none() {
+                self.state.alive = 0;
+            }
+            return Some(root);
         }
         let lost = self.state.alive & !exists;
-        self.state.alive &= exists;
-        if lost == 0 || self.state.alive == 0 {
-            return None;
+        let free = self.state.generators.iter().position(Option::is_none);
+        match free {
+            Some(free) if lost != 0 => {
+                self.state.alive &= exists;
+                self.state.generators[free] = Some(Generator { core: a, root });
+                self.state.used |= 1 << free;
+            }
+            // Nothing more is known of the lanes; what real points tell remains.
+            _ => self.state.alive = 0,
         }
-        let free = self.state.generators.iter().position(Option::is_none)?;
-        self.state.generators[free] = Some(Generator { core: a, root });
-        self.state.used |= 1 << free;
         Some(root)
     }
 
@@ -375,8 +401,8 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         Value {
             above: lanes(a.above),
             below: if a.whole { a.below } else { lanes(a.below) },
-            bounds: a.bounds.map(|b| b.power(f64::from(k))),
-            real: a.real.map(|x| x.powi(k as i32)),
+            bounds: a.bounds.map(|b| b.power(k)),
+            real: a.real.map(|x| x.power(k)),
             sign: if k % 2 == 0 {
                 a.sign.max(Sign::NotNegative)
             } else {
@@ -393,9 +419,19 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
             below: a.above,
             whole: false,
             bounds: [a.bounds[1], a.bounds[0]],
-            real: a.real.map(|x| 1.0 / x),
+            real: a.real.map(Real::inverse),
             ..a
         })
+    }
+
+    /// Those of some generators whose radicand may be negative.
+    fn unsure(&self, used: u32) -> u32 {
+        let mut out = 0;
+        for (at, generator) in self.state.generators.iter().enumerate() {
+            let unsure = generator.is_some_and(|g| g.core.sign == Sign::Unknown);
+            out |= u32::from(unsure) << at;
+        }
+        out & used
     }
 
     /// Compares an answer with what is expected; each comes with the generators it uses. `None` where nothing follows.
@@ -405,43 +441,29 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         answer: (&Value<L, R>, u32),
     ) -> Option<Compared> {
         let ((e, mine), (a, theirs)) = (expected, answer);
+        // Enclosures at real points that do not meet settle it.
+        let pairs = || e.real.iter().zip(&a.real);
+        if pairs().any(|(x, y)| x.apart(y)) {
+            return Some(Compared {
+                equal: false,
+                bound: 0.0,
+            });
+        }
+        if self.state.alive == 0 {
+            return None;
+        }
         let equal = self.same(e, a);
-        let count = self.state.generators.iter().flatten().count() as i32;
-        if R > 0 && count > 0 {
-            // What the lanes say of roots has to be seen at real points as well.
-            let mut seen = false;
-            for (x, y) in e.real.iter().zip(a.real) {
-                if !x.is_finite() || !y.is_finite() {
-                    continue;
-                }
-                let near = (x - y).abs() <= 1e-9 * (1.0 + x.abs().max(y.abs()));
-                match equal {
-                    true if !near => return None,
-                    true => seen = true,
-                    false => seen |= (x - y).abs() > 1e-6 * x.abs().max(y.abs()),
-                }
-            }
-            let open = |used: u32| {
-                let unsure = |(at, g): (usize, &Option<Generator<L, R>>)| {
-                    u32::from(g.is_some_and(|g| g.core.sign == Sign::Unknown)) << at
-                };
-                self.state
-                    .generators
-                    .iter()
-                    .enumerate()
-                    .map(unsure)
-                    .sum::<u32>()
-                    & used
-            };
-            // Roots of what may be negative: both sides have to lack values at the same places.
-            if !seen || (equal && open(mine) != open(theirs)) {
+        if C == ROOTS {
+            // Roots of what may be negative: both sides have to lack values at the same places, and to have some at one.
+            let defined = pairs().any(|(x, y)| x.is_known() && y.is_known());
+            if !equal || !defined || self.unsure(mine) != self.unsure(theirs) {
                 return None;
             }
         }
         let left = e.bounds[0].times(a.bounds[1]);
         let right = a.bounds[0].times(e.bounds[1]);
         // The product of the difference with its conjugates, one for each choice of signs of the roots.
-        let conjugates = f64::from(1 << self.state.degree());
+        let conjugates = 1 << self.state.degree();
         let whole = left.plus(right).power(conjugates);
         let largest = prime::prime::<C>() as f64;
         // Otherwise the prime could divide all coefficients.
@@ -475,11 +497,11 @@ fn odd_primes(n: u64) -> Option<u32> {
     (left == 1).then_some(odd)
 }
 
-/// Numbers inside a range for a name.
-fn real<const R: usize>(name: &[u8], [low, high]: [f64; 2]) -> [f64; R] {
+/// Numbers inside a range, drawn for a seed.
+fn real<const R: usize>(seed: u64, [low, high]: [f64; 2]) -> [Real; R] {
     std::array::from_fn(|lane| {
-        let share = random::<1>(name, 1000 + lane as u64) as f64 / prime::prime::<1>() as f64;
-        low + (high - low) * (0.02 + 0.96 * share)
+        let share = random::<1>(seed, 1000 + lane as u64) as f64 / prime::prime::<1>() as f64;
+        Real::exact(low + (high - low) * (0.05 + 0.9 * share))
     })
 }
 
@@ -498,14 +520,14 @@ impl<const C: u64, const L: usize, const R: usize> Builder for Lanes<'_, C, L, R
     fn pi(&mut self) -> Option<Value<L, R>> {
         // π is transcendental: a symbol like others, with a known real value.
         let mut value = self.fresh(usize::MAX, b"pi");
-        value.real = [std::f64::consts::PI; R];
+        value.real = [Real::PI; R];
         Some(value)
     }
 
     fn negative(&mut self, a: Value<L, R>) -> Option<Value<L, R>> {
         Some(Value {
             above: a.above.map(negative::<C>),
-            real: a.real.map(|x| -x),
+            real: a.real.map(Real::negative),
             sign: Sign::Unknown,
             monomial: false,
             ..a
@@ -521,7 +543,7 @@ impl<const C: u64, const L: usize, const R: usize> Builder for Lanes<'_, C, L, R
             (x, y) => x.max(y),
         };
         for (x, y) in out.real.iter_mut().zip(b.real) {
-            *x += y;
+            *x = x.plus(y);
         }
         if (a.whole && b.whole) || a.below == b.below {
             out.above = each(a.above, b.above, add::<C>);
@@ -561,7 +583,7 @@ impl<const C: u64, const L: usize, const R: usize> Builder for Lanes<'_, C, L, R
         }
         out.whole = a.whole && b.whole;
         for (x, y) in out.real.iter_mut().zip(b.real) {
-            *x *= y;
+            *x = x.times(y);
         }
         out.sign = a.sign.min(b.sign);
         out.monomial = a.monomial && b.monomial;
@@ -646,7 +668,7 @@ impl<const C: u64, const L: usize, const R: usize> Builder for Lanes<'_, C, L, R
             // Both stand above the same.
             _ => {
                 let level = |v: Value<L, R>| Value {
-                    below: [1; L],
+                    below: [one::<C>(); L],
                     whole: true,
                     bounds: [v.bounds[0], Bound::ONE],
                     ..v

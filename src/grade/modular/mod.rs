@@ -8,6 +8,7 @@
 
 mod lanes;
 mod prime;
+mod real;
 mod walk;
 
 use super::compare::Finding;
@@ -23,13 +24,13 @@ const FEW: usize = 2;
 /// Points for formulas with roots: each root makes about half of them useless.
 const MANY: usize = 8;
 /// Real points that go with them.
-const REAL: usize = 3;
+const REAL: usize = 2;
 /// Finest division of an angle.
 const FINEST: i32 = 24;
 
 /// What a comparison at points found.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Quick {
+pub struct Quick {
     /// Whether the values agree.
     pub equal: bool,
     /// Largest probability that agreement is chance.
@@ -47,26 +48,24 @@ impl Quick {
         }
     }
 
+    /// How the verdict is known, in words.
+    pub fn words(&self) -> &'static str {
+        match (self.equal, self.roots) {
+            (true, false) => "equal at random points modulo 2^61 - 1",
+            (true, true) => "equal at random points modulo 2^61 - 139666593, roots included",
+            (false, false) => "no identity: the values differ modulo 2^61 - 1",
+            (false, true) => "no identity: the values differ modulo 2^61 - 139666593",
+        }
+    }
+
     /// The finding for a grade.
-    pub fn finding(&self, assumed: Vec<String>) -> Finding {
-        let modulus = if self.roots {
-            "2^61 - 139666593"
-        } else {
-            "2^61 - 1"
-        };
+    pub(crate) fn finding(&self, assumed: Vec<String>) -> Finding {
         let mut finding = if self.equal {
-            let mut proof = Proof::of(
-                "modular",
-                format!("equal at random points modulo {modulus}"),
-            );
+            let mut proof = Proof::of("modular", self.words());
             proof.bound = Some(self.bound);
             Finding::new(Verdict::Equivalent, "EQUIV_MODULAR", proof)
         } else {
-            Finding::different(
-                "DIFF",
-                "modular",
-                format!("no identity: the values differ modulo {modulus}"),
-            )
+            Finding::different("DIFF", "modular", self.words())
         };
         finding.assumed = assumed;
         finding

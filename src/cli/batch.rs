@@ -1,0 +1,453 @@
+//! `carom grade --batch`: JSON lines in, one JSON line out for each, in order.
+//!
+//! A thread reads blocks of whole lines; tasks on all cores judge them, each with the keys it has read before; the main
+//! thread writes. Memory is bounded whatever comes in, and lines that are there are not made to wait for more.
+
+use std::collections::HashMap;
+use std::io::{IsTerminal, Read, Write};
+use std::path::Path;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::{Arc, Mutex};
+
+use rayon::prelude::*;
+use serde_json::Value;
+
+use super::Failure;
+use super::grade::{GradeArgs, only_quantity, open};
+use carom::formula::Fault;
+use carom::formula::stream::Seen;
+use carom::grade::entry::{self, Entry, Keys};
+use carom::grade::plain::{Plain, plain};
+use carom::grade::sheet::Sheet;
+use carom::grade::{self, Grade, Key, Options};
+use carom::render;
+
+/// Bytes asked of standard input at a time.
+const READ: usize = 1 << 20;
+/// Blocks waiting to be judged.
+const WAITING: usize = 8;
+/// Bytes of a task, about.
+const TASK: usize = 1 << 16;
+
+/// A piece of the input.
+enum Block {
+    /// Whole lines; only the last may lack its end.
+    Lines(Vec<u8>),
+    /// A line that is too long; it was read and forgotten.
+    Long,
+    /// Reading failed.
+    Failed(std::io::Error),
+}
+
+/// Runs a batch over standard input.
+pub(super) fn batch(args: &GradeArgs, options: &Options) -> Result<u8, Failure> {
+    let mut pool = rayon::ThreadPoolBuilder::new();
+    if let Some(jobs) = args.jobs {
+        pool = pool.num_threads(jobs.clamp(1, 1024));
+    }
+    let pool = pool
+        .build()
+        .map_err(|e| Failure::Input(format!("--jobs: {e}")))?;
+    let judges = Judges {
+        options,
+        sheets: Sheets::default(),
+        idle: Mutex::default(),
+    };
+    let progress = std::io::stderr().is_terminal().then(|| {
+        let bar = indicatif::ProgressBar::new_spinner();
+        bar.set_style(
+            indicatif::ProgressStyle::with_template("{human_pos} lines, {per_sec}, {elapsed}")
+                .unwrap_or_else(|_| indicatif::ProgressStyle::default_spinner()),
+        );
+        bar
+    });
+    let (sender, blocks) = sync_channel(WAITING);
+    // Not joined: where the answers are no longer wanted, nobody waits for more questions.
+    std::thread::spawn(move || send_blocks(&mut std::io::stdin().lock(), &sender));
+    let mut out = std::io::stdout().lock();
+    while let Some(blocks) = waiting(&blocks) {
+        let mut tasks: Vec<Task> = Vec::new();
+        for block in &blocks {
+            match block {
+                Block::Lines(bytes) => cut(bytes, &mut tasks),
+                Block::Long => tasks.push(Task::Long),
+                Block::Failed(e) => {
+                    return Err(Failure::Input(format!("standard input: {e}")));
+                }
+            }
+        }
+        let judged: Vec<(String, u64)> = match tasks.len() {
+            // Not worth handing out.
+            1 => vec![judges.judge(&tasks[0])],
+            _ => pool.install(|| tasks.par_iter().map(|task| judges.judge(task)).collect()),
+        };
+        for (text, lines) in judged {
+            out.write_all(text.as_bytes())?;
+            if let Some(bar) = &progress {
+                bar.inc(lines);
+            }
+        }
+        out.flush()?;
+    }
+    if let Some(bar) = progress {
+        bar.finish_and_clear();
+    }
+    Ok(0)
+}
+
+/// Reads to the end and sends what comes.
+fn send_blocks(input: &mut impl Read, sender: &SyncSender<Block>) {
+    let mut held: Vec<u8> = Vec::new();
+    let mut long = false;
+    loop {
+        let start = held.len();
+        held.resize(start + READ, 0);
+        let got = match input.read(&mut held[start..]) {
+            Ok(got) => got,
+            Err(e) if e.kind() == std::io::ErrorKind::Interrupted => 0,
+            Err(e) => {
+                let _ = sender.send(Block::Failed(e));
+                return;
+            }
+        };
+        held.truncate(start + got);
+        if got == 0 {
+            let rest = match long {
+                true => Block::Long,
+                false => Block::Lines(held),
+            };
+            let _ = sender.send(rest);
+            return;
+        }
+        if long {
+            // The rest of a line that is too long.
+            match held.iter().position(|b| *b == b'\n') {
+                Some(end) => {
+                    held.drain(..=end);
+                    long = false;
+                    if sender.send(Block::Long).is_err() {
+                        return;
+                    }
+                }
+                None => {
+                    held.clear();
+                    continue;
+                }
+            }
+        }
+        if let Some(end) = held.iter().rposition(|b| *b == b'\n') {
+            let rest = held.split_off(end + 1);
+            if sender.send(Block::Lines(held)).is_err() {
+                return;
+            }
+            held = rest;
+        }
+        if held.len() > entry::MAX_LINE {
+            held.clear();
+            long = true;
+        }
+    }
+}
+
+/// All blocks that are there, at least one; `None` at the end.
+fn waiting(blocks: &Receiver<Block>) -> Option<Vec<Block>> {
+    let mut all = vec![blocks.recv().ok()?];
+    all.extend(blocks.try_iter().take(WAITING));
+    Some(all)
+}
+
+/// What one task judges.
+enum Task<'a> {
+    Lines(&'a [u8]),
+    Long,
+}
+
+/// Cuts a block into tasks at ends of lines.
+fn cut<'a>(mut bytes: &'a [u8], tasks: &mut Vec<Task<'a>>) {
+    while !bytes.is_empty() {
+        let end = match bytes.get(TASK..) {
+            Some(behind) => {
+                let end = behind.iter().position(|b| *b == b'\n');
+                end.map_or(bytes.len(), |at| TASK + at + 1)
+            }
+            None => bytes.len(),
+        };
+        let (task, rest) = bytes.split_at(end);
+        tasks.push(Task::Lines(task));
+        bytes = rest;
+    }
+}
+
+/// What all tasks share.
+struct Judges<'a> {
+    options: &'a Options,
+    sheets: Sheets,
+    /// Judges at rest, with the keys they know.
+    idle: Mutex<Vec<Judge>>,
+}
+
+impl Judges<'_> {
+    fn judge(&self, task: &Task) -> (String, u64) {
+        let rested = match self.idle.lock() {
+            Ok(mut idle) => idle.pop(),
+            Err(_) => None,
+        };
+        let mut judge = rested.unwrap_or_default();
+        let mut out = String::new();
+        let mut lines = 0;
+        match task {
+            Task::Long => {
+                let message = format!("a line has at most {} bytes", entry::MAX_LINE);
+                refuse(message, &mut out);
+                lines = 1;
+            }
+            Task::Lines(bytes) => {
+                out.reserve(bytes.len() * 3 / 2);
+                let whole = std::str::from_utf8(bytes);
+                match whole {
+                    Ok(text) => text.split('\n').for_each(|line| {
+                        lines += u64::from(self.line(&mut judge, line, &mut out));
+                    }),
+                    Err(_) => {
+                        bytes.split(|b| *b == b'\n').for_each(|line| {
+                            match std::str::from_utf8(line) {
+                                Ok(line) => {
+                                    lines += u64::from(self.line(&mut judge, line, &mut out))
+                                }
+                                Err(e) => {
+                                    lines += 1;
+                                    refuse(
+                                        format!("no UTF-8 at byte {}", e.valid_up_to()),
+                                        &mut out,
+                                    );
+                                }
+                            }
+                        })
+                    }
+                }
+            }
+        }
+        if let Ok(mut idle) = self.idle.lock() {
+            idle.push(judge);
+        }
+        (out, lines)
+    }
+
+    /// Judges a line; blank ones are passed over.
+    fn line(&self, judge: &mut Judge, line: &str, out: &mut String) -> bool {
+        if line.len() <= entry::MAX_LINE
+            && let Some(plain) = plain(line)
+            && judge.plain(line, &plain, self.options, out)
+        {
+            return true;
+        }
+        if line.bytes().all(|b| b.is_ascii_whitespace()) {
+            return false;
+        }
+        match entry::entry(line, self.options) {
+            Ok(entry) => {
+                let scenes = |entry: &Entry, scene: &str| self.sheets.judge(entry, scene);
+                let grade = entry::judge(&entry, &mut judge.keys, &scenes);
+                let text = match grade.note {
+                    "INVALID_EXPECTED" => entry.expected.as_deref().unwrap_or_default(),
+                    "INVALID_LINE" => "",
+                    _ => &entry.answer,
+                };
+                render::grade::line(out, &entry.id, &grade, text);
+            }
+            Err(bad) => render::grade::line(out, &bad.id, &entry::refused(bad.message), ""),
+        }
+        true
+    }
+}
+
+fn refuse(message: String, out: &mut String) {
+    render::grade::line(out, &Value::Null, &entry::refused(message), "");
+}
+
+/// Keys kept by the texts they stand in; when there are more, all are read anew.
+const KEPT: usize = 4096;
+
+/// One who judges: the keys read so far.
+#[derive(Default)]
+struct Judge {
+    keys: Keys,
+    ready: Vec<Ready>,
+    by_text: HashMap<u64, usize, std::hash::BuildHasherDefault<Same>>,
+    last: usize,
+    seen: Seen,
+}
+
+/// A key, by the raw texts of `expected` and `symbols`, and the frame of its lines.
+struct Ready {
+    expected: String,
+    symbols: String,
+    key: Arc<Result<Key, Fault>>,
+    frame: render::grade::Frame,
+}
+
+impl Ready {
+    fn fits(&self, line: &Plain) -> bool {
+        self.expected == line.expected && self.symbols == line.symbols
+    }
+}
+
+impl Judge {
+    /// Judges a plain line at points, if that is asked for and decides.
+    fn plain(&mut self, line: &str, plain: &Plain, options: &Options, out: &mut String) -> bool {
+        if options.strength != grade::Strength::Fast {
+            return false;
+        }
+        let Some(at) = self.find(line, plain, options) else {
+            return false;
+        };
+        let ready = &mut self.ready[at];
+        let Ok(key) = &*ready.key else { return false };
+        match grade::quick(key, &plain.answer, options, &mut self.seen) {
+            Some(quick) => {
+                ready.frame.line(out, plain.id, &quick, &self.seen);
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// Where the key of a line is kept; it is read where it is new.
+    fn find(&mut self, line: &str, plain: &Plain, options: &Options) -> Option<usize> {
+        if self.ready.get(self.last).is_some_and(|r| r.fits(plain)) {
+            return Some(self.last);
+        }
+        let hash = hash(plain.expected.as_bytes()) ^ hash(plain.symbols.as_bytes()).rotate_left(1);
+        let known = self.by_text.get(&hash).copied();
+        if let Some(at) = known.filter(|at| self.ready[*at].fits(plain)) {
+            self.last = at;
+            return Some(at);
+        }
+        let entry = entry::entry(line, options).ok()?;
+        let key = self.keys.key(&entry, entry.expected.as_deref()?);
+        let frame = key
+            .as_ref()
+            .as_ref()
+            .ok()
+            .and_then(render::grade::Frame::of)?;
+        if self.ready.len() >= KEPT {
+            self.ready.clear();
+            self.by_text.clear();
+        }
+        self.last = self.ready.len();
+        self.by_text.insert(hash, self.last);
+        self.ready.push(Ready {
+            expected: plain.expected.to_string(),
+            symbols: plain.symbols.to_string(),
+            key,
+            frame,
+        });
+        Some(self.last)
+    }
+}
+
+/// A hash of bytes, eight at a time.
+fn hash(bytes: &[u8]) -> u64 {
+    let mut state = bytes.len() as u64 ^ 0x9e37_79b9_7f4a_7c15;
+    let mut mix = |word: u64| {
+        state = (state ^ word).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        state ^= state >> 29;
+    };
+    let (eights, rest) = bytes.as_chunks::<8>();
+    eights
+        .iter()
+        .for_each(|eight| mix(u64::from_le_bytes(*eight)));
+    let mut last = [0; 8];
+    last[..rest.len()].copy_from_slice(rest);
+    mix(u64::from_le_bytes(last));
+    state
+}
+
+/// Hashes that were made before are taken as they are.
+#[derive(Default)]
+struct Same(u64);
+
+impl std::hash::Hasher for Same {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+    fn write(&mut self, bytes: &[u8]) {
+        self.0 = hash(bytes);
+    }
+    fn write_u64(&mut self, value: u64) {
+        self.0 = value;
+    }
+}
+
+/// Scenes named in a batch, each derived once.
+#[derive(Default)]
+struct Sheets {
+    known: Mutex<HashMap<String, Arc<Result<Sheet, String>>>>,
+}
+
+/// Scenes kept at a time.
+const SHEETS: usize = 256;
+
+impl Sheets {
+    fn judge(&self, entry: &Entry, path: &str) -> Result<Grade, String> {
+        let sheet = self.sheet(path);
+        let sheet = sheet.as_ref().as_ref().map_err(Clone::clone)?;
+        // With a formula of its own a line takes from the scene what its symbols mean.
+        if let Some(expected) = &entry.expected {
+            let mut question = sheet.question();
+            if let Some(name) = &entry.quantity {
+                question.asked = sheet.entry(name)?.key.question.asked;
+            }
+            return Ok(grade::judge(
+                expected,
+                &entry.answer,
+                &question,
+                &entry.options,
+            ));
+        }
+        let name = entry
+            .quantity
+            .clone()
+            .or_else(|| only_quantity(sheet))
+            .ok_or_else(|| {
+                format!(
+                    "\"quantity\" is missing: one of {}",
+                    sheet.quantities().join(", ")
+                )
+            })?;
+        let found = sheet.entry(&name)?;
+        Ok(sheet.judge(&found, &entry.answer, &entry.options))
+    }
+
+    fn sheet(&self, path: &str) -> Arc<Result<Sheet, String>> {
+        let lock = |known: &Mutex<HashMap<String, Arc<Result<Sheet, String>>>>| match known.lock() {
+            Ok(map) => map.get(path).cloned(),
+            Err(poisoned) => poisoned.into_inner().get(path).cloned(),
+        };
+        if let Some(sheet) = lock(&self.known) {
+            return sheet;
+        }
+        // Lines come from strangers: no way out of the folder, and nothing of a file's text in a message.
+        let inside = Path::new(path).components().all(|c| {
+            matches!(
+                c,
+                std::path::Component::Normal(_) | std::path::Component::CurDir
+            )
+        });
+        let sheet = Arc::new(match inside {
+            true => open(Path::new(path)).map_err(|_| {
+                format!("{path}: not a readable scene; `carom derive {path}` tells why")
+            }),
+            false => Err(format!(
+                "{path}: a scene is named by a path below the working folder, without `..`"
+            )),
+        });
+        if let Ok(mut map) = self.known.lock() {
+            if map.len() >= SHEETS {
+                map.clear();
+            }
+            map.insert(path.to_string(), sheet.clone());
+        }
+        sheet
+    }
+}
