@@ -34,6 +34,9 @@ impl Default for Share {
 
 impl Share {
     fn new(above: i32, below: i32) -> Option<Share> {
+        if below == 1 && above.abs() <= LARGEST {
+            return Some(Share { above, below });
+        }
         if below == 0 {
             return None;
         }

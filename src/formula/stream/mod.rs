@@ -105,6 +105,7 @@ pub fn stream<B: Builder>(
         text: text.as_bytes(),
         at: 0,
         width: 0,
+        found: (usize::MAX, Peek::End),
         end: 0,
         before: false,
         depth: 0,
@@ -157,6 +158,8 @@ struct Reader<'a, B: Builder> {
     at: usize,
     /// Bytes of the sign that was peeked at.
     width: usize,
+    /// What was found at which byte, so that it is looked at once.
+    found: (usize, Peek),
     /// Byte after the last piece that was taken; blanks may follow.
     end: usize,
     /// Whether a number or the like stands before, behind which a unit could follow.
@@ -196,8 +199,17 @@ impl<B: Builder> Reader<'_, B> {
     }
 
     /// What comes next, its width noted; `None` for what this reader does not know.
-    #[inline]
+    #[inline(always)]
     fn peek(&mut self) -> Option<Peek> {
+        if self.found.0 == self.at {
+            return Some(self.found.1);
+        }
+        let found = self.look()?;
+        self.found = (self.at, found);
+        Some(found)
+    }
+
+    fn look(&mut self) -> Option<Peek> {
         self.blanks();
         if self.at >= self.text.len() {
             return Some(Peek::End);

@@ -27,6 +27,8 @@ pub struct Names {
     shown: Vec<Symbol>,
     /// Place of a spelling in the list above, plus one, by the hash of its key.
     places: [u8; PLACES],
+    /// Index of a name of one letter by its ASCII code, plus one.
+    single: [u8; 128],
     /// Number of names.
     pub(crate) count: usize,
     /// Words of more than one letter that declared names start with, the Greek ones aside; the longest first.
@@ -63,6 +65,7 @@ impl Names {
             spellings: Vec::with_capacity(16),
             shown: Vec::new(),
             places: [0; PLACES],
+            single: [0; 128],
             count: 0,
             words: Vec::new(),
             letters: 0,
@@ -122,8 +125,20 @@ impl Names {
         while self.places[at] != 0 {
             at = (at + 1) % PLACES;
         }
+        if key[1] == 0 {
+            self.single[usize::from(key[0] & 0x7f)] = index as u8 + 1;
+        }
         self.spellings.push((key, index as u8));
         self.places[at] = self.spellings.len() as u8;
+    }
+
+    /// The index of a name of one letter that is known.
+    #[inline]
+    pub(crate) fn letter(&self, letter: u8) -> Option<usize> {
+        match self.single[usize::from(letter & 0x7f)] {
+            0 => None,
+            found => Some(usize::from(found) - 1),
+        }
     }
 
     /// The index of a name that is known.
@@ -165,6 +180,12 @@ impl Names {
                 self.letters |= 1 << (key[0] & 0x7f);
             }
         }
+    }
+
+    /// Whether the names were collected, so that each is spelled in one way.
+    #[inline]
+    pub(crate) fn is_collected(&self) -> bool {
+        self.shown.is_empty()
     }
 
     /// The name with this index, in characters.

@@ -242,11 +242,21 @@ impl<B: Builder> Reader<'_, B> {
     /// Index and primes behind a base, and the name that comes out.
     #[inline]
     fn tail(&mut self, base: &[u8], look: bool) -> Option<Word> {
+        let next = self.byte(0);
+        let ends = !(next.is_ascii_digit() || matches!(next, b'_' | b'\'' | 0xcc | 0xe2));
+        // Most names are one letter and end here.
+        if let (true, [letter], Some(index)) = (ends, base, self.names.get().letter(base[0])) {
+            if !look {
+                match self.names.get().is_collected() {
+                    true => self.echo.push(*letter),
+                    false => self.echo.extend_from_slice(self.names.get().echo(index)),
+                }
+            }
+            return Some(Word::Name(index));
+        }
         let mut spelled = Spelling::default();
         spelled.push(base)?;
-        let next = self.byte(0);
-        // Most names end here.
-        if !(next.is_ascii_digit() || matches!(next, b'_' | b'\'' | 0xcc | 0xe2)) {
+        if ends {
             return self.name(&spelled, look);
         }
         match next {

@@ -25,9 +25,9 @@ const MOST_ROOTS: usize = 4;
 /// Bounds on a polynomial.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bound {
-    pub degree: f64,
+    pub degree: f32,
     /// Sum of the absolute values of the coefficients.
-    pub norm: f64,
+    pub norm: f32,
 }
 
 impl Bound {
@@ -49,7 +49,7 @@ impl Bound {
     }
     fn power(self, k: u32) -> Bound {
         Bound {
-            degree: self.degree * f64::from(k),
+            degree: self.degree * k as f32,
             norm: match k {
                 2 => self.norm * self.norm,
                 _ => self.norm.powi(k.min(10_000) as i32),
@@ -89,6 +89,45 @@ pub(super) struct Value<const L: usize, const R: usize> {
     odd: u32,
 }
 
+/// Cosine and sine of an angle, both over the same.
+#[derive(Clone, Copy, Debug)]
+struct Circle<const L: usize, const R: usize> {
+    cos: [u64; L],
+    sin: [u64; L],
+    below: [u64; L],
+    real: [[Real; 2]; R],
+    degree: f32,
+    /// Bound on the coefficients below; above it is half the square of it.
+    norm: f32,
+}
+
+impl<const L: usize, const R: usize> Circle<L, R> {
+    /// The sum of two angles.
+    #[inline]
+    fn turned<const C: u64>(&self, other: &Circle<L, R>) -> Circle<L, R> {
+        let mut out = *self;
+        for lane in 0..L {
+            let (c, s) = (self.cos[lane], self.sin[lane]);
+            let (d, t) = (other.cos[lane], other.sin[lane]);
+            let minus = negative::<C>(times::<C>(s, t));
+            out.cos[lane] = add::<C>(times::<C>(c, d), minus);
+            out.sin[lane] = add::<C>(times::<C>(s, d), times::<C>(c, t));
+            out.below[lane] = times::<C>(self.below[lane], other.below[lane]);
+        }
+        for lane in 0..R {
+            let ([c, s], [d, t]) = (self.real[lane], other.real[lane]);
+            out.real[lane] = [
+                c.times(d).plus(s.times(t).negative()),
+                s.times(d).plus(c.times(t)),
+            ];
+        }
+        out.degree += other.degree;
+        // (1 + i t)^(2 k) has 2^(2 k) as the sum of its coefficients, half of it in each part.
+        out.norm *= other.norm;
+        out
+    }
+}
+
 /// Where a symbol lives; without one it is positive, or an angle in the first quadrant.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Place {
@@ -103,7 +142,7 @@ pub(super) struct Place {
 #[derive(Clone, Debug)]
 pub(super) struct Points<const L: usize, const R: usize> {
     symbols: Vec<Option<Value<L, R>>>,
-    circles: Vec<Option<[Value<L, R>; 2]>>,
+    circles: Vec<Option<Circle<L, R>>>,
 }
 
 impl<const L: usize, const R: usize> Points<L, R> {
@@ -207,7 +246,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         };
         let bound = |norm: u64| Bound {
             degree: 0.0,
-            norm: norm as f64,
+            norm: norm as f32,
         };
         Value {
             above: [residue::<C>(above); L],
@@ -233,7 +272,21 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         let mut value = self.constant(1, 1);
         let place = self.place(index);
         if let Some((first, second)) = place.and_then(|p| p.unit.as_ref()) {
-            return self.unit(first.as_bytes(), [0.2, 1.3])[usize::from(*second)];
+            let unit = self.unit(first.as_bytes(), [0.2, 1.3]);
+            let bound = Bound {
+                degree: 2.0,
+                norm: 2.0,
+            };
+            return Value {
+                above: if *second { unit.sin } else { unit.cos },
+                below: unit.below,
+                whole: false,
+                bounds: [bound; 2],
+                real: unit.real.map(|both| both[usize::from(*second)]),
+                sign: Sign::Unknown,
+                monomial: false,
+                ..value
+            };
         }
         let sign = place.map_or(Sign::Positive, |p| p.sign);
         let power = if C == ROOTS && sign != Sign::Unknown {
@@ -249,7 +302,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
                 _ => prime::power::<C>(drawn, 4),
             };
         }
-        value.bounds[0].degree = power as f64;
+        value.bounds[0].degree = power as f32;
         value.real = real(seed, place.map_or([0.5, 2.5], |p| p.range));
         value.sign = sign;
         value.monomial = power == 4;
@@ -258,30 +311,18 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
     }
 
     /// Cosine and sine of an angle of which nothing is known but its name.
-    fn unit(&self, name: &[u8], range: [f64; 2]) -> [Value<L, R>; 2] {
-        let mut both = [self.constant(1, 1); 2];
+    fn unit(&self, name: &[u8], range: [f64; 2]) -> Circle<L, R> {
         let seed = seed(name) ^ self.round;
-        for lane in 0..L {
-            let t = random::<C>(seed, lane as u64);
-            let square = times::<C>(t, t);
-            both[0].above[lane] = add::<C>(one::<C>(), negative::<C>(square));
-            both[1].above[lane] = add::<C>(t, t);
-            both[0].below[lane] = add::<C>(one::<C>(), square);
+        let parameter: [u64; L] = std::array::from_fn(|lane| random::<C>(seed, lane as u64));
+        let square = each(parameter, parameter, times::<C>);
+        Circle {
+            cos: square.map(|x| add::<C>(one::<C>(), negative::<C>(x))),
+            sin: parameter.map(|t| add::<C>(t, t)),
+            below: square.map(|x| add::<C>(one::<C>(), x)),
+            real: real::<R>(seed, range).map(Real::unit),
+            degree: 2.0,
+            norm: 2.0,
         }
-        both[1].below = both[0].below;
-        let units = real::<R>(seed, range).map(Real::unit);
-        both[0].real = units.map(|[cos, _]| cos);
-        both[1].real = units.map(|[_, sin]| sin);
-        for value in &mut both {
-            value.whole = false;
-            value.bounds = [Bound {
-                degree: 2.0,
-                norm: 2.0,
-            }; 2];
-            value.sign = Sign::Unknown;
-            value.monomial = false;
-        }
-        both
     }
 
     /// Finds the values of a name before anything is read.
@@ -309,7 +350,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
 
     /// Cosine and sine of the unit of an angle.
     #[inline]
-    fn circle_at(&mut self, index: usize, name: &[u8]) -> [Value<L, R>; 2] {
+    fn circle_at(&mut self, index: usize, name: &[u8]) -> Circle<L, R> {
         if let Some(Some(value)) = self.known.circles.get(index) {
             return *value;
         }
@@ -319,6 +360,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         let range = self.place(index).map_or([0.1, 1.45], |p| p.range);
         let value = self.unit(name, range.map(|end| end / f64::from(self.divisor)));
         if self.points.circles.len() <= index {
+            self.points.circles.reserve(8);
             self.points.circles.resize(index + 1, None);
         }
         self.points.circles[index] = Some(value);
@@ -466,14 +508,14 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         let conjugates = 1 << self.state.degree();
         let whole = left.plus(right).power(conjugates);
         let largest = prime::prime::<C>() as f64;
-        // Otherwise the prime could divide all coefficients.
-        if equal && whole.norm >= largest * 0.999 {
+        // Otherwise the prime could divide all coefficients; the bounds are rounded.
+        if equal && f64::from(whole.norm) >= largest * 0.99 {
             return None;
         }
         let lanes = self.state.alive.count_ones().min(2) as i32;
         Some(Compared {
             equal,
-            bound: (whole.degree.max(1.0) / largest).powi(lanes),
+            bound: (f64::from(whole.degree).max(1.0) / largest).powi(lanes),
         })
     }
 }
@@ -614,7 +656,7 @@ impl<const C: u64, const L: usize, const R: usize> Builder for Lanes<'_, C, L, R
         angle: &Angle,
         names: &[&[u8]],
     ) -> Option<Value<L, R>> {
-        let mut total: Option<[Value<L, R>; 2]> = None;
+        let mut total: Option<Circle<L, R>> = None;
         let mut acute = angle.quarters == 0;
         for ((index, share), name) in angle.parts().zip(names) {
             if self.divisor % share.below != 0 {
@@ -622,49 +664,70 @@ impl<const C: u64, const L: usize, const R: usize> Builder for Lanes<'_, C, L, R
                 return None;
             }
             let k = share.above * (self.divisor / share.below);
+            if k.unsigned_abs() > MOST_TURNS {
+                return None;
+            }
             acute &= total.is_none()
                 && share.above > 0
                 && share.above <= share.below
                 && self.place(index).is_none();
-            let mut unit = self.circle_at(index, name);
-            if k.unsigned_abs() > MOST_TURNS {
-                return None;
-            }
-            let size = k.unsigned_abs();
-            let one = unit;
-            for _ in 1..size {
-                unit = self.turned(&unit, &one)?;
-            }
-            for value in &mut unit {
-                value.bounds = [
-                    Bound {
-                        degree: 2.0 * f64::from(size),
-                        norm: f64::from(2u32.pow(size)).powi(2) / 2.0,
-                    },
-                    Bound {
-                        degree: 2.0 * f64::from(size),
-                        norm: f64::from(2u32.pow(size)),
-                    },
-                ];
+            let unit = self.circle_at(index, name);
+            let mut turned = unit;
+            for _ in 1..k.unsigned_abs() {
+                turned = turned.turned::<C>(&unit);
             }
             if k < 0 {
-                unit[1] = self.negative(unit[1])?;
+                turned.sin = turned.sin.map(negative::<C>);
+                turned.real = turned.real.map(|[cos, sin]| [cos, sin.negative()]);
             }
             total = Some(match total {
-                None => unit,
-                Some(before) => self.turned(&before, &unit)?,
+                None => turned,
+                Some(before) => before.turned::<C>(&turned),
             });
         }
-        let [cos, sin] = total?;
-        let [cos, sin] = match angle.quarters.rem_euclid(4) {
-            0 => [cos, sin],
-            1 => [self.negative(sin)?, cos],
-            2 => [self.negative(cos)?, self.negative(sin)?],
-            _ => [sin, self.negative(cos)?],
+        let circle = total?;
+        // The coordinate, its sign and whether it is the sine, after some quarter turns.
+        let coordinate = |sine: bool, quarters: i32| -> (bool, bool) {
+            match (quarters.rem_euclid(4), sine) {
+                (0, _) => (sine, false),
+                (1, true) => (false, false),
+                (1, false) => (true, true),
+                (2, _) => (sine, true),
+                (_, true) => (false, true),
+                (_, false) => (true, false),
+            }
+        };
+        let half = circle.norm * circle.norm / 2.0;
+        let bound = |norm: f32| Bound {
+            degree: circle.degree,
+            norm,
+        };
+        let value = |sine: bool| {
+            let (sine, minus) = coordinate(sine, angle.quarters);
+            let above = if sine { circle.sin } else { circle.cos };
+            let real = circle.real.map(|[cos, sin]| if sine { sin } else { cos });
+            Value {
+                above: if minus {
+                    above.map(negative::<C>)
+                } else {
+                    above
+                },
+                below: circle.below,
+                whole: false,
+                bounds: [bound(half), bound(circle.norm)],
+                real: if minus {
+                    real.map(Real::negative)
+                } else {
+                    real
+                },
+                sign: Sign::Unknown,
+                monomial: false,
+                odd: 0,
+            }
         };
         let mut value = match f {
-            Function::Sin => sin,
-            Function::Cos => cos,
+            Function::Sin => value(true),
+            Function::Cos => value(false),
             // Both stand above the same.
             _ => {
                 let level = |v: Value<L, R>| Value {
@@ -673,7 +736,7 @@ impl<const C: u64, const L: usize, const R: usize> Builder for Lanes<'_, C, L, R
                     bounds: [v.bounds[0], Bound::ONE],
                     ..v
                 };
-                self.quotient(level(sin), level(cos))?
+                self.quotient(level(value(true)), level(value(false)))?
             }
         };
         if reciprocal {
@@ -683,16 +746,5 @@ impl<const C: u64, const L: usize, const R: usize> Builder for Lanes<'_, C, L, R
             value.sign = Sign::Positive;
         }
         Some(value)
-    }
-}
-
-impl<const C: u64, const L: usize, const R: usize> Lanes<'_, C, L, R> {
-    /// Cosine and sine of the sum of two angles, over the product of what stands below.
-    fn turned(&mut self, a: &[Value<L, R>; 2], b: &[Value<L, R>; 2]) -> Option<[Value<L, R>; 2]> {
-        let mut product = |x: Value<L, R>, y: Value<L, R>| self.product(x, y);
-        let (cc, ss) = (product(a[0], b[0])?, product(a[1], b[1])?);
-        let (sc, cs) = (product(a[1], b[0])?, product(a[0], b[1])?);
-        let minus = self.negative(ss)?;
-        Some([self.sum(cc, minus)?, self.sum(sc, cs)?])
     }
 }

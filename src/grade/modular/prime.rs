@@ -40,7 +40,11 @@ pub(super) fn times<const C: u64>(a: u64, b: u64) -> u64 {
     if C == PLAIN {
         let sum = (wide as u64 & MASK) + (wide >> 61) as u64;
         let folded = (sum & MASK) + (sum >> 61);
-        return if folded >= MASK { folded - MASK } else { folded };
+        return if folded >= MASK {
+            folded - MASK
+        } else {
+            folded
+        };
     }
     let factor = (wide as u64).wrapping_mul(inverse::<C>());
     let below = (u128::from(factor) * u128::from(prime::<C>())) >> 64;

@@ -74,7 +74,11 @@ impl Real {
         let size = self.value.abs();
         let nearest = size - self.error;
         // So near to 0 that it could be 0: unknown.
-        let nearest = if nearest > size * 1e-6 { nearest } else { f64::NAN };
+        let nearest = if nearest > size * 1e-6 {
+            nearest
+        } else {
+            f64::NAN
+        };
         Real::rounded(1.0 / self.value, self.error / (size * nearest))
     }
 
