@@ -10,7 +10,7 @@ use carom::domain::Domains;
 use carom::expr::{Expr, Function, Node, Point};
 use carom::formula::{Content, write_latex, write_plain, write_unicode};
 use carom::grade::sheet::{Entry, Sheet, sheet};
-use carom::grade::{Options, Verdict, judge_against};
+use carom::grade::{Key, Options, Question, Strength, Verdict, judge, judge_against};
 use carom::numeric::{self, points::Needed};
 use carom::scene;
 
@@ -212,6 +212,37 @@ fn written(e: &Expr, rng: &mut Rng) -> String {
     }
 }
 
+/// The comparison at points modulo a prime reaches the verdict of the proof, with a key and without one.
+fn same_when_fast(key: &Key, text: &str, sure: Verdict, case: u64) {
+    let fast = Options {
+        strength: Strength::Fast,
+        ..Options::default()
+    };
+    let quick = judge_against(key, text, &fast);
+    assert!(
+        quick.verdict == sure || sure == Verdict::Undecided,
+        "case {case}: {text} is {sure:?}, and fast {:?}: {}",
+        quick.verdict,
+        quick.proof.words
+    );
+    // The same with nothing declared, where every symbol is positive.
+    let expected = match &key.reading.content {
+        Content::Scalar(e) => write_plain(e),
+        _ => return,
+    };
+    let question = Question::default();
+    let quick = judge(&expected, text, &question, &fast);
+    if quick.proof.kind == "modular" {
+        let sure = judge(&expected, text, &question, &Options::default()).verdict;
+        assert!(
+            quick.verdict == sure || sure == Verdict::Undecided,
+            "case {case}: {text} against {expected} is {sure:?}, and fast {:?}: {}",
+            quick.verdict,
+            quick.proof.words
+        );
+    }
+}
+
 #[test]
 fn a_rewritten_answer_is_right_in_every_notation() {
     let answers = answers();
@@ -225,6 +256,7 @@ fn a_rewritten_answer_is_right_in_every_notation() {
         }
         let text = written(&new, &mut rng);
         let grade = judge_against(&entry.key, &text, &Options::default());
+        same_when_fast(&entry.key, &text, grade.verdict, case);
         match grade.verdict {
             Verdict::Equivalent => {}
             Verdict::Undecided => undecided += 1,
@@ -257,6 +289,7 @@ fn a_changed_answer_is_refuted_where_doubles_see_it_too() {
         };
         let text = written(&new, &mut rng);
         let grade = judge_against(&entry.key, &text, &Options::default());
+        same_when_fast(&entry.key, &text, grade.verdict, case);
         let seen = agree(e, &new, &sheet.scene.domains);
         match (grade.verdict, seen) {
             (Verdict::Equivalent, Some(false)) => {

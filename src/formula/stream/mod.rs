@@ -512,7 +512,11 @@ impl<B: Builder> Reader<'_, B> {
             self.echo.push(b'-');
         }
         let size = halves.unsigned_abs();
-        self.echo_whole(if size % 2 == 0 { size / 2 } else { size });
+        self.echo_whole(if size.is_multiple_of(2) {
+            size / 2
+        } else {
+            size
+        });
         if size % 2 == 1 {
             self.echo.extend_from_slice(b"/2");
         }

@@ -445,12 +445,12 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
             below: if a.whole { a.below } else { lanes(a.below) },
             bounds: a.bounds.map(|b| b.power(k)),
             real: a.real.map(|x| x.power(k)),
-            sign: if k % 2 == 0 {
+            sign: if k.is_multiple_of(2) {
                 a.sign.max(Sign::NotNegative)
             } else {
                 a.sign
             },
-            odd: if k % 2 == 0 { 0 } else { a.odd },
+            odd: if k.is_multiple_of(2) { 0 } else { a.odd },
             ..a
         }
     }
@@ -531,7 +531,7 @@ fn odd_primes(n: u64) -> Option<u32> {
         if left == 1 {
             break;
         }
-        while left % q == 0 {
+        while left.is_multiple_of(*q) {
             left /= q;
             odd ^= 1 << bit;
         }
@@ -640,8 +640,16 @@ impl<const C: u64, const L: usize, const R: usize> Builder for Lanes<'_, C, L, R
 
     fn power(&mut self, a: Value<L, R>, halves: i32) -> Option<Value<L, R>> {
         let size = halves.unsigned_abs();
-        let base = if size % 2 == 0 { a } else { self.root(a)? };
-        let k = if size % 2 == 0 { size / 2 } else { size };
+        let base = if size.is_multiple_of(2) {
+            a
+        } else {
+            self.root(a)?
+        };
+        let k = if size.is_multiple_of(2) {
+            size / 2
+        } else {
+            size
+        };
         let raised = self.raised(base, k);
         if halves < 0 {
             return self.inverse(raised);

@@ -285,7 +285,7 @@ fn place(name: &Symbol, domains: &Domains) -> Option<Place> {
     let sign = match low {
         Some(low) if low > 0.0 => Sign::Positive,
         Some(low) if low == 0.0 && domain.low.as_ref().is_some_and(|l| l.open) => Sign::Positive,
-        Some(low) if low == 0.0 => Sign::NotNegative,
+        Some(0.0) => Sign::NotNegative,
         _ => Sign::Unknown,
     };
     let range = match (low, high) {
