@@ -221,29 +221,24 @@ impl Scaled {
             right: system.right.clone(),
             columns: vec![1.0; n],
         };
-        // Rows, columns, rows: enough for the few units that meet in one system.
-        for pass in 0..3 {
-            if pass == 1 {
+        // Middles of rows and columns in turn find the units that meet in one system (Hamming's scaling); the last pass brings
+        // the largest entry of each row near one.
+        for pass in 0..9 {
+            if pass % 2 == 1 {
                 for c in 0..n {
-                    let largest = scaled
-                        .matrix
-                        .iter()
-                        .skip(c)
-                        .step_by(n)
-                        .fold(0.0, |a: f64, v| a.max(v.abs()));
-                    let factor = reciprocal_power_of_two(largest);
-                    scaled
-                        .matrix
-                        .iter_mut()
-                        .skip(c)
-                        .step_by(n)
-                        .for_each(|v| *v *= factor);
+                    let factor = 2f64.powi(-middle(scaled.matrix.iter().skip(c).step_by(n)));
+                    let column = scaled.matrix.iter_mut().skip(c).step_by(n);
+                    column.for_each(|v| *v *= factor);
                     scaled.columns[c] *= factor;
                 }
             } else {
                 for (row, right) in scaled.matrix.chunks_mut(n).zip(&mut scaled.right) {
-                    let factor =
-                        reciprocal_power_of_two(row.iter().fold(0.0, |a: f64, v| a.max(v.abs())));
+                    let factor = match pass {
+                        8 => reciprocal_power_of_two(
+                            row.iter().fold(0.0, |a: f64, v| a.max(v.abs())),
+                        ),
+                        _ => 2f64.powi(-middle(row.iter())),
+                    };
                     row.iter_mut().for_each(|v| *v *= factor);
                     *right *= factor;
                 }
@@ -251,6 +246,16 @@ impl Scaled {
         }
         scaled
     }
+}
+
+/// The middle between the powers of two of the smallest and the largest entry, zeros aside; 0 where there are none.
+fn middle<'a>(entries: impl Iterator<Item = &'a f64>) -> i32 {
+    let power = |v: &f64| ((v.to_bits() >> 52) & 0x7ff) as i32 - 1023;
+    let powers = entries.filter(|v| **v != 0.0 && v.is_finite()).map(power);
+    let ends = powers.fold(None, |ends: Option<(i32, i32)>, p| {
+        Some(ends.map_or((p, p), |(low, high)| (low.min(p), high.max(p))))
+    });
+    ends.map_or(0, |(low, high)| (low + high) / 2)
 }
 
 /// 2^−k for a number of size 2^k; 1 for zero, and kept where the factor itself is a normal number.

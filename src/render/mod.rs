@@ -13,6 +13,10 @@ pub mod plain;
 pub mod printed;
 #[cfg(feature = "report")]
 pub mod report;
+#[cfg(feature = "report")]
+mod report_pareto;
+#[cfg(feature = "report")]
+pub mod report_studies;
 pub mod steps;
 pub mod story;
 pub mod text;

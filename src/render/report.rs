@@ -4,9 +4,10 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use crate::plot::{Axis, Curve, Mark, Plot, curve};
-use crate::report::measure::{Cell, Residuals, RouteSummary, Swept};
-use crate::report::verdict::{nanoseconds, short};
+use crate::plot::{Axis, Curve, Plot, curve};
+use crate::report::measure::{Cell, Residuals, Swept};
+use crate::report::studies::Studies;
+use crate::report::verdict::{Finding, nanoseconds, short};
 use crate::report::{BINS, Report, Route};
 
 /// The tables for a terminal.
@@ -115,15 +116,20 @@ fn effort(report: &Report) -> String {
     )
 }
 
-/// The report as data. Numbers that are no finite doubles become null.
-pub fn json(report: &Report) -> Value {
-    serde_json::to_value(report).unwrap_or_else(|e| json!({"error": e.to_string()}))
+/// Reports and studies as data. Numbers that are no finite doubles become null.
+pub fn json(reports: &[Report], studies: Option<&Studies>) -> Value {
+    let value =
+        |v: Result<Value, serde_json::Error>| v.unwrap_or_else(|e| json!({"error": e.to_string()}));
+    json!({
+        "reports": reports.iter().map(|r| value(serde_json::to_value(r))).collect::<Vec<_>>(),
+        "studies": value(serde_json::to_value(studies)),
+    })
 }
 
-/// One self-contained page for several reports.
-pub fn html(reports: &[Report]) -> String {
+/// One self-contained page for several reports, and the studies that hang on no scene.
+pub fn html(reports: &[Report], studies: Option<&Studies>) -> String {
     let mut out = String::from(HEAD);
-    if reports.len() > 1 {
+    if reports.len() + usize::from(studies.is_some()) > 1 {
         out.push_str("<nav><ul>");
         for (i, r) in reports.iter().enumerate() {
             let _ = write!(
@@ -133,10 +139,16 @@ pub fn html(reports: &[Report]) -> String {
                 escape(&r.verdict)
             );
         }
+        if studies.is_some() {
+            out.push_str("<li><a href=\"#studies\">Stiff limit, growth and batches</a></li>");
+        }
         out.push_str("</ul></nav>");
     }
     for (i, report) in reports.iter().enumerate() {
         section(&mut out, i, report);
+    }
+    if let Some(studies) = studies {
+        super::report_studies::section(&mut out, studies);
     }
     out.push_str("</main></body></html>\n");
     out
@@ -158,8 +170,8 @@ fn section(out: &mut String, index: usize, report: &Report) {
     out.push_str("</div>");
     figure(
         out,
-        pareto(report),
-        "Error against run time: worst error anywhere over median time. Routes that another one beats in both are left unmarked.",
+        super::report_pareto::plot(report),
+        "Error against run time: worst error anywhere over median time. Routes that another one beats in both are grey.",
     );
     out.push_str("</div><h3>Extreme families</h3><div class=\"plots\">");
     for f in report.families.iter().filter(|f| !f.axis.is_empty()) {
@@ -172,28 +184,38 @@ fn section(out: &mut String, index: usize, report: &Report) {
     out.push_str("</div><h3>Errors at usual values</h3>");
     histogram(out, report);
     conditions(out, report);
-    if !report.findings.is_empty() {
-        out.push_str("<h3>Known findings, held against these numbers</h3><ul class=\"findings\">");
-        for f in &report.findings {
-            let (class, mark) = if f.holds {
-                ("yes", "shown")
-            } else {
-                ("no", "not shown")
-            };
-            let _ = write!(
-                out,
-                "<li><b class=\"{class}\">{mark}</b> {} <span>{}</span></li>",
-                escape(&f.claim),
-                escape(&f.evidence)
-            );
-        }
-        out.push_str("</ul>");
-    }
+    findings(
+        out,
+        "Known findings, held against these numbers",
+        &report.findings,
+    );
     let _ = write!(
         out,
         "<p class=\"small\">{}</p></section>",
         escape(&effort(report))
     );
+}
+
+/// Findings as a list.
+pub(super) fn findings(out: &mut String, heading: &str, list: &[Finding]) {
+    if list.is_empty() {
+        return;
+    }
+    let _ = write!(out, "<h3>{heading}</h3><ul class=\"findings\">");
+    for f in list {
+        let (class, mark) = if f.holds {
+            ("yes", "shown")
+        } else {
+            ("no", "not shown")
+        };
+        let _ = write!(
+            out,
+            "<li><b class=\"{class}\">{mark}</b> {} <span>{}</span></li>",
+            escape(&f.claim),
+            escape(&f.evidence)
+        );
+    }
+    out.push_str("</ul>");
 }
 
 fn flags(f: &Swept) -> String {
@@ -211,7 +233,8 @@ fn flags(f: &Swept) -> String {
     }
 }
 
-fn figure(out: &mut String, plot: Option<String>, caption: &str) {
+/// A plot with its caption, where there is one.
+pub(super) fn figure(out: &mut String, plot: Option<String>, caption: &str) {
     if let Some(svg) = plot {
         let _ = write!(
             out,
@@ -265,49 +288,9 @@ fn routes_table(out: &mut String, report: &Report) {
     out.push_str("</tbody></table>");
 }
 
-fn level(ulps: f64) -> f64 {
+/// Where an error stands on a logarithmic axis that ends at 10¹⁷ for ∞.
+pub(super) fn level(ulps: f64) -> f64 {
     ulps.clamp(0.1, 1e17).log10()
-}
-
-fn pareto(report: &Report) -> Option<String> {
-    let at = |r: &RouteSummary| [(r.seconds[1] * 1e9).max(0.1).log10(), level(r.worst)];
-    let all: Vec<&RouteSummary> = report
-        .routes
-        .iter()
-        .filter(|r| r.seconds[1].is_finite())
-        .collect();
-    let mut front: Vec<[f64; 2]> = all.iter().filter(|r| !r.dominated).map(|r| at(r)).collect();
-    front.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let label = |r: &RouteSummary| {
-        if r.dominated {
-            format!("({})", r.route.short())
-        } else {
-            r.route.short().to_string()
-        }
-    };
-    let plot = Plot {
-        title: format!("Error against run time: {}", report.title),
-        x: Axis {
-            label: "log10 of time [ns]".into(),
-            range: None,
-        },
-        y: Axis {
-            label: "log10 of worst error [ulp]".into(),
-            range: Some([-1.2, 17.5]),
-        },
-        curves: vec![Curve {
-            label: "best".into(),
-            points: front,
-        }],
-        marks: all
-            .iter()
-            .map(|r| Mark {
-                at: at(r),
-                label: label(r),
-            })
-            .collect(),
-    };
-    curve(&plot).ok()
 }
 
 /// Curves of routes that lie on each other are drawn once.
@@ -421,7 +404,7 @@ fn conditions(out: &mut String, report: &Report) {
     out.push_str("</tbody></table><p class=\"small\">Largest error [ulp] per quantity; – where the answer is exactly zero.</p>");
 }
 
-fn escape(text: &str) -> String {
+pub(super) fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

@@ -8,6 +8,7 @@ pub mod reduced;
 pub mod routes;
 pub mod sample;
 pub mod stiff;
+pub mod studies;
 pub mod verdict;
 
 pub use measure::{BINS, Effort, Machine, NoReport, Report, Row, measure};

@@ -463,7 +463,7 @@ impl<'a> Sampler<'a> {
         (!levels.is_empty()).then(|| Family {
             name: name.into(),
             words: format!("{words}, by {parameter}"),
-            axis: format!("−log10 of the distance of {parameter} from the extreme"),
+            axis: format!("−log10 of distance in {parameter}"),
             levels,
         })
     }
