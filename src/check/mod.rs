@@ -4,6 +4,7 @@
 //! Comes in: the JSON of `carom solution`. Goes out: a [`Report`] that names every step that does not hold. Nothing of the
 //! deriving code is used: formulas are read and evaluated, the scene inside the file is read and solved in numbers.
 
+mod near;
 mod story;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -56,6 +57,13 @@ pub struct Failure {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unusable(pub String);
 
+/// What a file claims.
+#[derive(Default)]
+struct Claims {
+    equal: Vec<Claim>,
+    near: Vec<near::Near>,
+}
+
 struct Claim {
     step: String,
     /// The impact its symbols belong to, in a scene with stages.
@@ -98,13 +106,13 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
         symbols.insert(Some(impact.name.clone()), of);
     }
     let mut report = Report::default();
-    let mut claims = Vec::new();
+    let mut claims = Claims::default();
     let steps = root["steps"]
         .as_array()
         .ok_or_else(|| Unusable(String::from("`steps` is missing")))?;
     collect(steps, &symbols, None, &mut claims, &mut report, 0)?;
     let of = |name: Option<&String>| {
-        let mine = claims.iter().filter(|c| c.impact.as_ref() == name);
+        let mine = claims.equal.iter().filter(|c| c.impact.as_ref() == name);
         mine.collect::<Vec<_>>()
     };
     for impact in &impacts {
@@ -114,6 +122,9 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
     match &scene.story {
         Some(told) => story::replay(&scene, told, &impacts, &meanings, &of(None), &mut report),
         None => replay(&scene, &meanings, &of(None), &mut report),
+    }
+    for near in &claims.near {
+        near::replay(&scene, near, &mut report);
     }
     Ok(report)
 }
@@ -224,7 +235,7 @@ fn collect(
     steps: &[Value],
     symbols: &BTreeMap<Option<String>, Symbols>,
     within: Option<&str>,
-    claims: &mut Vec<Claim>,
+    claims: &mut Claims,
     report: &mut Report,
     depth: usize,
 ) -> Result<(), Unusable> {
@@ -241,21 +252,13 @@ fn collect(
         let defines = step["defines"].as_str().map(Symbol::from);
         for list in ["before", "after"] {
             for claim in step[list].as_array().into_iter().flatten() {
-                let side = |name: &str| {
-                    let text = claim[name].as_str().unwrap_or_default();
-                    formula::read_expr(text, known).map_err(|fault| {
-                        Unusable(format!(
-                            "step {id}: `{text}` cannot be read: {}",
-                            fault.message
-                        ))
-                    })
-                };
+                let side = |name: &str| read(&claim[name], known, &id);
                 let (left, right) = (side("left")?, side("right")?);
                 let defines = match (&defines, list) {
                     (Some(name), "after") if left.as_symbol() == Some(name) => Some(name.clone()),
                     _ => None,
                 };
-                claims.push(Claim {
+                claims.equal.push(Claim {
                     step: id.clone(),
                     impact: impact.map(String::from),
                     text: format!(
@@ -267,16 +270,33 @@ fn collect(
                     right,
                     defines,
                 });
-                if claims.len() > MOST {
+                if claims.equal.len() > MOST {
                     return unusable(format!("more than {MOST} claims"));
                 }
             }
+        }
+        for claim in step["near"].as_array().into_iter().flatten() {
+            if claims.near.len() >= MOST {
+                return unusable(format!("more than {MOST} claims"));
+            }
+            let near = near::read(claim, defines.is_some().then_some(step), known, &id)?;
+            claims.near.push(near);
         }
         if let Some(inner) = step["substeps"].as_array() {
             collect(inner, symbols, impact, claims, report, depth + 1)?;
         }
     }
     Ok(())
+}
+
+fn read(text: &Value, symbols: &Symbols, id: &str) -> Result<Expr, Unusable> {
+    let text = text.as_str().unwrap_or_default();
+    formula::read_expr(text, symbols).map_err(|fault| {
+        Unusable(format!(
+            "step {id}: `{text}` cannot be read: {}",
+            fault.message
+        ))
+    })
 }
 
 fn replay(
@@ -322,6 +342,10 @@ fn compare(
     let mut rounded: BTreeSet<usize> = BTreeSet::new();
     let mut failed: BTreeMap<usize, String> = BTreeMap::new();
     for (mut point, mut doubles) in points {
+        for (name, (divisor, [cos, sin])) in &doubles.directions {
+            let angle = f64::from(*divisor) * sin.atan2(*cos);
+            doubles.values.entry(name.clone()).or_insert(angle);
+        }
         for (i, claim) in claims.iter().enumerate() {
             if let Some(name) = &claim.defines
                 && matches!(meanings.get(name), Some(Meaning::Defined))

@@ -77,8 +77,12 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
     } else {
         let derivation = derive::derive(&scene).map_err(|stop| refused(stop.to_string()))?;
         let proof = verify::prove(&scene, &derivation);
-        let solution = solution::write(&scene, &derivation, &proof, detail);
-        let holds = proof.holds() && !derivation.counting.contradictory;
+        let special =
+            story::special(&scene, &derivation, &proof).map_err(|r| refused(r.to_string()))?;
+        let solution = solution::write(&scene, &derivation, &proof, &special, detail);
+        let holds = proof.holds()
+            && special.iter().all(story::Answer::holds)
+            && !derivation.counting.contradictory;
         (solution, holds, None)
     };
     let drawn = || match (&scene.story, &told) {

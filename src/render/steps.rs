@@ -88,6 +88,13 @@ fn step(s: &Solution, x: &Step) -> Value {
         "impact": x.scope,
         "assumptions": x.assumptions,
         "defines": x.defines.as_deref(),
+        "near": x.near.iter().map(|n| json!({
+            "left": write_plain(&n.left),
+            "right": write_plain(&n.right),
+            "parameter": *n.parameter,
+            "to": n.to.as_ref().map_or_else(|| String::from("infinity"), write_plain),
+            "order": n.order,
+        })).collect::<Vec<_>>(),
         "substeps": x.substeps.iter().map(|y| step(s, y)).collect::<Vec<_>>(),
     })
 }

@@ -2,7 +2,7 @@
 //! the section of a worked solution, whether the scene has stages or not.
 
 use super::words::{self, say};
-use super::{Claim, Inline, Line, Math, Meaning, Part, Section, Solution, Step};
+use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Section, Solution, Step};
 use crate::expr::Expr;
 use crate::formula::Relation;
 use crate::scene::{Scene, StoryAsk};
@@ -158,11 +158,29 @@ fn heading(scene: &Scene, ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
                 Inline::Math(vec![p, Math::Op("→"), end]),
             ]
         }
+        StoryAsk::Approximate {
+            of,
+            parameter,
+            to,
+            order,
+        } => {
+            let mut out = vec![math(of)];
+            if to.is_zero() {
+                out.extend([say(" for small "), math(&Expr::symbol(parameter))]);
+            } else {
+                let near = [Math::Expr(Expr::symbol(parameter)), Math::Op("≈")];
+                let near = near.into_iter().chain([Math::Expr(to.clone())]);
+                out.extend([say(" for "), Inline::Math(near.collect())]);
+            }
+            out.push(say(format!(", to order {order}")));
+            out
+        }
         StoryAsk::Show {
             left, right, claim, ..
-        } if claim.is_empty() => {
-            vec![say("To show: "), related(left, Relation::Equal, right)]
-        }
+        } => match claim.as_str() {
+            "" => vec![say("To show: "), related(left, Relation::Equal, right)],
+            claim => vec![say("To show: "), say(claim)],
+        },
         _ => vec![say(words::capital(&called(scene, &answer.words)))],
     }
 }
@@ -175,6 +193,8 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
     if fresh && words::is_safe_latex(&answer.latex) {
         solution.names.insert(name.clone(), answer.latex.clone());
     }
+    let brief = solution.detail == Detail::Brief;
+    let holds = answer.checks.iter().all(|c| c.holds == Some(true));
     let mut lines: Vec<Line> = Vec::new();
     if let Some((left, relation, right)) = &answer.stated {
         lines.push(Line {
@@ -186,16 +206,75 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
             step: None,
         });
     }
-    let shown: Vec<Claim> = answer
-        .put_in
-        .iter()
-        .map(|(left, right, _)| Claim {
-            left: left.clone(),
-            right: right.clone(),
-        })
-        .collect();
+    // The name of the answer comes first, so that what shows the answer is a claim about it. A parameter that is asked for keeps
+    // its name.
+    let named = answer.formula.as_ref().filter(|_| !parameter);
+    let defined = named.map(|formula| {
+        let claim = Claim {
+            left: symbol.clone(),
+            right: formula.clone(),
+        };
+        let id = add_step(solution, vec![claim], &answer.words);
+        if fresh {
+            solution.meanings.insert(name.clone(), Meaning::Defined);
+        }
+        if let Some(step) = solution.steps.last_mut() {
+            step.defines = fresh.then(|| name.clone());
+            step.near = answer.near.clone();
+        }
+        id
+    });
+    let shown = claims(ask, answer, named.map(|f| (&symbol, f)));
     let reason = answer.put_in.first().map_or("what is asked", |p| p.2);
     let shown = (!shown.is_empty()).then(|| add_step(solution, shown, reason));
+    if let StoryAsk::Show {
+        left, right, with, ..
+    } = ask
+    {
+        for (asked, (raw, value, _)) in [left, right].into_iter().zip(&answer.put_in) {
+            if asked == value {
+                continue;
+            }
+            let mut forms = vec![raw, value];
+            forms.dedup();
+            forms.retain(|f| *f != asked);
+            for (i, form) in forms.into_iter().enumerate() {
+                let mut math = vec![Math::Op("="), Math::Expr(form.clone())];
+                if i == 0 {
+                    math.insert(0, Math::Expr(asked.clone()));
+                }
+                lines.push(Line {
+                    math,
+                    step: shown.clone(),
+                });
+            }
+        }
+        if !with.is_empty() {
+            let mut text = vec![say("With ")];
+            for (i, (name, value)) in with.iter().enumerate() {
+                if i > 0 {
+                    text.push(say(" and "));
+                }
+                text.push(words::equation(&Expr::symbol(name), value));
+            }
+            text.push(say(","));
+            part(solution, Part::Text(text));
+        }
+        // The identity itself, in the symbols whose values an independent solution finds.
+        let known = |e: &Expr| {
+            let is_parameter = |s: &str| scene.parameters.iter().any(|p| *p.name == *s);
+            e.symbols()
+                .iter()
+                .all(|s| is_parameter(s) || solution.meanings.contains_key(s))
+        };
+        if holds && with.is_empty() && known(left) && known(right) {
+            let claim = Claim {
+                left: left.clone(),
+                right: right.clone(),
+            };
+            add_step(solution, vec![claim], "what was to be shown");
+        }
+    }
     for (p, relation, value) in &answer.range {
         let mut math = vec![
             Math::Expr(Expr::symbol(p)),
@@ -211,78 +290,72 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
         });
     }
     if let Some(formula) = &answer.formula {
-        // A parameter is what is asked for, and its value stands above; the name of the question is for later formulas.
-        let defined = if parameter {
-            shown.clone()
-        } else {
-            let claim = Claim {
-                left: symbol.clone(),
-                right: formula.clone(),
-            };
-            let id = add_step(solution, vec![claim], &answer.words);
-            if fresh {
-                solution.meanings.insert(name.clone(), Meaning::Defined);
-                if let Some(step) = solution.steps.last_mut() {
-                    step.defines = Some(name);
-                }
-            }
-            Some(id)
-        };
         if answer.range.is_empty() {
+            let (left, op) = match stands_for(ask, answer) {
+                Some((of, op)) => (of, op),
+                None => (symbol.clone(), "="),
+            };
             lines.push(Line {
-                math: vec![
-                    Math::Expr(symbol.clone()),
-                    Math::Op("="),
-                    Math::Expr(formula.clone()),
-                ],
-                step: defined,
+                math: vec![Math::Expr(left), Math::Op(op), Math::Expr(formula.clone())],
+                step: defined.or_else(|| shown.clone()),
             });
         }
     }
     if let Some((left, right)) = &answer.equation
         && answer.stated.is_none()
+        && !matches!(ask, StoryAsk::Show { .. })
     {
-        let claim = Claim {
-            left: left.clone(),
-            right: right.clone(),
-        };
-        let proved = answer.checks.iter().all(|c| c.holds == Some(true));
-        let step = (proved && matches!(ask, StoryAsk::Show { .. }))
-            .then(|| add_step(solution, vec![claim], "an identity"));
         lines.push(Line {
             math: vec![
                 Math::Expr(left.clone()),
                 Math::Op("="),
                 Math::Expr(right.clone()),
             ],
-            step,
+            step: None,
         });
     }
-    let part = |solution: &mut Solution, part: Part| {
-        if let Some(section) = solution.sections.last_mut() {
-            section.parts.push(part);
-        }
-    };
     if !lines.is_empty() {
         part(solution, Part::Display(lines));
     }
-    if let Some(value) = number(scene, answer) {
+    // Of a parameter that is solved for, the number is its own.
+    let of = match answer.range.as_slice() {
+        [(solved, Relation::Equal, _)] => Expr::symbol(solved),
+        _ => symbol,
+    };
+    let stands = stands_for(ask, answer).is_some();
+    if let Some(value) = number(scene, answer).filter(|_| !stands) {
         part(
             solution,
-            Part::Text(vec![
-                say("In numbers: "),
-                words::formula(&symbol),
-                say(value),
-            ]),
+            Part::Text(vec![say("In numbers: "), words::formula(&of), say(value)]),
         );
     }
-    match answer.text.as_slice() {
-        [] => {}
-        [one] => part(solution, Part::Text(full_sentence(scene, one))),
-        all => part(
-            solution,
-            Part::List(all.iter().map(|t| full_sentence(scene, t)).collect()),
-        ),
+    let mut text: Vec<Vec<Inline>> = answer
+        .text
+        .iter()
+        .map(|t| full_sentence(scene, t))
+        .collect();
+    if let StoryAsk::Show { claim, with, .. } = ask
+        && holds
+    {
+        // What is proved stands above; the values put in, before it.
+        text.drain(..text.len().min(1 + with.len()));
+        let end = match claim.as_str() {
+            "" => String::from("This was to be shown."),
+            claim => format!("So {}.", claim.trim_end_matches('.')),
+        };
+        text.insert(0, vec![say(end)]);
+    }
+    if text.len() > 1 && matches!(ask, StoryAsk::Show { .. }) {
+        let sentences = text.drain(..).collect::<Vec<_>>();
+        text.push(sentences.join(&say(" ")));
+    }
+    match text.len() {
+        0 => {}
+        1 => part(solution, Part::Text(text.remove(0))),
+        _ => part(solution, Part::List(text)),
+    }
+    if brief && holds {
+        return;
     }
     if !answer.discarded.is_empty() {
         let mut text = vec![say("Discarded: ")];
@@ -307,6 +380,49 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
     }
 }
 
+/// What shows an answer, about its name where it has one.
+fn claims(ask: &StoryAsk, answer: &Answer, named: Option<(&Expr, &Expr)>) -> Vec<Claim> {
+    let claim = |left: &Expr, right: &Expr| Claim {
+        left: left.clone(),
+        right: right.clone(),
+    };
+    let put_in = answer.put_in.iter();
+    let Some((symbol, formula)) = named else {
+        return put_in.map(|(left, right, _)| claim(left, right)).collect();
+    };
+    match (ask, &answer.stated) {
+        (StoryAsk::Condition { parameter, .. }, Some((left, _, right)))
+            if answer.put_in.len() == 1 =>
+        {
+            let at = std::collections::BTreeMap::from([(parameter.clone(), symbol.clone())]);
+            vec![claim(&left.substitute(&at), &right.substitute(&at))]
+        }
+        _ => put_in
+            .map(|(left, right, _)| claim(left, if right == formula { symbol } else { right }))
+            .collect(),
+    }
+}
+
+/// What an answer stands for near a value of a parameter, and how: the formula asked about, or its component.
+fn stands_for(ask: &StoryAsk, answer: &Answer) -> Option<(Expr, &'static str)> {
+    let (of, op) = match ask {
+        StoryAsk::Approximate { of, .. } => (of, "≈"),
+        StoryAsk::Limit { of, .. } => (of, "→"),
+        _ => return None,
+    };
+    let axis = answer.name.strip_prefix(answer.question.as_str())?;
+    Some(match of.as_symbol() {
+        Some(vector) if !axis.is_empty() => (Expr::symbol(&format!("{vector}{axis}")), op),
+        _ => (of.clone(), op),
+    })
+}
+
+fn part(solution: &mut Solution, part: Part) {
+    if let Some(section) = solution.sections.last_mut() {
+        section.parts.push(part);
+    }
+}
+
 /// Records a step and gives its id.
 pub(super) fn add_step(solution: &mut Solution, after: Vec<Claim>, reason: &str) -> String {
     let id = (solution.steps.len() + 1).to_string();
@@ -319,6 +435,7 @@ pub(super) fn add_step(solution: &mut Solution, after: Vec<Claim>, reason: &str)
         assumptions: Vec::new(),
         substeps: Vec::new(),
         defines: None,
+        near: Vec::new(),
     });
     id
 }
@@ -326,7 +443,7 @@ pub(super) fn add_step(solution: &mut Solution, after: Vec<Claim>, reason: &str)
 /// ` = 1.2 m/s` where the scene gives every value.
 pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
     let formula = answer.formula.as_ref()?;
-    if formula.symbols().is_empty() && formula.as_number().is_some() {
+    if formula.symbols().iter().all(|s| s.as_ref() == "pi") {
         return None;
     }
     let values = scene

@@ -24,6 +24,7 @@ use crate::derive::{self, Derivation, Form, Reduction};
 use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Affine, Geometry, Kinematics, Unknown};
 use crate::scene::Scene;
+use crate::story::{Answer, Near};
 use crate::verify::Proof;
 
 /// How much is shown.
@@ -216,18 +217,38 @@ pub struct Step {
     pub substeps: Vec<Step>,
     /// The symbol the step introduces as an abbreviation, if it does.
     pub defines: Option<Symbol>,
+    /// What stands for a formula close to a value of a parameter.
+    pub near: Vec<Near>,
 }
 
-/// Writes the solution of everything a scene asks.
-pub fn write(scene: &Scene, derivation: &Derivation, proof: &Proof, detail: Detail) -> Solution {
+/// Writes the solution of everything a scene asks; `special` holds the answers to what it asks about its answers.
+pub fn write(
+    scene: &Scene,
+    derivation: &Derivation,
+    proof: &Proof,
+    special: &[Answer],
+    detail: Detail,
+) -> Solution {
     let mut writer = Writer::new(scene, derivation, proof, detail);
     writer.opening();
     writer.blocks();
     writer.results();
+    if detail == Detail::Brief {
+        writer.checked();
+    }
+    for question in &scene.special {
+        let of_it = special.iter().filter(|a| a.question == question.name);
+        let answers: Vec<Answer> = of_it.cloned().collect();
+        answered(&mut writer.solution, scene, &question.ask, &answers);
+    }
+    if !scene.plots.is_empty() {
+        writer.section(vec![words::say("Plots")]);
+        writer.push(Part::Figure(Slot::Plot));
+    }
     if detail != Detail::Brief {
         writer.notice();
+        writer.checked();
     }
-    writer.checked();
     writer.solution
 }
 
@@ -289,6 +310,18 @@ impl<'a> Writer<'a> {
             meanings
                 .entry(symbol)
                 .or_insert_with(|| Meaning::Answer(answer.question.clone(), axis));
+        }
+        // A vector has a name of its own beside those of its components.
+        for question in &scene.questions {
+            if let Some(latex) = question
+                .latex
+                .as_deref()
+                .filter(|l| words::is_safe_latex(l))
+            {
+                names
+                    .entry(Symbol::from(question.name.as_str()))
+                    .or_insert_with(|| latex.to_string());
+            }
         }
         let mut field = Field::new(&scene.domains);
         let symbols: Vec<Expr> = meanings.keys().map(|s| Expr::symbol(s)).collect();
@@ -377,6 +410,7 @@ impl<'a> Writer<'a> {
             assumptions: Vec::new(),
             substeps: Vec::new(),
             defines: None,
+            near: Vec::new(),
         });
         id
     }

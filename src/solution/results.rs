@@ -110,7 +110,6 @@ impl Writer<'_> {
         }
         self.numbers();
         self.push(Part::Figure(super::Slot::After));
-        self.push(Part::Figure(super::Slot::Plot));
     }
 
     /// Answers written with abbreviations are claims of their own.

@@ -10,7 +10,7 @@ use num_integer::Integer;
 use super::{Sentence, sentence::sentence};
 use crate::algebra::{Element, Field, Powers, Sign, Stop};
 use crate::domain::{Domain, Domains, roles, samples};
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Function, Node, Symbol};
 use crate::interval::{Interval, Outcome, evaluate};
 
 /// Points at which a sign that could not be proved is looked at.
@@ -285,6 +285,30 @@ pub fn within(domain: &Domain, symbol: &Symbol) -> Sentence {
     }
 }
 
+/// What must hold for a value to be real: radicands not below zero, arguments of arcs between −1 and 1. Nothing where it is
+/// proved.
+pub fn real(value: &Expr, domains: &Domains) -> Vec<Sentence> {
+    let mut gaps = Vec::new();
+    value.walk(&mut |part| match part.node() {
+        Node::Power(base, k) if k.as_number().is_some_and(|k| !k.is_integer()) => {
+            gaps.push(base.clone());
+        }
+        Node::Call(Function::Asin | Function::Acos, x) => {
+            gaps.extend([Expr::one() - x.clone(), Expr::one() + x.clone()]);
+        }
+        _ => {}
+    });
+    gaps.retain(|gap| !matches!(sign(gap, domains), Seen::Proved(s) if s.is_not_negative()));
+    let mut out: Vec<Sentence> = Vec::new();
+    for gap in gaps {
+        let words = sentence![&essential(&gap, domains), " ≥ 0"];
+        if !out.contains(&words) {
+            out.push(words);
+        }
+    }
+    out
+}
+
 /// Keeps a candidate, or says why not.
 fn take(
     e: &Expr,
@@ -303,6 +327,7 @@ fn take(
         out.discarded.push(sentence![words, ", which is not real"]);
         return;
     }
+    given.extend(real(&value, domains));
     for (limit, is_low) in [(&domain.low, true), (&domain.high, false)] {
         let Some(limit) = limit else { continue };
         let end = Expr::from(limit.value.clone());

@@ -15,7 +15,6 @@ use super::{Sentence, sentence::sentence};
 use crate::algebra::{Element, Field, Sign};
 use crate::domain::{Domain, Domains, roles, samples};
 use crate::expr::{Expr, Node, Point, Symbol};
-use crate::formula::write_plain;
 use crate::interval::{Interval, Outcome, evaluate};
 use crate::verify::Check;
 
@@ -90,18 +89,15 @@ pub(super) fn fill(
     });
     match found.tends {
         Tends::To(value) => {
-            out.text.push(sentence!["it tends to ", &value]);
-            if let Some(to) = to {
-                out.checks
-                    .extend(tried(of, &value, parameter, to, 0, domains));
-                out.near.push(Near {
-                    left: of.clone(),
-                    right: value.clone(),
-                    parameter: parameter.clone(),
-                    to: to.clone(),
-                    order: 0,
-                });
-            }
+            out.checks
+                .extend(tried(of, &value, parameter, to, 0, domains));
+            out.near.push(Near {
+                left: of.clone(),
+                right: value.clone(),
+                parameter: parameter.clone(),
+                to: to.cloned(),
+                order: 0,
+            });
             out.formula = Some(value);
         }
         Tends::Beyond(Some(true)) => {
@@ -183,19 +179,18 @@ pub(super) fn approximate(
     });
     out.checks.push(Check {
         kind: "series",
-        words: format!(
-            "Taylor's theorem: value and derivatives of the closed form at {parameter} = {}, exact",
-            write_plain(to)
+        words: String::from(
+            "value and derivatives of the closed form there, exact (Taylor's theorem)",
         ),
         holds: Some(true),
     });
     out.checks
-        .extend(tried(of, &polynomial, parameter, to, order, domains));
+        .extend(tried(of, &polynomial, parameter, Some(to), order, domains));
     out.near.push(Near {
         left: of.clone(),
         right: polynomial.clone(),
         parameter: parameter.clone(),
-        to: to.clone(),
+        to: Some(to.clone()),
         order,
     });
     out.formula = Some(polynomial);
@@ -395,7 +390,7 @@ fn by_taylor(of: &Expr, p: &Symbol, to: &Expr, domains: &Domains) -> Option<Foun
         }
     };
     let how = match series.lowest {
-        0.. => "numerator and denominator developed there: their lowest powers are compared",
+        0.. => "found from the lowest powers of numerator and denominator there",
         _ => "the denominator vanishes there more strongly than the numerator",
     };
     Some(Found {
@@ -477,7 +472,7 @@ fn by_powers(of: &Expr, p: &Symbol, at_infinity: bool, domains: &Domains) -> Opt
     };
     Some(Found {
         tends,
-        how: "lowest powers of numerator and denominator",
+        how: "found from the lowest powers of numerator and denominator",
         given,
     })
 }
@@ -489,25 +484,26 @@ fn lowest(field: &mut Field, e: &Element) -> Option<(usize, Expr)> {
     Some((k, field.expr(&coefficients[k])))
 }
 
-/// The formula against what stands for it, in doubles close by: what is left out must shrink faster than the power kept.
+/// The formula against what stands for it, in doubles close by or far out: what is left out must shrink faster than the power
+/// kept.
 fn tried(
     of: &Expr,
     stands: &Expr,
     p: &Symbol,
-    to: &Expr,
+    to: Option<&Expr>,
     order: u32,
     domains: &Domains,
 ) -> Option<Check> {
-    let way = if side(p, to, domains) == Side::Below {
-        -1.0
-    } else {
-        1.0
-    };
+    let from_below = to.is_some_and(|to| side(p, to, domains) == Side::Below);
+    let way = if from_below { -1.0 } else { 1.0 };
+    let zero = Expr::zero();
+    let to = to.ok_or(());
     let gap = of - stands;
-    let roles = roles(&[&gap, to]);
+    let roles = roles(&[&gap, to.unwrap_or(&zero)]);
     let (domains, _) = domains.completed(&roles);
-    // 8 times closer, more than 8ⁿ times smaller; rounding is no remainder.
-    let power = 8f64.powi(order as i32);
+    // 8 times closer, more than 8ⁿ times smaller; rounding is no remainder. A limit may be approached as slowly as a root.
+    let power = 4.0 * 8f64.powi(order as i32);
+    let closer = if order == 0 { 1024.0 } else { 8.0 };
     let mut seen = 0;
     for sample in samples(&roles, &domains, 6) {
         let mut point: Point<f64> = Point::default();
@@ -517,20 +513,25 @@ fn tried(
                 point.values.insert(name.clone(), 0.5 * (v.low + v.high));
             }
         }
-        let at = to.evaluate(&point)?;
+        let at = match to {
+            Ok(to) => Some(to.evaluate(&point)?),
+            Err(()) => None,
+        };
         let mut left_out = |h: f64| {
-            point.values.insert(p.clone(), at + way * h);
+            let x = at.map_or(1.0 / (h * h), |at| at + way * h);
+            point.values.insert(p.clone(), x);
             let scale = of
                 .evaluate(&point)?
                 .abs()
                 .max(stands.evaluate(&point)?.abs());
             Some((gap.evaluate(&point)?.abs(), scale))
         };
-        let (h, small) = (0.0625 / 8.0, 0.0625 / 64.0);
-        let (Some((first, scale)), Some((second, _))) = (left_out(h), left_out(small)) else {
+        let (Some((first, scale)), Some((second, _))) =
+            (left_out(1.0 / 128.0), left_out(1.0 / 128.0 / closer))
+        else {
             continue;
         };
-        if second <= 1e-13 * scale || second * power * 4.0 <= first {
+        if second <= 1e-13 * scale || second * power <= first {
             seen += 1;
         } else {
             return Some(Check {
@@ -543,7 +544,7 @@ fn tried(
     (seen > 0).then(|| Check {
         kind: "numbers",
         words: format!(
-            "at {seen} points: 8 times closer, what is left out is more than {power} times smaller"
+            "at {seen} points: {closer} times closer, what is left out is at least {power} times smaller"
         ),
         holds: Some(true),
     })

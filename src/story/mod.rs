@@ -149,8 +149,8 @@ pub struct Near {
     pub right: Expr,
     /// The parameter.
     pub parameter: Symbol,
-    /// The value it comes to.
-    pub to: Expr,
+    /// The value it comes to; `None` beyond all bounds.
+    pub to: Option<Expr>,
     /// The power.
     pub order: u32,
 }

@@ -12,7 +12,7 @@ use crate::derive::{Derivation, Form};
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
 use crate::equality::{self, Equality, How};
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Relation, write_plain};
 use crate::scene::{Scene, StoryAsk, StoryQuestion};
 use crate::verify::{Check, Proof};
@@ -199,6 +199,10 @@ fn one(
             );
             let value = put(formula, with)?;
             out.dimension = dimension_of(scene, &value, &name)?;
+            let with_known: Known = with.iter().cloned().collect();
+            let raw = gathered(&formula.substitute(known).substitute(&with_known));
+            out.put_in
+                .push((raw, value.clone(), "with the results put in"));
             out.formula = Some(value);
             out.text.extend(with_words(with));
             out
@@ -219,7 +223,19 @@ fn one(
         StoryAsk::Maximum { of, over } => {
             let value = put(of, &[])?;
             let words = format!("largest value of {}", write_plain(of));
-            return optimum::maximum(scene, blank(question, &name, words), &value, over);
+            let mut open = blank(question, &name, words);
+            return Ok(
+                optimum::maximum(scene, open.clone(), &value, over).unwrap_or_else(|why| {
+                    // Not found is an answer too, and leaves the others alone.
+                    open.text.push(sentence!["not found: ", why.reason]);
+                    open.checks.push(Check {
+                        kind: "maximum",
+                        words: String::from("not found"),
+                        holds: None,
+                    });
+                    vec![open]
+                }),
+            );
         }
         StoryAsk::Limit {
             of: whole,
@@ -267,6 +283,15 @@ fn one(
         } => {
             let sides = [put(left, with)?, put(right, with)?];
             let mut out = show(scene, question, (left, right), claim, sides)?;
+            let with_known: Known = with.iter().cloned().collect();
+            for (asked, value) in [(left, 0), (right, 1)] {
+                let raw = gathered(&asked.substitute(known).substitute(&with_known));
+                if let Some((a, b)) = &out.equation {
+                    let value = if value == 0 { a } else { b };
+                    let shown = (raw, value.clone(), "with the results put in");
+                    out.put_in.push(shown);
+                }
+            }
             out.text.extend(with_words(with));
             for name in unless {
                 let parts = components(name, known).map_or_else(|| vec![name.clone()], Vec::from);
@@ -274,15 +299,35 @@ fn one(
                 for part in parts {
                     square = &square + &put(&Expr::symbol(&part), with)?.powi(2);
                 }
-                let (words, exception) = vanishing(name, &square, domains);
-                out.text.push(words);
-                out.assumptions.extend(exception);
+                out.text.push(vanishing(name, &square, domains));
             }
             out
         }
         _ => return Ok(Vec::new()),
     };
     Ok(vec![out])
+}
+
+/// The same with equal factors gathered into powers, and nothing else changed.
+fn gathered(e: &Expr) -> Expr {
+    let e = e.map_parts(gathered);
+    let Node::Product(factors) = e.node() else {
+        return e;
+    };
+    let mut bases: Vec<(Expr, Expr)> = Vec::new();
+    for factor in factors {
+        let (base, exponent) = match factor.node() {
+            Node::Power(base, k) if k.as_number().is_some_and(|k| k.is_integer()) => {
+                (base.clone(), k.clone())
+            }
+            _ => (factor.clone(), Expr::one()),
+        };
+        match bases.iter_mut().find(|(b, _)| *b == base) {
+            Some((_, k)) => *k = &*k + &exponent,
+            None => bases.push((base, exponent)),
+        }
+    }
+    Expr::product(bases.into_iter().map(|(base, k)| base.power(k)))
 }
 
 fn statement(left: &Expr, relation: Relation, right: &Expr) -> String {
@@ -314,19 +359,7 @@ fn condition(
         name,
         format!("{what} of {parameter} for {statement}"),
     );
-    if !left.is_zero() && !right.is_zero() {
-        let (l, r) = (
-            dimension_of(scene, &left, name)?,
-            dimension_of(scene, &right, name)?,
-        );
-        if l != r {
-            return Err(Refused {
-                at: format!("question `{name}`"),
-                reason: format!("the sides of {statement} are {l} and {r}"),
-                hint: String::from("compare quantities of the same kind"),
-            });
-        }
-    }
+    same_kind(scene, name, statement, [&left, &right])?;
     out.text.extend(with_words(with));
     out.stated = Some((left.clone(), relation, right.clone()));
     threshold::fill(&mut out, parameter, &left, relation, &right, scene);
@@ -348,6 +381,25 @@ fn condition(
     Ok(out)
 }
 
+/// Refuses to compare quantities of different kinds.
+fn same_kind(
+    scene: &Scene,
+    name: &str,
+    statement: &str,
+    [left, right]: [&Expr; 2],
+) -> Result<(), Refused> {
+    let l = dimension_of(scene, left, name)?;
+    let r = dimension_of(scene, right, name)?;
+    if l == r || left.is_zero() || right.is_zero() {
+        return Ok(());
+    }
+    Err(Refused {
+        at: format!("question `{name}`"),
+        reason: format!("the sides of {statement} are {l} and {r}"),
+        hint: String::from("compare quantities of the same kind"),
+    })
+}
+
 fn show(
     scene: &Scene,
     question: &StoryQuestion,
@@ -356,8 +408,10 @@ fn show(
     [left, right]: [Expr; 2],
 ) -> Result<Answer, Refused> {
     let name = question.name.as_str();
+    let equation = statement(shown.0, Relation::Equal, shown.1);
+    same_kind(scene, name, &equation, [&left, &right])?;
     let words = match claim {
-        "" => statement(shown.0, Relation::Equal, shown.1),
+        "" => equation,
         claim => claim.to_string(),
     };
     let mut out = blank(question, name, format!("to be shown: {words}"));
@@ -373,29 +427,23 @@ fn show(
     Ok(out)
 }
 
-/// Where a quantity vanishes whose square this is, in a sentence; and what must not hold.
-fn vanishing(name: &Symbol, square: &Expr, domains: &Domains) -> (Sentence, Option<Sentence>) {
+/// Where a quantity vanishes whose square this is.
+fn vanishing(name: &Symbol, square: &Expr, domains: &Domains) -> Sentence {
     if is_zero(square, domains) == Some(true) {
-        return (
-            sentence![name, " is zero throughout: the statement is empty"],
-            Some(sentence![name, " is zero"]),
-        );
+        return sentence![name, " is zero throughout: the statement is empty"];
     }
     let places = zeros::of(&essential(square, domains), domains);
     if places.is_empty() {
-        return (sentence![name, " is nowhere zero"], None);
+        return sentence![name, " is nowhere zero"];
     }
     let places = Sentence::join(places, " or ");
-    (
-        sentence![
-            "except where ",
-            &places,
-            ": there ",
-            name,
-            " is zero and the statement is empty"
-        ],
-        Some(sentence!["not ", places, ", where ", name, " is zero"]),
-    )
+    sentence![
+        "the exception is ",
+        places,
+        ": there ",
+        name,
+        " is zero and the statement is empty"
+    ]
 }
 
 /// `a, b and c`.

@@ -58,7 +58,18 @@ pub(super) fn fill(
         return;
     }
     if roots.inside.is_empty() {
-        out.text.push(always(&gap, relation, domains));
+        let rest = essential(&gap, domains);
+        let idle = !rest.symbols().contains(parameter);
+        out.text.push(match relation {
+            Relation::Equal if idle && rest.as_number().is_none() => sentence![
+                "no value of ",
+                parameter,
+                " does, unless ",
+                &rest,
+                " = 0, when every value does"
+            ],
+            _ => always(&gap, relation, domains),
+        });
         return;
     }
     for root in &roots.inside {
@@ -74,10 +85,7 @@ pub(super) fn fill(
             words: if root.proved {
                 String::from("with the value put in, both sides are identical")
             } else {
-                format!(
-                    "whether both sides meet at {parameter} = {} was not proved",
-                    write_plain(&root.value)
-                )
+                String::from("whether both sides meet at this value was not proved")
             },
             holds: root.proved.then_some(true),
         });

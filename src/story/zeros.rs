@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::calc::{Root, Roots, Unsolved, is_zero, sign, solve, tidy};
+use super::calc::{Root, Roots, Unsolved, is_zero, real, sign, solve, tidy};
 use super::{Sentence, sentence::sentence};
 use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
@@ -99,14 +99,19 @@ pub(super) fn angle(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Root
     for root in found.inside {
         let value = from_half(&root.value, &wide)?;
         let given = root.given.iter().map(|g| g.put_in(&back));
+        // The conditions for the tangent to be real are those for the angle.
+        let mut given: Vec<Sentence> = given.collect();
+        for condition in real(&value, domains) {
+            if !given.contains(&condition) {
+                given.push(condition);
+            }
+        }
         out.inside.push(Root {
             value,
             proved: root.proved,
-            given: given.collect(),
+            given,
         });
     }
-    let discarded = found.discarded.iter().map(|d| d.put_in(&back));
-    out.discarded.extend(discarded);
     // Half of a straight angle has no tangent.
     for (end, sign) in [(&domain.low, -1), (&domain.high, 1)] {
         let straight = end

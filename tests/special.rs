@@ -1,0 +1,100 @@
+//! What a scene asks about its answers: zeros, thresholds, limits, forms for a small parameter, identities. Each row of the table
+//! is a question about the scene below; a fact of its own stands in a test of its own.
+
+use carom::formula::write_plain;
+use carom::story::{self, Answer};
+use carom::{derive, scene, verify};
+
+/// A bar hinged at A is hit by a ball that sticks at D; the parameters beside are for questions alone.
+fn asked(questions: &str) -> Result<Vec<Answer>, String> {
+    let text = format!(
+        r#"{{
+  "parameters": {{
+    "m1": {{"unit": "kg"}}, "m2": {{"unit": "kg"}}, "l": {{"unit": "m"}}, "d": {{"unit": "m"}}, "v": {{"unit": "m/s"}},
+    "x": {{"unit": "m", "domain": "real"}}, "theta": {{"unit": "rad", "domain": {{"min": 0, "max": "pi/2"}}}},
+    "phi": {{"unit": "rad", "domain": {{"min": "-pi", "max": "pi"}}}}, "e": {{"unit": "1", "domain": {{"min": 0, "max": 1}}}}
+  }},
+  "points": {{"A": [0, 0], "D": [0, "-d"]}},
+  "bodies": {{
+    "support": {{"shape": "fixed"}},
+    "bar": {{"shape": "rod", "mass": "m2", "length": "2*l", "angle": "-pi/2", "center": [0, "-l"]}},
+    "ball": {{"shape": "particle", "mass": "m1", "center": "D", "velocity": ["-v", 0]}}
+  }},
+  "hinges": {{"A": {{"bodies": ["support", "bar"], "at": "A"}}}},
+  "contacts": {{"D": {{"bodies": ["ball", "bar"], "at": "D", "law": "sticking"}}}},
+  "questions": {{
+    "omega": {{"spin": "bar"}}, "P_A": {{"impulse": "A", "on": "bar"}}, "E_lost": {{"energy": "lost"}},
+    {questions}
+  }}
+}}"#
+    );
+    let scene = scene::read(&text).map_err(|faults| faults.render("scene", &text))?;
+    let derivation = derive::derive(&scene).map_err(|stop| stop.to_string())?;
+    let proof = verify::prove(&scene, &derivation);
+    story::special(&scene, &derivation, &proof).map_err(|refused| refused.to_string())
+}
+
+/// Everything an answer says, in one line.
+fn said(answers: &[Answer]) -> String {
+    let mut all = Vec::new();
+    for a in answers {
+        if let Some(formula) = &a.formula {
+            all.push(format!("{} = {}", a.name, write_plain(formula)));
+        }
+        for (s, relation, e) in &a.range {
+            all.push(format!("{s} {} {}", relation.sign(), write_plain(e)));
+        }
+        let sentences = a.text.iter().chain(&a.discarded);
+        all.extend(sentences.map(ToString::to_string));
+        all.extend(a.assumptions.iter().map(|g| format!("given {g}")));
+        for c in &a.checks {
+            all.push(format!("{} {:?}", c.kind, c.holds));
+        }
+    }
+    all.join(" | ")
+}
+
+#[test]
+fn every_question_gets_its_answer() {
+    let table: Vec<[&str; 3]> = include_str!("special/questions.tsv")
+        .lines()
+        .skip(1)
+        .filter_map(|line| {
+            let mut cells = line.split('\t');
+            Some([cells.next()?, cells.next()?, cells.next()?])
+        })
+        .collect();
+    assert!(table.len() > 20);
+    let mut wrong = Vec::new();
+    for [question, expected, reason] in table {
+        let answer = match asked(&format!("\"it\": {question}")) {
+            Ok(answers) => said(&answers),
+            Err(message) => message,
+        };
+        for part in expected.split(" & ") {
+            let found = match part.strip_prefix("not ") {
+                Some(absent) => !answer.contains(absent),
+                None => answer.contains(part),
+            };
+            if !found {
+                wrong.push(format!(
+                    "{question}\n  expected {part} ({reason})\n  got {answer}"
+                ));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn a_later_question_uses_the_answer_of_an_earlier_one() {
+    let answers = asked(
+        r#""d_0": {"solve": "d", "holds": "P_A_x = 0"}, "q_0": {"value": "l/d_0"}, "spin_0": {"value": "omega", "with": {"d": "d_0"}}"#,
+    );
+    let said = said(&answers.expect("answers"));
+    assert!(said.contains("q_0 = 3/4"), "{said}");
+    assert!(
+        said.contains("spin_0 = -3*m1*v/(l*(4*m1 + 3*m2))"),
+        "{said}"
+    );
+}
