@@ -44,16 +44,16 @@ fn written(scene: &scene::Scene, found: &Found, detail: Detail) -> Solution {
 }
 
 impl Case {
-    fn read(path: PathBuf) -> Option<Case> {
+    fn read(path: PathBuf) -> Case {
         let text = fs::read_to_string(&path).expect("a readable scene");
-        let scene = scene::read(&text).ok()?;
+        let scene = scene::read(&text).unwrap_or_else(|f| panic!("{}", f.render("scene", &text)));
         let found = find(&scene);
-        Some(Case {
+        Case {
             path,
             text,
             scene,
             found,
-        })
+        }
     }
 
     fn solution(&self, detail: Detail) -> Solution {
@@ -85,7 +85,7 @@ fn cases() -> &'static [Case] {
                 .map(|path| scope.spawn(|| Case::read(path)))
                 .collect();
             each.into_iter()
-                .filter_map(|case| case.join().expect("a derivation"))
+                .map(|case| case.join().expect("a derivation"))
                 .collect()
         })
     })

@@ -10,10 +10,12 @@ use crate::derive::{Answer, Form};
 use crate::dimension;
 use crate::expr::{Expr, Symbol};
 use crate::laws::Unknown;
-use crate::scene::Ask;
+use crate::scene::{Ask, EnergyWhen};
 
 /// Remarks about limits that a reader is glad to have; more would bury them.
 const LIMITS: usize = 4;
+/// Largest loss of energy, in nodes, that is worked out for a remark alone.
+const LONGEST: usize = 1_000;
 
 impl Writer<'_> {
     /// The section of remarks; absent where there is nothing true to say.
@@ -77,12 +79,32 @@ impl Writer<'_> {
             after.push(squares(&v, &w));
         }
         let before = Expr::sum(before);
+        let tidy_before = self.field.element(&before).ok()?;
+        let tidy_before = self.field.expr(&tidy_before);
+        let is_lost = |ask: &Ask| {
+            matches!(
+                ask,
+                Ask::Energy {
+                    when: EnergyWhen::Lost,
+                    of: None
+                }
+            )
+        };
+        let asked = self.scene.questions.iter().find(|q| is_lost(&q.ask));
+        let answered = self
+            .closed()
+            .into_iter()
+            .find(|(a, _)| asked.is_some_and(|q| q.name == a.question));
+        if let Some((_, lost)) = answered {
+            return Some((tidy_before, lost));
+        }
         let lost = &before - &Expr::sum(after);
-        let (before, lost) = (
-            self.field.element(&before).ok()?,
-            self.field.element(&lost).ok()?,
-        );
-        Some((self.field.expr(&before), self.field.expr(&lost)))
+        // A remark is not worth more work than the derivation.
+        if lost.size() > LONGEST {
+            return None;
+        }
+        let lost = self.field.element(&lost).ok()?;
+        Some((tidy_before, self.field.expr(&lost)))
     }
 
     /// What happens to the kinetic energy, and where.
@@ -104,11 +126,14 @@ impl Writer<'_> {
             )]);
         }
         let places: Vec<String> = self.scene.contacts.iter().map(|c| c.name.clone()).collect();
-        let element_before = self.field.element(&before).ok()?;
-        let element_lost = self.field.element(&lost).ok()?;
-        let fraction = self.field.div(&element_lost, &element_before).ok()?;
-        let fraction = self.field.expr(&fraction);
         let sign = self.sign(&lost)?;
+        // Only a short fraction is worth telling.
+        let fraction = (lost.size() < 80).then(|| {
+            let element_before = self.field.element(&before).ok()?;
+            let element_lost = self.field.element(&lost).ok()?;
+            let fraction = self.field.div(&element_lost, &element_before).ok()?;
+            Some(self.field.expr(&fraction)).filter(|f| f.size() < 40)
+        });
         if !sign.is_not_negative() {
             return None;
         }
@@ -122,7 +147,7 @@ impl Writer<'_> {
             _ => String::from(", none at the hinges"),
         };
         let mut text = vec![];
-        if fraction.size() < 40 {
+        if let Some(fraction) = fraction.flatten() {
             text.push(say("Of the kinetic energy, the fraction "));
             text.push(words::formula(&fraction));
             text.push(say(format!(" is lost{at}{joints}.")));
