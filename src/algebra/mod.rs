@@ -6,10 +6,12 @@
 //! stops is an error, what was only seen and not proved is listed in [`Field::assumptions`], and whether a nonzero
 //! element proves two formulas different is told by [`Field::complete`]. Nothing here knows of mechanics.
 
+mod differences;
 mod element;
 mod factor;
 mod field;
 mod gcd;
+mod minors;
 mod parts;
 mod poly;
 mod powers;
@@ -24,7 +26,7 @@ use std::fmt;
 pub use element::Element;
 pub use field::{Assumption, Field};
 pub use powers::Powers;
-pub use solve::{Pivot, Row, Solution, solve};
+pub use solve::{Row, Solution, solve};
 
 /// Why a computation ended without a result.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

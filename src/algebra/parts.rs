@@ -110,7 +110,10 @@ impl Field {
     fn length(&self, parts: &Parts) -> usize {
         let mut total = 0;
         for (f, k) in &parts.factors {
-            let own: usize = f
+            let fewer = self.in_differences(f);
+            let own: usize = fewer
+                .as_ref()
+                .map_or(f, |(f, _)| f)
                 .terms()
                 .map(|(m, c)| {
                     letters(m)

@@ -2,10 +2,15 @@
 //!
 //! Elimination takes the shortest way: among the remaining entries the pivot is the one whose use fills in least, then
 //! the simplest coefficient, then the first. Rows and unknowns that do not need each other are thereby solved apart.
+//! Small regular systems with sines and cosines go by [`minors`] instead.
 
 use super::Stop;
 use super::element::Element;
-use super::field::Field;
+use super::field::{Field, Kind};
+use super::minors;
+
+/// Most unknowns of a system that is solved by determinants; their number of terms grows like 2ⁿ.
+const MOST_BY_MINORS: usize = 6;
 
 /// One equation Σ coeff·x = rhs.
 #[derive(Clone, Debug)]
@@ -16,15 +21,11 @@ pub struct Row {
     pub rhs: Element,
 }
 
-/// One division of the elimination.
-#[derive(Clone, Debug)]
-pub struct Pivot {
-    /// Index of the equation.
-    pub row: usize,
-    /// Index of the unknown it was solved for.
-    pub unknown: usize,
-    /// What was divided by; the solution holds where this is not zero.
-    pub value: Element,
+/// One division of the elimination: the equation, the unknown it was solved for, and its coefficient.
+struct Pivot {
+    row: usize,
+    unknown: usize,
+    value: Element,
 }
 
 /// What a linear system determines.
@@ -40,13 +41,27 @@ pub struct Solution {
     pub redundant: Vec<usize>,
     /// Unknowns chosen as free, by index; others may still depend on them.
     pub free: Vec<usize>,
-    /// The divisions, in the order carried out.
-    pub pivots: Vec<Pivot>,
+    /// What was divided by; the solution holds where none of it is zero. Its product is the determinant up to sign.
+    pub divisors: Vec<Element>,
 }
 
 /// Solves the rows for n unknowns. Coefficients of unknowns ≥ n are an error of the caller and are ignored.
 pub fn solve(field: &Field, rows: &[Row], n: usize) -> Result<Solution, Stop> {
     field.fuel.refill();
+    if rows.len() == n
+        && (2..=MOST_BY_MINORS).contains(&n)
+        && rows.iter().any(|row| is_trigonometric(field, row))
+        && let Some((values, determinant)) = minors::quotients(field, rows)?
+    {
+        return Ok(Solution {
+            values: values.into_iter().map(Some).collect(),
+            rank: n,
+            contradiction: None,
+            redundant: Vec::new(),
+            free: Vec::new(),
+            divisors: vec![determinant],
+        });
+    }
     let mut work: Vec<Vec<(usize, Element)>> = rows
         .iter()
         .map(|row| {
@@ -124,8 +139,17 @@ pub fn solve(field: &Field, rows: &[Row], n: usize) -> Result<Solution, Stop> {
         contradiction,
         redundant,
         free,
-        pivots,
+        divisors: pivots.into_iter().map(|p| p.value).collect(),
     })
+}
+
+/// Whether sines and cosines occur.
+fn is_trigonometric(field: &Field, row: &Row) -> bool {
+    let of = |x: &Element| {
+        let mut variables = x.num.variables().into_iter();
+        variables.any(|v| matches!(field.gens[v].kind, Kind::Sin(_)))
+    };
+    of(&row.rhs) || row.coeffs.iter().any(|(_, c)| of(c))
 }
 
 /// A constant and coefficients of free unknowns.

@@ -202,6 +202,14 @@ impl Field {
 
     /// A sum with a positive term in front, if it has one; whether its sign was turned; whether it has both signs.
     fn sum(&self, p: &Poly) -> (Expr, bool, bool) {
+        if let Some((fewer, angles)) = self.in_differences(p) {
+            let e = self.written(&Element::from_poly(fewer)).substitute(&angles);
+            return if is_negative(&e) {
+                (-e, true, false)
+            } else {
+                (e, false, false)
+            };
+        }
         let mut terms = self.shortened(p);
         let minus = terms.iter().filter(|t| t.coeff.is_negative()).count();
         let mixed = minus > 0 && minus < terms.len();

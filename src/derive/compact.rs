@@ -3,7 +3,7 @@
 //! For one contact between bodies that are otherwise free, u⁺ = u⁻ + W P holds at the contact, with W the inverse
 //! effective mass, and every velocity is its value before plus the impulse over its own inertia. That form is short, says
 //! what is going on, and is exactly the one the equations give before anything is multiplied out. Elsewhere long answers
-//! are written in terms of the unknowns the equations were solved for. A short answer is left alone.
+//! are written in terms of the impulses and the other unknowns the equations were solved for. A short answer is left alone.
 
 use std::collections::BTreeMap;
 
@@ -271,25 +271,65 @@ impl Parts<'_, '_> {
         Ok(values)
     }
 
-    /// Elsewhere: every unknown whose closed form is long stands for itself.
+    /// Elsewhere: every unknown whose closed form is long stands for itself, or for what impulses make of a free body.
     fn solved(&mut self) -> Result<Option<BTreeMap<Unknown, Expr>>, Stop> {
-        let mut values = BTreeMap::new();
-        let solved: Vec<(Unknown, Element)> = self
+        let mut values: BTreeMap<Unknown, Expr> = BTreeMap::new();
+        let mut solved: Vec<(Unknown, Element)> = self
             .work
             .values
             .iter()
             .map(|(u, v)| (*u, v.clone()))
             .collect();
+        solved.sort_by_key(|(unknown, _)| !unknown.is_impulse());
         for (unknown, value) in solved {
             let closed = self.work.field.expr(&value);
-            let value = if write_plain(&closed).len() > NAMED {
-                self.define_unknown(unknown, closed, "as solved above")
-            } else {
-                closed
+            let length = write_plain(&closed).len();
+            let value = match self.pushed(unknown, &values)? {
+                Some(short) if write_plain(&short).len() < length => short,
+                _ if length > NAMED => self.define_unknown(unknown, closed, "as solved above"),
+                _ => closed,
             };
             values.insert(unknown, value);
         }
         Ok((!self.definitions.is_empty()).then_some(values))
+    }
+
+    /// A velocity or spin of a body that only smooth contacts act on: its value before plus the impulses over the inertia.
+    fn pushed(
+        &mut self,
+        unknown: Unknown,
+        values: &BTreeMap<Unknown, Expr>,
+    ) -> Result<Option<Expr>, Stop> {
+        let scene = self.work.scene;
+        let (Unknown::Velocity(b, _) | Unknown::Spin(b)) = unknown else {
+            return Ok(None);
+        };
+        let body = &scene.bodies[b];
+        let held = scene.hinges.iter().any(|h| h.bodies.contains(&b))
+            || scene.blows.iter().any(|blow| blow.body == b);
+        if held {
+            return Ok(None);
+        }
+        let mut total = match unknown {
+            Unknown::Velocity(_, axis) => self.tidy(&body.velocity[axis])?,
+            _ => self.tidy(&body.spin)?,
+        };
+        for (k, contact) in scene.contacts.iter().enumerate() {
+            let Some(side) = contact.bodies.iter().position(|&i| i == b) else {
+                continue;
+            };
+            let (Some(normal), Some(impulse)) = (&contact.normal, values.get(&Unknown::Normal(k)))
+            else {
+                return Ok(None);
+            };
+            let share = match unknown {
+                Unknown::Velocity(_, axis) => &normal[axis] / &body.mass,
+                _ => cross(&minus(&contact.at, &body.center), normal) / &body.inertia,
+            };
+            let share = self.tidy(&if side == 0 { -share } else { share })?;
+            total = total + share * impulse;
+        }
+        Ok(Some(total))
     }
 
     /// An answer with the unknowns replaced by their short values.

@@ -389,7 +389,7 @@ impl<'a> Work<'a> {
         for (unknown, value) in unknowns.iter().zip(solution.values.into_iter().flatten()) {
             self.values.insert(*unknown, value);
         }
-        let divided_by = self.divisors(&solution.pivots)?;
+        let divided_by = self.divisors(&solution.divisors)?;
         self.push_block(equations, unknowns, divided_by, asked_by);
         Ok(true)
     }
@@ -522,7 +522,7 @@ impl<'a> Work<'a> {
             equations.remove(row);
             solution = algebra::solve(&self.field, &rows, unknowns.len())?;
         }
-        let divided_by = self.divisors(&solution.pivots)?;
+        let divided_by = self.divisors(&solution.divisors)?;
         let mut found = Vec::new();
         let mut printed = Vec::new();
         for (unknown, value) in unknowns.into_iter().zip(solution.values) {
@@ -666,7 +666,7 @@ impl<'a> Work<'a> {
     /// The determinant of a block, where nothing shows that it keeps away from zero. Joints in a tree and one contact
     /// need no such condition: their equations are those of a quadratic form, the kinetic energy, that is positive for
     /// positive masses.
-    fn divisors(&mut self, pivots: &[algebra::Pivot]) -> Result<Vec<Expr>, Stop> {
+    fn divisors(&mut self, divisors: &[Element]) -> Result<Vec<Expr>, Stop> {
         let scene = self.scene;
         let mut positive = true;
         for body in scene.bodies.iter().filter(|b| !b.is_fixed()) {
@@ -682,8 +682,8 @@ impl<'a> Work<'a> {
             return Ok(Vec::new());
         }
         let mut determinant = self.field.integer(1);
-        for pivot in pivots {
-            determinant = self.field.mul(&determinant, &pivot.value)?;
+        for divisor in divisors {
+            determinant = self.field.mul(&determinant, divisor)?;
         }
         Ok(match self.field.sign(&determinant) {
             Some(Sign::Positive | Sign::Negative) => Vec::new(),

@@ -515,13 +515,18 @@ fn candidate_laws(scene: &Scene, reduction: &Reduction, g: &Geometry<f64>) -> Ve
             continue;
         }
         for about in moment_points(scene, g, &system) {
-            let own_center = matches!(about, Place::Center(_));
+            // A center of mass is the natural point for one body and an odd one for several.
+            let center = match about {
+                Place::Center(_) if size > 1 => 3,
+                Place::Center(_) => 1,
+                _ => 0,
+            };
             laws.push((
                 Law::AngularMomentum {
                     system: system.clone(),
                     about,
                 },
-                2 * (size - 1) + 3 + usize::from(own_center),
+                2 * (size - 1) + 3 + center,
             ));
         }
     }

@@ -55,7 +55,7 @@ pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof, special: &[Speci
         match &answer.form {
             Form::Value { closed, short } => {
                 let value = super::answer_value(scene, d, closed)
-                    .filter(|_| closed.as_number().is_none())
+                    .filter(|_| !closed.is_zero())
                     .map_or(String::new(), |v| {
                         format!(
                             " = {} {}",

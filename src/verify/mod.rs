@@ -421,7 +421,15 @@ fn doubles(scene: &Scene, derivation: &Derivation, answer: &Answer, closed: &Exp
         let Some(expected) = numeric_value(scene, answer, &point, &given, &motion) else {
             continue;
         };
-        let scale = value.abs().max(expected.abs()).max(f64::MIN_POSITIVE);
+        // A component is as exact as its vector is: one that vanishes has no digits of its own.
+        let siblings = derivation
+            .answers
+            .iter()
+            .filter(|a| a.question == answer.question && a.axis.is_some() && answer.axis.is_some());
+        let length = siblings
+            .filter_map(|a| numeric_value(scene, a, &point, &given, &motion))
+            .fold(f64::MIN_POSITIVE, |length, x| length.max(x.abs()));
+        let scale = length.max(value.abs()).max(expected.abs());
         // A value that vanishes exactly has no relative error; what the solver leaves there is rounding of its terms.
         let unit = if closed.is_zero() { 1.0 } else { scale };
         worst = worst.max((value - expected).abs() / (unit * f64::EPSILON));

@@ -337,6 +337,13 @@ fn results_are_written_as_a_person_would() {
             t.cos() * u.cos() + t.sin() * u.sin(),
             "(cos (+ phi (* -1 theta)))",
         ),
+        (
+            &m1 + &(&m2
+                * &(t.cos().powi(2) + u.cos().powi(2)
+                    - n(2) * t.cos() * u.cos() * (&t - &u).cos())),
+            "(+ m1 (* m2 (^ (sin (+ phi (* -1 theta))) 2)))",
+        ),
+        (&l / &n(2).sqrt(), "(* 1/2 (^ 2 1/2) l)"),
         ((n(2) * &l * &v).sqrt(), "(^ (* 2 l v) 1/2)"),
         (m.sqrt() / v.sqrt(), "(^ (* m (^ v -1)) 1/2)"),
         (
