@@ -189,10 +189,10 @@ impl Domain {
         ) {
             (false, ..) => l.value.to_string(),
             (true, n, d) => {
-                let n = if *n == Int::from(1) {
-                    String::new()
-                } else {
-                    format!("{n}*")
+                let n = match n.as_i64() {
+                    Some(1) => String::new(),
+                    Some(-1) => String::from("-"),
+                    _ => format!("{n}*"),
                 };
                 if *d == Int::from(1) {
                     format!("{n}pi")

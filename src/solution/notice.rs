@@ -12,6 +12,9 @@ use crate::expr::{Expr, Symbol};
 use crate::laws::Unknown;
 use crate::scene::{Ask, EnergyWhen};
 
+/// Largest value, in nodes of its formula, that is worth a remark.
+const NOTICED: usize = 30;
+
 /// Remarks about limits that a reader is glad to have; more would bury them.
 const LIMITS: usize = 4;
 /// Largest loss of energy, in nodes, that is worked out for a remark alone.
@@ -275,7 +278,9 @@ impl Writer<'_> {
                     };
                     if at_end.is_zero() {
                         zeros.push(answer.name.clone());
-                    } else if at_end.size() * 2 <= closed.size() || at_end.size() <= 4 {
+                    } else if (at_end.size() * 2 <= closed.size() && at_end.size() <= NOTICED)
+                        || at_end.size() <= 4
+                    {
                         others.push((answer.name.clone(), at_end));
                     }
                 }
