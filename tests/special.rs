@@ -98,3 +98,85 @@ fn a_later_question_uses_the_answer_of_an_earlier_one() {
         "{said}"
     );
 }
+
+fn book() -> (scene::Scene, String) {
+    let text = std::fs::read_to_string("derivations/book/ball-hits-bat.json").expect("a scene");
+    (scene::read(&text).expect("a valid scene"), text)
+}
+
+fn graphs(scene: &scene::Scene) -> Result<Vec<story::Graph>, story::Refused> {
+    let derivation = derive::derive(scene).expect("a derivation");
+    let proof = verify::prove(scene, &derivation);
+    let special = story::special(scene, &derivation, &proof).expect("answers");
+    story::graphs(scene, &story::known(&derivation), &special)
+}
+
+#[test]
+fn the_impulse_at_the_hinge_is_plotted_with_its_zero_at_three_quarters() {
+    let (scene, _) = book();
+    let graphs = graphs(&scene).expect("curves");
+    assert_eq!(graphs.len(), 1);
+    for curve in &graphs[0].curves {
+        let zeros: Vec<String> = curve.zeros.iter().map(|z| write_plain(&z.0)).collect();
+        assert_eq!(zeros, ["3/4"]);
+        // P_A/(m1 v) = q (4 q − 3) r/(3 + 4 r q²) with r = m2/m1, at q = 1.
+        let mut masses = carom::expr::Point::<f64>::default();
+        masses.values.insert("m1".into(), 1.0);
+        let ratio = curve.with[0].1.evaluate(&masses).expect("a ratio");
+        let mut point = carom::expr::Point::<f64>::default();
+        point.values.insert("q".into(), 1.0);
+        let value = curve.formula.evaluate(&point).expect("a value");
+        assert!(
+            (value - ratio / (3.0 + 4.0 * ratio)).abs() < 1e-12,
+            "{value}"
+        );
+    }
+    let picture = carom::render::plots::picture(&scene, &graphs[0]).expect("a plot");
+    assert!(picture.svg.contains("q = 3/4") && picture.svg.contains("q = ℓ/d"));
+    assert!(picture.caption.contains("zero at q = 3/4, exactly"));
+}
+
+#[test]
+fn a_plot_that_cannot_be_drawn_says_why() {
+    let (_, text) = book();
+    let with = |from: &str, to: &str| {
+        let text = text.replacen(from, to, 1);
+        assert!(text.contains(to));
+        match scene::read(&text) {
+            Err(faults) => faults.render("scene", &text),
+            Ok(scene) => match graphs(&scene) {
+                Err(refused) => refused.to_string(),
+                Ok(graphs) => match carom::render::plots::picture(&scene, &graphs[0]) {
+                    Err(fault) => fault.to_string(),
+                    Ok(_) => String::from("drawn"),
+                },
+            },
+        }
+    };
+    let axis = r#""from": "1/4", "to": "2""#;
+    for (from, to, said) in [
+        (axis, r#""from": "2", "to": "1/4""#, "ends before it begins"),
+        (axis, r#""from": "1/4", "to": "1/0""#, "division by zero"),
+        (
+            r#""varying": "d""#,
+            r#""varying": "m2""#,
+            "m2 is not given by q alone",
+        ),
+        (r#""varying": "d", "#, r#""#, "belong together"),
+        (
+            r#""against": "q""#,
+            r#""against": "v""#,
+            "the name `v` is taken",
+        ),
+        (
+            r#"{"m2": "m1"}, {"m2""#,
+            r#"{"m3": "m1"}, {"m2""#,
+            "there is no parameter `m3`",
+        ),
+        (r#""P_A_x/(m1*v)""#, r#""P_B_x/(m1*v)""#, "P_B_x"),
+        (r#""unit": "kg", "value": 0.25"#, r#""unit": "kg""#, "drawn"),
+    ] {
+        let text = with(from, to);
+        assert!(text.contains(said), "{to}: {text}");
+    }
+}

@@ -1,12 +1,15 @@
 //! `carom draw`: the pictures of a scene as SVG or PNG.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::solution::chapters;
+use super::solution::{chapters, plots};
 use super::{Failure, print, read_scene, save};
 use carom::figure::{self, Chapter, Drawing, Subject, Which};
+use carom::scene::Scene;
+use carom::{derive, story, verify};
 
 /// Arguments of `carom draw`.
 #[derive(Args)]
@@ -22,6 +25,9 @@ pub struct DrawArgs {
     /// Name of the stage to draw, where the scene has stages; all of them without it
     #[arg(long, value_name = "NAME")]
     stage: Option<String>,
+    /// Draw this plot of the scene instead
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["body", "stage"])]
+    plot: Option<String>,
     /// File to write, `.svg` or `.png`; without it the SVG goes to standard output
     #[arg(short, long)]
     output: Option<PathBuf>,
@@ -45,6 +51,9 @@ enum Picture {
 /// Draws a scene.
 pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
     let mut scene = read_scene(&args.scene, &args.set)?;
+    if let Some(name) = &args.plot {
+        return write(args, &plotted(args, &mut scene, name)?);
+    }
     if let Some(stages) = &scene.story {
         let refused =
             |reason: String| Failure::Input(format!("{}: {reason}", args.scene.display()));
@@ -94,6 +103,41 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
         Picture::All => Which::All,
     };
     write(args, &figure::draw(&scene, which))
+}
+
+/// One plot of the scene.
+fn plotted(args: &DrawArgs, scene: &mut Scene, name: &str) -> Result<Drawing, Failure> {
+    let refused = |reason: String| Failure::Input(format!("{}: {reason}", args.scene.display()));
+    let names: Vec<String> = scene.plots.iter().map(|p| p.name.clone()).collect();
+    scene.plots.retain(|p| p.name == name);
+    if scene.plots.is_empty() {
+        let hint = match names.join(", ") {
+            none if none.is_empty() => String::from("the scene asks for none"),
+            names => format!("plots here: {names}"),
+        };
+        return Err(refused(format!("no plot {name}\nhint: {hint}")));
+    }
+    let (known, later) = if let Some(stages) = &scene.story {
+        let told = story::tell(scene, stages).map_err(|r| refused(r.to_string()))?;
+        (BTreeMap::new(), told.answers)
+    } else {
+        let derivation = derive::derive(scene).map_err(|stop| refused(stop.to_string()))?;
+        let proof = verify::prove(scene, &derivation);
+        let later = story::special(scene, &derivation, &proof);
+        (
+            story::known(&derivation),
+            later.map_err(|r| refused(r.to_string()))?,
+        )
+    };
+    let graphs = story::graphs(scene, &known, &later).map_err(|r| refused(r.to_string()))?;
+    let drawn = plots(scene, &graphs)?.into_iter().next();
+    drawn
+        .map(|(picture, _)| Drawing {
+            svg: picture.svg,
+            caption: picture.caption,
+            alternative: picture.alternative,
+        })
+        .ok_or_else(|| refused(format!("no plot {name}")))
 }
 
 /// Writes a drawing where it belongs.

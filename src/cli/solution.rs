@@ -1,5 +1,6 @@
 //! `carom solution` and `carom check`: the worked solution of a scene in any format, and the replay of its steps.
 
+use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -70,10 +71,12 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         DetailArg::Full => Detail::Full,
     };
     let refused = |reason: String| Failure::Input(format!("{}: {reason}", args.scene.display()));
-    let (solution, holds, told) = if let Some(stages) = &scene.story {
+    let (solution, holds, told, plots) = if let Some(stages) = &scene.story {
         let told = story::tell(&scene, stages).map_err(|r| refused(r.to_string()))?;
         let solution = solution::tell(&scene, stages, &told, detail);
-        (solution, told.holds(), Some(told))
+        let graphs = story::graphs(&scene, &BTreeMap::new(), &told.answers);
+        let graphs = graphs.map_err(|r| refused(r.to_string()))?;
+        (solution, told.holds(), Some(told), plots(&scene, &graphs)?)
     } else {
         let derivation = derive::derive(&scene).map_err(|stop| refused(stop.to_string()))?;
         let proof = verify::prove(&scene, &derivation);
@@ -83,11 +86,17 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         let holds = proof.holds()
             && special.iter().all(story::Answer::holds)
             && !derivation.counting.contradictory;
-        (solution, holds, None)
+        let graphs = story::graphs(&scene, &story::known(&derivation), &special);
+        let graphs = graphs.map_err(|r| refused(r.to_string()))?;
+        (solution, holds, None, plots(&scene, &graphs)?)
     };
-    let drawn = || match (&scene.story, &told) {
-        (Some(stages), Some(told)) => stage_pictures(&scene, stages, told),
-        _ => pictures(&scene),
+    let drawn = || {
+        let mut all = match (&scene.story, &told) {
+            (Some(stages), Some(told)) => stage_pictures(&scene, stages, told),
+            _ => pictures(&scene),
+        };
+        all.extend(plots.iter().cloned());
+        all
     };
     let output = match args.format {
         FormatArg::Text => render::plain::solution(&solution),
@@ -116,6 +125,17 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         None => print(&output)?,
     }
     Ok(u8::from(!holds))
+}
+
+/// The plots of a scene, each with a name for its file.
+pub fn plots(scene: &Scene, graphs: &[story::Graph]) -> Result<Vec<(Picture, String)>, Failure> {
+    let mut out = Vec::new();
+    for (i, graph) in graphs.iter().enumerate() {
+        let picture = render::plots::picture(scene, graph)
+            .map_err(|fault| Failure::Input(format!("plot `{}`: {fault}", graph.ask.name)))?;
+        out.push((picture, format!("plot-{}", i + 1)));
+    }
+    Ok(out)
 }
 
 /// The pictures of a story, by stage.

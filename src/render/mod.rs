@@ -10,6 +10,7 @@ pub mod markdown;
 pub mod math;
 pub mod mathml;
 pub mod plain;
+pub mod plots;
 pub mod printed;
 #[cfg(feature = "report")]
 pub mod report;

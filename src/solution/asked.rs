@@ -289,17 +289,17 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
             step: shown.clone(),
         });
     }
-    if let Some(formula) = &answer.formula {
-        if answer.range.is_empty() {
-            let (left, op) = match stands_for(ask, answer) {
-                Some((of, op)) => (of, op),
-                None => (symbol.clone(), "="),
-            };
-            lines.push(Line {
-                math: vec![Math::Expr(left), Math::Op(op), Math::Expr(formula.clone())],
-                step: defined.or_else(|| shown.clone()),
-            });
-        }
+    if let Some(formula) = &answer.formula
+        && answer.range.is_empty()
+    {
+        let (left, op) = match stands_for(ask, answer) {
+            Some((of, op)) => (of, op),
+            None => (symbol.clone(), "="),
+        };
+        lines.push(Line {
+            math: vec![Math::Expr(left), Math::Op(op), Math::Expr(formula.clone())],
+            step: defined.or_else(|| shown.clone()),
+        });
     }
     if let Some((left, right)) = &answer.equation
         && answer.stated.is_none()
@@ -346,7 +346,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
         text.insert(0, vec![say(end)]);
     }
     if text.len() > 1 && matches!(ask, StoryAsk::Show { .. }) {
-        let sentences = text.drain(..).collect::<Vec<_>>();
+        let sentences = std::mem::take(&mut text);
         text.push(sentences.join(&say(" ")));
     }
     match text.len() {

@@ -242,7 +242,6 @@ pub fn write(
         answered(&mut writer.solution, scene, &question.ask, &answers);
     }
     if !scene.plots.is_empty() {
-        writer.section(vec![words::say("Plots")]);
         writer.push(Part::Figure(Slot::Plot));
     }
     if detail != Detail::Brief {

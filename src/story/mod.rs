@@ -6,6 +6,7 @@
 
 mod answer;
 mod calc;
+mod graph;
 mod impact;
 mod integrate;
 mod limit;
@@ -22,9 +23,10 @@ mod zeros;
 use std::collections::BTreeMap;
 use std::fmt;
 
+pub use graph::{Curve, Graph, graphs};
 pub use sentence::{Piece, Sentence};
 pub use sheet::{impact, is_clockwise, sheet};
-pub use special::{about, special};
+pub use special::{about, known, special};
 
 use crate::derive::{Derivation, Stop};
 use crate::dimension::Dimension;

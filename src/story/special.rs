@@ -71,8 +71,8 @@ pub(super) fn remember(answers: &[Answer], known: &mut Known) {
     }
 }
 
-/// The answers of a derivation in parameters alone.
-pub(super) fn known(derivation: &Derivation) -> Known {
+/// The answers of a derivation, by name, in parameters alone.
+pub fn known(derivation: &Derivation) -> BTreeMap<Symbol, Expr> {
     let mut known = Known::new();
     let mut defined = Known::new();
     if derivation.in_steps {
