@@ -3,7 +3,8 @@
 use num_integer::Integer;
 use num_traits::One;
 
-use super::poly::{Mono, Poly, cmp_mono, mono_is_one};
+use super::mono::{Mono, cmp_mono, mono_is_one};
+use super::poly::Poly;
 use crate::expr::Int;
 
 /// A quotient in normal form; arithmetic is the [`super::Field`]'s. Zero exactly when the numerator is zero.
@@ -126,7 +127,7 @@ impl Den {
 impl PartialEq for Den {
     fn eq(&self, other: &Den) -> bool {
         self.int == other.int
-            && super::poly::cmp_mono(&self.mono, &other.mono).is_eq()
+            && super::mono::cmp_mono(&self.mono, &other.mono).is_eq()
             && self.factors == other.factors
     }
 }

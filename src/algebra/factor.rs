@@ -5,7 +5,8 @@
 use num_traits::{One, Zero};
 
 use super::gcd::{Fuel, content_in, gcd};
-use super::poly::{Mono, Poly, exponent, mono_is_one, mono_variables};
+use super::mono::{Mono, exponent, mono_is_one, mono_variables};
+use super::poly::Poly;
 use crate::expr::Int;
 
 /// A polynomial taken apart: content · mono · ∏ factorᵏ.

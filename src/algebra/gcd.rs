@@ -9,7 +9,8 @@ use num_integer::Integer;
 use num_traits::One;
 
 use super::Stop;
-use super::poly::{Poly, exponent, mono_min};
+use super::mono::{exponent, mono_min};
+use super::poly::Poly;
 use crate::expr::Int;
 
 /// Most terms of a polynomial inside a remainder sequence.

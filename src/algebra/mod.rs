@@ -6,19 +6,23 @@
 //! stops is an error, what was only seen and not proved is listed in [`Field::assumptions`], and whether a nonzero
 //! element proves two formulas different is told by [`Field::complete`]. Nothing here knows of mechanics.
 
+mod den;
 mod differences;
 mod element;
 mod factor;
 mod field;
 mod gcd;
 mod minors;
+mod mono;
 mod parts;
 mod poly;
 mod powers;
 mod read;
 mod roots;
+mod sampled;
 mod sign;
 mod solve;
+mod substitution;
 mod write;
 
 use std::fmt;

@@ -5,7 +5,8 @@ use num_traits::{One, Signed};
 use super::factor::factor;
 use super::field::{Field, Kind};
 use super::gcd::{Fuel, gcd};
-use super::poly::{Poly, exponent, mono_variables, powers};
+use super::mono::{exponent, mono_variables, powers};
+use super::poly::Poly;
 use crate::expr::Int;
 
 /// content · ∏ factorᵏ; single generators are factors of one term.

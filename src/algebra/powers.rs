@@ -4,7 +4,8 @@ use super::Stop;
 use super::element::Element;
 use super::factor::factor;
 use super::field::{Field, Kind};
-use super::poly::{Poly, exponent};
+use super::mono::exponent;
+use super::poly::Poly;
 
 /// The numerator of an element as a product of polynomials in one symbol.
 #[derive(Clone, Debug)]

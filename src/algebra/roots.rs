@@ -9,7 +9,8 @@ use num_traits::{One, Signed};
 use super::element::Element;
 use super::factor::{factor, primes_with_powers, square_part};
 use super::field::{Field, Generator, Kind};
-use super::poly::{MOST_UNDER_ROOT, Poly, exponent, mono_variables};
+use super::mono::{exponent, mono_variables};
+use super::poly::{MOST_UNDER_ROOT, Poly};
 use super::{Sign, Stop};
 use crate::expr::Int;
 

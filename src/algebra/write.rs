@@ -5,11 +5,12 @@ use num_traits::{One, Signed, Zero};
 
 use super::element::Element;
 use super::field::{AngleOf, Field, Kind};
-use super::parts::{Parts, letters, strike};
-use super::poly::{
-    Mono, Poly, cmp_mono, exponent, mono_add, mono_div, mono_divides, mono_is_one, mono_of,
+use super::mono::{
+    Mono, cmp_mono, exponent, mono_add, mono_div, mono_divides, mono_is_one, mono_of,
     mono_variables, powers,
 };
+use super::parts::{Parts, letters, strike};
+use super::poly::Poly;
 use crate::expr::{Expr, Function, Int, Node, Rational, ratio};
 
 /// Longest sum whose terms are grouped.
@@ -387,7 +388,7 @@ fn best_group(terms: &[Term], proper: bool) -> Option<Vec<usize>> {
         }
         let mut common = terms[group[0]].mono.clone();
         for i in &group {
-            common = super::poly::mono_min(&common, &terms[*i].mono);
+            common = super::mono::mono_min(&common, &terms[*i].mono);
         }
         let inside: usize = group
             .iter()

@@ -7,7 +7,8 @@ use proptest::prelude::*;
 
 use crate::algebra::factor::factor;
 use crate::algebra::gcd::{Fuel, gcd};
-use crate::algebra::poly::{Poly, exponent, mono_variables};
+use crate::algebra::mono::{exponent, mono_variables};
+use crate::algebra::poly::Poly;
 use crate::algebra::{Element, Field, Row, Stop, solve};
 use crate::domain::Domains;
 use crate::expr::{Expr, Int, Point, Rational, ratio};

@@ -1,0 +1,146 @@
+//! Values at fixed points of the domain: what signs are seen there. Nothing is proved by them.
+
+use super::element::Element;
+use super::field::Field;
+use super::field::{AngleOf, Kind};
+use super::mono::powers;
+use super::poly::Poly;
+use super::sign::Interval;
+use crate::expr::number::to_f64;
+use crate::expr::{Int, Rational};
+use num_traits::{One, Signed};
+
+/// Points at which an unproved sign is looked at. Enough that a sign change over a tenth of the domain is hardly missed;
+/// what is missed still stands in the list of assumptions.
+const SAMPLES: usize = 48;
+
+impl Field {
+    /// Signs seen at the sample points: (somewhere positive, somewhere negative).
+    pub(crate) fn seen_signs(&mut self, p: &Poly) -> (bool, bool) {
+        self.ensure_samples();
+        let (mut plus, mut minus) = (false, false);
+        for k in 0..SAMPLES {
+            if let Some(value) = self.sample(p, k) {
+                plus |= value > 0.0;
+                minus |= value < 0.0;
+            }
+        }
+        (plus, minus)
+    }
+
+    /// Value at a sample point; 0 where rounding leaves the sign open, `None` where a generator has no value.
+    fn sample(&self, p: &Poly, k: usize) -> Option<f64> {
+        let (mut total, mut size) = (0.0, 0.0);
+        for (mono, coeff) in p.terms() {
+            let mut value = to_f64(&Rational::from(coeff.clone()));
+            for (v, power) in powers(mono) {
+                value *= self.samples[v][k].powi(power as i32);
+            }
+            total += value;
+            size += f64::abs(value);
+        }
+        if !size.is_finite() {
+            return None;
+        }
+        Some(if f64::abs(total) <= 1e-9 * size {
+            0.0
+        } else {
+            total
+        })
+    }
+
+    fn sample_element(&self, x: &Element, k: usize) -> Option<f64> {
+        let mut value = self.sample(&x.num, k)? / to_f64(&Rational::from(x.den.int.clone()));
+        value /= self.sample(&Poly::term(&x.den.mono, Int::one()), k)?;
+        for (f, e) in &x.den.factors {
+            value /= self.sample(f, k)?.powi(*e as i32);
+        }
+        Some(value)
+    }
+
+    fn ensure_samples(&mut self) {
+        for v in self.samples.len()..self.gens.len() {
+            let column: Vec<f64> = (0..SAMPLES)
+                .map(|k| self.sample_generator(v, k).unwrap_or(f64::NAN))
+                .collect();
+            self.samples.push(column);
+        }
+    }
+
+    fn sample_generator(&self, v: usize, k: usize) -> Option<f64> {
+        let value = match &self.gens[v].kind {
+            Kind::Symbol(name) if &**name == "pi" => std::f64::consts::PI,
+            Kind::Symbol(name) => match &self.gens[v].relation {
+                Some((_, value)) => {
+                    let size = self.sample(value, k)?.max(0.0).sqrt();
+                    let range = self.interval(name);
+                    let positive = range.low.is_some_and(|(l, _)| !l.is_negative());
+                    let negative = range.high.is_some_and(|(h, _)| !h.is_positive());
+                    if positive || (!negative && k.is_multiple_of(2)) {
+                        size
+                    } else {
+                        -size
+                    }
+                }
+                None => pick(&self.interval(name), fraction(name, k)),
+            },
+            Kind::Cos(base) | Kind::Sin(base) => {
+                let base = &self.bases[*base];
+                let angle = match &base.of {
+                    AngleOf::Symbol(name) => match self.domains.symbols.get(name) {
+                        None => fraction(name, k) * std::f64::consts::FRAC_PI_2,
+                        Some(_) => pick(&self.interval(name), fraction(name, k)),
+                    },
+                    AngleOf::Term(term) => self.sample_element(term, k)?,
+                } / f64::from(base.divisor);
+                if matches!(self.gens[v].kind, Kind::Cos(_)) {
+                    angle.cos()
+                } else {
+                    angle.sin()
+                }
+            }
+            Kind::Root => {
+                let (degree, value) = self.gens[v].relation.as_ref()?;
+                let value = self.sample(value, k)?;
+                if *degree == 2 {
+                    value.sqrt()
+                } else {
+                    value.signum() * value.abs().powf(1.0 / f64::from(*degree))
+                }
+            }
+            Kind::Abs(p) => self.sample(p, k)?.abs(),
+            Kind::Call(function, x) => {
+                crate::expr::Scalar::call(&self.sample_element(x, k)?, *function)?
+            }
+            Kind::Power(base, exponent) => self
+                .sample_element(base, k)?
+                .powf(self.sample_element(exponent, k)?),
+        };
+        Some(value)
+    }
+}
+
+/// A well spread number in (0, 1), fixed by name and index.
+fn fraction(name: &str, k: usize) -> f64 {
+    let mut hash = 0xcbf2_9ce4_8422_2325u64;
+    for byte in name.bytes() {
+        hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    }
+    let mut z = hash.wrapping_add((k as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    ((z ^ (z >> 31)) >> 12) as f64 / (1u64 << 52) as f64 * 0.998 + 0.001
+}
+
+fn pick(range: &Interval, u: f64) -> f64 {
+    let wide = (6.0 * u - 3.0).exp();
+    match (&range.low, &range.high) {
+        (Some((low, _)), Some((high, _))) => to_f64(low) + (to_f64(high) - to_f64(low)) * u,
+        (Some((low, _)), None) => to_f64(low) + wide,
+        (None, Some((high, _))) => to_f64(high) - wide,
+        (None, None) => {
+            let x = 2.0 * u - 1.0;
+            4.0 * x / (1.02 - x.abs())
+        }
+    }
+}
