@@ -133,77 +133,29 @@ impl<T: Quantity> Geometry<T> {
         mut value: impl FnMut(&Expr) -> Result<T, E>,
     ) -> Result<Geometry<T>, E> {
         let mut vector = |v: &Vector| -> Result<[T; 2], E> { Ok([value(&v[0])?, value(&v[1])?]) };
-        let center = scene
-            .bodies
-            .iter()
-            .map(|b| vector(&b.center))
-            .collect::<Result<_, E>>()?;
-        let velocity = scene
-            .bodies
-            .iter()
-            .map(|b| vector(&b.velocity))
-            .collect::<Result<_, E>>()?;
-        let contact = scene
-            .contacts
-            .iter()
-            .map(|c| vector(&c.at))
-            .collect::<Result<_, E>>()?;
-        let normal = scene
-            .contacts
-            .iter()
-            .map(|c| match (&c.law, &c.normal) {
-                (ContactLaw::Frictionless { .. }, Some(n)) => vector(n).map(Some),
-                _ => Ok(None),
-            })
-            .collect::<Result<_, E>>()?;
-        let hinge = scene
-            .hinges
-            .iter()
-            .map(|h| vector(&h.at))
-            .collect::<Result<_, E>>()?;
-        let blow = scene
-            .blows
-            .iter()
-            .map(|b| vector(&b.at))
-            .collect::<Result<_, E>>()?;
-        let blow_impulse = scene
-            .blows
-            .iter()
-            .map(|b| match &b.impulse {
-                BlowImpulse::Given(p) | BlowImpulse::Along(p) => vector(p),
-            })
-            .collect::<Result<_, E>>()?;
-        let known_at = scene
-            .after
-            .iter()
-            .map(|k| match &k.what {
-                KnownQuantity::Velocity { at, along } => Ok(Some((vector(at)?, vector(along)?))),
-                KnownQuantity::Spin => Ok(None),
-            })
-            .collect::<Result<Vec<_>, E>>()?;
-        let mass = scene
-            .bodies
-            .iter()
-            .map(|b| value(&b.mass))
-            .collect::<Result<_, E>>()?;
-        let inertia = scene
-            .bodies
-            .iter()
-            .map(|b| value(&b.inertia))
-            .collect::<Result<_, E>>()?;
-        let spin = scene
-            .bodies
-            .iter()
-            .map(|b| value(&b.spin))
-            .collect::<Result<_, E>>()?;
-        let restitution = scene
-            .contacts
-            .iter()
-            .map(|c| match &c.law {
-                ContactLaw::Frictionless { restitution } => value(restitution).map(Some),
-                _ => Ok(None),
-            })
-            .collect::<Result<_, E>>()?;
+        let center = each(&scene.bodies, |b| vector(&b.center))?;
+        let velocity = each(&scene.bodies, |b| vector(&b.velocity))?;
+        let contact = each(&scene.contacts, |c| vector(&c.at))?;
+        let normal = each(&scene.contacts, |c| match (&c.law, &c.normal) {
+            (ContactLaw::Frictionless { .. }, Some(n)) => vector(n).map(Some),
+            _ => Ok(None),
+        })?;
+        let hinge = each(&scene.hinges, |h| vector(&h.at))?;
+        let blow = each(&scene.blows, |b| vector(&b.at))?;
+        let blow_impulse = each(&scene.blows, |b| match &b.impulse {
+            BlowImpulse::Given(p) | BlowImpulse::Along(p) => vector(p),
+        })?;
+        let known_at = each(&scene.after, |k| match &k.what {
+            KnownQuantity::Velocity { at, along } => Ok(Some((vector(at)?, vector(along)?))),
+            KnownQuantity::Spin => Ok(None),
+        })?;
+        let mass = each(&scene.bodies, |b| value(&b.mass))?;
+        let inertia = each(&scene.bodies, |b| value(&b.inertia))?;
+        let spin = each(&scene.bodies, |b| value(&b.spin))?;
+        let restitution = each(&scene.contacts, |c| match &c.law {
+            ContactLaw::Frictionless { restitution } => value(restitution).map(Some),
+            _ => Ok(None),
+        })?;
         let known = known_at
             .into_iter()
             .zip(&scene.after)
@@ -549,4 +501,9 @@ fn along_direction<T: Quantity>(v: &[Affine<T>; 2], d: &[T; 2]) -> Affine<T> {
 /// z-component of r × v.
 fn moment<T: Quantity>(r: &[T; 2], v: &[Affine<T>; 2]) -> Affine<T> {
     v[1].times(&r[0]).plus(&v[0].times(&r[1].neg()))
+}
+
+/// What `f` makes of each item, or the first failure.
+fn each<I, T, E>(items: &[I], f: impl FnMut(&I) -> Result<T, E>) -> Result<Vec<T>, E> {
+    items.iter().map(f).collect()
 }
