@@ -208,7 +208,7 @@ fn words_of_a_scene_are_never_obeyed() {
             !page.contains("<script") && !page.contains("<img"),
             "{page}"
         );
-        let tex = render::latex_document::document(&s);
+        let tex = render::latex_document::document(&s, &[]);
         assert!(!tex.contains("\\input"), "{tex}");
         let markdown = render::markdown::solution(&s, &[]);
         assert!(!markdown.contains("<script") && !markdown.contains("<img"));
@@ -239,7 +239,7 @@ fn the_latex_document_compiles() {
     fs::create_dir_all(&folder).expect("a folder");
     for case in cases() {
         let file = folder.join("solution.tex");
-        let text = render::latex_document::document(&case.solution(Detail::Normal));
+        let text = render::latex_document::document(&case.solution(Detail::Normal), &[]);
         fs::write(&file, text).expect("a writable folder");
         let run = Command::new("pdflatex")
             .args([
@@ -283,4 +283,100 @@ fn an_output_that_cannot_be_written_is_one_message_and_leaves_nothing() {
         1
     );
     assert!(!folder.exists());
+}
+
+/// Runs the program in an empty folder; gives its exit status, what it said, and the files it left.
+fn run_in(name: &str, arguments: &[&str]) -> (Option<i32>, String, Vec<String>) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    let scene = fs::canonicalize("derivations/book/ball-hits-bat.json").expect("a scene");
+    let run = Command::new(env!("CARGO_BIN_EXE_carom"))
+        .arg("solution")
+        .arg(scene)
+        .args(arguments)
+        .current_dir(&folder)
+        .output()
+        .expect("carom runs");
+    let mut files: Vec<String> = fs::read_dir(&folder)
+        .expect("a folder")
+        .map(|e| e.expect("an entry").file_name().to_string_lossy().into())
+        .collect();
+    files.sort();
+    let said = String::from_utf8_lossy(&run.stderr).into_owned();
+    (run.status.code(), said, files)
+}
+
+#[test]
+fn bad_arguments_are_one_message_and_leave_no_file() {
+    for (name, arguments, said) in [
+        ("format", &["--format", "docx", "-o", "x.docx"][..], "docx"),
+        (
+            "html-figures",
+            &["--format", "html", "--figures", "-o", "x.html"],
+            "links no files",
+        ),
+        (
+            "no-output",
+            &["--format", "markdown", "--figures"],
+            "--output",
+        ),
+        (
+            "latex-name",
+            &["--format", "latex", "--figures", "-o", "a b{.tex"],
+            "cannot include",
+        ),
+        (
+            "set",
+            &["--set", "w=2", "-o", "x.md"],
+            "there is no parameter `w`",
+        ),
+        ("folder", &["-o", "."], "cannot be written"),
+        (
+            "nowhere",
+            &["--figures", "--format", "markdown", "-o", "no/x.md"],
+            "cannot be written",
+        ),
+    ] {
+        let (status, message, files) = run_in(name, arguments);
+        assert_eq!(status, Some(2), "{name}: {message}");
+        assert!(message.contains(said), "{name}: {message}");
+        assert!(files.is_empty(), "{name}: {files:?}");
+    }
+}
+
+#[cfg(feature = "png")]
+#[test]
+fn a_latex_document_includes_its_figures_and_compiles() {
+    let name = "latex-figures";
+    let (status, message, files) =
+        run_in(name, &["--format", "latex", "--figures", "-o", "bat.tex"]);
+    assert_eq!(status, Some(0), "{message}");
+    for file in [
+        "bat-before.png",
+        "bat-during.png",
+        "bat-after.png",
+        "bat-plot-1.png",
+    ] {
+        assert!(files.iter().any(|f| f == file), "{files:?}");
+    }
+    if Command::new("pdflatex").arg("--version").output().is_err() {
+        println!("skipped: no LaTeX");
+        return;
+    }
+    let run = Command::new("pdflatex")
+        .args([
+            "-interaction=nonstopmode",
+            "-halt-on-error",
+            "-no-shell-escape",
+            "bat.tex",
+        ])
+        .current_dir(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name))
+        .output()
+        .expect("pdflatex runs");
+    assert!(
+        run.status.success(),
+        "{}",
+        String::from_utf8_lossy(&run.stdout)
+    );
 }

@@ -30,7 +30,7 @@ pub struct SolutionArgs {
     /// Write here instead of to standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// With markdown and -o: write the figures as SVG files beside the output and link them
+    /// With -o, write the figures beside the output and link them: SVG for markdown, PNG for latex
     #[arg(long, requires = "output")]
     figures: bool,
     /// Give a parameter a value, such as v=2 or theta=acos(3/5); may be repeated
@@ -98,22 +98,25 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         all.extend(plots.iter().cloned());
         all
     };
+    let kind = match (args.figures, args.format) {
+        (false, _) => None,
+        (true, FormatArg::Markdown) => Some("svg"),
+        (true, FormatArg::Latex | FormatArg::LatexFragment) => Some("png"),
+        (true, _) => {
+            return Err(Failure::Input(String::from(
+                "--figures: this format links no files\nhint: markdown and latex do; an HTML page holds its figures",
+            )));
+        }
+    };
+    let linked = match (kind, &args.output) {
+        (Some(kind), Some(path)) => link(path, kind, drawn())?,
+        _ => Vec::new(),
+    };
     let output = match args.format {
         FormatArg::Text => render::plain::solution(&solution),
-        FormatArg::Markdown => {
-            let mut linked = Vec::new();
-            if let (true, Some(path)) = (args.figures, &args.output) {
-                for (picture, name) in drawn() {
-                    let file = beside(path, name);
-                    save(&file, picture.svg.as_bytes())?;
-                    let link = file.file_name().unwrap_or_default().to_string_lossy();
-                    linked.push((picture, link.replace(' ', "%20")));
-                }
-            }
-            render::markdown::solution(&solution, &linked)
-        }
-        FormatArg::Latex => render::latex_document::document(&solution),
-        FormatArg::LatexFragment => render::latex_document::fragment(&solution),
+        FormatArg::Markdown => render::markdown::solution(&solution, &linked),
+        FormatArg::Latex => render::latex_document::document(&solution, &linked),
+        FormatArg::LatexFragment => render::latex_document::fragment(&solution, &linked),
         FormatArg::Html => {
             let pictures: Vec<Picture> = drawn().into_iter().map(|(p, _)| p).collect();
             render::html::page(&solution, &pictures)
@@ -192,9 +195,45 @@ fn picture(slot: Slot, drawing: figure::Drawing) -> Picture {
     }
 }
 
-fn beside(path: &Path, name: String) -> PathBuf {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!("{stem}-{name}.svg"))
+/// Writes pictures beside the output; gives them with the names by which it links them.
+fn link(
+    output: &Path,
+    kind: &str,
+    pictures: Vec<(Picture, String)>,
+) -> Result<Vec<(Picture, String)>, Failure> {
+    let stem = output.file_stem().unwrap_or_default().to_string_lossy();
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '.';
+    if kind == "png" && !stem.chars().all(is_plain) {
+        return Err(Failure::Input(format!(
+            "{}: LaTeX cannot include figures of this name\nhint: name the output with letters, digits, - and .",
+            output.display()
+        )));
+    }
+    // Everything is drawn before anything is written.
+    let mut files = Vec::new();
+    for (picture, name) in pictures {
+        let file = output.with_file_name(format!("{stem}-{name}.{kind}"));
+        files.push((bytes(kind, &picture.svg)?, file, picture));
+    }
+    let mut linked = Vec::new();
+    for (bytes, file, picture) in files {
+        save(&file, &bytes)?;
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        linked.push((picture, name.replace(' ', "%20")));
+    }
+    Ok(linked)
+}
+
+fn bytes(kind: &str, svg: &str) -> Result<Vec<u8>, Failure> {
+    match kind {
+        #[cfg(feature = "png")]
+        "png" => figure::png(svg).map_err(|fault| Failure::Input(fault.to_string())),
+        #[cfg(not(feature = "png"))]
+        "png" => Err(Failure::Input(String::from(
+            "this carom is built without PNG\nhint: build it with the feature png, or take markdown",
+        ))),
+        _ => Ok(svg.as_bytes().to_vec()),
+    }
 }
 
 /// Replays a solution file.

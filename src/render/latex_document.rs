@@ -1,12 +1,13 @@
 //! A worked solution in LaTeX: a fragment for a handout, or a document that compiles on its own with pdfLaTeX.
 
+use super::html::Picture;
 use super::markdown::matrix;
 use super::math::{latex, rows};
 use super::plain::clean;
 use crate::solution::{Inline, Part, Solution};
 
-/// A document that compiles on its own.
-pub fn document(s: &Solution) -> String {
+/// A document that compiles on its own; `pictures` are included by their file names.
+pub fn document(s: &Solution, pictures: &[(Picture, String)]) -> String {
     let title = if s.title.is_empty() {
         "Worked solution"
     } else {
@@ -17,27 +18,33 @@ pub fn document(s: &Solution) -> String {
          \\usepackage[T1]{{fontenc}}\n\
          \\usepackage[a4paper,margin=25mm]{{geometry}}\n\
          \\usepackage{{amsmath,amssymb}}\n\
+         {}\
          \\allowdisplaybreaks\n\
          \\setlength{{\\parindent}}{{0pt}}\n\
          \\setlength{{\\parskip}}{{6pt}}\n\
          \\begin{{document}}\n\
          \\section*{{{}}}\n{}\\end{{document}}\n",
+        if pictures.is_empty() {
+            ""
+        } else {
+            "\\usepackage{graphicx}\n"
+        },
         text(title),
-        body(s)
+        body(s, pictures)
     )
 }
 
-/// The text alone, to be put into a document that loads amsmath and amssymb.
-pub fn fragment(s: &Solution) -> String {
+/// The text alone, to be put into a document that loads amsmath and amssymb, and graphicx where there are pictures.
+pub fn fragment(s: &Solution, pictures: &[(Picture, String)]) -> String {
     let title = if s.title.is_empty() {
         "Worked solution"
     } else {
         &s.title
     };
-    format!("\\section*{{{}}}\n{}", text(title), body(s))
+    format!("\\section*{{{}}}\n{}", text(title), body(s, pictures))
 }
 
-fn body(s: &Solution) -> String {
+fn body(s: &Solution, pictures: &[(Picture, String)]) -> String {
     let mut out = String::new();
     if !s.source.is_empty() {
         out.push_str(&format!("\\emph{{{}}}\n\n", text(&s.source)));
@@ -73,7 +80,18 @@ fn body(s: &Solution) -> String {
                 Part::Matrix(m) => {
                     out.push_str(&format!("\\[\n{}\n\\]\n", matrix(s, m)));
                 }
-                Part::Figure(_) => {}
+                Part::Figure(slot) => {
+                    for (picture, file) in pictures.iter().filter(|(p, _)| p.slot == *slot) {
+                        out.push_str(&format!(
+                            "\\begin{{center}}\n\\includegraphics[width=0.62\\linewidth]{{{file}}}\n"
+                        ));
+                        if !picture.caption.is_empty() {
+                            let caption = text(&picture.caption);
+                            out.push_str(&format!("\n{{\\small {caption}}}\n"));
+                        }
+                        out.push_str("\\end{center}\n\n");
+                    }
+                }
             }
         }
     }
