@@ -71,9 +71,9 @@ pub struct Options {
 }
 
 impl Options {
-    /// Whether a comparison at points is all that is asked for.
-    fn is_quick(&self) -> bool {
-        self.strength == Strength::Fast && self.tolerance.is_none() && self.forms.is_empty()
+    /// Whether nothing but equality is asked for.
+    fn is_plain(&self) -> bool {
+        self.tolerance.is_none() && self.forms.is_empty()
     }
 }
 
@@ -333,14 +333,22 @@ fn declare(symbols: &mut Symbols, question: &Question) {
 
 /// Judges an answer against an expected formula.
 pub fn judge(expected: &str, answer: &str, question: &Question, options: &Options) -> Grade {
-    if options.is_quick()
+    if options.is_plain()
         && question.is_empty()
         && let Some(pair) = modular::pair(expected, answer)
     {
-        let list = pair.names.list();
-        let assumed = assumed(&list, &pair.seen[0]);
-        let [_, seen] = pair.seen;
-        return quick_grade(&pair.quick, assumed, &list, seen);
+        let fast = options.strength == Strength::Fast;
+        let proved = || provable(&pair.quick, &pair.seen[1]) && pair.proves(expected, answer);
+        if fast || proved() {
+            let list = pair.names.list();
+            let assumed = assumed(&list, &pair.seen[0]);
+            let finding = match fast {
+                true => pair.quick.finding(assumed),
+                false => identity(assumed),
+            };
+            let [_, seen] = pair.seen;
+            return plain_grade(finding, &list, seen);
+        }
     }
     match key(expected, question) {
         Ok(key) => judge_against(&key, answer, options),
@@ -364,10 +372,34 @@ fn assumed(list: &[Symbol], seen: &Seen) -> Vec<String> {
     used.into_iter().map(words).collect()
 }
 
+/// Judges a plain answer in one pass over its text or two, where that decides.
+fn plain_against(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
+    let (residues, names) = (key.residues.as_ref()?, key.names.as_ref()?);
+    let mut seen = Seen::default();
+    let finding = match options.strength {
+        Strength::Fast => {
+            quick(key, answer, options, &mut seen)?.finding(residues.assumed().to_vec())
+        }
+        Strength::Identity => {
+            if !options.is_plain() || key.quantity.is_some() {
+                return None;
+            }
+            let quick = residues.judge(answer, names, &mut seen)?;
+            let e = key.reading.expr()?;
+            if !provable(&quick, &seen) || !residues.proves(e, answer, names, &mut seen) {
+                return None;
+            }
+            identity(residues.assumed().to_vec())
+        }
+    };
+    Some(plain_grade(finding, residues.list(), seen))
+}
+
 /// The verdict on an answer at the first strength, with nothing around it: for those who judge millions. It is the one
 /// [`judge_against`] gives; `None` where it takes more than one pass over the text, or where more is asked for.
 pub fn quick(key: &Key, answer: &str, options: &Options, seen: &mut Seen) -> Option<Quick> {
-    if !options.is_quick() || key.quantity.is_some() {
+    let fast = options.strength == Strength::Fast;
+    if !fast || !options.is_plain() || key.quantity.is_some() {
         return None;
     }
     let residues = key.residues.as_ref()?;
@@ -382,9 +414,21 @@ impl Key {
     }
 }
 
-/// The grade from a comparison at points, with what was seen of the answer.
-fn quick_grade(quick: &modular::Quick, assumed: Vec<String>, list: &[Symbol], seen: Seen) -> Grade {
-    let finding = quick.finding(assumed);
+/// Whether a proof of equality is worth trying and would be all there is to say.
+fn provable(quick: &Quick, seen: &Seen) -> bool {
+    quick.equal && !quick.roots && seen.choices == 0
+}
+
+/// The finding of an identity between plain formulas.
+fn identity(assumed: Vec<String>) -> compare::Finding {
+    let proof = Proof::of("identity", "the difference is zero in the normal form");
+    let mut finding = compare::Finding::new(Verdict::Equivalent, "EQUIV_IDENTITY", proof);
+    finding.assumed = assumed;
+    finding
+}
+
+/// The grade of a plain formula, with what was seen of the answer.
+fn plain_grade(finding: compare::Finding, list: &[Symbol], seen: Seen) -> Grade {
     let used = list.iter().enumerate();
     let mut symbols: Vec<Symbol> = used
         .filter(|(i, _)| seen.names >> i & 1 == 1)
@@ -433,10 +477,8 @@ pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
         grade.assumed.push(words);
         return grade;
     }
-    let mut seen = Seen::default();
-    if let (Some(quick), Some(residues)) = (quick(key, answer, options, &mut seen), &key.residues) {
-        let assumed = residues.assumed().to_vec();
-        return quick_grade(&quick, assumed, residues.list(), seen);
+    if let Some(grade) = plain_against(key, answer, options) {
+        return grade;
     }
     let reading = match read::answer(key, answer) {
         Ok(reading) => reading,

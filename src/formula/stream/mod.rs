@@ -333,8 +333,13 @@ impl<B: Builder> Reader<'_, B> {
                 Peek::Slash => {
                     let number = number_end == Some(self.at);
                     // `2.4/s` on its own is a quantity.
-                    let collects = matches!(self.names, Table::Collect(_));
-                    if collects && self.before && !no_unit(&self.text[self.at + 1..], 0) {
+                    let rest = &self.text[self.at + 1..];
+                    let unit = rest.trim_ascii_start().first();
+                    if matches!(self.names, Table::Collect(_))
+                        && self.before
+                        && unit.is_some_and(|b| b.is_ascii_alphabetic() || *b == b'(')
+                        && !no_unit(rest, 0)
+                    {
                         return None;
                     }
                     self.take();

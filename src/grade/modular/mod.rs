@@ -6,16 +6,20 @@
 //! stated (Schwartz and Zippel: degree over p for each point), where coefficients are shown to be smaller than the prime.
 //! Roots follow the rules told in [`lanes`]. Whatever fits none of this is declined, and [`crate::equality`] decides.
 
+mod exact;
 mod lanes;
 mod prime;
 mod real;
 mod walk;
+
+use std::sync::OnceLock;
 
 use super::compare::Finding;
 use super::{Proof, Verdict};
 use crate::domain::{Domain, Domains, roles};
 use crate::expr::{Expr, Symbol};
 use crate::formula::stream::{Names, Seen, Table, stream};
+use exact::{Exact, Generators, Quotient};
 use lanes::{Compared, Lanes, Place, Points, Sign, State, Value};
 use prime::{PLAIN, ROOTS};
 
@@ -105,6 +109,8 @@ pub(crate) struct Residues {
     side: Side,
     /// Domains assumed, in words.
     assumed: Vec<String>,
+    /// The formula as a quotient of polynomials with its generators, where a proof asked for it and it is one.
+    exact: OnceLock<Option<(Generators, Quotient)>>,
 }
 
 #[derive(Clone, Debug)]
@@ -165,6 +171,7 @@ impl Residues {
             uses: Uses::default(),
             side: Side::None,
             assumed: domains.completed(&roles).1,
+            exact: OnceLock::new(),
         };
         let (mut divisor, mut roots) = (1, false);
         loop {
@@ -242,6 +249,27 @@ impl Residues {
         Uses::from(&*seen).fit(self.uses).then_some(quick)
     }
 
+    /// Whether an answer that is equal at points is proved to be equal to the formula these values are of.
+    pub fn proves(&self, e: &Expr, answer: &str, names: &Names, seen: &mut Seen) -> bool {
+        let Side::Plain(kept) = &self.side else {
+            return false;
+        };
+        let fresh = || {
+            let mut exact = Exact::new(&self.places, kept.divisor, Generators::default());
+            let (mut list, mut uses) = (self.list.clone(), Uses::default());
+            let value = walk::value(e, &mut list, &mut uses, &mut exact)?;
+            Some((exact.generators, value))
+        };
+        let Some((generators, mine)) = self.exact.get_or_init(fresh) else {
+            return false;
+        };
+        let mut exact = Exact::new(&self.places, kept.divisor, generators.clone());
+        let theirs = stream(answer, Table::Known(names), &mut exact, seen);
+        // Domains of further names would be assumed too.
+        let known = self.uses.turned | self.uses.bare;
+        seen.names & !known == 0 && theirs.is_some_and(|t| exact.proves(mine, &t).is_some())
+    }
+
     /// The names in play.
     pub fn list(&self) -> &[Symbol] {
         &self.list
@@ -309,6 +337,22 @@ pub(crate) struct Pair {
     pub names: Names,
     /// What was seen of the expected formula and of the answer.
     pub seen: [Seen; 2],
+    divisor: i32,
+}
+
+impl Pair {
+    /// Whether formulas that are equal at points are proved to be so.
+    pub fn proves(&self, expected: &str, answer: &str) -> bool {
+        let mut exact = Exact::new(&[], self.divisor, Generators::default());
+        let mut read = |text| {
+            let names = Table::Known(&self.names);
+            stream(text, names, &mut exact, &mut Seen::default())
+        };
+        match (read(expected), read(answer)) {
+            (Some(e), Some(a)) => exact.proves(&e, &a).is_some(),
+            _ => false,
+        }
+    }
 }
 
 /// Compares two texts, the first read on its own and the second with its names.
@@ -358,6 +402,7 @@ fn pair_in<const C: u64, const L: usize, const R: usize>(
             quick: Quick::of(compared, C == ROOTS),
             names,
             seen,
+            divisor,
         }),
         _ => Err(Again::Never),
     }
