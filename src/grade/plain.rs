@@ -29,15 +29,15 @@ pub fn plain(line: &str) -> Option<Plain<'_>> {
     let (mut id, mut expected, mut answer, mut symbols) = (None, None, None, None);
     cut.expect(b'{')?;
     loop {
-        let name = cut.string()?;
+        cut.blanks();
+        let name = cut.name()?;
         cut.expect(b':')?;
         cut.blanks();
         let twice = match name {
-            "id" => id.replace(cut.id()?).is_some(),
-            "expected" => expected.replace(cut.string()?).is_some(),
-            "answer" => answer.replace(cut.string()?).is_some(),
-            "symbols" => symbols.replace(cut.object()?).is_some(),
-            _ => return None,
+            Name::Id => id.replace(cut.id()?).is_some(),
+            Name::Expected => expected.replace(cut.string()?).is_some(),
+            Name::Answer => answer.replace(cut.string()?).is_some(),
+            Name::Symbols => symbols.replace(cut.object()?).is_some(),
         };
         if twice {
             return None;
@@ -62,6 +62,15 @@ pub fn plain(line: &str) -> Option<Plain<'_>> {
         },
         symbols: symbols.unwrap_or(""),
     })
+}
+
+/// The fields of a plain line.
+#[derive(Clone, Copy)]
+enum Name {
+    Id,
+    Expected,
+    Answer,
+    Symbols,
 }
 
 struct Cut<'a> {
@@ -89,6 +98,20 @@ impl<'a> Cut<'a> {
     fn expect(&mut self, byte: u8) -> Option<()> {
         self.blanks();
         (self.next()? == byte).then_some(())
+    }
+
+    #[inline]
+    fn name(&mut self) -> Option<Name> {
+        let rest = &self.bytes[self.at..];
+        let (name, length) = match rest.get(1)? {
+            b'i' if rest.starts_with(b"\"id\"") => (Name::Id, 4),
+            b'e' if rest.starts_with(b"\"expected\"") => (Name::Expected, 10),
+            b'a' if rest.starts_with(b"\"answer\"") => (Name::Answer, 8),
+            b's' if rest.starts_with(b"\"symbols\"") => (Name::Symbols, 9),
+            _ => return None,
+        };
+        self.at += length;
+        Some(name)
     }
 
     /// What stands between quotes; the only escape in it is `\\`.

@@ -166,8 +166,10 @@ pub(super) struct Lanes<'a, const C: u64, const L: usize, const R: usize> {
     pub wanted: i32,
     /// Whether reading ended at a root that these lanes do not take.
     pub rooted: bool,
-    /// Another one gives other points.
-    pub round: u64,
+    /// The points, by the numbers they are drawn with.
+    pub rounds: [u64; L],
+    /// How many generators are known to be true extensions, from lanes that are not among these.
+    pub trusted: usize,
     pub state: State<L, R>,
 }
 
@@ -213,10 +215,15 @@ impl<const L: usize, const R: usize> State<L, R> {
         (odd == 0).then_some(())
     }
 
+    /// How many generators there are.
+    pub fn count(&self) -> usize {
+        self.generators.iter().flatten().count()
+    }
+
     /// How many square roots have two signs each.
     fn degree(&self) -> i32 {
         let constants = self.constants.iter().filter(|c| **c != 0).count();
-        (self.generators.iter().flatten().count() + constants) as i32
+        (self.count() + constants) as i32
     }
 }
 
@@ -229,7 +236,8 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
             divisor,
             wanted: divisor,
             rooted: false,
-            round: 0,
+            rounds: std::array::from_fn(|lane| lane as u64),
+            trusted: 0,
             state: State {
                 generators: [None; MOST_ROOTS],
                 alive: (1 << L) - 1,
@@ -294,9 +302,9 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         } else {
             1
         };
-        let seed = seed(name) ^ self.round;
-        for (lane, above) in value.above.iter_mut().enumerate() {
-            let drawn = random::<C>(seed, lane as u64);
+        let seed = seed(name);
+        for (round, above) in self.rounds.iter().zip(value.above.iter_mut()) {
+            let drawn = random::<C>(seed, *round);
             *above = match power {
                 1 => drawn,
                 _ => prime::power::<C>(drawn, 4),
@@ -312,8 +320,8 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
 
     /// Cosine and sine of an angle of which nothing is known but its name.
     fn unit(&self, name: &[u8], range: [f64; 2]) -> Circle<L, R> {
-        let seed = seed(name) ^ self.round;
-        let parameter: [u64; L] = std::array::from_fn(|lane| random::<C>(seed, lane as u64));
+        let seed = seed(name);
+        let parameter = self.rounds.map(|round| random::<C>(seed, round));
         let square = each(parameter, parameter, times::<C>);
         Circle {
             cos: square.map(|x| add::<C>(one::<C>(), negative::<C>(x))),
@@ -421,7 +429,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         let lost = self.state.alive & !exists;
         let free = self.state.generators.iter().position(Option::is_none);
         match free {
-            Some(free) if lost != 0 => {
+            Some(free) if lost != 0 || free < self.trusted => {
                 self.state.alive &= exists;
                 self.state.generators[free] = Some(Generator { core: a, root });
                 self.state.used |= 1 << free;

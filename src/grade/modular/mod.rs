@@ -116,7 +116,7 @@ pub(crate) struct Residues {
 #[derive(Clone, Debug)]
 enum Side {
     Plain(Box<Kept<PLAIN, FEW, 0>>),
-    Roots(Box<Kept<ROOTS, MANY, REAL>>),
+    Roots(Box<Kept<ROOTS, FEW, REAL>>),
     /// Not found yet.
     None,
 }
@@ -176,8 +176,8 @@ impl Residues {
         let (mut divisor, mut roots) = (1, false);
         loop {
             let kept = match roots {
-                false => residues.keep(e, divisor).map(Side::Plain),
-                true => residues.keep(e, divisor).map(Side::Roots),
+                false => residues.keep(e, divisor, None).map(Side::Plain),
+                true => residues.scouted(e, divisor).map(Side::Roots),
             };
             match kept {
                 Ok(side) => {
@@ -191,13 +191,32 @@ impl Residues {
         }
     }
 
+    /// Values at a few points at which all roots exist, found among many.
+    fn scouted(&mut self, e: &Expr, divisor: i32) -> Result<Box<Kept<ROOTS, FEW, REAL>>, Again> {
+        for first in (0..4).map(|k| k * MANY as u64) {
+            let rounds = std::array::from_fn(|lane| first + lane as u64);
+            let many = self.keep::<ROOTS, MANY, REAL>(e, divisor, Some((rounds, 0)))?;
+            let alive = |lane: &usize| many.state.alive >> lane & 1 == 1;
+            let mut lanes = (0..MANY).filter(alive).map(|lane| rounds[lane]);
+            if let (Some(one), Some(other)) = (lanes.next(), lanes.next()) {
+                return self.keep(e, divisor, Some(([one, other], many.state.count())));
+            }
+        }
+        // What real points tell remains.
+        self.keep(e, divisor, None)
+    }
+
     fn keep<const C: u64, const L: usize, const R: usize>(
         &mut self,
         e: &Expr,
         divisor: i32,
+        at: Option<([u64; L], usize)>,
     ) -> Result<Box<Kept<C, L, R>>, Again> {
         let none = Points::EMPTY;
         let mut lanes = Lanes::<C, L, R>::new(&none, &self.places, divisor);
+        if let Some((rounds, trusted)) = at {
+            (lanes.rounds, lanes.trusted) = (rounds, trusted);
+        }
         let (mut list, mut uses) = (self.list.clone(), Uses::default());
         let Some(value) = walk::value(e, &mut list, &mut uses, &mut lanes) else {
             return Err(Again::of(&lanes));
