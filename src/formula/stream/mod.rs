@@ -204,7 +204,16 @@ impl<B: Builder> Reader<'_, B> {
         if self.found.0 == self.at {
             return Some(self.found.1);
         }
-        let found = self.look()?;
+        // Most that comes needs no second look.
+        let found = match self.byte(0) {
+            b'a'..=b'z' | b'A'..=b'Z' | b'(' => Peek::Factor,
+            b'0'..=b'9' => Peek::Digit,
+            b')' => {
+                self.width = 1;
+                Peek::Close(b')')
+            }
+            _ => self.look()?,
+        };
         self.found = (self.at, found);
         Some(found)
     }
@@ -438,8 +447,15 @@ impl<B: Builder> Reader<'_, B> {
     }
 
     /// An exponent in halves, if one follows.
-    #[inline]
+    #[inline(always)]
     fn exponent(&mut self) -> Option<Option<i32>> {
+        match self.peek()? {
+            Peek::Caret | Peek::Raised => self.exponent_here().map(Some),
+            _ => Some(None),
+        }
+    }
+
+    fn exponent_here(&mut self) -> Option<i32> {
         let halves = match self.peek()? {
             Peek::Caret => {
                 self.take();
@@ -482,7 +498,7 @@ impl<B: Builder> Reader<'_, B> {
                 }
                 if cube { 6 } else { 4 }
             }
-            _ => return Some(None),
+            _ => return None,
         };
         (self.before, self.end) = (true, self.at);
         if halves == 0
@@ -491,7 +507,7 @@ impl<B: Builder> Reader<'_, B> {
         {
             return None;
         }
-        Some(Some(halves))
+        Some(halves)
     }
 
     fn minus(&mut self) -> bool {

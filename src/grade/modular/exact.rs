@@ -32,7 +32,7 @@ impl Poly {
 
     /// Sorts and gathers terms.
     fn gather(mut terms: Vec<(Monomial, i64)>) -> Option<Poly> {
-        terms.sort_unstable_by(|a, b| b.0.cmp(&a.0));
+        terms.sort_unstable_by_key(|term| std::cmp::Reverse(term.0));
         let mut out: Vec<(Monomial, i64)> = Vec::with_capacity(terms.len());
         for (monomial, k) in terms {
             match out.last_mut() {

@@ -378,20 +378,19 @@ impl Pair {
 pub(crate) fn pair(expected: &str, answer: &str) -> Option<Pair> {
     let (mut divisor, mut roots) = (1, false);
     loop {
-        let again = match roots {
-            false => match pair_in::<PLAIN, FEW, 0>(expected, answer, divisor) {
-                Ok(pair) => return Some(pair),
-                Err(again) => again,
-            },
-            true => match pair_in::<ROOTS, MANY, REAL>(expected, answer, divisor) {
-                Ok(pair) => return Some(pair),
-                Err(again) => again,
+        let read = match roots {
+            false => pair_in::<PLAIN, FEW, 0>(expected, answer, divisor),
+            // Most that differ do so at a real point, and residues are not looked at.
+            true => match pair_in::<ROOTS, 0, REAL>(expected, answer, divisor) {
+                Err(Again::Never) => pair_in::<ROOTS, MANY, REAL>(expected, answer, divisor),
+                settled => settled,
             },
         };
-        match again {
-            Again::Divide(finer) => divisor = finer,
-            Again::Roots => roots = true,
-            Again::Never => return None,
+        match read {
+            Ok(pair) => return Some(pair),
+            Err(Again::Divide(finer)) => divisor = finer,
+            Err(Again::Roots) => roots = true,
+            Err(Again::Never) => return None,
         }
     }
 }
