@@ -175,8 +175,7 @@ fn stiff(studies: &mut Studies, row: &mut impl FnMut(&str) -> bool) -> bool {
         }
     }
     // An end that spring and dashpot hold swings fast and decays: the truly stiff case.
-    let most = if quick { 6 } else { 10 };
-    for stiffness in (2..=most).step_by(2).map(|k| 10_f64.powi(k)) {
+    for stiffness in (2..=8).map(|k| 10_f64.powi(k)) {
         for integrator in Integrator::ALL {
             let collision = Collision {
                 angle: ANGLE,
@@ -187,7 +186,7 @@ fn stiff(studies: &mut Studies, row: &mut impl FnMut(&str) -> bool) -> bool {
             studies
                 .stiff
                 .runs
-                .push(run(collision, integrator, 1e-8, MOST_STEPS));
+                .push(run(collision, integrator, 1e-6, 50 * MOST_STEPS));
         }
         if !row(&format!("held end, K = {stiffness:e}")) {
             return false;
