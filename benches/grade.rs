@@ -2,7 +2,10 @@
 //!
 //! `cargo bench --bench grade`; the same pairs go through SymPy and giac by `benches/peers.py`.
 
-use carom::grade::{Options, Question, Strength, judge, judge_against, key};
+use carom::formula::stream::Seen;
+use carom::grade::plain::plain;
+use carom::grade::{Options, Question, Strength, judge, judge_against, key, quick};
+use carom::render::grade::Frame;
 
 fn main() {
     divan::main();
@@ -103,4 +106,22 @@ fn different_fast_against_a_stored_key(bencher: divan::Bencher, class: usize) {
     let (_, expected, _, other) = PAIRS[class];
     let key = key(expected, &Question::default()).expect("a readable formula");
     bencher.bench(|| judge_against(&key, other, &options(Strength::Fast)));
+}
+
+/// All a batch does for a line at the first strength: cut the JSON, read, compare at points, write.
+#[divan::bench(args = CLASSES)]
+fn line_of_a_batch_fast(bencher: divan::Bencher, class: usize) {
+    let (_, expected, equal, _) = PAIRS[class];
+    let line = serde_json::json!({"id": 17, "expected": expected, "answer": equal}).to_string();
+    let key = key(expected, &Question::default()).expect("a readable formula");
+    let options = options(Strength::Fast);
+    let mut frame = Frame::of(&key).expect("a key judged at points");
+    let (mut seen, mut out) = (Seen::default(), String::new());
+    bencher.bench_local(|| {
+        let line = plain(divan::black_box(&line)).expect("a plain line");
+        let judged = quick(&key, &line.answer, &options, &mut seen).expect("a plain formula");
+        out.clear();
+        frame.line(&mut out, line.id, &judged, &seen);
+        out.len()
+    });
 }
