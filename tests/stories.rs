@@ -326,3 +326,20 @@ fn questions_about_formulas_need_no_stages() {
     let alone: Vec<_> = alone.into_iter().map(|a| (a.name, a.formula)).collect();
     assert_eq!(alone, with_stages);
 }
+
+#[test]
+fn where_sides_meet_several_times_the_intervals_are_told() {
+    for (holds, expected) in [
+        ("(x - 1)*(x - 3) <= 0", "it holds for 1 ≤ x ≤ 3"),
+        ("(x - 1)*(x - 3) > 0", "it holds for x < 1, and for x > 3"),
+        ("(x - 2)^2 > 0", "it holds for x < 2, and for x > 2"),
+        ("(x - 2)^2 <= 0", "it holds for x = 2"),
+        (
+            "(x - y)*(x - 2*y) >= 0",
+            "it holds for x ≤ y, and for x ≥ 2*y",
+        ),
+    ] {
+        let found = said(&format!(r#""q": {{"threshold": "x", "holds": "{holds}"}}"#));
+        assert!(found.starts_with(expected), "{holds}: {found}");
+    }
+}

@@ -251,7 +251,7 @@ fn follow(story: &Story, impacts: &[Impact], at: &Point<f64>) -> Option<Vec<Foll
                 }
                 solved = Some((given, motion));
             }
-            StageKind::Turn(t) => after[t.body] = turn(stage, t, &before[t.body], at)?,
+            StageKind::Turn(t) => turn(stage, t, &before, &mut after, at)?,
             StageKind::Slide(s) => {
                 let body = &stage.scene.bodies[s.body];
                 let mut work = 0.0;
@@ -316,19 +316,38 @@ fn start(stage: &Stage, at: &Point<f64>) -> Option<Vec<Moves>> {
     Some(out)
 }
 
-fn turn(stage: &Stage, turn: &Turn, before: &Moves, at: &Point<f64>) -> Option<Moves> {
-    let body = &stage.scene.bodies[turn.body];
+/// A rotation in doubles: the bodies that turn as one keep energy and work in balance.
+fn turn(
+    stage: &Stage,
+    turn: &Turn,
+    before: &[Moves],
+    after: &mut [Moves],
+    at: &Point<f64>,
+) -> Option<()> {
     let value = |e: &Expr| e.evaluate(at);
     let zero = |e: &Option<Expr>| e.as_ref().map_or(Some(0.0), value);
-    let x = value(&body.center[0])? - value(&turn.about[0])?;
-    let y = value(&body.center[1])? - value(&turn.about[1])?;
-    let (mass, g, torque) = (
-        value(&body.mass)?,
-        zero(&turn.gravity)?,
-        zero(&turn.torque)?,
-    );
-    let inertia = value(&body.inertia)? + mass * (x * x + y * y);
-    let begins = match before.1 {
+    let (g, torque) = (zero(&turn.gravity)?, zero(&turn.torque)?);
+    let about = [value(&turn.about[0])?, value(&turn.about[1])?];
+    let (mut mass, mut inertia, mut moment, mut arms) = (0.0, 0.0, [0.0, 0.0], Vec::new());
+    for b in turn.bodies() {
+        let body = &stage.scene.bodies[b];
+        let x = value(&body.center[0])? - about[0];
+        let y = value(&body.center[1])? - about[1];
+        let m = value(&body.mass)?;
+        mass += m;
+        inertia += value(&body.inertia)? + m * (x * x + y * y);
+        moment = [moment[0] + m * x, moment[1] + m * y];
+        arms.push((b, [x, y]));
+    }
+    let [x, y] = [moment[0] / mass, moment[1] / mass];
+    let ([vx, vy], spin) = before[turn.body];
+    let (_, [ax, ay]) = arms[0];
+    let spin = if stage.scene.bodies[turn.body].is_particle() {
+        (ax * vy - ay * vx) / (ax * ax + ay * ay)
+    } else {
+        spin
+    };
+    let begins = match spin {
         w if w != 0.0 => w,
         _ if torque != 0.0 => torque,
         _ => -mass * g * x,
@@ -338,20 +357,24 @@ fn turn(stage: &Stage, turn: &Turn, before: &Moves, at: &Point<f64>) -> Option<M
         Some(false) => 1.0,
         None => 1.0f64.copysign(begins),
     };
-    let (end, by) = match &turn.until {
-        Until::Above => ([0.0, x.hypot(y)], 0.0),
-        Until::Below => ([0.0, -x.hypot(y)], 0.0),
-        Until::For(_) => ([x, y], 0.0),
-        Until::By(by) => {
-            // An angle under a sine may have a direction only, and no value of its own.
-            let (s, c) = (way * value(&by.sin())?, value(&by.cos())?);
-            let by = if torque == 0.0 { 0.0 } else { value(by)? };
-            ([x * c - y * s, x * s + y * c], by)
-        }
+    let far = x.hypot(y);
+    let ((s, c), by) = match &turn.until {
+        Until::Above => ((x / far, y / far), 0.0),
+        Until::Below => ((-x / far, -y / far), 0.0),
+        Until::For(_) => ((0.0, 1.0), 0.0),
+        // An angle under a sine may have a direction only, and no value of its own.
+        Until::By(by) => (
+            (way * value(&by.sin())?, value(&by.cos())?),
+            if torque == 0.0 { 0.0 } else { value(by)? },
+        ),
     };
-    let square = before.1 * before.1 + 2.0 * (mass * g * (y - end[1]) + torque * by) / inertia;
-    let spin = way * root(square)?;
-    Some(([-spin * end[1], spin * end[0]], spin))
+    let drop = y - (x * s + y * c);
+    let spin = way * root(spin * spin + 2.0 * (mass * g * drop + torque * by) / inertia)?;
+    for (b, [x, y]) in arms {
+        let end = [x * c - y * s, x * s + y * c];
+        after[b] = ([-spin * end[1], spin * end[0]], spin);
+    }
+    Some(())
 }
 
 /// An impact with the motion that goes in given in doubles.
@@ -446,11 +469,20 @@ impl Followed {
                     StageKind::Wind(w) => w.body,
                     StageKind::Impact { .. } => return None,
                 };
-                let mass = scene.bodies[body].mass.evaluate(at)?;
-                let inertia = scene.bodies[body].inertia.evaluate(at)?;
-                let energy =
-                    |(v, w): &Moves| (mass * (v[0] * v[0] + v[1] * v[1]) + inertia * w * w) / 2.0;
-                let (before, after) = (energy(&self.before[body]), energy(&self.after[body]));
+                let with = match &story.stages[stage].kind {
+                    StageKind::Turn(t) => t.with.as_slice(),
+                    _ => &[],
+                };
+                let of = |b: usize, (v, w): &Moves| {
+                    let mass = scene.bodies[b].mass.evaluate(at)?;
+                    let inertia = scene.bodies[b].inertia.evaluate(at)?;
+                    Some((mass * (v[0] * v[0] + v[1] * v[1]) + inertia * w * w) / 2.0)
+                };
+                let energy = |all: &[Moves]| {
+                    let each = std::iter::once(&body).chain(with);
+                    each.map(|b| of(*b, &all[*b])).sum::<Option<f64>>()
+                };
+                let (before, after) = (energy(&self.before)?, energy(&self.after)?);
                 Some(match when {
                     EnergyWhen::Before => before,
                     EnergyWhen::After => after,

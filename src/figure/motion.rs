@@ -49,7 +49,11 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
         StageKind::Impact { .. } => return None,
     };
     let from = begin.get(body)?;
-    let path = way(values, kind, clockwise, from)?;
+    let path = way(scene, values, kind, clockwise, from)?;
+    let with: &[usize] = match kind {
+        StageKind::Turn(turn) => &turn.with,
+        _ => &[],
+    };
     let end = path
         .last()
         .map_or_else(|| from.clone(), |(pose, _)| pose.clone());
@@ -57,7 +61,7 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
     let stage = spanning(scene, values, begin.clone(), &poses)?;
     stage.fixed(&mut sheet);
     for (i, pose) in begin.iter().enumerate() {
-        if i != body {
+        if i != body && !with.contains(&i) {
             stage.body(&mut sheet, pose, [0.0, 0.0]);
         }
     }
@@ -68,6 +72,14 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
         _ => sheet.path(outline, true, Line::dashed(Ink::Body), 1.0),
     }
     stage.body(&mut sheet, &end, [0.0, 0.0]);
+    if let (StageKind::Turn(turn), Some((_, by))) = (kind, path.last())
+        && let Some(about) = values.pair(&turn.about)
+    {
+        for pose in with.iter().filter_map(|b| begin.get(*b)) {
+            sheet.circle(stage.px(pose.center), 4.0, Line::dashed(Ink::Body));
+            stage.body(&mut sheet, &moved(pose, about, *by, [0.0, 0.0]), [0.0, 0.0]);
+        }
+    }
     stage.hinges(&mut sheet, &|_| true);
     let points: Vec<Pair> = path.iter().map(|(pose, _)| stage.px(pose.center)).collect();
     if let [.., last_but, last] = points.as_slice() {
@@ -125,6 +137,7 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
 
 /// Poses on the way, the first one the beginning, each with the angle turned through.
 fn way(
+    scene: &Scene,
     values: &Values,
     kind: &StageKind,
     clockwise: bool,
@@ -144,7 +157,8 @@ fn way(
     Some(match kind {
         StageKind::Turn(turn) => {
             let about = values.pair(&turn.about)?;
-            let by = turned(values, turn, from.center, about, clockwise)?;
+            let center = values.pair(&turn.lump(scene).center)?;
+            let by = turned(values, turn, center, about, clockwise)?;
             let at = |k: u32| (moved(from, about, by * part(k), [0.0, 0.0]), by * part(k));
             (0..=STEPS).map(at).collect()
         }

@@ -29,8 +29,8 @@ use crate::expr::{Expr, Symbol, Vector};
 pub use fault::{Fault, Faults, Span};
 pub use printed::{Print, Printed};
 pub use stage::{
-    Fall, OneSided, PlotAsk, Relation, Slide, Stage, StageKind, Story, StoryAsk, StoryQuestion,
-    Turn, Until, Wind,
+    Fall, Lump, OneSided, PlotAsk, Relation, Slide, Stage, StageKind, Story, StoryAsk,
+    StoryQuestion, Turn, Until, Wind,
 };
 
 /// Longest text of a scene file, in bytes.

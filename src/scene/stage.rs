@@ -4,7 +4,7 @@
 //! geometry and is known to the reader; how they move is found out by [`crate::story`].
 
 use super::Scene;
-use crate::expr::{Expr, Symbol, Vector};
+use crate::expr::{Expr, Symbol, Vector, dot, minus};
 pub use crate::formula::Relation;
 
 /// The stages of a scene and its questions.
@@ -74,6 +74,8 @@ pub struct OneSided {
 pub struct Turn {
     /// Index of the body.
     pub body: usize,
+    /// Indices of bodies that are fixed to it and turn along.
+    pub with: Vec<usize>,
     /// The fixed point \[m\].
     pub about: Vector,
     /// What the file calls it.
@@ -86,6 +88,51 @@ pub struct Turn {
     pub gravity: Option<Expr>,
     /// Constant moment about the point \[N m\], positive in the sense of the rotation.
     pub torque: Option<Expr>,
+}
+
+/// Bodies that move as one.
+#[derive(Clone, Debug)]
+pub struct Lump {
+    /// Mass \[kg\].
+    pub mass: Expr,
+    /// Center of mass \[m\].
+    pub center: Vector,
+    /// Moment of inertia about the center of mass \[kg m²\].
+    pub inertia: Expr,
+}
+
+impl Turn {
+    /// All bodies that turn.
+    pub fn bodies(&self) -> Vec<usize> {
+        [&[self.body], self.with.as_slice()].concat()
+    }
+
+    /// The bodies that turn as one, where they are in the scene.
+    pub fn lump(&self, scene: &Scene) -> Lump {
+        let first = &scene.bodies[self.body];
+        if self.with.is_empty() {
+            return Lump {
+                mass: first.mass.clone(),
+                center: first.center.clone(),
+                inertia: first.inertia.clone(),
+            };
+        }
+        let all: Vec<&super::Body> = self.bodies().iter().map(|b| &scene.bodies[*b]).collect();
+        let mass = Expr::sum(all.iter().map(|b| b.mass.clone()));
+        let center = [0, 1].map(|axis| {
+            let moments = all.iter().map(|b| &b.mass * &b.center[axis]);
+            &Expr::sum(moments) / &mass
+        });
+        let inertia = Expr::sum(all.iter().map(|b| {
+            let arm = minus(&b.center, &center);
+            &b.inertia + &(&b.mass * &dot(&arm, &arm))
+        }));
+        Lump {
+            mass,
+            center,
+            inertia,
+        }
+    }
 }
 
 /// Where a rotation ends.

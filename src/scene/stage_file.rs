@@ -87,6 +87,8 @@ record! {
     TurnFile {
         /// Name of the body.
         body: Text,
+        /// Names of bodies that are fixed to it and turn along, such as a bullet that sticks in it.
+        with: Option<Vec<Text>>,
         /// The fixed point.
         about: PositionFile,
         /// Angle turned through, in the sense of the rotation.

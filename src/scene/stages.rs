@@ -498,15 +498,8 @@ fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
         return None;
     }
     let body = r.moving(&turn.body);
-    if let Some(b) = body
-        && r.is_particle(b)
-    {
-        r.faults.push(Fault::new(
-            turn.body.span,
-            "a particle does not turn; a rod, a composite or a body does",
-        ));
-        return None;
-    }
+    let with = turn.with.iter().flatten().map(|name| r.moving(name));
+    let with = with.collect::<Option<Vec<usize>>>()?;
     let about = r.position(&turn.about);
     let about_name = match &turn.about {
         PositionFile::Name(name) => name.text.clone(),
@@ -521,6 +514,7 @@ fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
     };
     Some(Turn {
         body: body?,
+        with,
         about: about?,
         about_name,
         until,
@@ -540,25 +534,37 @@ fn placed_after(scene: &Scene, kind: &StageKind) -> Vec<Placed> {
     match kind {
         StageKind::Impact { .. } => {}
         StageKind::Turn(turn) => {
-            let (center, angle) = &mut all[turn.body];
-            let r = minus(center, &turn.about);
-            let length = dot(&r, &r).sqrt();
-            match &turn.until {
-                Until::By(by) => {
-                    let by = if turn.clockwise == Some(true) {
-                        -by
-                    } else {
-                        by.clone()
-                    };
-                    let [c, s] = geometry::direction(&by);
-                    let x = &(&r[0] * &c) - &(&r[1] * &s);
-                    let y = &(&r[0] * &s) + &(&r[1] * &c);
-                    *center = [&turn.about[0] + &x, &turn.about[1] + &y];
-                    *angle = &*angle + &by;
-                }
-                Until::Above => *center = [turn.about[0].clone(), &turn.about[1] + &length],
-                Until::Below => *center = [turn.about[0].clone(), &turn.about[1] - &length],
-                Until::For(_) => {}
+            let lump = minus(&turn.lump(scene).center, &turn.about);
+            let length = dot(&lump, &lump).sqrt();
+            let alone = turn.with.is_empty();
+            for body in turn.bodies() {
+                let (center, angle) = &mut all[body];
+                let r = minus(center, &turn.about);
+                let [c, s] = match &turn.until {
+                    Until::By(by) => {
+                        let by = if turn.clockwise == Some(true) {
+                            -by
+                        } else {
+                            by.clone()
+                        };
+                        *angle = &*angle + &by;
+                        geometry::direction(&by)
+                    }
+                    Until::Above if alone => {
+                        *center = [turn.about[0].clone(), &turn.about[1] + &length];
+                        continue;
+                    }
+                    Until::Below if alone => {
+                        *center = [turn.about[0].clone(), &turn.about[1] - &length];
+                        continue;
+                    }
+                    Until::Above => [&lump[1] / &length, &lump[0] / &length],
+                    Until::Below => [-(&lump[1] / &length), -(&lump[0] / &length)],
+                    Until::For(_) => continue,
+                };
+                let x = &(&r[0] * &c) - &(&r[1] * &s);
+                let y = &(&r[0] * &s) + &(&r[1] * &c);
+                *center = [&turn.about[0] + &x, &turn.about[1] + &y];
             }
         }
         StageKind::Slide(slide) => {

@@ -476,7 +476,7 @@ fn reaction(
         return Ok(Expr::zero());
     };
     let told = &stages[stage];
-    let body = &story.stages[stage].scene.bodies[turn.body];
+    let body = turn.lump(&story.stages[stage].scene);
     let inertia = motion::inertia_about(&story.stages[stage], turn);
     let [r0, r1] = motion::arms(&story.stages[stage], turn);
     let r = if at_end { &r1 } else { &r0 };

@@ -335,7 +335,7 @@ fn take(
         let gap = if is_low { &value - &end } else { &end - &value };
         let seen = sign(&gap, domains);
         let outside = match seen {
-            Seen::Proved(Sign::Negative) | Seen::Negative => true,
+            Seen::Proved(Sign::Negative | Sign::NotPositive) | Seen::Negative => true,
             Seen::Proved(Sign::Zero) => limit.open,
             _ => false,
         };
@@ -350,7 +350,9 @@ fn take(
                 " lies within its domain"
             ]);
         }
-        let how = if seen.is_proved() {
+        let how = if seen == Seen::Proved(Sign::NotPositive) && !limit.open {
+            " or just at its end"
+        } else if seen.is_proved() {
             ""
         } else {
             " (seen at points, not proved)"

@@ -36,7 +36,12 @@ pub(super) fn tell(
         .zip(before.velocity.iter().zip(&before.spin))
     {
         body.velocity = v.clone();
-        body.spin = w.clone();
+        // A particle that went round a point had an angular velocity, but has no spin.
+        body.spin = if body.is_particle() {
+            Expr::zero()
+        } else {
+            w.clone()
+        };
     }
     hinges_fit(stage, &base)?;
     let approaching = approach(stage, &base)?;

@@ -68,7 +68,7 @@ pub(super) fn turn(stage: &Stage, told: &StageTold, turn: &Turn, way: i64) -> Ve
     if turn.gravity.is_none() && turn.torque.is_none() {
         return Vec::new();
     }
-    let body = &stage.scene.bodies[turn.body];
+    let body = turn.lump(&stage.scene);
     let [r, r_end] = super::motion::arms(stage, turn);
     let inertia = super::motion::inertia_about(stage, turn);
     let zero = Expr::zero();
@@ -146,12 +146,19 @@ impl Rotation {
         let mut y = [0.0, speed];
         for _ in 0..4000 {
             let next = advance(field, y, unit)?;
-            if next[1] < -1e-9 * rate.sqrt() {
+            let turned = next[1] < -1e-9 * rate.sqrt();
+            // A body that comes to rest within the step may have been there before it turned back.
+            let (reach, longest) = if turned {
+                rest(field, y, unit)?
+            } else {
+                (next, unit)
+            };
+            if turned && reach[0] < angle {
                 return None;
             }
-            if next[0] >= angle {
+            if reach[0] >= angle {
                 // Newton on the length of the last step.
-                let mut step = unit * (angle - y[0]) / (next[0] - y[0]);
+                let mut step = longest * (angle - y[0]) / (reach[0] - y[0]).max(1e-300);
                 let mut last = y;
                 for _ in 0..30 {
                     last = advance(field, y, step)?;
@@ -159,7 +166,7 @@ impl Rotation {
                     if miss.abs() < 1e-13 || last[1].abs() < 1e-12 {
                         break;
                     }
-                    step = (step + miss / last[1]).clamp(0.0, unit);
+                    step = (step + miss / last[1]).clamp(0.0, longest);
                 }
                 return Some(last[1]);
             }
@@ -167,6 +174,22 @@ impl Rotation {
         }
         None
     }
+}
+
+/// The place within a step at which the speed falls to zero, and the time until then.
+fn rest(field: impl Fn([f64; 2]) -> [f64; 2], y: [f64; 2], step: f64) -> Option<([f64; 2], f64)> {
+    let (mut low, mut high) = (0.0, step);
+    let mut place = y;
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        place = advance(&field, y, middle)?;
+        if place[1] > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Some((place, high))
 }
 
 /// Whether a rotation gets to its end at a point, by integration in time; `None` where it could not be integrated.
@@ -177,7 +200,7 @@ pub(super) fn gets_there(
     way: i64,
     point: &Point<f64>,
 ) -> Option<bool> {
-    let body = &stage.scene.bodies[turn.body];
+    let body = turn.lump(&stage.scene);
     let [r, r_end] = super::motion::arms(stage, turn);
     let zero = Expr::zero();
     let value = |e: &Expr| e.evaluate(point);
@@ -223,7 +246,8 @@ pub(super) fn both_sides(
     let [r, r_end] = super::motion::arms(stage, turn);
     let inertia = super::motion::inertia_about(stage, turn);
     all.extend(r.iter().chain(&r_end));
-    all.extend([&inertia, &stage.scene.bodies[turn.body].mass]);
+    let mass = turn.lump(&stage.scene).mass;
+    all.extend([&inertia, &mass]);
     all.extend(turn.gravity.iter().chain(&turn.torque));
     let (mut parted, mut count) = (0, 0);
     for mut point in points(stage, &all, POINTS) {

@@ -9,6 +9,7 @@ mod calc;
 mod graph;
 mod impact;
 mod integrate;
+mod intervals;
 mod limit;
 mod motion;
 mod optimum;
@@ -32,7 +33,7 @@ use crate::derive::{Derivation, Stop};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::Relation;
-use crate::scene::{Ask, Scene, StageKind, Story, StoryAsk};
+use crate::scene::{Ask, ContactLaw, Scene, Stage, StageKind, Story, StoryAsk, Turn};
 use crate::verify::{Check, Proof};
 
 /// Where all bodies are and how they move, by index of body.
@@ -261,7 +262,10 @@ pub fn tell(scene: &Scene, story: &Story) -> Result<Told, Refused> {
                 let named = named(story, &stages);
                 impact::tell(stage, before, one_sided, supposed.as_deref(), &named)?
             }
-            StageKind::Turn(turn) => motion::turn(stage, before, turn)?,
+            StageKind::Turn(turn) => {
+                left_behind(story, stage, turn)?;
+                motion::turn(stage, before, turn)?
+            }
             StageKind::Slide(slide) => motion::slide(stage, before, slide)?,
             StageKind::Fall(fall) => motion::fall(stage, before, fall)?,
             StageKind::Wind(wind) => motion::wind(stage, before, wind)?,
@@ -269,6 +273,39 @@ pub fn tell(scene: &Scene, story: &Story) -> Result<Told, Refused> {
         stages.push(told);
     }
     answer::all(scene, story, stages)
+}
+
+/// What stuck to a body in the last impact turns along with it.
+fn left_behind(story: &Story, stage: &Stage, turn: &Turn) -> Result<(), Refused> {
+    let turning = turn.bodies();
+    let mut from = stage.from;
+    while let Some(before) = from.map(|j| &story.stages[j]) {
+        if let StageKind::Impact { .. } = before.kind {
+            let stuck = before.scene.contacts.iter().find_map(|c| {
+                let [a, b] = c.bodies;
+                let is_other =
+                    |b: usize| !turning.contains(&b) && !stage.scene.bodies[b].is_fixed();
+                let sticks = matches!(c.law, ContactLaw::Sticking);
+                match (turning.contains(&a), turning.contains(&b)) {
+                    (true, false) if sticks && is_other(b) => Some(b),
+                    (false, true) if sticks && is_other(a) => Some(a),
+                    _ => None,
+                }
+            });
+            let Some(stuck) = stuck else { return Ok(()) };
+            let [stuck, body] = [stuck, turn.body].map(|b| &stage.scene.bodies[b].name);
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "`{stuck}` sticks to `{body}` since `{}`, and is not said to turn along",
+                    before.name
+                ),
+                format!("add \"with\": [\"{stuck}\"] to the turn"),
+            ));
+        }
+        from = before.from;
+    }
+    Ok(())
 }
 
 /// Speeds and spins at the end of motions that have the name of a question, for the impacts after them to go on with.

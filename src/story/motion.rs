@@ -9,7 +9,7 @@ use super::{Kept, Refused, StageTold, State, integrate};
 use super::{Sentence, sentence::sentence};
 use crate::algebra::Sign;
 use crate::domain::Domains;
-use crate::expr::{Expr, Vector, dot, minus};
+use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::scene::{Fall, Slide, Stage, Turn, Until, Wind};
 
 fn half(e: &Expr) -> Expr {
@@ -49,7 +49,8 @@ fn told(stage: &Stage, kind: &'static str, before: State, after: State) -> Stage
 
 /// The arm from the fixed point to the center of mass, at the beginning and at the end.
 pub(super) fn arms(stage: &Stage, turn: &Turn) -> [Vector; 2] {
-    let r = minus(&stage.scene.bodies[turn.body].center, &turn.about);
+    let r = minus(&turn.lump(&stage.scene).center, &turn.about);
+    let r = r.map(|e| tidy(&e, &stage.scene.domains).unwrap_or(e));
     let length =
         tidy(&dot(&r, &r).sqrt(), &stage.scene.domains).unwrap_or_else(|_| dot(&r, &r).sqrt());
     let end = match &turn.until {
@@ -73,9 +74,9 @@ pub(super) fn arms(stage: &Stage, turn: &Turn) -> [Vector; 2] {
 
 /// Moment of inertia about the fixed point.
 pub(super) fn inertia_about(stage: &Stage, turn: &Turn) -> Expr {
-    let body = &stage.scene.bodies[turn.body];
-    let r = minus(&body.center, &turn.about);
-    &body.inertia + &(&body.mass * &dot(&r, &r))
+    let lump = turn.lump(&stage.scene);
+    let r = minus(&lump.center, &turn.about);
+    &lump.inertia + &(&lump.mass * &dot(&r, &r))
 }
 
 /// The sense of the rotation: 1 counterclockwise, −1 clockwise.
@@ -115,7 +116,7 @@ pub(super) fn sense(
         (Some(d), _) => Ok((d, None)),
         (None, Some(s)) => Ok((s, None)),
         (None, None) if matches!(begins, Seen::Proved(Sign::Zero)) => {
-            let r = minus(&stage.scene.bodies[turn.body].center, &turn.about);
+            let r = minus(&turn.lump(&stage.scene).center, &turn.about);
             let pull = match (&turn.torque, &turn.gravity) {
                 (Some(_), _) => Seen::Positive,
                 (None, Some(_)) => sign(&-&r[0], domains),
@@ -139,27 +140,16 @@ pub(super) fn sense(
 }
 
 /// Rotation about a fixed point.
-pub(super) fn turn(stage: &Stage, before: State, turn: &Turn) -> Result<StageTold, Refused> {
+pub(super) fn turn(stage: &Stage, mut before: State, turn: &Turn) -> Result<StageTold, Refused> {
     let domains = &stage.scene.domains;
     let body = &stage.scene.bodies[turn.body];
+    let lump = turn.lump(&stage.scene);
+    whirl(stage, &mut before, turn)?;
     let spin = before.spin[turn.body].clone();
     let [r, r_end] = arms(stage, turn);
-    let needed = [-(&spin * &r[1]), &spin * &r[0]];
-    for (velocity, needed) in before.velocity[turn.body].iter().zip(&needed) {
-        let gap = velocity - needed;
-        if is_zero(&gap, domains) == Some(false) {
-            return Err(Refused::new(
-                &stage.name,
-                format!(
-                    "at its beginning the point {} of `{}` moves, so the body does not turn about it, and energy cannot carry over the jump that stops it",
-                    turn.about_name, body.name
-                ),
-                "put an impact before it, in which the point is caught, or begin with a velocity {\"about\": …}",
-            ));
-        }
-    }
+    fits(stage, &before, turn, &spin)?;
     let square = tidied(stage, &dot(&r, &r))?;
-    let about = &body.inertia + &(&body.mass * &square);
+    let about = &tidied(stage, &lump.inertia)? + &(&lump.mass * &square);
     let inertia = tidied(stage, &about)?;
     if is_zero(&inertia, domains) == Some(true) {
         return Err(Refused::new(
@@ -175,7 +165,7 @@ pub(super) fn turn(stage: &Stage, before: State, turn: &Turn) -> Result<StageTol
     let mut work = Vec::new();
     if let Some(g) = &turn.gravity {
         let height = tidied(stage, &(&r[1] - &r_end[1]))?;
-        work.push(("weight", &(&body.mass * g) * &height));
+        work.push(("weight", &(&lump.mass * g) * &height));
     }
     if let Some(torque) = &turn.torque {
         let Until::By(by) = &turn.until else {
@@ -212,15 +202,16 @@ pub(super) fn turn(stage: &Stage, before: State, turn: &Turn) -> Result<StageTol
         let size = (&(&Expr::from(2) * &end) / &inertia).sqrt();
         tidied(stage, &(&Expr::from(way) * &size))?
     };
-    let velocity = [
-        tidied(stage, &-(&spin_end * &r_end[1]))?,
-        tidied(stage, &(&spin_end * &r_end[0]))?,
-    ];
     let mut after = before.clone();
-    let [x, y] = &r_end;
-    after.center[turn.body] = [&turn.about[0] + x, &turn.about[1] + y];
-    after.spin[turn.body] = spin_end;
-    after.velocity[turn.body] = velocity;
+    for b in turn.bodies() {
+        let [x, y] = arm_at_end(stage, turn, b, &r, &r_end);
+        after.center[b] = [&turn.about[0] + &x, &turn.about[1] + &y];
+        after.velocity[b] = [
+            tidied(stage, &-(&spin_end * &y))?,
+            tidied(stage, &(&spin_end * &x))?,
+        ];
+        after.spin[b] = spin_end.clone();
+    }
     let mut out = told(stage, "turn", before, after);
     let at = &turn.about_name;
     out.kept = vec![match (&turn.gravity, &turn.torque) {
@@ -275,6 +266,71 @@ pub(super) fn turn(stage: &Stage, before: State, turn: &Turn) -> Result<StageTol
     Ok(out)
 }
 
+/// A particle that goes round a point has no spin of its own, but an angular velocity about the point.
+fn whirl(stage: &Stage, before: &mut State, turn: &Turn) -> Result<(), Refused> {
+    for b in turn.bodies() {
+        if stage.scene.bodies[b].is_particle() {
+            let r = minus(&stage.scene.bodies[b].center, &turn.about);
+            let square = tidied(stage, &dot(&r, &r))?;
+            if square.is_zero() {
+                continue;
+            }
+            let about = &cross(&r, &before.velocity[b]) / &square;
+            before.spin[b] = tidied(stage, &about)?;
+        }
+    }
+    Ok(())
+}
+
+/// Every body that turns moves as a rotation about the point has it.
+fn fits(stage: &Stage, before: &State, turn: &Turn, spin: &Expr) -> Result<(), Refused> {
+    for b in turn.bodies() {
+        let body = &stage.scene.bodies[b];
+        let r = minus(&body.center, &turn.about);
+        let needed = [-(spin * &r[1]), spin * &r[0]];
+        let mut gaps: Vec<Expr> = (0..2)
+            .map(|k| &before.velocity[b][k] - &needed[k])
+            .collect();
+        if !body.is_particle() {
+            gaps.push(&before.spin[b] - spin);
+        }
+        let moves = |gap: &Expr| is_zero(gap, &stage.scene.domains) == Some(false);
+        if gaps.iter().any(moves) {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "at its beginning the point {} of `{}` moves, so the body does not turn about it, and energy cannot carry over the jump that stops it",
+                    turn.about_name, body.name
+                ),
+                "put an impact before it, in which the point is caught, or begin with a velocity {\"about\": …}",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Where a body is at the end, from the fixed point: the rotation that leads the common center of mass there leads it.
+fn arm_at_end(stage: &Stage, turn: &Turn, body: usize, r: &Vector, r_end: &Vector) -> Vector {
+    if turn.with.is_empty() {
+        return r_end.clone();
+    }
+    let arm = minus(&stage.scene.bodies[body].center, &turn.about);
+    let (c, s) = match (&turn.until, turn.clockwise) {
+        (Until::By(by), Some(true)) => (by.cos(), -by.sin()),
+        (Until::By(by), _) => (by.cos(), by.sin()),
+        (Until::For(_), _) => return arm,
+        _ => {
+            let square = dot(r, r);
+            (&dot(r, r_end) / &square, &cross(r, r_end) / &square)
+        }
+    };
+    let end = [
+        &(&arm[0] * &c) - &(&arm[1] * &s),
+        &(&arm[0] * &s) + &(&arm[1] * &c),
+    ];
+    end.map(|e| tidy(&e, &stage.scene.domains).unwrap_or(e))
+}
+
 /// What is needed to get over the highest place on the way, where a rotation by an angle passes it: energy compares the
 /// ends only.
 fn hurdle(
@@ -309,7 +365,8 @@ fn hurdle(
     }
     let body = &stage.scene.bodies[turn.body];
     let climb = &dot(r, r).sqrt() - &r[1];
-    let left = tidied(stage, &(start - &(&(&body.mass * g) * &climb)))?;
+    let mass = turn.lump(&stage.scene).mass;
+    let left = tidied(stage, &(start - &(&(&mass * g) * &climb)))?;
     match sign(&left, &stage.scene.domains) {
         Seen::Proved(s) if s.is_not_negative() => Ok(None),
         Seen::Proved(Sign::Negative) => Err(Refused::new(

@@ -3,10 +3,10 @@
 //! In: both sides in parameters alone. Out: the value at which they meet, on which side of it the inequality holds, and how
 //! that is known; or that it always or never holds, with the reason.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::calc::{Roots, Seen, Unsolved, essential, sign, solve, tidy};
-use super::{Answer, limit};
+use super::{Answer, intervals, limit};
 use super::{Sentence, sentence::sentence};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
@@ -115,38 +115,27 @@ fn sides(
     roots: &Roots,
     domains: &Domains,
 ) {
-    let [root] = roots.inside.as_slice() else {
-        let values: Vec<Sentence> = roots
-            .inside
-            .iter()
-            .map(|r| Sentence::from(&r.value))
-            .collect();
-        for r in &roots.inside {
-            out.range
-                .push((parameter.clone(), Relation::Equal, r.value.clone()));
-        }
-        out.text.push(sentence![
-            "the sides meet at ",
-            parameter,
-            " = ",
-            Sentence::join(values, " and at ")
-        ]);
-        return;
-    };
-    let value = &root.value;
+    let domains = &exists(out, roots, domains);
     if let Some(words) = jumps(gap, parameter, domains) {
-        out.formula = Some(value.clone());
+        let values = roots.inside.iter().map(|r| Sentence::from(&r.value));
         out.text.push(sentence![
             "the sides meet at ",
             parameter,
             " = ",
-            value,
+            Sentence::join(values, " and at "),
             "; ",
             words,
             ", so that it is not told where it holds"
         ]);
+        if let [root] = roots.inside.as_slice() {
+            out.formula = Some(root.value.clone());
+        }
         return;
     }
+    let [root] = roots.inside.as_slice() else {
+        return intervals::fill(out, parameter, gap, relation, &roots.inside, domains);
+    };
+    let value = &root.value;
     let domain = domains.symbols.get(parameter).cloned();
     let domain = domain.unwrap_or_else(Domain::positive);
     let below = beside(gap, parameter, value, domain.low.as_ref(), -1, domains);
@@ -211,18 +200,47 @@ fn sides(
                 only
             ]);
         }
-        None => out.text.push(sentence![
-            "the sides meet at ",
-            parameter,
-            " = ",
-            value,
-            ", but do not change places there, or it could not be told"
-        ]),
+        None => intervals::fill(out, parameter, gap, relation, &roots.inside, domains),
     }
 }
 
+/// The domains within which there are such values: a symbol they are divided by is not zero.
+fn exists(out: &mut Answer, roots: &Roots, domains: &Domains) -> Domains {
+    let mut domains = domains.clone();
+    let symbols: BTreeSet<Symbol> = roots
+        .inside
+        .iter()
+        .flat_map(|r| r.value.symbols())
+        .collect();
+    for symbol in symbols {
+        let Some(low) = domains.symbols.get(&symbol).and_then(|d| d.low.clone()) else {
+            continue;
+        };
+        let at_end = Expr::from(low.value.clone());
+        let put = BTreeMap::from([(symbol.clone(), at_end.clone())]);
+        let lost = |r: &super::calc::Root| tidy(&r.value.substitute(&put), &domains).is_err();
+        if low.open || low.of_pi || !roots.inside.iter().any(lost) {
+            continue;
+        }
+        if let Some(low) = domains
+            .symbols
+            .get_mut(&symbol)
+            .and_then(|d| d.low.as_mut())
+        {
+            low.open = true;
+        }
+        out.assumptions.push(sentence![
+            &symbol,
+            " > ",
+            &at_end,
+            ", or there is no such value"
+        ]);
+    }
+    domains
+}
+
 /// The sign of the difference at a place between its zero and the end of the domain on one side.
-fn beside(
+pub(super) fn beside(
     gap: &Expr,
     parameter: &Symbol,
     value: &Expr,

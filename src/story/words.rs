@@ -76,11 +76,18 @@ pub(super) fn stage(stage: &Stage, told: &StageTold) -> Vec<Sentence> {
             }
         }
         StageKind::Turn(turn) => {
-            let name = &scene.bodies[turn.body].name;
+            let names: Vec<String> = turn
+                .bodies()
+                .iter()
+                .map(|b| format!("`{}`", scene.bodies[*b].name))
+                .collect();
             out.push(sentence![
-                "`",
-                name,
-                "` turns about ",
+                names.join(" and "),
+                if names.len() == 1 {
+                    " turns about "
+                } else {
+                    " turn as one about "
+                },
                 &turn.about_name,
                 "; ",
                 turning(stage, told, turn)

@@ -1,0 +1,162 @@
+//! An inequality whose sides meet at several values of a parameter, or at one without changing places: the intervals in
+//! which it holds.
+//!
+//! In: the difference of the sides and where it is zero. Out: sentences with the intervals, and how the signs between the
+//! zeros are known. Where the zeros cannot be put in order, that is said.
+
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+use super::calc::{Root, Seen, essential, sign};
+use super::threshold::beside;
+use super::{Answer, Sentence, sentence::sentence};
+use crate::domain::{Domain, Domains};
+use crate::expr::{Expr, Symbol};
+use crate::formula::Relation;
+use crate::verify::Check;
+
+/// Tells the intervals.
+pub(super) fn fill(
+    out: &mut Answer,
+    parameter: &Symbol,
+    gap: &Expr,
+    relation: Relation,
+    roots: &[Root],
+    domains: &Domains,
+) {
+    let Some(zeros) = ordered(roots, domains) else {
+        let values = roots.iter().map(|r| Sentence::from(&r.value));
+        out.text.push(sentence![
+            "the sides meet at ",
+            parameter,
+            " = ",
+            Sentence::join(values, " and at "),
+            ", and which of these is larger hangs on the values"
+        ]);
+        return;
+    };
+    let signs = between(parameter, gap, &zeros, domains);
+    let negative = matches!(relation, Relation::Less | Relation::LessEqual);
+    let strict = matches!(relation, Relation::Less | Relation::Greater);
+    let holds: Option<Vec<bool>> = signs
+        .iter()
+        .map(|s| match (s.is_negative(), s.is_positive()) {
+            (true, _) => Some(negative),
+            (_, true) => Some(!negative),
+            _ => None,
+        })
+        .collect();
+    let Some(holds) = holds else {
+        let values = zeros.iter().map(Sentence::from);
+        out.text.push(sentence![
+            "the sides meet at ",
+            parameter,
+            " = ",
+            Sentence::join(values, " and at "),
+            "; which of them is larger in between could not be told"
+        ]);
+        return;
+    };
+    let pieces = pieces(parameter, &zeros, &holds, strict);
+    out.text.push(if pieces.is_empty() {
+        "it never holds within the domain".into()
+    } else {
+        sentence!["it holds for ", Sentence::join(pieces, ", and for ")]
+    });
+    let proved = signs.iter().all(|s| s.is_proved());
+    out.checks.push(Check {
+        kind: "sign",
+        words: format!(
+            "between these values, below and above them the sign of the difference is {}, and there is no other value at which the sides meet",
+            if proved { "proved" } else { "seen at points" }
+        ),
+        holds: proved.then_some(true),
+    });
+}
+
+/// The zeros, ascending; `None` where the order is not the same on the whole domain.
+fn ordered(roots: &[Root], domains: &Domains) -> Option<Vec<Expr>> {
+    let mut zeros: Vec<Expr> = roots.iter().map(|r| r.value.clone()).collect();
+    let mut sure = true;
+    zeros.sort_by(|a, b| {
+        let difference = sign(&(a - b), domains);
+        if a == b {
+            Ordering::Equal
+        } else if difference.is_negative() {
+            Ordering::Less
+        } else if difference.is_positive() {
+            Ordering::Greater
+        } else {
+            sure = false;
+            Ordering::Equal
+        }
+    });
+    sure.then_some(zeros)
+}
+
+/// Signs of the difference: below the first zero, between every two, above the last.
+fn between(parameter: &Symbol, gap: &Expr, zeros: &[Expr], domains: &Domains) -> Vec<Seen> {
+    let domain = domains.symbols.get(parameter).cloned();
+    let domain = domain.unwrap_or_else(Domain::positive);
+    let (Some(first), Some(last)) = (zeros.first(), zeros.last()) else {
+        return vec![sign(gap, domains)];
+    };
+    let mut out = vec![beside(
+        gap,
+        parameter,
+        first,
+        domain.low.as_ref(),
+        -1,
+        domains,
+    )];
+    for pair in zeros.windows(2) {
+        let middle = &Expr::ratio(1, 2) * &(&pair[0] + &pair[1]);
+        let e = gap.substitute(&BTreeMap::from([(parameter.clone(), middle)]));
+        out.push(sign(&essential(&e, domains), domains));
+    }
+    out.push(beside(
+        gap,
+        parameter,
+        last,
+        domain.high.as_ref(),
+        1,
+        domains,
+    ));
+    out
+}
+
+/// Intervals and single values in which the relation holds, in words.
+fn pieces(parameter: &Symbol, zeros: &[Expr], holds: &[bool], strict: bool) -> Vec<Sentence> {
+    let sign = if strict { "<" } else { "≤" };
+    let words = |low: Option<&Expr>, high: Option<&Expr>| match (low, high) {
+        (None, None) => sentence!["every ", parameter, " within its domain"],
+        (None, Some(b)) => sentence![parameter, format!(" {sign} "), b],
+        (Some(a), Some(b)) => {
+            sentence![a, format!(" {sign} "), parameter, format!(" {sign} "), b]
+        }
+        (Some(a), None) => {
+            sentence![parameter, if strict { " > " } else { " ≥ " }, a]
+        }
+    };
+    let mut out = Vec::new();
+    let mut open: Option<Option<&Expr>> = None;
+    for (i, here) in holds.iter().enumerate() {
+        let low = i.checked_sub(1).and_then(|k| zeros.get(k));
+        let before = i > 0 && holds[i - 1];
+        // A zero between two parts that hold belongs to them unless equality is excluded.
+        if *here && (!before || strict) {
+            if let Some(from) = open.take() {
+                out.push(words(from, low));
+            }
+            open = Some(low);
+        } else if !*here && let Some(from) = open.take() {
+            out.push(words(from, low));
+        } else if let (false, false, false, Some(zero)) = (*here, before, strict, low) {
+            out.push(sentence![parameter, " = ", zero]);
+        }
+    }
+    if let Some(from) = open {
+        out.push(words(from, None));
+    }
+    out
+}
