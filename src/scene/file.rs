@@ -6,7 +6,7 @@
 use super::fault::Fault;
 use super::json::{Node, Value};
 use super::record::{Formula, Map, Pair, Read, Text, choice, record, unexpected};
-use super::stage_file::{EndName, StageFile};
+use super::stage_file::{EndName, ShareFile, StageFile};
 
 record! {
     /// A planar collision: bodies, how they move just before, where and how they touch, and what is asked.
@@ -554,6 +554,8 @@ record! {
         claim: Option<Text>,
         /// Name of the stage: which forces have an impulse in it, and why?
         impulsive: Option<Text>,
+        /// A spring that a blow of constant force presses: what share of the blow does it take while the blow lasts?
+        share: Option<ShareFile>,
         /// Name of the stage: what happens in it, in words?
         describe: Option<Text>,
         /// Name of the stage: what do its laws leave open?

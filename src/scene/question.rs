@@ -60,6 +60,7 @@ fn about_stage(q: &QuestionFile) -> Option<&'static str> {
     let kinds = [
         ("reaction", q.reaction.is_some()),
         ("angular_momentum", q.angular_momentum.is_some()),
+        ("share", q.share.is_some()),
         ("impulsive", q.impulsive.is_some()),
         ("describe", q.describe.is_some()),
         ("missing", q.missing.is_some()),

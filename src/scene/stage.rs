@@ -303,6 +303,15 @@ pub enum StoryAsk {
         /// What the identity says, in words; may be empty.
         claim: String,
     },
+    /// The share of a blow of constant force that a spring takes while the blow lasts.
+    Share {
+        /// Mass of the body that is struck \[kg\].
+        mass: Expr,
+        /// Stiffness of the spring \[N/m\].
+        stiffness: Expr,
+        /// How long the blow lasts \[s\].
+        during: Expr,
+    },
     /// Which forces have an impulse in this stage, and why.
     Impulsive {
         /// Index of the stage.

@@ -148,6 +148,18 @@ record! {
     }
 }
 
+record! {
+    /// A body on a spring, struck by a force that stays the same while it lasts.
+    ShareFile {
+        /// Mass of the body.
+        mass: Formula,
+        /// Stiffness of the spring.
+        stiffness: Formula,
+        /// How long the blow lasts.
+        during: Formula,
+    }
+}
+
 choice! {
     /// Beginning or end of a stage.
     EndName {

@@ -27,6 +27,8 @@ const ACCELERATION: Quantity = Quantity::other(
     [0, 1, -2],
     "gravity is a length per time squared, such as g",
 );
+const STIFFNESS: Quantity =
+    Quantity::other([1, 0, -2], "a stiffness is a force divided by a length");
 const MOMENT: Quantity = Quantity::other([1, 2, -2], "a moment is a force times a length");
 const FORCE: Quantity = Quantity::other([1, 1, -2], "a force is a mass times an acceleration");
 
@@ -659,6 +661,7 @@ fn story_ask(
         ("show", q.show.is_some()),
         ("reaction", q.reaction.is_some()),
         ("angular_momentum", q.angular_momentum.is_some()),
+        ("share", q.share.is_some()),
         ("impulsive", q.impulsive.is_some()),
         ("describe", q.describe.is_some()),
         ("missing", q.missing.is_some()),
@@ -720,6 +723,13 @@ fn story_ask(
             body: base.moving(body)?,
             about: base.position(about)?,
             at_end,
+        });
+    }
+    if let Some(share) = &q.share {
+        return Some(StoryAsk::Share {
+            mass: symbols.read(&share.mass, Quantity::MASS, &mut base.faults)?,
+            stiffness: symbols.read(&share.stiffness, STIFFNESS, &mut base.faults)?,
+            during: symbols.read(&share.during, TIME, &mut base.faults)?,
         });
     }
     if let Some(words) = &q.remark {

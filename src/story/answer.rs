@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::calc::{is_zero, tidy};
 use super::special::{self, Known, blank, remember};
-use super::{Answer, Case, Refused, StageTold, Told, integrate, motion, words};
+use super::{Answer, Case, Refused, StageTold, Told, integrate, motion, spring, words};
 use super::{Sentence, sentence::sentence};
 use crate::derive::{self, Form};
 use crate::dimension::Dimension;
@@ -126,6 +126,18 @@ fn one(
             );
             out.dimension = Dimension::new(1, 2, -1);
             out
+        }
+        StoryAsk::Share {
+            mass,
+            stiffness,
+            during,
+        } => {
+            let out = blank(
+                question,
+                name,
+                "share of the blow that the spring takes while it lasts",
+            );
+            return Ok(spring::share(out, [mass, stiffness, during], domains));
         }
         StoryAsk::Impulsive { stage } => {
             let mut out = blank(

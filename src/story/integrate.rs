@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use super::StageTold;
-use crate::domain::Limit;
+use crate::domain::{Domains, Limit};
 use crate::expr::{Expr, Point, Symbol};
 use crate::scene::{Fall, Stage, Turn, Until, Wind};
 use crate::verify::Check;
@@ -19,9 +19,13 @@ const CLOSE: f64 = 1e-7;
 /// Points of the domain in doubles for some expressions: every symbol at its own golden fraction of the interval, the same
 /// on every machine.
 pub(super) fn points(stage: &Stage, all: &[&Expr], count: u64) -> Vec<Point<f64>> {
+    points_in(&stage.scene.domains, all, count)
+}
+
+fn points_in(domains: &Domains, all: &[&Expr], count: u64) -> Vec<Point<f64>> {
     let names: BTreeSet<Symbol> = all.iter().flat_map(|e| e.symbols()).collect();
     let value = |name: &Symbol, k: u64, seed: u64| {
-        let domain = stage.scene.domains.symbols.get(name);
+        let domain = domains.symbols.get(name);
         let fraction =
             (0.618_033_988_75 * (k + 1) as f64 + 0.381_7 * seed as f64).fract() * 0.9 + 0.05;
         let low = domain.and_then(|d| d.low.as_ref()).map(Limit::approximate);
@@ -276,6 +280,31 @@ pub(super) fn both_sides(
         },
         holds: (count > 0).then_some(parted == count),
     }
+}
+
+/// A body on a spring under a constant force: m y″ = 1/τ − k y over the time τ, from rest. The blow is 1, what is left of it
+/// moves the body, and the spring has taken the rest.
+pub(super) fn share(
+    domains: &Domains,
+    [mass, stiffness, during]: [&Expr; 3],
+    share: &Expr,
+) -> Check {
+    let (mut worst, mut count) = (0.0f64, 0);
+    for point in points_in(domains, &[mass, stiffness, during], POINTS) {
+        let value = |e: &Expr| e.evaluate(&point);
+        let (Some(m), Some(k), Some(time), Some(expected)) =
+            (value(mass), value(stiffness), value(during), value(share))
+        else {
+            continue;
+        };
+        let field = |y: [f64; 2]| [y[1], (1.0 / time - k * y[0]) / m];
+        let Some([_, speed]) = advance(field, [0.0, 0.0], time) else {
+            continue;
+        };
+        worst = worst.max((1.0 - m * speed - expected).abs() / expected.abs().max(1e-9));
+        count += 1;
+    }
+    check(worst, count, "what the spring takes")
 }
 
 /// Free fall: y″ = −g, until the height is fallen through.

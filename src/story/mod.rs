@@ -17,6 +17,7 @@ mod roots;
 mod sentence;
 mod sheet;
 mod special;
+mod spring;
 mod threshold;
 mod words;
 mod zeros;
