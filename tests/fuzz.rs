@@ -7,6 +7,7 @@
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use carom::formula::{self, Symbols};
@@ -190,10 +191,27 @@ fn run(
 ) {
     let mut slowest = Slowest::default();
     let begun = Instant::now();
+    // What runs away is named rather than waited for.
+    let now = Arc::new(Mutex::new(Some((begun, 0, String::new()))));
+    let (watched, name) = (now.clone(), target.to_string());
+    let watch = std::thread::spawn(move || {
+        loop {
+            std::thread::sleep(Duration::from_millis(200));
+            match &*watched.lock().expect("a lock") {
+                Some((start, case, input)) if start.elapsed() > 3 * longest => {
+                    eprintln!("{name}, case {case} has not ended: {input:?}");
+                    std::process::exit(1);
+                }
+                Some(_) => {}
+                None => return,
+            }
+        }
+    });
     for case in 0..cases {
         let mut rng = Rng(case ^ 0x00fa_11ed);
         let (input, work) = one(&mut rng);
         let start = Instant::now();
+        *now.lock().expect("a lock") = Some((start, case, input.clone()));
         if catch_unwind(AssertUnwindSafe(work)).is_err() {
             panic!("{target}, case {case}: {input:?}");
         }
@@ -202,6 +220,8 @@ fn run(
             slowest = Slowest { time, case, input };
         }
     }
+    *now.lock().expect("a lock") = None;
+    watch.join().expect("a watch");
     let head: String = slowest.input.chars().take(300).collect();
     println!(
         "{target}: {cases} inputs in {:.0?}; the slowest, case {}, took {:.1?}: {head:?}",
@@ -270,7 +290,7 @@ fn read_anything(cases: u64) {
 
 fn grade_anything(cases: u64) {
     let corpus = corpus();
-    run("grading", cases, Duration::from_secs(20), |rng| {
+    run("grading", cases, Duration::from_secs(10), |rng| {
         let expected = text(rng, &corpus);
         let answer = match rng.below(3) {
             0 => text(rng, &corpus),
@@ -324,7 +344,7 @@ fn read_any_scene(cases: u64) {
         .filter(|text| text.len() < 8_000)
         .collect();
     let corpus = corpus();
-    run("scenes", cases, Duration::from_secs(20), |rng| {
+    run("scenes", cases, Duration::from_secs(10), |rng| {
         let scene_text = scenes[rng.below(scenes.len())].clone();
         let damaged = match rng.below(3) {
             // A value replaced by a formula, or by one of another place, keeps the shape of a scene.

@@ -91,6 +91,12 @@ impl Element {
                 .sum::<usize>()
     }
 
+    /// Terms of numerator and denominator: how much there is to write.
+    pub fn terms(&self) -> usize {
+        let below = self.den.factors.iter().map(|(f, _)| f.len());
+        self.num.len() + below.sum::<usize>()
+    }
+
     /// Whether the element is stored as a single product of generators.
     pub fn is_monomial(&self) -> bool {
         self.num.len() == 1 && self.den.factors.is_empty()

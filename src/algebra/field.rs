@@ -12,6 +12,7 @@ use super::element::{Den, Element};
 use super::gcd::Fuel;
 use super::mono::{Mono, mono_max, mono_of};
 use super::poly::Poly;
+use super::read::MOST_ANGLES;
 use crate::domain::Domains;
 use crate::expr::angle::angle;
 use crate::expr::{Expr, Function, Int, Node, Rational, Symbol};
@@ -164,7 +165,12 @@ impl Field {
             let Ok(element) = self.element(argument) else {
                 continue;
             };
-            for (term, factor) in self.angle_terms(&element) {
+            let found = self.angle_terms(&element);
+            // Reading such an argument will meet the same limit.
+            if found.len() > MOST_ANGLES {
+                continue;
+            }
+            for (term, factor) in found {
                 match self.as_symbol(&term) {
                     Some(name) if &*name == "pi" => {}
                     Some(name) => {

@@ -16,6 +16,8 @@ use crate::expr::{Expr, Function, Int, Node, Rational, Symbol, ratio};
 const MOST_DEPTH: u32 = 120;
 /// Largest multiple of a base angle.
 const MOST_TURNS: i64 = 100;
+/// Most different angles in one argument.
+pub(super) const MOST_ANGLES: usize = 24;
 
 /// Cosine and sine.
 type Direction = [Element; 2];
@@ -225,7 +227,11 @@ impl Field {
             None => {
                 let argument = self.read(argument, depth)?;
                 let mut turns = Rational::zero();
-                for (term, factor) in self.angle_terms(&argument) {
+                let terms = self.angle_terms(&argument);
+                if terms.len() > MOST_ANGLES {
+                    return Err(Stop::TooLarge("angles in one argument"));
+                }
+                for (term, factor) in terms {
                     if self.is_pi(&term) {
                         turns = factor;
                         continue;
@@ -265,6 +271,10 @@ impl Field {
         for (base, k) in parts {
             let base = &self.bases[base];
             units.push(([Element::var(base.cos), Element::var(base.sin)], k));
+        }
+        // Each turn of each angle may double the terms.
+        if units.len() > 1 && units.iter().map(|(_, k)| k.abs()).sum::<i64>() > MOST_TURNS {
+            return Err(Stop::TooLarge("angle multiple"));
         }
         for (unit, k) in units {
             let part = self.multiple(&unit, k)?;

@@ -541,6 +541,9 @@ fn tolerant(
     })
 }
 
+/// Most terms of what is written out while looking for what is wrong; more would cost much and tell nobody anything.
+pub(crate) const WRITTEN: usize = 300;
+
 /// The quotient of two expressions where it is a number.
 pub(crate) fn quotient(a: &Expr, b: &Expr, ctx: &Context) -> Option<Expr> {
     let mut field = Field::new(&ctx.key.question.domains);
@@ -549,7 +552,11 @@ pub(crate) fn quotient(a: &Expr, b: &Expr, ctx: &Context) -> Option<Expr> {
     if field.is_zero(&y) {
         return None;
     }
-    let q = field.expr(&field.div(&x, &y).ok()?);
+    let q = field.div(&x, &y).ok()?;
+    if q.terms() > WRITTEN {
+        return None;
+    }
+    let q = field.expr(&q);
     q.symbols().is_empty().then_some(q)
 }
 

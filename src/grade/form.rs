@@ -71,8 +71,9 @@ fn check(form: &Form, key: &Key, answer: &Reading) -> Option<(&'static str, &'st
                 field.prepare([e]);
                 let tidy = field
                     .element(e)
-                    .map(|x| field.expr(&x).size())
-                    .unwrap_or(usize::MAX)
+                    .ok()
+                    .filter(|x| x.terms() <= super::compare::WRITTEN)
+                    .map_or(usize::MAX, |x| field.expr(&x).size())
                     .min(shortest);
                 long |= tidy != usize::MAX && 2 * e.size() > 3 * tidy + 4 || repeats(e);
             });

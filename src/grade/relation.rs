@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::compare::{Context, Finding, scalars};
+use super::compare::{Context, Finding, WRITTEN, scalars};
 use super::{Apart, Diagnosis, Proof, Verdict};
 use crate::algebra::{Field, Sign};
 use crate::domain::{Domains, roles, samples};
@@ -336,13 +336,19 @@ pub(crate) fn solve_for(f: &Expr, name: &Symbol, domains: &Domains) -> Option<Ex
     let mut field = Field::new(&all);
     field.prepare([f, &slope]);
     let slope = field.element(&slope).ok()?;
-    if field.is_zero(&slope) || field.expr(&slope).symbols().contains(name) {
+    if field.is_zero(&slope)
+        || slope.terms() > WRITTEN
+        || field.expr(&slope).symbols().contains(name)
+    {
         return None;
     }
     let constant = field
         .element(&f.substitute(&BTreeMap::from([(name.clone(), Expr::zero())])))
         .ok()?;
     let root = field.neg(&field.div(&constant, &slope).ok()?);
+    if root.terms() > WRITTEN {
+        return None;
+    }
     let root = field.expr(&root);
     (!root.symbols().contains(name)).then_some(root)
 }
@@ -434,7 +440,8 @@ fn ratio(f: &Expr, g: &Expr, domains: &Domains) -> Option<Expr> {
     let mut field = Field::new(&domains);
     field.prepare([f, g]);
     let (a, b) = (field.element(f).ok()?, field.element(g).ok()?);
-    Some(field.expr(&field.div(&b, &a).ok()?))
+    let ratio = field.div(&b, &a).ok()?;
+    (ratio.terms() <= WRITTEN).then(|| field.expr(&ratio))
 }
 
 /// A point pair between which the quotient g/f changes sign, in words.
@@ -445,7 +452,11 @@ fn sign_change(f: &Expr, g: &Expr, domains: &Domains) -> Option<String> {
     let mut field = Field::new(&domains);
     field.prepare([f, g]);
     let (a, b) = (field.element(f).ok()?, field.element(g).ok()?);
-    let ratio = field.expr(&field.div(&b, &a).ok()?);
+    let ratio = field.div(&b, &a).ok()?;
+    if ratio.terms() > WRITTEN {
+        return None;
+    }
+    let ratio = field.expr(&ratio);
     let mut seen: [Option<String>; 2] = [None, None];
     for sample in samples(&roles(&[&ratio]), &domains, 24) {
         if let Outcome::Value(v) = evaluate::<Interval>(&ratio, &sample.point(true)) {
