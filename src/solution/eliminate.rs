@@ -41,7 +41,7 @@ impl Writer<'_> {
             }
         }
         if let ([(coeffs, rhs)], [u]) = (rows.as_slice(), block.unknowns.as_slice()) {
-            if !coeffs[0].is_one() {
+            if !coeffs[0].is_one() && !rhs.is_zero() {
                 let symbol = Expr::symbol(self.d.names.plain(*u));
                 let quotient = rhs / &coeffs[0];
                 self.text(vec![
