@@ -2,7 +2,7 @@
 //!
 //! In: rows over trigonometric elements. Out: every unknown as a quotient of two determinants. Where sin² + cos² = 1 holds,
 //! elimination divides by pivots that cannot be cancelled again later, such as sin β cos(α − β); a determinant has no
-//! such factors, and its sign is that of the effective mass. Which systems go this way is the affair of [`super::solve`].
+//! such factors, and its sign is that of the effective mass. Which systems go this way is the affair of [`mod@super::solve`].
 
 use std::collections::BTreeMap;
 
