@@ -131,7 +131,7 @@ impl Values {
         let unit = if parameter.unit == "1" {
             String::new()
         } else {
-            format!(" {}", parameter.unit)
+            format!(" {}", parameter.unit.replace("^2", "²").replace("^3", "³"))
         };
         Some(format!("{}{unit}", short(value / scale)))
     }

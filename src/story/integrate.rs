@@ -61,7 +61,8 @@ fn check(worst: f64, count: usize, what: &str) -> Check {
     Check {
         kind: "integration",
         words: format!(
-            "{what}: integrated in time at {count} points, relative difference at most {worst_shown:.0e}"
+            "{what}: integrated in time at {count} point{}, relative difference at most {worst_shown:.0e}",
+            if count == 1 { "" } else { "s" }
         ),
         holds: Some(worst < CLOSE),
     }
