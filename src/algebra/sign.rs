@@ -14,6 +14,9 @@ use super::poly::Poly;
 use crate::domain::Limit;
 use crate::expr::{Function, Int, Rational, Symbol, ratio};
 
+/// Most terms of a quadratic whose discriminant, with as many terms squared, is looked at.
+const MOST_QUADRATIC: usize = 40;
+
 /// Ends of an interval; `None` is infinite.
 #[derive(Clone, Debug)]
 pub(crate) struct Interval {
@@ -194,6 +197,9 @@ impl Field {
 
     /// A quadratic without real zeros has the sign of its leading coefficient.
     fn by_discriminant(&self, p: &Poly, depth: u32) -> Option<Sign> {
+        if p.len() > MOST_QUADRATIC {
+            return None;
+        }
         let plain = |v: &usize| p.degree(*v) == 2 && self.gens[*v].relation.is_none();
         // Three tries: each may look at discriminants of its own.
         for v in p.variables().into_iter().filter(plain).take(3) {

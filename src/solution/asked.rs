@@ -9,6 +9,9 @@ use crate::scene::{Scene, StoryAsk};
 use crate::story::{Answer, Piece, Sentence};
 use crate::verify::Check;
 
+/// Largest formula, in nodes, that is worth a line on the way to an identity.
+const READABLE: usize = 120;
+
 /// Adds a section with the answers to one question, in the order they were found.
 pub fn answered(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answers: &[Answer]) {
     let Some(first) = answers.first() else {
@@ -237,7 +240,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
             }
             let mut forms = vec![raw, value];
             forms.dedup();
-            forms.retain(|f| *f != asked);
+            forms.retain(|f| *f != asked && f.size() <= READABLE);
             for (i, form) in forms.into_iter().enumerate() {
                 let mut math = vec![Math::Op("="), Math::Expr(form.clone())];
                 if i == 0 {
