@@ -18,7 +18,7 @@ import sys
 import tempfile
 
 FLAGS = (
-    "--headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
+    "--headless --enable-logging=stderr --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
     "--disable-component-update --disable-sync --hide-scrollbars"
 ).split()
 PAPERS = {"light": ("white", "black"), "dark": ("#0d1117", "#e6e8eb")}
@@ -47,7 +47,11 @@ document.body.dataset.faults = JSON.stringify(faults);
 def chromium(*arguments):
     with tempfile.TemporaryDirectory() as profile:
         command = ["chromium", *FLAGS, f"--user-data-dir={profile}", *arguments]
-        return subprocess.run(command, capture_output=True, text=True, timeout=300, check=True).stdout
+        done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=True)
+        console = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
+        if console:
+            raise SystemExit("the console says: " + "; ".join(console))
+        return done.stdout
 
 
 def page(figures, width, paper, ink):

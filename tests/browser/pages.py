@@ -5,7 +5,7 @@ usage: tests/browser/pages.py CAROM OUT [SCENE...]
 
 Writes the HTML solution of every scene (all of derivations/ without names) with the program CAROM, opens each in Chromium
 (Debian's package) at 1280 and 390 pixels, on light and dark paper, writes screenshots to OUT, and fails if a page is
-wider than its window, two texts of a figure cover each other, or a character could not be read.
+wider than its window, two texts of a figure cover each other, a character could not be read, or the console says anything.
 """
 
 import html
@@ -61,7 +61,7 @@ def main():
                     "style='border:0'></iframe><script>f.onload = () => {"
                     "document.body.dataset.faults = f.contentDocument.body.dataset.faults }</script>"
                 )
-                flags = ["--allow-file-access-from-files", "--enable-logging=stderr", f"--window-size={max(width, 500)},6000"]
+                flags = ["--allow-file-access-from-files", f"--window-size={max(width, 500)},6000"]
                 uri = frame.resolve().as_uri()
                 figures.chromium(*flags, f"--screenshot={target / f'{name}-{width}-{paper}.png'}", uri)
                 if paper == "dark":
