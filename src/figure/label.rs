@@ -447,8 +447,9 @@ impl Reader<'_> {
     }
 }
 
-fn letter(name: &str) -> Option<&'static str> {
-    const LETTERS: [(&str, &str); 38] = [
+/// The character that a LaTeX command for a letter stands for, such as `theta` or `ell`.
+pub fn letter(name: &str) -> Option<&'static str> {
+    const LETTERS: [(&str, &str); 39] = [
         ("alpha", "α"),
         ("beta", "β"),
         ("gamma", "γ"),
@@ -482,6 +483,7 @@ fn letter(name: &str) -> Option<&'static str> {
         ("Xi", "Ξ"),
         ("Pi", "Π"),
         ("Sigma", "Σ"),
+        ("Upsilon", "Υ"),
         ("Phi", "Φ"),
         ("Psi", "Ψ"),
         ("Omega", "Ω"),

@@ -20,6 +20,8 @@ mod svg;
 mod values;
 mod words;
 
+pub use label::letter;
+
 use std::collections::BTreeSet;
 
 use crate::expr::{Expr, Symbol};

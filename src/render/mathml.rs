@@ -5,6 +5,7 @@ use num_traits::{One, Signed};
 
 use super::math::{components, is_plain, needs_brackets, vector_of};
 use crate::expr::{Expr, Function, Node, Rational, ratio};
+use crate::figure;
 use crate::solution::{Math, Name, Solution};
 
 /// Text safe inside HTML elements and quoted attributes.
@@ -459,49 +460,8 @@ fn upright(chars: &[char], at: &mut usize, depth: usize) -> String {
 }
 
 fn letter(command: &str) -> &str {
-    const LETTERS: &[(&str, &str)] = &[
-        ("ell", "ℓ"),
-        ("prime", "′"),
-        ("alpha", "α"),
-        ("beta", "β"),
-        ("gamma", "γ"),
-        ("delta", "δ"),
-        ("epsilon", "ϵ"),
-        ("varepsilon", "ε"),
-        ("zeta", "ζ"),
-        ("eta", "η"),
-        ("theta", "θ"),
-        ("vartheta", "ϑ"),
-        ("iota", "ι"),
-        ("kappa", "κ"),
-        ("lambda", "λ"),
-        ("mu", "μ"),
-        ("nu", "ν"),
-        ("xi", "ξ"),
-        ("pi", "π"),
-        ("rho", "ρ"),
-        ("sigma", "σ"),
-        ("tau", "τ"),
-        ("upsilon", "υ"),
-        ("phi", "ϕ"),
-        ("varphi", "φ"),
-        ("chi", "χ"),
-        ("psi", "ψ"),
-        ("omega", "ω"),
-        ("Gamma", "Γ"),
-        ("Delta", "Δ"),
-        ("Theta", "Θ"),
-        ("Lambda", "Λ"),
-        ("Xi", "Ξ"),
-        ("Pi", "Π"),
-        ("Sigma", "Σ"),
-        ("Upsilon", "Υ"),
-        ("Phi", "Φ"),
-        ("Psi", "Ψ"),
-        ("Omega", "Ω"),
-    ];
-    LETTERS
-        .iter()
-        .find(|(c, _)| *c == command)
-        .map_or(command, |(_, l)| l)
+    match command {
+        "prime" => "′",
+        _ => figure::letter(command).unwrap_or(command),
+    }
 }
