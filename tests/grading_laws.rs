@@ -11,31 +11,26 @@ use carom::expr::{Expr, Function, Node, Point};
 use carom::formula::{Content, write_latex, write_plain, write_unicode};
 use carom::grade::sheet::{Entry, Sheet, sheet};
 use carom::grade::{Key, Options, Question, Strength, Verdict, judge, judge_against};
-use carom::numeric::{self, points::Needed};
+use carom::numeric::{self, points::Needed, random::Rng};
 use carom::scene;
 
 /// Cases of each test: few by default, as many as `CAROM_CASES` says for a long run.
 fn cases() -> u64 {
-    std::env::var("CAROM_CASES")
-        .ok()
-        .and_then(|n| n.parse().ok())
-        .unwrap_or(300)
+    told("CAROM_CASES").unwrap_or(300)
 }
 
-/// SplitMix64, so that a case is known by its number.
-struct Rng(u64);
+/// The cases by number, from the one `CAROM_FROM` says; a long run tells how far it is.
+fn numbered(cases: u64) -> impl Iterator<Item = u64> {
+    let from = told("CAROM_FROM").unwrap_or(0);
+    (from..cases).inspect(|case| {
+        if case % 100_000 == 99_999 {
+            println!("case {} reached", case + 1);
+        }
+    })
+}
 
-impl Rng {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() % n.max(1) as u64) as usize
-    }
+fn told(name: &str) -> Option<u64> {
+    std::env::var(name).ok()?.parse().ok()
 }
 
 fn scenes(folder: &Path, out: &mut Vec<PathBuf>) {
@@ -247,8 +242,8 @@ fn same_when_fast(key: &Key, text: &str, sure: Verdict, case: u64) {
 fn a_rewritten_answer_is_right_in_every_notation() {
     let answers = answers();
     let mut undecided = 0;
-    for case in 0..cases() {
-        let mut rng = Rng(case);
+    for case in numbered(cases()) {
+        let mut rng = Rng::new(case);
         let (sheet, entry, e) = &answers[rng.below(answers.len())];
         let mut new = e.clone();
         for _ in 0..1 + rng.below(3) {
@@ -280,8 +275,8 @@ fn a_rewritten_answer_is_right_in_every_notation() {
 fn a_changed_answer_is_refuted_where_doubles_see_it_too() {
     let answers = answers();
     let (mut refuted, mut equal, mut undecided) = (0u64, 0u64, 0u64);
-    for case in 0..cases() {
-        let mut rng = Rng(case.wrapping_mul(7) + 3);
+    for case in numbered(cases()) {
+        let mut rng = Rng::new(case.wrapping_mul(7) + 3);
         let (sheet, entry, e) = &answers[rng.below(answers.len())];
         let symbols: Vec<Expr> = e.symbols().iter().map(|s| Expr::symbol(s)).collect();
         let Some(new) = at_random(e, &mut rng, &mut |part, rng| mutate(part, &symbols, rng)) else {
@@ -339,8 +334,8 @@ fn no_jumble_of_tokens_makes_grading_panic() {
         "0", "pi", "°", "m/s", "kg", " ", ",", ".", "'", "\\left", "\\right", "\\cdot", "abs",
         "ln", "e", "\\hat i", "\\boxed",
     ];
-    for case in 0..cases() * 10 {
-        let mut rng = Rng(case ^ 0x5eed);
+    for case in numbered(cases() * 10) {
+        let mut rng = Rng::new(case ^ 0x5eed);
         let text = |rng: &mut Rng| -> String {
             (0..1 + rng.below(12))
                 .map(|_| TOKENS[rng.below(TOKENS.len())])

@@ -20,6 +20,7 @@ pub mod given;
 pub mod invariants;
 pub mod number;
 pub mod points;
+pub mod random;
 pub mod solution;
 pub mod system;
 pub mod values;

@@ -14,6 +14,7 @@ use crate::domain::{Domain, Domains, Limit};
 use crate::expr::angle::angle;
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Function, Int, Node, Point, Rational, Symbol, ratio};
+use crate::numeric::random::Rng;
 use crate::scene::{Ask, BlowImpulse, ContactLaw, KnownQuantity, Scene};
 
 /// The symbols some formulas need values for: plain ones, and angles with the divisor N whose multiples occur.
@@ -248,29 +249,6 @@ fn inside(domain: Option<&Domain>, rng: &mut Rng) -> Rational {
                 -step
             }
         }
-    }
-}
-
-/// SplitMix64 (Steele, Lea & Flood 2014), seeded by number and name.
-struct Rng(u64);
-
-impl Rng {
-    fn of(seed: u64, name: &str) -> Rng {
-        // FNV-1a of the name, so that the order of symbols does not matter.
-        let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325u64, |h, b| {
-            (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3)
-        });
-        let mut rng = Rng(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ hash);
-        rng.below(1);
-        rng
-    }
-
-    fn below(&mut self, n: u64) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (z ^ (z >> 31)) % n
     }
 }
 

@@ -7,6 +7,7 @@ use crate::domain::{Domain, Limit};
 use crate::expr::number::{from_f64, to_f64};
 use crate::expr::{Point, Rational, Symbol};
 use crate::numeric::points::{Needed, circle_point, needed};
+use crate::numeric::random::Rng;
 use crate::numeric::{Given, exact_values, given, rounded};
 use crate::scene::Scene;
 
@@ -36,35 +37,6 @@ pub struct Level {
     pub x: f64,
     /// The points.
     pub points: Vec<Point<Rational>>,
-}
-
-/// SplitMix64 (Steele, Lea & Flood 2014), seeded by number and words.
-#[derive(Clone)]
-pub struct Rng(u64);
-
-impl Rng {
-    /// A sequence of its own for every seed and name.
-    pub fn of(seed: u64, name: &str) -> Rng {
-        let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325u64, |h, b| {
-            (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3)
-        });
-        let mut rng = Rng(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ hash);
-        rng.next();
-        rng
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// A double in [0, 1).
-    pub fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
 }
 
 /// A point under construction: every symbol by its value in doubles, angles in radians.
