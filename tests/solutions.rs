@@ -125,6 +125,34 @@ fn every_step_of_every_solution_can_be_replayed() {
 }
 
 #[test]
+fn every_line_of_algebra_is_part_of_the_step_it_leads_to() {
+    let mut nested = 0;
+    for case in cases() {
+        let solution = case.solution(Detail::Full);
+        let mut ids = Vec::new();
+        for (i, step) in solution.steps.iter().enumerate() {
+            assert_eq!(step.id, (i + 1).to_string(), "{:?}", case.path);
+            ids.push(step.id.clone());
+            for (k, inner) in step.substeps.iter().enumerate() {
+                assert_eq!(inner.id, format!("{}.{}", step.id, k + 1));
+                ids.push(inner.id.clone());
+                nested += 1;
+            }
+        }
+        let parts = solution.sections.iter().flat_map(|s| &s.parts);
+        for part in parts {
+            let solution::Part::Display(lines) = part else {
+                continue;
+            };
+            for step in lines.iter().filter_map(|line| line.step.as_ref()) {
+                assert!(ids.contains(step), "{:?} points at step {step}", case.path);
+            }
+        }
+    }
+    assert!(nested > 100, "{nested} lines of algebra");
+}
+
+#[test]
 fn a_tampered_step_is_caught_and_named() {
     let text = fs::read_to_string("derivations/book/falling-stick.json").expect("a scene");
     let scene = scene::read(&text).expect("a valid scene");

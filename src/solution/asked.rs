@@ -2,7 +2,7 @@
 //! the section of a worked solution, whether the scene has stages or not.
 
 use super::words::{self, say};
-use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Section, Solution, Step};
+use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Solution};
 use crate::expr::Expr;
 use crate::formula::Relation;
 use crate::scene::{Scene, StoryAsk};
@@ -17,11 +17,7 @@ pub fn answered(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answers:
     let Some(first) = answers.first() else {
         return;
     };
-    solution.sections.push(Section {
-        depth: 0,
-        heading: heading(scene, ask, first),
-        parts: Vec::new(),
-    });
+    solution.section(0, heading(scene, ask, first));
     for answer in answers {
         body(solution, scene, ask, answer);
     }
@@ -217,7 +213,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
             left: symbol.clone(),
             right: formula.clone(),
         };
-        let id = add_step(solution, vec![claim], &answer.words);
+        let id = solution.step(Vec::new(), vec![claim], &answer.words);
         if fresh {
             solution.meanings.insert(name.clone(), Meaning::Defined);
         }
@@ -229,7 +225,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
     });
     let shown = claims(ask, answer, named.map(|f| (&symbol, f)));
     let reason = answer.put_in.first().map_or("what is asked", |p| p.2);
-    let shown = (!shown.is_empty()).then(|| add_step(solution, shown, reason));
+    let shown = (!shown.is_empty()).then(|| solution.step(Vec::new(), shown, reason));
     if let StoryAsk::Show {
         left, right, with, ..
     } = ask
@@ -261,7 +257,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
                 text.push(words::equation(&Expr::symbol(name), value));
             }
             text.push(say(","));
-            part(solution, Part::Text(text));
+            solution.text(text);
         }
         // The identity itself, in the symbols whose values an independent solution finds.
         let known = |e: &Expr| {
@@ -275,7 +271,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
                 left: left.clone(),
                 right: right.clone(),
             };
-            add_step(solution, vec![claim], "what was to be shown");
+            solution.step(Vec::new(), vec![claim], "what was to be shown");
         }
     }
     for (p, relation, value) in &answer.range {
@@ -318,7 +314,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
         });
     }
     if !lines.is_empty() {
-        part(solution, Part::Display(lines));
+        solution.push(Part::Display(lines));
     }
     // Of a parameter that is solved for, the number is its own.
     let of = match answer.range.as_slice() {
@@ -327,10 +323,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
     };
     let stands = stands_for(ask, answer).is_some();
     if let Some(value) = number(scene, answer).filter(|_| !stands) {
-        part(
-            solution,
-            Part::Text(vec![say("In numbers: "), words::formula(&of), say(value)]),
-        );
+        solution.text(vec![say("In numbers: "), words::formula(&of), say(value)]);
     }
     let mut text: Vec<Vec<Inline>> = answer
         .text
@@ -354,8 +347,8 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
     }
     match text.len() {
         0 => {}
-        1 => part(solution, Part::Text(text.remove(0))),
-        _ => part(solution, Part::List(text)),
+        1 => solution.text(text.remove(0)),
+        _ => solution.push(Part::List(text)),
     }
     if brief && holds {
         return;
@@ -367,7 +360,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
             &Sentence::join(answer.discarded.clone(), "; "),
         ));
         text.push(say("."));
-        part(solution, Part::Text(text));
+        solution.text(text);
     }
     if !answer.assumptions.is_empty() {
         let mut text = vec![say("Given that ")];
@@ -376,10 +369,10 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
             &Sentence::join(answer.assumptions.clone(), "; "),
         ));
         text.push(say("."));
-        part(solution, Part::Text(text));
+        solution.text(text);
     }
     if let Some(words) = known(&answer.checks) {
-        part(solution, Part::Text(vec![say(called(scene, &words))]));
+        solution.text(vec![say(called(scene, &words))]);
     }
 }
 
@@ -418,29 +411,6 @@ fn stands_for(ask: &StoryAsk, answer: &Answer) -> Option<(Expr, &'static str)> {
         Some(vector) if !axis.is_empty() => (Expr::symbol(&format!("{vector}{axis}")), op),
         _ => (of.clone(), op),
     })
-}
-
-fn part(solution: &mut Solution, part: Part) {
-    if let Some(section) = solution.sections.last_mut() {
-        section.parts.push(part);
-    }
-}
-
-/// Records a step and gives its id.
-pub(super) fn add_step(solution: &mut Solution, after: Vec<Claim>, reason: &str) -> String {
-    let id = (solution.steps.len() + 1).to_string();
-    solution.steps.push(Step {
-        id: id.clone(),
-        before: Vec::new(),
-        after,
-        reason: reason.to_string(),
-        scope: None,
-        assumptions: Vec::new(),
-        substeps: Vec::new(),
-        defines: None,
-        near: Vec::new(),
-    });
-    id
 }
 
 /// ` = 1.2 m/s` where the scene gives every value.

@@ -278,10 +278,13 @@ impl Writer<'_> {
                 return;
             }
         }
+        let mut substeps = Vec::new();
         if self.detail() == Detail::Full {
-            for block in blocks {
-                self.eliminate(block);
-            }
+            substeps = self.substeps(|writer| {
+                for block in blocks {
+                    writer.eliminate(block);
+                }
+            });
         } else {
             let earlier = earlier(blocks);
             if !earlier.is_empty() && blocks[0].equations.len() == 1 {
@@ -316,6 +319,7 @@ impl Writer<'_> {
             .collect();
         if let Some(step) = self.last_step() {
             step.assumptions = conditions;
+            step.substeps = substeps;
         }
         let too_long = pairs.iter().any(|(u, v)| self.short(*u, v).size() > 150);
         if too_long {

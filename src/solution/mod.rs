@@ -10,6 +10,7 @@ mod balance;
 mod block;
 mod eliminate;
 mod notice;
+mod page;
 mod results;
 mod story;
 mod words;
@@ -263,6 +264,8 @@ struct Writer<'a> {
     solution: Solution,
     /// Whether its sections are parts of a larger one.
     nested: bool,
+    /// What the ids of its steps begin with: that of the step they are parts of, and a point.
+    within: String,
 }
 
 impl<'a> Writer<'a> {
@@ -353,6 +356,7 @@ impl<'a> Writer<'a> {
                 assumptions,
             },
             nested: false,
+            within: String::new(),
         }
     }
 
@@ -361,25 +365,19 @@ impl<'a> Writer<'a> {
     }
 
     fn section(&mut self, heading: Vec<Inline>) {
-        self.solution.sections.push(Section {
-            depth: usize::from(self.nested),
-            heading,
-            parts: Vec::new(),
-        });
+        self.solution.section(usize::from(self.nested), heading);
     }
 
     fn push(&mut self, part: Part) {
-        if let Some(section) = self.solution.sections.last_mut() {
-            section.parts.push(part);
-        }
+        self.solution.push(part);
     }
 
     fn text(&mut self, text: Vec<Inline>) {
-        self.push(Part::Text(text));
+        self.solution.text(text);
     }
 
     fn say(&mut self, text: &str) {
-        self.push(Part::Text(vec![Inline::Text(text.to_string())]));
+        self.solution.say(text);
     }
 
     /// Adds a line to the display that stands last, or opens one.
@@ -399,19 +397,19 @@ impl<'a> Writer<'a> {
 
     /// Records a step and gives its id.
     fn step(&mut self, before: Vec<Claim>, after: Vec<Claim>, reason: &str) -> String {
-        let id = (self.solution.steps.len() + 1).to_string();
-        self.solution.steps.push(Step {
-            id: id.clone(),
-            before,
-            after,
-            reason: reason.to_string(),
-            scope: None,
-            assumptions: Vec::new(),
-            substeps: Vec::new(),
-            defines: None,
-            near: Vec::new(),
-        });
+        let id = format!("{}{}", self.within, self.solution.steps.len() + 1);
+        self.solution.record(id.clone(), before, after, reason);
         id
+    }
+
+    /// Lets `tell` record the substeps of the step that comes next.
+    fn substeps(&mut self, tell: impl FnOnce(&mut Self)) -> Vec<Step> {
+        let steps = std::mem::take(&mut self.solution.steps);
+        let outer = format!("{}{}.", self.within, steps.len() + 1);
+        let within = std::mem::replace(&mut self.within, outer);
+        tell(self);
+        self.within = within;
+        std::mem::replace(&mut self.solution.steps, steps)
     }
 
     /// The last step, to add assumptions or substeps.

@@ -3,11 +3,9 @@
 //! In: a scene and its story as told. Out: a [`Solution`]. An impact is written by the same code as a single collision, with
 //! the motion handed on by the stage before; a motion is an energy balance, whose lines are claims like all others.
 
-use super::asked::{self, add_step, answered, full_sentence, known};
+use super::asked::{self, answered, full_sentence, known};
 use super::words::{self, name, say};
-use super::{
-    Claim, Detail, Inline, Line, Math, Meaning, Part, Scope, Section, Slot, Solution, Writer,
-};
+use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Scope, Slot, Solution, Writer};
 use crate::derive::Derivation;
 use crate::expr::{Expr, Symbol};
 use crate::scene::{Ask, Question, Scene, Stage, StageKind, Story, StoryAsk};
@@ -78,42 +76,25 @@ struct Page<'a> {
 }
 
 impl Page<'_> {
-    fn section(&mut self, depth: usize, heading: Vec<Inline>) {
-        self.solution.sections.push(Section {
-            depth,
-            heading,
-            parts: Vec::new(),
-        });
-    }
-
-    fn push(&mut self, part: Part) {
-        if let Some(section) = self.solution.sections.last_mut() {
-            section.parts.push(part);
-        }
-    }
-
-    fn text(&mut self, text: Vec<Inline>) {
-        self.push(Part::Text(text));
-    }
-
     /// What is told, and how it is read.
     fn opening(&mut self) {
-        self.section(0, Vec::new());
+        self.solution.section(0, Vec::new());
         if !self.solution.statement.is_empty() {
             let statement = words::with_symbols(self.scene, &self.solution.statement);
-            self.text(statement);
+            self.solution.text(statement);
         }
         if self.solution.detail == Detail::Brief {
             return;
         }
         if let Some(text) = words::meant(self.scene) {
-            self.text(text);
+            self.solution.text(text);
         }
         if !self.told.readings.is_empty() {
-            self.text(vec![say("The statement is read as follows:")]);
+            self.solution
+                .text(vec![say("The statement is read as follows:")]);
             self.readings();
         }
-        self.text(vec![say(
+        self.solution.text(vec![say(
             "Take x to the right and y up; angles and spins count counterclockwise unless said otherwise.",
         )]);
     }
@@ -126,7 +107,7 @@ impl Page<'_> {
             item
         });
         let items = items.collect();
-        self.push(Part::List(items));
+        self.solution.push(Part::List(items));
     }
 
     fn stage(&mut self, i: usize) {
@@ -136,20 +117,21 @@ impl Page<'_> {
             _ => format!("{}. ", i + 1),
         };
         let title = words::capital(&told.name.replace('_', " "));
-        self.section(0, vec![say(format!("{number}{title}"))]);
+        self.solution
+            .section(0, vec![say(format!("{number}{title}"))]);
         let brief = self.solution.detail == Detail::Brief;
         if !brief {
             self.from(i);
             match told.words.as_slice() {
                 [] => {}
-                [one] => self.text(full_sentence(self.scene, one)),
+                [one] => self.solution.text(full_sentence(self.scene, one)),
                 all => {
                     let items = all.iter().map(|w| full_sentence(self.scene, w)).collect();
-                    self.push(Part::List(items));
+                    self.solution.push(Part::List(items));
                 }
             }
         }
-        self.push(Part::Figure(Slot::Stage(i)));
+        self.solution.push(Part::Figure(Slot::Stage(i)));
         if !brief {
             let items = told.kept.iter().map(|k| {
                 let is = if k.conserved { "is" } else { "is not" };
@@ -158,7 +140,7 @@ impl Page<'_> {
                 full_sentence(self.scene, &text)
             });
             let items = items.collect();
-            self.push(Part::List(items));
+            self.solution.push(Part::List(items));
         }
         if told.cases.is_empty() {
             self.motion(stage, told);
@@ -178,10 +160,11 @@ impl Page<'_> {
                     &Sentence::join(told.assumptions.clone(), "; "),
                 ));
                 text.push(say("."));
-                self.text(text);
+                self.solution.text(text);
             }
             if let Some(words) = known(&told.checks) {
-                self.text(vec![say(asked::called(self.scene, &words))]);
+                self.solution
+                    .text(vec![say(asked::called(self.scene, &words))]);
             }
         }
     }
@@ -195,7 +178,7 @@ impl Page<'_> {
             }
             _ => return,
         };
-        self.text(vec![say(text)]);
+        self.solution.text(vec![say(text)]);
     }
 
     /// An impact, written like a collision by itself.
@@ -217,7 +200,7 @@ impl Page<'_> {
                     " and ",
                 ),
             ));
-            self.section(1, heading);
+            self.solution.section(1, heading);
         }
         let (scene, derivation) = visible(case, several.then_some(k));
         if self.solution.detail != Detail::Brief {
@@ -274,7 +257,7 @@ impl Page<'_> {
             text.push(words::equation(&Expr::symbol(name), value));
         }
         text.push(say("."));
-        self.text(text);
+        self.solution.text(text);
     }
 
     /// A motion: inertia, work and energy, from the beginning to the end.
@@ -288,7 +271,7 @@ impl Page<'_> {
                 left: left.clone(),
                 right: right.clone(),
             };
-            Some(add_step(s, vec![claim], why))
+            Some(s.step(Vec::new(), vec![claim], why))
         };
         let chain = |head: Vec<Math>, raw: &Expr, value: &Expr| {
             let mut math = head;
@@ -351,7 +334,7 @@ impl Page<'_> {
             "work changes kinetic energy",
         );
         lines.push(Line { math, step });
-        self.push(Part::Display(lines));
+        self.solution.push(Part::Display(lines));
     }
 
     /// Kinetic energy at the beginning of a motion from its velocities, untidied; a spin or speed that has a name by now
@@ -423,7 +406,7 @@ impl Page<'_> {
                     left: Expr::symbol(&symbol),
                     right: formula.clone(),
                 };
-                let id = add_step(&mut self.solution, vec![claim], &answer.words);
+                let id = self.solution.step(Vec::new(), vec![claim], &answer.words);
                 if let Some(step) = self.solution.steps.last_mut() {
                     step.defines = is_fresh.then(|| symbol.clone());
                 }
@@ -455,12 +438,12 @@ impl Page<'_> {
         };
         let repeats = told.cases.len() == 1 && told.cases[0].handed.is_empty();
         if !repeats {
-            self.text(vec![say(lead)]);
-            self.push(Part::Display(lines));
+            self.solution.text(vec![say(lead)]);
+            self.solution.push(Part::Display(lines));
         }
         let _ = scene;
         if !numbers.is_empty() {
-            self.push(Part::List(numbers));
+            self.solution.push(Part::List(numbers));
         }
     }
 
@@ -516,20 +499,20 @@ impl Page<'_> {
         if lines.is_empty() {
             return;
         }
-        self.section(0, vec![say("Results")]);
-        self.push(Part::Display(lines));
+        self.solution.section(0, vec![say("Results")]);
+        self.solution.push(Part::Display(lines));
     }
 
     /// Readings and everything else that is taken for granted, and data that no answer needs.
     fn rests_on(&mut self) {
         let assumed = self.told.assumed(self.story);
-        self.section(0, vec![say("What this rests on")]);
+        self.solution.section(0, vec![say("What this rests on")]);
         let mut items: Vec<Vec<Inline>> = Vec::new();
         for a in &assumed {
             items.push(full_sentence(self.scene, a));
         }
         if !items.is_empty() {
-            self.push(Part::List(items));
+            self.solution.push(Part::List(items));
         }
         if !self.told.unused.is_empty() {
             let mut text = vec![say("Given, but needed for no answer: ")];
@@ -540,10 +523,10 @@ impl Page<'_> {
                 text.push(words::formula(&Expr::symbol(p)));
             }
             text.push(say("."));
-            self.text(text);
+            self.solution.text(text);
         }
         if !self.told.holds() {
-            self.text(vec![say(
+            self.solution.text(vec![say(
                 "A check failed: do not use these results before the fault is found.",
             )]);
         }
