@@ -26,12 +26,7 @@ impl Field {
         // √(n/d) = √(n·d)/|d|, part by part of d, where even powers come out whole.
         let mut radicand = x.num.scale(&x.den.int);
         let mut outside = Element::from_poly(Poly::constant(x.den.int.clone()));
-        let mut parts: Vec<(Poly, u32)> = mono_variables(&x.den.mono)
-            .into_iter()
-            .map(|v| (Poly::var(v), exponent(&x.den.mono, v)))
-            .collect();
-        parts.extend(x.den.factors.iter().cloned());
-        for (f, k) in parts {
+        for (f, k) in powers_of(&x.den.mono, &x.den.factors) {
             if k % 2 == 1 {
                 radicand = self.mul_poly(&radicand, &f)?;
             }
@@ -57,12 +52,7 @@ impl Field {
         let (root, mut rest) = square_part(&parts.content);
         let mut outside = Element::from_poly(Poly::constant(root));
         let mut odd = Vec::new();
-        let mut all: Vec<(Poly, u32)> = mono_variables(&parts.mono)
-            .into_iter()
-            .map(|v| (Poly::var(v), exponent(&parts.mono, v)))
-            .collect();
-        all.extend(parts.factors);
-        for (f, k) in all {
+        for (f, k) in powers_of(&parts.mono, &parts.factors) {
             if k >= 2 {
                 let half = self.abs_power(&f, k / 2)?;
                 outside = self.mul(&outside, &half)?;
@@ -334,22 +324,12 @@ impl Field {
         }
         let parts = factor(&x.num, &self.fuel);
         let mut total = Element::from_poly(Poly::constant(parts.content.abs()));
-        let mut all: Vec<(Poly, u32)> = mono_variables(&parts.mono)
-            .into_iter()
-            .map(|v| (Poly::var(v), exponent(&parts.mono, v)))
-            .collect();
-        all.extend(parts.factors);
-        for (f, k) in all {
+        for (f, k) in powers_of(&parts.mono, &parts.factors) {
             let part = self.abs_power(&f, k)?;
             total = self.mul(&total, &part)?;
         }
         let mut below = Element::from_poly(Poly::constant(x.den.int.clone()));
-        let mut all: Vec<(Poly, u32)> = mono_variables(&x.den.mono)
-            .into_iter()
-            .map(|v| (Poly::var(v), exponent(&x.den.mono, v)))
-            .collect();
-        all.extend(x.den.factors.iter().cloned());
-        for (f, k) in all {
+        for (f, k) in powers_of(&x.den.mono, &x.den.factors) {
             let part = self.abs_power(&f, k)?;
             below = self.mul(&below, &part)?;
         }
@@ -525,4 +505,11 @@ fn primes(value: &Int) -> Vec<Int> {
         .into_iter()
         .flat_map(|(p, k)| std::iter::repeat_n(p, k as usize))
         .collect()
+}
+
+/// The variables of a monomial and other factors, with their exponents.
+fn powers_of(mono: &[u64], factors: &[(Poly, u32)]) -> Vec<(Poly, u32)> {
+    let variables = mono_variables(mono).into_iter();
+    let powers = variables.map(|v| (Poly::var(v), exponent(mono, v)));
+    powers.chain(factors.iter().cloned()).collect()
 }

@@ -139,36 +139,18 @@ impl Field {
             .sub(&self.mul_poly(&self.mul_poly(b, b).ok()?, radicand).ok()?);
         let sn = self.sign_sub(&norm, depth)?;
         // |A| > |B|√P: A decides; otherwise B does.
-        Some(match sn {
-            Sign::Positive => {
-                if sa.is_not_negative() {
-                    Sign::Positive
-                } else {
-                    Sign::Negative
-                }
-            }
-            Sign::Negative => {
-                if sb.is_not_negative() {
-                    Sign::Positive
-                } else {
-                    Sign::Negative
-                }
-            }
-            Sign::NotNegative => {
-                if sa.is_not_negative() {
-                    Sign::NotNegative
-                } else {
-                    Sign::NotPositive
-                }
-            }
-            Sign::NotPositive => {
-                if sb.is_not_negative() {
-                    Sign::NotNegative
-                } else {
-                    Sign::NotPositive
-                }
-            }
-            Sign::Zero => Sign::Zero,
+        let (decides, strict) = match sn {
+            Sign::Positive => (sa, true),
+            Sign::NotNegative => (sa, false),
+            Sign::Negative => (sb, true),
+            Sign::NotPositive => (sb, false),
+            Sign::Zero => return Some(Sign::Zero),
+        };
+        Some(match (decides.is_not_negative(), strict) {
+            (true, true) => Sign::Positive,
+            (true, false) => Sign::NotNegative,
+            (false, true) => Sign::Negative,
+            (false, false) => Sign::NotPositive,
         })
     }
 

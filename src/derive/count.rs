@@ -236,7 +236,7 @@ fn rational_rows<'a>(
 
 /// The sample point of the scene's domain with this number, exact.
 fn exact_point(scene: &Scene, number: usize) -> Option<Point<Rational>> {
-    let formulas = super::formulas(scene);
+    let formulas = super::work::formulas(scene);
     let roles = roles(&formulas.iter().collect::<Vec<_>>());
     let (domains, _) = scene.domains.completed(&roles);
     // The first sample gives every symbol the same simple value, which is not a general position.

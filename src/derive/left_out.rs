@@ -148,7 +148,7 @@ fn impulses(scene: &Scene) -> Vec<(String, Vec<Unknown>)> {
 }
 
 fn uses(scene: &Scene, name: &str) -> bool {
-    let mut found = super::formulas(scene)
+    let mut found = super::work::formulas(scene)
         .iter()
         .any(|e| e.symbols().contains(name));
     found |= scene

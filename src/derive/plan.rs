@@ -4,16 +4,14 @@
 //! point in general position. Nothing found here is trusted: the chosen laws are written and solved symbolically
 //! afterwards, and a plan that does not close there is given up for the full system.
 
-use std::collections::BTreeMap;
-
-use crate::domain::{Domain, Domains, Limit};
-use crate::expr::number::to_f64;
-use crate::expr::{Expr, Point, Symbol, Vector};
+use super::generic::generic_point;
+use super::offered;
+use crate::expr::{Expr, Vector};
 use crate::laws::{self, Direction, Geometry, Kinematics, Law, Place, Unknown};
 use crate::scene::{ContactLaw, Scene};
 
 /// Coefficients below this count as zero; in general position the others are of order one.
-const ZERO: f64 = 1e-9;
+pub(super) const ZERO: f64 = 1e-9;
 /// Search steps before the planner falls back on a larger block; found by trying scenes of up to four bodies.
 const STEPS: usize = 30_000;
 /// Largest set of equations searched for.
@@ -144,7 +142,7 @@ impl Planner {
             candidates: Vec::new(),
             attached: reduction.tree.clone(),
         };
-        for (law, cost) in candidate_laws(scene, reduction, &g) {
+        for (law, cost) in offered::candidate_laws(scene, reduction, &g) {
             let vector = |v: &Vector| Ok::<_, ()>([value(&v[0])?, value(&v[1])?]);
             let equation = laws::equation(scene, &g, &motion, &law, vector).ok()?;
             let mut row = Vec::new();
@@ -476,218 +474,4 @@ fn adds_rank(rows: &mut Vec<Vec<f64>>, mut row: Vec<f64>) -> bool {
     }
     rows.push(row);
     true
-}
-
-/// Every law worth considering, with a cost that prefers what a reader finds simplest.
-fn candidate_laws(scene: &Scene, reduction: &Reduction, g: &Geometry<f64>) -> Vec<(Law, usize)> {
-    let mut laws: Vec<(Law, usize)> = Vec::new();
-    for system in systems(scene, reduction) {
-        let size = system.len();
-        for along in [Direction::X, Direction::Y] {
-            laws.push((
-                Law::LinearMomentum {
-                    system: system.clone(),
-                    along,
-                },
-                2 * (size - 1),
-            ));
-        }
-        for (c, contact) in scene.contacts.iter().enumerate() {
-            let touches = contact.bodies.iter().filter(|b| system.contains(b)).count() == 1;
-            if let (Some([nx, ny]), true) = (&contact.normal, touches) {
-                let is_axis = nx.as_number().is_some() && ny.as_number().is_some();
-                if matches!(scene.contacts[c].law, ContactLaw::Frictionless { .. }) && !is_axis {
-                    let along = Direction::Named(
-                        format!("the tangent at {}", contact.name),
-                        [-ny, nx.clone()],
-                    );
-                    laws.push((
-                        Law::LinearMomentum {
-                            system: system.clone(),
-                            along,
-                        },
-                        2 * (size - 1) + 1,
-                    ));
-                }
-            }
-        }
-        if system.iter().all(|&b| scene.bodies[b].is_particle()) && size == 1 {
-            continue;
-        }
-        for about in moment_points(scene, g, &system) {
-            // A center of mass is the natural point for one body and an odd one for several.
-            let center = match about {
-                Place::Center(_) if size > 1 => 3,
-                Place::Center(_) => 1,
-                _ => 0,
-            };
-            laws.push((
-                Law::AngularMomentum {
-                    system: system.clone(),
-                    about,
-                },
-                2 * (size - 1) + 3 + center,
-            ));
-        }
-    }
-    for (c, contact) in scene.contacts.iter().enumerate() {
-        if let ContactLaw::Frictionless { .. } = contact.law {
-            laws.push((Law::Restitution(c), 0));
-        }
-    }
-    laws.extend(reduction.loops.iter().map(|law| (law.clone(), 0)));
-    laws.extend((0..scene.after.len()).map(|k| (Law::Given(k), 0)));
-    laws
-}
-
-/// Connected systems of movable bodies: all of them in small scenes; else single bodies, the two sides of every joint of
-/// the tree, and whole components.
-fn systems(scene: &Scene, reduction: &Reduction) -> Vec<Vec<usize>> {
-    let free: Vec<usize> = (0..scene.bodies.len())
-        .filter(|&b| !scene.bodies[b].is_fixed())
-        .collect();
-    let mut edges: Vec<[usize; 2]> = scene.hinges.iter().map(|h| h.bodies).collect();
-    edges.extend(scene.contacts.iter().map(|c| c.bodies));
-    let mut systems: Vec<Vec<usize>> = free.iter().map(|&b| vec![b]).collect();
-    if free.len() <= 4 {
-        for subset in 1_u32..1 << free.len() {
-            let bodies: Vec<usize> = (0..free.len())
-                .filter(|i| subset >> i & 1 == 1)
-                .map(|i| free[i])
-                .collect();
-            if bodies.len() > 1 && is_connected(&bodies, &edges) {
-                systems.push(bodies);
-            }
-        }
-        return systems;
-    }
-    for link in &reduction.tree {
-        let mut side = vec![link.body];
-        // Attachments come carriers first, so one pass collects everything carried.
-        for other in &reduction.tree {
-            if side.contains(&other.to) && !side.contains(&other.body) {
-                side.push(other.body);
-            }
-        }
-        side.sort_unstable();
-        if side.len() > 1 {
-            systems.push(side);
-        }
-    }
-    for &root in &free {
-        let mut whole = vec![root];
-        let mut at = 0;
-        while at < whole.len() {
-            for edge in &edges {
-                if let Some(side) = edge.iter().position(|b| *b == whole[at]) {
-                    let other = edge[1 - side];
-                    if free.contains(&other) && !whole.contains(&other) {
-                        whole.push(other);
-                    }
-                }
-            }
-            at += 1;
-        }
-        whole.sort_unstable();
-        if whole[0] == root && whole.len() > 1 && !systems.contains(&whole) {
-            systems.push(whole);
-        }
-    }
-    systems
-}
-
-fn is_connected(bodies: &[usize], edges: &[[usize; 2]]) -> bool {
-    let mut reached = vec![bodies[0]];
-    let mut at = 0;
-    while at < reached.len() {
-        for edge in edges {
-            if let Some(side) = edge.iter().position(|b| *b == reached[at]) {
-                let other = edge[1 - side];
-                if bodies.contains(&other) && !reached.contains(&other) {
-                    reached.push(other);
-                }
-            }
-        }
-        at += 1;
-    }
-    reached.len() == bodies.len()
-}
-
-/// Points about which moments of a system are worth taking: where impulses act on it, then the center of a single body.
-fn moment_points(scene: &Scene, g: &Geometry<f64>, system: &[usize]) -> Vec<Place> {
-    let touches = |bodies: &[usize; 2]| bodies.iter().any(|b| system.contains(b));
-    let mut places: Vec<Place> = Vec::new();
-    places.extend(
-        (0..scene.contacts.len())
-            .filter(|&c| touches(&scene.contacts[c].bodies))
-            .map(Place::Contact),
-    );
-    places.extend(
-        (0..scene.hinges.len())
-            .filter(|&h| touches(&scene.hinges[h].bodies))
-            .map(Place::Hinge),
-    );
-    places.extend(
-        (0..scene.blows.len())
-            .filter(|&b| system.contains(&scene.blows[b].body))
-            .map(Place::Blow),
-    );
-    places.extend(
-        system
-            .iter()
-            .filter(|&&b| !scene.bodies[b].is_particle())
-            .map(|&b| Place::Center(b)),
-    );
-    let mut distinct: Vec<Place> = Vec::new();
-    for place in places {
-        let p = g.place(place);
-        let same = |q: &Place| {
-            let q = g.place(*q);
-            (p[0] - q[0]).abs() + (p[1] - q[1]).abs() < ZERO
-        };
-        if !distinct.iter().any(same) {
-            distinct.push(place);
-        }
-    }
-    distinct
-}
-
-/// Values in general position inside the domain; the golden ratio keeps them apart.
-pub(super) fn generic_point(scene: &Scene) -> Point<f64> {
-    let mut point = Point::default();
-    let mut fraction = 0.371_943_1_f64;
-    let mut next = || {
-        fraction = (fraction + 0.618_033_988_749_895).fract();
-        0.15 + 0.7 * fraction
-    };
-    let names: Vec<Symbol> = scene.parameters.iter().map(|p| p.name.clone()).collect();
-    for name in names {
-        let value = within(scene.domains.symbols.get(&name), next());
-        point.values.insert(name, value);
-    }
-    on_unit_circles(&scene.domains, &mut point.values, next);
-    point
-}
-
-fn on_unit_circles(
-    domains: &Domains,
-    values: &mut BTreeMap<Symbol, f64>,
-    mut next: impl FnMut() -> f64,
-) {
-    for [a, b] in &domains.unit_vectors {
-        let angle = next();
-        values.insert(a.clone(), angle.cos());
-        values.insert(b.clone(), angle.sin());
-    }
-}
-
-fn within(domain: Option<&Domain>, fraction: f64) -> f64 {
-    let number = |l: &Limit| to_f64(&l.value) * if l.of_pi { std::f64::consts::PI } else { 1.0 };
-    match domain.map(|d| (d.low.as_ref().map(number), d.high.as_ref().map(number))) {
-        None => 0.6 + fraction,
-        Some((Some(low), Some(high))) => low + fraction * (high - low),
-        Some((Some(low), None)) => low + 0.6 + fraction,
-        Some((None, Some(high))) => high - 0.6 - fraction,
-        Some((None, None)) => 0.6 + fraction,
-    }
 }

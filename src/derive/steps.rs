@@ -4,7 +4,7 @@
 //! definition is in parameters and earlier definitions, the unknowns come last, in terms of each other. What is found
 //! here is held against the independent solution at exact points; it is not proved as an identity, and says so.
 
-use super::plan::generic_point;
+use super::generic::generic_point;
 use super::{Definition, Stop, Work};
 use crate::algebra::Row;
 use crate::expr::{Expr, Point};

@@ -3,12 +3,8 @@
 //! In: names, LaTeX spellings, expressions. Out: runs that say what is italic, lowered or raised, with an estimate of
 //! their size. Knows nothing of where a label goes. Whatever LaTeX it does not know it shows as text.
 
-use std::iter::Peekable;
-use std::str::Chars;
-
-use num_traits::Signed;
-
-use crate::expr::{Expr, Node, Rational, ratio};
+use super::{inline, latex};
+use crate::expr::Expr;
 use crate::formula::latex_name;
 use crate::scene::Scene;
 
@@ -44,11 +40,9 @@ pub struct Label {
 }
 
 /// Longest label in characters; what is longer ends in an ellipsis.
-const LONGEST: usize = 40;
+pub(super) const LONGEST: usize = 40;
 /// Size of lowered and raised text against the line's.
 pub const SMALL: f64 = 0.7;
-/// Deepest nesting of braces that is followed.
-const DEEPEST: usize = 8;
 
 impl Label {
     /// Words, upright.
@@ -68,20 +62,7 @@ impl Label {
 
     /// The LaTeX spelling of a name.
     pub fn latex(text: &str) -> Label {
-        let mut reader = Reader {
-            rest: text.chars().peekable(),
-            label: Label::default(),
-        };
-        let style = Style {
-            italic: true,
-            level: Level::Base,
-            arrow: false,
-        };
-        while reader.rest.peek().is_some() {
-            reader.group(style, 0);
-            reader.rest.next();
-        }
-        reader.label.cut()
+        latex::read(text).cut()
     }
 
     /// A vector symbol: an arrow over `base`, with an index.
@@ -101,7 +82,7 @@ impl Label {
     /// A formula on one line.
     pub fn formula(e: &Expr, scene: &Scene) -> Label {
         let mut label = Label::default();
-        write(e, scene, &mut label, 0);
+        inline::write(e, scene, &mut label, 0);
         label.cut()
     }
 
@@ -276,343 +257,6 @@ fn raised(c: char) -> char {
         '+' => '⁺',
         '−' | '-' => '⁻',
         _ => c,
-    }
-}
-
-#[derive(Clone, Copy)]
-struct Style {
-    italic: bool,
-    level: Level,
-    arrow: bool,
-}
-
-struct Reader<'a> {
-    rest: Peekable<Chars<'a>>,
-    label: Label,
-}
-
-impl Reader<'_> {
-    /// Reads up to a closing brace, which stays.
-    fn group(&mut self, style: Style, depth: usize) {
-        while let Some(&c) = self.rest.peek() {
-            if c == '}' {
-                return;
-            }
-            self.one(style, depth);
-        }
-    }
-
-    /// Reads one character, command or braced group.
-    fn one(&mut self, style: Style, depth: usize) {
-        let Some(c) = self.rest.next() else { return };
-        match c {
-            '{' if depth < DEEPEST => {
-                self.group(style, depth + 1);
-                self.rest.next();
-            }
-            '_' | '^' if depth < DEEPEST => {
-                let level = if c == '_' { Level::Sub } else { Level::Sup };
-                self.one(
-                    Style {
-                        level,
-                        arrow: false,
-                        ..style
-                    },
-                    depth + 1,
-                );
-            }
-            '\\' => self.command(style, depth),
-            ' ' if style.italic => {}
-            '\'' => self.add(
-                "′",
-                Style {
-                    italic: false,
-                    ..style
-                },
-            ),
-            '-' if style.italic => self.add(
-                "−",
-                Style {
-                    italic: false,
-                    ..style
-                },
-            ),
-            c => self.add(
-                &visible(&c.to_string()),
-                Style {
-                    italic: style.italic && c.is_alphabetic(),
-                    ..style
-                },
-            ),
-        }
-    }
-
-    fn command(&mut self, style: Style, depth: usize) {
-        let mut name = String::new();
-        while let Some(&c) = self.rest.peek() {
-            if !c.is_ascii_alphabetic() {
-                break;
-            }
-            name.push(c);
-            self.rest.next();
-        }
-        if depth >= DEEPEST {
-            return;
-        }
-        match name.as_str() {
-            "" => match self.rest.next() {
-                Some(',' | ';' | ':' | ' ' | '!') | None => self.add(
-                    "\u{2009}",
-                    Style {
-                        italic: false,
-                        ..style
-                    },
-                ),
-                Some(c) => self.add(
-                    &visible(&c.to_string()),
-                    Style {
-                        italic: false,
-                        ..style
-                    },
-                ),
-            },
-            "vec" => self.one(
-                Style {
-                    arrow: true,
-                    ..style
-                },
-                depth + 1,
-            ),
-            "mathrm" | "text" | "operatorname" | "mathbf" | "rm" => {
-                self.one(
-                    Style {
-                        italic: false,
-                        ..style
-                    },
-                    depth + 1,
-                );
-            }
-            "dot" | "ddot" | "hat" | "bar" | "tilde" => {
-                let before = self.label.runs.len();
-                self.one(style, depth + 1);
-                let mark = match name.as_str() {
-                    "dot" => '\u{307}',
-                    "ddot" => '\u{308}',
-                    "hat" => '\u{302}',
-                    "bar" => '\u{304}',
-                    _ => '\u{303}',
-                };
-                if self.label.runs.len() > before
-                    && let Some(run) = self.label.runs.last_mut()
-                {
-                    run.text.push(mark);
-                }
-            }
-            _ => match letter(&name) {
-                Some(c) => self.add(
-                    c,
-                    Style {
-                        italic: style.italic && c != "∫",
-                        ..style
-                    },
-                ),
-                None => self.add(
-                    &name,
-                    Style {
-                        italic: false,
-                        ..style
-                    },
-                ),
-            },
-        }
-    }
-
-    fn add(&mut self, text: &str, style: Style) {
-        match self.label.runs.last_mut() {
-            Some(last)
-                if last.italic == style.italic
-                    && last.level == style.level
-                    && !last.arrow
-                    && !style.arrow =>
-            {
-                last.text.push_str(text);
-            }
-            _ => self.label.runs.push(Run {
-                text: text.to_string(),
-                italic: style.italic,
-                level: style.level,
-                arrow: style.arrow,
-            }),
-        }
-    }
-}
-
-/// The character that a LaTeX command for a letter stands for, such as `theta` or `ell`.
-pub fn letter(name: &str) -> Option<&'static str> {
-    const LETTERS: [(&str, &str); 39] = [
-        ("alpha", "α"),
-        ("beta", "β"),
-        ("gamma", "γ"),
-        ("delta", "δ"),
-        ("epsilon", "ϵ"),
-        ("varepsilon", "ε"),
-        ("zeta", "ζ"),
-        ("eta", "η"),
-        ("theta", "θ"),
-        ("vartheta", "ϑ"),
-        ("iota", "ι"),
-        ("kappa", "κ"),
-        ("lambda", "λ"),
-        ("mu", "μ"),
-        ("nu", "ν"),
-        ("xi", "ξ"),
-        ("pi", "π"),
-        ("rho", "ρ"),
-        ("sigma", "σ"),
-        ("tau", "τ"),
-        ("upsilon", "υ"),
-        ("phi", "ϕ"),
-        ("varphi", "φ"),
-        ("chi", "χ"),
-        ("psi", "ψ"),
-        ("omega", "ω"),
-        ("Gamma", "Γ"),
-        ("Delta", "Δ"),
-        ("Theta", "Θ"),
-        ("Lambda", "Λ"),
-        ("Xi", "Ξ"),
-        ("Pi", "Π"),
-        ("Sigma", "Σ"),
-        ("Upsilon", "Υ"),
-        ("Phi", "Φ"),
-        ("Psi", "Ψ"),
-        ("Omega", "Ω"),
-        ("ell", "ℓ"),
-        ("int", "∫"),
-    ];
-    LETTERS
-        .iter()
-        .find(|(known, _)| *known == name)
-        .map(|(_, c)| *c)
-}
-
-/// Deepest formula that is written out.
-const DEEPEST_FORMULA: usize = 24;
-
-fn write(e: &Expr, scene: &Scene, out: &mut Label, depth: usize) {
-    if depth > DEEPEST_FORMULA || out.runs.len() > LONGEST {
-        return out.push("…", false, Level::Base);
-    }
-    match e.node() {
-        Node::Number(value) => out.push(&value.to_string().replace('-', "−"), false, Level::Base),
-        Node::Symbol(name) => {
-            let latex = scene
-                .parameters
-                .iter()
-                .find(|p| p.name == *name)
-                .and_then(|p| p.latex.as_deref());
-            out.runs.extend(Label::symbol(name, latex).runs);
-        }
-        Node::Sum(terms) => {
-            for (i, term) in terms.iter().enumerate() {
-                let negative = is_negative(term);
-                let sign = match (i, negative) {
-                    (0, false) => "",
-                    (0, true) => "−",
-                    (_, false) => " + ",
-                    (_, true) => " − ",
-                };
-                out.push(sign, false, Level::Base);
-                write(
-                    &if negative { -term } else { term.clone() },
-                    scene,
-                    out,
-                    depth + 1,
-                );
-            }
-        }
-        Node::Product(factors) => product(factors, scene, out, depth),
-        Node::Power(base, exponent) => match exponent.as_number() {
-            Some(k) if *k == ratio(1, 2) => {
-                out.push("√", false, Level::Base);
-                factor(base, scene, out, depth);
-            }
-            Some(k) if k.is_negative() => product(std::slice::from_ref(e), scene, out, depth),
-            _ => {
-                factor(base, scene, out, depth);
-                let mut power = Label::default();
-                write(exponent, scene, &mut power, depth + 1);
-                out.push(&power.text(), false, Level::Sup);
-            }
-        },
-        Node::Call(function, argument) => {
-            out.push(function.name(), false, Level::Base);
-            let simple = matches!(argument.node(), Node::Symbol(_) | Node::Number(_));
-            out.push(if simple { "\u{2009}" } else { "(" }, false, Level::Base);
-            write(argument, scene, out, depth + 1);
-            out.push(if simple { "" } else { ")" }, false, Level::Base);
-        }
-    }
-}
-
-fn product(factors: &[Expr], scene: &Scene, out: &mut Label, depth: usize) {
-    let mut number = ratio(1, 1);
-    let (mut above, mut below) = (Vec::new(), Vec::new());
-    for f in factors {
-        match f.node() {
-            Node::Number(value) => number *= value,
-            Node::Power(base, exponent)
-                if exponent.as_number().is_some_and(Signed::is_negative) =>
-            {
-                below.push(base.power(-exponent));
-            }
-            _ => above.push(f.clone()),
-        }
-    }
-    if number.is_negative() {
-        out.push("−", false, Level::Base);
-    }
-    let (top, bottom) = (
-        number.numer().to_string().replace('-', ""),
-        number.denom().to_string(),
-    );
-    if top != "1" || above.is_empty() {
-        out.push(&top, false, Level::Base);
-    }
-    for (i, f) in above.iter().enumerate() {
-        if i > 0 || (top != "1" && matches!(f.node(), Node::Call(..))) {
-            out.push("\u{2009}", false, Level::Base);
-        }
-        factor(f, scene, out, depth);
-    }
-    let pieces = below.len() + usize::from(bottom != "1");
-    if pieces > 0 {
-        out.push(if pieces > 1 { "/(" } else { "/" }, false, Level::Base);
-        if bottom != "1" {
-            out.push(&bottom, false, Level::Base);
-        }
-        for f in &below {
-            factor(f, scene, out, depth);
-        }
-        out.push(if pieces > 1 { ")" } else { "" }, false, Level::Base);
-    }
-}
-
-fn factor(e: &Expr, scene: &Scene, out: &mut Label, depth: usize) {
-    let bracket = matches!(e.node(), Node::Sum(_) | Node::Product(_))
-        || e.as_number().is_some_and(|k| !k.is_integer());
-    out.push(if bracket { "(" } else { "" }, false, Level::Base);
-    write(e, scene, out, depth + 1);
-    out.push(if bracket { ")" } else { "" }, false, Level::Base);
-}
-
-/// Whether a term is written with a minus sign in front.
-pub fn is_negative(e: &Expr) -> bool {
-    let below = |value: &Rational| value.is_negative();
-    match e.node() {
-        Node::Number(value) => below(value),
-        Node::Product(factors) => factors.first().and_then(Expr::as_number).is_some_and(below),
-        _ => false,
     }
 }
 

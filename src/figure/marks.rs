@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use super::label::Label;
 use super::place::{Room, Spot, Wish};
+use super::pose::{Look, Pose};
 use super::sheet::{Ink, Item, SIZE, SMALL, Sheet};
-use super::stage::{DOT, Look, Pose, Stage, center_name};
+use super::stage::{DOT, Stage, center_name};
 use super::values::{Pair, dot, size};
 use crate::expr::Vector;
 use crate::scene::{Body, Shape};

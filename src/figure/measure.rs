@@ -7,8 +7,9 @@ use num_traits::{One, Signed, Zero};
 
 use super::label::Label;
 use super::place::{Room, Spot, Wish};
+use super::pose::Look;
 use super::sheet::{Ink, Line, SIZE, Sheet, arc};
-use super::stage::{Look, Stage};
+use super::stage::Stage;
 use super::values::{Pair, Values, is_angle, size};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Node, Rational, Symbol, Vector, minus};

@@ -5,7 +5,9 @@
 //! anything about mechanics: the motion after comes from [`crate::numeric`] at the values the scene is drawn at.
 
 mod during;
+mod inline;
 mod label;
+mod latex;
 mod marks;
 mod measure;
 mod motion;
@@ -13,6 +15,7 @@ mod picture;
 mod place;
 #[cfg(feature = "png")]
 mod png;
+mod pose;
 mod quantity;
 mod sheet;
 mod stage;
@@ -20,7 +23,7 @@ mod svg;
 mod values;
 mod words;
 
-pub use label::letter;
+pub use latex::letter;
 
 use std::collections::BTreeSet;
 

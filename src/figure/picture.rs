@@ -3,7 +3,8 @@
 //! In: a scene on stage, and the motion after as numbers. Out: a sheet.
 
 use super::during::impulses;
-use super::label::{Label, is_negative};
+use super::inline::is_negative;
+use super::label::Label;
 use super::marks::{axes, centers, masses, names, turning, velocity, wall_point};
 use super::measure;
 use super::quantity::{speed, spin_name, vector_name, velocity_name};

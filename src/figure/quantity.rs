@@ -1,6 +1,7 @@
 //! What velocities, spins and impulses are called: as the questions name them, else by the book's usual letters.
 
-use super::label::{Label, is_negative};
+use super::inline::is_negative;
+use super::label::Label;
 use super::stage::{Stage, center_name};
 use super::values::{Pair, size};
 use crate::expr::{Expr, Vector};

@@ -347,6 +347,13 @@ pub fn equation<T: Quantity, E>(
     law: &Law,
     mut direction: impl FnMut(&Vector) -> Result<[T; 2], E>,
 ) -> Result<Linear<T>, E> {
+    // Velocity just after at a point, of the second body relative to the first.
+    let after = |[one, two]: [usize; 2], at: &[T; 2]| {
+        relative(
+            &motion.velocity_of(g, one, at),
+            &motion.velocity_of(g, two, at),
+        )
+    };
     Ok(match law {
         Law::LinearMomentum { system, along } => {
             let d = match along {
@@ -387,10 +394,7 @@ pub fn equation<T: Quantity, E>(
             };
             let at = &g.contact[*c];
             let [one, two] = contact.bodies;
-            let after = relative(
-                &motion.velocity_of(g, one, at),
-                &motion.velocity_of(g, two, at),
-            );
+            let after = after(contact.bodies, at);
             let before = minus(&g.velocity_before(two, at), &g.velocity_before(one, at));
             let approach = before[0].mul(&n[0]).add(&before[1].mul(&n[1]));
             along_direction(&after, n)
@@ -398,24 +402,12 @@ pub fn equation<T: Quantity, E>(
                 .equals_zero()
         }
         Law::Sticking(c, axis) => {
-            let at = &g.contact[*c];
-            let [one, two] = scene.contacts[*c].bodies;
-            relative(
-                &motion.velocity_of(g, one, at),
-                &motion.velocity_of(g, two, at),
-            )[*axis]
-                .clone()
-                .equals_zero()
+            let after = after(scene.contacts[*c].bodies, &g.contact[*c]);
+            after[*axis].clone().equals_zero()
         }
         Law::Hinged(h, axis) => {
-            let at = &g.hinge[*h];
-            let [one, two] = scene.hinges[*h].bodies;
-            relative(
-                &motion.velocity_of(g, one, at),
-                &motion.velocity_of(g, two, at),
-            )[*axis]
-                .clone()
-                .equals_zero()
+            let after = after(scene.hinges[*h].bodies, &g.hinge[*h]);
+            after[*axis].clone().equals_zero()
         }
         Law::Given(k) => {
             let (place, value) = &g.known[*k];

@@ -104,22 +104,5 @@ pub fn text(words: &str) -> String {
 pub fn matrix(s: &Solution, m: &Matrix) -> String {
     let names = |n: &str| s.names.get(n).cloned();
     let write = |e: &crate::expr::Expr| crate::formula::write_latex(e, &names);
-    let rows: Vec<String> = m
-        .entries
-        .iter()
-        .map(|r| r.iter().map(write).collect::<Vec<_>>().join(" & "))
-        .collect();
-    let column = |cells: Vec<String>| {
-        format!(
-            "\\begin{{bmatrix}}\n{}\n\\end{{bmatrix}}",
-            cells.join(" \\\\\n")
-        )
-    };
-    let symbols = m
-        .unknowns
-        .iter()
-        .map(|u| write(&crate::expr::Expr::symbol(u)))
-        .collect();
-    let rhs = m.rhs.iter().map(write).collect();
-    format!("{}\n{}\n=\n{}", column(rows), column(symbols), column(rhs))
+    super::latex_system(m, write, "\n")
 }

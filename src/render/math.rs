@@ -144,6 +144,55 @@ pub fn is_plain(inner: &[Math]) -> bool {
     }
 }
 
+/// How a format writes a sum of components along unit vectors.
+struct Style {
+    minus: &'static str,
+    brackets: [&'static str; 2],
+    /// Between a component and its unit vector.
+    space: &'static str,
+    units: [&'static str; 3],
+}
+
+const UNICODE: Style = Style {
+    minus: "−",
+    brackets: ["(", ")"],
+    space: " ",
+    units: ["î", "ĵ", "k̂"],
+};
+
+const LATEX: Style = Style {
+    minus: "-",
+    brackets: ["\\left(", "\\right)"],
+    space: "\\,",
+    units: ["\\hat{\\imath}", "\\hat{\\jmath}", "\\hat{k}"],
+};
+
+impl Style {
+    fn vector(&self, v: &[(Expr, usize)], expr: &impl Fn(&Expr) -> String) -> String {
+        let mut text = String::new();
+        for (negative, size, axis) in components(v) {
+            let sign = if negative { self.minus } else { "+" };
+            match (text.is_empty(), negative) {
+                (true, false) => {}
+                (true, true) => text.push_str(sign),
+                (false, _) => text.push_str(&format!(" {sign} ")),
+            }
+            if let Some(e) = size {
+                let [open, close] = match e.node() {
+                    Node::Sum(_) => self.brackets,
+                    _ => [""; 2],
+                };
+                text.push_str(&format!("{open}{}{close}{}", expr(&e), self.space));
+            }
+            text.push_str(self.units[axis]);
+        }
+        if text.is_empty() {
+            text.push('0');
+        }
+        text
+    }
+}
+
 /// A formula in one line of Unicode.
 pub fn unicode(solution: &Solution, math: &[Math]) -> String {
     let names = |n: &str| solution.names.get(n).cloned();
@@ -157,31 +206,7 @@ pub fn unicode(solution: &Solution, math: &[Math]) -> String {
             }
             Math::Factor(e) => expr(e),
             Math::Vector(_) | Math::Along(_) => {
-                let all = components(&vector_of(m).unwrap_or_default());
-                let mut text = String::new();
-                for (i, (negative, size, axis)) in all.iter().enumerate() {
-                    text.push_str(match (i, negative) {
-                        (0, true) => "−",
-                        (0, false) => "",
-                        (_, true) => " − ",
-                        (_, false) => " + ",
-                    });
-                    if let Some(e) = size {
-                        let brackets = matches!(e.node(), Node::Sum(_));
-                        text.push_str(&if brackets {
-                            format!("({})", expr(e))
-                        } else {
-                            expr(e)
-                        });
-                        text.push(' ');
-                    }
-                    text.push_str(["î", "ĵ", "k̂"][*axis]);
-                }
-                if all.is_empty() {
-                    String::from("0")
-                } else {
-                    text
-                }
+                UNICODE.vector(&vector_of(m).unwrap_or_default(), &expr)
             }
             Math::Name(name) => unicode_name(name),
             Math::Op(",") => {
@@ -189,7 +214,7 @@ pub fn unicode(solution: &Solution, math: &[Math]) -> String {
                 continue;
             }
             Math::Op(op) => (*op).to_string(),
-            Math::Unit(axis) => ["î", "ĵ", "k̂"][*axis].to_string(),
+            Math::Unit(axis) => UNICODE.units[*axis].to_string(),
             Math::Brackets(inner) if is_plain(inner) => unicode(solution, inner),
             Math::Brackets(inner) => format!("({})", unicode(solution, inner)),
         };
@@ -240,35 +265,11 @@ pub fn latex(solution: &Solution, math: &[Math]) -> String {
             Math::Factor(e) if needs_brackets(e) => format!("\\left({}\\right)", expr(e)),
             Math::Factor(e) => expr(e),
             Math::Vector(_) | Math::Along(_) => {
-                let all = components(&vector_of(m).unwrap_or_default());
-                let mut text = String::new();
-                for (i, (negative, size, axis)) in all.iter().enumerate() {
-                    text.push_str(match (i, negative) {
-                        (0, true) => "-",
-                        (0, false) => "",
-                        (_, true) => " - ",
-                        (_, false) => " + ",
-                    });
-                    if let Some(e) = size {
-                        let brackets = matches!(e.node(), Node::Sum(_));
-                        text.push_str(&if brackets {
-                            format!("\\left({}\\right)", expr(e))
-                        } else {
-                            expr(e)
-                        });
-                        text.push_str("\\,");
-                    }
-                    text.push_str(UNITS[*axis]);
-                }
-                if all.is_empty() {
-                    String::from("0")
-                } else {
-                    text
-                }
+                LATEX.vector(&vector_of(m).unwrap_or_default(), &expr)
             }
             Math::Name(name) => latex_name(name),
             Math::Op(op) => latex_op(op).to_string(),
-            Math::Unit(axis) => UNITS[*axis].to_string(),
+            Math::Unit(axis) => LATEX.units[*axis].to_string(),
             Math::Brackets(inner) if is_plain(inner) => latex(solution, inner),
             Math::Brackets(inner) => format!("\\left({}\\right)", latex(solution, inner)),
         };
@@ -279,8 +280,6 @@ pub fn latex(solution: &Solution, math: &[Math]) -> String {
     }
     out
 }
-
-const UNITS: [&str; 3] = ["\\hat{\\imath}", "\\hat{\\jmath}", "\\hat{k}"];
 
 fn latex_op(op: &str) -> &str {
     match op {

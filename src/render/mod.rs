@@ -205,29 +205,26 @@ fn trimmed(text: &str) -> &str {
 
 /// A matrix equation in LaTeX.
 pub fn latex_matrix(scene: &Scene, m: &Matrix) -> String {
-    let rows: Vec<String> = m
-        .entries
-        .iter()
-        .map(|r| {
-            r.iter()
-                .map(|e| latex(scene, e))
-                .collect::<Vec<_>>()
-                .join(" & ")
-        })
-        .collect();
+    latex_system(m, |e| latex(scene, e), " ")
+}
+
+/// A matrix equation in LaTeX, its entries as `write` gives them, with `gap` between rows and factors.
+fn latex_system(m: &Matrix, write: impl Fn(&Expr) -> String, gap: &str) -> String {
     let column = |cells: Vec<String>| {
-        format!(
-            "\\begin{{bmatrix}} {} \\end{{bmatrix}}",
-            cells.join(" \\\\ ")
-        )
+        let cells = cells.join(&format!(" \\\\{gap}"));
+        format!("\\begin{{bmatrix}}{gap}{cells}{gap}\\end{{bmatrix}}")
     };
-    let names = m
-        .unknowns
-        .iter()
-        .map(|u| latex(scene, &Expr::symbol(u)))
-        .collect();
-    let rhs = m.rhs.iter().map(|e| latex(scene, e)).collect();
-    format!("{} {} = {}", column(rows), column(names), column(rhs))
+    let row = |row: &Vec<Expr>| row.iter().map(&write).collect::<Vec<_>>().join(" & ");
+    let rows = m.entries.iter().map(row).collect();
+    let unknowns = m.unknowns.iter().map(|u| write(&Expr::symbol(u))).collect();
+    let rhs = m.rhs.iter().map(&write).collect();
+    [
+        column(rows),
+        column(unknowns),
+        String::from("="),
+        column(rhs),
+    ]
+    .join(gap)
 }
 
 /// The SI unit of what a question asks for.

@@ -1,7 +1,5 @@
 //! What is asked: each question of the file becomes one [`Ask`], or a fault that says what is missing.
 
-use std::collections::BTreeSet;
-
 use super::fault::{Fault, Span};
 use super::file::{EnergyName, QuestionFile};
 use super::record::{Text, is_sound};
@@ -17,25 +15,8 @@ pub(super) fn resolve(resolver: &mut Resolver<'_>, scene: &mut Scene) {
         .flat_map(|m| &m.0)
         .filter_map(|(name, q)| Some((name, q.as_ref()?)))
         .collect();
-    let parameters: BTreeSet<&str> = file
-        .parameters
-        .iter()
-        .flat_map(|m| &m.0)
-        .map(|(name, _)| name.text.as_str())
-        .collect();
     for (name, question) in &all {
-        if parameters.contains(name.text.as_str()) {
-            let fault = Fault::new(
-                name.span,
-                format!(
-                    "the question `{0}` has the name of the parameter `{0}`",
-                    name.text
-                ),
-            );
-            resolver
-                .faults
-                .push(fault.hint("what is asked and what is given need different names"));
-        }
+        name_is_free(resolver, name);
         // Questions about the answers are read when all of these are known.
         if special::is_asked(question) && !is_motion(question) {
             continue;
@@ -55,9 +36,35 @@ pub(super) fn resolve(resolver: &mut Resolver<'_>, scene: &mut Scene) {
     }
 }
 
-/// The kind of question that only a scene with stages can answer, if this is one.
-fn about_stage(q: &QuestionFile) -> Option<&'static str> {
-    let kinds = [
+/// A question and a parameter need different names.
+pub(super) fn name_is_free(resolver: &mut Resolver<'_>, name: &Text) {
+    if special::parameter_names(resolver.file).contains(&name.text.as_str()) {
+        let message = format!(
+            "the question `{0}` has the name of the parameter `{0}`",
+            name.text
+        );
+        let fault = Fault::new(name.span, message);
+        resolver
+            .faults
+            .push(fault.hint("what is asked and what is given need different names"));
+    }
+}
+
+/// What is wrong with a question that asks nothing or several things.
+pub(super) fn things_asked(kinds: &[&str]) -> String {
+    match kinds {
+        [] => String::from("this question asks nothing"),
+        several => format!(
+            "this question asks {} things: {}",
+            several.len(),
+            several.join(", ")
+        ),
+    }
+}
+
+/// The kinds of question that only a scene with stages can answer, and which of them are asked.
+pub(super) fn about_stage(q: &QuestionFile) -> [(&'static str, bool); 9] {
+    [
         ("reaction", q.reaction.is_some()),
         ("angular_momentum", q.angular_momentum.is_some()),
         ("share", q.share.is_some()),
@@ -67,8 +74,7 @@ fn about_stage(q: &QuestionFile) -> Option<&'static str> {
         ("remark", q.remark.is_some()),
         ("assumed", q.assumed.is_some()),
         ("unused", q.unused.is_some()),
-    ];
-    kinds.into_iter().find(|k| k.1).map(|k| k.0)
+    ]
 }
 
 /// Whether the question is about the motion just after, and not about formulas of answers.
@@ -104,20 +110,11 @@ fn ask(
         if asked.is_empty() && !is_sound(question.span, &resolver.faults) {
             return None;
         }
-        let message = match asked.as_slice() {
-            [] if about_stage(question).is_some() => format!(
-                "`{}` is asked of a stage, and this scene has none",
-                about_stage(question).unwrap_or_default()
-            ),
-            [] => "this question asks nothing".to_owned(),
-            several => {
-                let names: Vec<&str> = several.iter().map(|(kind, ..)| *kind).collect();
-                format!(
-                    "this question asks {} things: {}",
-                    names.len(),
-                    names.join(", ")
-                )
-            }
+        let kinds: Vec<&str> = asked.iter().map(|(kind, ..)| *kind).collect();
+        let staged = about_stage(question).into_iter().find(|k| k.1);
+        let message = match staged.filter(|_| kinds.is_empty()) {
+            Some((kind, _)) => format!("`{kind}` is asked of a stage, and this scene has none"),
+            None => things_asked(&kinds),
         };
         let fault = Fault::new(name.span, message);
         resolver

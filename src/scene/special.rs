@@ -25,7 +25,7 @@ pub(super) fn is_asked(q: &QuestionFile) -> bool {
 }
 
 /// The kinds of question, which of them are asked, and what else belongs to each.
-fn asked(q: &QuestionFile) -> [(&'static str, bool, &'static [&'static str]); 7] {
+pub(super) fn asked(q: &QuestionFile) -> [(&'static str, bool, &'static [&'static str]); 7] {
     [
         ("value", q.value.is_some(), &["with"]),
         ("threshold", q.threshold.is_some(), &["holds", "with"]),

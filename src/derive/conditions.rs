@@ -1,0 +1,113 @@
+//! What closed forms rest on: divisors that may vanish, roots that must exist, laws of several contacts at once.
+//!
+//! In: a derivation under way. Out: conditions, as expressions and as sentences.
+
+use num_integer::Integer;
+
+use super::Stop;
+use super::work::{Work, formulas};
+use crate::algebra::{self, Element, Sign};
+use crate::expr::{Expr, Int, Node, Rational};
+use crate::scene::ContactLaw;
+
+impl Work<'_> {
+    /// The determinant of a block, where nothing shows that it keeps away from zero. Joints in a tree and one contact
+    /// need no such condition: their equations are those of a quadratic form, the kinetic energy, that is positive for
+    /// positive masses.
+    pub(super) fn divisors(&mut self, divisors: &[Element]) -> Result<Vec<Expr>, Stop> {
+        let scene = self.scene;
+        let mut positive = true;
+        for body in scene.bodies.iter().filter(|b| !b.is_fixed()) {
+            positive &= self.is_positive(&body.mass)
+                && (body.is_particle() || self.is_positive(&body.inertia));
+        }
+        let contacts = scene
+            .contacts
+            .iter()
+            .filter(|c| matches!(c.law, ContactLaw::Frictionless { .. }))
+            .count();
+        if positive && contacts <= 1 && self.reduction.loops.is_empty() && scene.after.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut determinant = self.field.integer(1);
+        for divisor in divisors {
+            determinant = self.field.mul(&determinant, divisor)?;
+        }
+        Ok(match self.field.sign(&determinant) {
+            Some(Sign::Positive | Sign::Negative) => Vec::new(),
+            _ => vec![self.field.expr(&determinant)],
+        })
+    }
+
+    /// What stands under square roots of the scene and is not known to have one.
+    fn radicands(&mut self) -> Vec<Expr> {
+        let mut found = Vec::new();
+        for e in formulas(self.scene) {
+            radicands(&e, &mut found);
+        }
+        found.retain(|base| {
+            let known = self
+                .field
+                .element(base)
+                .ok()
+                .and_then(|x| self.field.sign(&x));
+            !known.is_some_and(Sign::is_not_negative)
+        });
+        found
+    }
+
+    fn is_positive(&mut self, e: &Expr) -> bool {
+        let element = self.field.element(e);
+        element.is_ok_and(|x| self.field.sign(&x) == Some(Sign::Positive))
+    }
+
+    /// What the closed forms rest on: signs taken for roots, and conditions `… ≠ 0` under which the blocks were solved.
+    pub(super) fn assumptions(&mut self) -> Vec<String> {
+        let sign = |a: &algebra::Assumption| match a {
+            algebra::Assumption::NotNegative(e) => {
+                format!("{} ≥ 0", crate::formula::write_plain(e))
+            }
+        };
+        let mut all: Vec<String> = self.field.assumptions().iter().map(sign).collect();
+        for base in self.radicands() {
+            let condition = format!("{} ≥ 0", crate::formula::write_plain(&base));
+            if !all.contains(&condition) {
+                all.push(condition);
+            }
+        }
+        let bouncing = self
+            .scene
+            .contacts
+            .iter()
+            .filter(|c| matches!(c.law, ContactLaw::Frictionless { .. }))
+            .count();
+        if bouncing > 1 {
+            all.push(String::from(
+                "all contacts act at the same instant, each with its own restitution (Newton); one after the other they could give another motion",
+            ));
+        }
+        for divisor in self.blocks.iter().flat_map(|b| &b.divided_by) {
+            let condition = format!("{} ≠ 0", crate::formula::write_plain(divisor));
+            if !all.contains(&condition) {
+                all.push(condition);
+            }
+        }
+        all
+    }
+}
+
+/// The bases of powers with an even root.
+fn radicands(e: &Expr, found: &mut Vec<Expr>) {
+    match e.node() {
+        Node::Number(_) | Node::Symbol(_) => {}
+        Node::Sum(parts) | Node::Product(parts) => parts.iter().for_each(|p| radicands(p, found)),
+        Node::Power(base, exponent) => {
+            let even = |k: &Rational| k.denom().is_multiple_of(&Int::from(2));
+            if exponent.as_number().is_some_and(even) && !found.contains(base) {
+                found.push(base.clone());
+            }
+            radicands(base, found);
+        }
+        Node::Call(_, argument) => radicands(argument, found),
+    }
+}

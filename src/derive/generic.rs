@@ -1,0 +1,38 @@
+//! A point in general position, in doubles: what vanishes there is taken to vanish everywhere while planning.
+
+use crate::domain::{Domain, Limit};
+use crate::expr::number::to_f64;
+use crate::expr::{Point, Symbol};
+use crate::scene::Scene;
+
+/// Values in general position inside the domain; the golden ratio keeps them apart.
+pub(super) fn generic_point(scene: &Scene) -> Point<f64> {
+    let mut point = Point::default();
+    let mut fraction = 0.371_943_1_f64;
+    let mut next = || {
+        fraction = (fraction + 0.618_033_988_749_895).fract();
+        0.15 + 0.7 * fraction
+    };
+    let names: Vec<Symbol> = scene.parameters.iter().map(|p| p.name.clone()).collect();
+    for name in names {
+        let value = within(scene.domains.symbols.get(&name), next());
+        point.values.insert(name, value);
+    }
+    for [a, b] in &scene.domains.unit_vectors {
+        let (sin, cos) = next().sin_cos();
+        point.values.insert(a.clone(), cos);
+        point.values.insert(b.clone(), sin);
+    }
+    point
+}
+
+fn within(domain: Option<&Domain>, fraction: f64) -> f64 {
+    let number = |l: &Limit| to_f64(&l.value) * if l.of_pi { std::f64::consts::PI } else { 1.0 };
+    match domain.map(|d| (d.low.as_ref().map(number), d.high.as_ref().map(number))) {
+        None => 0.6 + fraction,
+        Some((Some(low), Some(high))) => low + fraction * (high - low),
+        Some((Some(low), None)) => low + 0.6 + fraction,
+        Some((None, Some(high))) => high - 0.6 - fraction,
+        Some((None, None)) => 0.6 + fraction,
+    }
+}

@@ -1,0 +1,130 @@
+//! A formula on one line as runs of a label.
+//!
+//! In: an expression and the scene its symbols belong to. Out: runs, cut short where a formula is too deep or too long.
+
+use num_traits::Signed;
+
+use super::label::{LONGEST, Label, Level};
+use crate::expr::{Expr, Node, Rational, ratio};
+use crate::scene::Scene;
+
+/// Deepest formula that is written out.
+const DEEPEST_FORMULA: usize = 24;
+
+/// Adds a formula to a label.
+pub(super) fn write(e: &Expr, scene: &Scene, out: &mut Label, depth: usize) {
+    if depth > DEEPEST_FORMULA || out.runs.len() > LONGEST {
+        return out.push("…", false, Level::Base);
+    }
+    match e.node() {
+        Node::Number(value) => out.push(&value.to_string().replace('-', "−"), false, Level::Base),
+        Node::Symbol(name) => {
+            let latex = scene
+                .parameters
+                .iter()
+                .find(|p| p.name == *name)
+                .and_then(|p| p.latex.as_deref());
+            out.runs.extend(Label::symbol(name, latex).runs);
+        }
+        Node::Sum(terms) => {
+            for (i, term) in terms.iter().enumerate() {
+                let negative = is_negative(term);
+                let sign = match (i, negative) {
+                    (0, false) => "",
+                    (0, true) => "−",
+                    (_, false) => " + ",
+                    (_, true) => " − ",
+                };
+                out.push(sign, false, Level::Base);
+                write(
+                    &if negative { -term } else { term.clone() },
+                    scene,
+                    out,
+                    depth + 1,
+                );
+            }
+        }
+        Node::Product(factors) => product(factors, scene, out, depth),
+        Node::Power(base, exponent) => match exponent.as_number() {
+            Some(k) if *k == ratio(1, 2) => {
+                out.push("√", false, Level::Base);
+                factor(base, scene, out, depth);
+            }
+            Some(k) if k.is_negative() => product(std::slice::from_ref(e), scene, out, depth),
+            _ => {
+                factor(base, scene, out, depth);
+                let mut power = Label::default();
+                write(exponent, scene, &mut power, depth + 1);
+                out.push(&power.text(), false, Level::Sup);
+            }
+        },
+        Node::Call(function, argument) => {
+            out.push(function.name(), false, Level::Base);
+            let simple = matches!(argument.node(), Node::Symbol(_) | Node::Number(_));
+            out.push(if simple { "\u{2009}" } else { "(" }, false, Level::Base);
+            write(argument, scene, out, depth + 1);
+            out.push(if simple { "" } else { ")" }, false, Level::Base);
+        }
+    }
+}
+
+fn product(factors: &[Expr], scene: &Scene, out: &mut Label, depth: usize) {
+    let mut number = ratio(1, 1);
+    let (mut above, mut below) = (Vec::new(), Vec::new());
+    for f in factors {
+        match f.node() {
+            Node::Number(value) => number *= value,
+            Node::Power(base, exponent)
+                if exponent.as_number().is_some_and(Signed::is_negative) =>
+            {
+                below.push(base.power(-exponent));
+            }
+            _ => above.push(f.clone()),
+        }
+    }
+    if number.is_negative() {
+        out.push("−", false, Level::Base);
+    }
+    let (top, bottom) = (
+        number.numer().to_string().replace('-', ""),
+        number.denom().to_string(),
+    );
+    if top != "1" || above.is_empty() {
+        out.push(&top, false, Level::Base);
+    }
+    for (i, f) in above.iter().enumerate() {
+        if i > 0 || (top != "1" && matches!(f.node(), Node::Call(..))) {
+            out.push("\u{2009}", false, Level::Base);
+        }
+        factor(f, scene, out, depth);
+    }
+    let pieces = below.len() + usize::from(bottom != "1");
+    if pieces > 0 {
+        out.push(if pieces > 1 { "/(" } else { "/" }, false, Level::Base);
+        if bottom != "1" {
+            out.push(&bottom, false, Level::Base);
+        }
+        for f in &below {
+            factor(f, scene, out, depth);
+        }
+        out.push(if pieces > 1 { ")" } else { "" }, false, Level::Base);
+    }
+}
+
+fn factor(e: &Expr, scene: &Scene, out: &mut Label, depth: usize) {
+    let bracket = matches!(e.node(), Node::Sum(_) | Node::Product(_))
+        || e.as_number().is_some_and(|k| !k.is_integer());
+    out.push(if bracket { "(" } else { "" }, false, Level::Base);
+    write(e, scene, out, depth + 1);
+    out.push(if bracket { ")" } else { "" }, false, Level::Base);
+}
+
+/// Whether a term is written with a minus sign in front.
+pub fn is_negative(e: &Expr) -> bool {
+    let below = |value: &Rational| value.is_negative();
+    match e.node() {
+        Node::Number(value) => below(value),
+        Node::Product(factors) => factors.first().and_then(Expr::as_number).is_some_and(below),
+        _ => false,
+    }
+}

@@ -1,0 +1,246 @@
+//! The LaTeX spelling of a symbol as runs of a label: letters, indices, marks and accents.
+//!
+//! In: a spelling. Out: a label. What it does not know it shows as text.
+
+use std::iter::Peekable;
+use std::str::Chars;
+
+use super::label::{Label, Level, Run, visible};
+
+/// Deepest nesting of braces that is followed.
+const DEEPEST: usize = 8;
+
+/// Reads a spelling as far as it goes.
+pub(super) fn read(text: &str) -> Label {
+    let mut reader = Reader {
+        rest: text.chars().peekable(),
+        label: Label::default(),
+    };
+    let style = Style {
+        italic: true,
+        level: Level::Base,
+        arrow: false,
+    };
+    while reader.rest.peek().is_some() {
+        reader.group(style, 0);
+        reader.rest.next();
+    }
+    reader.label
+}
+
+#[derive(Clone, Copy)]
+struct Style {
+    italic: bool,
+    level: Level,
+    arrow: bool,
+}
+
+struct Reader<'a> {
+    rest: Peekable<Chars<'a>>,
+    label: Label,
+}
+
+impl Reader<'_> {
+    /// Reads up to a closing brace, which stays.
+    fn group(&mut self, style: Style, depth: usize) {
+        while let Some(&c) = self.rest.peek() {
+            if c == '}' {
+                return;
+            }
+            self.one(style, depth);
+        }
+    }
+
+    /// Reads one character, command or braced group.
+    fn one(&mut self, style: Style, depth: usize) {
+        let Some(c) = self.rest.next() else { return };
+        match c {
+            '{' if depth < DEEPEST => {
+                self.group(style, depth + 1);
+                self.rest.next();
+            }
+            '_' | '^' if depth < DEEPEST => {
+                let level = if c == '_' { Level::Sub } else { Level::Sup };
+                self.one(
+                    Style {
+                        level,
+                        arrow: false,
+                        ..style
+                    },
+                    depth + 1,
+                );
+            }
+            '\\' => self.command(style, depth),
+            ' ' if style.italic => {}
+            '\'' => self.add(
+                "′",
+                Style {
+                    italic: false,
+                    ..style
+                },
+            ),
+            '-' if style.italic => self.add(
+                "−",
+                Style {
+                    italic: false,
+                    ..style
+                },
+            ),
+            c => self.add(
+                &visible(&c.to_string()),
+                Style {
+                    italic: style.italic && c.is_alphabetic(),
+                    ..style
+                },
+            ),
+        }
+    }
+
+    fn command(&mut self, style: Style, depth: usize) {
+        let mut name = String::new();
+        while let Some(&c) = self.rest.peek() {
+            if !c.is_ascii_alphabetic() {
+                break;
+            }
+            name.push(c);
+            self.rest.next();
+        }
+        if depth >= DEEPEST {
+            return;
+        }
+        match name.as_str() {
+            "" => match self.rest.next() {
+                Some(',' | ';' | ':' | ' ' | '!') | None => self.add(
+                    "\u{2009}",
+                    Style {
+                        italic: false,
+                        ..style
+                    },
+                ),
+                Some(c) => self.add(
+                    &visible(&c.to_string()),
+                    Style {
+                        italic: false,
+                        ..style
+                    },
+                ),
+            },
+            "vec" => self.one(
+                Style {
+                    arrow: true,
+                    ..style
+                },
+                depth + 1,
+            ),
+            "mathrm" | "text" | "operatorname" | "mathbf" | "rm" => {
+                self.one(
+                    Style {
+                        italic: false,
+                        ..style
+                    },
+                    depth + 1,
+                );
+            }
+            "dot" | "ddot" | "hat" | "bar" | "tilde" => {
+                let before = self.label.runs.len();
+                self.one(style, depth + 1);
+                let mark = match name.as_str() {
+                    "dot" => '\u{307}',
+                    "ddot" => '\u{308}',
+                    "hat" => '\u{302}',
+                    "bar" => '\u{304}',
+                    _ => '\u{303}',
+                };
+                if self.label.runs.len() > before
+                    && let Some(run) = self.label.runs.last_mut()
+                {
+                    run.text.push(mark);
+                }
+            }
+            _ => match letter(&name) {
+                Some(c) => self.add(
+                    c,
+                    Style {
+                        italic: style.italic && c != "∫",
+                        ..style
+                    },
+                ),
+                None => self.add(
+                    &name,
+                    Style {
+                        italic: false,
+                        ..style
+                    },
+                ),
+            },
+        }
+    }
+
+    fn add(&mut self, text: &str, style: Style) {
+        match self.label.runs.last_mut() {
+            Some(last)
+                if last.italic == style.italic
+                    && last.level == style.level
+                    && !last.arrow
+                    && !style.arrow =>
+            {
+                last.text.push_str(text);
+            }
+            _ => self.label.runs.push(Run {
+                text: text.to_string(),
+                italic: style.italic,
+                level: style.level,
+                arrow: style.arrow,
+            }),
+        }
+    }
+}
+
+/// The character that a LaTeX command for a letter stands for, such as `theta` or `ell`.
+pub fn letter(name: &str) -> Option<&'static str> {
+    const LETTERS: [(&str, &str); 39] = [
+        ("alpha", "α"),
+        ("beta", "β"),
+        ("gamma", "γ"),
+        ("delta", "δ"),
+        ("epsilon", "ϵ"),
+        ("varepsilon", "ε"),
+        ("zeta", "ζ"),
+        ("eta", "η"),
+        ("theta", "θ"),
+        ("vartheta", "ϑ"),
+        ("iota", "ι"),
+        ("kappa", "κ"),
+        ("lambda", "λ"),
+        ("mu", "μ"),
+        ("nu", "ν"),
+        ("xi", "ξ"),
+        ("pi", "π"),
+        ("rho", "ρ"),
+        ("sigma", "σ"),
+        ("tau", "τ"),
+        ("upsilon", "υ"),
+        ("phi", "ϕ"),
+        ("varphi", "φ"),
+        ("chi", "χ"),
+        ("psi", "ψ"),
+        ("omega", "ω"),
+        ("Gamma", "Γ"),
+        ("Delta", "Δ"),
+        ("Theta", "Θ"),
+        ("Lambda", "Λ"),
+        ("Xi", "Ξ"),
+        ("Pi", "Π"),
+        ("Sigma", "Σ"),
+        ("Upsilon", "Υ"),
+        ("Phi", "Φ"),
+        ("Psi", "Ψ"),
+        ("Omega", "Ω"),
+        ("ell", "ℓ"),
+        ("int", "∫"),
+    ];
+    LETTERS
+        .iter()
+        .find(|(known, _)| *known == name)
+        .map(|(_, c)| *c)
+}

@@ -1,0 +1,186 @@
+//! Where each body lies and what its outline is, in meters.
+//!
+//! In: a scene and values. Out: poses. Knows nothing of pixels.
+
+use std::f64::consts::{PI, TAU};
+
+use super::sheet::arc;
+use super::values::{Pair, Values, size};
+use crate::scene::{Body, Scene, Shape};
+
+/// Outline of a body around its center, in meters.
+#[derive(Clone, Debug)]
+pub enum Look {
+    /// Nothing of its own: ground, wall, peg.
+    Fixed,
+    /// A particle.
+    Dot,
+    /// A rod of this half length.
+    Bar(f64),
+    /// A disk, ring or ball.
+    Round {
+        /// Radius.
+        radius: f64,
+        /// Whether it is a thin ring.
+        ring: bool,
+    },
+    /// A rectangle of these half sides.
+    Plate(f64, f64),
+    /// Any other body, points around its center.
+    Blob(Vec<Pair>),
+    /// Parts joined by thin bars.
+    Parts(Vec<Pose>),
+}
+
+/// A body in its place, in meters.
+#[derive(Clone, Debug)]
+pub struct Pose {
+    /// Center of mass.
+    pub center: Pair,
+    /// Orientation.
+    pub angle: f64,
+    /// Outline.
+    pub look: Look,
+    /// Whether it has no mass.
+    pub massless: bool,
+}
+
+/// Every body in its place; `None` where one has no finite place.
+pub fn posed(scene: &Scene, values: &Values) -> Option<Vec<Pose>> {
+    let bodies = scene.bodies.iter().enumerate();
+    bodies
+        .map(|(i, body)| pose(scene, values, body, Some(i)))
+        .collect()
+}
+
+fn pose(scene: &Scene, values: &Values, body: &Body, index: Option<usize>) -> Option<Pose> {
+    let center = values.pair(&body.center)?;
+    let length = |e| values.of(e).map(f64::abs);
+    let look = match &body.shape {
+        Shape::Fixed => Look::Fixed,
+        Shape::Particle => Look::Dot,
+        Shape::Rod { length: l } => Look::Bar(length(l)? / 2.0),
+        Shape::Disk { radius } | Shape::Sphere { radius } => Look::Round {
+            radius: length(radius)?,
+            ring: false,
+        },
+        Shape::Ring { radius } => Look::Round {
+            radius: length(radius)?,
+            ring: true,
+        },
+        Shape::Rectangle { width, height } => {
+            Look::Plate(length(width)? / 2.0, length(height)? / 2.0)
+        }
+        Shape::Other => Look::Blob(blob(&attached(scene, values, index?, center)?)),
+        Shape::Composite { parts } => Look::Parts(
+            parts
+                .iter()
+                .filter(|p| !p.is_fixed())
+                .map(|p| pose(scene, values, p, None))
+                .collect::<Option<Vec<_>>>()?,
+        ),
+    };
+    Some(Pose {
+        center,
+        angle: values.of(&body.angle)?,
+        look,
+        massless: body.mass.is_zero(),
+    })
+}
+
+/// Where others touch a body, as seen from its center.
+fn attached(scene: &Scene, values: &Values, body: usize, center: Pair) -> Option<Vec<Pair>> {
+    let contacts = scene
+        .contacts
+        .iter()
+        .filter(|c| c.bodies.contains(&body))
+        .map(|c| &c.at);
+    let hinges = scene
+        .hinges
+        .iter()
+        .filter(|h| h.bodies.contains(&body))
+        .map(|h| &h.at);
+    let blows = scene.blows.iter().filter(|b| b.body == body).map(|b| &b.at);
+    contacts
+        .chain(hinges)
+        .chain(blows)
+        .map(|v| values.pair(v).map(|p| [p[0] - center[0], p[1] - center[1]]))
+        .collect()
+}
+
+/// A smooth outline around the origin that passes through the points.
+fn blob(through: &[Pair]) -> Vec<Pair> {
+    let far = through.iter().map(|p| size(*p)).fold(0.0, f64::max);
+    let base = if far > 0.0 { 0.78 * far } else { 0.5 };
+    let plain =
+        |phi: f64| base * (1.0 + 0.10 * (2.0 * phi + 0.7).cos() + 0.05 * (3.0 * phi - 0.4).cos());
+    let bump = |phi: f64, at: f64| {
+        let d = (phi - at + PI).rem_euclid(TAU) - PI;
+        (-(d / 0.75).powi(2)).exp()
+    };
+    let points: Vec<(f64, f64)> = through
+        .iter()
+        .map(|p| (p[1].atan2(p[0]), size(*p)))
+        .collect();
+    let mut heights = vec![0.0; points.len()];
+    let radius = |phi: f64, heights: &[f64]| {
+        let bumps: f64 = points
+            .iter()
+            .zip(heights)
+            .map(|((at, _), h)| h * bump(phi, *at))
+            .sum();
+        (plain(phi) + bumps).max(0.15 * base)
+    };
+    for _ in 0..12 {
+        for i in 0..points.len() {
+            heights[i] += points[i].1 - radius(points[i].0, &heights);
+        }
+    }
+    (0..72)
+        .map(|k| {
+            let phi = TAU * f64::from(k) / 72.0;
+            let r = radius(phi, &heights).clamp(0.0, 4.0 * base);
+            [r * phi.cos(), r * phi.sin()]
+        })
+        .collect()
+}
+
+impl Pose {
+    /// A point given along and across the body's axis, in meters.
+    fn at(&self, along: f64, across: f64) -> Pair {
+        let (s, c) = self.angle.sin_cos();
+        [
+            self.center[0] + along * c - across * s,
+            self.center[1] + along * s + across * c,
+        ]
+    }
+
+    /// Points that span the body, in meters.
+    pub fn outline(&self) -> Vec<Pair> {
+        match &self.look {
+            Look::Fixed => Vec::new(),
+            Look::Dot => vec![self.center],
+            Look::Bar(half) => vec![self.at(*half, 0.0), self.at(-half, 0.0)],
+            Look::Round { radius, .. } => arc(self.center, *radius, 0.0, TAU),
+            Look::Plate(w, h) => vec![
+                self.at(*w, *h),
+                self.at(-w, *h),
+                self.at(-w, -h),
+                self.at(*w, -h),
+            ],
+            Look::Blob(points) => points
+                .iter()
+                .map(|p| [self.center[0] + p[0], self.center[1] + p[1]])
+                .collect(),
+            Look::Parts(parts) => parts.iter().flat_map(Pose::outline).collect(),
+        }
+    }
+
+    /// Ends of a rod, in meters.
+    pub fn ends(&self) -> Option<[Pair; 2]> {
+        match self.look {
+            Look::Bar(half) => Some([self.at(-half, 0.0), self.at(half, 0.0)]),
+            _ => None,
+        }
+    }
+}

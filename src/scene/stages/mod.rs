@@ -1,0 +1,333 @@
+//! Stages as written become stages of a scene: each gets its own [`Scene`] with the bodies where they are when it begins.
+//!
+//! In: the records of [`crate::scene::stage_file`]. Out: a [`Story`], or faults. Places after a motion follow from geometry alone
+//! and are put in here; velocities are the affair of [`crate::story`].
+
+mod kind;
+mod questions;
+
+use std::collections::HashMap;
+
+use crate::expr::{Expr, Vector, minus};
+use crate::scene::check::{Claim, check};
+use crate::scene::fault::{Fault, nearest};
+use crate::scene::file::{ContactFile, SceneFile, VelocityFile};
+use crate::scene::formulas::{Quantity, Symbols};
+use crate::scene::place::Place;
+use crate::scene::record::{Map, Text};
+use crate::scene::resolve::{Resolver, entries};
+use crate::scene::stage::{Stage, Story};
+use crate::scene::stage_file::{StageFile, StartFile};
+use crate::scene::{Scene, geometry, question};
+
+/// Most stages a scene may have.
+const STAGES: usize = 40;
+
+/// Where a body is: its center and its orientation.
+type Placed = (Vector, Expr);
+
+/// Reads the stages and the questions about them into the scene.
+pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
+    let file = base.file;
+    let Some(stages) = &file.stages else { return };
+    if stages.is_empty() || stages.len() > STAGES {
+        let message = format!(
+            "a story has 1 to {STAGES} stages, and this has {}",
+            stages.len()
+        );
+        base.faults.push(Fault::new(file.span, message));
+        return;
+    }
+    let misplaced = [
+        ("hinges", file.hinges.as_ref().map(|m| m.0.len())),
+        ("contacts", file.contacts.as_ref().map(|m| m.0.len())),
+        ("blows", file.blows.as_ref().map(|m| m.0.len())),
+        ("after", file.after.as_ref().map(Vec::len)),
+    ];
+    for (what, count) in misplaced {
+        if count.is_some_and(|n| n > 0) {
+            let fault = Fault::new(
+                file.span,
+                format!("`{what}` of a scene with stages belongs into an impact"),
+            );
+            base.faults.push(
+                fault.hint("\"stages\": [{\"name\": \"impact\", \"impact\": {\"contacts\": …}}]"),
+            );
+        }
+    }
+    let mut story = Story {
+        readings: file
+            .assumptions
+            .iter()
+            .flatten()
+            .map(|t| t.text.clone())
+            .collect(),
+        ..Story::default()
+    };
+    let homes = homes(base, stages);
+    let composed: Vec<SceneFile> = (0..stages.len())
+        .map(|i| composed(file, &stages[i], i, &homes))
+        .collect();
+    let mut ends: Vec<Option<Vec<Placed>>> = Vec::new();
+    for (i, stage) in stages.iter().enumerate() {
+        let from = match predecessor(base, stages, i) {
+            Some(from) => from,
+            None => {
+                ends.push(None);
+                continue;
+            }
+        };
+        let start = match from {
+            Some(j) => match &ends[j] {
+                Some(end) => Some(end.clone()),
+                // That stage could not be read, which has been reported.
+                None => {
+                    ends.push(None);
+                    continue;
+                }
+            },
+            None => None,
+        };
+        let symbols = std::mem::replace(&mut base.symbols, Symbols::new(Default::default()));
+        let (read, end, symbols, faults) = one(&composed[i], stage, from, start, scene, symbols);
+        base.symbols = symbols;
+        base.faults.extend(faults);
+        ends.push(end);
+        story.stages.extend(read);
+    }
+    if base.faults.is_empty() {
+        questions::read(base, &mut story, &homes);
+    }
+    scene.story = Some(Box::new(story));
+}
+
+/// The stage each question about motion belongs to, by index of question.
+fn homes(base: &mut Resolver<'_>, stages: &[StageFile]) -> HashMap<usize, usize> {
+    let mut out = HashMap::new();
+    for (k, (_, q)) in base.file.questions.iter().flat_map(|m| &m.0).enumerate() {
+        let Some(q) = q else { continue };
+        if question::is_motion(q)
+            && let Some(i) = stage_named(&mut base.faults, stages, q.at.as_ref())
+        {
+            out.insert(k, i);
+        }
+    }
+    out
+}
+
+fn stage_named(
+    faults: &mut Vec<Fault>,
+    stages: &[StageFile],
+    name: Option<&Text>,
+) -> Option<usize> {
+    let Some(name) = name else {
+        return stages.len().checked_sub(1);
+    };
+    let found = stages.iter().position(|s| s.name.text == name.text);
+    if found.is_none() {
+        let fault = Fault::new(name.span, format!("there is no stage `{}`", name.text));
+        faults.push(
+            match nearest(&name.text, stages.iter().map(|s| s.name.text.as_str())) {
+                Some(near) => fault.hint(format!("did you mean `{near}`?")),
+                None => fault,
+            },
+        );
+    }
+    found
+}
+
+/// The stage before, `Some(None)` for the start.
+fn predecessor(base: &mut Resolver<'_>, stages: &[StageFile], i: usize) -> Option<Option<usize>> {
+    let stage = &stages[i];
+    if stages[..i].iter().any(|s| s.name.text == stage.name.text) || stage.name.text == "start" {
+        let fault = Fault::new(
+            stage.name.span,
+            format!("the name `{}` is taken", stage.name.text),
+        );
+        base.faults.push(
+            fault.hint("every stage has a name of its own, and `start` is where the story begins"),
+        );
+        return None;
+    }
+    match &stage.from {
+        None => Some(i.checked_sub(1)),
+        Some(name) if name.text == "start" => Some(None),
+        Some(name) => match stages[..i].iter().position(|s| s.name.text == name.text) {
+            Some(j) => Some(Some(j)),
+            None => {
+                let fault = Fault::new(
+                    name.span,
+                    format!("no stage `{}` comes before this one", name.text),
+                );
+                base.faults
+                    .push(fault.hint("`from` names an earlier stage, or \"start\""));
+                None
+            }
+        },
+    }
+}
+
+/// The file of a stage taken by itself: all bodies, the impact's contacts, the questions about its end.
+fn composed(
+    file: &SceneFile,
+    stage: &StageFile,
+    i: usize,
+    homes: &HashMap<usize, usize>,
+) -> SceneFile {
+    let mut out = file.clone();
+    out.stages = None;
+    out.assumptions = None;
+    let impact = stage.impact.clone();
+    let part = impact.as_ref();
+    out.hinges = part.and_then(|p| p.hinges.clone());
+    // Supports and strings stand behind the contacts, so that questions can name them; the stage takes them out again.
+    let one_sided = part
+        .iter()
+        .flat_map(|p| [&p.supports, &p.strings])
+        .flatten()
+        .flat_map(|m| m.0.iter());
+    let one_sided = one_sided.map(|(name, entry)| {
+        let entry = entry.as_ref().map(|e| ContactFile {
+            span: e.span,
+            bodies: e.bodies.clone(),
+            at: e.at.clone(),
+            normal: Some(e.normal.clone()),
+            law: None,
+            restitution: None,
+        });
+        (name.clone(), entry)
+    });
+    let contacts = part
+        .iter()
+        .flat_map(|p| &p.contacts)
+        .flat_map(|m| m.0.iter().cloned());
+    out.contacts = Some(Map(contacts.chain(one_sided).collect()));
+    out.blows = part.and_then(|p| p.blows.clone());
+    out.after = part.and_then(|p| p.after.clone());
+    let forces = file
+        .forces
+        .iter()
+        .flatten()
+        .chain(part.iter().flat_map(|p| p.forces.iter().flatten()));
+    out.forces = Some(forces.cloned().collect());
+    let all = file
+        .questions
+        .iter()
+        .flat_map(|m| m.0.iter().cloned())
+        .enumerate();
+    out.questions = Some(Map(all
+        .filter(|(k, _)| homes.get(k) == Some(&i))
+        .map(|(_, q)| q)
+        .collect()));
+    out
+}
+
+type OneRead = (Option<Stage>, Option<Vec<Placed>>, Symbols, Vec<Fault>);
+
+/// Reads one stage; gives also where the bodies are at its end.
+fn one(
+    file: &SceneFile,
+    stage: &StageFile,
+    from: Option<usize>,
+    start: Option<Vec<Placed>>,
+    whole: &Scene,
+    symbols: Symbols,
+) -> OneRead {
+    let mut r = Resolver {
+        file,
+        symbols,
+        faults: Vec::new(),
+        claims: Vec::new(),
+        points: crate::scene::resolve::names(file.points.as_ref()),
+        bodies: crate::scene::resolve::names(Some(&file.bodies)),
+        point_places: vec![Place::Untouched; file.points.as_ref().map_or(0, |m| m.0.len())],
+        body_places: vec![Place::Untouched; file.bodies.0.len()],
+        composites: HashMap::new(),
+        chain: Vec::new(),
+    };
+    let mut scene = Scene {
+        title: whole.title.clone(),
+        source: whole.source.clone(),
+        parameters: whole.parameters.clone(),
+        domains: whole.domains.clone(),
+        ..Scene::default()
+    };
+    if let Some(start) = &start {
+        for (b, (center, _)) in start.iter().enumerate() {
+            // First from the file, so that a composite finds its parts.
+            r.center(b);
+            r.body_places[b] = Place::Done(Some(center.clone()));
+        }
+        r.point_places.fill(Place::Untouched);
+    }
+    r.fill(&mut scene);
+    if let Some(start) = &start {
+        for (body, (_, angle)) in scene.bodies.iter_mut().zip(start) {
+            body.angle = angle.clone();
+        }
+    }
+    let starts = starts(&mut r, &scene, stage, from);
+    let kind = kind::kind(&mut r, &mut scene, stage);
+    let end = kind.as_ref().map(|k| kind::placed_after(&scene, k));
+    // Motion before an impact is known only when the stages before it are worked out; the story checks it then.
+    r.claims
+        .retain(|c| !matches!(c.claim, Claim::Approach(_) | Claim::Hinge(_)));
+    let Resolver {
+        symbols,
+        mut faults,
+        claims,
+        ..
+    } = r;
+    if faults.is_empty() {
+        faults.extend(check(&mut scene, &claims));
+    }
+    let read = kind.map(|kind| Stage {
+        name: stage.name.text.clone(),
+        from,
+        start: starts,
+        kind,
+        scene,
+    });
+    (read, end, symbols, faults)
+}
+
+/// Bodies that start otherwise.
+fn starts(
+    r: &mut Resolver<'_>,
+    scene: &Scene,
+    stage: &StageFile,
+    from: Option<usize>,
+) -> Vec<(usize, Option<Vector>, Option<Expr>)> {
+    let Some(map) = &stage.start else {
+        return Vec::new();
+    };
+    if from.is_some() {
+        let fault = Fault::new(
+            stage.name.span,
+            "a stage that follows another takes over its motion",
+        );
+        r.faults
+            .push(fault.hint("`start` belongs to a stage with \"from\": \"start\""));
+        return Vec::new();
+    }
+    let mut out = Vec::new();
+    for (name, entry) in entries(Some(map)) {
+        let StartFile { velocity, spin, .. } = entry;
+        let Some(b) = r.moving(name) else { continue };
+        let spin = spin
+            .as_ref()
+            .and_then(|w| r.symbols.read(w, Quantity::SPIN, &mut r.faults));
+        let turning = spin.clone().unwrap_or_else(|| scene.bodies[b].spin.clone());
+        let velocity = match velocity {
+            None => None,
+            Some(VelocityFile::Components(v)) => {
+                r.symbols.vector(v, Quantity::VELOCITY, &mut r.faults)
+            }
+            Some(VelocityFile::About(a)) => r
+                .position(&a.about)
+                .map(|p| geometry::turned(&turning, &minus(&scene.bodies[b].center, &p))),
+        };
+        out.push((b, velocity, spin));
+    }
+    out
+}

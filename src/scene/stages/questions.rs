@@ -1,0 +1,169 @@
+//! The questions of a scene with stages: about motion at the end of one, and about all of them.
+//!
+//! In: the questions as written, and the stages as read. Out: the questions of the [`Story`], in the order of the file.
+
+use std::collections::HashMap;
+
+use super::kind::TIME;
+use super::stage_named;
+use crate::scene::fault::Fault;
+use crate::scene::file::QuestionFile;
+use crate::scene::formulas::{Quantity, Symbols};
+use crate::scene::record::Text;
+use crate::scene::resolve::Resolver;
+use crate::scene::stage::{Story, StoryAsk, StoryQuestion};
+use crate::scene::stage_file::{EndName, StageFile};
+use crate::scene::{question, special};
+
+const STIFFNESS: Quantity =
+    Quantity::other([1, 0, -2], "a stiffness is a force divided by a length");
+
+/// All questions, in the order of the file.
+pub(super) fn read(base: &mut Resolver<'_>, story: &mut Story, homes: &HashMap<usize, usize>) {
+    let file = base.file;
+    let Some(stages) = &file.stages else { return };
+    let mut names: Vec<String> = Vec::new();
+    for (k, (name, entry)) in file.questions.iter().flat_map(|m| &m.0).enumerate() {
+        let Some(q) = entry else { continue };
+        question::name_is_free(base, name);
+        let ask = match homes.get(&k) {
+            Some(stage) => {
+                let found = story.stages[*stage]
+                    .scene
+                    .questions
+                    .iter()
+                    .position(|s| s.name == name.text);
+                found.map(|question| StoryAsk::Quantity {
+                    stage: *stage,
+                    question,
+                })
+            }
+            None => {
+                let symbols = base.symbols.extended(names.iter().map(String::as_str));
+                let ask = story_ask(base, &symbols, stages, name, q);
+                for used in symbols.used() {
+                    base.symbols.mark_used(&used);
+                }
+                ask
+            }
+        };
+        if let Some(ask) = ask {
+            story.questions.push(StoryQuestion {
+                name: name.text.clone(),
+                latex: q.latex.as_ref().map(|t| t.text.clone()),
+                ask,
+            });
+        }
+        for suffix in ["", "_x", "_y"] {
+            names.push(format!("{}{suffix}", name.text));
+        }
+    }
+}
+
+fn story_ask(
+    base: &mut Resolver<'_>,
+    symbols: &Symbols,
+    stages: &[StageFile],
+    name: &Text,
+    q: &QuestionFile,
+) -> Option<StoryAsk> {
+    let kinds = special::asked(q).map(|(kind, given, _)| (kind, given));
+    let kinds: Vec<_> = kinds.into_iter().chain(question::about_stage(q)).collect();
+    let asked: Vec<&str> = kinds.iter().filter(|k| k.1).map(|k| k.0).collect();
+    if asked.len() != 1 {
+        let all: Vec<&str> = kinds.iter().map(|k| k.0).collect();
+        let hint = format!(
+            "give one of velocity, spin, impulse, energy, {}",
+            all.join(", ")
+        );
+        let fault = Fault::new(name.span, question::things_asked(&asked));
+        base.faults.push(fault.hint(hint));
+        return None;
+    }
+    let at_end = q.when != Some(EndName::Start);
+    if special::is_asked(q) {
+        return special::ask(base, symbols, name, q);
+    }
+    if let Some(stage) = &q.reaction {
+        let i = stage_named(&mut base.faults, stages, Some(stage))?;
+        if stages[i].turn.is_none() {
+            base.faults.push(Fault::new(
+                stage.span,
+                "a reaction is asked of a stage in which a body turns about a point",
+            ));
+            return None;
+        }
+        let Some(along) = &q.along else {
+            base.faults.push(Fault::new(
+                name.span,
+                "a reaction needs the direction `along` which it is asked",
+            ));
+            return None;
+        };
+        return Some(StoryAsk::Reaction {
+            stage: i,
+            along: base.direction(along)?,
+            at_end,
+        });
+    }
+    if let Some(body) = &q.angular_momentum {
+        let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
+        let Some(about) = &q.about else {
+            base.faults.push(Fault::new(
+                name.span,
+                "an angular momentum needs the point `about` which it is meant",
+            ));
+            return None;
+        };
+        return Some(StoryAsk::AngularMomentum {
+            stage: i,
+            body: base.moving(body)?,
+            about: base.position(about)?,
+            at_end,
+        });
+    }
+    if let Some(share) = &q.share {
+        return Some(StoryAsk::Share {
+            mass: symbols.read(&share.mass, Quantity::MASS, &mut base.faults)?,
+            stiffness: symbols.read(&share.stiffness, STIFFNESS, &mut base.faults)?,
+            during: symbols.read(&share.during, TIME, &mut base.faults)?,
+        });
+    }
+    if let Some(words) = &q.remark {
+        return Some(StoryAsk::Remark(words.text.clone()));
+    }
+    let mut stage = |name: &Text| stage_named(&mut base.faults, stages, Some(name));
+    if let Some(text) = &q.impulsive {
+        return Some(StoryAsk::Impulsive {
+            stage: stage(text)?,
+        });
+    }
+    if let Some(text) = &q.describe {
+        return Some(StoryAsk::Describe {
+            stage: stage(text)?,
+        });
+    }
+    if let Some(text) = &q.missing {
+        return Some(StoryAsk::Missing {
+            stage: stage(text)?,
+        });
+    }
+    if let Some(of) = &q.unused {
+        let names = symbols
+            .names()
+            .declared()
+            .iter()
+            .map(|d| d.name.to_string());
+        if !names.clone().any(|n| n == of.text)
+            || special::parameter_names(base.file).contains(&of.text.as_str())
+        {
+            base.faults.push(Fault::new(
+                of.span,
+                format!("no earlier answer is called `{}`", of.text),
+            ));
+            return None;
+        }
+        return Some(StoryAsk::Unused(of.text.clone()));
+    }
+    Some(StoryAsk::Assumed)
+}
