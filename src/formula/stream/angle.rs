@@ -1,7 +1,8 @@
 //! The angle under a sine: a combination of names with fractions, and quarter turns.
 
+use super::Builder;
+use super::reader::{Peek, Reader};
 use super::word::Word;
-use super::{Builder, Peek, Reader};
 
 /// Most different names in one angle.
 const MOST: usize = 4;

@@ -37,14 +37,18 @@ impl Builder for Exprs {
         }
         Some(a.power(Expr::ratio(i64::from(halves), 2)))
     }
-    fn turn(&mut self, f: Function, reciprocal: bool, angle: &Angle, _: &[&[u8]]) -> Option<Expr> {
+    fn turn(&mut self, ratio: Ratio, angle: &Angle, _: &[&[u8]]) -> Option<Expr> {
         let mut total = Expr::pi() * Expr::ratio(i64::from(angle.quarters), 2);
         for (index, share) in angle.parts() {
             let factor = Expr::ratio(i64::from(share.above), i64::from(share.below));
             total = total + self.symbol(index, b"")? * factor;
         }
-        let value = Expr::call(f, total);
-        Some(if reciprocal { value.powi(-1) } else { value })
+        let value = Expr::call(ratio.function, total);
+        Some(if ratio.reciprocal {
+            value.powi(-1)
+        } else {
+            value
+        })
     }
 }
 

@@ -1,7 +1,8 @@
 //! Words of a plain formula: names with their indices, functions, commands.
 
-use super::names::Key;
-use super::{Builder, Reader, Table, no_unit};
+use super::names::{Key, no_unit};
+use super::reader::Reader;
+use super::{Builder, Ratio, Table};
 use crate::expr::Function;
 use crate::formula::symbols::{ACCENTS, greek_name};
 
@@ -12,12 +13,9 @@ const RUN: usize = 24;
 pub(super) enum Word {
     Name(usize),
     Pi,
-    Root {
-        tex: bool,
-    },
+    Root { tex: bool },
     Fraction,
-    /// A function, or its reciprocal.
-    Call(Function, bool),
+    Call(Ratio),
 }
 
 /// A word that means something by itself.
@@ -26,7 +24,7 @@ pub(crate) enum Keyword {
     Greek,
     Pi,
     Root,
-    Call(Function, bool),
+    Call(Ratio),
     /// For the careful reader.
     Other,
 }
@@ -34,7 +32,19 @@ pub(crate) enum Keyword {
 /// Words by their first letter, the longest first.
 fn keywords(first: u8) -> &'static [(&'static [u8], Keyword)] {
     use Function::{Cos, Sin, Tan};
-    use Keyword::{Call, Greek, Other, Pi, Root};
+    use Keyword::{Greek, Other, Pi, Root};
+    const fn call(function: Function) -> Keyword {
+        Keyword::Call(Ratio {
+            function,
+            reciprocal: false,
+        })
+    }
+    const fn inverse(function: Function) -> Keyword {
+        Keyword::Call(Ratio {
+            function,
+            reciprocal: true,
+        })
+    }
     match first {
         b'a' => &[
             (b"arcsin", Other),
@@ -48,12 +58,12 @@ fn keywords(first: u8) -> &'static [(&'static [u8], Keyword)] {
         ],
         b'b' => &[(b"beta", Greek)],
         b'c' => &[
-            (b"cosec", Call(Sin, true)),
+            (b"cosec", const { inverse(Sin) }),
             (b"cosh", Other),
             (b"cbrt", Other),
-            (b"cos", Call(Cos, false)),
-            (b"csc", Call(Sin, true)),
-            (b"cot", Call(Tan, true)),
+            (b"cos", const { call(Cos) }),
+            (b"csc", const { inverse(Sin) }),
+            (b"cot", const { inverse(Tan) }),
             (b"chi", Greek),
         ],
         b'd' => &[
@@ -81,13 +91,13 @@ fn keywords(first: u8) -> &'static [(&'static [u8], Keyword)] {
             (b"sigma", Greek),
             (b"sqrt", Root),
             (b"sinh", Other),
-            (b"sin", Call(Sin, false)),
-            (b"sec", Call(Cos, true)),
+            (b"sin", const { call(Sin) }),
+            (b"sec", const { inverse(Cos) }),
         ],
         b't' => &[
             (b"theta", Greek),
             (b"tanh", Other),
-            (b"tan", Call(Tan, false)),
+            (b"tan", const { call(Tan) }),
             (b"tau", Greek),
         ],
         b'u' => &[(b"upsilon", Greek)],
@@ -211,7 +221,7 @@ impl<B: Builder> Reader<'_, B> {
                     Keyword::Greek => self.tail(&run[..length], look),
                     Keyword::Pi => Some(Word::Pi),
                     Keyword::Root => Some(Word::Root { tex: false }),
-                    Keyword::Call(function, reciprocal) => Some(Word::Call(function, reciprocal)),
+                    Keyword::Call(ratio) => Some(Word::Call(ratio)),
                     Keyword::Other => None,
                 }
             }
@@ -232,9 +242,7 @@ impl<B: Builder> Reader<'_, B> {
         }
         match keyword(word) {
             Some((length, Keyword::Greek)) if length == count => self.tail(word, look),
-            Some((length, Keyword::Call(function, reciprocal))) if length == count => {
-                Some(Word::Call(function, reciprocal))
-            }
+            Some((length, Keyword::Call(ratio))) if length == count => Some(Word::Call(ratio)),
             _ => None,
         }
     }

@@ -7,9 +7,9 @@
 
 use std::borrow::Cow;
 
-use super::lanes::{Place, Sign};
+use super::value::{Place, Sign};
 use crate::expr::Function;
-use crate::formula::stream::{Angle, Builder};
+use crate::formula::stream::{Angle, Builder, Ratio};
 
 /// Exponents of the generators, one byte each.
 type Monomial = u128;
@@ -384,13 +384,7 @@ impl Builder for Exact<'_> {
         Some(out)
     }
 
-    fn turn(
-        &mut self,
-        f: Function,
-        reciprocal: bool,
-        angle: &Angle,
-        _: &[&[u8]],
-    ) -> Option<Quotient> {
+    fn turn(&mut self, ratio: Ratio, angle: &Angle, _: &[&[u8]]) -> Option<Quotient> {
         let mut total = [Poly::constant(1), Poly::constant(0)];
         let minus = |p: &Poly| p.scaled(0, -1);
         let turned = |a: &[Poly; 2], b: &[Poly; 2]| -> Option<[Poly; 2]> {
@@ -417,12 +411,12 @@ impl Builder for Exact<'_> {
             total = [minus(&sin)?, cos];
         }
         let [cos, sin] = total.map(Quotient::whole);
-        let value = match f {
+        let value = match ratio.function {
             Function::Sin => sin,
             Function::Cos => cos,
             _ => self.quotient(sin, cos)?,
         };
-        match reciprocal {
+        match ratio.reciprocal {
             true => self.inverse(&value),
             false => Some(value),
         }

@@ -10,147 +10,12 @@
 //! is alive its radicand is no square: then it is no square in the field before either, adjoining it is a true extension,
 //! and either choice of its sign in the lanes is as good as the real one. Lanes where it has no root are dead from there.
 
-use super::prime::{
-    self, ROOTS, SMOOTH, add, each, negative, one, random, residue, roots, seed, times,
-};
+use super::prime::{self, ROOTS, add, each, negative, one, random, residue, roots, seed, times};
 use super::real::Real;
-use crate::expr::{Function, Symbol};
-use crate::formula::stream::{Angle, Builder};
+use super::value::{Bound, Circle, Place, Points, Sign, Value, odd_primes, real};
 
-/// Largest multiple of the unit of an angle.
-const MOST_TURNS: u32 = 16;
 /// Most generators in a pair of formulas.
 const MOST_ROOTS: usize = 4;
-
-/// Bounds on a polynomial.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bound {
-    pub degree: f32,
-    /// Sum of the absolute values of the coefficients.
-    pub norm: f32,
-}
-
-impl Bound {
-    pub(super) const ONE: Bound = Bound {
-        degree: 0.0,
-        norm: 1.0,
-    };
-    fn times(self, other: Bound) -> Bound {
-        Bound {
-            degree: self.degree + other.degree,
-            norm: self.norm * other.norm,
-        }
-    }
-    fn plus(self, other: Bound) -> Bound {
-        Bound {
-            degree: self.degree.max(other.degree),
-            norm: self.norm + other.norm,
-        }
-    }
-    fn power(self, k: u32) -> Bound {
-        Bound {
-            degree: self.degree * k as f32,
-            norm: match k {
-                2 => self.norm * self.norm,
-                _ => self.norm.powi(k.min(10_000) as i32),
-            },
-        }
-    }
-    fn root(self) -> Bound {
-        Bound {
-            degree: self.degree / 2.0,
-            norm: self.norm.sqrt(),
-        }
-    }
-}
-
-/// What is known of the sign of a value on the whole domain.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) enum Sign {
-    Unknown,
-    NotNegative,
-    Positive,
-}
-
-/// A value in all lanes.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Value<const L: usize, const R: usize> {
-    above: [u64; L],
-    below: [u64; L],
-    /// Whether `below` is 1 everywhere.
-    whole: bool,
-    bounds: [Bound; 2],
-    /// At real points.
-    real: [Real; R],
-    sign: Sign,
-    /// Whether it is a product of positive symbols and a constant made of small primes.
-    monomial: bool,
-    /// The primes that divide that constant an odd number of times, as bits.
-    odd: u32,
-}
-
-/// Cosine and sine of an angle, both over the same.
-#[derive(Clone, Copy, Debug)]
-struct Circle<const L: usize, const R: usize> {
-    cos: [u64; L],
-    sin: [u64; L],
-    below: [u64; L],
-    real: [[Real; 2]; R],
-    degree: f32,
-    /// Bound on the coefficients below; above it is half the square of it.
-    norm: f32,
-}
-
-impl<const L: usize, const R: usize> Circle<L, R> {
-    /// The sum of two angles.
-    #[inline]
-    fn turned<const C: u64>(&self, other: &Circle<L, R>) -> Circle<L, R> {
-        let mut out = *self;
-        for lane in 0..L {
-            let (c, s) = (self.cos[lane], self.sin[lane]);
-            let (d, t) = (other.cos[lane], other.sin[lane]);
-            let minus = negative::<C>(times::<C>(s, t));
-            out.cos[lane] = add::<C>(times::<C>(c, d), minus);
-            out.sin[lane] = add::<C>(times::<C>(s, d), times::<C>(c, t));
-            out.below[lane] = times::<C>(self.below[lane], other.below[lane]);
-        }
-        for lane in 0..R {
-            let ([c, s], [d, t]) = (self.real[lane], other.real[lane]);
-            out.real[lane] = [
-                c.times(d).plus(s.times(t).negative()),
-                s.times(d).plus(c.times(t)),
-            ];
-        }
-        out.degree += other.degree;
-        // (1 + i t)^(2 k) has 2^(2 k) as the sum of its coefficients, half of it in each part.
-        out.norm *= other.norm;
-        out
-    }
-}
-
-/// Where a symbol lives; without one it is positive, or an angle in the first quadrant.
-#[derive(Clone, PartialEq, Debug)]
-pub(super) struct Place {
-    pub sign: Sign,
-    /// Real points are taken from here.
-    pub range: [f64; 2],
-    /// A component of a unit vector: the name of the first one, and whether this is the second.
-    pub unit: Option<(Symbol, bool)>,
-}
-
-/// Values of symbols, found once and used by many formulas.
-#[derive(Clone, Debug)]
-pub(super) struct Points<const L: usize, const R: usize> {
-    symbols: Vec<Option<Value<L, R>>>,
-    circles: Vec<Option<Circle<L, R>>>,
-}
-
-impl<const L: usize, const R: usize> Points<L, R> {
-    pub(super) const EMPTY: Points<L, R> = Points {
-        symbols: Vec::new(),
-        circles: Vec::new(),
-    };
-}
 
 /// One formula after the other, read into values at the same points.
 #[derive(Clone, Debug)]
@@ -247,7 +112,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         }
     }
 
-    fn constant(&self, above: u64, below: u64) -> Value<L, R> {
+    pub(super) fn constant(&self, above: u64, below: u64) -> Value<L, R> {
         let odd = match C {
             ROOTS => odd_primes(above).zip(odd_primes(below)).map(|(a, b)| a ^ b),
             _ => None,
@@ -272,11 +137,11 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         }
     }
 
-    fn place(&self, index: usize) -> Option<&'a Place> {
+    pub(super) fn place(&self, index: usize) -> Option<&'a Place> {
         self.places.get(index)?.as_ref()
     }
 
-    fn fresh(&self, index: usize, name: &[u8]) -> Value<L, R> {
+    pub(super) fn fresh(&self, index: usize, name: &[u8]) -> Value<L, R> {
         let mut value = self.constant(1, 1);
         let place = self.place(index);
         if let Some((first, second)) = place.and_then(|p| p.unit.as_ref()) {
@@ -340,7 +205,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
     }
 
     #[inline]
-    fn symbol_at(&mut self, index: usize, name: &[u8]) -> Value<L, R> {
+    pub(super) fn symbol_at(&mut self, index: usize, name: &[u8]) -> Value<L, R> {
         if let Some(Some(value)) = self.known.symbols.get(index) {
             return *value;
         }
@@ -358,7 +223,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
 
     /// Cosine and sine of the unit of an angle.
     #[inline]
-    fn circle_at(&mut self, index: usize, name: &[u8]) -> Circle<L, R> {
+    pub(super) fn circle_at(&mut self, index: usize, name: &[u8]) -> Circle<L, R> {
         if let Some(Some(value)) = self.known.circles.get(index) {
             return *value;
         }
@@ -389,7 +254,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         })
     }
 
-    fn root(&mut self, a: Value<L, R>) -> Option<Value<L, R>> {
+    pub(super) fn root(&mut self, a: Value<L, R>) -> Option<Value<L, R>> {
         if C != ROOTS {
             self.rooted = true;
             return None;
@@ -440,7 +305,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         Some(root)
     }
 
-    fn raised(&self, a: Value<L, R>, k: u32) -> Value<L, R> {
+    pub(super) fn raised(&self, a: Value<L, R>, k: u32) -> Value<L, R> {
         if k == 1 {
             return a;
         }
@@ -463,7 +328,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         }
     }
 
-    fn inverse(&self, a: Value<L, R>) -> Option<Value<L, R>> {
+    pub(super) fn inverse(&self, a: Value<L, R>) -> Option<Value<L, R>> {
         (!self.vanishes(&a)).then(|| Value {
             above: a.below,
             below: a.above,
@@ -525,242 +390,5 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
             equal,
             bound: (f64::from(whole.degree).max(1.0) / largest).powi(lanes),
         })
-    }
-}
-
-/// The primes that divide a number an odd number of times, as bits by their size; `None` where a large one occurs.
-fn odd_primes(n: u64) -> Option<u32> {
-    const PRIMES: [u64; 23] = [
-        2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61, 67, 71, 73, 79, SMOOTH,
-    ];
-    let mut left = n.max(1);
-    let mut odd = 0;
-    for (bit, q) in PRIMES.iter().enumerate() {
-        if left == 1 {
-            break;
-        }
-        while left.is_multiple_of(*q) {
-            left /= q;
-            odd ^= 1 << bit;
-        }
-    }
-    (left == 1).then_some(odd)
-}
-
-/// Numbers inside a range, drawn for a seed.
-fn real<const R: usize>(seed: u64, [low, high]: [f64; 2]) -> [Real; R] {
-    std::array::from_fn(|lane| {
-        let share = random::<1>(seed, 1000 + lane as u64) as f64 / prime::prime::<1>() as f64;
-        Real::exact(low + (high - low) * (0.05 + 0.9 * share))
-    })
-}
-
-impl<const C: u64, const L: usize, const R: usize> Builder for Lanes<'_, C, L, R> {
-    type Value = Value<L, R>;
-
-    fn number(&mut self, digits: u64, tens: u32) -> Option<Value<L, R>> {
-        Some(self.constant(digits, 10u64.checked_pow(tens)?))
-    }
-
-    #[inline]
-    fn symbol(&mut self, index: usize, name: &[u8]) -> Option<Value<L, R>> {
-        Some(self.symbol_at(index, name))
-    }
-
-    fn pi(&mut self) -> Option<Value<L, R>> {
-        // π is transcendental: a symbol like others, with a known real value.
-        let mut value = self.fresh(usize::MAX, b"pi");
-        value.real = [Real::PI; R];
-        Some(value)
-    }
-
-    fn negative(&mut self, a: Value<L, R>) -> Option<Value<L, R>> {
-        Some(Value {
-            above: a.above.map(negative::<C>),
-            real: a.real.map(Real::negative),
-            sign: Sign::Unknown,
-            monomial: false,
-            ..a
-        })
-    }
-
-    #[inline]
-    fn sum(&mut self, a: Value<L, R>, b: Value<L, R>) -> Option<Value<L, R>> {
-        let mut out = a;
-        out.monomial = false;
-        out.sign = match (a.sign, b.sign) {
-            (Sign::Unknown, _) | (_, Sign::Unknown) => Sign::Unknown,
-            (x, y) => x.max(y),
-        };
-        for (x, y) in out.real.iter_mut().zip(b.real) {
-            *x = x.plus(y);
-        }
-        if (a.whole && b.whole) || a.below == b.below {
-            out.above = each(a.above, b.above, add::<C>);
-            out.bounds[0] = a.bounds[0].plus(b.bounds[0]);
-            return Some(out);
-        }
-        let cross = |x: &Value<L, R>, y: &Value<L, R>| match y.whole {
-            true => (x.above, x.bounds[0]),
-            false => (
-                each(x.above, y.below, times::<C>),
-                x.bounds[0].times(y.bounds[1]),
-            ),
-        };
-        let ((left, left_bound), (right, right_bound)) = (cross(&a, &b), cross(&b, &a));
-        out.above = each(left, right, add::<C>);
-        out.bounds[0] = left_bound.plus(right_bound);
-        if a.whole {
-            (out.below, out.bounds[1]) = (b.below, b.bounds[1]);
-        } else if !b.whole {
-            out.below = each(a.below, b.below, times::<C>);
-            out.bounds[1] = a.bounds[1].times(b.bounds[1]);
-        }
-        out.whole = false;
-        Some(out)
-    }
-
-    #[inline]
-    fn product(&mut self, a: Value<L, R>, b: Value<L, R>) -> Option<Value<L, R>> {
-        let mut out = a;
-        out.above = each(a.above, b.above, times::<C>);
-        out.bounds[0] = a.bounds[0].times(b.bounds[0]);
-        if a.whole {
-            (out.below, out.bounds[1]) = (b.below, b.bounds[1]);
-        } else if !b.whole {
-            out.below = each(a.below, b.below, times::<C>);
-            out.bounds[1] = a.bounds[1].times(b.bounds[1]);
-        }
-        out.whole = a.whole && b.whole;
-        for (x, y) in out.real.iter_mut().zip(b.real) {
-            *x = x.times(y);
-        }
-        out.sign = a.sign.min(b.sign);
-        out.monomial = a.monomial && b.monomial;
-        out.odd = a.odd ^ b.odd;
-        Some(out)
-    }
-
-    fn quotient(&mut self, a: Value<L, R>, b: Value<L, R>) -> Option<Value<L, R>> {
-        let inverse = self.inverse(b)?;
-        self.product(a, inverse)
-    }
-
-    fn power(&mut self, a: Value<L, R>, halves: i32) -> Option<Value<L, R>> {
-        let size = halves.unsigned_abs();
-        let base = if size.is_multiple_of(2) {
-            a
-        } else {
-            self.root(a)?
-        };
-        let k = if size.is_multiple_of(2) {
-            size / 2
-        } else {
-            size
-        };
-        let raised = self.raised(base, k);
-        if halves < 0 {
-            return self.inverse(raised);
-        }
-        Some(raised)
-    }
-
-    fn turn(
-        &mut self,
-        f: Function,
-        reciprocal: bool,
-        angle: &Angle,
-        names: &[&[u8]],
-    ) -> Option<Value<L, R>> {
-        let mut total: Option<Circle<L, R>> = None;
-        let mut acute = angle.quarters == 0;
-        for ((index, share), name) in angle.parts().zip(names) {
-            if self.divisor % share.below != 0 {
-                self.wanted = num_integer::lcm(self.divisor, share.below);
-                return None;
-            }
-            let k = share.above * (self.divisor / share.below);
-            if k.unsigned_abs() > MOST_TURNS {
-                return None;
-            }
-            acute &= total.is_none()
-                && share.above > 0
-                && share.above <= share.below
-                && self.place(index).is_none();
-            let unit = self.circle_at(index, name);
-            let mut turned = unit;
-            for _ in 1..k.unsigned_abs() {
-                turned = turned.turned::<C>(&unit);
-            }
-            if k < 0 {
-                turned.sin = turned.sin.map(negative::<C>);
-                turned.real = turned.real.map(|[cos, sin]| [cos, sin.negative()]);
-            }
-            total = Some(match total {
-                None => turned,
-                Some(before) => before.turned::<C>(&turned),
-            });
-        }
-        let circle = total?;
-        // The coordinate, its sign and whether it is the sine, after some quarter turns.
-        let coordinate = |sine: bool, quarters: i32| -> (bool, bool) {
-            match (quarters.rem_euclid(4), sine) {
-                (0, _) => (sine, false),
-                (1, true) => (false, false),
-                (1, false) => (true, true),
-                (2, _) => (sine, true),
-                (_, true) => (false, true),
-                (_, false) => (true, false),
-            }
-        };
-        let half = circle.norm * circle.norm / 2.0;
-        let bound = |norm: f32| Bound {
-            degree: circle.degree,
-            norm,
-        };
-        let value = |sine: bool| {
-            let (sine, minus) = coordinate(sine, angle.quarters);
-            let above = if sine { circle.sin } else { circle.cos };
-            let real = circle.real.map(|[cos, sin]| if sine { sin } else { cos });
-            Value {
-                above: if minus {
-                    above.map(negative::<C>)
-                } else {
-                    above
-                },
-                below: circle.below,
-                whole: false,
-                bounds: [bound(half), bound(circle.norm)],
-                real: if minus {
-                    real.map(Real::negative)
-                } else {
-                    real
-                },
-                sign: Sign::Unknown,
-                monomial: false,
-                odd: 0,
-            }
-        };
-        let mut value = match f {
-            Function::Sin => value(true),
-            Function::Cos => value(false),
-            // Both stand above the same.
-            _ => {
-                let level = |v: Value<L, R>| Value {
-                    below: [one::<C>(); L],
-                    whole: true,
-                    bounds: [v.bounds[0], Bound::ONE],
-                    ..v
-                };
-                self.quotient(level(value(true)), level(value(false)))?
-            }
-        };
-        if reciprocal {
-            value = self.inverse(value)?;
-        }
-        if acute {
-            value.sign = Sign::Positive;
-        }
-        Some(value)
     }
 }

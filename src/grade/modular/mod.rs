@@ -6,10 +6,12 @@
 //! stated (Schwartz and Zippel: degree over p for each point), where coefficients are shown to be smaller than the prime.
 //! Roots follow the rules told in [`lanes`]. Whatever fits none of this is declined, and [`crate::equality`] decides.
 
+mod build;
 mod exact;
 mod lanes;
 mod prime;
 mod real;
+mod value;
 mod walk;
 
 use std::sync::OnceLock;
@@ -20,8 +22,9 @@ use crate::domain::{Domain, Domains, roles};
 use crate::expr::{Expr, Symbol};
 use crate::formula::stream::{Names, Seen, Table, stream};
 use exact::{Exact, Generators, Quotient};
-use lanes::{Compared, Lanes, Place, Points, Sign, State, Value};
+use lanes::{Compared, Lanes, State};
 use prime::{PLAIN, ROOTS};
+use value::{Place, Points, Sign, Value};
 
 /// Points for formulas without roots; each divides the chance of an error by p over the degree.
 const FEW: usize = 2;

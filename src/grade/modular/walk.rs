@@ -3,7 +3,7 @@
 use super::Uses;
 use crate::expr::angle::angle;
 use crate::expr::{Expr, Function, Node, Rational, Symbol};
-use crate::formula::stream::{Angle, Builder};
+use crate::formula::stream::{Angle, Builder, Ratio};
 
 /// Largest number taken, so that it stays below every prime used.
 const LARGEST: u64 = 1_000_000_000_000_000_000;
@@ -97,7 +97,11 @@ impl<B: Builder> Walk<'_, B> {
                 }
                 let angle = Angle::new(parts, quarters)?;
                 let names: Vec<&[u8]> = read.symbols.keys().map(|n| n.as_bytes()).collect();
-                self.build.turn(*f, false, &angle, &names)
+                let ratio = Ratio {
+                    function: *f,
+                    reciprocal: false,
+                };
+                self.build.turn(ratio, &angle, &names)
             }
             Node::Call(..) => None,
         }
