@@ -344,7 +344,7 @@ pub fn judge(expected: &str, answer: &str, question: &Question, options: &Option
             let assumed = assumed(&list, &pair.seen[0]);
             let finding = match fast {
                 true => pair.quick.finding(assumed),
-                false => identity(assumed),
+                false => identity(pair.quick.roots, assumed),
             };
             let [_, seen] = pair.seen;
             return plain_grade(finding, &list, seen);
@@ -389,7 +389,7 @@ fn plain_against(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
             if !provable(&quick, &seen) || !residues.proves(e, answer, names, &mut seen) {
                 return None;
             }
-            identity(residues.assumed().to_vec())
+            identity(quick.roots, residues.assumed().to_vec())
         }
     };
     Some(plain_grade(finding, residues.list(), seen))
@@ -416,12 +416,16 @@ impl Key {
 
 /// Whether a proof of equality is worth trying and would be all there is to say.
 fn provable(quick: &Quick, seen: &Seen) -> bool {
-    quick.equal && !quick.roots && seen.choices == 0
+    quick.equal && seen.choices == 0
 }
 
 /// The finding of an identity between plain formulas.
-fn identity(assumed: Vec<String>) -> compare::Finding {
-    let proof = Proof::of("identity", "the difference is zero in the normal form");
+fn identity(roots: bool, assumed: Vec<String>) -> compare::Finding {
+    let words = match roots {
+        false => "the difference is zero in the normal form",
+        true => "the difference is zero in the normal form, every root taken not negative",
+    };
+    let proof = Proof::of("identity", words);
     let mut finding = compare::Finding::new(Verdict::Equivalent, "EQUIV_IDENTITY", proof);
     finding.assumed = assumed;
     finding

@@ -1,115 +1,27 @@
 //! Proves two plain formulas equal as quotients of polynomials with whole coefficients.
 //!
-//! In: what the reader in one pass reports, through [`Builder`]. Out: a proof or none; none says nothing. An exponent takes
-//! one byte of a word, so there are at most 16 generators: symbols, and a cosine and a sine for each angle with c² + s² = 1.
+//! In: what the reader in one pass reports, through [`Builder`]. Out: a proof or none; none says nothing. The generators of
+//! the polynomials are symbols, a cosine and a sine for each angle with c² + s² = 1, and square roots, which are not
+//! negative and of which the square is known: two roots with equal squares are one generator.
 //! A proof stands for all points at which both formulas have a value; it is given only if they have values at the same
-//! points: every divisor is positive on the domain, or a power of one on the other side.
+//! points: every divisor is positive on the domain, or a power of one on the other side, and both take the same roots
+//! of what may be negative.
 
 use std::borrow::Cow;
 
+use super::poly::{GENERATORS, Monomial, OVERFLOW, Poly, exponent};
 use super::value::{Place, Sign};
 use crate::expr::Function;
 use crate::formula::stream::{Angle, Builder, Ratio};
 
-/// Exponents of the generators, one byte each.
-type Monomial = u128;
-
-/// Most generators.
-const GENERATORS: usize = 16;
-/// Most terms of a polynomial.
-const TERMS: usize = 4096;
-/// The highest bit of each exponent; set where one is too large.
-const OVERFLOW: Monomial = Monomial::from_ne_bytes([0x80; 16]);
-
-/// Terms in falling order of their monomials, no coefficient 0.
-#[derive(Clone, PartialEq, Eq, Debug)]
-struct Poly(Vec<(Monomial, i64)>);
-
-impl Poly {
-    fn constant(k: i64) -> Poly {
-        Poly(if k == 0 { Vec::new() } else { vec![(0, k)] })
-    }
-
-    /// Sorts and gathers terms.
-    fn gather(mut terms: Vec<(Monomial, i64)>) -> Option<Poly> {
-        terms.sort_unstable_by_key(|term| std::cmp::Reverse(term.0));
-        let mut out: Vec<(Monomial, i64)> = Vec::with_capacity(terms.len());
-        for (monomial, k) in terms {
-            match out.last_mut() {
-                Some((last, sum)) if *last == monomial => *sum = sum.checked_add(k)?,
-                _ => out.push((monomial, k)),
-            }
-        }
-        out.retain(|(_, k)| *k != 0);
-        (out.len() <= TERMS).then_some(Poly(out))
-    }
-
-    fn scaled(&self, monomial: Monomial, k: i64) -> Option<Poly> {
-        let terms = self.0.iter().map(|(m, c)| {
-            let sum = m.checked_add(monomial).filter(|s| s & OVERFLOW == 0)?;
-            Some((sum, c.checked_mul(k)?))
-        });
-        terms.collect::<Option<Vec<_>>>().map(Poly)
-    }
-
-    fn times(&self, other: &Poly) -> Option<Poly> {
-        let (short, long) = match self.0.len() <= other.0.len() {
-            true => (self, other),
-            false => (other, self),
-        };
-        match short.0.as_slice() {
-            [] => return Some(Poly(Vec::new())),
-            // Order is kept by a common factor.
-            [(monomial, k)] => return long.scaled(*monomial, *k),
-            _ => {}
-        }
-        if short.0.len() * long.0.len() > TERMS {
-            return None;
-        }
-        let mut terms = Vec::with_capacity(short.0.len() * long.0.len());
-        for (monomial, k) in &short.0 {
-            terms.extend(long.scaled(*monomial, *k)?.0);
-        }
-        Poly::gather(terms)
-    }
-
-    fn plus(&self, other: &Poly) -> Option<Poly> {
-        let mut terms = Vec::with_capacity(self.0.len() + other.0.len());
-        terms.extend_from_slice(&self.0);
-        terms.extend_from_slice(&other.0);
-        Poly::gather(terms)
-    }
-
-    fn power(&self, k: u32) -> Option<Poly> {
-        let mut out = Poly::constant(1);
-        for _ in 0..k {
-            out = out.times(self)?;
-        }
-        Some(out)
-    }
-
-    /// Splits off the largest number and monomial that divide all terms; the sign of the first term goes with them.
-    fn split(&self) -> (i64, Monomial, Poly) {
-        let content = self.0.iter().fold(0, |g, (_, k)| num_integer::gcd(g, *k));
-        let sign = self.0.first().map_or(1, |(_, k)| k.signum());
-        let content = content.max(1) * sign;
-        let least = |a: Monomial, b: Monomial| {
-            let (a, b) = (a.to_ne_bytes(), b.to_ne_bytes());
-            Monomial::from_ne_bytes(std::array::from_fn(|i| a[i].min(b[i])))
-        };
-        let common = self.0.iter().map(|(m, _)| *m).reduce(least).unwrap_or(0);
-        let rest = self.0.iter().map(|(m, k)| (m - common, k / content));
-        (content, common, Poly(rest.collect()))
-    }
-}
-
 /// A quotient: above over `number`·`monomial`·factors.
 #[derive(Clone, Debug)]
 pub(super) struct Quotient {
-    above: Poly,
-    number: i64,
-    monomial: Monomial,
-    factors: Vec<(Poly, u32)>,
+    pub above: Poly,
+    /// Positive.
+    pub number: i64,
+    pub monomial: Monomial,
+    pub factors: Vec<(Poly, u32)>,
 }
 
 impl Quotient {
@@ -123,87 +35,169 @@ impl Quotient {
     }
 }
 
+/// What the exponents of a monomial count.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Generator {
+    /// The value of a name.
+    Symbol(usize),
+    /// Cosine and sine of the unit of an angle.
+    Cosine(usize),
+    /// See there.
+    Sine(usize),
+    /// A root that is not negative.
+    Root {
+        /// Its square, in generators from before it.
+        square: Poly,
+        /// Sign of that square on the domain.
+        sign: Sign,
+        /// The roots of what may be negative, as bits, that it takes to have a value; itself is one of them then.
+        needs: u32,
+    },
+}
+
+/// A formula as a quotient, and the roots of what may be negative that it takes, as bits.
+#[derive(Clone, Debug)]
+pub(super) struct Read {
+    pub value: Quotient,
+    pub used: u32,
+}
+
 /// Builds quotients, and keeps what the generators stand for.
 #[derive(Clone, Debug)]
 pub(super) struct Exact<'a> {
     places: &'a [Option<Place>],
     divisor: i32,
-    pub generators: Generators,
+    pub generators: Vec<Generator>,
+    /// The roots of what may be negative that were taken since this was cleared, as bits.
+    pub used: u32,
 }
 
-/// The name of each generator, and whether it is a value (0), a cosine (1) or a sine (2).
-pub(super) type Generators = Vec<(usize, u8)>;
-
 impl<'a> Exact<'a> {
-    pub fn new(places: &'a [Option<Place>], divisor: i32, generators: Generators) -> Exact<'a> {
+    pub fn new(places: &'a [Option<Place>], divisor: i32, generators: Vec<Generator>) -> Exact<'a> {
         Exact {
             places,
             divisor,
             generators,
+            used: 0,
         }
     }
 
-    fn generator(&mut self, index: usize, kind: u8) -> Option<Monomial> {
-        let known = self.generators.iter().position(|g| *g == (index, kind));
-        let at = match known {
-            Some(at) => at,
-            None => {
-                self.generators.push((index, kind));
-                self.generators.len() - 1
-            }
-        };
-        (at < GENERATORS).then(|| 1 << (8 * at))
+    /// What comes out of reading a formula.
+    pub fn read(&mut self, read: impl FnOnce(&mut Self) -> Option<Quotient>) -> Option<Read> {
+        self.used = 0;
+        let value = read(self)?;
+        Some(Read {
+            value,
+            used: self.used,
+        })
     }
 
-    /// Whether a generator is positive on the domain.
-    fn is_positive(&self, at: usize) -> bool {
-        let Some((index, kind)) = self.generators.get(at) else {
-            return true;
+    pub fn generator(&mut self, generator: Generator) -> Option<Monomial> {
+        let known = self.generators.iter().position(|g| *g == generator);
+        let at = known.unwrap_or(self.generators.len());
+        if at >= GENERATORS {
+            return None;
+        }
+        if known.is_none() {
+            self.generators.push(generator);
+        }
+        Some(1 << (8 * at))
+    }
+
+    /// What is known of the sign of a generator on the domain, wherever it has a value.
+    fn sign(&self, at: usize) -> Sign {
+        let (index, turned) = match self.generators.get(at) {
+            None => return Sign::Positive,
+            Some(Generator::Root { sign, .. }) => return (*sign).max(Sign::NotNegative),
+            Some(Generator::Symbol(index)) => (index, false),
+            Some(Generator::Cosine(index) | Generator::Sine(index)) => (index, true),
         };
         match self.places.get(*index).and_then(Option::as_ref) {
             // By the default a positive number, or an angle in the first quadrant.
-            None => true,
-            Some(place) => *kind == 0 && place.sign == Sign::Positive && place.unit.is_none(),
+            None => Sign::Positive,
+            Some(place) if turned || place.unit.is_some() => Sign::Unknown,
+            Some(place) => place.sign,
         }
     }
 
-    fn all_positive(&self, monomial: Monomial) -> bool {
-        let exponents = monomial.to_le_bytes();
-        (0..GENERATORS).all(|at| exponents[at] == 0 || self.is_positive(at))
+    fn sign_of_monomial(&self, monomial: Monomial) -> Sign {
+        let factor = |at| match exponent(monomial, at) {
+            0 => Sign::Positive,
+            even if even % 2 == 0 => self.sign(at).max(Sign::NotNegative),
+            _ => self.sign(at),
+        };
+        (0..GENERATORS).map(factor).min().unwrap_or(Sign::Positive)
     }
 
-    /// Replaces s² by 1 − c² until no sine stands in a square.
-    fn reduced<'p>(&self, poly: &'p Poly) -> Option<Cow<'p, Poly>> {
+    /// What is known of the sign of a polynomial: something where no term is negative.
+    pub fn sign_of(&self, poly: &Poly) -> Sign {
+        let mut sign = Sign::NotNegative;
+        for (monomial, k) in &poly.0 {
+            match self.sign_of_monomial(*monomial) {
+                known if known > Sign::Unknown && *k > 0 => sign = sign.max(known),
+                _ => return Sign::Unknown,
+            }
+        }
+        sign
+    }
+
+    pub fn is_positive(&self, monomial: Monomial) -> bool {
+        self.sign_of_monomial(monomial) == Sign::Positive
+    }
+
+    /// The square of a generator by others, where it has one.
+    fn square(&self, at: usize) -> Option<Cow<'_, Poly>> {
+        match self.generators.get(at)? {
+            Generator::Root { square, .. } => Some(Cow::Borrowed(square)),
+            Generator::Sine(index) => {
+                let cosine = Generator::Cosine(*index);
+                let cosine = self.generators.iter().position(|g| *g == cosine)?;
+                Some(Cow::Owned(Poly(vec![(2 << (8 * cosine), -1), (0, 1)])))
+            }
+            _ => None,
+        }
+    }
+
+    /// The normal form: squares of sines and of roots replaced.
+    pub fn reduced<'p>(&self, poly: &'p Poly) -> Option<Cow<'p, Poly>> {
         let mut poly = Cow::Borrowed(poly);
-        for (at, (index, kind)) in self.generators.iter().enumerate() {
-            if *kind != 2 {
+        // The square of a root has generators from before it, that of a sine has the cosine.
+        for at in (0..self.generators.len().min(GENERATORS)).rev() {
+            if poly.0.iter().all(|(m, _)| exponent(*m, at) < 2) {
                 continue;
             }
-            let cosine = self.generators.iter().position(|g| *g == (*index, 1))?;
-            let (c, s) = (8 * cosine, 8 * at);
-            while poly.0.iter().any(|(m, _)| (m >> s) as u8 >= 2) {
-                let mut terms = Vec::with_capacity(poly.0.len() * 2);
-                for (m, k) in &poly.0 {
-                    if ((m >> s) as u8) < 2 {
-                        terms.push((*m, *k));
-                        continue;
-                    }
-                    let less = m - (2 << s);
-                    let more = less + (2 << c);
-                    if more & OVERFLOW != 0 {
-                        return None;
-                    }
-                    terms.push((less, *k));
-                    terms.push((more, k.checked_neg()?));
-                }
-                poly = Cow::Owned(Poly::gather(terms)?);
+            if let Some(square) = self.square(at) {
+                poly = Cow::Owned(replaced(&poly, at, &square)?);
             }
         }
         Some(poly)
     }
 
-    /// Whether two quotients are equal, and have values at the same points of the domain.
-    pub fn proves(&self, a: &Quotient, b: &Quotient) -> Option<()> {
+    /// The same with cosines replaced by sines wherever that takes fewer terms.
+    pub fn lighter(&self, mut poly: Poly) -> Option<Poly> {
+        for (at, generator) in self.generators.iter().enumerate().take(GENERATORS) {
+            if let Generator::Cosine(index) = generator
+                && poly.0.iter().any(|(m, _)| exponent(*m, at) > 1)
+            {
+                let sine = Generator::Sine(*index);
+                let sine = self.generators.iter().position(|g| *g == sine)?;
+                let square = Poly::gather(vec![(2 << (8 * sine), -1), (0, 1)])?;
+                let other = replaced(&poly, at, &square)?;
+                if other.0.len() < poly.0.len() {
+                    poly = other;
+                }
+            }
+        }
+        Some(poly)
+    }
+
+    /// Whether two formulas are equal, and have values at the same points of the domain.
+    pub fn proves(&self, a: &Read, b: &Read) -> bool {
+        a.used == b.used && self.equal(&a.value, &b.value).is_some()
+    }
+
+    /// Whether two quotients are equal, and their divisors are 0 at the same points of the domain.
+    fn equal(&self, a: &Quotient, b: &Quotient) -> Option<()> {
         // With equal factors left out on both sides.
         let (mut left, mut right) = (a.above.clone(), b.above.clone());
         for (factor, power) in &b.factors {
@@ -218,8 +212,8 @@ impl<'a> Exact<'a> {
         }
         let common = num_integer::gcd(a.number, b.number);
         left = left.scaled(b.monomial, b.number / common)?;
-        right = right.scaled(a.monomial, -(a.number / common))?;
-        let difference = left.plus(&right)?;
+        right = right.scaled(a.monomial, a.number / common)?;
+        let difference = left.minus(&right)?;
         if !self.reduced(&difference)?.0.is_empty() {
             return None;
         }
@@ -229,21 +223,19 @@ impl<'a> Exact<'a> {
 
     /// Whether every divisor of the one is positive or among those of the other, up to a power.
     fn divides(&self, a: &Quotient, b: &Quotient) -> Option<bool> {
-        let exponents = |m: Monomial| m.to_le_bytes().map(|e| e > 0);
-        let (mine, theirs) = (exponents(a.monomial), exponents(b.monomial));
-        let bare = (0..GENERATORS).all(|at| !mine[at] || theirs[at] || self.is_positive(at));
+        let bare = (0..GENERATORS).all(|at| {
+            let occurs = |m| exponent(m, at) > 0;
+            !occurs(a.monomial) || occurs(b.monomial) || self.sign(at) == Sign::Positive
+        });
         let mut all = bare;
         for (factor, _) in &a.factors {
-            let positive = factor
-                .0
-                .iter()
-                .all(|(m, k)| *k > 0 && self.all_positive(*m));
+            let positive = self.sign_of(factor) == Sign::Positive;
             if positive || b.factors.iter().any(|(f, _)| f == factor) {
                 continue;
             }
             // Up to a number and a monomial, which are looked at by themselves.
             let (_, own, plain) = self.reduced(factor)?.split();
-            all &= self.all_positive(own);
+            all &= self.is_positive(own);
             let mut found = false;
             for (other, _) in &b.factors {
                 for power in 1..=2 {
@@ -257,7 +249,10 @@ impl<'a> Exact<'a> {
     }
 
     fn inverse(&self, a: &Quotient) -> Option<Quotient> {
-        if a.above.0.is_empty() {
+        // What stands below and comes up could be 0, and that would be forgotten.
+        let below = a.factors.iter().map(|(factor, _)| self.sign_of(factor));
+        let lost = below.chain([self.sign_of_monomial(a.monomial)]);
+        if a.above.0.is_empty() || lost.min() != Some(Sign::Positive) {
             return None;
         }
         let (number, monomial, rest) = a.above.split();
@@ -276,6 +271,22 @@ impl<'a> Exact<'a> {
         }
         Some(out)
     }
+}
+
+/// A polynomial with the square of a generator replaced until it stands in no square.
+fn replaced(poly: &Poly, at: usize, square: &Poly) -> Option<Poly> {
+    let mut terms = Vec::with_capacity(poly.0.len() * 2);
+    for (monomial, k) in &poly.0 {
+        let twice = exponent(*monomial, at) / 2;
+        let less = monomial - (Monomial::from(2 * twice) << (8 * at));
+        if twice == 0 {
+            terms.push((*monomial, *k));
+        } else {
+            let power = square.power(u32::from(twice))?;
+            terms.extend(power.scaled(less, *k)?.0);
+        }
+    }
+    Poly::gather(terms)
 }
 
 /// Enters a factor among others.
@@ -300,12 +311,12 @@ impl Builder for Exact<'_> {
         if place.is_some_and(|p| p.unit.is_some()) {
             return None;
         }
-        let generator = self.generator(index, 0)?;
+        let generator = self.generator(Generator::Symbol(index))?;
         Some(Quotient::whole(Poly(vec![(generator, 1)])))
     }
 
     fn pi(&mut self) -> Option<Quotient> {
-        let generator = self.generator(usize::MAX, 0)?;
+        let generator = self.generator(Generator::Symbol(usize::MAX))?;
         Some(Quotient::whole(Poly(vec![(generator, 1)])))
     }
 
@@ -373,12 +384,20 @@ impl Builder for Exact<'_> {
 
     fn power(&mut self, a: Quotient, halves: i32) -> Option<Quotient> {
         let size = halves.unsigned_abs();
-        if !size.is_multiple_of(2) || size > 64 {
+        if size > 64 {
             return None;
         }
-        let base = if halves < 0 { self.inverse(&a)? } else { a };
+        let (base, k) = match size.is_multiple_of(2) {
+            true => (a, size / 2),
+            false => (self.root(&a)?, size),
+        };
+        let base = if halves < 0 {
+            self.inverse(&base)?
+        } else {
+            base
+        };
         let mut out = base.clone();
-        for _ in 1..size / 2 {
+        for _ in 1..k {
             out = self.product(out, base.clone())?;
         }
         Some(out)
@@ -386,9 +405,8 @@ impl Builder for Exact<'_> {
 
     fn turn(&mut self, ratio: Ratio, angle: &Angle, _: &[&[u8]]) -> Option<Quotient> {
         let mut total = [Poly::constant(1), Poly::constant(0)];
-        let minus = |p: &Poly| p.scaled(0, -1);
         let turned = |a: &[Poly; 2], b: &[Poly; 2]| -> Option<[Poly; 2]> {
-            let cos = a[0].times(&b[0])?.plus(&minus(&a[1].times(&b[1])?)?)?;
+            let cos = a[0].times(&b[0])?.minus(&a[1].times(&b[1])?)?;
             Some([cos, a[1].times(&b[0])?.plus(&a[0].times(&b[1])?)?])
         };
         for (index, share) in angle.parts() {
@@ -399,8 +417,10 @@ impl Builder for Exact<'_> {
             if k.abs() > 8 {
                 return None;
             }
-            let cos = Poly(vec![(self.generator(index, 1)?, 1)]);
-            let sin = Poly(vec![(self.generator(index, 2)?, i64::from(k.signum()))]);
+            let cos = self.generator(Generator::Cosine(index))?;
+            let sin = self.generator(Generator::Sine(index))?;
+            let cos = Poly(vec![(cos, 1)]);
+            let sin = Poly(vec![(sin, i64::from(k.signum()))]);
             let unit = [cos, sin];
             for _ in 0..k.abs() {
                 total = turned(&total, &unit)?;
@@ -408,7 +428,7 @@ impl Builder for Exact<'_> {
         }
         for _ in 0..angle.quarters.rem_euclid(4) {
             let [cos, sin] = total;
-            total = [minus(&sin)?, cos];
+            total = [sin.scaled(0, -1)?, cos];
         }
         let [cos, sin] = total.map(Quotient::whole);
         let value = match ratio.function {
@@ -426,18 +446,24 @@ impl Builder for Exact<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::expr::Symbol;
     use crate::formula::stream::{Names, Seen, Table, stream};
 
-    fn proved(a: &str, b: &str) -> bool {
-        let mut names = Names::collecting();
-        let mut exact = Exact::new(&[], 1, Generators::new());
-        let mut seen = Seen::default();
+    fn proved_with(places: &[Option<Place>], a: &str, b: &str) -> bool {
+        let halved = [a, b].iter().any(|text| text.contains("theta/2"));
+        let mut names = Names::declared(["x", "y"].map(|name| (name, None)), true);
+        let names = names.as_mut().expect("simple names");
+        let mut exact = Exact::new(places, 1 + i32::from(halved), Vec::new());
         let mut read = |text: &str| {
-            stream(text, Table::Collect(&mut names), &mut exact, &mut seen)
-                .expect("a plain formula")
+            exact.read(|exact| stream(text, Table::Collect(names), exact, &mut Seen::default()))
         };
         let (left, right) = (read(a), read(b));
-        exact.proves(&left, &right).is_some()
+        let both = left.zip(right);
+        both.is_some_and(|(left, right)| exact.proves(&left, &right))
+    }
+
+    fn proved(a: &str, b: &str) -> bool {
+        proved_with(&[], a, b)
     }
 
     #[test]
@@ -463,8 +489,78 @@ mod tests {
             ("sin(theta)", "cos(theta)"),
             // Equal where a is not b.
             ("(a^2-b^2)/(a-b)", "a+b"),
+            ("1/(1/(a-b))", "a-b"),
         ] {
             assert!(!proved(a, b), "{a} against {b}");
         }
+    }
+
+    #[test]
+    fn roots_taken_apart_and_nested_are_proved() {
+        for (a, b) in [
+            ("sqrt(2*g*h)", "sqrt(2)*sqrt(g)*sqrt(h)"),
+            ("sqrt(12*a^2*b)/6", "a*sqrt(b/3)"),
+            ("sqrt(g/l)", "sqrt(g*l)/l"),
+            ("1/sqrt(2*a)", "sqrt(2*a)/(2*a)"),
+            ("a*sqrt(1/2)", "a/sqrt(2)"),
+            ("a^(3/2)", "a*sqrt(a)"),
+            ("sqrt(sqrt(a))*sqrt(sqrt(a))", "sqrt(a)"),
+            ("sqrt(2*g*l*(1-cos(theta)))", "2*sqrt(g*l)*sin(theta/2)"),
+            ("sqrt(a^2 - a^2*cos(theta)^2)", "a*sin(theta)"),
+            ("sqrt(a^2+2*a*b+b^2)", "a+b"),
+            ("v*sqrt(1+3*cos(theta)^2)/2", "v*sqrt(1 - 3*sin(theta)^2/4)"),
+            ("(a-b)^(3/2)", "(a-b)*sqrt(a-b)"),
+            (
+                "sqrt(a^2+b^2)*sqrt(a^2+b^2-c)",
+                "sqrt((a^2+b^2)*(a^2+b^2-c))",
+            ),
+            (
+                "sqrt(2*g*(a^2+b^2)^(3/2)*(1-b/sqrt(a^2+b^2))/3)",
+                "sqrt(2*g*(a^2+b^2)*(sqrt(a^2+b^2)-b)/3)",
+            ),
+        ] {
+            assert!(proved(a, b), "{a} = {b}");
+        }
+    }
+
+    #[test]
+    fn roots_of_other_numbers_or_with_values_elsewhere_are_not() {
+        for (a, b) in [
+            ("sqrt(a+b)", "sqrt(a)+sqrt(b)"),
+            ("sqrt(a^2-2*a*b+b^2)", "a-b"),
+            // Equal where a is above b.
+            ("sqrt(a-b)^2", "a-b"),
+            ("a + sqrt(a-b) - sqrt(a-b)", "a"),
+            ("sqrt(a-b)/sqrt(a-c)", "sqrt((a-b)/(a-c))"),
+            ("sqrt(a-b)*sqrt(a-c)", "sqrt((a-b)*(a-c))"),
+            ("1/(sqrt(a)-sqrt(b))", "(sqrt(a)+sqrt(b))/(a-b)"),
+            ("sqrt(a-b)*(sqrt(a-b))", "sqrt((b-a)^2)"),
+        ] {
+            assert!(!proved(a, b), "{a} against {b}");
+        }
+    }
+
+    #[test]
+    fn the_root_of_a_square_keeps_its_sign_where_that_is_unknown() {
+        let place = |sign| {
+            Some(Place {
+                sign,
+                range: [-2.0, 2.0],
+                unit: None::<(Symbol, bool)>,
+            })
+        };
+        let positive = [place(Sign::Positive), place(Sign::Positive)];
+        let real = [place(Sign::Unknown), place(Sign::Unknown)];
+        for (a, b) in [
+            ("sqrt(x^2)", "x"),
+            ("sqrt(x^2*y)", "x*sqrt(y)"),
+            ("sqrt(x*y)", "sqrt(x)*sqrt(y)"),
+            ("sqrt(y/x)", "sqrt(x*y)/x"),
+            ("sqrt(x^2+2*x*y+y^2)", "x+y"),
+        ] {
+            assert!(proved_with(&positive, a, b), "{a} = {b}");
+            assert!(!proved_with(&real, a, b), "{a} against {b}");
+        }
+        assert!(proved_with(&real, "sqrt(x-y)*2", "sqrt(4*x-4*y)"));
     }
 }

@@ -9,7 +9,9 @@
 mod build;
 mod exact;
 mod lanes;
+mod poly;
 mod prime;
+mod radical;
 mod real;
 mod value;
 mod walk;
@@ -21,7 +23,7 @@ use super::{Proof, Verdict};
 use crate::domain::{Domain, Domains, roles};
 use crate::expr::{Expr, Symbol};
 use crate::formula::stream::{Names, Seen, Table, stream};
-use exact::{Exact, Generators, Quotient};
+use exact::{Exact, Generator, Read};
 use lanes::{Compared, Lanes, State};
 use prime::{PLAIN, ROOTS};
 use value::{Place, Points, Sign, Value};
@@ -113,7 +115,7 @@ pub(crate) struct Residues {
     /// Domains assumed, in words.
     assumed: Vec<String>,
     /// The formula as a quotient of polynomials with its generators, where a proof asked for it and it is one.
-    exact: OnceLock<Option<(Generators, Quotient)>>,
+    exact: OnceLock<Option<(Vec<Generator>, Read)>>,
 }
 
 #[derive(Clone, Debug)]
@@ -273,23 +275,42 @@ impl Residues {
 
     /// Whether an answer that is equal at points is proved to be equal to the formula these values are of.
     pub fn proves(&self, e: &Expr, answer: &str, names: &Names, seen: &mut Seen) -> bool {
-        let Side::Plain(kept) = &self.side else {
-            return false;
+        let divisor = match &self.side {
+            Side::Plain(kept) => kept.divisor,
+            Side::Roots(kept) => kept.divisor,
+            Side::None => return false,
+        };
+        let expected = |exact: &mut Exact| {
+            let (mut list, mut uses) = (self.list.clone(), Uses::default());
+            exact.read(|exact| walk::value(e, &mut list, &mut uses, exact))
         };
         let fresh = || {
-            let mut exact = Exact::new(&self.places, kept.divisor, Generators::default());
-            let (mut list, mut uses) = (self.list.clone(), Uses::default());
-            let value = walk::value(e, &mut list, &mut uses, &mut exact)?;
-            Some((exact.generators, value))
+            let mut exact = Exact::new(&self.places, divisor, Vec::new());
+            let mine = expected(&mut exact)?;
+            Some((exact.generators, mine))
         };
         let Some((generators, mine)) = self.exact.get_or_init(fresh) else {
             return false;
         };
-        let mut exact = Exact::new(&self.places, kept.divisor, generators.clone());
-        let theirs = stream(answer, Table::Known(names), &mut exact, seen);
+        let mut given = |exact: &mut Exact| {
+            exact.read(|exact| stream(answer, Table::Known(names), exact, seen))
+        };
+        let mut exact = Exact::new(&self.places, divisor, generators.clone());
+        let Some(theirs) = given(&mut exact) else {
+            return false;
+        };
+        let proved = exact.proves(mine, &theirs) || {
+            // Roots that come first are those by which later ones are known.
+            let mut exact = Exact::new(&self.places, divisor, Vec::new());
+            let rooted = matches!(self.side, Side::Roots(_));
+            let turned = rooted
+                .then(|| given(&mut exact).zip(expected(&mut exact)))
+                .flatten();
+            turned.is_some_and(|(theirs, mine)| exact.proves(&mine, &theirs))
+        };
         // Domains of further names would be assumed too.
         let known = self.uses.turned | self.uses.bare;
-        seen.names & !known == 0 && theirs.is_some_and(|t| exact.proves(mine, &t).is_some())
+        seen.names & !known == 0 && proved
     }
 
     /// The names in play.
@@ -365,15 +386,19 @@ pub(crate) struct Pair {
 impl Pair {
     /// Whether formulas that are equal at points are proved to be so.
     pub fn proves(&self, expected: &str, answer: &str) -> bool {
-        let mut exact = Exact::new(&[], self.divisor, Generators::default());
-        let mut read = |text| {
-            let names = Table::Known(&self.names);
-            stream(text, names, &mut exact, &mut Seen::default())
+        let proved = |first, second| {
+            let mut exact = Exact::new(&[], self.divisor, Vec::new());
+            let mut read = |text| {
+                let names = Table::Known(&self.names);
+                exact.read(|exact| stream(text, names, exact, &mut Seen::default()))
+            };
+            match (read(first), read(second)) {
+                (Some(a), Some(b)) => exact.proves(&a, &b),
+                _ => false,
+            }
         };
-        match (read(expected), read(answer)) {
-            (Some(e), Some(a)) => exact.proves(&e, &a).is_some(),
-            _ => false,
-        }
+        // Roots that come first are those by which later ones are known.
+        proved(expected, answer) || self.quick.roots && proved(answer, expected)
     }
 }
 
