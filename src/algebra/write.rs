@@ -201,7 +201,7 @@ impl Field {
         whole * Expr::ratio(1, i64::from(base.divisor))
     }
 
-    /// A sum with a positive term in front, if it has one; whether its sign was turned; whether it has both signs.
+    /// A sum with a positive term in front, if it has one; whether its sign was turned; whether a minus can be put into it.
     fn sum(&self, p: &Poly) -> (Expr, bool, bool) {
         if let Some((fewer, angles)) = self.in_differences(p) {
             let e = self.written(&Element::from_poly(fewer)).substitute(&angles);
@@ -213,7 +213,6 @@ impl Field {
         }
         let mut terms = self.shortened(p);
         let minus = terms.iter().filter(|t| t.coeff.is_negative()).count();
-        let mixed = minus > 0 && minus < terms.len();
         // More minus than plus, or as many and a number that is negative: the other way round reads better.
         let number_negative = terms.iter().any(|t| t.coeff.is_negative() && t.is_number());
         let flip = 2 * minus > terms.len() || (2 * minus == terms.len() && number_negative);
@@ -222,6 +221,7 @@ impl Field {
         }
         let mut written = self.grouped(terms);
         written.sort_by_key(|(first, e)| (is_negative(e), *first));
+        let mixed = written.last().is_some_and(|(_, e)| is_negative(e));
         (Expr::sum(written.into_iter().map(|(_, e)| e)), flip, mixed)
     }
 
