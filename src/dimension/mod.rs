@@ -103,6 +103,14 @@ impl Dimension {
         }
     }
 
+    /// A number with its unit as a person says it; a plain number stands alone.
+    pub fn measured(&self, number: &str) -> String {
+        match self.is_none() {
+            true => number.to_string(),
+            false => format!("{number} {}", self.spoken()),
+        }
+    }
+
     fn spell(&self, names: [&str; 3], times: &str, raise: impl Fn(&Rational) -> String) -> String {
         let part = |positive: bool| {
             let mut parts = Vec::new();

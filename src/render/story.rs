@@ -131,6 +131,7 @@ pub fn text(scene: &Scene, told: &Told) -> String {
         .into_iter()
         .filter(|t| !t.is_empty())
         .collect();
+    let written = |words: &Sentence| words.written(|e| unicode(scene, e));
     let mut line = |text: String| {
         out.push_str(text.trim_end());
         out.push('\n');
@@ -143,7 +144,7 @@ pub fn text(scene: &Scene, told: &Told) -> String {
         line(String::new());
         line(format!("{}. {} ({})", i + 1, s.name, s.kind));
         for words in &s.words {
-            line(format!("   {words}"));
+            line(format!("   {}", written(words)));
         }
         for k in &s.kept {
             let is = if k.conserved {
@@ -151,10 +152,10 @@ pub fn text(scene: &Scene, told: &Told) -> String {
             } else {
                 "not conserved"
             };
-            line(format!("   {} {is}: {}", k.what, k.why));
+            line(format!("   {} {is}: {}", k.what, written(&k.why)));
         }
         for words in &s.assumptions {
-            line(format!("   taken for granted: {words}"));
+            line(format!("   taken for granted: {}", written(words)));
         }
         for c in &s.checks {
             line(format!("   {} {}", mark(c), c.words));
@@ -172,6 +173,7 @@ pub fn text(scene: &Scene, told: &Told) -> String {
 /// Answers one after the other, each with what it rests on and how it was checked.
 pub fn answers(scene: &Scene, answers: &[Answer]) -> String {
     let mut out = String::new();
+    let written = |words: &Sentence| words.written(|e| unicode(scene, e));
     let mut line = |text: String| {
         out.push_str(text.trim_end());
         out.push('\n');
@@ -191,21 +193,18 @@ pub fn answers(scene: &Scene, answers: &[Answer]) -> String {
             (None, _) => line(format!("   {}:", a.name)),
         }
         if let Some(value) = a.formula.as_ref().and_then(|e| super::value(scene, e)) {
-            line(format!(
-                "      ≈ {} {}",
-                super::digits(value.approximate),
-                a.dimension.si()
-            ));
+            let number = super::digits(value.approximate);
+            line(format!("      ≈ {}", a.dimension.measured(&number)));
         }
         line(format!("      {}", a.words));
         for words in &a.text {
-            line(format!("      {words}"));
+            line(format!("      {}", written(words)));
         }
         for words in &a.discarded {
-            line(format!("      discarded: {words}"));
+            line(format!("      discarded: {}", written(words)));
         }
         for words in &a.assumptions {
-            line(format!("      given that {words}"));
+            line(format!("      given that {}", written(words)));
         }
         for c in &a.checks {
             line(format!("      {} {}", mark(c), c.words));

@@ -57,11 +57,8 @@ pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof, special: &[Speci
                 let value = super::answer_value(scene, d, closed)
                     .filter(|_| !closed.is_zero())
                     .map_or(String::new(), |v| {
-                        format!(
-                            " = {} {}",
-                            super::digits(v.approximate),
-                            answer.dimension.spoken()
-                        )
+                        let number = super::digits(v.approximate);
+                        format!(" = {}", answer.dimension.measured(&number))
                     });
                 line(
                     &mut out,

@@ -18,8 +18,10 @@ pub fn answered(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answers:
         return;
     };
     solution.section(0, heading(scene, ask, first));
-    for answer in answers {
-        body(solution, scene, ask, answer);
+    for (i, answer) in answers.iter().enumerate() {
+        let checks = |a: &Answer| known(&a.checks);
+        let told = i > 0 && checks(&answers[i - 1]) == checks(answer);
+        body(solution, scene, ask, answer, told);
     }
 }
 
@@ -184,7 +186,8 @@ fn heading(scene: &Scene, ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
     }
 }
 
-fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer) {
+/// One answer; `told` where its checks stand with the one before.
+fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer, told: bool) {
     let symbol = Expr::symbol(&answer.name);
     let name = crate::expr::Symbol::from(answer.name.as_str());
     let parameter = scene.parameters.iter().any(|p| *p.name == *answer.name);
@@ -288,8 +291,12 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
             step: shown.clone(),
         });
     }
+    let named_step = defined.or_else(|| shown.clone());
+    // A combination of parameters is called by its own formula.
+    let combination = answer.equation.is_some() && matches!(ask, StoryAsk::Maximum { .. });
     if let Some(formula) = &answer.formula
         && answer.range.is_empty()
+        && !combination
     {
         let (left, op) = match stands_for(ask, answer) {
             Some((of, op)) => (of, op),
@@ -297,7 +304,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
         };
         lines.push(Line {
             math: vec![Math::Expr(left), Math::Op(op), Math::Expr(formula.clone())],
-            step: defined.or_else(|| shown.clone()),
+            step: named_step.clone(),
         });
     }
     if let Some((left, right)) = &answer.equation
@@ -310,7 +317,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
                 Math::Op("="),
                 Math::Expr(right.clone()),
             ],
-            step: None,
+            step: named_step,
         });
     }
     if !lines.is_empty() {
@@ -371,7 +378,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer)
         text.push(say("."));
         solution.text(text);
     }
-    if let Some(words) = known(&answer.checks) {
+    if let Some(words) = known(&answer.checks).filter(|_| !told) {
         solution.text(vec![say(called(scene, &words))]);
     }
 }
@@ -427,8 +434,8 @@ pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
     let value = formula
         .substitute(&values)
         .evaluate(&crate::expr::Point::<f64>::default())?;
-    let unit = answer.dimension.spoken();
-    Some(format!(" = {} {unit}.", words::digits(value)).replace(" .", "."))
+    let number = answer.dimension.measured(&words::digits(value));
+    Some(format!(" = {number}."))
 }
 
 /// How an answer is known: what was checked, what failed, what stayed open.

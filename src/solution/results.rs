@@ -153,11 +153,8 @@ impl Writer<'_> {
                 items.push(say(", "));
             }
             items.push(words::formula(&Expr::symbol(&answer.name)));
-            items.push(say(format!(
-                " = {} {}",
-                words::digits(value),
-                answer.dimension.spoken()
-            )));
+            let number = answer.dimension.measured(&words::digits(value));
+            items.push(say(format!(" = {number}")));
         }
         if !items.is_empty() {
             items.insert(0, say("In numbers: "));

@@ -134,7 +134,7 @@ pub(super) fn maximum(
     };
     out.checks.push(Check {
         kind: "maximum",
-        words: format!("the derivative vanishes there and nowhere else, rises before and falls after ({proved})"),
+        words: format!("the derivative vanishes there and nowhere else; the value rises before and falls after ({proved})"),
         holds: (proved == "proved").then_some(true),
     });
     out.checks.push(Check {
@@ -155,20 +155,20 @@ pub(super) fn maximum(
     at.name = format!("{name}_at");
     at.latex = format!("\\arg {}", out.latex);
     at.words = format!("{words} for which it is largest");
+    // How it was found is told with the value.
+    at.discarded = Vec::new();
     at.text = vec![if free.len() == 2 {
         sentence![
             "every pair ",
             &free[0],
             ", ",
             &free[1],
-            " with ",
-            words,
-            " = ",
-            &place,
+            " with this ",
+            &combination,
             " does it: the maximisers form a curve"
         ]
     } else {
-        sentence![words, " = ", &place]
+        sentence![&combination, " = ", &place]
     }];
     if free.len() == 1 {
         at.range

@@ -23,13 +23,7 @@ pub struct Sentence(pub Vec<Piece>);
 
 impl fmt::Display for Sentence {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for piece in &self.0 {
-            match piece {
-                Piece::Words(words) => f.write_str(words)?,
-                Piece::Formula(e) => f.write_str(&write_plain(e))?,
-            }
-        }
-        Ok(())
+        f.write_str(&self.written(write_plain))
     }
 }
 
@@ -46,6 +40,15 @@ impl Sentence {
             Piece::Formula(e) => Piece::Formula(e.substitute(values)),
         };
         Sentence(self.0.iter().map(put).collect())
+    }
+
+    /// The sentence with its formulas as `write` gives them.
+    pub fn written(&self, write: impl Fn(&Expr) -> String) -> String {
+        let pieces = self.0.iter().map(|piece| match piece {
+            Piece::Words(words) => words.clone(),
+            Piece::Formula(e) => write(e),
+        });
+        pieces.collect()
     }
 
     /// Sentences with something between every two.
