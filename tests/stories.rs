@@ -113,6 +113,11 @@ fn every_check_of_every_story_holds_and_every_question_has_an_answer() {
                 "{name}: {} has no answer",
                 a.name
             );
+            assert!(
+                a.formula.is_none() && a.range.is_empty() || !a.checks.is_empty(),
+                "{name}: {} does not say how it is known",
+                a.name
+            );
         }
     }
 }

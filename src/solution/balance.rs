@@ -379,7 +379,11 @@ impl Writer<'_> {
                     name("r", &format!("{c}/{at}"), "", true),
                 ]);
             }
-            math.extend([Math::Op("="), Math::Vector(v.clone())]);
+            // Of a body hinged at its center of mass nothing stands between the name and the value.
+            if math.len() > 2 {
+                math.push(Math::Op("="));
+            }
+            math.push(Math::Vector(v.clone()));
             let spin = laws::Unknown::Spin(b);
             if self.d.names.is_reversed(spin) {
                 let symbol = Expr::symbol(self.d.names.plain(spin));

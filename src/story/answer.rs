@@ -10,7 +10,9 @@ use crate::derive::{self, Form};
 use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector, cross, dot, minus};
-use crate::scene::{Ask, EnergyWhen, Question, Scene, StageKind, Story, StoryAsk, StoryQuestion};
+use crate::scene::{
+    Ask, EnergyWhen, Question, Scene, Stage, StageKind, Story, StoryAsk, StoryQuestion, Turn,
+};
 use crate::verify::Check;
 
 /// Answers all questions.
@@ -82,7 +84,13 @@ fn one(
             along,
             at_end,
         } => {
-            let value = reaction(story, stages, *stage, along, *at_end, domains)
+            let StageKind::Turn(turn) = &story.stages[*stage].kind else {
+                return Ok(Vec::new());
+            };
+            let told = &stages[*stage];
+            let (way, _) =
+                motion::sense(&story.stages[*stage], &told.before.spin[turn.body], turn)?;
+            let value = reaction(&story.stages[*stage], told, turn, way, along, *at_end)
                 .map_err(|stop| refused(format!("not calculated: {stop}"), ""))?;
             let when = if *at_end { "end" } else { "beginning" };
             let mut out = blank(
@@ -94,8 +102,17 @@ fn one(
                 ),
             );
             out.dimension = Dimension::new(1, 1, -2);
+            let state = if *at_end { &told.after } else { &told.before };
+            out.checks.push(integrate::reaction(
+                &story.stages[*stage],
+                turn,
+                way,
+                (*at_end, &state.spin[turn.body]),
+                along,
+                &value,
+            ));
             if *at_end {
-                out.assumptions = stages[*stage].assumptions.clone();
+                out.assumptions = told.assumptions.clone();
             }
             out.formula = Some(value);
             out
@@ -121,9 +138,17 @@ fn one(
                     b.name, told.name
                 ),
             );
-            out.formula = Some(
-                tidy(&h, domains).map_err(|stop| refused(format!("not calculated: {stop}"), ""))?,
-            );
+            let value =
+                tidy(&h, domains).map_err(|stop| refused(format!("not calculated: {stop}"), ""))?;
+            out.checks.push(Check {
+                kind: "identity",
+                words: format!(
+                    "r × m v + I ω of the motion told in `{}`: the difference is zero in the normal form",
+                    told.name
+                ),
+                holds: is_zero(&(&h - &value), domains),
+            });
+            out.formula = Some(value);
             out.dimension = Dimension::new(1, 2, -1);
             out
         }
@@ -307,14 +332,7 @@ fn of_case(question: &StoryQuestion, case: &Case, number: Option<usize>) -> Vec<
         for (why, e) in &case.conditions {
             a.assumptions.push(sentence![e, " ≥ 0 (", why, ")"]);
         }
-        a.checks = case
-            .proof
-            .scene
-            .iter()
-            .filter(|c| c.kind == "identity")
-            .chain(checks)
-            .cloned()
-            .collect();
+        a.checks = identities(case).chain(checks).cloned().collect();
         out.push(a);
     }
     if out.is_empty() {
@@ -331,9 +349,15 @@ fn of_case(question: &StoryQuestion, case: &Case, number: Option<usize>) -> Vec<
             a.assumptions.push(sentence![e, " ≥ 0 (", why, ")"]);
         }
         a.dimension = Dimension::new(1, 1, -1);
+        a.checks = identities(case).cloned().collect();
         out.push(a);
     }
     out
+}
+
+/// The laws of an outcome that its motion was put into.
+fn identities(case: &Case) -> impl Iterator<Item = &Check> {
+    case.proof.scene.iter().filter(|c| c.kind == "identity")
 }
 
 /// The LaTeX of a symbol with a number at the end of its index.
@@ -477,20 +501,16 @@ fn energy_check(told: &StageTold, domains: &Domains) -> Option<Check> {
 
 /// Force of the fixed point on a turning body along a direction: m a_G less the weight.
 fn reaction(
-    story: &Story,
-    stages: &[StageTold],
-    stage: usize,
+    stage: &Stage,
+    told: &StageTold,
+    turn: &Turn,
+    way: i64,
     along: &Vector,
     at_end: bool,
-    domains: &Domains,
 ) -> Result<Expr, crate::algebra::Stop> {
-    let StageKind::Turn(turn) = &story.stages[stage].kind else {
-        return Ok(Expr::zero());
-    };
-    let told = &stages[stage];
-    let body = turn.lump(&story.stages[stage].scene);
-    let inertia = motion::inertia_about(&story.stages[stage], turn);
-    let [r0, r1] = motion::arms(&story.stages[stage], turn);
+    let body = turn.lump(&stage.scene);
+    let inertia = motion::inertia_about(stage, turn);
+    let [r0, r1] = motion::arms(stage, turn);
     let r = if at_end { &r1 } else { &r0 };
     let square = match &told.energy {
         Some([start, end]) => &(&Expr::from(2) * if at_end { end } else { start }) / &inertia,
@@ -498,11 +518,8 @@ fn reaction(
     };
     let zero = Expr::zero();
     let g = turn.gravity.as_ref().unwrap_or(&zero);
-    let applied = match (&turn.torque, turn.clockwise) {
-        (Some(t), Some(true)) => -t,
-        (Some(t), _) => t.clone(),
-        (None, _) => zero.clone(),
-    };
+    // The moment counts in the sense of the rotation.
+    let applied = Expr::from(way) * turn.torque.clone().unwrap_or_else(Expr::zero);
     let weight = &body.mass * g;
     let angular = &(&applied - &(&weight * &r[0])) / &inertia;
     let a = [
@@ -510,5 +527,5 @@ fn reaction(
         &angular * &r[0] - &square * &r[1],
     ];
     let force = [&body.mass * &a[0], &body.mass * &a[1] + &weight];
-    tidy(&dot(&force, along), domains)
+    tidy(&dot(&force, along), &stage.scene.domains)
 }

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use super::StageTold;
 use crate::domain::{Domains, Limit};
-use crate::expr::{Expr, Point, Symbol};
+use crate::expr::{Expr, Point, Symbol, Vector};
 use crate::scene::{Fall, Stage, Turn, Until, Wind};
 use crate::verify::Check;
 
@@ -120,6 +120,78 @@ pub(super) fn turn(stage: &Stage, told: &StageTold, turn: &Turn, way: i64) -> Ve
     vec![check(worst, count, "spin at the end")]
 }
 
+/// The force of the fixed point on a turning body, from the acceleration of the center of mass: differences of its places on
+/// the integrated motion, a little before and after.
+pub(super) fn reaction(
+    stage: &Stage,
+    turn: &Turn,
+    way: i64,
+    (at_end, spin): (bool, &Expr),
+    along: &Vector,
+    force: &Expr,
+) -> Check {
+    let body = turn.lump(&stage.scene);
+    let r = &super::motion::arms(stage, turn)[usize::from(at_end)];
+    let inertia = super::motion::inertia_about(stage, turn);
+    let zero = Expr::zero();
+    let g = turn.gravity.as_ref().unwrap_or(&zero);
+    let torque = turn.torque.as_ref().unwrap_or(&zero);
+    let all = [
+        &r[0], &r[1], &inertia, &body.mass, g, torque, spin, &along[0], &along[1], force,
+    ];
+    let (mut worst, mut count) = (0.0f64, 0);
+    for point in points(stage, &all, 4 * POINTS) {
+        let values: Option<Vec<f64>> = all.iter().map(|e| e.evaluate(&point)).collect();
+        let Some(v) = values else { continue };
+        let way = way as f64;
+        let [x, y, inertia, mass, g, torque, spin, ax, ay, told] = v[..] else {
+            continue;
+        };
+        let motion = Rotation {
+            r: [x, y],
+            inertia,
+            weight: mass * g,
+            torque,
+            way,
+        };
+        let size = mass * x.hypot(y) * (spin * spin + motion.rate()) + mass * g;
+        let step = 1e-3 * motion.unit(spin);
+        let field = |y: [f64; 2]| [y[1], motion.acceleration(y[0])];
+        let place = |time: f64| {
+            let [angle, _] = advance(field, [0.0, way * spin], time)?;
+            let (s, c) = (way * angle).sin_cos();
+            Some([x * c - y * s, x * s + y * c])
+        };
+        // Backwards in time: the same motion with the speed turned round.
+        let back = |time: f64| {
+            let [angle, _] = advance(field, [0.0, -way * spin], time)?;
+            let (s, c) = (way * angle).sin_cos();
+            Some([x * c - y * s, x * s + y * c])
+        };
+        let (Some(after), Some(before)) = (place(step), back(step)) else {
+            continue;
+        };
+        let bend = |k: usize| (after[k] - 2.0 * [x, y][k] + before[k]) / (step * step);
+        let found = ax * mass * bend(0) + ay * (mass * bend(1) + mass * g);
+        worst = worst.max((found - told).abs() / size.max(1e-300));
+        count += 1;
+        if count as u64 == POINTS {
+            break;
+        }
+    }
+    let words = match count {
+        0 => String::from("mass times acceleration less the weight: not integrated"),
+        _ => format!(
+            "mass times the acceleration of the center of mass, seen on the motion integrated in time at {count} points, less the weight: relative difference at most 1e-6"
+        ),
+    };
+    Check {
+        kind: "integration",
+        words,
+        holds: (count > 0).then_some(worst <= 1e-6),
+    }
+}
+
 /// A rotation about a fixed point; angle and speed count in its own sense.
 pub(super) struct Rotation {
     /// Arm from the fixed point to the center of mass at the beginning.
@@ -142,11 +214,19 @@ impl Rotation {
         (self.torque - self.way * self.weight * x) / self.inertia
     }
 
+    /// The largest angular acceleration there can be.
+    fn rate(&self) -> f64 {
+        (self.torque.abs() + self.weight * self.r[0].hypot(self.r[1])) / self.inertia
+    }
+
+    /// A time in which something happens.
+    fn unit(&self, speed: f64) -> f64 {
+        0.2 / (self.rate().sqrt() + speed.abs()).max(1e-12)
+    }
+
     /// Angular speed on reaching an angle; `None` where it is not reached.
     pub fn speed_at(&self, angle: f64, speed: f64) -> Option<f64> {
-        // A unit of time in which something happens.
-        let rate = (self.torque.abs() + self.weight * self.r[0].hypot(self.r[1])) / self.inertia;
-        let unit = 0.2 / (rate.sqrt() + speed.abs()).max(1e-12);
+        let (rate, unit) = (self.rate(), self.unit(speed));
         let field = |y: [f64; 2]| [y[1], self.acceleration(y[0])];
         let mut y = [0.0, speed];
         for _ in 0..4000 {

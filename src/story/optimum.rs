@@ -99,8 +99,10 @@ pub(super) fn maximum(
         Err(Unsolved::Inside) => return Err(refused("the parameter stands inside a function")),
         Err(Unsolved::Limit(what)) => return Err(refused(&what)),
     };
+    let named = BTreeMap::from([(root.clone(), combination.sqrt())]);
+    let discarded: Vec<Sentence> = roots.discarded.iter().map(|d| d.put_in(&named)).collect();
     if roots.inside.is_empty() {
-        out.discarded = roots.discarded;
+        out.discarded = discarded;
         return Ok(vec![at_the_rim(out, &slope, &words, &domains)]);
     }
     let [best] = roots.inside.as_slice() else {
@@ -121,11 +123,7 @@ pub(super) fn maximum(
     .map_err(|s| refused(&s.to_string()))?;
     let value = super::calc::shorter(&value, &domains);
     let place = tidy(&best.value.powi(2), &domains).map_err(|s| refused(&s.to_string()))?;
-    out.discarded = roots
-        .discarded
-        .iter()
-        .map(|d| d.put_in(&BTreeMap::from([(root.clone(), combination.sqrt())])))
-        .collect();
+    out.discarded = discarded;
     out.dimension = super::special::dimension_of(scene, &value, &name)?;
     let proved = if before.is_proved() && after.is_proved() {
         "proved"

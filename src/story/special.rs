@@ -201,6 +201,13 @@ fn one(
             out.dimension = dimension_of(scene, &value, &name)?;
             let with_known: Known = with.iter().cloned().collect();
             let raw = gathered(&formula.substitute(known).substitute(&with_known));
+            out.checks.push(Check {
+                kind: "identity",
+                words: String::from(
+                    "with the results put in, the difference is zero in the normal form",
+                ),
+                holds: is_zero(&(&raw.substitute(known) - &value), &scene.domains),
+            });
             out.put_in
                 .push((raw, value.clone(), "with the results put in"));
             out.formula = Some(value);

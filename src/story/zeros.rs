@@ -5,6 +5,8 @@
 
 use std::collections::BTreeMap;
 
+use num_integer::Integer;
+
 use super::calc::{Root, Roots, Unsolved, is_zero, real, sign, solve, tidy};
 use super::{Sentence, sentence::sentence};
 use crate::domain::{Domain, Domains, Limit};
@@ -188,7 +190,6 @@ fn from_half(t: &Expr, domains: &Domains) -> Result<Expr, Unsolved> {
             }
         }
     }
-    let positive = sign(t, domains).is_positive();
     let has_root = |e: &Expr| {
         let mut found = false;
         e.walk(&mut |part| {
@@ -197,7 +198,7 @@ fn from_half(t: &Expr, domains: &Domains) -> Result<Expr, Unsolved> {
         found
     };
     let bare = tidy(t, domains)?;
-    if positive && !has_root(&cos) {
+    if is_not_negative(&bare, domains) && !has_root(&cos) {
         return Ok(Expr::call(Function::Acos, cos));
     }
     let small = sign(&(Expr::one() - t.powi(2)), domains).is_positive();
@@ -208,4 +209,17 @@ fn from_half(t: &Expr, domains: &Domains) -> Result<Expr, Unsolved> {
         return Ok(Expr::call(Function::Atan, tidy(&(&sin / &cos), domains)?));
     }
     Ok(Expr::from(2) * Expr::call(Function::Atan, bare))
+}
+
+/// Whether an expression is positive or zero wherever it is real, as a product of roots, magnitudes and what is positive is.
+fn is_not_negative(e: &Expr, domains: &Domains) -> bool {
+    match e.node() {
+        Node::Product(factors) => factors.iter().all(|f| is_not_negative(f, domains)),
+        Node::Call(Function::Abs, _) => true,
+        Node::Power(base, k) => {
+            let even = |k: &Rational| k.denom().is_even() || k.numer().is_even();
+            k.as_number().is_some_and(even) || is_not_negative(base, domains)
+        }
+        _ => sign(e, domains).is_positive(),
+    }
 }
