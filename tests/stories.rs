@@ -349,3 +349,48 @@ fn where_sides_meet_several_times_the_intervals_are_told() {
         assert!(found.starts_with(expected), "{holds}: {found}");
     }
 }
+
+/// A rod that turns clockwise through an angle under a moment.
+fn driven(more: &str) -> Result<Told, String> {
+    let text = format!(
+        r#"{{
+          "parameters": {{
+            "m": {{"unit": "kg"}}, "l": {{"unit": "m"}}, "w": {{"unit": "rad/s"}}, "M": {{"unit": "N m"}},
+            "a": {{"unit": "rad"}}
+          }},
+          "bodies": {{"rod": {{"shape": "rod", "mass": "m", "length": "l", "center": ["l/2", "0"], "spin": "-w",
+            "velocity": {{"about": ["0", "0"]}}}}}},
+          "stages": [{{"name": "drive", "turn": {{"body": "rod", "about": ["0", "0"], "torque": "M", {more}}}}}],
+          "questions": {{"q": {{"reaction": "drive", "along": "y", "when": "start"}}, "w2": {{"spin": "rod"}}}}
+        }}"#
+    );
+    let scene = carom::scene::read(&text).map_err(|faults| faults.render("test", &text))?;
+    let story = scene.story.as_ref().expect("stages");
+    tell(&scene, story).map_err(|reason| reason.to_string())
+}
+
+#[test]
+fn a_moment_counts_in_the_sense_of_the_rotation() {
+    let told = driven(r#""by": "a", "clockwise": true"#).expect("a story");
+    // I = m l²/3: clockwise, the center of mass is speeded up downwards.
+    let force = told.answers[0].formula.as_ref().expect("a force");
+    assert_eq!(write_plain(force), "-3*M/(2*l)");
+    assert!(told.holds(), "{:?}", told.answers);
+    let taken: Vec<String> = told.stages[0]
+        .assumptions
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    assert!(taken.contains(&String::from("a ≥ 0")), "{taken:?}");
+}
+
+#[test]
+fn an_angle_turned_through_is_not_taken_for_one_in_the_other_sense() {
+    for (turn, hint) in [
+        (r#""by": "a""#, "\"clockwise\": true"),
+        (r#""by": "-1", "clockwise": true"#, "turn its sign round"),
+    ] {
+        let reason = driven(turn).expect_err("another sense");
+        assert!(reason.contains(hint), "{reason}");
+    }
+}

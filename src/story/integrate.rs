@@ -94,6 +94,7 @@ pub(super) fn turn(stage: &Stage, told: &StageTold, turn: &Turn, way: i64) -> Ve
         let Some(v) = values else { continue };
         let way = way as f64;
         let angle = match turn.until {
+            Until::By(_) if v[8] < 0.0 => continue,
             Until::By(_) => v[8],
             // From r to r_end in the sense of the rotation.
             _ => (way * (v[0] * v[3] - v[1] * v[2]))

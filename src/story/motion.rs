@@ -195,6 +195,33 @@ pub(super) fn turn(stage: &Stage, mut before: State, turn: &Turn) -> Result<Stag
     let (way, assumed) = sense(stage, &spin, turn)?;
     let mut assumptions: Vec<Sentence> =
         hurdle(stage, turn, &r, &start, way)?.into_iter().collect();
+    if let Until::By(by) = &turn.until {
+        // Where bodies are at the end was put in before anything was known of their motion.
+        if way < 0 && turn.clockwise.is_none() {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "`{}` turns clockwise, and `by` counts counterclockwise here",
+                    body.name
+                ),
+                "add \"clockwise\": true",
+            ));
+        }
+        match sign(by, domains) {
+            Seen::Proved(s) if s.is_not_negative() => {}
+            Seen::Proved(_) | Seen::Negative => {
+                return Err(Refused::new(
+                    &stage.name,
+                    format!(
+                        "`by` is the angle turned through, and {} is negative",
+                        crate::formula::write_plain(by)
+                    ),
+                    "turn its sign round, and say \"clockwise\": true if it turns that way",
+                ));
+            }
+            _ => assumptions.push(sentence![by, " ≥ 0"]),
+        }
+    }
     let spin_end = if work.is_zero() {
         spin.clone()
     } else {
