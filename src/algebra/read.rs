@@ -4,9 +4,8 @@ use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::element::{Den, Element};
-use super::factor::{factor, primes_with_powers};
 use super::field::{AngleOf, Field, Generator, Kind};
-use super::mono::{exponent, mono_variables};
+use super::mono::{exponent, mono_of, mono_variables};
 use super::poly::Poly;
 use super::{Sign, Stop};
 use crate::expr::angle::angle;
@@ -103,23 +102,35 @@ impl Field {
             }
         };
         let k = exponent.numer().as_i64().ok_or(Stop::TooLarge("degree"))?;
-        let mut n = exponent
+        let n = exponent
             .denom()
-            .to_u32()
+            .as_i64()
             .filter(|n| *n <= 1_000)
             .ok_or(Stop::TooLarge("degree"))?;
-        if base.num.is_zero() && k <= 0 {
-            return Err(Stop::DivisionByZero);
+        if base.num.is_zero() {
+            return match k > 0 {
+                true => Ok(base),
+                false => Err(Stop::DivisionByZero),
+            };
         }
-        let mut root = base;
-        while n % 2 == 0 {
+        // k/n as a part over a power of two and a part over an odd number: 2^(5/6) is √2 times the cube root of 2.
+        let even = 1 << n.trailing_zeros();
+        let odd = n / even;
+        // 1 = even·x + odd·y.
+        let gcd = even.extended_gcd(&odd);
+        let over_odd = (i128::from(k) * i128::from(gcd.x)).rem_euclid(i128::from(odd)) as i64;
+        let over_even = (k - over_odd * even) / odd;
+        let mut root = base.clone();
+        for _ in 0..even.ilog2() {
             root = self.sqrt(&root)?;
-            n /= 2;
         }
-        if n > 1 {
-            root = self.odd_root(&root, n)?;
+        let root = self.pow(&root, over_even)?;
+        if odd == 1 {
+            return Ok(root);
         }
-        self.pow(&root, k)
+        let other = self.odd_root(&base, odd as u32)?;
+        let other = self.pow(&other, over_odd)?;
+        self.mul(&root, &other)
     }
 
     fn read_call(
@@ -403,37 +414,10 @@ impl Field {
 
     /// ln of a product as a sum, where every factor is known to be positive.
     fn logarithm(&mut self, x: &Element) -> Result<Option<Element>, Stop> {
-        let found = factor(&x.num, &self.fuel);
-        if found.content.is_negative() {
+        let (negative, parts) = self.powers_of_parts(x);
+        if negative {
             return Ok(None);
         }
-        let mut parts: Vec<(Poly, i64)> = Vec::new();
-        for (value, sign) in [(&found.content, 1), (&x.den.int, -1)] {
-            parts.extend(
-                primes_with_powers(value)
-                    .into_iter()
-                    .map(|(p, k)| (Poly::constant(p), i64::from(k) * sign)),
-            );
-        }
-        for (mono, sign) in [(&found.mono, 1), (&x.den.mono, -1)] {
-            parts.extend(
-                mono_variables(mono)
-                    .into_iter()
-                    .map(|v| (Poly::var(v), i64::from(exponent(mono, v)) * sign)),
-            );
-        }
-        parts.extend(
-            found
-                .factors
-                .iter()
-                .map(|(f, k)| (f.clone(), i64::from(*k))),
-        );
-        parts.extend(
-            x.den
-                .factors
-                .iter()
-                .map(|(f, k)| (f.clone(), -i64::from(*k))),
-        );
         if parts
             .iter()
             .any(|(f, _)| self.sign_poly(f) != Some(Sign::Positive))
@@ -500,6 +484,14 @@ impl Field {
             _ => false,
         });
         Element::var(known.unwrap_or_else(|| self.adjoin(Kind::Call(function, argument))))
+    }
+
+    /// The number q, when the element is q·π.
+    pub(crate) fn as_turns(&self, x: &Element) -> Option<Rational> {
+        match self.angle_terms(x).as_slice() {
+            [(term, q)] if self.is_pi(term) => Some(q.clone()),
+            _ => None,
+        }
     }
 
     fn is_pi(&self, x: &Element) -> bool {
@@ -628,9 +620,29 @@ impl Field {
                 let half_sin = self.div(&self.mul(&sin, &number(self, 1, 2))?, &half_cos)?;
                 [half_cos, half_sin]
             }
-            _ => return Ok(None),
+            _ => self.opaque_acute(q)?,
         };
         Ok(Some(pair))
+    }
+
+    /// Cosine and sine of an angle that square roots do not give, as generators: those of 70° are those of 20° exchanged.
+    fn opaque_acute(&mut self, q: &Rational) -> Result<Direction, Stop> {
+        if *q > ratio(1, 4) {
+            let [cos, sin] = self.opaque_acute(&(ratio(1, 2) - q))?;
+            return Ok([sin, cos]);
+        }
+        self.complete = false;
+        let pi = Element::var(self.symbol(&Symbol::from("pi")));
+        let angle = self.mul(&pi, &self.number(q))?;
+        let cos = self.opaque(Function::Cos, angle.clone());
+        let sin = self.opaque(Function::Sin, angle);
+        if let (Some(c), Some(s)) = (self.as_generator(&cos), self.as_generator(&sin))
+            && self.gens[s].relation.is_none()
+        {
+            let square = Poly::term(&mono_of(c, 2), Int::one());
+            self.relate(s, 2, Poly::one().sub(&square));
+        }
+        Ok([cos, sin])
     }
 }
 

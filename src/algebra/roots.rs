@@ -383,76 +383,61 @@ impl Field {
         }
     }
 
-    /// The real root of odd degree n ≥ 3 of something not negative; powers of positive factors come out.
+    /// The real root of odd degree n ≥ 3, factor by factor: it is real for every value, and minus one comes out.
     pub(crate) fn odd_root(&mut self, x: &Element, n: u32) -> Result<Element, Stop> {
+        // The ninth root is the cube root of the cube root, so that both may stand in one formula.
+        if let Some(least) = (3..n).step_by(2).find(|d| n.is_multiple_of(*d)) {
+            let root = self.odd_root(x, least)?;
+            return self.odd_root(&root, n / least);
+        }
         if x.num.is_zero() {
             return Ok(Element::zero());
         }
-        let degree = n as usize;
+        let (mut negative, parts) = self.powers_of_parts(x);
         let mut total = self.integer(1);
-        let mut together = self.integer(1);
-        let num = factor(&x.num, &self.fuel);
-        let mut parts: Vec<(Poly, i64)> = Vec::new();
-        for (value, sign) in [(num.content.clone(), 1), (x.den.int.clone(), -1)] {
-            if value.is_negative() {
-                together = self.neg(&together);
-            }
-            parts.extend(
-                primes_with_powers(&value.abs())
-                    .into_iter()
-                    .map(|(p, k)| (Poly::constant(p), i64::from(k) * sign)),
-            );
-        }
-        let variables = |m: &[u64]| {
-            mono_variables(m)
-                .into_iter()
-                .map(|v| (v, exponent(m, v)))
-                .collect::<Vec<_>>()
-        };
-        parts.extend(
-            variables(&num.mono)
-                .into_iter()
-                .map(|(v, k)| (Poly::var(v), i64::from(k))),
-        );
-        parts.extend(
-            variables(&x.den.mono)
-                .into_iter()
-                .map(|(v, k)| (Poly::var(v), -i64::from(k))),
-        );
-        parts.extend(num.factors.into_iter().map(|(f, k)| (f, i64::from(k))));
-        parts.extend(
-            x.den
-                .factors
-                .iter()
-                .map(|(f, k)| (f.clone(), -i64::from(*k))),
-        );
         for (f, k) in parts {
-            let element = Element::from_poly(f.clone());
-            if !self.sign_poly(&f).is_some_and(Sign::is_not_negative) {
-                let power = self.pow(&element, k)?;
-                together = self.mul(&together, &power)?;
-                continue;
-            }
+            let sign = self.sign_poly(&f);
+            let turned = match sign {
+                Some(sign) => !sign.is_not_negative(),
+                None => f.leading_is_negative(),
+            };
+            negative ^= turned && k % 2 != 0;
+            let f = if turned { f.neg() } else { f };
             let (whole, left) = (k.div_euclid(i64::from(n)), k.rem_euclid(i64::from(n)));
-            let power = self.pow(&element, whole)?;
+            let power = self.pow(&Element::from_poly(f.clone()), whole)?;
             total = self.mul(&total, &power)?;
             if left > 0 {
-                let root = self.odd_root_generator(&f, n);
+                let root = match sign {
+                    Some(_) => self.odd_root_generator(&f, n),
+                    // Generators that are roots are not negative.
+                    None => {
+                        let part = self.number(&crate::expr::ratio(1, i64::from(n)));
+                        self.opaque_power(Element::from_poly(f), part)
+                    }
+                };
                 let power = self.pow(&root, left)?;
                 total = self.mul(&total, &power)?;
             }
         }
-        match together.as_number() {
-            Some(value) if value.is_one() => Ok(total),
-            Some(value) if value == crate::expr::ratio(-1, 1) && degree % 2 == 1 => {
-                Ok(self.neg(&total))
-            }
-            _ => {
-                let third = self.number(&crate::expr::ratio(1, i64::from(n)));
-                let opaque = self.opaque_power(together, third);
-                self.mul(&total, &opaque)
-            }
+        Ok(if negative { self.neg(&total) } else { total })
+    }
+
+    /// An element as a sign and a product of irreducible parts with their powers, primes and variables among them.
+    pub(super) fn powers_of_parts(&self, x: &Element) -> (bool, Vec<(Poly, i64)>) {
+        let num = factor(&x.num, &self.fuel);
+        let mut parts: Vec<(Poly, i64)> = Vec::new();
+        for (value, mono, factors, sign) in [
+            (&num.content, &num.mono, &num.factors, 1),
+            (&x.den.int, &x.den.mono, &x.den.factors, -1),
+        ] {
+            let primes = primes_with_powers(&value.abs());
+            let primes = primes.into_iter().map(|(p, k)| (Poly::constant(p), k));
+            let variables = mono_variables(mono).into_iter();
+            let variables = variables.map(|v| (Poly::var(v), exponent(mono, v)));
+            let all = primes.chain(variables).chain(factors.iter().cloned());
+            parts.extend(all.map(|(f, k)| (f, i64::from(k) * sign)));
         }
+        (num.content.is_negative(), parts)
     }
 
     fn odd_root_generator(&mut self, f: &Poly, n: u32) -> Element {

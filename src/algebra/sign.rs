@@ -276,6 +276,10 @@ impl Field {
             },
             Kind::Abs(_) => Known::NotNegative,
             Kind::Call(Function::Exp | Function::Cosh, _) => Known::Positive,
+            Kind::Call(Function::Cos | Function::Sin, x) => match self.as_turns(x) {
+                Some(q) if q.is_positive() && q < ratio(1, 2) => Known::Positive,
+                _ => Known::Unknown,
+            },
             Kind::Call(..) | Kind::Power(..) => Known::Unknown,
         }
     }

@@ -111,15 +111,9 @@ impl<'a> Reader<'a> {
                     continue;
                 }
                 '/' => {
-                    if over {
-                        return Err(fault(
-                            "two slashes in a unit are read in two ways; use brackets".into(),
-                            self.at,
-                            self.at + 1,
-                        ));
-                    }
+                    // m/s/s: every slash divides by the one unit behind it.
                     self.at += 1;
-                    (over, waiting) = (true, true);
+                    (over, waiting, below) = (true, true, 0);
                     continue;
                 }
                 _ => {}
@@ -433,7 +427,7 @@ mod tests {
     #[test]
     fn what_is_no_unit_is_refused_with_its_place() {
         for text in [
-            "Kg", "kg m^", "kg/m/s", "kg/m s", "m^99999", "v", "m/", "/s", "m··s", "(m", "m)",
+            "Kg", "kg m^", "kg/m s/s", "kg/m s", "m^99999", "v", "m/", "/s", "m··s", "(m", "m)",
             "kkg", "^2", "m^0", "é",
         ] {
             let found = unit(text);

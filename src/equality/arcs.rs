@@ -4,11 +4,13 @@
 //! ranges of its arcs and angles keep D within less than a turn of zero, D is zero. Hyperbolic functions and powers of
 //! something positive are written with the exponential function, whose laws the normal form knows.
 
+use super::Ground;
 use super::proof::{Proof, compare};
 use crate::algebra::{Field, Sign};
 use crate::domain::{Domains, Limit};
 use crate::expr::number::to_f64;
-use crate::expr::{Expr, Function, Node, Rational};
+use crate::expr::{Expr, Function, Node, Point, Rational};
+use crate::interval::{Interval, Outcome, evaluate};
 
 /// What is left to try when the normal forms differ and a function occurs whose laws they do not know.
 pub(super) fn prove(a: &Expr, b: &Expr, domains: &Domains) -> Option<Proof> {
@@ -20,7 +22,7 @@ pub(super) fn prove(a: &Expr, b: &Expr, domains: &Domains) -> Option<Proof> {
     if x == *a && y == *b {
         return None;
     }
-    Some(compare(&x, &y, domains)).filter(|proof| matches!(proof, Proof::Equal(_)))
+    Some(compare(&x, &y, domains)).filter(|proof| matches!(proof, Proof::Equal(..)))
 }
 
 fn has_arc(e: &Expr) -> bool {
@@ -58,10 +60,10 @@ fn whole_turns(difference: &Expr, domains: &Domains) -> Option<Proof> {
         return None;
     }
     let d = &Expr::from(common) * difference;
-    let Proof::Equal(mut assumed) = compare(&d.sin(), &Expr::zero(), domains) else {
+    let Proof::Equal(mut assumed, _) = compare(&d.sin(), &Expr::zero(), domains) else {
         return None;
     };
-    let Proof::Equal(more) = compare(&d.cos(), &Expr::one(), domains) else {
+    let Proof::Equal(more, _) = compare(&d.cos(), &Expr::one(), domains) else {
         return None;
     };
     assumed.extend(
@@ -69,7 +71,7 @@ fn whole_turns(difference: &Expr, domains: &Domains) -> Option<Proof> {
             .filter(|a| !assumed.contains(a))
             .collect::<Vec<_>>(),
     );
-    Some(Proof::Equal(assumed))
+    Some(Proof::Equal(assumed, Ground::Turns))
 }
 
 /// A term as a number times the rest.
@@ -87,6 +89,11 @@ fn coefficient(term: &Expr) -> Option<(Rational, Expr)> {
 /// Bounds of an arc, of π, or of an angle that lives between two ends.
 fn range(atom: &Expr, domains: &Domains) -> Option<[f64; 2]> {
     use std::f64::consts::{FRAC_PI_2, PI};
+    if atom.symbols().is_empty()
+        && let Outcome::Value(value) = evaluate::<Interval>(atom, &Point::default())
+    {
+        return Some([value.low, value.high]);
+    }
     match atom.node() {
         Node::Call(function, argument) => {
             let mut field = Field::new(domains);

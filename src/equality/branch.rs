@@ -102,7 +102,7 @@ fn parts_elsewhere(a: &Expr, b: &Expr, condition: &Expr, domains: &Domains, role
 }
 
 fn proved(a: &Expr, b: &Expr, domains: &Domains) -> bool {
-    matches!(proof::compare(a, b, domains), Proof::Equal(assumed) if assumed.is_empty())
+    matches!(proof::compare(a, b, domains), Proof::Equal(assumed, _) if assumed.is_empty())
 }
 
 /// Whether the values at a point may be each other's negative, as those of √(f²) and f are.

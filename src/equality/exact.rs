@@ -74,6 +74,9 @@ impl Certified for Exact {
         }
         self.power(&exponent.0)
     }
+    fn below_zero(&self) -> bool {
+        self.0.is_negative()
+    }
     fn call(&self, function: Function) -> Outcome<Self> {
         let x = &self.0;
         let zero = || Value(Exact(Rational::zero()));

@@ -6,6 +6,7 @@
 
 mod arcs;
 mod branch;
+mod constants;
 mod exact;
 mod extreme;
 mod measure;
@@ -60,8 +61,10 @@ pub enum Equality {
 /// How equality is known.
 #[derive(Clone, PartialEq, Debug)]
 pub enum How {
-    /// The difference is zero in the normal form.
+    /// The difference is zero on the whole domain.
     Identity {
+        /// Why it is zero.
+        ground: Ground,
         /// What the proof took for granted; empty for most pairs.
         assumptions: Vec<Assumption>,
     },
@@ -72,6 +75,30 @@ pub enum How {
         /// A point of the rest where the two part.
         elsewhere: Counterexample,
     },
+}
+
+/// Why a difference is zero.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Ground {
+    /// Its normal form is.
+    NormalForm,
+    /// It is a whole number of turns everywhere, and less than one.
+    Turns,
+    /// Its coefficients are algebraic numbers smaller than any of their kind that is not zero.
+    Bound,
+}
+
+impl Ground {
+    /// The same in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Ground::NormalForm => "the difference is zero in the normal form",
+            Ground::Turns => "the difference is a whole number of turns, and less than one",
+            Ground::Bound => {
+                "the numbers in the difference are closer to zero than any of their kind that is not zero"
+            }
+        }
+    }
 }
 
 /// What a proof took for granted.
@@ -211,13 +238,18 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
         return different(found);
     }
     let proof = if a == b {
-        Proof::Equal(Vec::new())
+        Proof::Equal(Vec::new(), Ground::NormalForm)
     } else {
         match proof::compare(a, b, domains) {
-            Proof::Unequal { settled: false } => {
-                arcs::prove(a, b, domains).unwrap_or(Proof::Unequal { settled: false })
+            Proof::Equal(assumed, ground) => Proof::Equal(assumed, ground),
+            Proof::Invalid(side) => Proof::Invalid(side),
+            open => {
+                let known = matches!(open, Proof::Unequal { settled: true });
+                let arcs = || arcs::prove(a, b, domains);
+                let arcs = if known { None } else { arcs() };
+                arcs.or_else(|| constants::prove(a, b, domains))
+                    .unwrap_or(open)
             }
-            proof => proof,
         }
     };
     match proof {
@@ -227,14 +259,14 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
                 points: tally.undefined(side),
             };
         }
-        Proof::Equal(assumptions) if tally.both_defined > 0 => {
+        Proof::Equal(assumptions, ground) if tally.both_defined > 0 => {
             // A sign that was only seen is put to the test first.
             let near = samples(roles, domains, FIRST + 2);
             let risky = extreme::points(&assumptions, &near, domains);
             if let Some(found) = probe.points(&risky, &mut Tally::default()) {
                 return different(found);
             }
-            return same(assumptions, &tally);
+            return same(assumptions, ground, &tally);
         }
         _ => {}
     }
@@ -257,7 +289,7 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
     let reason = match proof {
         _ if tally.both_defined == 0 => Reason::NoPoint,
         // A point at which both have a value was found only now.
-        Proof::Equal(assumptions) => return same(assumptions, &tally),
+        Proof::Equal(assumptions, ground) => return same(assumptions, ground, &tally),
         Proof::Unequal { settled: true } => Reason::NoPointApart,
         Proof::Unequal { settled: false } => Reason::UnknownLaws,
         Proof::Stopped(limit) => Reason::Limit(limit),
@@ -275,12 +307,18 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
 }
 
 /// The verdict for a proved identity, with what was seen of points where only one side has a value.
-fn same(mut assumptions: Vec<Assumption>, tally: &Tally) -> Equality {
+fn same(mut assumptions: Vec<Assumption>, ground: Ground, tally: &Tally) -> Equality {
     let how = match tally.apart.as_slice() {
-        [] => How::Identity { assumptions },
+        [] => How::Identity {
+            ground,
+            assumptions,
+        },
         [(at, ..)] => {
             assumptions.push(Assumption::NotAt(at.clone()));
-            How::Identity { assumptions }
+            How::Identity {
+                ground,
+                assumptions,
+            }
         }
         [(at, left, right), ..] => {
             let elsewhere = Counterexample {

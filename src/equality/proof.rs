@@ -1,6 +1,6 @@
 //! Proof of equality by the normal form of the difference.
 
-use super::{Assumption, Side};
+use super::{Assumption, Ground, Side};
 use crate::algebra::{self, Field, Stop};
 use crate::domain::Domains;
 use crate::expr::Expr;
@@ -8,8 +8,8 @@ use crate::expr::Expr;
 /// What the normal form says.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Proof {
-    /// The difference is zero.
-    Equal(Vec<Assumption>),
+    /// The difference is zero, and why.
+    Equal(Vec<Assumption>, Ground),
     /// The difference is not zero in the normal form. Whether that settles the matter is told by `settled`: not if a
     /// function occurs whose laws the normal form does not know.
     Unequal { settled: bool },
@@ -34,14 +34,19 @@ pub(super) fn compare(a: &Expr, b: &Expr, domains: &Domains) -> Proof {
     };
     match field.sub(&left, &right) {
         Ok(difference) if field.is_zero(&difference) => {
-            let seen = |algebra::Assumption::NotNegative(e): algebra::Assumption| {
-                Assumption::NotNegative(e)
-            };
-            Proof::Equal(field.assumptions().into_iter().map(seen).collect())
+            Proof::Equal(seen(&field), Ground::NormalForm)
         }
         Ok(_) => Proof::Unequal {
             settled: field.complete(),
         },
         Err(stop) => Proof::Stopped(stop.to_string()),
     }
+}
+
+/// The signs that a field took for granted.
+pub(super) fn seen(field: &Field) -> Vec<Assumption> {
+    let assumed = field.assumptions().into_iter();
+    assumed
+        .map(|algebra::Assumption::NotNegative(e)| Assumption::NotNegative(e))
+        .collect()
 }

@@ -26,6 +26,10 @@ pub trait Scalar: Clone {
     fn sqrt(&self) -> Option<Self>;
     /// Power with an exponent that is neither an integer nor a half-integer.
     fn pow(&self, exponent: &Self) -> Option<Self>;
+    /// Whether the value is below zero for certain.
+    fn below_zero(&self) -> bool {
+        false
+    }
     /// A function; `Sin`, `Cos` and `Tan` come here only where the point gives no exact direction for the angle.
     fn call(&self, function: Function) -> Option<Self>;
 }
@@ -93,6 +97,13 @@ fn power<T: Scalar>(base: &T, exponent: &Expr, at: &Point<T>) -> Option<T> {
             } else {
                 Some(raised)
             };
+        }
+        // A root of odd degree is real for every base.
+        if k.denom().is_odd() && base.below_zero() {
+            let minus = T::from_rational(&-Rational::one());
+            let size = minus.times(base).pow(&T::from_rational(k))?;
+            let odd = k.numer().is_odd();
+            return Some(if odd { minus.times(&size) } else { size });
         }
     }
     base.pow(&exponent.evaluate(at)?)
@@ -223,6 +234,9 @@ impl Scalar for f64 {
     }
     fn pow(&self, exponent: &f64) -> Option<f64> {
         (*self > 0.0).then(|| self.powf(*exponent))
+    }
+    fn below_zero(&self) -> bool {
+        *self < 0.0
     }
     fn call(&self, function: Function) -> Option<f64> {
         let value = match function {

@@ -386,9 +386,12 @@ pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Finding 
 fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) -> Finding {
     match equality {
         Equality::Same {
-            how: How::Identity { assumptions },
+            how: How::Identity {
+                ground,
+                assumptions,
+            },
         } => {
-            let proof = Proof::of("identity", "the difference is zero in the normal form");
+            let proof = Proof::of("identity", ground.words());
             let signs = assumptions
                 .iter()
                 .any(|a| matches!(a, Assumption::NotNegative(_)));

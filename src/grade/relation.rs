@@ -3,16 +3,17 @@
 //! F = 0 and G = 0 have the same solutions where F/G keeps one sign; where it does not, each equation is solved for a
 //! symbol in which it is linear and put into the other. Roots gained or lost are reported with a point.
 
-use std::collections::BTreeMap;
+mod solved;
 
 use super::compare::{Context, Finding, WRITTEN, scalars};
 use super::{Apart, Diagnosis, Proof, Verdict};
 use crate::algebra::{Field, Sign};
 use crate::domain::{Domains, roles, samples};
-use crate::equality::{self, Equality};
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Node};
 use crate::formula::{Content, Relation};
 use crate::interval::{Interval, Outcome, evaluate};
+pub(super) use solved::solve_for;
+use solved::{same_angle, solution_apart, solved_in, unknowns};
 
 /// `left − right  rel  0`, turned so that the relation is one of =, ≠, <, ≤.
 struct Normal {
@@ -208,11 +209,17 @@ fn same_sign(expected: &Normal, answer: &Normal, domains: &Domains) -> Option<bo
 fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     let domains = &ctx.key.question.domains;
     let (f, g) = (&expected.difference, &answer.difference);
+    let same_angle = same_angle(f, g, domains);
+    if same_angle == Some(true) {
+        let words = "each equation fixes the angle, and at the same value";
+        let proof = Proof::of("solutions", words);
+        return Finding::new(Verdict::Equivalent, "EQUIV_SOLUTIONS", proof);
+    }
     // A solution of one that the other lacks.
     let lost = solution_apart(f, g, domains);
     if let (Some(at), Some(_)) = (&lost, solution_apart(g, f, domains)) {
         let words = "the equation says something else than the expected one";
-        let mut finding = parted(ctx, words, "DIFF_EQUATION", at.clone(), f, g);
+        let mut finding = parted(ctx, words, "DIFF_EQUATION", at.clone());
         if let Some(term) = turned_term(f, g, domains) {
             let message = format!("right with the sign of {} turned", ctx.say(&term));
             finding.note = "DIFF_TERM_SIGN";
@@ -226,22 +233,22 @@ fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     }
     if let Some(at) = lost {
         let words = "a solution of the expected equation does not fulfil the answer";
-        return parted(ctx, words, "DIFF_ROOT_LOST", at, f, g);
+        return parted(ctx, words, "DIFF_ROOT_LOST", at);
     }
     if let Some(at) = solution_apart(g, f, domains) {
         let words = "the answer has a solution that the expected equation lacks";
-        return parted(ctx, words, "DIFF_ROOT_GAINED", at, f, g);
+        return parted(ctx, words, "DIFF_ROOT_GAINED", at);
     }
     // Where one is the other times something that vanishes inside the domain, that is a root more.
     if let Some(ratio) = ratio(f, g, domains) {
         if let Some(at) = solution_apart(&ratio.powi(-1), g, domains) {
             let words = "divided by something that vanishes inside the domain";
-            return parted(ctx, words, "DIFF_ROOT_LOST", at, f, g);
+            return parted(ctx, words, "DIFF_ROOT_LOST", at);
         }
         if let Some(at) = solution_apart(&ratio, f, domains) {
             let words = "multiplied by something that vanishes inside the domain";
             let swapped = (at.0, at.2, at.1);
-            return parted(ctx, words, "DIFF_ROOT_GAINED", swapped, f, g);
+            return parted(ctx, words, "DIFF_ROOT_GAINED", swapped);
         }
     }
     let both_ways = solved_in(f, g, domains) && solved_in(g, f, domains);
@@ -256,21 +263,12 @@ fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
             .push("what was divided by is not zero".into());
         return finding;
     }
-    // Where the answer is the expected equation times something that changes sign, that something is a root gained.
-    if let Some(at) = sign_change(f, g, domains) {
-        let words = "multiplied by something that vanishes inside the domain";
-        return Finding {
-            counterexample: Some(Apart {
-                at,
-                yours: "holds".into(),
-                expected: "need not hold".into(),
-            }),
-            ..Finding::different("DIFF_ROOT_GAINED", "solutions", words)
-        }
-        .with(Diagnosis::new(
-            "ROOT_GAINED",
+    if same_angle == Some(false) {
+        let words = "the two equations fix the angle at different values";
+        return Finding::different("DIFF_EQUATION", "solutions", words).with(Diagnosis::new(
+            "EQUATION",
             words,
-            "your equation has more solutions than asked for",
+            "compare your equation with the law it comes from, term by term",
         ));
     }
     Finding::new(
@@ -283,15 +281,7 @@ fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     )
 }
 
-fn parted(
-    ctx: &Context,
-    words: &str,
-    note: &'static str,
-    at: (String, Expr, Expr),
-    f: &Expr,
-    g: &Expr,
-) -> Finding {
-    let _ = (f, g);
+fn parted(ctx: &Context, words: &str, note: &'static str, at: (String, Expr, Expr)) -> Finding {
     let mut finding = Finding::different(note, "solutions", words);
     finding.counterexample = Some(Apart {
         at: at.0,
@@ -329,111 +319,6 @@ fn turned_term(f: &Expr, g: &Expr, domains: &Domains) -> Option<Expr> {
     })
 }
 
-/// The value of a symbol at which a difference vanishes, where it is linear in the symbol.
-pub(crate) fn solve_for(f: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
-    let slope = f.derivative(name);
-    let (all, _) = domains.completed(&roles(&[f, &slope]));
-    let mut field = Field::new(&all);
-    field.prepare([f, &slope]);
-    let slope = field.element(&slope).ok()?;
-    if field.is_zero(&slope)
-        || slope.terms() > WRITTEN
-        || field.expr(&slope).symbols().contains(name)
-    {
-        return None;
-    }
-    let constant = field
-        .element(&f.substitute(&BTreeMap::from([(name.clone(), Expr::zero())])))
-        .ok()?;
-    let root = field.neg(&field.div(&constant, &slope).ok()?);
-    if root.terms() > WRITTEN {
-        return None;
-    }
-    let root = field.expr(&root);
-    (!root.symbols().contains(name)).then_some(root)
-}
-
-/// The symbols to solve for: those occurring in both first.
-fn unknowns(f: &Expr, g: &Expr) -> Vec<Symbol> {
-    let (a, b) = (f.symbols(), g.symbols());
-    a.union(&b).cloned().collect()
-}
-
-/// Whether `f = 0`, solved for some symbol, turns `g` into zero identically.
-fn solved_in(f: &Expr, g: &Expr, domains: &Domains) -> bool {
-    unknowns(f, g).iter().any(|name| {
-        solve_for(f, name, domains).is_some_and(|root| {
-            let put_in = g.substitute(&BTreeMap::from([(name.clone(), root)]));
-            matches!(
-                equality::decide(&put_in, &Expr::zero(), domains).equality,
-                Equality::Same { .. }
-            )
-        })
-    })
-}
-
-/// A point inside the domain where `f` vanishes and `g` does not, in words, with both values there.
-fn solution_apart(f: &Expr, g: &Expr, domains: &Domains) -> Option<(String, Expr, Expr)> {
-    let uses = roles(&[f, g]);
-    let (domains, _) = domains.completed(&uses);
-    for name in unknowns(f, g) {
-        if uses.symbols.get(&name).is_some_and(|r| r.turns) {
-            continue;
-        }
-        let Some(root) = solve_for(f, &name, &domains) else {
-            continue;
-        };
-        for sample in samples(&roles(&[f, g, &root]), &domains, 12) {
-            let point = sample.point::<crate::interval::Big<200>>(true);
-            let Outcome::Value(value) = evaluate(&root, &point) else {
-                continue;
-            };
-            let middle = crate::interval::Outcome::Value(value.clone());
-            let inside = exact_inside(&root, &sample, &name, &domains);
-            if !inside {
-                continue;
-            }
-            let mut there = point.clone();
-            there.values.insert(name.clone(), middle);
-            if let Outcome::Value(left) = evaluate(g, &there)
-                && !left.0.has_zero()
-            {
-                let digits = |v: &crate::interval::Enclosure| v.decimal(6);
-                let mut shown = sample.clone();
-                shown.coordinates.remove(&name);
-                let mut at = shown.words();
-                if !at.is_empty() {
-                    at.push_str(", ");
-                }
-                at.push_str(&format!("{name} = {}", digits(&value.0)));
-                let number = |text: String| {
-                    super::number::decimal(&text).map_or_else(Expr::zero, Expr::from)
-                };
-                return Some((at, Expr::zero(), number(digits(&left.0))));
-            }
-        }
-    }
-    None
-}
-
-/// Whether the root's value lies strictly inside the symbol's domain.
-fn exact_inside(
-    root: &Expr,
-    sample: &crate::domain::Sample,
-    name: &Symbol,
-    domains: &Domains,
-) -> bool {
-    let Some(domain) = domains.symbols.get(name) else {
-        return true;
-    };
-    let Outcome::Value(value) = evaluate::<Interval>(root, &sample.point(true)) else {
-        return false;
-    };
-    [value.low, value.high]
-        .into_iter()
-        .all(|end| crate::expr::number::from_f64(end).is_some_and(|end| domain.contains(&end)))
-}
-
 /// The quotient g/f in its normal form.
 fn ratio(f: &Expr, g: &Expr, domains: &Domains) -> Option<Expr> {
     let (domains, _) = domains.completed(&roles(&[f, g]));
@@ -442,33 +327,6 @@ fn ratio(f: &Expr, g: &Expr, domains: &Domains) -> Option<Expr> {
     let (a, b) = (field.element(f).ok()?, field.element(g).ok()?);
     let ratio = field.div(&b, &a).ok()?;
     (ratio.terms() <= WRITTEN).then(|| field.expr(&ratio))
-}
-
-/// A point pair between which the quotient g/f changes sign, in words.
-fn sign_change(f: &Expr, g: &Expr, domains: &Domains) -> Option<String> {
-    let quotient = g / f;
-    let uses = roles(&[&quotient]);
-    let (domains, _) = domains.completed(&uses);
-    let mut field = Field::new(&domains);
-    field.prepare([f, g]);
-    let (a, b) = (field.element(f).ok()?, field.element(g).ok()?);
-    let ratio = field.div(&b, &a).ok()?;
-    if ratio.terms() > WRITTEN {
-        return None;
-    }
-    let ratio = field.expr(&ratio);
-    let mut seen: [Option<String>; 2] = [None, None];
-    for sample in samples(&roles(&[&ratio]), &domains, 24) {
-        if let Outcome::Value(v) = evaluate::<Interval>(&ratio, &sample.point(true)) {
-            if v.low > 0.0 {
-                seen[1].get_or_insert(sample.words());
-            } else if v.high < 0.0 {
-                seen[0].get_or_insert(sample.words());
-            }
-        }
-    }
-    let [negative, positive] = seen;
-    Some(format!("somewhere between {} and {}", negative?, positive?))
 }
 
 /// Two inequalities whose quotient is not known to keep a sign.

@@ -155,6 +155,9 @@ impl Certified for Interval {
             _ => Unknown,
         }
     }
+    fn below_zero(&self) -> bool {
+        self.high < 0.0
+    }
     fn call(&self, function: Function) -> Outcome<Self> {
         match self.dyadic() {
             Some(x) => series::call(&x, function, BITS).then(back),

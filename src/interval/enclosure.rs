@@ -322,6 +322,9 @@ impl<const BITS: u32> Certified for Big<BITS> {
             .then(|l| series::exp(&l.mul(&exponent.0, BITS + 64), BITS))
             .then(|e| known(e.clone()))
     }
+    fn below_zero(&self) -> bool {
+        self.0.high.sign() < 0
+    }
     fn call(&self, function: Function) -> Outcome<Self> {
         series::call(&self.0, function, BITS).then(|e| known(e.clone()))
     }

@@ -43,6 +43,8 @@ pub trait Certified: Clone {
     fn pow(&self, exponent: &Self) -> Outcome<Self>;
     /// A function.
     fn call(&self, function: Function) -> Outcome<Self>;
+    /// Whether the value is below zero for certain.
+    fn below_zero(&self) -> bool;
 }
 
 impl<T> Outcome<T> {
@@ -96,6 +98,9 @@ impl<T: Certified> Scalar for Outcome<T> {
     }
     fn call(&self, function: Function) -> Option<Self> {
         Some(self.then(|x| x.call(function)))
+    }
+    fn below_zero(&self) -> bool {
+        matches!(self, Outcome::Value(x) if x.below_zero())
     }
 }
 

@@ -1,0 +1,212 @@
+//! Equations solved for one symbol: where it is linear, and where it is an angle that stands in one sine, cosine or tangent.
+//!
+//! In: a difference that vanishes and the domains. Out: the value of the symbol, points where another difference does not
+//! vanish, and whether two equations fix an angle alike.
+
+use std::collections::BTreeMap;
+
+use super::super::compare::WRITTEN;
+use super::super::number;
+use crate::algebra::Field;
+use crate::domain::{Domain, Domains, Limit, Sample, roles, samples};
+use crate::equality::{self, Equality};
+use crate::expr::angle::angle;
+use crate::expr::number::to_f64;
+use crate::expr::{Expr, Function, Node, Symbol};
+use crate::interval::{Big, Enclosure, Interval, Outcome, evaluate};
+
+/// The value of a symbol at which a difference vanishes, where it is linear in the symbol.
+pub(crate) fn solve_for(f: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
+    let slope = f.derivative(name);
+    let (all, _) = domains.completed(&roles(&[f, &slope]));
+    let mut field = Field::new(&all);
+    field.prepare([f, &slope]);
+    let slope = field.element(&slope).ok()?;
+    if field.is_zero(&slope)
+        || slope.terms() > WRITTEN
+        || field.expr(&slope).symbols().contains(name)
+    {
+        return None;
+    }
+    let constant = field
+        .element(&f.substitute(&BTreeMap::from([(name.clone(), Expr::zero())])))
+        .ok()?;
+    let root = field.neg(&field.div(&constant, &slope).ok()?);
+    if root.terms() > WRITTEN {
+        return None;
+    }
+    let root = field.expr(&root);
+    (!root.symbols().contains(name)).then_some(root)
+}
+
+/// The symbols to solve for: those occurring in both first.
+pub(super) fn unknowns(f: &Expr, g: &Expr) -> Vec<Symbol> {
+    let (a, b) = (f.symbols(), g.symbols());
+    a.union(&b).cloned().collect()
+}
+
+/// Whether `f = 0`, solved for some symbol, turns `g` into zero identically.
+pub(super) fn solved_in(f: &Expr, g: &Expr, domains: &Domains) -> bool {
+    unknowns(f, g).iter().any(|name| {
+        solve_for(f, name, domains).is_some_and(|root| {
+            let put_in = g.substitute(&BTreeMap::from([(name.clone(), root)]));
+            matches!(
+                equality::decide(&put_in, &Expr::zero(), domains).equality,
+                Equality::Same { .. }
+            )
+        })
+    })
+}
+
+/// A point inside the domain where `f` vanishes and `g` does not, in words, with both values there.
+pub(super) fn solution_apart(
+    f: &Expr,
+    g: &Expr,
+    domains: &Domains,
+) -> Option<(String, Expr, Expr)> {
+    let uses = roles(&[f, g]);
+    let (domains, _) = domains.completed(&uses);
+    for name in unknowns(f, g) {
+        if uses.symbols.get(&name).is_some_and(|r| r.turns) {
+            continue;
+        }
+        let Some(root) = solve_for(f, &name, &domains) else {
+            continue;
+        };
+        for sample in samples(&roles(&[f, g, &root]), &domains, 12) {
+            let point = sample.point::<Big<200>>(true);
+            let Outcome::Value(value) = evaluate(&root, &point) else {
+                continue;
+            };
+            let middle = Outcome::Value(value.clone());
+            let inside = exact_inside(&root, &sample, &name, &domains);
+            if !inside {
+                continue;
+            }
+            let mut there = point.clone();
+            there.values.insert(name.clone(), middle);
+            if let Outcome::Value(left) = evaluate(g, &there)
+                && !left.0.has_zero()
+            {
+                let digits = |v: &Enclosure| v.decimal(6);
+                let mut shown = sample.clone();
+                shown.coordinates.remove(&name);
+                let mut at = shown.words();
+                if !at.is_empty() {
+                    at.push_str(", ");
+                }
+                at.push_str(&format!("{name} = {}", digits(&value.0)));
+                let number =
+                    |text: String| number::decimal(&text).map_or_else(Expr::zero, Expr::from);
+                return Some((at, Expr::zero(), number(digits(&left.0))));
+            }
+        }
+    }
+    None
+}
+
+/// Whether the root's value lies strictly inside the symbol's domain.
+fn exact_inside(root: &Expr, sample: &Sample, name: &Symbol, domains: &Domains) -> bool {
+    let Some(domain) = domains.symbols.get(name) else {
+        return true;
+    };
+    let Outcome::Value(value) = evaluate::<Interval>(root, &sample.point(true)) else {
+        return false;
+    };
+    [value.low, value.high]
+        .into_iter()
+        .all(|end| crate::expr::number::from_f64(end).is_some_and(|end| domain.contains(&end)))
+}
+
+/// Whether two equations fix the same angle: `tan θ = 1/2` and `θ = atan(1/2)`, each of which has one solution at most on the
+/// angle's domain. `None` where that is not known.
+pub(super) fn same_angle(f: &Expr, g: &Expr, domains: &Domains) -> Option<bool> {
+    let uses = roles(&[f, g]);
+    let (all, _) = domains.completed(&uses);
+    let angles = uses.symbols.iter().filter(|(_, role)| role.turns);
+    angles.into_iter().find_map(|(name, _)| {
+        let domain = all.symbols.get(name)?;
+        let (a, b) = (
+            angle_of(f, name, domain, &all)?,
+            angle_of(g, name, domain, &all)?,
+        );
+        match equality::decide(&a, &b, &all).equality {
+            Equality::Same {
+                how: equality::How::Identity { .. },
+            } => Some(true),
+            Equality::Different(apart) => [a, b]
+                .iter()
+                .any(|root| within(root, &apart.at, domain))
+                .then_some(false),
+            _ => None,
+        }
+    })
+}
+
+/// The one value of an angle on its domain at which a difference may vanish.
+fn angle_of(f: &Expr, name: &Symbol, domain: &Domain, domains: &Domains) -> Option<Expr> {
+    let turning = [Function::Sin, Function::Cos, Function::Tan];
+    let mut calls: Vec<(Function, Expr)> = Vec::new();
+    f.walk(&mut |part| {
+        if let Node::Call(function, x) = part.node()
+            && turning.contains(function)
+            && x.symbols().contains(name)
+        {
+            calls.push((*function, x.clone()));
+        }
+    });
+    calls.dedup();
+    let [(function, argument)] = calls.as_slice() else {
+        return calls
+            .is_empty()
+            .then(|| solve_for(f, name, domains))
+            .flatten();
+    };
+    let read = angle(argument).filter(|a| a.symbols.len() == 1)?;
+    let (factor, shift) = (read.symbols.get(name)?, &read.pi);
+    let end = |limit: &Option<Limit>| {
+        let turns = limit.as_ref()?.approximate() / std::f64::consts::PI;
+        Some(turns * to_f64(factor) + to_f64(shift))
+    };
+    let (from, to) = (end(&domain.low)?, end(&domain.high)?);
+    let (least, most) = match function {
+        Function::Cos => (0.0, 1.0),
+        _ => (-0.5, 0.5),
+    };
+    let margin = 1e-9;
+    if from.min(to) < least - margin || from.max(to) > most + margin {
+        return None;
+    }
+    let value: Symbol = "value of the function".into();
+    let call = Expr::call(*function, argument.clone());
+    let plain = replaced(f, &call, &Expr::symbol(&value));
+    if plain.symbols().contains(name) {
+        return None;
+    }
+    let value = solve_for(&plain, &value, domains)?;
+    let inverse = match function {
+        Function::Sin => Function::Asin,
+        Function::Cos => Function::Acos,
+        _ => Function::Atan,
+    };
+    let turned = Expr::call(inverse, value) - Expr::pi() * Expr::from(shift.clone());
+    Some(turned * Expr::from(factor.recip()))
+}
+
+fn replaced(e: &Expr, old: &Expr, new: &Expr) -> Expr {
+    match e == old {
+        true => new.clone(),
+        false => e.map_parts(|part| replaced(part, old, new)),
+    }
+}
+
+/// Whether the value at a point lies inside a domain for certain.
+fn within(root: &Expr, at: &Sample, domain: &Domain) -> bool {
+    let Outcome::Value(value) = evaluate::<Interval>(root, &at.point(true)) else {
+        return false;
+    };
+    let margin = 1e-9;
+    let end = |limit: &Option<Limit>| limit.as_ref().map(Limit::approximate);
+    end(&domain.low).is_none_or(|low| value.low > low + margin)
+        && end(&domain.high).is_none_or(|high| value.high < high - margin)
+}
