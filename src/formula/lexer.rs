@@ -15,6 +15,8 @@ use crate::expr::{Function, Rational, Symbol, ratio};
 
 /// Most tokens of one formula.
 const MAX_TOKENS: u32 = 20_000;
+/// Most digits and powers of ten of all numbers together, beyond what fits a machine word: long fractions cost much.
+const MAX_LONG_DIGITS: u32 = 6_000;
 
 /// A token.
 #[derive(Clone, PartialEq, Debug)]
@@ -24,10 +26,6 @@ pub(crate) enum Tok {
     Name(Symbol),
     Call(Function),
     Reciprocal(Function),
-    /// The logarithm to a whole base.
-    Logarithm(i64),
-    /// The sign of what follows.
-    Signum,
     /// A root of index 2 or 3.
     Root(i64),
     Fraction,
@@ -93,6 +91,8 @@ pub(crate) struct Lexer<'a> {
     pub(super) run_from: usize,
     /// Tokens so far.
     count: u32,
+    /// Digits of long numbers so far.
+    long_digits: u32,
     /// Whether a comma between digits separates components here.
     pub list: bool,
     /// How the components of a column or row are separated.
@@ -131,6 +131,7 @@ impl<'a> Lexer<'a> {
             after_value: false,
             run_from: 0,
             count: 0,
+            long_digits: 0,
             list: false,
             matrix: Matrix::Outside,
         }
@@ -176,9 +177,7 @@ impl<'a> Lexer<'a> {
             _ => Before::Nothing,
         };
         self.after_value = self.before != Before::Nothing || matches!(tok, Tok::Name(_));
-        if let Tok::Call(_) | Tok::Reciprocal(_) | Tok::Logarithm(_) | Tok::Signum | Tok::Root(_) =
-            tok
-        {
+        if let Tok::Call(_) | Tok::Reciprocal(_) | Tok::Root(_) = tok {
             self.run_from = self.pos;
         }
         Ok(Token {
@@ -478,6 +477,12 @@ impl<'a> Lexer<'a> {
             }
         }
         let (literal, end) = number::literal(self.text, start, exponent, self.list)?;
+        self.long_digits += (literal.digits + literal.place.unsigned_abs()).saturating_sub(18);
+        if self.long_digits > MAX_LONG_DIGITS {
+            let message =
+                format!("the numbers of a formula have at most {MAX_LONG_DIGITS} digits in all");
+            return Err(Fault::new(message, start, end));
+        }
         self.pos = end;
         Ok(Tok::Number(literal))
     }

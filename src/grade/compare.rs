@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use num_traits::Signed;
-
 use super::number::{self, Tolerance};
 use super::{
     Apart, Diagnosis, Key, Options, Proof, Strength, Verdict, fraction, modular, partial, relation,
@@ -373,10 +371,6 @@ pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Finding 
     let decision = equality::decide(expected, answer, &ctx.key.question.domains);
     let mut finding = decided(ctx, expected, answer, decision.equality);
     finding.assumed.splice(0..0, decision.assumed);
-    for e in [expected, answer] {
-        finding.assumed.extend(odd_root(ctx, e));
-    }
-    finding.assumed.dedup();
     if ctx.diagnose && finding.verdict == Verdict::Different {
         let found = partial::diagnose(ctx, expected, answer);
         if finding.note == "DIFF"
@@ -512,21 +506,6 @@ fn apart(c: &equality::Counterexample) -> Apart {
     }
 }
 
-/// How the root of odd degree of a negative number is understood, where one occurs.
-fn odd_root(ctx: &Context, e: &Expr) -> Option<String> {
-    let mut found = None;
-    e.walk(&mut |part| {
-        if let Node::Power(base, k) = part.node()
-            && let (Some(base), Some(k)) = (base.as_number(), k.as_number())
-            && base.is_negative()
-            && !k.is_integer()
-        {
-            found.get_or_insert_with(|| format!("{} is the real root", ctx.say(part)));
-        }
-    });
-    found
-}
-
 /// Within a tolerance: numbers, or formulas whose quotient is a number.
 fn tolerant(
     ctx: &Context,
@@ -568,8 +547,50 @@ fn tolerant(
 /// Most terms of what is written out while looking for what is wrong; more would cost much and tell nobody anything.
 pub(crate) const WRITTEN: usize = 300;
 
+/// Most products of terms it may take to write out two formulas while looking for what is wrong.
+const PRODUCTS: usize = 100_000;
+
+/// Whether two formulas are written out as sums of products without much work.
+pub(crate) fn is_short(a: &Expr, b: &Expr) -> bool {
+    /// Terms, and products of terms on the way there; both at most.
+    fn cost(e: &Expr) -> (usize, usize) {
+        match e.node() {
+            Node::Sum(parts) => parts.iter().map(cost).fold((0, 0), |total, part| {
+                let work = total.1.saturating_add(part.1);
+                (total.0.saturating_add(part.0), work)
+            }),
+            Node::Product(parts) => parts.iter().map(cost).fold((1, 0), |total, part| {
+                let terms = total.0.saturating_mul(part.0);
+                let work = total.1.saturating_add(part.1);
+                (terms, work.saturating_add(terms))
+            }),
+            Node::Power(base, k) => {
+                let (base, work) = cost(base);
+                let k = k.as_number().filter(|k| k.is_integer());
+                let k = k.and_then(|k| k.numer().as_i64()).unwrap_or(1);
+                let k = usize::try_from(k.unsigned_abs()).unwrap_or(usize::MAX);
+                // k of the terms, their order left aside: (base + k − 1 over k).
+                let mut terms = 1usize;
+                for i in 1..base.min(6) {
+                    terms = terms.saturating_mul(k.saturating_add(i)) / i;
+                }
+                let squared = terms.saturating_mul(terms);
+                (
+                    terms,
+                    work.saturating_add(if base > 1 { squared } else { 0 }),
+                )
+            }
+            _ => (1, 0),
+        }
+    }
+    cost(a).1.saturating_add(cost(b).1) <= PRODUCTS
+}
+
 /// The quotient of two expressions where it is a number.
 pub(crate) fn quotient(a: &Expr, b: &Expr, ctx: &Context) -> Option<Expr> {
+    if !is_short(a, b) {
+        return None;
+    }
     let mut field = Field::new(&ctx.key.question.domains);
     field.prepare([a, b]);
     let (x, y) = (field.element(a).ok()?, field.element(b).ok()?);

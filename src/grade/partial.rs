@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use num_traits::Signed;
 
-use super::compare::{Context, quotient, same_number};
+use super::compare::{Context, is_short, quotient, same_number};
 use super::{Diagnosis, fraction, number};
 use crate::dimension::{self, Clash, Dimension};
 use crate::domain::{Domains, roles, samples};
@@ -294,7 +294,8 @@ impl<'a> Trial<'a> {
 
     /// A factor made of symbols that both formulas know.
     fn factor_of_symbols(&self, ctx: &Context) -> Option<Diagnosis> {
-        if self.expected.is_zero() || self.answer.is_zero() {
+        let short = is_short(self.expected, self.answer);
+        if self.expected.is_zero() || self.answer.is_zero() || !short {
             return None;
         }
         let mut field = crate::algebra::Field::new(self.domains);
