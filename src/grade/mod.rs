@@ -340,14 +340,19 @@ pub fn judge(expected: &str, answer: &str, question: &Question, options: &Option
         let fast = options.strength == Strength::Fast;
         let proved = || provable(&pair.quick, &pair.seen[1]) && pair.proves(expected, answer);
         if fast || proved() {
-            let list = pair.names.list();
-            let assumed = assumed(&list, &pair.seen[0]);
+            let sorted: Vec<(usize, &str)> = pair.names.sorted().collect();
+            let assumed = assumed(&sorted, &pair.seen[0]);
             let finding = match fast {
                 true => pair.quick.finding(assumed),
                 false => identity(pair.quick.roots, assumed),
             };
             let [_, seen] = pair.seen;
-            return plain_grade(finding, &list, seen);
+            let used = pair
+                .names
+                .sorted()
+                .filter(|(i, _)| seen.names >> i & 1 == 1);
+            let symbols = used.map(|(_, name)| Symbol::from(name)).collect();
+            return plain_grade(finding, symbols, seen);
         }
     }
     match key(expected, question) {
@@ -357,19 +362,13 @@ pub fn judge(expected: &str, answer: &str, question: &Question, options: &Option
 }
 
 /// Domains taken for names of which nothing is declared, in words.
-fn assumed(list: &[Symbol], seen: &Seen) -> Vec<String> {
-    let mut used: Vec<(&Symbol, bool)> = list
-        .iter()
-        .enumerate()
-        .filter(|(i, _)| seen.names >> i & 1 == 1)
-        .map(|(i, name)| (name, seen.turned >> i & 1 == 1))
-        .collect();
-    used.sort();
-    let words = |(name, angle): (&Symbol, bool)| match angle {
+fn assumed(names: &[(usize, &str)], seen: &Seen) -> Vec<String> {
+    let used = names.iter().filter(|(i, _)| seen.names >> i & 1 == 1);
+    let words = |(i, name): &(usize, &str)| match seen.turned >> i & 1 == 1 {
         true => Domain::first_quadrant().words(name),
-        false => format!("{name} > 0"),
+        false => [*name, " > 0"].concat(),
     };
-    used.into_iter().map(words).collect()
+    used.map(words).collect()
 }
 
 /// Judges a plain answer in one pass over its text or two, where that decides.
@@ -392,7 +391,13 @@ fn plain_against(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
             identity(quick.roots, residues.assumed().to_vec())
         }
     };
-    Some(plain_grade(finding, residues.list(), seen))
+    let used = residues.list().iter().enumerate();
+    let mut symbols: Vec<Symbol> = used
+        .filter(|(i, _)| seen.names >> i & 1 == 1)
+        .map(|(_, name)| name.clone())
+        .collect();
+    symbols.sort();
+    Some(plain_grade(finding, symbols, seen))
 }
 
 /// The verdict on an answer at the first strength, with nothing around it: for those who judge millions. It is the one
@@ -432,13 +437,7 @@ fn identity(roots: bool, assumed: Vec<String>) -> compare::Finding {
 }
 
 /// The grade of a plain formula, with what was seen of the answer.
-fn plain_grade(finding: compare::Finding, list: &[Symbol], seen: Seen) -> Grade {
-    let used = list.iter().enumerate();
-    let mut symbols: Vec<Symbol> = used
-        .filter(|(i, _)| seen.names >> i & 1 == 1)
-        .map(|(_, name)| name.clone())
-        .collect();
-    symbols.sort();
+fn plain_grade(finding: compare::Finding, symbols: Vec<Symbol>, seen: Seen) -> Grade {
     Grade {
         verdict: finding.verdict,
         note: finding.note,
@@ -589,35 +588,12 @@ fn ambiguity(
                 },
             );
             let hint = "the formula can be read in two ways; use brackets to say which is meant";
-            let right = finding.verdict == Verdict::Equivalent;
-            if tight_root(&other, answer, right) {
-                let words = "the root sign may reach over one letter or over all of them";
-                finding.verdict = Verdict::Undecided;
-                finding.note = "UNDECIDED_AMBIGUOUS";
-                finding.proof = Proof::of("none", words);
-                finding.counterexample = None;
-                finding.diagnosis.clear();
-            }
             finding
                 .diagnosis
                 .insert(0, Diagnosis::new("AMBIGUOUS", message, hint));
             return;
         }
     }
-}
-
-/// Whether a reading takes `√ab`, with nothing between the letters, as the root of all of them: no habit decides that.
-fn tight_root(other: &Reading, answer: &str, right: bool) -> bool {
-    let tight = |note: &Note| {
-        let (root, behind) = answer.split_at_checked(note.middle).unwrap_or_default();
-        // The root of a number and then letters is what most mean by `√2x`.
-        if right && root.ends_with(|c: char| c.is_ascii_digit()) {
-            return false;
-        }
-        behind.starts_with(|c: char| c.is_alphanumeric() || c == '\\')
-    };
-    let long = Remark::Root { long: true };
-    other.notes.iter().any(|n| n.remark == long && tight(n))
 }
 
 /// What the reader decided that a student should know about.

@@ -15,14 +15,14 @@ pub(crate) const MOST: usize = 64;
 /// Places of the table; a power of two well above the spellings.
 const PLACES: usize = 256;
 
-/// A spelling, filled up with zeros.
-pub(crate) type Key = [u8; 16];
+/// A spelling, filled up with zeros; its first byte is the lowest.
+pub(crate) type Key = u128;
 
 /// The names in play, each known by its index.
 #[derive(Clone, Debug)]
 pub struct Names {
-    /// Spellings and the index of the name they mean.
-    spellings: Vec<(Key, u8)>,
+    /// Spellings with their length and the index of the name they mean.
+    spellings: Vec<Spelled>,
     /// The declared names as they were declared; none where names are collected.
     shown: Vec<Symbol>,
     /// Place of a spelling in the list above, plus one, by the hash of its key.
@@ -39,23 +39,25 @@ pub struct Names {
     pub(crate) open: bool,
 }
 
+#[derive(Clone, Copy, Debug)]
+struct Spelled {
+    key: Key,
+    bytes: [u8; 16],
+    length: u8,
+    index: u8,
+}
+
 /// The key of a spelling.
 fn key(text: &[u8]) -> Option<Key> {
     let mut bytes = [0; 16];
     bytes.get_mut(..text.len())?.copy_from_slice(text);
-    Some(bytes)
+    Some(Key::from_le_bytes(bytes))
 }
 
+#[inline]
 fn place(key: Key) -> usize {
-    let wide = u128::from_le_bytes(key);
-    let folded = (wide ^ (wide >> 64)) as u64;
+    let folded = (key ^ (key >> 64)) as u64;
     (folded.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 56) as usize
-}
-
-/// The characters of a key.
-fn spelled(key: &Key) -> &[u8] {
-    let length = key.iter().position(|b| *b == 0).unwrap_or(key.len());
-    &key[..length]
 }
 
 impl Names {
@@ -125,10 +127,15 @@ impl Names {
         while self.places[at] != 0 {
             at = (at + 1) % PLACES;
         }
-        if key[1] == 0 {
-            self.single[usize::from(key[0] & 0x7f)] = index as u8 + 1;
+        if key < 0x80 {
+            self.single[key as usize] = index as u8 + 1;
         }
-        self.spellings.push((key, index as u8));
+        self.spellings.push(Spelled {
+            key,
+            bytes: key.to_le_bytes(),
+            length: 16 - (key.leading_zeros() / 8) as u8,
+            index: index as u8,
+        });
         self.places[at] = self.spellings.len() as u8;
     }
 
@@ -149,9 +156,9 @@ impl Names {
             match self.places[at] {
                 0 => return None,
                 found => {
-                    let (known, index) = self.spellings[usize::from(found) - 1];
-                    if known == key {
-                        return Some(usize::from(index));
+                    let known = &self.spellings[usize::from(found) - 1];
+                    if known.key == key {
+                        return Some(usize::from(known.index));
                     }
                 }
             }
@@ -175,10 +182,8 @@ impl Names {
 
     /// What was collected is declared from here on, which tells it from units.
     pub fn close(&mut self) {
-        for (key, _) in &self.spellings {
-            if key[1] == 0 {
-                self.letters |= 1 << (key[0] & 0x7f);
-            }
+        for known in self.spellings.iter().filter(|known| known.key < 0x80) {
+            self.letters |= 1 << known.key;
         }
     }
 
@@ -194,16 +199,23 @@ impl Names {
         match self.shown.get(index) {
             Some(name) => name.as_bytes(),
             // Collected names have one spelling each.
-            None => spelled(&self.spellings[index].0),
+            None => {
+                let known = &self.spellings[index];
+                &known.bytes[..usize::from(known.length)]
+            }
         }
     }
 
-    /// The names in the order of their indices.
-    pub fn list(&self) -> Vec<Symbol> {
-        let text = |index| std::str::from_utf8(self.echo(index)).unwrap_or("");
-        (0..self.count)
-            .map(|index| Symbol::from(text(index)))
-            .collect()
+    /// The names that were collected, in alphabetical order, with their indices.
+    pub fn sorted(&self) -> impl Iterator<Item = (usize, &str)> {
+        // Each was entered with the next index.
+        let mut order: [u8; MOST] = std::array::from_fn(|index| index as u8);
+        let count = self.spellings.len().min(MOST);
+        order[..count].sort_unstable_by_key(|at| self.spellings[usize::from(*at)].key.swap_bytes());
+        (0..count).map(move |at| {
+            let index = usize::from(order[at]);
+            (index, std::str::from_utf8(self.echo(index)).unwrap_or(""))
+        })
     }
 }
 

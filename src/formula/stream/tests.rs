@@ -93,7 +93,8 @@ fn check(text: &str, declared: Option<&[&str]>) -> bool {
     if stream(text, first, &mut Exprs(Vec::new()), &mut seen).is_none() {
         return false;
     }
-    let names: Vec<String> = table.list().iter().map(|n| n.to_string()).collect();
+    let name = |index| String::from_utf8_lossy(table.echo(index)).into_owned();
+    let names: Vec<String> = (0..table.count).map(name).collect();
     // As what declares these names.
     if declared.is_none() {
         table.close();

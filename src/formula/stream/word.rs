@@ -184,7 +184,26 @@ impl<B: Builder> Reader<'_, B> {
         }
     }
 
+    /// Most names: a letter, perhaps with a digit, and nothing behind that could belong to them.
+    #[inline]
+    fn short(&mut self, look: bool) -> Option<Word> {
+        let [letter, next, after] = [0, 1, 2].map(|ahead| self.byte(ahead));
+        let (key, length, end) = match next.is_ascii_digit() {
+            true => (u128::from(letter) | u128::from(next) << 8, 2, after),
+            false => (u128::from(letter), 1, next),
+        };
+        if self.before || end.is_ascii_alphanumeric() || matches!(end, b'_' | b'\'' | 0xcc | 0xe2) {
+            return None;
+        }
+        let word = self.name(key, look)?;
+        self.at += length;
+        Some(word)
+    }
+
     fn letters(&mut self, look: bool) -> Option<Word> {
+        if let Some(word) = self.short(look) {
+            return Some(word);
+        }
         let rest = &self.text[self.at..];
         let count = rest.iter().take_while(|b| b.is_ascii_alphabetic()).count();
         if count > RUN {
@@ -265,7 +284,7 @@ impl<B: Builder> Reader<'_, B> {
         let mut spelled = Spelling::default();
         spelled.push(base)?;
         if ends {
-            return self.name(&spelled, look);
+            return self.name(spelled.key(), look);
         }
         match next {
             b'0'..=b'9' => self.digits(&mut spelled)?,
@@ -300,7 +319,7 @@ impl<B: Builder> Reader<'_, B> {
             }
             spelled.push(b"'")?;
         }
-        self.name(&spelled, look)
+        self.name(spelled.key(), look)
     }
 
     fn digits(&mut self, spelled: &mut Spelling) -> Option<()> {
@@ -352,10 +371,10 @@ impl<B: Builder> Reader<'_, B> {
     }
 
     #[inline]
-    fn name(&mut self, spelled: &Spelling, look: bool) -> Option<Word> {
+    fn name(&mut self, key: Key, look: bool) -> Option<Word> {
         let index = match &mut self.names {
-            Table::Collect(names) if !look => names.index(spelled.bytes)?,
-            names => names.get().find(spelled.bytes)?,
+            Table::Collect(names) if !look => names.index(key)?,
+            names => names.get().find(key)?,
         };
         if !look {
             self.echo.extend_from_slice(self.names.get().echo(index));
@@ -367,7 +386,7 @@ impl<B: Builder> Reader<'_, B> {
 /// The one way to write a name, in the making.
 #[derive(Default)]
 struct Spelling {
-    bytes: Key,
+    bytes: [u8; 16],
     length: usize,
 }
 
@@ -378,6 +397,10 @@ impl Spelling {
         self.bytes.get_mut(self.length..end)?.copy_from_slice(piece);
         self.length = end;
         Some(())
+    }
+
+    fn key(&self) -> Key {
+        Key::from_le_bytes(self.bytes)
     }
 }
 

@@ -1,7 +1,7 @@
 //! A formula read into values in all lanes.
 
 use super::lanes::Lanes;
-use super::prime::{add, each, negative, one, times};
+use super::prime::{negative, one};
 use super::real::Real;
 use super::value::{Bound, Circle, Sign, Value};
 use crate::expr::Function;
@@ -9,117 +9,125 @@ use crate::formula::stream::{Angle, Builder, Ratio};
 
 /// Largest multiple of the unit of an angle.
 const MOST_TURNS: u32 = 16;
-impl<const C: u64, const L: usize, const R: usize> Builder for Lanes<'_, C, L, R> {
-    type Value = Value<L, R>;
 
-    fn number(&mut self, digits: u64, tens: u32) -> Option<Value<L, R>> {
-        Some(self.constant(digits, 10u64.checked_pow(tens)?))
+/// Where a value is kept while a formula is read, so that values are not moved about.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Slot {
+    /// A symbol at points found before.
+    Known(u32),
+    /// A symbol at points found now.
+    Fresh(u32),
+    /// What was computed; the last ones are used up first.
+    Made(u32),
+}
+
+impl<const C: u64, const L: usize, const R: usize> Lanes<'_, C, L, R> {
+    /// The value kept in a slot.
+    #[inline]
+    pub fn at(&self, slot: Slot) -> &Value<L, R> {
+        let symbol = match slot {
+            Slot::Made(at) => return &self.made[at as usize],
+            Slot::Known(index) => &self.known.symbols[index as usize],
+            Slot::Fresh(index) => &self.points.symbols[index as usize],
+        };
+        symbol
+            .as_ref()
+            .expect("a slot is given out for what is there")
     }
 
     #[inline]
-    fn symbol(&mut self, index: usize, name: &[u8]) -> Option<Value<L, R>> {
+    fn keep(&mut self, value: Value<L, R>) -> Slot {
+        self.made.push(value);
+        Slot::Made(self.made.len() as u32 - 1)
+    }
+
+    /// Takes a value out of its slot.
+    #[inline]
+    fn take(&mut self, slot: Slot) -> Value<L, R> {
+        let value = *self.at(slot);
+        if let Slot::Made(at) = slot {
+            self.made.truncate(at as usize);
+        }
+        value
+    }
+
+    /// Lets a value be changed where it is, a symbol as a copy; its slot.
+    #[inline]
+    fn change(&mut self, slot: Slot, change: impl FnOnce(&mut Value<L, R>)) -> Slot {
+        match slot {
+            Slot::Made(at) => {
+                change(&mut self.made[at as usize]);
+                slot
+            }
+            _ => {
+                let mut value = *self.at(slot);
+                change(&mut value);
+                self.keep(value)
+            }
+        }
+    }
+}
+
+impl<const C: u64, const L: usize, const R: usize> Builder for Lanes<'_, C, L, R> {
+    type Value = Slot;
+
+    fn number(&mut self, digits: u64, tens: u32) -> Option<Slot> {
+        let value = self.constant(digits, 10u64.checked_pow(tens)?);
+        Some(self.keep(value))
+    }
+
+    #[inline]
+    fn symbol(&mut self, index: usize, name: &[u8]) -> Option<Slot> {
         Some(self.symbol_at(index, name))
     }
 
-    fn pi(&mut self) -> Option<Value<L, R>> {
+    fn pi(&mut self) -> Option<Slot> {
         // π is transcendental: a symbol like others, with a known real value.
         let mut value = self.fresh(usize::MAX, b"pi");
         value.real = [Real::PI; R];
-        Some(value)
+        Some(self.keep(value))
     }
 
-    fn negative(&mut self, a: Value<L, R>) -> Option<Value<L, R>> {
-        Some(Value {
-            above: a.above.map(negative::<C>),
-            real: a.real.map(Real::negative),
-            sign: Sign::Unknown,
-            monomial: false,
-            ..a
-        })
-    }
-
-    #[inline]
-    fn sum(&mut self, a: Value<L, R>, b: Value<L, R>) -> Option<Value<L, R>> {
-        let mut out = a;
-        out.monomial = false;
-        out.sign = match (a.sign, b.sign) {
-            (Sign::Unknown, _) | (_, Sign::Unknown) => Sign::Unknown,
-            (x, y) => x.max(y),
-        };
-        for (x, y) in out.real.iter_mut().zip(b.real) {
-            *x = x.plus(y);
-        }
-        if (a.whole && b.whole) || a.below == b.below {
-            out.above = each(a.above, b.above, add::<C>);
-            out.bounds[0] = a.bounds[0].plus(b.bounds[0]);
-            return Some(out);
-        }
-        let cross = |x: &Value<L, R>, y: &Value<L, R>| match y.whole {
-            true => (x.above, x.bounds[0]),
-            false => (
-                each(x.above, y.below, times::<C>),
-                x.bounds[0].times(y.bounds[1]),
-            ),
-        };
-        let ((left, left_bound), (right, right_bound)) = (cross(&a, &b), cross(&b, &a));
-        out.above = each(left, right, add::<C>);
-        out.bounds[0] = left_bound.plus(right_bound);
-        if a.whole {
-            (out.below, out.bounds[1]) = (b.below, b.bounds[1]);
-        } else if !b.whole {
-            out.below = each(a.below, b.below, times::<C>);
-            out.bounds[1] = a.bounds[1].times(b.bounds[1]);
-        }
-        out.whole = false;
-        Some(out)
+    fn negative(&mut self, a: Slot) -> Option<Slot> {
+        Some(self.change(a, |a| {
+            a.above = a.above.map(negative::<C>);
+            a.real = a.real.map(Real::negative);
+            (a.sign, a.monomial) = (Sign::Unknown, false);
+        }))
     }
 
     #[inline]
-    fn product(&mut self, a: Value<L, R>, b: Value<L, R>) -> Option<Value<L, R>> {
-        let mut out = a;
-        out.above = each(a.above, b.above, times::<C>);
-        out.bounds[0] = a.bounds[0].times(b.bounds[0]);
-        if a.whole {
-            (out.below, out.bounds[1]) = (b.below, b.bounds[1]);
-        } else if !b.whole {
-            out.below = each(a.below, b.below, times::<C>);
-            out.bounds[1] = a.bounds[1].times(b.bounds[1]);
-        }
-        out.whole = a.whole && b.whole;
-        for (x, y) in out.real.iter_mut().zip(b.real) {
-            *x = x.times(y);
-        }
-        out.sign = a.sign.min(b.sign);
-        out.monomial = a.monomial && b.monomial;
-        out.odd = a.odd ^ b.odd;
-        Some(out)
+    fn sum(&mut self, a: Slot, b: Slot) -> Option<Slot> {
+        let b = self.take(b);
+        Some(self.change(a, |a| a.add::<C>(&b)))
     }
 
-    fn quotient(&mut self, a: Value<L, R>, b: Value<L, R>) -> Option<Value<L, R>> {
-        let inverse = self.inverse(b)?;
-        self.product(a, inverse)
+    #[inline]
+    fn product(&mut self, a: Slot, b: Slot) -> Option<Slot> {
+        let b = self.take(b);
+        Some(self.change(a, |a| a.multiply::<C>(&b)))
     }
 
-    fn power(&mut self, a: Value<L, R>, halves: i32) -> Option<Value<L, R>> {
+    fn quotient(&mut self, a: Slot, b: Slot) -> Option<Slot> {
+        let b = self.take(b);
+        let inverse = self.inverse(&b)?;
+        Some(self.change(a, |a| a.multiply::<C>(&inverse)))
+    }
+
+    fn power(&mut self, a: Slot, halves: i32) -> Option<Slot> {
+        let base = self.take(a);
         let size = halves.unsigned_abs();
-        let base = if size.is_multiple_of(2) {
-            a
-        } else {
-            self.root(a)?
+        let mut out = match size.is_multiple_of(2) {
+            true => base.raised::<C>(size / 2),
+            false => self.root(base)?.raised::<C>(size),
         };
-        let k = if size.is_multiple_of(2) {
-            size / 2
-        } else {
-            size
-        };
-        let raised = self.raised(base, k);
         if halves < 0 {
-            return self.inverse(raised);
+            out = self.inverse(&out)?;
         }
-        Some(raised)
+        Some(self.keep(out))
     }
 
-    fn turn(&mut self, ratio: Ratio, angle: &Angle, names: &[&[u8]]) -> Option<Value<L, R>> {
+    fn turn(&mut self, ratio: Ratio, angle: &Angle, names: &[&[u8]]) -> Option<Slot> {
         let mut total: Option<Circle<L, R>> = None;
         let mut acute = angle.quarters == 0;
         for ((index, share), name) in angle.parts().zip(names) {
@@ -200,15 +208,19 @@ impl<const C: u64, const L: usize, const R: usize> Builder for Lanes<'_, C, L, R
                     bounds: [v.bounds[0], Bound::ONE],
                     ..v
                 };
-                self.quotient(level(value(true)), level(value(false)))?
+                {
+                    let mut sine = level(value(true));
+                    sine.multiply::<C>(&self.inverse(&level(value(false)))?);
+                    sine
+                }
             }
         };
         if ratio.reciprocal {
-            value = self.inverse(value)?;
+            value = self.inverse(&value)?;
         }
         if acute {
             value.sign = Sign::Positive;
         }
-        Some(value)
+        Some(self.keep(value))
     }
 }

@@ -10,6 +10,7 @@
 //! is alive its radicand is no square: then it is no square in the field before either, adjoining it is a true extension,
 //! and either choice of its sign in the lanes is as good as the real one. Lanes where it has no root are dead from there.
 
+use super::build::Slot;
 use super::prime::{self, ROOTS, add, each, negative, one, random, residue, roots, seed, times};
 use super::real::Real;
 use super::value::{Bound, Circle, Place, Points, Sign, Value, odd_primes, real};
@@ -21,7 +22,7 @@ const MOST_ROOTS: usize = 4;
 #[derive(Clone, Debug)]
 pub(super) struct Lanes<'a, const C: u64, const L: usize, const R: usize> {
     /// Points found before.
-    known: &'a Points<L, R>,
+    pub(super) known: &'a Points<L, R>,
     places: &'a [Option<Place>],
     /// Points found now.
     pub points: Points<L, R>,
@@ -36,6 +37,8 @@ pub(super) struct Lanes<'a, const C: u64, const L: usize, const R: usize> {
     /// How many generators are known to be true extensions, from lanes that are not among these.
     pub trusted: usize,
     pub state: State<L, R>,
+    /// Values computed while reading, the last ones used up first.
+    pub(super) made: Vec<Value<L, R>>,
 }
 
 /// The generators met so far.
@@ -109,6 +112,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
                 used: 0,
                 constants: [0; MOST_ROOTS],
             },
+            made: Vec::with_capacity(8),
         }
     }
 
@@ -205,20 +209,20 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
     }
 
     #[inline]
-    pub(super) fn symbol_at(&mut self, index: usize, name: &[u8]) -> Value<L, R> {
-        if let Some(Some(value)) = self.known.symbols.get(index) {
-            return *value;
+    pub(super) fn symbol_at(&mut self, index: usize, name: &[u8]) -> Slot {
+        if let Some(Some(_)) = self.known.symbols.get(index) {
+            return Slot::Known(index as u32);
         }
-        if let Some(Some(value)) = self.points.symbols.get(index) {
-            return *value;
+        if !matches!(self.points.symbols.get(index), Some(Some(_))) {
+            let value = self.fresh(index, name);
+            if self.points.symbols.len() <= index {
+                // More than a kilobyte at a time costs much more.
+                self.points.symbols.reserve(12);
+                self.points.symbols.resize(index + 1, None);
+            }
+            self.points.symbols[index] = Some(value);
         }
-        let value = self.fresh(index, name);
-        if self.points.symbols.len() <= index {
-            self.points.symbols.reserve(16);
-            self.points.symbols.resize(index + 1, None);
-        }
-        self.points.symbols[index] = Some(value);
-        value
+        Slot::Fresh(index as u32)
     }
 
     /// Cosine and sine of the unit of an angle.
@@ -305,37 +309,14 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         Some(root)
     }
 
-    pub(super) fn raised(&self, a: Value<L, R>, k: u32) -> Value<L, R> {
-        if k == 1 {
-            return a;
-        }
-        let lanes = |x: [u64; L]| match k {
-            2 => each(x, x, times::<C>),
-            _ => prime::powers::<C, L>(x, u64::from(k)),
-        };
-        Value {
-            above: lanes(a.above),
-            below: if a.whole { a.below } else { lanes(a.below) },
-            bounds: a.bounds.map(|b| b.power(k)),
-            real: a.real.map(|x| x.power(k)),
-            sign: if k.is_multiple_of(2) {
-                a.sign.max(Sign::NotNegative)
-            } else {
-                a.sign
-            },
-            odd: if k.is_multiple_of(2) { 0 } else { a.odd },
-            ..a
-        }
-    }
-
-    pub(super) fn inverse(&self, a: Value<L, R>) -> Option<Value<L, R>> {
-        (!self.vanishes(&a)).then(|| Value {
+    pub(super) fn inverse(&self, a: &Value<L, R>) -> Option<Value<L, R>> {
+        (!self.vanishes(a)).then(|| Value {
             above: a.below,
             below: a.above,
             whole: false,
             bounds: [a.bounds[1], a.bounds[0]],
             real: a.real.map(Real::inverse),
-            ..a
+            ..*a
         })
     }
 

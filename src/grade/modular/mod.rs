@@ -23,6 +23,7 @@ use super::{Proof, Verdict};
 use crate::domain::{Domain, Domains, roles};
 use crate::expr::{Expr, Symbol};
 use crate::formula::stream::{Names, Seen, Table, stream};
+use build::Slot;
 use exact::{Exact, Generator, Read};
 use lanes::{Compared, Lanes, State};
 use prime::{PLAIN, ROOTS};
@@ -229,6 +230,7 @@ impl Residues {
         for (index, name) in self.list.iter().enumerate() {
             lanes.prepare(index, name.as_bytes());
         }
+        let value = *lanes.at(value);
         let (points, state) = (
             std::mem::replace(&mut lanes.points, Points::EMPTY),
             lanes.state,
@@ -329,14 +331,14 @@ impl<const C: u64, const L: usize, const R: usize> Kept<C, L, R> {
     fn judge(
         &self,
         with: &Residues,
-        read: impl FnOnce(&mut Lanes<C, L, R>) -> Option<Value<L, R>>,
+        read: impl FnOnce(&mut Lanes<C, L, R>) -> Option<Slot>,
     ) -> Option<Quick> {
         let mut lanes = Lanes::new(&self.points, &with.places, self.divisor);
         lanes.state = self.state;
         lanes.state.used = 0;
         let answer = read(&mut lanes)?;
         let (mine, theirs) = (self.state.used, lanes.state.used);
-        let compared = lanes.compare((&self.value, mine), (&answer, theirs))?;
+        let compared = lanes.compare((&self.value, mine), (lanes.at(answer), theirs))?;
         Some(Quick::of(compared, C == ROOTS))
     }
 }
@@ -404,15 +406,12 @@ impl Pair {
 
 /// Compares two texts, the first read on its own and the second with its names.
 pub(crate) fn pair(expected: &str, answer: &str) -> Option<Pair> {
-    let (mut divisor, mut roots) = (1, false);
+    // A first look at the letters spares reading up to the first root in vain.
+    let (mut divisor, mut roots) = (1, expected.contains("sqrt"));
     loop {
         let read = match roots {
             false => pair_in::<PLAIN, FEW, 0>(expected, answer, divisor),
-            // Most that differ do so at a real point, and residues are not looked at.
-            true => match pair_in::<ROOTS, 0, REAL>(expected, answer, divisor) {
-                Err(Again::Never) => pair_in::<ROOTS, MANY, REAL>(expected, answer, divisor),
-                settled => settled,
-            },
+            true => pair_in::<ROOTS, MANY, REAL>(expected, answer, divisor),
         };
         match read {
             Ok(pair) => return Some(pair),
@@ -441,7 +440,7 @@ fn pair_in<const C: u64, const L: usize, const R: usize>(
     let Some(right) = stream(answer, Table::Known(&names), &mut lanes, &mut seen[1]) else {
         return Err(Again::of(&lanes));
     };
-    let compared = lanes.compare((&left, mine), (&right, lanes.state.used));
+    let compared = lanes.compare((lanes.at(left), mine), (lanes.at(right), lanes.state.used));
     let fit = Uses::from(&seen[0]).fit(Uses::from(&seen[1]));
     match compared {
         Some(compared) if fit => Ok(Pair {

@@ -1,6 +1,6 @@
 //! What is known of a formula at several points: residues, real numbers, its sign, and bounds on the polynomials behind it.
 
-use super::prime::{self, SMOOTH, add, negative, random, times};
+use super::prime::{self, SMOOTH, add, each, negative, random, times};
 use super::real::Real;
 use crate::expr::Symbol;
 
@@ -69,6 +69,84 @@ pub(super) struct Value<const L: usize, const R: usize> {
     pub monomial: bool,
     /// The primes that divide that constant an odd number of times, as bits.
     pub odd: u32,
+}
+
+impl<const L: usize, const R: usize> Value<L, R> {
+    #[inline]
+    pub(super) fn add<const C: u64>(&mut self, b: &Self) {
+        self.monomial = false;
+        self.sign = match (self.sign, b.sign) {
+            (Sign::Unknown, _) | (_, Sign::Unknown) => Sign::Unknown,
+            (x, y) => x.max(y),
+        };
+        for (x, y) in self.real.iter_mut().zip(b.real) {
+            *x = x.plus(y);
+        }
+        let mut other = (b.above, b.bounds[0]);
+        if !(self.whole && b.whole) && self.below != b.below {
+            if !self.whole {
+                other.0 = each(other.0, self.below, times::<C>);
+                other.1 = other.1.times(self.bounds[1]);
+            }
+            if !b.whole {
+                self.above = each(self.above, b.below, times::<C>);
+                self.bounds[0] = self.bounds[0].times(b.bounds[1]);
+            }
+            self.put_below::<C>(b);
+        }
+        self.above = each(self.above, other.0, add::<C>);
+        self.bounds[0] = self.bounds[0].plus(other.1);
+    }
+
+    #[inline]
+    pub(super) fn multiply<const C: u64>(&mut self, b: &Self) {
+        self.above = each(self.above, b.above, times::<C>);
+        self.bounds[0] = self.bounds[0].times(b.bounds[0]);
+        self.put_below::<C>(b);
+        for (x, y) in self.real.iter_mut().zip(b.real) {
+            *x = x.times(y);
+        }
+        self.sign = self.sign.min(b.sign);
+        self.monomial &= b.monomial;
+        self.odd ^= b.odd;
+    }
+
+    /// Puts below what is below another value, as a factor.
+    #[inline]
+    fn put_below<const C: u64>(&mut self, b: &Self) {
+        if self.whole {
+            (self.below, self.bounds[1]) = (b.below, b.bounds[1]);
+        } else if !b.whole {
+            self.below = each(self.below, b.below, times::<C>);
+            self.bounds[1] = self.bounds[1].times(b.bounds[1]);
+        }
+        self.whole &= b.whole;
+    }
+
+    pub(super) fn raised<const C: u64>(&self, k: u32) -> Self {
+        let a = *self;
+        if k == 1 {
+            return a;
+        }
+        let lanes = |x: [u64; L]| match k {
+            2 => each(x, x, times::<C>),
+            3 => each(each(x, x, times::<C>), x, times::<C>),
+            _ => prime::powers::<C, L>(x, u64::from(k)),
+        };
+        Value {
+            above: lanes(a.above),
+            below: if a.whole { a.below } else { lanes(a.below) },
+            bounds: a.bounds.map(|b| b.power(k)),
+            real: a.real.map(|x| x.power(k)),
+            sign: if k.is_multiple_of(2) {
+                a.sign.max(Sign::NotNegative)
+            } else {
+                a.sign
+            },
+            odd: if k.is_multiple_of(2) { 0 } else { a.odd },
+            ..a
+        }
+    }
 }
 
 /// Cosine and sine of an angle, both over the same.
