@@ -28,6 +28,14 @@ impl Unit {
         Expr::from(self.factor.clone()) * Expr::pi().power(Expr::from(self.pi.clone()))
     }
 
+    /// The SI unit of a dimension.
+    pub fn coherent(dimension: Dimension) -> Unit {
+        Unit {
+            dimension,
+            ..Unit::number()
+        }
+    }
+
     fn number() -> Unit {
         Unit {
             dimension: Dimension::none(),

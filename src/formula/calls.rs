@@ -93,7 +93,8 @@ impl Parser<'_> {
             | Tok::Fraction
             | Tok::Root(_)
             | Tok::Call(_)
-            | Tok::Reciprocal(_) => self.bare_argument()?,
+            | Tok::Reciprocal(_)
+            | Tok::Logarithm(_) => self.bare_argument()?,
             _ => {
                 let token = self.next()?;
                 return Err(Fault::new(
@@ -147,6 +148,36 @@ impl Parser<'_> {
             ),
             None => called,
         })
+    }
+
+    /// `log_2 x` is ln x over ln 2.
+    pub(super) fn logarithm(&mut self, base: i64, start: usize, end: usize) -> Faulty<Written> {
+        let above = self.call(Function::Ln, false, start, end)?;
+        let stop = above.end;
+        let (above, power) = match above.shape {
+            Shape::Power(called, exponent) => (called, Some(exponent)),
+            _ => (Box::new(above), None),
+        };
+        let base = Box::new(whole_number(base, start, end));
+        let below = Box::new(Written::new(Shape::Call(Function::Ln, base), start, end));
+        let quotient = Written::new(Shape::Fraction(above, below), start, stop);
+        Ok(match power {
+            Some(power) => Written::new(Shape::Power(Box::new(quotient), power), start, stop),
+            None => quotient,
+        })
+    }
+
+    /// `sgn(x)` is x over |x|, which has no value at zero.
+    pub(super) fn signum(&mut self, start: usize) -> Faulty<Written> {
+        let above = self.primary()?;
+        let stop = above.end;
+        let size = Shape::Abs(Box::new(above.clone()));
+        let below = Box::new(Written::new(size, start, stop));
+        Ok(Written::new(
+            Shape::Fraction(Box::new(above), below),
+            start,
+            stop,
+        ))
     }
 
     /// The argument of a function without brackets: numbers, then one angle, or a product of names such as ω t.

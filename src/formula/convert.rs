@@ -60,6 +60,9 @@ pub(crate) fn value(w: &Written, upper: bool) -> Faulty<Value> {
         }
         Shape::Bracket(inner) => value(inner, upper),
         Shape::Abs(inner) => scalar(Expr::call(Function::Abs, one(inner, upper)?)),
+        Shape::Measured(inner, unit) => {
+            multiply(w, [value(inner, upper)?, Value::Scalar(unit.value())])
+        }
         Shape::Degrees(inner) => scalar(one(inner, upper)? * Expr::pi() * Expr::ratio(1, 180)),
         Shape::List(parts) => {
             let mut components = [Expr::zero(), Expr::zero(), Expr::zero()];

@@ -89,6 +89,11 @@ impl Echo<'_> {
                 }
                 self.out.push_str("^{\\circ}");
             }
+            Shape::Measured(inner, _) => {
+                self.piece(inner);
+                let unit = self.text.get(inner.end..w.end).unwrap_or("").trim();
+                self.out.push_str(&format!("\\,\\mathrm{{{unit}}}"));
+            }
             Shape::List(parts) => {
                 self.out.push_str("\\left(");
                 for (i, part) in parts.iter().enumerate() {

@@ -26,6 +26,10 @@ pub(crate) enum Tok {
     Name(Symbol),
     Call(Function),
     Reciprocal(Function),
+    /// The logarithm to a whole base.
+    Logarithm(i64),
+    /// The sign of what follows.
+    Signum,
     /// A root of index 2 or 3.
     Root(i64),
     Fraction,
@@ -177,7 +181,9 @@ impl<'a> Lexer<'a> {
             _ => Before::Nothing,
         };
         self.after_value = self.before != Before::Nothing || matches!(tok, Tok::Name(_));
-        if let Tok::Call(_) | Tok::Reciprocal(_) | Tok::Root(_) = tok {
+        if let Tok::Call(_) | Tok::Reciprocal(_) | Tok::Logarithm(_) | Tok::Signum | Tok::Root(_) =
+            tok
+        {
             self.run_from = self.pos;
         }
         Ok(Token {

@@ -9,6 +9,7 @@ mod convert;
 mod echo;
 mod fault;
 mod lexer;
+mod measured;
 mod name;
 mod note;
 mod number;
@@ -240,7 +241,14 @@ fn read_as(text: &str, symbols: &Symbols, flips: u64) -> Faulty<Reading> {
     let (start, end) = boxed(text)?;
     let inner = &text[..end];
     read_inner(inner, start, symbols, false, flips).or_else(|first| match symbols.is_open() {
-        false => read_inner(inner, start, symbols, true, flips).map_err(|_| first),
+        // The attempt that got further tells more.
+        false => {
+            let second = read_inner(inner, start, symbols, true, flips);
+            second.map_err(|second| match second.start > first.start {
+                true => second,
+                false => first,
+            })
+        }
         true => Err(first),
     })
 }
@@ -322,6 +330,22 @@ fn content(side: &Side, text: &str, lexer: &mut lexer::Lexer) -> Faulty<(Content
             }
         }
     };
+    if let Some(dimension) = measured::dimension(&side.written)? {
+        let unit_text = dimension.si();
+        let unit = Unit::coherent(dimension);
+        return Ok(match content {
+            Content::Scalar(value) => {
+                let quantity = Quantity {
+                    written: value.clone(),
+                    value,
+                    unit,
+                    unit_text,
+                };
+                (Content::Quantity(Box::new(quantity)), None)
+            }
+            other => (other, Some(unit)),
+        });
+    }
     let Some((unit, start, end)) = &side.unit else {
         return Ok((content, None));
     };
@@ -358,7 +382,7 @@ fn has_both_signs(w: &Written) -> bool {
         | Shape::Reciprocal(_, a)
         | Shape::Bracket(a)
         | Shape::Abs(a) => has_both_signs(a),
-        Shape::Degrees(a) => has_both_signs(a),
+        Shape::Degrees(a) | Shape::Measured(a, _) => has_both_signs(a),
         Shape::List(parts) => parts.iter().any(has_both_signs),
         Shape::Number(_) | Shape::Symbol(_) => false,
     }

@@ -29,6 +29,8 @@ pub(crate) struct Parser<'a> {
     /// Whether there is nothing but blanks to read.
     empty: bool,
     pub(super) bars: u32,
+    /// Units inside the current side.
+    units: u32,
 }
 
 impl<'a> Parser<'a> {
@@ -45,6 +47,7 @@ impl<'a> Parser<'a> {
             depth: 0,
             empty: text[start..].trim().is_empty(),
             bars: 0,
+            units: 0,
         }
     }
 
@@ -77,6 +80,7 @@ impl<'a> Parser<'a> {
     }
 
     fn side(&mut self) -> Faulty<Side> {
+        self.units = 0;
         let written = self.sum()?;
         if let Tok::Unit(_) = self.peek()?.tok {
             let token = self.next()?;
@@ -170,6 +174,7 @@ impl<'a> Parser<'a> {
         let signed = sign.is_some();
         loop {
             let term = self.term()?;
+            let term = self.measured(term)?;
             terms.push((sign.unwrap_or(Sign::Plus), term));
             sign = self.sign()?;
             if sign.is_none() {
@@ -184,6 +189,26 @@ impl<'a> Parser<'a> {
         }
         let end = terms.last().map_or(start, |(_, t)| t.end);
         Ok(Written::new(Shape::Sum(terms), start, end))
+    }
+
+    /// A term with the unit behind it, where more of the side follows or an earlier term had one.
+    fn measured(&mut self, term: Written) -> Faulty<Written> {
+        let token = self.peek()?;
+        let (is_unit, end) = (matches!(token.tok, Tok::Unit(_)), token.end);
+        if !is_unit || self.units == 0 && self.lexer.fills_side(end) {
+            return Ok(term);
+        }
+        let token = self.next()?;
+        let Tok::Unit(unit) = token.tok else {
+            return Ok(term);
+        };
+        self.units += 1;
+        let start = term.start;
+        Ok(Written::new(
+            Shape::Measured(Box::new(term), unit),
+            start,
+            token.end,
+        ))
     }
 
     pub(super) fn sign(&mut self) -> Faulty<Option<Sign>> {
@@ -339,6 +364,8 @@ impl<'a> Parser<'a> {
             | Tok::Name(_)
             | Tok::Call(_)
             | Tok::Reciprocal(_)
+            | Tok::Logarithm(_)
+            | Tok::Signum
             | Tok::Root(_)
             | Tok::Fraction => true,
             Tok::Open(_) | Tok::OpenBar | Tok::Vulgar(..) => true,
@@ -471,6 +498,8 @@ impl<'a> Parser<'a> {
             Tok::Root(index) => self.deeper(|p| p.root(index, start, end)),
             Tok::Call(function) => self.deeper(|p| p.call(function, false, start, end)),
             Tok::Reciprocal(function) => self.deeper(|p| p.call(function, true, start, end)),
+            Tok::Logarithm(base) => self.deeper(|p| p.logarithm(base, start, end)),
+            Tok::Signum => self.deeper(|p| p.signum(start)),
             _ => Err(self.missing(&token)),
         }
     }

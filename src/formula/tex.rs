@@ -4,7 +4,6 @@ use super::Relation;
 use super::fault::{Fault, Faulty, is_invisible};
 use super::lexer::{Before, Lexer, Matrix, Tok};
 use super::name;
-use super::note::Remark;
 use super::symbols::Parts;
 use super::words::function;
 
@@ -98,12 +97,7 @@ impl<'a> Lexer<'a> {
                 ));
             }
             word => match function(word).filter(|_| word.chars().all(|c| c.is_ascii_lowercase())) {
-                Some(tok) => {
-                    if word == "log" {
-                        self.note(Remark::NaturalLogarithm, start, start, end);
-                    }
-                    tok
-                }
+                Some(tok) => self.based(word, tok, start),
                 None => {
                     let mut parts = Parts::default();
                     let Some(at) = name::base(self.text, start, &mut parts, 0) else {
@@ -151,6 +145,7 @@ impl<'a> Lexer<'a> {
         self.pos = end;
         match function(&word) {
             Some(tok) => Ok(tok),
+            None if matches!(&*word, "sgn" | "sign" | "signum") => Ok(Tok::Signum),
             None => Err(Fault::new(
                 format!("`{word}` is no function I know"),
                 start,

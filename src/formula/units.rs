@@ -36,6 +36,15 @@ impl Lexer<'_> {
         (stop <= LONGEST_UNIT).then(|| &rest[..stop])
     }
 
+    /// Whether nothing of the side is left behind a place.
+    pub(super) fn fills_side(&self, end: usize) -> bool {
+        let rest = self.text[end..].trim_start_matches(|c: char| c.is_whitespace() || c == '$');
+        let relation = ["\\approx", "\\le", "\\ge", "\\ne", "\\simeq"];
+        rest.is_empty()
+            || rest.starts_with(['=', '<', '>', '≤', '≥', '≠', '≈'])
+            || relation.iter().any(|r| rest.starts_with(r))
+    }
+
     /// A unit that fills the rest of this side, where one can stand.
     pub(super) fn unit(&mut self, marked: bool) -> Option<Tok> {
         let start = self.pos;
@@ -43,9 +52,17 @@ impl Lexer<'_> {
             return None;
         }
         let side = self.rest_of_side()?;
-        let stop = side.len();
-        let plain = plain_unit(side)?;
-        let read = dimension::unit(&plain).ok()?;
+        let whole = plain_unit(side).and_then(|plain| Some((dimension::unit(&plain).ok()?, plain)));
+        let (stop, (read, plain)) = match whole {
+            Some(read) => (side.len(), read),
+            // Units inside a formula of numbers.
+            None if self.units_first => {
+                let piece = &side[..end_of_unit(side)?];
+                let plain = plain_unit(piece)?;
+                (piece.len(), (dimension::unit(&plain).ok()?, plain))
+            }
+            None => return None,
+        };
         if !marked {
             let words = || {
                 plain
@@ -96,6 +113,29 @@ impl Lexer<'_> {
         self.pos = start + stop;
         Some(Tok::Unit(Box::new(read)))
     }
+}
+
+/// Where a unit ends that does not fill its side: before a sign, a comma, a bracket that it did not open, or a unit vector.
+fn end_of_unit(side: &str) -> Option<usize> {
+    let mut before = ' ';
+    let mut depth = 0u32;
+    for (at, c) in side.char_indices() {
+        let command = ["\\hat", "\\vec", "\\mathbf", "\\right", "\\end"];
+        match c {
+            '+' | '-' | '−' | '±' if !"^{(⁻".contains(before) => return Some(at),
+            ',' | ';' | ']' | '&' | 'î' | 'ĵ' => return Some(at),
+            '\\' if command.iter().any(|c| side[at..].starts_with(c)) => return Some(at),
+            '\\' if side[at..].starts_with("\\\\") => return Some(at),
+            '(' => depth += 1,
+            ')' if depth == 0 => return Some(at),
+            ')' => depth -= 1,
+            _ => {}
+        }
+        if !c.is_whitespace() {
+            before = c;
+        }
+    }
+    None
 }
 
 /// Whether the text starts with a word that is a unit, so that trying is worth it.

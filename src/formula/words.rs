@@ -65,15 +65,17 @@ impl Lexer<'_> {
             if length < 2 {
                 break;
             }
+            let signum = matches!(word, "sgn" | "sign" | "signum");
+            if signum && rest[length..].starts_with('(') && self.symbols.find(word).is_none() {
+                self.pos = start + length;
+                return Ok(Tok::Signum);
+            }
             if let Some(tok) = function(word) {
                 if !self.function_wanted(word, start) {
                     continue;
                 }
                 self.pos = start + length;
-                if let ("log", Tok::Call(_)) = (word, &tok) {
-                    self.note(Remark::NaturalLogarithm, start, start, self.pos);
-                }
-                return Ok(tok);
+                return Ok(self.based(word, tok, start));
             }
             if word == "pi" {
                 self.pos = start + length;
@@ -98,6 +100,37 @@ impl Lexer<'_> {
             return self.name(start, start + 1);
         }
         self.unknown_word(start, run)
+    }
+
+    /// A logarithm to the base behind it: `log_10 x`, `\log_{2}(x)`, `log10(x)`; without one it is the natural one.
+    pub(super) fn based(&mut self, word: &str, tok: Tok, start: usize) -> Tok {
+        if !word.eq_ignore_ascii_case("log") || tok != Tok::Call(Function::Ln) {
+            return tok;
+        }
+        let rest = &self.text[self.pos..];
+        let index = rest.strip_prefix('_');
+        let inside = index.unwrap_or(rest);
+        let braced = index.and_then(|i| i.strip_prefix('{'));
+        let digits = braced.unwrap_or(inside);
+        let count = digits.bytes().take_while(u8::is_ascii_digit).count();
+        // In TeX an index without braces is one digit; `\log_10` means ten to whoever types it.
+        let behind = &digits[count..];
+        let closed = match (braced, index) {
+            (Some(_), _) => behind.strip_prefix('}'),
+            (None, Some(_)) => Some(behind),
+            // `log10(x)`, while `log 2(a+b)` is the logarithm of a product.
+            (None, None) => Some(behind).filter(|b| b.starts_with('(')),
+        };
+        match (digits[..count].parse::<i64>(), closed) {
+            (Ok(base @ 2..=1_000), Some(behind)) => {
+                self.pos = self.text.len() - behind.len();
+                Tok::Logarithm(base)
+            }
+            _ => {
+                self.note(Remark::NaturalLogarithm, start, start, self.pos);
+                tok
+            }
+        }
     }
 
     /// A declared name with several indices, written exactly so: `v_bat_x` stays one name where `vb` is declared too.

@@ -1,5 +1,6 @@
 //! A formula as somebody wrote it: minus signs, fractions, brackets and products without a sign, each with its place.
 
+use crate::dimension::Unit;
 use crate::expr::{Function, Rational, Symbol};
 
 /// A written piece and its place in the text.
@@ -77,6 +78,8 @@ pub enum Shape {
     Abs(Box<Written>),
     /// A number of degrees.
     Degrees(Box<Written>),
+    /// A piece and the unit behind it, inside a formula of numbers.
+    Measured(Box<Written>, Box<Unit>),
     /// Components of a vector.
     List(Vec<Written>),
 }
@@ -93,9 +96,10 @@ impl Written {
             Shape::Symbol(name) => &**name == "pi",
             Shape::Fraction(a, b) | Shape::Power(a, b) => a.is_numeric() && b.is_numeric(),
             Shape::Product(factors) => factors.iter().all(|(_, f)| f.is_numeric()),
-            Shape::Root(_, inner) | Shape::Bracket(inner) | Shape::Degrees(inner) => {
-                inner.is_numeric()
-            }
+            Shape::Root(_, inner)
+            | Shape::Bracket(inner)
+            | Shape::Measured(inner, _)
+            | Shape::Degrees(inner) => inner.is_numeric(),
             Shape::Sum(terms) => matches!(terms.as_slice(), [(_, only)] if only.is_numeric()),
             _ => false,
         }

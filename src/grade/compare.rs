@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use num_traits::Signed;
+
 use super::number::{self, Tolerance};
 use super::{
     Apart, Diagnosis, Key, Options, Proof, Strength, Verdict, fraction, modular, partial, relation,
@@ -371,6 +373,10 @@ pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Finding 
     let decision = equality::decide(expected, answer, &ctx.key.question.domains);
     let mut finding = decided(ctx, expected, answer, decision.equality);
     finding.assumed.splice(0..0, decision.assumed);
+    for e in [expected, answer] {
+        finding.assumed.extend(odd_root(ctx, e));
+    }
+    finding.assumed.dedup();
     if ctx.diagnose && finding.verdict == Verdict::Different {
         let found = partial::diagnose(ctx, expected, answer);
         if finding.note == "DIFF"
@@ -504,6 +510,21 @@ fn apart(c: &equality::Counterexample) -> Apart {
         yours,
         expected,
     }
+}
+
+/// How the root of odd degree of a negative number is understood, where one occurs.
+fn odd_root(ctx: &Context, e: &Expr) -> Option<String> {
+    let mut found = None;
+    e.walk(&mut |part| {
+        if let Node::Power(base, k) = part.node()
+            && let (Some(base), Some(k)) = (base.as_number(), k.as_number())
+            && base.is_negative()
+            && !k.is_integer()
+        {
+            found.get_or_insert_with(|| format!("{} is the real root", ctx.say(part)));
+        }
+    });
+    found
 }
 
 /// Within a tolerance: numbers, or formulas whose quotient is a number.

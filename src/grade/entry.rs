@@ -2,6 +2,8 @@
 //!
 //! Knows no files: a scene named in a line is asked of the caller.
 
+mod strict;
+
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -62,8 +64,7 @@ pub fn entry(line: &str, defaults: &Options) -> Result<Entry, BadLine> {
         ));
     }
     let line = line.trim_start_matches('\u{feff}');
-    let value: Value =
-        serde_json::from_str(line).map_err(|e| bad(&Value::Null, format!("no JSON: {e}")))?;
+    let value = strict::value(line).map_err(|(id, message)| bad(&id, message))?;
     let Value::Object(fields) = value else {
         return Err(bad(
             &Value::Null,

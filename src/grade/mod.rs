@@ -588,12 +588,35 @@ fn ambiguity(
                 },
             );
             let hint = "the formula can be read in two ways; use brackets to say which is meant";
+            let right = finding.verdict == Verdict::Equivalent;
+            if tight_root(&other, answer, right) {
+                let words = "the root sign may reach over one letter or over all of them";
+                finding.verdict = Verdict::Undecided;
+                finding.note = "UNDECIDED_AMBIGUOUS";
+                finding.proof = Proof::of("none", words);
+                finding.counterexample = None;
+                finding.diagnosis.clear();
+            }
             finding
                 .diagnosis
                 .insert(0, Diagnosis::new("AMBIGUOUS", message, hint));
             return;
         }
     }
+}
+
+/// Whether a reading takes `√ab`, with nothing between the letters, as the root of all of them: no habit decides that.
+fn tight_root(other: &Reading, answer: &str, right: bool) -> bool {
+    let tight = |note: &Note| {
+        let (root, behind) = answer.split_at_checked(note.middle).unwrap_or_default();
+        // The root of a number and then letters is what most mean by `√2x`.
+        if right && root.ends_with(|c: char| c.is_ascii_digit()) {
+            return false;
+        }
+        behind.starts_with(|c: char| c.is_alphanumeric() || c == '\\')
+    };
+    let long = Remark::Root { long: true };
+    other.notes.iter().any(|n| n.remark == long && tight(n))
 }
 
 /// What the reader decided that a student should know about.

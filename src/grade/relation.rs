@@ -5,6 +5,8 @@
 
 mod solved;
 
+use num_traits::Signed;
+
 use super::compare::{Context, Finding, WRITTEN, scalars};
 use super::{Apart, Diagnosis, Proof, Verdict};
 use crate::algebra::{Field, Sign};
@@ -121,12 +123,25 @@ fn links(sides: &[Content], signs: &[Relation]) -> Option<Vec<Normal>> {
             Relation::GreaterEqual => (pair[1] - pair[0], Relation::LessEqual),
             other => (pair[0] - pair[1], *other),
         };
+        let equation = matches!(relation, Relation::Equal | Relation::NotEqual);
         Normal {
-            difference,
+            difference: if equation {
+                rooted(difference)
+            } else {
+                difference
+            },
             relation,
         }
     };
     Some(pairs.map(normal).collect())
+}
+
+/// A power vanishes where its base does.
+fn rooted(difference: Expr) -> Expr {
+    match difference.node() {
+        Node::Power(base, k) if k.as_number().is_some_and(Signed::is_positive) => base.clone(),
+        _ => difference,
+    }
 }
 
 fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {

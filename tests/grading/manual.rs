@@ -19,7 +19,7 @@ const TABLES: [(&str, &str, &str); 13] = [
     (
         "notation.tsv",
         "Numbers, fractions, roots and functions",
-        "Numbers are exact: 0.1 is one tenth, and a rounded number is not the exact one.",
+        "Numbers are exact: 0.1 is one tenth, and a rounded number is not the exact one. A root of odd degree of a negative number is the real one, `log` is the natural logarithm, and `log_10` says its base.",
     ),
     (
         "signs.tsv",
@@ -29,7 +29,7 @@ const TABLES: [(&str, &str, &str); 13] = [
     (
         "sentences.tsv",
         "Words, boxes and precedence",
-        "A product without a sign binds tighter than a slash; where another reading would change the verdict the grade says so.",
+        "A product without a sign binds tighter than a slash; where another reading would change the verdict the grade says so. How far the root of `√ab` reaches no habit decides: where the two readings part, the verdict is undecided.",
     ),
     (
         "hostile.tsv",

@@ -1,0 +1,142 @@
+//! Units inside a formula of numbers: `2 m + 30 cm`, `(3 m/s, 4 m/s)`, `(2 kg)(3 m/s)`.
+//!
+//! In: a written side. Out: the dimension of its value in SI units, where a unit stands inside, or where two pieces do not
+//! fit together. Symbols carry their units themselves and do not go together with units here.
+
+use super::fault::{Fault, Faulty};
+use super::written::{Link, Shape, Written};
+use crate::dimension::Dimension;
+use crate::expr::{Rational, ratio};
+
+/// The dimension of a side with units inside; `None` where none stands there.
+pub(super) fn dimension(w: &Written) -> Faulty<Option<Dimension>> {
+    match occurs(w) {
+        true => of(w).map(Some),
+        false => Ok(None),
+    }
+}
+
+fn occurs(w: &Written) -> bool {
+    match &w.shape {
+        Shape::Measured(..) => true,
+        Shape::Number(_) | Shape::Symbol(_) => false,
+        Shape::Sum(terms) => terms.iter().any(|(_, t)| occurs(t)),
+        Shape::Product(factors) => factors.iter().any(|(_, f)| occurs(f)),
+        Shape::Fraction(a, b) | Shape::Power(a, b) => occurs(a) || occurs(b),
+        Shape::Root(_, inner)
+        | Shape::Call(_, inner)
+        | Shape::Reciprocal(_, inner)
+        | Shape::Bracket(inner)
+        | Shape::Abs(inner)
+        | Shape::Degrees(inner) => occurs(inner),
+        Shape::List(parts) => parts.iter().any(occurs),
+    }
+}
+
+fn of(w: &Written) -> Faulty<Dimension> {
+    let none = Dimension::none();
+    match &w.shape {
+        Shape::Number(_) => Ok(none),
+        Shape::Symbol(name) if &**name == "pi" || name.ends_with("_hat") => Ok(none),
+        Shape::Symbol(name) => {
+            let message = format!("the symbol {name} stands beside units");
+            Err(Fault::new(message, w.start, w.end).hint("leave the units away, or the symbols"))
+        }
+        Shape::Measured(inner, unit) => Ok(of(inner)?.times(&unit.dimension)),
+        Shape::Sum(terms) => alike(terms.iter().map(|(_, term)| term)),
+        Shape::List(parts) => alike(parts.iter()),
+        Shape::Product(factors) => {
+            let mut total = none;
+            for (i, (link, factor)) in factors.iter().enumerate() {
+                let factor = of(factor)?;
+                total = match link {
+                    Link::Over if i > 0 => total.over(&factor),
+                    _ => total.times(&factor),
+                };
+            }
+            Ok(total)
+        }
+        Shape::Fraction(above, below) => Ok(of(above)?.over(&of(below)?)),
+        Shape::Power(base, exponent) => {
+            let base = of(base)?;
+            let number = number(exponent);
+            match number {
+                Some(k) => Ok(base.power(&k)),
+                None if base.is_none() => Ok(base),
+                None => Err(Fault::new(
+                    "a quantity with a unit has a number for its exponent",
+                    exponent.start,
+                    exponent.end,
+                )),
+            }
+        }
+        Shape::Root(index, inner) => {
+            let index = index.as_ref().map_or(Some(ratio(2, 1)), |i| number(i));
+            Ok(of(inner)?.power(&index.map_or(ratio(1, 2), |k| k.recip())))
+        }
+        Shape::Bracket(inner) | Shape::Abs(inner) => of(inner),
+        Shape::Call(_, inner) | Shape::Reciprocal(_, inner) | Shape::Degrees(inner) => {
+            match of(inner)?.is_none() {
+                true => Ok(none),
+                false => Err(Fault::new(
+                    "the argument of a function has a unit",
+                    inner.start,
+                    inner.end,
+                )),
+            }
+        }
+    }
+}
+
+/// The dimension of pieces that are added, or stand side by side as components.
+fn alike<'a>(mut pieces: impl Iterator<Item = &'a Written>) -> Faulty<Dimension> {
+    let mut first: Option<Dimension> = None;
+    pieces.try_for_each(|piece| {
+        let dimension = of(piece)?;
+        match &first {
+            // Zero needs no unit.
+            _ if number(piece).is_some_and(|v| v == ratio(0, 1)) => {}
+            None => first = Some(dimension),
+            Some(known) if *known == dimension => {}
+            Some(known) => {
+                let name = |d: &Dimension| match d.is_none() {
+                    true => "a number without unit".to_string(),
+                    false => d.si(),
+                };
+                let message = format!(
+                    "{} and {} do not go together",
+                    name(known),
+                    name(&dimension)
+                );
+                return Err(Fault::new(message, piece.start, piece.end));
+            }
+        }
+        Ok(())
+    })?;
+    Ok(first.unwrap_or_else(Dimension::none))
+}
+
+/// The value of an exponent or index: a number, or a fraction of two.
+fn number(w: &Written) -> Option<Rational> {
+    match &w.shape {
+        Shape::Fraction(a, b) => {
+            let below = number(b)?;
+            (below != ratio(0, 1))
+                .then(|| number(a))
+                .flatten()
+                .map(|a| a / below)
+        }
+        Shape::Bracket(inner) => number(inner),
+        Shape::Product(factors) => match factors.as_slice() {
+            [(_, a), (Link::Over, b)] => {
+                let below = number(b)?;
+                (below != ratio(0, 1))
+                    .then(|| number(a))
+                    .flatten()
+                    .map(|a| a / below)
+            }
+            _ => w.literal().map(|l| l.value),
+        },
+        _ => w.literal().map(|l| l.value),
+    }
+}
