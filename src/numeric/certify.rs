@@ -1,17 +1,19 @@
 //! The correctly rounded double of every unknown: by balls where they are narrow enough, by exact integers where not.
 //!
 //! In: a scene's numbers as doubles, taken as exact. Out: for each unknown the double nearest to the true value, and how
-//! it was found. Balls and doubles past the range of doubles
-//! make a case for the integers, which have no range.
+//! it was found. Plain doubles with a bound can tell a rounding only where nothing was rounded before, and balls cost no
+//! more than nalgebra's elimination, so balls go first and also tell where doubles would have done. Balls and doubles past
+//! the range of doubles make a case for the integers, which have no range.
 
 use super::ball::Ball;
+use super::contact_space::{MOST_UNKNOWNS, enclosures};
 use super::dyadic::solve_dyadic;
 use super::exact::solve_exact;
 use super::field::eliminate;
 use super::given::{Given, Undefined, given};
 use super::number::Number;
 use super::solution::{Contradiction, Solution};
-use super::system::{Unknown, assemble};
+use super::system::{Unknown, assemble, unknowns};
 use crate::expr::number::{from_f64, to_f64};
 use crate::expr::{Point, Rational, Scalar};
 use crate::scene::Scene;
@@ -19,6 +21,8 @@ use crate::scene::Scene;
 /// How an unknown's double was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Tier {
+    /// Doubles, and none of them was rounded.
+    Double,
     /// A double-double with a rigorous error bound.
     Ball,
     /// Exact integers.
@@ -26,7 +30,7 @@ pub enum Tier {
 }
 
 /// Correctly rounded values.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Certified {
     /// The unknowns, as [`assemble`] orders them.
     pub unknowns: Vec<Unknown>,
@@ -52,12 +56,61 @@ pub enum Uncertified {
 
 /// Certifies the motion after of a scene whose numbers are exactly these doubles.
 pub fn certify(given: &Given<f64>) -> Result<Certified, Uncertified> {
-    let balls = assemble(&given.map(|v| Ball::exact(*v)));
-    let enclosure = eliminate(&balls);
-    if let Some(certified) = all_rounded(&balls.unknowns, enclosure.as_deref()) {
-        return Ok(certified);
+    let mut found = Certified::default();
+    certify_into(given, &mut found)?;
+    Ok(found)
+}
+
+/// The same into what an earlier scene has left, so that one scene after another needs no new memory.
+pub fn certify_into(given: &Given<f64>, found: &mut Certified) -> Result<(), Uncertified> {
+    let mut few = [Ball::default(); MOST_UNKNOWNS];
+    let many;
+    let enclosure = match enclosures(given, &mut few) {
+        Some(count) => few.get(..count),
+        None => {
+            many = eliminate(&assemble(&given.map(|v| Ball::exact(*v))));
+            many.as_deref()
+        }
+    };
+    unknowns(given, &mut found.unknowns);
+    if enclosure.is_some_and(|balls| found.take(balls)) {
+        return Ok(());
     }
-    finish(solve_exactly(given)?, balls.unknowns, enclosure)
+    let solution = solve_exactly(given)?;
+    *found = finish(solution, std::mem::take(&mut found.unknowns), enclosure);
+    Ok(())
+}
+
+impl Certified {
+    /// The roundings of balls; false where one is too wide.
+    fn take(&mut self, balls: &[Ball]) -> bool {
+        let Solution {
+            values,
+            unique,
+            rank,
+        } = &mut self.solution;
+        values.clear();
+        self.tiers.clear();
+        for ball in balls {
+            let Some(value) = ball.rounded() else {
+                return false;
+            };
+            values.push(value);
+            self.tiers.push(tier(ball));
+        }
+        unique.clear();
+        unique.resize(balls.len(), true);
+        *rank = balls.len();
+        true
+    }
+}
+
+/// What an enclosure that rounds to one double is good for.
+fn tier(ball: &Ball) -> Tier {
+    match ball.as_double() {
+        Some(_) => Tier::Double,
+        None => Tier::Ball,
+    }
 }
 
 /// Certifies the motion after of a scene at a point. Formulas are evaluated in balls, and exactly where that is not enough.
@@ -70,14 +123,22 @@ pub fn certify_scene(scene: &Scene, at: &Point<f64>) -> Result<Certified, Uncert
         .map_err(Uncertified::Undefined)?,
     );
     let enclosure = eliminate(&balls);
-    if let Some(certified) = all_rounded(&balls.unknowns, enclosure.as_deref()) {
-        return Ok(certified);
+    let mut found = Certified {
+        unknowns: balls.unknowns,
+        ..Certified::default()
+    };
+    if enclosure.as_ref().is_some_and(|balls| found.take(balls)) {
+        return Ok(found);
     }
     let exact = map_point(at, |v| from_f64(*v)).ok_or(Uncertified::NotFinite)?;
     match given::<Rational>(scene, &exact) {
         Ok(numbers) => {
             let solution = solve_exact(&assemble(&numbers)).map_err(Uncertified::Contradiction)?;
-            finish(rounded(solution), balls.unknowns, enclosure)
+            Ok(finish(
+                rounded(solution),
+                found.unknowns,
+                enclosure.as_deref(),
+            ))
         }
         Err(undefined) => Err(match enclosure {
             Some(values) => Uncertified::TooClose(
@@ -91,25 +152,6 @@ pub fn certify_scene(scene: &Scene, at: &Point<f64>) -> Result<Certified, Uncert
     }
 }
 
-/// The outcome where every ball is narrow enough.
-fn all_rounded(unknowns: &[Unknown], enclosure: Option<&[Ball]>) -> Option<Certified> {
-    let values: Vec<f64> = enclosure?
-        .iter()
-        .map(Ball::rounded)
-        .collect::<Option<_>>()?;
-    let n = values.len();
-    let solution = Solution {
-        values,
-        unique: vec![true; n],
-        rank: n,
-    };
-    Some(Certified {
-        unknowns: unknowns.to_vec(),
-        solution,
-        tiers: vec![Tier::Ball; n],
-    })
-}
-
 fn rounded(exact: Solution<Rational>) -> Solution<f64> {
     Solution {
         values: exact.values.iter().map(to_f64).collect(),
@@ -119,21 +161,17 @@ fn rounded(exact: Solution<Rational>) -> Solution<f64> {
 }
 
 /// Exact values, marked by tier.
-fn finish(
-    exact: Solution<f64>,
-    unknowns: Vec<Unknown>,
-    enclosure: Option<Vec<Ball>>,
-) -> Result<Certified, Uncertified> {
-    let tier = |i: usize| match enclosure.as_ref().and_then(|e| e[i].rounded()) {
-        Some(_) => Tier::Ball,
-        None => Tier::Exact,
+fn finish(exact: Solution<f64>, unknowns: Vec<Unknown>, enclosure: Option<&[Ball]>) -> Certified {
+    let told = |i: usize| {
+        let ball = enclosure.map(|e| &e[i])?;
+        ball.rounded().map(|_| tier(ball))
     };
-    let tiers = (0..unknowns.len()).map(tier).collect();
-    Ok(Certified {
+    let tiers = (0..unknowns.len()).map(|i| told(i).unwrap_or(Tier::Exact));
+    Certified {
+        tiers: tiers.collect(),
         unknowns,
         solution: exact,
-        tiers,
-    })
+    }
 }
 
 fn solve_exactly(given: &Given<f64>) -> Result<Solution<f64>, Uncertified> {

@@ -84,7 +84,7 @@ pub fn correct(scene: &Scene) -> Result<CorrectAnswers, NoCorrect> {
             &at,
             unique,
             Ball::rounded,
-            |v| v.middle.high,
+            |v| v.middle.high + v.middle.low,
             How::Ball,
         )
     });

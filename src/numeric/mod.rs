@@ -7,6 +7,7 @@
 pub mod answer;
 pub mod ball;
 pub mod certify;
+pub mod contact_space;
 pub mod correct;
 pub mod dd;
 pub mod deep;
@@ -30,7 +31,7 @@ pub mod wide;
 mod tests;
 
 pub use answer::{Answer, Answered, NoAnswer, answer, answers};
-pub use certify::{Certified, Tier, Uncertified, certify, certify_scene};
+pub use certify::{Certified, Tier, Uncertified, certify, certify_into, certify_scene};
 pub use correct::{Correct, CorrectAnswers, How, NoCorrect, correct};
 pub use doubles::{NoDoubles, doubles};
 pub use dyadic::solve_dyadic;

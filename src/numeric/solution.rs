@@ -7,7 +7,7 @@ use super::number::{Number, stretched};
 use super::system::{Law, System, Unknown};
 
 /// A solution of a consistent system.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Solution<T> {
     /// Value of each unknown; where it is not unique, one of many and not to be shown.
     pub values: Vec<T>,

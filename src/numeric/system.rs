@@ -120,6 +120,37 @@ pub fn assemble<T: Number>(given: &Given<T>) -> System<T> {
     }
 }
 
+/// What the columns of the full system stand for, in order.
+pub fn unknowns<T>(given: &Given<T>, into: &mut Vec<Unknown>) {
+    into.clear();
+    for (i, body) in given.bodies.iter().enumerate() {
+        let all = [
+            Unknown::VelocityX(i),
+            Unknown::VelocityY(i),
+            Unknown::Spin(i),
+        ];
+        into.extend_from_slice(match body.freedom {
+            Freedom::Fixed => &[],
+            Freedom::Particle => &all[..2],
+            Freedom::Rigid => &all,
+        });
+    }
+    for i in 0..given.hinges.len() {
+        into.extend([Unknown::HingeX(i), Unknown::HingeY(i)]);
+    }
+    for (i, contact) in given.contacts.iter().enumerate() {
+        match contact.law {
+            GivenLaw::Frictionless(_) => into.push(Unknown::ContactNormal(i)),
+            GivenLaw::None | GivenLaw::Sticking => {
+                into.extend([Unknown::ContactX(i), Unknown::ContactY(i)]);
+            }
+        }
+    }
+    let sizes = given.blows.iter().enumerate();
+    let open = sizes.filter(|(_, blow)| matches!(blow.impulse, GivenImpulse::Along(_)));
+    into.extend(open.map(|(i, _)| Unknown::Blow(i)));
+}
+
 /// Momentum and angular momentum of every free body.
 fn balances<T: Number>(given: &Given<T>, columns: &Columns, rows: &mut Rows<T>) {
     let mut first_row = vec![None; given.bodies.len()];
@@ -251,52 +282,32 @@ struct Columns {
 
 impl Columns {
     fn of<T>(given: &Given<T>) -> Columns {
-        let most = given.bodies.len() * 3
-            + (given.hinges.len() + given.contacts.len()) * 2
-            + given.blows.len();
-        let mut unknowns = Vec::with_capacity(most);
-        let mut take = |list: &[Unknown]| {
-            unknowns.extend_from_slice(list);
-            unknowns.len() - list.len()
+        let mut names = Vec::with_capacity(3 * given.bodies.len() + 8);
+        unknowns(given, &mut names);
+        let mut next = 0;
+        let mut take = |count: usize| {
+            next += count;
+            next - count
         };
-        let body = given.bodies.iter().enumerate().map(|(i, body)| {
-            let all = [
-                Unknown::VelocityX(i),
-                Unknown::VelocityY(i),
-                Unknown::Spin(i),
-            ];
-            match body.freedom {
-                Freedom::Fixed => None,
-                Freedom::Particle => Some(take(&all[..2])),
-                Freedom::Rigid => Some(take(&all)),
-            }
+        let body = given.bodies.iter().map(|body| match body.freedom {
+            Freedom::Fixed => None,
+            Freedom::Particle => Some(take(2)),
+            Freedom::Rigid => Some(take(3)),
         });
         let body = body.collect();
-        let hinge = (0..given.hinges.len())
-            .map(|i| take(&[Unknown::HingeX(i), Unknown::HingeY(i)]))
-            .collect();
-        let contact = given
-            .contacts
-            .iter()
-            .enumerate()
-            .map(|(i, contact)| match contact.law {
-                GivenLaw::Frictionless(_) => take(&[Unknown::ContactNormal(i)]),
-                GivenLaw::None | GivenLaw::Sticking => {
-                    take(&[Unknown::ContactX(i), Unknown::ContactY(i)])
-                }
-            });
+        let hinge = given.hinges.iter().map(|_| take(2)).collect();
+        let contact = given.contacts.iter().map(|contact| match contact.law {
+            GivenLaw::Frictionless(_) => take(1),
+            GivenLaw::None | GivenLaw::Sticking => take(2),
+        });
         let contact = contact.collect();
-        let blow = given
-            .blows
-            .iter()
-            .enumerate()
-            .map(|(i, blow)| match blow.impulse {
-                GivenImpulse::Whole(_) => None,
-                GivenImpulse::Along(_) => Some(take(&[Unknown::Blow(i)])),
-            });
+        let blow = given.blows.iter().map(|blow| match blow.impulse {
+            GivenImpulse::Whole(_) => None,
+            GivenImpulse::Along(_) => Some(take(1)),
+        });
         let blow = blow.collect();
         Columns {
-            unknowns,
+            unknowns: names,
             body,
             hinge,
             contact,

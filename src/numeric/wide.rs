@@ -383,7 +383,25 @@ impl<const N: usize> Wide<N> {
         let lead = above.shifted_down(drop);
         let lead = u128::from(lead.words[0]) | u128::from(*lead.words.get(1)?) << 64;
         let mut quotient = lead / u128::from(below.shifted_down(drop).words[0]);
-        // The cut divisor makes the quotient too large by a few at most.
+        let exponent = scale - power;
+        if !(-1080..=950).contains(&exponent) {
+            return None;
+        }
+        let sign = match self.negative != divisor.negative {
+            true => -1.0,
+            false => 1.0,
+        };
+        let finish = |rounded: f64| {
+            let half = exponent / 2;
+            let value = rounded * 2f64.powi(half as i32) * 2f64.powi((exponent - half) as i32);
+            let normal = (4.0 * f64::MIN_POSITIVE..=f64::MAX).contains(&value);
+            normal.then_some(sign * value)
+        };
+        // The cut dividend makes the quotient too small by less than one, the cut divisor too large by less than four.
+        let (least, most) = (quotient.saturating_sub(4) as f64, (quotient + 1) as f64);
+        if least == most {
+            return finish(least);
+        }
         let mut whole = Wide::small(false, quotient as u64);
         whole.words[1] = (quotient >> 64) as u64;
         whole.len = 2;
@@ -393,19 +411,7 @@ impl<const N: usize> Wide<N> {
             quotient -= 1;
         }
         let sticky = u128::from(!rest.is_zero());
-        let exponent = scale - power;
-        if !(-1080..=950).contains(&exponent) {
-            return None;
-        }
-        let rounded = (quotient | sticky) as f64;
-        let half = exponent / 2;
-        let value = rounded * 2f64.powi(half as i32) * 2f64.powi((exponent - half) as i32);
-        let normal = (4.0 * f64::MIN_POSITIVE..=f64::MAX).contains(&value);
-        normal.then_some(if self.negative != divisor.negative {
-            -value
-        } else {
-            value
-        })
+        finish((quotient | sticky) as f64)
     }
 }
 
