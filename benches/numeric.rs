@@ -224,7 +224,7 @@ mod from_values {
 /// A change of the scene's doubles towards an extreme, and what tells its unknowns.
 type Family = (&'static str, fn(&mut Given<f64>), Tier);
 
-const FAMILIES: [Family; 10] = [
+const FAMILIES: [Family; 11] = [
     ("ordinary", |_| (), Tier::Ball),
     ("mass ratio 1e15", |g| scale_mass(g, 1e15), Tier::Ball),
     ("mass ratio 1e-15", |g| scale_mass(g, 1e-15), Tier::Ball),
@@ -239,6 +239,11 @@ const FAMILIES: [Family; 10] = [
     ("m v^2 of 1e300", |g| scale_speed(g, 1e150), Tier::Ball),
     ("grazing 1e-12", |g| graze(g, 1e-12), Tier::Ball),
     ("stops dead", stop, Tier::Exact),
+    (
+        "sticking, 8 unknowns",
+        |g| g.contacts[0].law = GivenLaw::Sticking,
+        Tier::Ball,
+    ),
 ];
 
 /// The scene of a family; what was to be shown about it is held.

@@ -1,9 +1,9 @@
 //! Balls: a double-double and a bound of its error. The true value is never outside.
 //!
 //! The two doubles of a middle are left as they come (pair arithmetic, Lange & Rump 2020): the leading ones are what plain
-//! doubles would give, the rests run behind, and only reading brings both into order. Every bound is rounded up by a
-//! factor that covers its own few roundings, and every product adds a floor that covers underflow. Zeros of the geometry
-//! stay exact zeros, so elimination sees the sparsity.
+//! doubles would give, the rests run behind, and only reading brings both into order. Reading also widens the bound by a
+//! factor that covers the roundings inside it, and every product adds a floor that covers underflow. Zeros of the
+//! geometry stay exact zeros, so elimination sees the sparsity.
 
 use std::cmp::Ordering;
 use std::ops::Neg;
@@ -18,8 +18,8 @@ use crate::expr::{Function, Rational, Scalar};
 pub struct Ball {
     /// Middle; its low double may be larger than a rounding of the high one.
     pub middle: Dd,
-    /// Radius, rounded up; infinite or NaN where nothing is known.
-    pub error: f64,
+    /// Radius before [`Ball::radius`] rounds it up; infinite or NaN where nothing is known.
+    error: f64,
 }
 
 /// Relative error of one rounding.
@@ -28,16 +28,16 @@ const ROUNDING: f64 = 1.0 / (1u64 << 53) as f64;
 const STEP: f64 = 1.0 / (1u128 << 102) as f64;
 /// Relative error of a root, absolute error of a sine, rounded up.
 const LONG_STEP: f64 = 1.0 / (1u128 << 98) as f64;
-/// Covers the few roundings inside a bound.
-const UP: f64 = 1.0 + 1e-14;
+/// Covers the roundings inside a bound, some ten in each of up to 10⁵ operations one after another.
+const UP: f64 = 1.0 + 1e-9;
 /// Covers what a product loses to underflow.
 const FLOOR: f64 = 1e-290;
-/// A product of doubles above this is the sum of two doubles exactly.
+/// Far enough above the smallest doubles that halves and roots lose nothing.
 const SAFE: f64 = 1e-280;
 
 impl Ball {
     /// A double, exactly.
-    #[inline]
+    #[inline(always)]
     pub fn exact(value: f64) -> Ball {
         Ball {
             middle: Dd::exact(value),
@@ -46,7 +46,7 @@ impl Ball {
     }
 
     /// The sum of two doubles, exactly.
-    #[inline]
+    #[inline(always)]
     pub fn sum(a: f64, b: f64) -> Ball {
         Ball {
             middle: two_sum(a, b),
@@ -54,43 +54,74 @@ impl Ball {
         }
     }
 
-    /// The product of two doubles, exactly but for underflow.
-    #[inline]
+    /// The product of two doubles that are not zero.
+    #[inline(always)]
     pub fn product(a: f64, b: f64) -> Ball {
-        let middle = two_product(a, b);
-        let exact = middle.high.abs() > SAFE || a == 0.0 || b == 0.0;
         Ball {
-            middle,
-            error: if exact { 0.0 } else { FLOOR },
+            middle: two_product(a, b),
+            error: FLOOR,
         }
     }
 
-    /// The sum with a double.
-    #[inline]
-    pub fn plus_double(self, other: f64) -> Ball {
-        let lead = two_sum(self.middle.high, other);
-        let low = lead.low + self.middle.low;
-        // A sum errs by no more than a rounding, and by no more than its smaller part.
-        let slip = (ROUNDING * low.abs()).min(self.middle.low.abs());
+    /// The product of two numbers of which none is exactly zero; where one is, the outcome is no exact zero.
+    #[inline(always)]
+    pub fn by(&self, other: &Ball) -> Ball {
+        let (a, b) = (self.middle, other.middle);
+        let lead = two_product(a.high, b.high);
+        let (p, q) = (a.high * b.low, a.low * b.high);
+        let mixed = p + q;
+        let low = lead.low + mixed;
+        // Four roundings, the product of the lows that is left out, and the errors that came in.
+        let slips = ROUNDING * ((p.abs() + q.abs()) + (mixed.abs() + low.abs()));
+        let reach_b = b.high.abs() + (b.low.abs() + other.error);
+        let spread = (a.high.abs() + a.low.abs()) * other.error
+            + (reach_b * self.error + (a.low * b.low).abs());
         Ball {
             middle: Dd {
                 high: lead.high,
                 low,
             },
-            error: (self.error + slip) * UP,
+            error: spread + (slips + FLOOR),
         }
     }
 
-    /// The product with a double.
-    #[inline]
+    /// 1 over a double that is not zero; infinitely wide for zero.
+    #[inline(always)]
+    pub fn inverse(of: f64) -> Ball {
+        // As `recip` below with nothing to spread.
+        let q = 1.0 / of;
+        let back = two_product(q, of);
+        let gap = (1.0 - back.high) - back.low;
+        let slips = 2.0 * gap * gap + (8.0 * ROUNDING * gap.abs() + FLOOR);
+        Ball {
+            middle: Dd {
+                high: q,
+                low: gap * q,
+            },
+            error: q.abs() * slips + FLOOR,
+        }
+    }
+
+    /// The sum with a double.
+    #[inline(always)]
+    pub fn plus_double(self, other: f64) -> Ball {
+        let lead = two_sum(self.middle.high, other);
+        let low = lead.low + self.middle.low;
+        // A sum errs by no more than a rounding, and by no more than its smaller part.
+        let slip = lesser(ROUNDING * low.abs(), self.middle.low.abs());
+        Ball {
+            middle: Dd {
+                high: lead.high,
+                low,
+            },
+            error: self.error + slip,
+        }
+    }
+
+    /// The product with a double, neither being exactly zero.
+    #[inline(always)]
     pub fn times_double(self, other: f64) -> Ball {
         let Dd { high, low } = self.middle;
-        if low == 0.0 && self.error == 0.0 {
-            return Ball::product(high, other);
-        }
-        if other == 0.0 {
-            return Ball::default();
-        }
         let lead = two_product(high, other);
         let mixed = low * other;
         let rest = lead.low + mixed;
@@ -100,12 +131,12 @@ impl Ball {
                 high: lead.high,
                 low: rest,
             },
-            error: (other.abs() * self.error + (slips + FLOOR)) * UP,
+            error: other.abs() * self.error + (slips + FLOOR),
         }
     }
 
     /// The same with the middle in order: the low double at most a rounding of the high one.
-    #[inline]
+    #[inline(always)]
     fn in_order(self) -> Ball {
         let Dd { high, low } = self.middle;
         Ball {
@@ -114,35 +145,39 @@ impl Ball {
         }
     }
 
+    /// A bound of the distance of the true value from the middle.
+    #[inline(always)]
+    pub fn radius(&self) -> f64 {
+        self.error * UP
+    }
+
     /// Largest absolute value inside.
-    #[inline]
+    #[inline(always)]
     fn reach(&self) -> f64 {
         (self.middle.high.abs() + self.middle.low.abs() + self.error) * UP
     }
 
     /// A lower bound of the absolute value; 0 where zero may be inside.
-    #[inline]
+    #[inline(always)]
     pub fn least(&self) -> f64 {
-        ((self.middle.high.abs() - self.middle.low.abs() - self.error) * (1.0 - 1e-14)).max(0.0)
+        ((self.middle.high.abs() - self.middle.low.abs() - self.radius()) * (1.0 - 1e-14)).max(0.0)
     }
 
     /// The double nearest to every number inside; `None` where the ball is too wide to tell, or the double would be
     /// subnormal or infinite.
-    #[inline]
+    #[inline(always)]
     pub fn rounded(&self) -> Option<f64> {
-        let ball = self.in_order();
-        let Dd { high, low } = ball.middle;
-        if ball.error == 0.0 && low == 0.0 {
-            return high.is_finite().then_some(high);
-        }
-        let (up, down) = ((low + ball.error).next_up(), (low - ball.error).next_down());
-        // Rounding is monotone: where both ends round to one double, so does all between.
+        let Dd { high, low } = self.in_order().middle;
+        // More than the roundings of the two sums below; nothing where the ball is a double.
+        let reach = self.radius() + low.abs() * (4.0 * ROUNDING);
         let normal = high.abs() >= 2.0 * f64::MIN_POSITIVE && high.abs() < f64::MAX;
-        (normal && high + up == high && high + down == high).then_some(high)
+        // Rounding is monotone: where both ends round to one double, so does all between.
+        let told = high + (low + reach) == high && high + (low - reach) == high;
+        (told && (normal || reach == 0.0)).then_some(high)
     }
 
     /// The double that is the only number inside: no rounding took place on the way to it.
-    #[inline]
+    #[inline(always)]
     pub fn as_double(&self) -> Option<f64> {
         let exact = self.error == 0.0 && self.middle.low == 0.0 && self.middle.high.is_finite();
         exact.then_some(self.middle.high)
@@ -156,6 +191,12 @@ impl Ball {
         }
         (ball.least() > 0.0).then(|| ball.middle.high.total_cmp(&0.0))
     }
+}
+
+/// The smaller of two, by one instruction.
+#[inline(always)]
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
 }
 
 impl Scalar for Ball {
@@ -178,72 +219,51 @@ impl Scalar for Ball {
             error: 4.0 * STEP,
         })
     }
-    #[inline]
+    #[inline(always)]
     fn plus(&self, other: &Ball) -> Ball {
         let lead = two_sum(self.middle.high, other.middle.high);
         let lows = self.middle.low + other.middle.low;
         let low = lead.low + lows;
-        let slips = ROUNDING * lows.abs() + (ROUNDING * low.abs()).min(lows.abs());
+        let slips = ROUNDING * lows.abs() + lesser(ROUNDING * low.abs(), lows.abs());
         Ball {
             middle: Dd {
                 high: lead.high,
                 low,
             },
-            error: ((self.error + other.error) + slips) * UP,
+            error: (self.error + other.error) + slips,
         }
     }
-    #[inline]
+    #[inline(always)]
     fn times(&self, other: &Ball) -> Ball {
-        let (a, b) = (self.middle, other.middle);
-        let (spread_a, spread_b) = (a.low.abs() + self.error, b.low.abs() + other.error);
-        if spread_a == 0.0 && spread_b == 0.0 {
-            return Ball::product(a.high, b.high);
-        }
         if self.is_zero() || other.is_zero() {
             return Ball::default();
         }
-        let lead = two_product(a.high, b.high);
-        let (p, q) = (a.high * b.low, a.low * b.high);
-        let mixed = p + q;
-        let low = lead.low + mixed;
-        // Four roundings, the product of the lows that is left out, and the errors that came in.
-        let slips = ROUNDING * ((p.abs() + q.abs()) + (mixed.abs() + low.abs()));
-        let spread = (a.high.abs() + a.low.abs()) * other.error
-            + (b.high.abs() + spread_b) * self.error
-            + (a.low * b.low).abs();
-        Ball {
-            middle: Dd {
-                high: lead.high,
-                low,
-            },
-            error: (spread + (slips + FLOOR)) * UP,
-        }
+        self.by(other)
     }
-    #[inline]
+    #[inline(always)]
     fn recip(&self) -> Option<Ball> {
-        let Ball { middle, error } = self.in_order();
-        let size = middle.high.abs();
-        if !(size > 1e-290 && size < 1e290) {
-            return None;
-        }
         // 1/x = q + q(1 − qx) + …, the rest of the series below the square of what 1 − qx may be.
-        let q = 1.0 / middle.high;
-        let back = two_product(q, middle.high);
-        let (gap, part) = ((1.0 - back.high) - back.low, q * middle.low);
+        let q = 1.0 / self.middle.high;
+        let back = two_product(q, self.middle.high);
+        let (gap, part) = ((1.0 - back.high) - back.low, q * self.middle.low);
         let change = gap - part;
-        let spread = q.abs() * error;
-        let far = change.abs() + spread + 4.0 * ROUNDING * (gap.abs() + part.abs()) + FLOOR;
-        if far.is_nan() || far > 0.5 {
-            return None;
+        let spread = q.abs() * self.error;
+        let roundings = 4.0 * ROUNDING * (gap.abs() + part.abs());
+        let far = (change.abs() + spread) + (roundings + FLOOR);
+        if far < 0.4 {
+            let slips = roundings + (4.0 * ROUNDING * change.abs() + FLOOR);
+            return Some(Ball {
+                middle: Dd {
+                    high: q,
+                    low: change * q,
+                },
+                error: q.abs() * (2.0 * far * far + (slips + spread)) + FLOOR,
+            });
         }
-        let slips = 4.0 * ROUNDING * (gap.abs() + part.abs() + change.abs());
-        Some(Ball {
-            middle: Dd {
-                high: q,
-                low: change * q,
-            },
-            error: (q.abs() * (2.0 * far * far + slips + spread + FLOOR) + FLOOR) * UP,
-        })
+        // Zero, beyond the range, or a middle out of order.
+        let ball = self.in_order();
+        let [old, new] = [self.middle.high, ball.middle.high];
+        (new.is_finite() && new != old).then(|| ball.recip())?
     }
     fn sqrt(&self) -> Option<Ball> {
         if self.is_zero() {
@@ -255,7 +275,7 @@ impl Scalar for Ball {
             return None;
         }
         let middle = ball.middle.root();
-        let error = (self.error / least.sqrt() + LONG_STEP * middle.high + FLOOR) * UP;
+        let error = self.error / least.sqrt() + LONG_STEP * middle.high + FLOOR;
         Some(Ball { middle, error })
     }
     fn pow(&self, _: &Ball) -> Option<Ball> {
@@ -265,7 +285,7 @@ impl Scalar for Ball {
         // Slope at most 1, absolute error of the series below 2⁻⁹⁸.
         let wave = |middle: Dd| Ball {
             middle,
-            error: (self.error + LONG_STEP) * UP,
+            error: self.error + LONG_STEP,
         };
         if self.is_zero() && matches!(function, Function::Sin | Function::Tan) {
             return Some(*self);
@@ -294,15 +314,15 @@ impl Number for Ball {
     fn one() -> Ball {
         Ball::exact(1.0)
     }
-    #[inline]
+    #[inline(always)]
     fn is_zero(&self) -> bool {
         self.middle.high == 0.0 && self.middle.low == 0.0 && self.error == 0.0
     }
-    #[inline]
+    #[inline(always)]
     fn minus(&self, other: &Ball) -> Ball {
         self.plus(&other.negated())
     }
-    #[inline]
+    #[inline(always)]
     fn negated(&self) -> Ball {
         Ball {
             middle: self.middle.neg(),

@@ -6,7 +6,7 @@
 //! the range of doubles make a case for the integers, which have no range.
 
 use super::ball::Ball;
-use super::contact_space::{MOST_UNKNOWNS, enclosures};
+use super::contact_space::enclosures;
 use super::dyadic::solve_dyadic;
 use super::exact::solve_exact;
 use super::field::eliminate;
@@ -63,49 +63,59 @@ pub fn certify(given: &Given<f64>) -> Result<Certified, Uncertified> {
 
 /// The same into what an earlier scene has left, so that one scene after another needs no new memory.
 pub fn certify_into(given: &Given<f64>, found: &mut Certified) -> Result<(), Uncertified> {
-    let mut few = [Ball::default(); MOST_UNKNOWNS];
-    let many;
-    let enclosure = match enclosures(given, &mut few) {
-        Some(count) => few.get(..count),
-        None => {
-            many = eliminate(&assemble(&given.map(|v| Ball::exact(*v))));
-            many.as_deref()
-        }
-    };
     unknowns(given, &mut found.unknowns);
-    if enclosure.is_some_and(|balls| found.take(balls)) {
+    found.start();
+    let mut told = true;
+    let solved = enclosures(given, |ball| told &= found.take(&ball));
+    if solved.is_some() && told {
         return Ok(());
     }
+    let mut balls = Vec::new();
+    let enclosure = match enclosures(given, |ball| balls.push(ball)) {
+        Some(()) => Some(balls),
+        None => {
+            let all = eliminate(&assemble(&given.map(|v| Ball::exact(*v))));
+            if all.as_ref().is_some_and(|balls| found.take_all(balls)) {
+                return Ok(());
+            }
+            all
+        }
+    };
     let solution = solve_exactly(given)?;
-    *found = finish(solution, std::mem::take(&mut found.unknowns), enclosure);
+    let unknowns = std::mem::take(&mut found.unknowns);
+    *found = finish(solution, unknowns, enclosure.as_deref());
     Ok(())
 }
 
 impl Certified {
-    /// The roundings of balls; false where one is too wide.
-    fn take(&mut self, balls: &[Ball]) -> bool {
-        let Solution {
-            values,
-            unique,
-            rank,
-        } = &mut self.solution;
-        values.clear();
+    fn start(&mut self) {
+        let n = self.unknowns.len();
+        self.solution.values.clear();
         self.tiers.clear();
-        for ball in balls {
-            let Some(value) = ball.rounded() else {
-                return false;
-            };
-            values.push(value);
-            self.tiers.push(tier(ball));
-        }
-        unique.clear();
-        unique.resize(balls.len(), true);
-        *rank = balls.len();
-        true
+        self.solution.unique.clear();
+        self.solution.unique.resize(n, true);
+        self.solution.rank = n;
+    }
+
+    /// The rounding of the next unknown's ball; false where it is too wide.
+    #[inline(always)]
+    fn take(&mut self, ball: &Ball) -> bool {
+        let rounded = ball.rounded();
+        self.solution.values.push(rounded.unwrap_or(f64::NAN));
+        self.tiers.push(tier(ball));
+        rounded.is_some()
+    }
+
+    fn take_all(&mut self, balls: &[Ball]) -> bool {
+        self.start();
+        balls
+            .iter()
+            .fold(true, |told, ball| self.take(ball) && told)
     }
 }
 
 /// What an enclosure that rounds to one double is good for.
+#[inline(always)]
 fn tier(ball: &Ball) -> Tier {
     match ball.as_double() {
         Some(_) => Tier::Double,
@@ -127,7 +137,10 @@ pub fn certify_scene(scene: &Scene, at: &Point<f64>) -> Result<Certified, Uncert
         unknowns: balls.unknowns,
         ..Certified::default()
     };
-    if enclosure.as_ref().is_some_and(|balls| found.take(balls)) {
+    if enclosure
+        .as_ref()
+        .is_some_and(|balls| found.take_all(balls))
+    {
         return Ok(found);
     }
     let exact = map_point(at, |v| from_f64(*v)).ok_or(Uncertified::NotFinite)?;
@@ -144,7 +157,7 @@ pub fn certify_scene(scene: &Scene, at: &Point<f64>) -> Result<Certified, Uncert
             Some(values) => Uncertified::TooClose(
                 values
                     .iter()
-                    .map(|b| (b.middle.high, b.error + b.middle.low.abs()))
+                    .map(|b| (b.middle.high, b.radius() + b.middle.low.abs()))
                     .collect(),
             ),
             None => Uncertified::Undefined(undefined),

@@ -20,7 +20,7 @@ pub struct Dd {
 }
 
 /// a + b as nearest double and exact rest (Knuth).
-#[inline]
+#[inline(always)]
 pub fn two_sum(a: f64, b: f64) -> Dd {
     let high = a + b;
     let b_part = high - a;
@@ -31,7 +31,7 @@ pub fn two_sum(a: f64, b: f64) -> Dd {
 }
 
 /// The same where |a| ≥ |b| (Dekker).
-#[inline]
+#[inline(always)]
 fn quick_two_sum(a: f64, b: f64) -> Dd {
     let high = a + b;
     Dd {
@@ -41,7 +41,7 @@ fn quick_two_sum(a: f64, b: f64) -> Dd {
 }
 
 /// a · b as nearest double and exact rest (Dekker); exact where neither overflows nor falls below 2⁻⁹⁶⁸.
-#[inline]
+#[inline(always)]
 pub fn two_product(a: f64, b: f64) -> Dd {
     let high = a * b;
     if cfg!(target_feature = "fma") {
@@ -59,7 +59,7 @@ pub fn two_product(a: f64, b: f64) -> Dd {
 }
 
 /// Halves of 26 bits each (Veltkamp).
-#[inline]
+#[inline(always)]
 fn split(a: f64) -> (f64, f64) {
     let c = 134_217_729.0 * a;
     let high = c - (c - a);
@@ -68,7 +68,7 @@ fn split(a: f64) -> (f64, f64) {
 
 impl Dd {
     /// A double, exactly.
-    #[inline]
+    #[inline(always)]
     pub fn exact(value: f64) -> Dd {
         Dd {
             high: value,
@@ -77,7 +77,7 @@ impl Dd {
     }
 
     /// Reciprocal by one Newton step from the double; infinite or not a number for zero.
-    #[inline]
+    #[inline(always)]
     pub fn inverse(self) -> Dd {
         let first = 1.0 / self.high;
         let rest = Dd::exact(1.0).add(self.mul(Dd::exact(first)).neg());
@@ -97,7 +97,7 @@ impl Dd {
 
 impl Add for Dd {
     type Output = Dd;
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Dd) -> Dd {
         let s = two_sum(self.high, other.high);
         let t = two_sum(self.low, other.low);
@@ -108,7 +108,7 @@ impl Add for Dd {
 
 impl Mul for Dd {
     type Output = Dd;
-    #[inline]
+    #[inline(always)]
     fn mul(self, other: Dd) -> Dd {
         let p = two_product(self.high, other.high);
         let mixed = self.high * other.low + self.low * other.high;
@@ -118,7 +118,7 @@ impl Mul for Dd {
 
 impl Neg for Dd {
     type Output = Dd;
-    #[inline]
+    #[inline(always)]
     fn neg(self) -> Dd {
         Dd {
             high: -self.high,

@@ -12,18 +12,26 @@ use super::system::assemble;
 use super::wide::Wide;
 use crate::expr::{Function, Rational, Scalar};
 
-/// An integer times 2^exponent; `None` where it did not fit.
+/// An integer times 2^exponent, or a number that did not fit.
 #[derive(Clone, Copy, Debug)]
-pub struct Dyadic<const N: usize>(Option<(Wide<N>, i64)>);
+pub struct Dyadic<const N: usize> {
+    value: Wide<N>,
+    exponent: i64,
+    fits: bool,
+}
 
 impl<const N: usize> Dyadic<N> {
+    const ZERO: Dyadic<N> = Dyadic {
+        value: Wide::ZERO,
+        exponent: 0,
+        fits: true,
+    };
+
     /// A double, exactly; nothing for infinities and NaN.
     pub fn exact(value: f64) -> Dyadic<N> {
+        let mut out = Dyadic::ZERO;
         if value == 0.0 {
-            return Dyadic(Some((Wide::ZERO, 0)));
-        }
-        if !value.is_finite() {
-            return Dyadic(None);
+            return out;
         }
         let bits = value.to_bits();
         let (raw, fraction) = ((bits >> 52 & 0x7ff) as i64, bits & ((1 << 52) - 1));
@@ -33,41 +41,50 @@ impl<const N: usize> Dyadic<N> {
             (fraction | 1 << 52, raw - 1075)
         };
         let twos = size.trailing_zeros();
-        Dyadic(Some((
-            Wide::small(value < 0.0, size >> twos),
-            exponent + i64::from(twos),
-        )))
+        out.value = Wide::small(value < 0.0, size >> twos);
+        out.exponent = exponent + i64::from(twos);
+        out.fits = value.is_finite();
+        out
     }
 
     /// The double nearest to self/other; `None` where a number is missing or the double would not be a normal one.
     pub fn over(&self, other: &Dyadic<N>) -> Option<f64> {
-        let ((above, i), (below, j)) = (self.0?, other.0?);
-        (!below.is_zero()).then(|| above.ratio(&below, i - j))?
+        let usable = self.fits && other.fits && !other.value.is_zero();
+        usable.then(|| {
+            self.value
+                .ratio(&other.value, self.exponent - other.exponent)
+        })?
     }
 
     /// The quotient where the divisor is known to divide the number; powers of two always do.
     fn divided_exactly(&self, divisor: &Dyadic<N>) -> Option<Dyadic<N>> {
-        let ((above, i), (below, j)) = (self.0?, divisor.0?);
-        if above.is_zero() {
-            return Some(*self);
+        if !self.fits || !divisor.fits {
+            return None;
         }
         // The quotient of odd parts is short; what is left in powers of two goes to the exponent.
-        let (up, down) = (above.twos(), below.twos());
-        let quotient = above
-            .shifted_down(up)
-            .divided_exactly(&below.shifted_down(down));
-        Some(Dyadic(Some((quotient, i - j + up as i64 - down as i64))))
+        let (up, down) = (self.value.twos(), divisor.value.twos());
+        Some(Dyadic {
+            value: self
+                .value
+                .shifted_down(up)
+                .divided_exactly(&divisor.value.shifted_down(down)),
+            exponent: self.exponent - divisor.exponent + up as i64 - down as i64,
+            fits: true,
+        })
     }
 }
 
-/// Words that suffice for two bodies with doubles of one size, and for nearly everything.
+/// Words that suffice for two smooth bodies with doubles of one size; for two that stick, or doubles of very different
+/// sizes; and for nearly everything.
 const NARROW: usize = 12;
-const BROAD: usize = 48;
+const MIDDLE: usize = 28;
+const BROAD: usize = 64;
 
 /// Correctly rounded values of a determined scene; `None` where the system is not determined, its rows contradict each
 /// other, a number is not finite, or the integers outgrow their width.
 pub fn solve_dyadic(given: &Given<f64>) -> Option<Vec<f64>> {
     contact_space::nearest_doubles::<NARROW>(given)
+        .or_else(|| contact_space::nearest_doubles::<MIDDLE>(given))
         .or_else(|| contact_space::nearest_doubles::<BROAD>(given))
         .or_else(|| full_system::<BROAD>(given))
 }
@@ -113,39 +130,44 @@ impl<const N: usize> Whole for Dyadic<N> {
 
 impl<const N: usize> Scalar for Dyadic<N> {
     fn from_rational(value: &Rational) -> Dyadic<N> {
+        let mut out = Dyadic::ZERO;
         // Assembly asks for nothing but small integers.
         match value.denom().as_i64().zip(value.numer().as_i64()) {
-            Some((1, v)) => Dyadic(Some((Wide::small(v < 0, v.unsigned_abs()), 0))),
-            _ => Dyadic(None),
+            Some((1, v)) => out.value = Wide::small(v < 0, v.unsigned_abs()),
+            _ => out.fits = false,
         }
+        out
     }
     fn pi() -> Option<Dyadic<N>> {
         None
     }
+    #[inline]
     fn plus(&self, other: &Dyadic<N>) -> Dyadic<N> {
-        let (Some((a, i)), Some((b, j))) = (self.0, other.0) else {
-            return Dyadic(None);
-        };
-        if a.is_zero() {
+        if other.value.is_zero() || !self.fits {
+            let fits = self.fits && other.fits;
+            return Dyadic { fits, ..*self };
+        }
+        if self.value.is_zero() || !other.fits {
             return *other;
         }
-        if b.is_zero() {
-            return *self;
-        }
-        let low = i.min(j);
-        let up = |v: Wide<N>, e: i64| v.shifted_up(usize::try_from(e - low).ok()?);
-        Dyadic(
-            up(a, i)
-                .zip(up(b, j))
-                .and_then(|(a, b)| a.add(&b))
-                .map(|sum| (sum, low)),
-        )
-    }
-    fn times(&self, other: &Dyadic<N>) -> Dyadic<N> {
-        let (Some((a, i)), Some((b, j))) = (self.0, other.0) else {
-            return Dyadic(None);
+        let (low, high) = match self.exponent <= other.exponent {
+            true => (self, other),
+            false => (other, self),
         };
-        Dyadic(a.mul(&b).map(|product| (product, i + j)))
+        let mut sum = Dyadic::ZERO;
+        let by = usize::try_from(high.exponent - low.exponent);
+        sum.exponent = low.exponent;
+        sum.fits = by.is_ok_and(|by| high.value.shift_into(by, &mut sum.value))
+            && sum.value.add_assign(&low.value);
+        sum
+    }
+    #[inline]
+    fn times(&self, other: &Dyadic<N>) -> Dyadic<N> {
+        let mut product = Dyadic::ZERO;
+        product.exponent = self.exponent + other.exponent;
+        product.fits =
+            self.fits && other.fits && self.value.mul_into(&other.value, &mut product.value);
+        product
     }
     fn recip(&self) -> Option<Dyadic<N>> {
         None
@@ -163,26 +185,35 @@ impl<const N: usize> Scalar for Dyadic<N> {
 
 impl<const N: usize> Number for Dyadic<N> {
     fn zero() -> Dyadic<N> {
-        Dyadic(Some((Wide::ZERO, 0)))
+        Dyadic::ZERO
     }
     fn one() -> Dyadic<N> {
-        Dyadic(Some((Wide::small(false, 1), 0)))
+        let mut one = Dyadic::ZERO;
+        one.value = Wide::small(false, 1);
+        one
     }
     fn is_zero(&self) -> bool {
-        self.0.is_some_and(|(value, _)| value.is_zero())
+        self.fits && self.value.is_zero()
     }
     fn minus(&self, other: &Dyadic<N>) -> Dyadic<N> {
         self.plus(&other.negated())
     }
     fn negated(&self) -> Dyadic<N> {
-        Dyadic(self.0.map(|(value, exponent)| (value.negated(), exponent)))
+        Dyadic {
+            value: self.value.negated(),
+            ..*self
+        }
     }
     fn halved(&self) -> Dyadic<N> {
-        Dyadic(self.0.map(|(value, exponent)| (value, exponent - 1)))
+        Dyadic {
+            exponent: self.exponent - 1,
+            ..*self
+        }
     }
     fn size(&self) -> f64 {
-        self.0.map_or(f64::NAN, |(value, exponent)| {
-            2f64.powi((value.bits() as i64 + exponent) as i32)
-        })
+        match self.fits {
+            true => 2f64.powi((self.value.bits() as i64 + self.exponent) as i32),
+            false => f64::NAN,
+        }
     }
 }

@@ -94,11 +94,15 @@ impl<const N: usize> Wide<N> {
     }
 
     fn trim(mut self) -> Wide<N> {
+        self.trim_in_place();
+        self
+    }
+
+    fn trim_in_place(&mut self) {
         while self.len > 0 && self.words[self.len - 1] == 0 {
             self.len -= 1;
         }
         self.negative &= self.len != 0;
-        self
     }
 
     fn compare_sizes(&self, other: &Wide<N>) -> Ordering {
@@ -113,105 +117,132 @@ impl<const N: usize> Wide<N> {
 
     /// Sum.
     pub fn add(&self, other: &Wide<N>) -> Option<Wide<N>> {
-        if self.negative != other.negative {
-            return Some(match self.compare_sizes(other) {
-                Ordering::Less => other.less(self),
-                _ => self.less(other),
-            });
-        }
-        let (long, short) = if self.len >= other.len {
-            (self, other)
-        } else {
-            (other, self)
-        };
-        let mut sum = *long;
-        let mut carry = false;
-        for i in 0..long.len {
-            let (a, c) = long.words[i].overflowing_add(short.words[i]);
-            let (b, d) = a.overflowing_add(u64::from(carry));
-            sum.words[i] = b;
-            carry = c | d;
-            if i >= short.len && !carry {
-                break;
-            }
-        }
-        if carry {
-            *sum.words.get_mut(long.len)? = 1;
-            sum.len += 1;
-        }
-        Some(sum)
+        let mut sum = *self;
+        sum.add_assign(other).then_some(sum)
     }
 
-    /// Difference of sizes with the sign of `self`, whose size is not smaller.
-    fn less(&self, other: &Wide<N>) -> Wide<N> {
-        let mut rest = *self;
-        let mut borrow = false;
-        for i in 0..self.len {
-            let (a, c) = self.words[i].overflowing_sub(other.words[i]);
-            let (b, d) = a.overflowing_sub(u64::from(borrow));
-            rest.words[i] = b;
-            borrow = c | d;
-            if i >= other.len && !borrow {
-                break;
+    /// Adds in place; false where the sum does not fit.
+    pub fn add_assign(&mut self, other: &Wide<N>) -> bool {
+        if self.negative == other.negative {
+            return self.grow(other);
+        }
+        match self.compare_sizes(other) {
+            Ordering::Less => {
+                let words = self.words.iter_mut().zip(&other.words);
+                subtract(words.take(other.len).map(|(cell, &b)| {
+                    let a = *cell;
+                    (cell, b, a)
+                }));
+                (self.negative, self.len) = (other.negative, other.len);
+            }
+            _ => {
+                let words = self.words[..self.len].iter_mut().zip(&other.words);
+                subtract(words.map(|(cell, &b)| {
+                    let a = *cell;
+                    (cell, a, b)
+                }));
             }
         }
-        rest.trim()
+        self.trim_in_place();
+        true
+    }
+
+    /// Adds the size of another number.
+    fn grow(&mut self, other: &Wide<N>) -> bool {
+        let mut carry = false;
+        let (long, short) = (self.len.max(other.len), other.len);
+        for i in 0..long {
+            if i >= short && !carry {
+                break;
+            }
+            let (a, c) = self.words[i].overflowing_add(other.words[i]);
+            let (b, d) = a.overflowing_add(u64::from(carry));
+            self.words[i] = b;
+            carry = c | d;
+        }
+        self.len = long;
+        if !carry {
+            return true;
+        }
+        match self.words.get_mut(long) {
+            Some(cell) => *cell = 1,
+            None => return false,
+        }
+        self.len += 1;
+        true
     }
 
     /// Product.
     #[inline]
     pub fn mul(&self, other: &Wide<N>) -> Option<Wide<N>> {
         let mut product = Wide::ZERO;
-        if self.len == 0 || other.len == 0 {
-            return Some(product);
-        }
+        self.mul_into(other, &mut product).then_some(product)
+    }
+
+    /// The product into a number that is zero; false where it does not fit.
+    #[inline]
+    pub fn mul_into(&self, other: &Wide<N>, product: &mut Wide<N>) -> bool {
         // Two numbers of k and l bits make one of k + l − 1 bits at least.
         if self.len + other.len > N && self.bits() + other.bits() > 64 * N {
-            return None;
+            return false;
         }
-        for (i, &a) in self.words[..self.len].iter().enumerate() {
+        // Numbers of far apart sizes, once added, are mostly zeros.
+        let (outer, inner) = match self.len >= other.len {
+            true => (self, other),
+            false => (other, self),
+        };
+        for (i, &a) in outer.words[..outer.len].iter().enumerate() {
+            if a == 0 {
+                continue;
+            }
             let mut carry = 0u64;
-            for (j, &b) in other.words[..other.len].iter().enumerate() {
-                let Some(cell) = product.words.get_mut(i + j) else {
-                    break;
-                };
+            let end = (i + inner.len).min(N);
+            for (cell, &b) in product.words[i..end].iter_mut().zip(&inner.words) {
                 let wide = u128::from(a) * u128::from(b) + u128::from(*cell) + u128::from(carry);
                 *cell = wide as u64;
                 carry = (wide >> 64) as u64;
             }
-            if carry != 0 {
-                *product.words.get_mut(i + other.len)? = carry;
+            match product.words.get_mut(i + inner.len) {
+                Some(cell) => *cell = carry,
+                None if carry == 0 => {}
+                None => return false,
             }
         }
         product.len = (self.len + other.len).min(N);
         product.negative = self.negative != other.negative;
-        Some(product.trim())
+        product.trim_in_place();
+        true
     }
 
     /// 2^by times the integer.
     pub fn shifted_up(&self, by: usize) -> Option<Wide<N>> {
-        if self.len == 0 || by == 0 {
-            return Some(*self);
-        }
-        if self.bits() + by > 64 * N {
-            return None;
+        let mut up = Wide::ZERO;
+        self.shift_into(by, &mut up).then_some(up)
+    }
+
+    /// 2^by times the integer into a number that is zero; false where it does not fit.
+    #[inline]
+    pub fn shift_into(&self, by: usize, up: &mut Wide<N>) -> bool {
+        if self.len == 0 || self.bits() + by > 64 * N {
+            return self.len == 0;
         }
         let (words, bits) = (by / 64, by % 64);
-        let mut up = Wide {
-            negative: self.negative,
-            ..Wide::ZERO
-        };
-        for i in 0..self.len {
-            up.words[i + words] |= self.words[i] << bits;
-            if bits != 0 {
-                let spill = self.words[i] >> (64 - bits);
-                if spill != 0 {
-                    up.words[i + words + 1] = spill;
-                }
+        up.negative = self.negative;
+        up.len = (self.len + words + 1).min(N);
+        if bits == 0 {
+            up.words[words..words + self.len].copy_from_slice(&self.words[..self.len]);
+        } else {
+            let mut spill = 0;
+            for (cell, &word) in up.words[words..].iter_mut().zip(&self.words[..self.len]) {
+                *cell = word << bits | spill;
+                spill = word >> (64 - bits);
+            }
+            if let Some(cell) = up.words.get_mut(words + self.len) {
+                *cell = spill;
             }
         }
-        up.len = (self.len + words + 1).min(N);
-        Some(up.trim())
+        up.trim_in_place();
+        true
     }
 
     /// The integer divided by 2^by, towards zero.
@@ -412,6 +443,17 @@ impl<const N: usize> Wide<N> {
         }
         let sticky = u128::from(!rest.is_zero());
         finish((quotient | sticky) as f64)
+    }
+}
+
+/// Sets each cell to the first number minus the second, lowest word first, where the whole outcome is not below zero.
+fn subtract<'a>(words: impl Iterator<Item = (&'a mut u64, u64, u64)>) {
+    let mut borrow = false;
+    for (cell, a, b) in words {
+        let (a, c) = a.overflowing_sub(b);
+        let (a, d) = a.overflowing_sub(u64::from(borrow));
+        *cell = a;
+        borrow = c | d;
     }
 }
 

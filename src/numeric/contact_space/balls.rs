@@ -3,111 +3,216 @@
 //! W is symmetric and, with masses above zero, positive definite where the joints are independent: elimination needs no
 //! choice of pivots, and one reciprocal per impulse component.
 
-use super::{Axis, BODIES, Joint, LINES, joints, lines, unknowns};
+use super::{Axis, BODIES, Joint, LINES, joints, lines};
 use crate::expr::Scalar;
 use crate::numeric::ball::Ball;
 use crate::numeric::given::{Freedom, Given, GivenBody, GivenImpulse, GivenLaw};
 use crate::numeric::number::Number;
 
 /// A number of the scene: a double taken as exact, or a ball.
-pub trait Entry: Copy {
+pub trait Entry: Copy + Default {
     /// As a ball.
     fn ball(self) -> Ball;
-    /// Whether it is zero for sure.
-    fn is_zero(self) -> bool;
     /// self − other.
     fn less(self, other: Self) -> Ball;
     /// self + ball.
     fn and(self, ball: Ball) -> Ball;
+    /// Whether it is zero for sure.
+    fn is_nothing(self) -> bool;
     /// self · ball.
-    fn of(self, ball: Ball) -> Ball;
-    /// self · other.
+    fn of(self, ball: Ball) -> Ball {
+        match self.is_nothing() || Number::is_zero(&ball) {
+            true => Ball::default(),
+            false => self.scaled(ball),
+        }
+    }
+    /// self · ball; no exact zero where one of them is.
+    fn scaled(self, ball: Ball) -> Ball;
+    /// self · other; no exact zero where one of them is.
     fn product(self, other: Self) -> Ball;
+    /// 1/self.
+    fn inverse(self) -> Option<Ball>;
 }
 
 impl Entry for f64 {
-    #[inline]
+    #[inline(always)]
     fn ball(self) -> Ball {
         Ball::exact(self)
     }
-    #[inline]
-    fn is_zero(self) -> bool {
-        self == 0.0
-    }
-    #[inline]
+    #[inline(always)]
     fn less(self, other: f64) -> Ball {
         Ball::sum(self, -other)
     }
-    #[inline]
+    #[inline(always)]
     fn and(self, ball: Ball) -> Ball {
         ball.plus_double(self)
     }
-    #[inline]
-    fn of(self, ball: Ball) -> Ball {
+    #[inline(always)]
+    fn is_nothing(self) -> bool {
+        self == 0.0
+    }
+    #[inline(always)]
+    fn scaled(self, ball: Ball) -> Ball {
         ball.times_double(self)
     }
-    #[inline]
+    #[inline(always)]
     fn product(self, other: f64) -> Ball {
         Ball::product(self, other)
+    }
+    #[inline(always)]
+    fn inverse(self) -> Option<Ball> {
+        (self != 0.0).then(|| Ball::inverse(self))
     }
 }
 
 impl Entry for Ball {
-    #[inline]
+    #[inline(always)]
     fn ball(self) -> Ball {
         self
     }
-    #[inline]
-    fn is_zero(self) -> bool {
-        Number::is_zero(&self)
-    }
-    #[inline]
+    #[inline(always)]
     fn less(self, other: Ball) -> Ball {
         self.minus(&other)
     }
-    #[inline]
+    #[inline(always)]
     fn and(self, ball: Ball) -> Ball {
         self.plus(&ball)
     }
-    #[inline]
-    fn of(self, ball: Ball) -> Ball {
-        self.times(&ball)
+    #[inline(always)]
+    fn is_nothing(self) -> bool {
+        Number::is_zero(&self)
     }
-    #[inline]
+    #[inline(always)]
+    fn scaled(self, ball: Ball) -> Ball {
+        self.by(&ball)
+    }
+    #[inline(always)]
     fn product(self, other: Ball) -> Ball {
-        self.times(&other)
+        self.by(&other)
+    }
+    #[inline(always)]
+    fn inverse(self) -> Option<Ball> {
+        self.recip()
     }
 }
 
-/// Every unknown, in the order of [`crate::numeric::assemble`], at the front of `out`, and their number; `None` for scenes not
-/// solved here, for masses or a W that may be zero, and where `out` is too short.
-pub fn enclosures<I: Entry>(given: &Given<I>, out: &mut [Ball]) -> Option<usize> {
-    let count = lines(given)?;
-    let out = out.get_mut(..unknowns(given, count))?;
-    match count {
-        0 => solve::<I, 0>(given, out),
-        1 => solve::<I, 1>(given, out),
-        2 => solve::<I, 2>(given, out),
-        3 => solve::<I, 3>(given, out),
-        4 => solve::<I, 4>(given, out),
-        5 => solve::<I, 5>(given, out),
-        6 => solve::<I, 6>(given, out),
-        7 => solve::<I, 7>(given, out),
-        LINES => solve::<I, LINES>(given, out),
+/// Gives every unknown to `each`, in the order of [`crate::numeric::assemble`]; `None` for scenes not solved here and for
+/// masses or a W that may be zero, whatever was given before.
+#[inline(always)]
+pub fn enclosures<I: Entry>(given: &Given<I>, mut each: impl FnMut(Ball)) -> Option<()> {
+    match lines(given)? {
+        0 => solve::<I, 0>(given, &mut each),
+        1 if given.blows.is_empty() => smooth(given, each),
+        1 => solve::<I, 1>(given, &mut each),
+        2 => solve::<I, 2>(given, &mut each),
+        3 => solve::<I, 3>(given, &mut each),
+        4 => solve::<I, 4>(given, &mut each),
+        5 => solve::<I, 5>(given, &mut each),
+        6 => solve::<I, 6>(given, &mut each),
+        7 => solve::<I, 7>(given, &mut each),
+        LINES => solve::<I, LINES>(given, &mut each),
         _ => None,
-    }?;
-    Some(out.len())
+    }
 }
 
-/// What a body answers an impulse with: 1/m and 1/I, zero where it does not move.
+/// One body at the contact: what a unit impulse along the normal does to it.
+#[derive(Clone, Copy)]
+struct Side {
+    /// 1/m.
+    mass: Ball,
+    /// Moment about the center.
+    lever: Ball,
+    /// The spin it brings.
+    turn: Ball,
+    /// Whether the moment is nothing at all, for each term of it has a zero.
+    central: bool,
+}
+
+/// One frictionless contact and nothing else: written out and without branches, for it is what one meets most. Zeros of
+/// the geometry are seen to at the end.
+#[inline(always)]
+fn smooth<I: Entry>(given: &Given<I>, mut each: impl FnMut(Ball)) -> Option<()> {
+    let contact = given.contacts.first()?;
+    let (GivenLaw::Frictionless(e), Some([nx, ny])) = (&contact.law, contact.normal) else {
+        return None;
+    };
+    let [first, second] = contact.joint.bodies;
+    if first == second {
+        return None;
+    }
+    let (one, two) = (given.bodies.get(first)?, given.bodies.get(second)?);
+    let side = |body: &GivenBody<I>| {
+        let [x, y] = arm(body, &contact.joint.at);
+        let lever = ny.scaled(x).minus(&nx.scaled(y));
+        let (mass, inertia) = match body.freedom {
+            Freedom::Fixed => (Ball::default(), Ball::default()),
+            Freedom::Particle => (body.mass.inverse()?, Ball::default()),
+            Freedom::Rigid => (body.mass.inverse()?, body.inertia.inverse()?),
+        };
+        Some(Side {
+            mass,
+            lever,
+            turn: lever.by(&inertia),
+            central: (ny.is_nothing() || Number::is_zero(&x))
+                && (nx.is_nothing() || Number::is_zero(&y)),
+        })
+    };
+    let (left, right) = (side(one)?, side(two)?);
+    let gap = |k: usize| two.velocity[k].less(one.velocity[k]);
+    let turned = two
+        .spin
+        .scaled(right.lever)
+        .minus(&one.spin.scaled(left.lever));
+    let before = nx.scaled(gap(0)).plus(&ny.scaled(gap(1))).plus(&turned);
+    let square = nx.product(nx).plus(&ny.product(ny));
+    let turning = left.turn.by(&left.lever).plus(&right.turn.by(&right.lever));
+    let w = left.mass.plus(&right.mass).by(&square).plus(&turning);
+    let leave = before.by(&e.and(Ball::exact(1.0)));
+    let impulse = leave.by(&w.recip()?).negated();
+    let push = [nx.scaled(impulse), ny.scaled(impulse)];
+    let after = |before: I, change: Ball, plus: bool, none: bool| match none {
+        true => before.ball(),
+        false => before.and(signed(change, plus)),
+    };
+    for (b, body) in given.bodies.iter().enumerate() {
+        let plus = b == second;
+        if !plus && b != first || body.freedom == Freedom::Fixed {
+            rest(body, &mut each);
+            continue;
+        }
+        let side = if plus { right } else { left };
+        let [x, y] = body.velocity;
+        each(after(x, push[0].by(&side.mass), plus, nx.is_nothing()));
+        each(after(y, push[1].by(&side.mass), plus, ny.is_nothing()));
+        if body.freedom == Freedom::Rigid {
+            each(after(body.spin, impulse.by(&side.turn), plus, side.central));
+        }
+    }
+    each(impulse);
+    Some(())
+}
+
+/// A body that nothing happens to.
+fn rest<I: Entry>(body: &GivenBody<I>, each: &mut impl FnMut(Ball)) {
+    if body.freedom != Freedom::Fixed {
+        body.velocity.iter().for_each(|v| each(v.ball()));
+    }
+    if body.freedom == Freedom::Rigid {
+        each(body.spin.ball());
+    }
+}
+
+/// What a body answers an impulse with.
 #[derive(Clone, Copy, Default)]
 struct Answer {
+    /// 1/m; zero where it does not move.
     mass: Ball,
+    /// 1/I; zero where it does not turn.
     inertia: Ball,
 }
 
 /// One component of an impulse.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Line<I> {
     bodies: [usize; 2],
     axis: Axis,
@@ -121,68 +226,67 @@ struct Line<I> {
     right: Ball,
 }
 
-fn solve<I: Entry, const K: usize>(given: &Given<I>, out: &mut [Ball]) -> Option<()> {
+/// Impulse along x and y, and change of spin.
+type Change = [Ball; 3];
+
+fn solve<I: Entry, const K: usize>(given: &Given<I>, each: &mut impl FnMut(Ball)) -> Option<()> {
     let mut answers = [Answer::default(); BODIES];
     for (answer, body) in answers.iter_mut().zip(&given.bodies) {
         if body.freedom != Freedom::Fixed {
-            answer.mass = body.mass.ball().recip()?;
+            answer.mass = body.mass.inverse()?;
         }
         if body.freedom == Freedom::Rigid {
-            answer.inertia = body.inertia.ball().recip()?;
+            answer.inertia = body.inertia.inverse()?;
         }
     }
-    let mut change = [[Ball::default(); 3]; BODIES];
-    blows(given, &answers, &mut change)?;
-    let impulses = match K {
-        0 => [Ball::default(); K],
-        _ => {
-            let lines = all_lines::<I, K>(given, &answers, &change)?;
-            let impulses = eliminate(coupling(&lines, &answers), &lines)?;
-            for (line, impulse) in lines.iter().zip(&impulses) {
-                push(line, impulse, &mut change);
-            }
-            impulses
-        }
-    };
-    let (after, rest) = out.split_at_mut(out.len() - K);
-    let mut after = after.iter_mut();
-    for ((body, answer), change) in given.bodies.iter().zip(&answers).zip(&change) {
+    let mut lines = [Line::default(); K];
+    fill(given, &answers, &mut lines)?;
+    let impulses = eliminate(coupling(&lines, &answers), &lines)?;
+    let mut pushes = [[Ball::default(); 2]; K];
+    for k in 0..K {
+        pushes[k] = push(&lines[k], impulses[k]);
+    }
+    for (b, body) in given.bodies.iter().enumerate() {
         if body.freedom == Freedom::Fixed {
             continue;
         }
-        for (before, push) in body.velocity.iter().zip(change) {
-            *after.next()? = before.and(push.times(&answer.mass));
+        let mut change = blown(given, b, &answers[b])?;
+        for k in 0..K {
+            for s in 0..2 {
+                if lines[k].bodies[s] == b {
+                    let turn = lines[k].turn[s].times(&impulses[k]);
+                    add(&mut change, [pushes[k][0], pushes[k][1], turn], s == 1);
+                }
+            }
+        }
+        for i in 0..2 {
+            each(body.velocity[i].and(change[i].times(&answers[b].mass)));
         }
         if body.freedom == Freedom::Rigid {
-            *after.next()? = body.spin.and(change[2]);
+            each(body.spin.and(change[2]));
         }
     }
-    rest.copy_from_slice(&impulses);
+    impulses.into_iter().for_each(each);
     Some(())
 }
 
-/// Impulse along x and y and change of spin of each body by the given blows.
-fn blows<I: Entry>(
-    given: &Given<I>,
-    answers: &[Answer; BODIES],
-    change: &mut [[Ball; 3]; BODIES],
-) -> Option<()> {
-    for blow in &given.blows {
-        let GivenImpulse::Whole(impulse) = &blow.impulse else {
+/// What the given blows bring to a body.
+fn blown<I: Entry>(given: &Given<I>, body: usize, answer: &Answer) -> Option<Change> {
+    let mut change = Change::default();
+    for blow in given.blows.iter().filter(|blow| blow.body == body) {
+        let GivenImpulse::Whole([x, y]) = blow.impulse else {
             return None;
         };
-        let body = &given.bodies[blow.body];
-        let arm = arm(body, &blow.at);
-        let moment = impulse[1].of(arm[0]).minus(&impulse[0].of(arm[1]));
-        let turn = moment.times(&answers[blow.body].inertia);
-        let [x, y] = impulse.map(Entry::ball);
-        add(&mut change[blow.body], [x, y, turn]);
+        let arm = arm(&given.bodies[body], &blow.at);
+        let moment = y.of(arm[0]).minus(&x.of(arm[1]));
+        let turn = moment.times(&answer.inertia);
+        add(&mut change, [x.ball(), y.ball(), turn], true);
     }
-    Some(())
+    Some(change)
 }
 
 /// From the center of a body to a point; nothing for a particle.
-#[inline]
+#[inline(always)]
 fn arm<I: Entry>(body: &GivenBody<I>, at: &[I; 2]) -> [Ball; 2] {
     match body.freedom {
         Freedom::Particle => [Ball::default(); 2],
@@ -190,173 +294,169 @@ fn arm<I: Entry>(body: &GivenBody<I>, at: &[I; 2]) -> [Ball; 2] {
     }
 }
 
-#[inline]
-fn add(sum: &mut [Ball; 3], by: [Ball; 3]) {
-    for (sum, by) in sum.iter_mut().zip(by) {
-        *sum = match Number::is_zero(sum) {
-            true => by,
-            false => sum.plus(&by),
-        };
+/// Adds what a body receives on the second side of a joint, takes it away on the first.
+#[inline(always)]
+fn add(change: &mut Change, by: Change, second: bool) {
+    for i in 0..3 {
+        change[i] = sum(change[i], signed(by[i], second));
     }
 }
 
+#[inline(always)]
+fn signed(value: Ball, plus: bool) -> Ball {
+    if plus { value } else { value.negated() }
+}
+
 /// Every component with its levers and its right side.
-#[inline]
-fn all_lines<I: Entry, const K: usize>(
+#[inline(always)]
+fn fill<I: Entry>(
     given: &Given<I>,
     answers: &[Answer; BODIES],
-    change: &[[Ball; 3]; BODIES],
-) -> Option<[Line<I>; K]> {
-    let mut slots: [Option<Line<I>>; K] = [None; K];
-    let mut free = slots.iter_mut();
+    lines: &mut [Line<I>],
+) -> Option<()> {
+    let mut lines = lines.iter_mut();
     for joint in joints(given) {
         let (bodies, at, normal, restitution) = match joint {
             Joint::Hinge(i) => (given.hinges[i].bodies, given.hinges[i].at, None, None),
-            Joint::Sticking(i) | Joint::Frictionless(i) => {
+            Joint::Sticking(i) => {
+                let joint = &given.contacts[i].joint;
+                (joint.bodies, joint.at, None, None)
+            }
+            Joint::Frictionless(i) => {
                 let contact = &given.contacts[i];
-                let restitution = match &contact.law {
-                    GivenLaw::Frictionless(e) => Some(*e),
-                    _ => None,
+                let GivenLaw::Frictionless(e) = contact.law else {
+                    return None;
                 };
-                let normal = contact.normal.filter(|_| restitution.is_some());
-                (contact.joint.bodies, contact.joint.at, normal, restitution)
+                let joint = &contact.joint;
+                (joint.bodies, joint.at, contact.normal, Some(e))
             }
         };
-        let [one, two] = bodies.map(|b| &given.bodies[b]);
+        let (one, two) = (&given.bodies[bodies[0]], &given.bodies[bodies[1]]);
         let arms = [arm(one, &at), arm(two, &at)];
         for &axis in joint.axes() {
-            let normal = normal.unwrap_or(at);
-            let lever = arms.map(|[x, y]| match axis {
-                Axis::X => y.negated(),
-                Axis::Y => x,
-                Axis::Normal => normal[1].of(x).minus(&normal[0].of(y)),
-            });
-            let turn = [0, 1].map(|s| lever[s].times(&answers[bodies[s]].inertia));
+            let line = lines.next()?;
+            (line.bodies, line.axis) = (bodies, axis);
+            line.normal = normal.unwrap_or_default();
+            let n = line.normal;
+            for s in 0..2 {
+                line.lever[s] = match axis {
+                    Axis::X => arms[s][1].negated(),
+                    Axis::Y => arms[s][0],
+                    Axis::Normal => n[1].of(arms[s][0]).minus(&n[0].of(arms[s][1])),
+                };
+                line.turn[s] = line.lever[s].times(&answers[bodies[s]].inertia);
+            }
             let gap = |k: usize| two.velocity[k].less(one.velocity[k]);
             let mut before = match axis {
                 Axis::X => gap(0),
                 Axis::Y => gap(1),
-                Axis::Normal => normal[0].of(gap(0)).plus(&normal[1].of(gap(1))),
+                Axis::Normal => n[0].of(gap(0)).plus(&n[1].of(gap(1))),
             };
-            if !two.spin.is_zero() {
-                before = before.plus(&two.spin.of(lever[1]));
-            }
-            if !one.spin.is_zero() {
-                before = before.minus(&one.spin.of(lever[0]));
-            }
-            let mut line = Line {
-                bodies,
-                axis,
-                normal,
-                lever,
-                turn,
-                right: before.negated(),
-            };
+            let turned = two.spin.of(line.lever[1]);
+            before = before.plus(&turned.minus(&one.spin.of(line.lever[0])));
+            line.right = before.negated();
             if let Some(e) = restitution {
                 line.right = line.right.times(&e.and(Ball::exact(1.0)));
             }
             if !given.blows.is_empty() {
-                let [one, two] =
-                    [0, 1].map(|s| along(&line, &answers[bodies[s]], &change[bodies[s]], s));
-                line.right = line.right.minus(&two).plus(&one);
+                for s in 0..2 {
+                    let answer = &answers[bodies[s]];
+                    let brought = along(line, answer, &blown(given, bodies[s], answer)?, s);
+                    line.right = line.right.plus(&signed(brought, s == 0));
+                }
             }
-            *free.next()? = Some(line);
         }
     }
-    // Each joint has as many components as were counted.
-    let mut filled = slots.iter().flatten();
-    let first = *filled.next()?;
-    let mut all = [first; K];
-    for (slot, line) in all.iter_mut().zip(&slots) {
-        *slot = (*line)?;
-    }
-    Some(all)
+    Some(())
 }
 
 /// Velocity along a component that blows have brought to one of its sides.
-fn along<I: Entry>(line: &Line<I>, answer: &Answer, change: &[Ball; 3], side: usize) -> Ball {
+fn along<I: Entry>(line: &Line<I>, answer: &Answer, change: &Change, side: usize) -> Ball {
+    let n = line.normal;
     let push = match line.axis {
         Axis::X => change[0],
         Axis::Y => change[1],
-        Axis::Normal => line.normal[0]
-            .of(change[0])
-            .plus(&line.normal[1].of(change[1])),
+        Axis::Normal => n[0].of(change[0]).plus(&n[1].of(change[1])),
     };
     push.times(&answer.mass)
         .plus(&change[2].times(&line.lever[side]))
 }
 
 /// W, the upper half.
-#[inline]
+#[inline(always)]
 fn coupling<I: Entry, const K: usize>(
     lines: &[Line<I>; K],
     answers: &[Answer; BODIES],
 ) -> [[Ball; K]; K] {
     let mut w = [[Ball::default(); K]; K];
-    for (k, one) in lines.iter().enumerate() {
-        for (l, two) in lines.iter().enumerate().skip(k) {
-            let (mut masses, mut turning) = (Ball::default(), Ball::default());
-            for s in 0..2 {
-                for t in 0..2 {
-                    if one.bodies[s] != two.bodies[t] {
-                        continue;
-                    }
-                    let mass = answers[one.bodies[s]].mass;
-                    let turn = one.turn[s].times(&two.lever[t]);
-                    let signed = |v: Ball| if s == t { v } else { v.negated() };
-                    masses = sum(masses, signed(mass));
-                    turning = sum(turning, signed(turn));
-                }
-            }
-            let masses = match (one.axis, two.axis) {
-                (Axis::X, Axis::X) | (Axis::Y, Axis::Y) => masses,
-                (Axis::X, Axis::Y) | (Axis::Y, Axis::X) => Ball::default(),
-                (Axis::X, Axis::Normal) => two.normal[0].of(masses),
-                (Axis::Y, Axis::Normal) => two.normal[1].of(masses),
-                (Axis::Normal, Axis::X) => one.normal[0].of(masses),
-                (Axis::Normal, Axis::Y) => one.normal[1].of(masses),
-                (Axis::Normal, Axis::Normal) => {
-                    let [x, y] = [0, 1].map(|i| one.normal[i].product(two.normal[i]));
-                    masses.times(&x.plus(&y))
-                }
-            };
-            w[k][l] = sum(masses, turning);
+    for k in 0..K {
+        for l in k..K {
+            w[k][l] = response(&lines[k], &lines[l], answers);
         }
     }
     w
 }
 
-#[inline]
+/// The velocity along one component that a unit impulse along another brings.
+#[inline(always)]
+fn response<I: Entry>(one: &Line<I>, two: &Line<I>, answers: &[Answer; BODIES]) -> Ball {
+    let mass = |s: usize| answers[one.bodies[s]].mass;
+    let turn = |s: usize, t: usize| one.turn[s].times(&two.lever[t]);
+    let (masses, turning) = if one.bodies == two.bodies {
+        (mass(0).plus(&mass(1)), turn(0, 0).plus(&turn(1, 1)))
+    } else {
+        let (mut masses, mut turning) = (Ball::default(), Ball::default());
+        for s in 0..2 {
+            for t in (0..2).filter(|t| one.bodies[s] == two.bodies[*t]) {
+                masses = sum(masses, signed(mass(s), s == t));
+                turning = sum(turning, signed(turn(s, t), s == t));
+            }
+        }
+        (masses, turning)
+    };
+    let (n, m) = (one.normal, two.normal);
+    let masses = match (one.axis, two.axis) {
+        (Axis::X, Axis::X) | (Axis::Y, Axis::Y) => masses,
+        (Axis::X, Axis::Y) | (Axis::Y, Axis::X) => Ball::default(),
+        (Axis::X, Axis::Normal) => m[0].of(masses),
+        (Axis::Y, Axis::Normal) => m[1].of(masses),
+        (Axis::Normal, Axis::X) => n[0].of(masses),
+        (Axis::Normal, Axis::Y) => n[1].of(masses),
+        (Axis::Normal, Axis::Normal) => masses.times(&n[0].product(m[0]).plus(&n[1].product(m[1]))),
+    };
+    sum(masses, turning)
+}
+
+/// The sum, as exact as can be where one of them is nothing.
+#[inline(always)]
 fn sum(a: Ball, b: Ball) -> Ball {
-    match (Number::is_zero(&a), Number::is_zero(&b)) {
-        (true, _) => b,
-        (_, true) => a,
-        _ => a.plus(&b),
+    match Number::is_zero(&a) {
+        true => b,
+        false => a.plus(&b),
     }
 }
 
 /// The impulses: elimination down the diagonal, then back.
-#[inline]
+#[inline(always)]
 fn eliminate<I: Entry, const K: usize>(
     mut w: [[Ball; K]; K],
     lines: &[Line<I>; K],
 ) -> Option<[Ball; K]> {
     let mut right = [Ball::default(); K];
-    for (right, line) in right.iter_mut().zip(lines) {
-        *right = line.right;
+    for k in 0..K {
+        right[k] = lines[k].right;
     }
     let mut inverses = [Ball::default(); K];
     for p in 0..K {
-        let row = w[p];
-        inverses[p] = row[p].recip()?;
+        inverses[p] = w[p][p].recip()?;
         for r in p + 1..K {
-            if Number::is_zero(&row[r]) {
+            if Number::is_zero(&w[p][r]) {
                 continue;
             }
-            let factor = row[r].times(&inverses[p]).negated();
+            let factor = w[p][r].times(&inverses[p]).negated();
             for c in r..K {
-                if !Number::is_zero(&row[c]) {
-                    w[r][c] = sum(w[r][c], factor.times(&row[c]));
+                if !Number::is_zero(&w[p][c]) {
+                    w[r][c] = sum(w[r][c], factor.times(&w[p][c]));
                 }
             }
             right[r] = sum(right[r], factor.times(&right[p]));
@@ -371,22 +471,12 @@ fn eliminate<I: Entry, const K: usize>(
     Some(right)
 }
 
-/// Adds the impulse of a component to what each of its bodies receives.
-#[inline]
-fn push<I: Entry>(line: &Line<I>, impulse: &Ball, change: &mut [[Ball; 3]; BODIES]) {
-    let none = Ball::default();
-    let [x, y] = match line.axis {
-        Axis::X => [*impulse, none],
-        Axis::Y => [none, *impulse],
-        Axis::Normal => line.normal.map(|n| n.of(*impulse)),
-    };
-    for (s, &body) in line.bodies.iter().enumerate() {
-        let all = [x, y, line.turn[s].times(impulse)];
-        let signed = if s == 0 {
-            all.map(|v| v.negated())
-        } else {
-            all
-        };
-        add(&mut change[body], signed);
+/// The impulse of a component along x and y.
+#[inline(always)]
+fn push<I: Entry>(line: &Line<I>, impulse: Ball) -> [Ball; 2] {
+    match line.axis {
+        Axis::X => [impulse, Ball::default()],
+        Axis::Y => [Ball::default(), impulse],
+        Axis::Normal => [line.normal[0].of(impulse), line.normal[1].of(impulse)],
     }
 }

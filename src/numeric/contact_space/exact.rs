@@ -199,6 +199,15 @@ fn impulses<const N: usize>(
     match cells.as_slice() {
         [] => Some((Vec::new(), Number::one())),
         [w, right] => Some((vec![*right], *w)),
+        [a, b, p, c, d, q] => {
+            let cross = |a: &Dyadic<N>, d: &Dyadic<N>, b: &Dyadic<N>, c: &Dyadic<N>| {
+                a.times(d).minus(&b.times(c))
+            };
+            Some((
+                vec![cross(p, d, b, q), cross(a, q, p, c)],
+                cross(a, d, b, c),
+            ))
+        }
         _ => match cramer(cells, lines.len(), lines.len())? {
             Cramer::Solved {
                 numerators,

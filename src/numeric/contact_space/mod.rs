@@ -11,19 +11,18 @@ mod exact;
 pub use balls::{Entry, enclosures};
 pub use exact::nearest_doubles;
 
-use super::given::{Freedom, Given, GivenImpulse, GivenLaw};
+use super::given::{Given, GivenImpulse, GivenLaw};
 
 /// Most impulse components.
 const LINES: usize = 8;
 /// Most bodies.
 const BODIES: usize = 8;
-/// Most unknowns.
-pub const MOST_UNKNOWNS: usize = 3 * BODIES + LINES;
 
 /// Along what a component of an impulse acts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Axis {
     /// x, to the right.
+    #[default]
     X,
     /// y, up.
     Y,
@@ -78,14 +77,4 @@ fn lines<T>(given: &Given<T>) -> Option<usize> {
         };
     }
     (fits && count <= LINES).then_some(count)
-}
-
-/// How many unknowns the full system has.
-fn unknowns<T>(given: &Given<T>, lines: usize) -> usize {
-    let of = |freedom: Freedom| match freedom {
-        Freedom::Fixed => 0,
-        Freedom::Particle => 2,
-        Freedom::Rigid => 3,
-    };
-    given.bodies.iter().map(|b| of(b.freedom)).sum::<usize>() + lines
 }

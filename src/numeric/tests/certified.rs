@@ -53,7 +53,7 @@ proptest! {
             for (ball, right) in balls.iter().zip(&truth.values) {
                 let middle = from_f64(ball.middle.high).expect("finite") + from_f64(ball.middle.low).expect("finite");
                 let gap = num_traits::Signed::abs(&(middle - right));
-                prop_assert!(gap <= from_f64(ball.error).expect("finite"), "{:?} {}", ball, to_f64(&gap));
+                prop_assert!(gap <= from_f64(ball.radius()).expect("finite"), "{:?} {}", ball, to_f64(&gap));
             }
         }
         if let Some(values) = solve_dyadic(&given) {
@@ -119,6 +119,140 @@ fn hits(bodies: [[f64; 7]; 2], normal: [f64; 2], law: GivenLaw<f64>) -> Given<f6
         contacts,
         blows: vec![],
         known: vec![],
+    }
+}
+
+/// A number whose size is anything within so many decades, sometimes plain, sometimes nothing at all.
+fn wild(dice: &mut super::random::Dice, decades: u64, zero: bool) -> f64 {
+    let plain = [1.0, 0.5, 2.0, 0.6, 0.8, -1.0, 3.0];
+    match dice.below(8) {
+        0 if zero => 0.0,
+        1 | 2 => plain[dice.below(if zero { 7 } else { 5 }) as usize],
+        _ => {
+            let digits = 1.0 + dice.below(1 << 31) as f64 / (1u64 << 31) as f64;
+            let power = dice.below(2 * decades + 1) as i32 - decades as i32;
+            let sign = if zero && dice.below(2) == 0 {
+                -1.0
+            } else {
+                1.0
+            };
+            sign * (digits + dice.below(1 << 20) as f64 * 2f64.powi(-51)) * 10f64.powi(power)
+        }
+    }
+}
+
+/// Two or three bodies of any sizes, touching and hinged in any way.
+fn wild_scene(seed: u64, decades: u64) -> Given<f64> {
+    let dice = &mut super::random::Dice::new(seed);
+    let count = 2 + dice.below(2) as usize;
+    let bodies = (0..count).map(|i| GivenBody {
+        freedom: match dice.below(6) {
+            0 if i == 0 => crate::numeric::given::Freedom::Fixed,
+            1 => crate::numeric::given::Freedom::Particle,
+            _ => crate::numeric::given::Freedom::Rigid,
+        },
+        mass: wild(dice, decades, false),
+        inertia: wild(dice, decades, false),
+        center: [wild(dice, decades, true), wild(dice, decades, true)],
+        velocity: [wild(dice, decades, true), wild(dice, decades, true)],
+        spin: wild(dice, decades, true),
+    });
+    let bodies: Vec<_> = bodies.collect();
+    let mut hinges = Vec::new();
+    let mut contacts = Vec::new();
+    for two in 1..count {
+        let at = [wild(dice, decades, true), wild(dice, decades, true)];
+        let joint = Joint {
+            bodies: [dice.below(two as u64) as usize, two],
+            at,
+        };
+        let normals = [[1.0, 0.0], [0.0, -1.0], [0.6, 0.8], [-0.28, 0.96]];
+        let law = match dice.below(4) {
+            0 => {
+                hinges.push(joint);
+                continue;
+            }
+            1 => GivenLaw::Sticking,
+            2 => GivenLaw::Frictionless(1.0),
+            _ => GivenLaw::Frictionless(wild(dice, decades, false)),
+        };
+        let normal = Some(normals[dice.below(4) as usize]);
+        contacts.push(GivenContact { joint, normal, law });
+    }
+    let blows = match dice.below(4) {
+        0 => vec![crate::numeric::given::GivenBlow {
+            body: count - 1,
+            at: [wild(dice, decades, true), 0.5],
+            impulse: crate::numeric::given::GivenImpulse::Whole([wild(dice, decades, true), 1.5]),
+        }],
+        _ => vec![],
+    };
+    Given {
+        bodies,
+        hinges,
+        contacts,
+        blows,
+        known: vec![],
+    }
+}
+
+/// Every unknown certified to be the nearest double, and every enclosure around the truth.
+fn hold(given: &Given<f64>) {
+    let Some(truth) = truth(given) else { return };
+    let found = certify(given).expect("certified");
+    assert_eq!(found.unknowns, assemble(given).unknowns);
+    assert_eq!(found.solution.unique, truth.unique);
+    let unique = || {
+        truth
+            .unique
+            .iter()
+            .enumerate()
+            .filter(|(_, u)| **u)
+            .map(|(i, _)| i)
+    };
+    for i in unique() {
+        let (value, right) = (found.solution.values[i], to_f64(&truth.values[i]));
+        assert_eq!(
+            value, right,
+            "{:?} by {:?}: {given:?}",
+            found.unknowns[i], found.tiers[i]
+        );
+    }
+    let mut balls = Vec::new();
+    if contact_space::enclosures(given, |ball| balls.push(ball)).is_some() && truth.is_determined()
+    {
+        let converted = given.map(|v| Ball::exact(*v));
+        let mut others = Vec::new();
+        contact_space::enclosures(&converted, |ball| others.push(ball)).expect("the same scene");
+        assert_eq!(balls.len(), truth.values.len());
+        for (i, right) in truth.values.iter().enumerate() {
+            assert_holds(&balls[i], right);
+            assert_holds(&others[i], right);
+        }
+    }
+    if let Some(values) = solve_dyadic(given) {
+        assert!(truth.is_determined());
+        for (value, right) in values.iter().zip(&truth.values) {
+            assert_eq!(*value, to_f64(right), "{given:?}");
+        }
+    }
+}
+
+fn assert_holds(ball: &Ball, right: &Rational) {
+    let (Some(high), Some(low)) = (from_f64(ball.middle.high), from_f64(ball.middle.low)) else {
+        return;
+    };
+    let gap = num_traits::Signed::abs(&(high + low - right));
+    let holds = from_f64(ball.radius()).is_none_or(|radius| gap <= radius);
+    assert!(holds, "{ball:?} misses by {:e}", to_f64(&gap));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn scenes_of_any_sizes_are_certified(seed: u64, decades in 0usize..4) {
+        hold(&wild_scene(seed, [0, 3, 30, 120][decades]));
     }
 }
 
