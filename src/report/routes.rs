@@ -9,14 +9,16 @@ use serde::Serialize;
 use super::reduced;
 use crate::derive::{Derivation, Form};
 use crate::emit::{Atoms, Program, arranged, as_derived, signs, without_angles};
-use crate::expr::number::to_f64;
+use crate::expr::number::{from_f64, to_f64};
 use crate::expr::{Expr, Point, Rational, Scalar, Symbol};
 use crate::numeric::ball::Ball;
+use crate::numeric::contact_space::enclosures;
 use crate::numeric::dd::Dd;
 use crate::numeric::solution::Solution;
+use crate::numeric::system::unknowns;
 use crate::numeric::{
     Answer, Given, Motion, Number, System, answer, assemble, eliminate, given, lu_scaled, motion,
-    rounded, solve_exact,
+    rounded, solve_dyadic, solve_exact,
 };
 use crate::scene::{Ask, EnergyWhen, Scene};
 
@@ -42,13 +44,15 @@ pub enum Route {
     DoubleDouble,
     /// Double-doubles with bounds, exact fractions where those cannot tell: correctly rounded.
     Certified,
+    /// Integers times powers of two, where the scene's numbers are doubles to begin with.
+    ExactIntegers,
     /// Exact fractions.
     Exact,
 }
 
 impl Route {
     /// Every route.
-    pub const ALL: [Route; 10] = [
+    pub const ALL: [Route; 11] = [
         Route::ClosedForm,
         Route::Arranged,
         Route::AboutJoints,
@@ -58,6 +62,7 @@ impl Route {
         Route::LuRefined,
         Route::DoubleDouble,
         Route::Certified,
+        Route::ExactIntegers,
         Route::Exact,
     ];
 
@@ -73,6 +78,7 @@ impl Route {
             Route::LuRefined => "full system, LU refined",
             Route::DoubleDouble => "double-double",
             Route::Certified => "certified",
+            Route::ExactIntegers => "exact integers",
             Route::Exact => "exact fractions",
         }
     }
@@ -89,6 +95,7 @@ impl Route {
             Route::LuRefined => "LU refined",
             Route::DoubleDouble => "double-double",
             Route::Certified => "certified",
+            Route::ExactIntegers => "integers",
             Route::Exact => "exact",
         }
     }
@@ -97,7 +104,11 @@ impl Route {
     pub fn is_plain(self) -> bool {
         !matches!(
             self,
-            Route::Arranged | Route::DoubleDouble | Route::Certified | Route::Exact
+            Route::Arranged
+                | Route::DoubleDouble
+                | Route::Certified
+                | Route::ExactIntegers
+                | Route::Exact
         )
     }
 }
@@ -170,6 +181,8 @@ pub struct Place {
     pub near: Point<f64>,
     /// The scene in numbers.
     pub given: Given<f64>,
+    /// Whether these doubles are the exact numbers.
+    is_double: bool,
     inputs: Vec<f64>,
 }
 
@@ -197,7 +210,16 @@ impl<'a> Prepared<'a> {
     /// A point in all number types; `None` where the scene has no numbers there.
     pub fn place(&self, exact: &Point<Rational>) -> Option<Place> {
         let near = rounded(exact);
-        let given = given(self.scene, &near).ok()?;
+        let numbers = given(self.scene, &near).ok()?;
+        let is_double = given(self.scene, exact).is_ok_and(|exact| {
+            let mut finite = true;
+            let doubles = numbers.map(|v| {
+                let exact = from_f64(*v);
+                finite &= exact.is_some();
+                exact.unwrap_or_default()
+            });
+            finite && doubles == exact
+        });
         let inputs = match &self.forms {
             Some(forms) => forms
                 .inputs
@@ -213,7 +235,8 @@ impl<'a> Prepared<'a> {
         Some(Place {
             exact: exact.clone(),
             near,
-            given,
+            given: numbers,
+            is_double,
             inputs,
         })
     }
@@ -274,6 +297,7 @@ impl<'a> Prepared<'a> {
                 let numbers = given(self.scene, &wide).ok()?;
                 self.certified(at, &wide, &numbers)
             }
+            Route::ExactIntegers => at.is_double.then(|| self.by_integers(at))?,
             Route::Exact => {
                 let values = self.truth(&at.exact)?.iter().map(to_f64).collect();
                 Some(Found {
@@ -357,11 +381,27 @@ impl<'a> Prepared<'a> {
         })
     }
 
+    /// Exact unknowns, each rounded once; what is asked of them in doubles.
+    fn by_integers(&self, at: &Place) -> Option<Found> {
+        let values = solve_dyadic(&at.given)?;
+        let motion = motion(&at.given, &named(&at.given), &unique(values));
+        Some(self.of_motion(at, motion))
+    }
+
     fn certified(&self, at: &Place, wide: &Point<Ball>, numbers: &Given<Ball>) -> Option<Found> {
-        let system = assemble(numbers);
-        let balls = eliminate(&system).and_then(|values| {
-            self.flat(wide, numbers, &motion(numbers, &system, &unique(values)))
-        });
+        let mut values = Vec::with_capacity(16);
+        let system = match enclosures(numbers, |ball| values.push(ball)) {
+            Some(()) => named(numbers),
+            None => {
+                let system = assemble(numbers);
+                values = eliminate(&system).unwrap_or_default();
+                system
+            }
+        };
+        let complete = values.len() == system.unknowns.len();
+        let balls = complete
+            .then(|| self.flat(wide, numbers, &motion(numbers, &system, &unique(values))))
+            .flatten();
         let rounded = balls.and_then(|v| v.iter().map(Ball::rounded).collect::<Option<Vec<f64>>>());
         let values = match rounded {
             Some(values) => values,
@@ -393,6 +433,18 @@ impl<'a> Prepared<'a> {
         }
         Some(out)
     }
+}
+
+/// The names of the unknowns, with no equations.
+fn named<T>(given: &Given<T>) -> System<T> {
+    let mut system = System {
+        unknowns: Vec::with_capacity(16),
+        laws: Vec::new(),
+        matrix: Vec::new(),
+        right: Vec::new(),
+    };
+    unknowns(given, &mut system.unknowns);
+    system
 }
 
 /// The unknowns of the full system by nalgebra's LU.

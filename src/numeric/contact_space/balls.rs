@@ -259,8 +259,8 @@ fn solve<I: Entry, const K: usize>(given: &Given<I>, each: &mut impl FnMut(Ball)
                 }
             }
         }
-        for i in 0..2 {
-            each(body.velocity[i].and(change[i].times(&answers[b].mass)));
+        for (before, push) in body.velocity.iter().zip(&change) {
+            each(before.and(push.times(&answers[b].mass)));
         }
         if body.freedom == Freedom::Rigid {
             each(body.spin.and(change[2]));
@@ -297,8 +297,8 @@ fn arm<I: Entry>(body: &GivenBody<I>, at: &[I; 2]) -> [Ball; 2] {
 /// Adds what a body receives on the second side of a joint, takes it away on the first.
 #[inline(always)]
 fn add(change: &mut Change, by: Change, second: bool) {
-    for i in 0..3 {
-        change[i] = sum(change[i], signed(by[i], second));
+    for (change, by) in change.iter_mut().zip(by) {
+        *change = sum(*change, signed(by, second));
     }
 }
 
@@ -454,9 +454,10 @@ fn eliminate<I: Entry, const K: usize>(
                 continue;
             }
             let factor = w[p][r].times(&inverses[p]).negated();
-            for c in r..K {
-                if !Number::is_zero(&w[p][c]) {
-                    w[r][c] = sum(w[r][c], factor.times(&w[p][c]));
+            let line = w[p];
+            for (cell, above) in w[r].iter_mut().zip(&line).skip(r) {
+                if !Number::is_zero(above) {
+                    *cell = sum(*cell, factor.times(above));
                 }
             }
             right[r] = sum(right[r], factor.times(&right[p]));
