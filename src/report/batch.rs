@@ -32,6 +32,10 @@ enum Op {
     /// 1 where the operand has a value: x⁰.
     One(u32),
     Pow(u32, u32),
+    /// A fraction with odd denominator and odd numerator for exponent: real and odd for every base but 0.
+    OddRoot(u32, u32),
+    /// The same with even numerator: real and even.
+    EvenRoot(u32, u32),
     Call(Function, u32),
 }
 
@@ -83,6 +87,8 @@ impl Program {
                 Op::Sqrt(a) => at(a).sqrt(),
                 Op::One(a) => one(at(a)),
                 Op::Pow(a, b) => pow(at(a), at(b)),
+                Op::OddRoot(a, b) => odd_root(at(a), at(b)),
+                Op::EvenRoot(a, b) => pow(at(a).abs(), at(b)),
                 Op::Call(f, a) => call(f, at(a)),
             };
         }
@@ -152,6 +158,10 @@ fn apply(op: Op, before: &[[f64; LANES]], out: &mut [f64; LANES]) {
         Op::Sub(a, b) => binary(out, &before[a as usize], &before[b as usize], |x, y| x - y),
         Op::Mul(a, b) => binary(out, &before[a as usize], &before[b as usize], |x, y| x * y),
         Op::Pow(a, b) => binary(out, &before[a as usize], &before[b as usize], pow),
+        Op::OddRoot(a, b) => binary(out, &before[a as usize], &before[b as usize], odd_root),
+        Op::EvenRoot(a, b) => binary(out, &before[a as usize], &before[b as usize], |x, y| {
+            pow(x.abs(), y)
+        }),
         Op::Neg(a) => binary(out, &before[a as usize], &before[a as usize], |x, _| -x),
         Op::Recip(a) => binary(out, &before[a as usize], &before[a as usize], |x, _| {
             recip(x)
@@ -187,6 +197,10 @@ fn pow(x: f64, y: f64) -> f64 {
     } else {
         f64::NAN
     }
+}
+
+fn odd_root(x: f64, y: f64) -> f64 {
+    if x < 0.0 { -pow(-x, y) } else { pow(x, y) }
 }
 
 fn call(function: Function, x: f64) -> f64 {

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use num_integer::Integer;
 use num_traits::{One, Zero};
 
 use super::{Op, Program};
@@ -196,7 +197,11 @@ impl Compiler<'_> {
             .map(|k| k * Rational::from(Int::from(2)));
         let Some(twice) = twice.filter(Rational::is_integer) else {
             let y = self.expression(exponent);
-            return self.made(Op::Pow(x, y));
+            return self.made(match exponent.as_number() {
+                Some(k) if k.denom().is_odd() && k.numer().is_odd() => Op::OddRoot(x, y),
+                Some(k) if k.denom().is_odd() => Op::EvenRoot(x, y),
+                _ => Op::Pow(x, y),
+            });
         };
         let Some(n) = twice.numer().as_i64() else {
             return self.constant(f64::NAN);
@@ -277,7 +282,12 @@ impl Compiler<'_> {
 
 fn operands(op: Op) -> [Option<u32>; 2] {
     match op {
-        Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Pow(a, b) => [Some(a), Some(b)],
+        Op::Add(a, b)
+        | Op::Sub(a, b)
+        | Op::Mul(a, b)
+        | Op::Pow(a, b)
+        | Op::OddRoot(a, b)
+        | Op::EvenRoot(a, b) => [Some(a), Some(b)],
         Op::Neg(a) | Op::Recip(a) | Op::Sqrt(a) | Op::One(a) | Op::Call(_, a) => [Some(a), None],
     }
 }
@@ -289,6 +299,8 @@ fn renumbered(op: Op, slot: &[u32]) -> Op {
         Op::Sub(a, b) => Op::Sub(at(a), at(b)),
         Op::Mul(a, b) => Op::Mul(at(a), at(b)),
         Op::Pow(a, b) => Op::Pow(at(a), at(b)),
+        Op::OddRoot(a, b) => Op::OddRoot(at(a), at(b)),
+        Op::EvenRoot(a, b) => Op::EvenRoot(at(a), at(b)),
         Op::Neg(a) => Op::Neg(at(a)),
         Op::Recip(a) => Op::Recip(at(a)),
         Op::Sqrt(a) => Op::Sqrt(at(a)),
