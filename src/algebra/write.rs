@@ -140,13 +140,18 @@ impl Field {
         // 1/√2 is written √2/2, and numbers stand in front.
         let numeric = rooted.iter().all(|f| f.rank == Rank::Number);
         let all_below = !numeric && rooted.iter().all(|f| f.power.is_negative());
-        let mut whole = Vec::new();
+        let mut rest = rest;
         let mut inside = Vec::new();
         for f in rooted {
             let below = f.power.is_negative() && !numeric;
             let half = ratio(if below { -1 } else { 1 }, 2);
             if f.power != half {
-                whole.push(f.base.power(Expr::from(&f.power - &half)));
+                rest.push(Factor {
+                    rank: f.rank,
+                    base: f.base.clone(),
+                    power: &f.power - &half,
+                    under_root: None,
+                });
             }
             inside.push(if below && !all_below {
                 f.base.powi(-1)
@@ -158,7 +163,7 @@ impl Field {
             // Nothing above: 1/√(ab).
             Expr::product(inside).power(Expr::ratio(if all_below { -1 } else { 1 }, 2))
         });
-        out.extend(whole);
+        rest.sort_by(|a, b| (a.rank, &a.base).cmp(&(b.rank, &b.base)));
         if numeric {
             out.extend(root);
             out.extend(rest.into_iter().map(Factor::written));

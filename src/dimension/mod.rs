@@ -90,7 +90,7 @@ impl Dimension {
         self.spell(["kg", "m", "s"], " ", superscript)
     }
 
-    /// The SI unit as a person says it of the quantities of a collision: rad/s, N s and J where they fit, else as [`si`].
+    /// The SI unit as a person says it of the quantities of a collision: rad/s, N s, N and J where they fit, else as [`si`].
     ///
     /// [`si`]: Dimension::si
     pub fn spoken(&self) -> String {
@@ -98,6 +98,7 @@ impl Dimension {
         match si.as_str() {
             "1/s" => String::from("rad/s"),
             "kg m/s" => String::from("N s"),
+            "kg m/s²" => String::from("N"),
             "kg m²/s²" => String::from("J"),
             _ => si,
         }

@@ -72,11 +72,7 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
         if !is_asked(q) || is_motion(q) {
             continue;
         }
-        let symbols = base.symbols.extended(names.iter().map(String::as_str));
-        let ask = ask(base, &symbols, name, q);
-        for used in symbols.used() {
-            base.symbols.mark_used(&used);
-        }
+        let ask = with_names(base, &names, |base, symbols| ask(base, symbols, name, q));
         if let Some(ask) = ask {
             scene.special.push(StoryQuestion {
                 name: name.text.clone(),
@@ -88,6 +84,34 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
             names.push(format!("{}{suffix}", name.text));
         }
     }
+}
+
+/// Reads a question with the names of earlier answers beside the parameters.
+pub(super) fn with_names<T>(
+    base: &mut Resolver<'_>,
+    names: &[String],
+    read: impl FnOnce(&mut Resolver<'_>, &Symbols) -> Option<T>,
+) -> Option<T> {
+    let earlier = base.faults.len();
+    let symbols = base.symbols.extended(names.iter().map(String::as_str));
+    let found = read(base, &symbols);
+    for used in symbols.used() {
+        base.symbols.mark_used(&used);
+    }
+    let questions = base.file.questions.iter().flat_map(|m| &m.0);
+    for (name, _) in questions {
+        let open = format!("`{}` is not declared", name.text);
+        for fault in base.faults[earlier..]
+            .iter_mut()
+            .filter(|f| f.message == open)
+        {
+            fault.hint = Some(format!(
+                "`{}` is asked further down; a formula takes answers to questions above it",
+                name.text
+            ));
+        }
+    }
+    found
 }
 
 /// Names under which the answer to a question about motion stands in formulas.

@@ -7,7 +7,7 @@ use super::asked::{self, answered, full_sentence, known};
 use super::words::{self, name, say};
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Scope, Slot, Solution, Writer};
 use crate::derive::Derivation;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Node, Symbol};
 use crate::scene::{Ask, Question, Scene, Stage, StageKind, Story, StoryAsk};
 use crate::story::{Answer, Case, Sentence, StageTold, Told};
 
@@ -276,7 +276,7 @@ impl Page<'_> {
         let chain = |head: Vec<Math>, raw: &Expr, value: &Expr| {
             let mut math = head;
             math.push(Math::Op("="));
-            if raw != value {
+            if !alike(raw, value) {
                 math.extend([Math::Expr(raw.clone()), Math::Op("=")]);
             }
             math.push(Math::Expr(value.clone()));
@@ -562,4 +562,14 @@ fn visible(case: &Case, _number: Option<usize>) -> (Scene, Derivation) {
         .questions
         .retain(|q| !q.name.starts_with(HIDDEN) || (!asked && has_block(q)));
     (scene, derivation)
+}
+
+/// Whether two formulas are one product, whatever the order of its factors.
+fn alike(a: &Expr, b: &Expr) -> bool {
+    match (a.node(), b.node()) {
+        (Node::Product(x), Node::Product(y)) => {
+            x.len() == y.len() && x.iter().all(|f| y.contains(f))
+        }
+        _ => a == b,
+    }
 }

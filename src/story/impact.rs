@@ -389,7 +389,13 @@ fn kept(scene: &Scene, one_sided: &[OneSided], cases: &[Case]) -> Vec<Kept> {
         _ => Kept {
             what: "momentum".into(),
             conserved: false,
-            why: sentence!["an impulse from outside acts at ", names.join(", ")],
+            why: match names.as_slice() {
+                [one] => sentence!["an impulse from outside acts at ", one],
+                several => {
+                    let all: Vec<Sentence> = several.iter().map(Sentence::from).collect();
+                    sentence!["impulses from outside act at ", super::special::list(&all)]
+                }
+            },
         },
     });
     if let [(name, _)] = outside.as_slice() {

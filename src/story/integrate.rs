@@ -8,13 +8,16 @@ use std::collections::BTreeSet;
 use super::StageTold;
 use crate::domain::{Domains, Limit};
 use crate::expr::{Expr, Point, Symbol, Vector};
-use crate::scene::{Fall, Stage, Turn, Until, Wind};
+use crate::scene::{Fall, Slide, Stage, Turn, Until, Wind};
 use crate::verify::Check;
 
 /// Points at which motions are integrated.
 const POINTS: u64 = 3;
 /// Relative difference that counts as agreement; the integrator works to 1e-12.
 const CLOSE: f64 = 1e-7;
+
+/// Angle at which a motion out of balance is taken up; what weight does until there is of the order of its square.
+const NUDGE: f64 = 1e-6;
 
 /// Points of the domain in doubles for some expressions: every symbol at its own golden fraction of the interval, the same
 /// on every machine.
@@ -87,6 +90,11 @@ pub(super) fn turn(stage: &Stage, told: &StageTold, turn: &Turn, way: i64) -> Ve
     let all = [
         &r[0], &r[1], &r_end[0], &r_end[1], &inertia, &body.mass, g, torque, &by, begin, end,
     ];
+    // Out of balance the motion begins a little way on, where it would have got by an even smaller push.
+    let nudge = match super::motion::is_balanced(stage, turn, begin, &r) {
+        true => NUDGE,
+        false => 0.0,
+    };
     let (mut worst, mut count) = (0.0f64, 0);
     for point in points(stage, &all, 4 * POINTS) {
         let value = |e: &Expr| e.evaluate(&point);
@@ -101,14 +109,15 @@ pub(super) fn turn(stage: &Stage, told: &StageTold, turn: &Turn, way: i64) -> Ve
                 .atan2(v[0] * v[2] + v[1] * v[3])
                 .rem_euclid(std::f64::consts::TAU),
         };
+        let (s, c) = (way * nudge).sin_cos();
         let motion = Rotation {
-            r: [v[0], v[1]],
+            r: [v[0] * c - v[1] * s, v[0] * s + v[1] * c],
             inertia: v[4],
             weight: v[5] * v[6],
             torque: v[7],
             way,
         };
-        let Some(speed) = motion.speed_at(angle, way * v[9]) else {
+        let Some(speed) = motion.speed_at(angle - nudge, way * v[9]) else {
             continue;
         };
         let expected = way * v[10];
@@ -387,6 +396,56 @@ pub(super) fn share(
         count += 1;
     }
     check(worst, count, "what the spring takes")
+}
+
+/// Motion along a line under constant forces, until the distance is covered.
+pub(super) fn slide(stage: &Stage, told: &StageTold, slide: &Slide) -> Vec<Check> {
+    if slide.gravity.is_none() && slide.force.is_none() {
+        return Vec::new();
+    }
+    let along = |v: &Vector| crate::expr::dot(v, &slide.along);
+    let begin = along(&told.before.velocity[slide.body]);
+    let end = along(&told.after.velocity[slide.body]);
+    let mass = &stage.scene.bodies[slide.body].mass;
+    let zero = Expr::zero();
+    let g = slide.gravity.as_ref().unwrap_or(&zero);
+    let force = slide.force.as_ref().unwrap_or(&zero);
+    let all = [
+        mass,
+        g,
+        force,
+        &slide.along[1],
+        &slide.distance,
+        &begin,
+        &end,
+    ];
+    let (mut worst, mut count) = (0.0f64, 0);
+    for point in points(stage, &all, 4 * POINTS) {
+        let values: Option<Vec<f64>> = all.iter().map(|e| e.evaluate(&point)).collect();
+        let Some(&[mass, g, force, up, distance, begin, end]) = values.as_deref() else {
+            continue;
+        };
+        // A rotation with constant moment is the same equation.
+        let motion = Rotation {
+            r: [0.0, 0.0],
+            inertia: mass,
+            weight: 0.0,
+            torque: force - mass * g * up,
+            way: 1.0,
+        };
+        if begin < 0.0 || distance < 0.0 {
+            continue;
+        }
+        let Some(speed) = motion.speed_at(distance, begin) else {
+            continue;
+        };
+        worst = worst.max((speed - end).abs() / end.abs().max(1e-9));
+        count += 1;
+        if count as u64 == POINTS {
+            break;
+        }
+    }
+    vec![check(worst, count, "speed at the end")]
 }
 
 /// Free fall: y″ = −g, until the height is fallen through.

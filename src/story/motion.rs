@@ -195,6 +195,13 @@ pub(super) fn turn(stage: &Stage, mut before: State, turn: &Turn) -> Result<Stag
     let (way, assumed) = sense(stage, &spin, turn)?;
     let mut assumptions: Vec<Sentence> =
         hurdle(stage, turn, &r, &start, way)?.into_iter().collect();
+    if is_balanced(stage, turn, &spin, &r) {
+        assumptions.push(sentence![
+            "a small push sets `",
+            &body.name,
+            "` going: at rest and in balance it could stay"
+        ]);
+    }
     if let Until::By(by) = &turn.until {
         // Where bodies are at the end was put in before anything was known of their motion.
         if way < 0 && turn.clockwise.is_none() {
@@ -279,14 +286,8 @@ pub(super) fn turn(stage: &Stage, mut before: State, turn: &Turn) -> Result<Stag
     out.work = parts;
     out.kinetic = Some(half(&(&inertia * &out.after.spin[turn.body].powi(2))));
     out.energy = Some([start, end.clone()]);
-    if !matches!(reaches, Seen::Proved(s) if s.is_not_negative()) && !work.is_zero() {
-        assumptions.push(sentence![
-            "for what is told of the end of `",
-            &stage.name,
-            "`: ",
-            &super::calc::essential(&end, domains),
-            " ≥ 0, so that it gets there"
-        ]);
+    if !work.is_zero() {
+        assumptions.extend(arrival(stage, &end, reaches));
     }
     out.assumptions = assumptions;
     out.checks.extend(integrate::turn(stage, &out, turn, way));
@@ -435,7 +436,25 @@ pub(super) fn slide(stage: &Stage, before: State, slide: &Slide) -> Result<Stage
             "an impact before it may stop what does not fit",
         ));
     }
-    let speed = dot(v, &slide.along);
+    let speed = tidied(stage, &dot(v, &slide.along))?;
+    let mut assumptions = Vec::new();
+    for (what, size) in [("speed", &speed), ("distance", &slide.distance)] {
+        match sign(size, domains) {
+            Seen::Proved(s) if s.is_not_negative() => {}
+            Seen::Proved(_) | Seen::Negative => {
+                return Err(Refused::new(
+                    &stage.name,
+                    format!(
+                        "`{}` is to move along the line, and its {what} along it, {}, is negative",
+                        body.name,
+                        crate::formula::write_plain(size)
+                    ),
+                    "turn the direction round",
+                ));
+            }
+            _ => assumptions.push(sentence![size, " ≥ 0"]),
+        }
+    }
     let start = tidied(stage, &half(&(&body.mass * &speed.powi(2))))?;
     let mut work = Vec::new();
     if let Some(g) = &slide.gravity {
@@ -448,12 +467,16 @@ pub(super) fn slide(stage: &Stage, before: State, slide: &Slide) -> Result<Stage
     let parts = work;
     let work = tidied(stage, &Expr::sum(parts.iter().map(|(_, w)| w.clone())))?;
     let end = tidied(stage, &(&start + &work))?;
-    if let Seen::Proved(Sign::Negative) = sign(&end, domains) {
+    let reaches = sign(&end, domains);
+    if let Seen::Proved(Sign::Negative) = reaches {
         return Err(Refused::new(
             &stage.name,
             format!("`{}` never gets there: it comes to rest before", body.name),
             "shorten the distance",
         ));
+    }
+    if !work.is_zero() {
+        assumptions.extend(arrival(stage, &end, reaches));
     }
     let speed = if work.is_zero() {
         speed
@@ -480,7 +503,29 @@ pub(super) fn slide(stage: &Stage, before: State, slide: &Slide) -> Result<Stage
     )];
     out.energy = Some([start, end]);
     out.work = parts;
+    out.assumptions = assumptions;
+    out.checks.extend(integrate::slide(stage, &out, slide));
     Ok(out)
+}
+
+/// Whether a body at rest has no moment to start it.
+pub(super) fn is_balanced(stage: &Stage, turn: &Turn, spin: &Expr, arm: &Vector) -> bool {
+    let zero = |e: &Expr| is_zero(e, &stage.scene.domains) == Some(true);
+    turn.gravity.is_some() && turn.torque.is_none() && zero(spin) && zero(&arm[0])
+}
+
+/// What must hold so that a motion gets to its end with this kinetic energy; nothing where that is proved.
+fn arrival(stage: &Stage, end: &Expr, seen: Seen) -> Option<Sentence> {
+    let proved = matches!(seen, Seen::Proved(s) if s.is_not_negative());
+    (!proved).then(|| {
+        sentence![
+            "for what is told of the end of `",
+            &stage.name,
+            "`: ",
+            &super::calc::essential(end, &stage.scene.domains),
+            " ≥ 0, so that it gets there"
+        ]
+    })
 }
 
 /// Free fall or flight.

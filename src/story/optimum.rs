@@ -155,19 +155,18 @@ pub(super) fn maximum(
     at.words = format!("{words} for which it is largest");
     // How it was found is told with the value.
     at.discarded = Vec::new();
-    at.text = vec![if free.len() == 2 {
-        sentence![
+    at.text = match free.as_slice() {
+        [p, q] => vec![sentence![
             "every pair ",
-            &free[0],
+            p,
             ", ",
-            &free[1],
+            q,
             " with this ",
             &combination,
             " does it: the maximisers form a curve"
-        ]
-    } else {
-        sentence![&combination, " = ", &place]
-    }];
+        ]],
+        _ => Vec::new(),
+    };
     if free.len() == 1 {
         at.range
             .push((free[0].clone(), Relation::Equal, place.clone()));

@@ -454,7 +454,7 @@ fn vanishing(name: &Symbol, square: &Expr, domains: &Domains) -> Sentence {
 }
 
 /// `a, b and c`.
-fn list(all: &[Sentence]) -> Sentence {
+pub(super) fn list(all: &[Sentence]) -> Sentence {
     match all {
         [] => Sentence::default(),
         [one] => one.clone(),

@@ -1,8 +1,9 @@
 //! Sentences about stages, made from what was found of them: what happens, which forces have impulses, what is open.
 
-use super::calc::{essential, is_zero, sign};
+use super::calc::{Seen, essential, is_zero, sign};
 use super::{Case, StageTold};
 use super::{Sentence, sentence::sentence};
+use crate::algebra::Sign;
 use crate::derive;
 use crate::domain::Domains;
 use crate::expr::{Expr, minus};
@@ -182,15 +183,10 @@ impl Change<'_> {
     }
 
     fn heading(&self, v: &[Expr; 2]) -> String {
-        let part = |e: &Expr, plus: &'static str, minus: &'static str, either: &'static str| {
-            if is_zero(e, self.domains) == Some(true) {
-                return None;
-            }
-            Some(match way(e, self.domains, self.given) {
-                Some(true) => plus,
-                Some(false) => minus,
-                None => either,
-            })
+        let part = |e: &Expr, plus, minus, either| {
+            let words = [plus, minus, "not at all", either];
+            let stays = is_zero(e, self.domains) == Some(true);
+            (!stays).then(|| one_of(e, self.domains, self.given, words))
         };
         let x = part(
             &v[0],
@@ -199,8 +195,24 @@ impl Change<'_> {
             "sideways, to which side hangs on the values",
         );
         let y = part(&v[1], "up", "down", "up or down as the values decide");
-        let parts: Vec<&str> = [x, y].into_iter().flatten().collect();
+        let parts: Vec<String> = [x, y].into_iter().flatten().collect();
         parts.join(" and ")
+    }
+}
+
+/// The word for a value above zero, below or at it, or what is said where the sign is not known.
+fn one_of(
+    e: &Expr,
+    domains: &Domains,
+    given: &[&Expr],
+    [plus, minus, none, either]: [&str; 4],
+) -> String {
+    match (way(e, domains, given), sign(e, domains)) {
+        (Some(true), _) => plus.to_string(),
+        (Some(false), _) => minus.to_string(),
+        (None, Seen::Proved(Sign::NotNegative)) => format!("{plus} or {none}"),
+        (None, Seen::Proved(Sign::NotPositive)) => format!("{minus} or {none}"),
+        (None, _) => either.to_string(),
     }
 }
 
@@ -241,13 +253,17 @@ fn spin_words(
     if is_zero(after, domains) == Some(true) {
         return format!("{what} ends");
     }
-    let sense = match way(after, domains, given) {
-        Some(true) => "counterclockwise",
-        Some(false) => "clockwise",
-        None => "in a sense that hangs on the values",
+    let sense = |none| {
+        let either = "in a sense that hangs on the values";
+        one_of(
+            after,
+            domains,
+            given,
+            ["counterclockwise", "clockwise", none, either],
+        )
     };
     if is_zero(before, domains) == Some(true) {
-        return format!("{what} begins, {sense}");
+        return format!("{what} begins, {}", sense("not at all"));
     }
     let change = match way(&(&after.powi(2) - &before.powi(2)), domains, given) {
         Some(true) => "grows",
@@ -258,6 +274,7 @@ fn spin_words(
         (Some(a), Some(b)) if a != b => " and turns round",
         _ => "",
     };
+    let sense = sense("zero");
     format!("{what} {change}{turned}; at the end it is {sense}")
 }
 

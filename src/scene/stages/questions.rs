@@ -38,14 +38,9 @@ pub(super) fn read(base: &mut Resolver<'_>, story: &mut Story, homes: &HashMap<u
                     question,
                 })
             }
-            None => {
-                let symbols = base.symbols.extended(names.iter().map(String::as_str));
-                let ask = story_ask(base, &symbols, stages, name, q);
-                for used in symbols.used() {
-                    base.symbols.mark_used(&used);
-                }
-                ask
-            }
+            None => special::with_names(base, &names, |base, symbols| {
+                story_ask(base, symbols, stages, name, q)
+            }),
         };
         if let Some(ask) = ask {
             story.questions.push(StoryQuestion {
