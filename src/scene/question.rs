@@ -243,6 +243,20 @@ fn velocity(
         if of.is_some_and(|of| of.text == what.text) && resolver.find_body(&what.text).is_some() {
             return Some((resolver.moving(what)?, None));
         }
+        if let Some(of) = of
+            && resolver.find_body(&what.text).is_some()
+            && resolver.find_point(&of.text).is_some()
+        {
+            let message = format!("`{}` is a body and `{}` a point", what.text, of.text);
+            let hint = format!(
+                "the other way round: \"velocity\": \"{}\", \"of\": \"{}\"",
+                of.text, what.text
+            );
+            resolver
+                .faults
+                .push(Fault::new(what.span, message).hint(hint));
+            return None;
+        }
         let what_is_sought = if of.is_some() {
             "point"
         } else {

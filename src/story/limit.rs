@@ -19,7 +19,7 @@ use crate::interval::{Interval, Outcome, evaluate};
 use crate::verify::Check;
 
 /// The symbol whose square stands for the parameter.
-const ROOT: &str = "x_root";
+const ROOT: &str = "\u{1}root";
 /// Highest power of the distance that is looked at.
 const POWERS: usize = 12;
 /// Largest formula whose derivatives are followed, in nodes.

@@ -6,19 +6,20 @@
 
 use std::collections::BTreeMap;
 
-use super::calc::{Unsolved, essential, sign, solve, tidy};
+use super::calc::{Seen, Unsolved, essential, is_zero, sign, solve, tidy};
 use super::{Answer, Refused};
 use super::{Sentence, sentence::sentence};
-use crate::domain::{Domain, Domains};
-use crate::expr::{Expr, Symbol};
+use crate::algebra::Sign;
+use crate::domain::{Domain, Domains, Limit};
+use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Relation, write_plain};
 use crate::scene::Scene;
 use crate::verify::Check;
 
 /// The symbol whose square stands for the parameter.
-const ROOT: &str = "x_root";
+const ROOT: &str = "\u{1}root";
 /// The combination of two parameters.
-const JOINT: &str = "u_joint";
+const JOINT: &str = "\u{1}joint";
 
 /// The largest value of a formula over parameters.
 pub(super) fn maximum(
@@ -193,6 +194,12 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
         .get(p)
         .cloned()
         .unwrap_or_else(Domain::positive);
+    if let Some(pole) = pole(f, p, domains) {
+        return Err(refused(format!(
+            "{} may vanish within the interval",
+            write_plain(&pole)
+        )));
+    }
     let slope = tidy(&f.derivative(p), domains).map_err(|s| refused(s.to_string()))?;
     let at = |x: &Expr, e: &Expr| {
         tidy(
@@ -211,28 +218,46 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
         Err(Unsolved::Limit(what)) => return Err(refused(what)),
     };
     out.discarded = discarded;
+    let value_of = |end: &Limit| match end.of_pi {
+        true => Expr::from(end.value.clone()) * Expr::pi(),
+        false => Expr::from(end.value.clone()),
+    };
+    let ends: Vec<Expr> = [&domain.low, &domain.high]
+        .into_iter()
+        .flatten()
+        .map(value_of)
+        .collect();
+    let is_end = |x: &Expr| {
+        ends.iter()
+            .any(|e| is_zero(&(x - e), domains) == Some(true))
+    };
+    let inside: Vec<Expr> = inside
+        .into_iter()
+        .map(|r| r.value)
+        .filter(|x| !is_end(x))
+        .collect();
+    let bends = match inside.as_slice() {
+        [only] => {
+            let bend = at(only, &slope.derivative(p)).map_err(|s| refused(s.to_string()))?;
+            Some(sign(&bend, domains))
+        }
+        _ => None,
+    };
     let place = match inside.as_slice() {
-        [best] => {
-            let bend = at(&best.value, &slope.derivative(p)).map_err(|s| refused(s.to_string()))?;
-            let bends = sign(&bend, domains);
-            if !bends.is_negative() {
-                return Err(refused(format!(
-                    "the derivative by {p} vanishes at {}, but the value is not largest there",
-                    write_plain(&best.value)
-                )));
-            }
+        [best] if bends.is_some_and(Seen::is_negative) => {
             out.checks.push(Check {
                 kind: "maximum",
                 words: String::from("the derivative vanishes there and nowhere else in the interval, and the second derivative is negative"),
-                holds: bends.is_proved().then_some(true),
+                holds: bends.is_some_and(Seen::is_proved).then_some(true),
             });
-            best.value.clone()
+            best.clone()
         }
         [] => {
             let rising = sign(&slope, domains);
-            let end = if rising.is_positive() {
+            // Where the slope is zero at an end alone, it has one sign inside.
+            let end = if rising.is_positive() || rising == Seen::Proved(Sign::NotNegative) {
                 domain.high
-            } else if rising.is_negative() {
+            } else if rising.is_negative() || rising == Seen::Proved(Sign::NotPositive) {
                 domain.low
             } else {
                 return Err(refused(format!(
@@ -242,8 +267,16 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
             let Some(end) = end else {
                 return Ok(vec![at_the_rim(out, &slope, p, domains)]);
             };
-            let value = Expr::from(end.value.clone());
-            let value = if end.of_pi { value * Expr::pi() } else { value };
+            let value = value_of(&end);
+            let proved = rising.is_proved();
+            out.checks.push(Check {
+                kind: "maximum",
+                words: format!(
+                    "the derivative has one sign inside the interval ({})",
+                    if proved { "proved" } else { "seen at points" }
+                ),
+                holds: proved.then_some(true),
+            });
             out.text.push(sentence![
                 "the derivative by ",
                 p,
@@ -260,10 +293,43 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
             ]);
             value
         }
-        _ => {
-            return Err(refused(format!(
-                "the derivative by {p} vanishes more than once"
-            )));
+        several => {
+            let closed = |end: &Option<Limit>| end.as_ref().is_some_and(|e| !e.open);
+            if !closed(&domain.low) || !closed(&domain.high) {
+                return Err(refused(format!(
+                    "the derivative by {p} vanishes where the value is not largest, and the interval does not end"
+                )));
+            }
+            let mut found: Vec<(Expr, Expr)> = Vec::new();
+            for x in several.iter().chain(&ends) {
+                found.push((x.clone(), at(x, f).map_err(|s| refused(s.to_string()))?));
+            }
+            let above = |a: &Expr, b: &Expr| sign(&(a - b), domains);
+            let is_best = |(i, (_, value)): &(usize, &(Expr, Expr))| {
+                let mut others = found.iter().enumerate().filter(|(j, _)| j != i);
+                others.all(|(_, (_, other))| {
+                    let s = above(value, other);
+                    s.is_positive() || matches!(s, Seen::Proved(s) if s.is_not_negative())
+                })
+            };
+            let Some((i, (place, value))) = found.iter().enumerate().find(is_best) else {
+                return Err(refused(format!(
+                    "which of the values where the derivative by {p} vanishes and at the ends is largest hangs on the other parameters"
+                )));
+            };
+            let others = found.iter().enumerate().filter(|(j, _)| *j != i);
+            let proved = others
+                .clone()
+                .all(|(_, (_, other))| above(value, other).is_proved());
+            out.checks.push(Check {
+                kind: "maximum",
+                words: format!(
+                    "of the places where the derivative vanishes and the two ends it is largest there ({})",
+                    if proved { "proved" } else { "seen at points" }
+                ),
+                holds: proved.then_some(true),
+            });
+            place.clone()
         }
     };
     let value = at(&place, f).map_err(|s| refused(s.to_string()))?;
@@ -274,6 +340,27 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
     out.range.push((p.clone(), Relation::Equal, place));
     out.formula = Some(value);
     Ok(vec![out])
+}
+
+/// A divisor with the parameter in it that is not known to keep one sign.
+fn pole(f: &Expr, p: &Symbol, domains: &Domains) -> Option<Expr> {
+    let mut found = None;
+    f.walk(&mut |part| {
+        if let Node::Power(base, k) = part.node()
+            && k.as_number().is_some_and(num_traits::Signed::is_negative)
+            && base.symbols().contains(p)
+        {
+            let s = sign(base, domains);
+            let keeps = matches!(
+                s,
+                Seen::Positive | Seen::Negative | Seen::Proved(Sign::Positive | Sign::Negative)
+            );
+            if !keeps {
+                found = Some(base.clone());
+            }
+        }
+    });
+    found
 }
 
 /// The exponent k for which the formula depends on p·qᵏ alone.

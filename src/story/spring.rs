@@ -11,9 +11,9 @@ use crate::expr::{Expr, Symbol};
 use crate::verify::Check;
 
 /// The time since the blow began; no scene has such a name.
-const TIME: &str = "t_blow";
+const TIME: &str = "\u{1}time";
 /// The phase φ.
-const PHASE: &str = "phi_blow";
+const PHASE: &str = "\u{1}phase";
 
 /// The share, and its leading term.
 pub(super) fn share(mut out: Answer, given: [&Expr; 3], domains: &Domains) -> Vec<Answer> {

@@ -17,7 +17,7 @@ use crate::scene::Scene;
 use crate::verify::Check;
 
 /// A step away from a value, of any size.
-const STEP: &str = "u_step";
+const STEP: &str = "\u{1}step";
 
 /// Fills in the answer.
 pub(super) fn fill(

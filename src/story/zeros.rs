@@ -13,7 +13,9 @@ use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
 
 /// The tangent of half the angle.
-const HALF: &str = "t_half";
+const HALF: &str = "\u{1}half";
+/// The cosine or sine of the angle.
+const RATIO: &str = "\u{1}ratio";
 
 /// The places where a product vanishes: values of a parameter, or an equation where there is no such value.
 pub(super) fn of(e: &Expr, domains: &Domains) -> Vec<Sentence> {
@@ -62,13 +64,197 @@ fn nowhere(e: &Expr, domains: &Domains) -> bool {
     )
 }
 
-/// Values of an angle at which an expression in its sine and cosine vanishes.
+/// Values of an angle at which an expression in its sine and cosine vanishes, factor by factor.
 pub(super) fn angle(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unsolved> {
     let domain = domains
         .symbols
         .get(symbol)
         .cloned()
         .unwrap_or_else(Domain::first_quadrant);
+    let ends = [(&domain.low, true), (&domain.high, false)];
+    if ends
+        .iter()
+        .any(|(end, is_low)| end.as_ref().and_then(|l| half(l, *is_low)).is_none())
+    {
+        return Err(Unsolved::Limit(format!(
+            "an angle is solved for between bounds: give {symbol} a domain, such as {{\"min\": 0, \"max\": \"pi/2\"}}; the bounds are multiples of pi/2 within -pi and pi"
+        )));
+    }
+    let whole = tidy(e, domains)?;
+    let factors = match whole.node() {
+        Node::Product(factors) => factors.to_vec(),
+        _ => vec![whole],
+    };
+    let mut out = Roots::default();
+    for factor in factors {
+        let base = match factor.node() {
+            Node::Power(_, k) if k.as_number().is_some_and(num_traits::Signed::is_negative) => {
+                continue;
+            }
+            Node::Power(base, k) if k.as_number().is_some() => base.clone(),
+            _ => factor,
+        };
+        if !base.symbols().contains(symbol) {
+            continue;
+        }
+        let found = match by_function(&base, symbol, Function::Cos, &domain, domains)? {
+            Some(found) => found,
+            None => match by_function(&base, symbol, Function::Sin, &domain, domains)? {
+                Some(found) => found,
+                None => by_half(&base, symbol, &domain, domains)?,
+            },
+        };
+        for root in found.inside {
+            let same = |r: &Root| is_zero(&(&r.value - &root.value), domains) == Some(true);
+            let at = BTreeMap::from([(symbol.clone(), root.value.clone())]);
+            // A divisor may vanish with the factor.
+            let vanishes = is_zero(&e.substitute(&at), domains);
+            if vanishes == Some(false) || out.inside.iter().any(same) {
+                continue;
+            }
+            out.inside.push(Root {
+                proved: root.proved && vanishes == Some(true),
+                ..root
+            });
+        }
+        out.discarded.extend(found.discarded);
+    }
+    Ok(out)
+}
+
+/// Zeros of an expression in the cosine and even powers of the sine, or the other way round, where the domain holds each
+/// value of that function once; `None` where it is not of this form or has no closed form so.
+fn by_function(
+    e: &Expr,
+    symbol: &Symbol,
+    function: Function,
+    domain: &Domain,
+    domains: &Domains,
+) -> Result<Option<Roots>, Unsolved> {
+    let (Some(low), Some(high)) = (&domain.low, &domain.high) else {
+        return Ok(None);
+    };
+    // In multiples of π: where the function takes each value once. Its values at multiples of π/2 are whole numbers.
+    let range = match function {
+        Function::Cos => [ratio(0, 1), ratio(1, 1)],
+        _ => [ratio(-1, 2), ratio(1, 2)],
+    };
+    if low.value < range[0] || range[1] < high.value {
+        return Ok(None);
+    }
+    let Some(in_ratio) = in_one(e, symbol, function, &Expr::symbol(RATIO)) else {
+        return Ok(None);
+    };
+    let at = |l: &Limit| match function {
+        Function::Cos => ratio(1, 1) - &l.value * ratio(2, 1),
+        _ => &l.value * ratio(2, 1),
+    };
+    let mut limits = [low, high].map(|l| Limit::number(at(l), l.open));
+    limits.sort_by(|a, b| a.value.cmp(&b.value));
+    let [low_ratio, high_ratio] = limits.map(Some);
+    let mut wide = domains.clone();
+    wide.symbols.insert(
+        RATIO.into(),
+        Domain {
+            low: low_ratio,
+            high: high_ratio,
+        },
+    );
+    let found = match solve(&in_ratio, &RATIO.into(), &wide) {
+        Ok(found) if found.open.is_none() => found,
+        Err(Unsolved::Absent) => Roots::default(),
+        Ok(_) | Err(Unsolved::Inside) => return Ok(None),
+        Err(other) => return Err(other),
+    };
+    let inverse = match function {
+        Function::Cos => Function::Acos,
+        _ => Function::Asin,
+    };
+    let back = BTreeMap::from([(
+        Symbol::from(RATIO),
+        Expr::call(function, Expr::symbol(symbol)),
+    )]);
+    let put_back = |all: &[Sentence]| all.iter().map(|s| s.put_in(&back)).collect();
+    let inside = found.inside.iter().map(|root| {
+        let same = |angle: &Expr| {
+            let gap = Expr::call(function, angle.clone()) - root.value.clone();
+            is_zero(&gap, domains) == Some(true)
+        };
+        Root {
+            value: by_heart(&range, same)
+                .unwrap_or_else(|| Expr::call(inverse, root.value.clone())),
+            proved: root.proved,
+            given: put_back(&root.given),
+        }
+    });
+    Ok(Some(Roots {
+        inside: inside.collect(),
+        discarded: put_back(&found.discarded),
+        open: None,
+    }))
+}
+
+/// An expression in sine and cosine with one of them as `x`; `None` where odd powers of the other stand in it, or the angle
+/// itself.
+fn in_one(e: &Expr, symbol: &Symbol, function: Function, x: &Expr) -> Option<Expr> {
+    if !e.symbols().contains(symbol) {
+        return Some(e.clone());
+    }
+    let call = |e: &Expr| match e.node() {
+        Node::Call(f, argument) if argument.as_symbol() == Some(symbol) => Some(*f),
+        _ => None,
+    };
+    let other = match function {
+        Function::Cos => Function::Sin,
+        _ => Function::Cos,
+    };
+    if call(e) == Some(function) {
+        return Some(x.clone());
+    }
+    match e.node() {
+        Node::Power(base, k) if call(base) == Some(other) => {
+            let half = k.as_number()? * ratio(1, 2);
+            half.is_integer()
+                .then(|| (Expr::one() - x.powi(2)).power(Expr::from(half)))
+        }
+        Node::Symbol(_) | Node::Call(..) => None,
+        _ => {
+            let mut whole = true;
+            let out = e.map_parts(|part| {
+                in_one(part, symbol, function, x).unwrap_or_else(|| {
+                    whole = false;
+                    part.clone()
+                })
+            });
+            whole.then_some(out)
+        }
+    }
+}
+
+/// The first of the angles a person knows by heart, between two multiples of π, of which something holds.
+fn by_heart(range: &[Rational; 2], holds: impl Fn(&Expr) -> bool) -> Option<Expr> {
+    for n in -11..=11i64 {
+        for d in [1, 2, 3, 4, 6] {
+            let turn = ratio(n, d);
+            if turn < range[0] || range[1] < turn {
+                continue;
+            }
+            let angle = Expr::from(turn) * Expr::pi();
+            if holds(&angle) {
+                return Some(angle);
+            }
+        }
+    }
+    None
+}
+
+/// The same through the tangent of half the angle.
+fn by_half(
+    e: &Expr,
+    symbol: &Symbol,
+    domain: &Domain,
+    domains: &Domains,
+) -> Result<Roots, Unsolved> {
     let (Some(low), Some(high)) = (
         domain.low.as_ref().and_then(|l| half(l, true)),
         domain.high.as_ref().and_then(|l| half(l, false)),
@@ -180,35 +366,25 @@ fn from_half(t: &Expr, domains: &Domains) -> Result<Expr, Unsolved> {
     let below = Expr::one() + square.clone();
     let cos = tidy(&(&(Expr::one() - square) / &below), domains)?;
     let sin = tidy(&(&(Expr::from(2) * t.clone()) / &below), domains)?;
-    // Of the angles a person knows by heart.
-    for n in -11..=11i64 {
-        for d in [1, 2, 3, 4, 6] {
-            let angle = Expr::ratio(n, d) * Expr::pi();
-            let same = |a: &Expr, b: Expr| is_zero(&(a - &b), domains) == Some(true);
-            if n.abs() <= d && same(&cos, angle.cos()) && same(&sin, angle.sin()) {
-                return Ok(angle);
-            }
-        }
+    let same = |a: &Expr, b: Expr| is_zero(&(a - &b), domains) == Some(true);
+    let known = by_heart(&[ratio(-1, 1), ratio(1, 1)], |angle| {
+        same(&cos, angle.cos()) && same(&sin, angle.sin())
+    });
+    if let Some(angle) = known {
+        return Ok(angle);
     }
-    let has_root = |e: &Expr| {
-        let mut found = false;
-        e.walk(&mut |part| {
-            found |= matches!(part.node(), Node::Power(_, k) if k.as_number().is_some_and(|k| !k.is_integer()));
-        });
-        found
-    };
     let bare = tidy(t, domains)?;
-    if is_not_negative(&bare, domains) && !has_root(&cos) {
-        return Ok(Expr::call(Function::Acos, cos));
+    let mut ways = vec![];
+    if is_not_negative(&bare, domains) {
+        ways.push(Expr::call(Function::Acos, cos.clone()));
     }
-    let small = sign(&(Expr::one() - t.powi(2)), domains).is_positive();
-    if small && !has_root(&sin) {
-        return Ok(Expr::call(Function::Asin, sin));
+    if sign(&(Expr::one() - t.powi(2)), domains).is_positive() {
+        ways.push(Expr::call(Function::Asin, sin.clone()));
+        ways.push(Expr::call(Function::Atan, tidy(&(&sin / &cos), domains)?));
     }
-    if small {
-        return Ok(Expr::call(Function::Atan, tidy(&(&sin / &cos), domains)?));
-    }
-    Ok(Expr::from(2) * Expr::call(Function::Atan, bare))
+    ways.push(Expr::from(2) * Expr::call(Function::Atan, bare));
+    let shortest = ways.into_iter().min_by_key(Expr::size);
+    shortest.ok_or(Unsolved::Inside)
 }
 
 /// Whether an expression is positive or zero wherever it is real, as a product of roots, magnitudes and what is positive is.
