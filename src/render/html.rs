@@ -1,10 +1,10 @@
 //! A worked solution as one page: native MathML, pictures inline, no script, nothing loaded from anywhere.
 
-use super::math::rows;
+use super::math::{pieces, rows, width};
 use super::mathml::{escape, expr, formula};
 use crate::derive::Matrix;
 use crate::expr::Expr;
-use crate::solution::{Inline, Part, Slot, Solution};
+use crate::solution::{Inline, Math, Part, Slot, Solution};
 
 /// A picture that belongs into a solution.
 #[derive(Clone, Debug)]
@@ -19,6 +19,9 @@ pub struct Picture {
     pub alternative: String,
 }
 
+/// Longest formula, in characters of its Unicode form, that a line of a narrow window holds.
+const IN_TEXT: usize = 36;
+
 const STYLE: &str = "
 :root{color-scheme:light dark}
 *{box-sizing:border-box}
@@ -31,6 +34,7 @@ p{margin:.55rem 0}
 .display{overflow-x:auto;overflow-y:hidden;margin:.5rem 0;padding:.15rem 0}
 .display math{margin:0 0 0 1.2rem;text-align:left}
 math{font-size:1.05em}
+.wide{display:inline-block;max-width:100%;overflow-x:auto;overflow-y:hidden;vertical-align:middle}
 mtable{border-spacing:0}
 mtd{padding:.22em .12em;text-align:left}
 mtd.l{text-align:right;white-space:nowrap}
@@ -135,9 +139,22 @@ fn sentence(s: &Solution, pieces: &[Inline]) -> String {
         .iter()
         .map(|piece| match piece {
             Inline::Text(words) => escape(words),
-            Inline::Math(math) => format!("<math>{}</math>", formula(s, math)),
+            Inline::Math(math) => in_text(s, math),
         })
         .collect()
+}
+
+/// A formula in a sentence; a long one may be cut at the end of a line, and what is still long is moved sideways by itself.
+fn in_text(s: &Solution, math: &[Math]) -> String {
+    let pieces = pieces(s, math, IN_TEXT);
+    let set = pieces.iter().map(|piece| {
+        let set = format!("<math>{}</math>", formula(s, piece));
+        match width(s, piece) > IN_TEXT {
+            true => format!("<span class=\"wide\">{set}</span>"),
+            false => set,
+        }
+    });
+    set.collect::<Vec<_>>().join(" ")
 }
 
 fn matrix(s: &Solution, m: &Matrix) -> String {

@@ -18,8 +18,34 @@ pub fn rows(solution: &Solution, lines: &[Line]) -> Vec<Cells> {
         .collect()
 }
 
+/// A formula within a sentence in pieces between which a line may end: before relations, and before terms of a long sum.
+pub fn pieces(solution: &Solution, math: &[Math], wide: usize) -> Vec<Vec<Math>> {
+    if width(solution, math) <= wide {
+        return vec![math.to_vec()];
+    }
+    let parts = at_relations(math).into_iter();
+    parts
+        .flat_map(|part| terms(solution, &part, wide))
+        .collect()
+}
+
+fn is_relation(m: &Math) -> bool {
+    matches!(m, Math::Op("=" | "≈" | "→" | "≥" | "≤" | ">" | "<"))
+}
+
+/// Cut before every relation.
+fn at_relations(math: &[Math]) -> Vec<Vec<Math>> {
+    let mut pieces: Vec<Vec<Math>> = Vec::new();
+    for m in math {
+        match pieces.last_mut() {
+            Some(piece) if !is_relation(m) => piece.push(m.clone()),
+            _ => pieces.push(vec![m.clone()]),
+        }
+    }
+    pieces
+}
+
 fn broken(solution: &Solution, math: &[Math]) -> Vec<Cells> {
-    let is_relation = |m: &Math| matches!(m, Math::Op("=" | "≈" | "→"));
     let Some(first) = math.iter().position(is_relation) else {
         return vec![[Vec::new(), math.to_vec()]];
     };
@@ -27,25 +53,16 @@ fn broken(solution: &Solution, math: &[Math]) -> Vec<Cells> {
     if width(solution, math) <= WIDE {
         return vec![[left.to_vec(), rest.to_vec()]];
     }
-    let mut pieces: Vec<Vec<Math>> = Vec::new();
-    for m in rest {
-        if is_relation(m) || pieces.is_empty() {
-            pieces.push(Vec::new());
-        }
-        if let Some(piece) = pieces.last_mut() {
-            piece.push(m.clone());
-        }
-    }
     let mut out: Vec<Cells> = Vec::new();
     let mut left = left.to_vec();
     if width(solution, &left) > WIDE / 2 {
-        for piece in terms(solution, &left) {
+        for piece in terms(solution, &left, WIDE) {
             out.push([Vec::new(), piece]);
         }
         left = Vec::new();
     }
-    for piece in pieces {
-        for part in terms(solution, &piece) {
+    for piece in at_relations(rest) {
+        for part in terms(solution, &piece, WIDE) {
             out.push([std::mem::take(&mut left), part]);
         }
     }
@@ -53,14 +70,14 @@ fn broken(solution: &Solution, math: &[Math]) -> Vec<Cells> {
 }
 
 /// A piece that ends in a long sum, with the sum spread over several rows.
-fn terms(solution: &Solution, piece: &[Math]) -> Vec<Vec<Math>> {
+fn terms(solution: &Solution, piece: &[Math], wide: usize) -> Vec<Vec<Math>> {
     let Some((Math::Expr(last), head)) = piece.split_last() else {
         return vec![piece.to_vec()];
     };
     let Node::Sum(all) = last.node() else {
         return vec![piece.to_vec()];
     };
-    if width(solution, piece) <= WIDE {
+    if width(solution, piece) <= wide {
         return vec![piece.to_vec()];
     }
     let mut rows: Vec<Vec<Math>> = Vec::new();
@@ -84,7 +101,7 @@ fn terms(solution: &Solution, piece: &[Math]) -> Vec<Vec<Math>> {
     };
     for term in all {
         let size = width(solution, &[Math::Expr(term.clone())]) + 3;
-        if length + size > WIDE {
+        if length + size > wide {
             flush(&mut chunk);
             length = 4;
         }
@@ -95,7 +112,8 @@ fn terms(solution: &Solution, piece: &[Math]) -> Vec<Vec<Math>> {
     rows
 }
 
-fn width(solution: &Solution, math: &[Math]) -> usize {
+/// Characters of its Unicode form.
+pub fn width(solution: &Solution, math: &[Math]) -> usize {
     unicode(solution, math).chars().count()
 }
 
