@@ -9,7 +9,7 @@ use crate::derive::{self, Answer, Derivation, Form};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Quantity, Reading, Relation};
 use crate::scene::{Ask, Print, Scene};
-use crate::verify::printed::Finding;
+use crate::verify::printed::{Finding, UNEXPLAINED};
 
 /// A scene with its answers.
 #[derive(Clone, Debug)]
@@ -236,19 +236,18 @@ impl Sheet {
             let as_it_stands =
                 printed.at.is_empty() && printed.short.is_empty() && printed.small.is_empty();
             let slip = "comes out when";
-            let open = finding
-                .explained
-                .as_ref()
-                .is_none_or(|e| e.starts_with(slip));
-            if finding.holds != Some(false) || !as_it_stands || !open {
-                continue;
-            }
-            let Ok(entry) = self.entry(name) else {
-                continue;
+            let known = finding.explained.as_ref().filter(|e| *e != UNEXPLAINED);
+            let open = known.is_none_or(|e| e.starts_with(slip));
+            let grade = match finding.holds {
+                Some(false) if as_it_stands && open => self
+                    .entry(name)
+                    .map(|entry| self.judge(&entry, text, &Options::default())),
+                _ => continue,
             };
-            let grade = self.judge(&entry, text, &Options::default());
-            if let ("DIFF_BELIEF", Some(first)) = (grade.note, grade.diagnosis.first()) {
-                finding.explained = Some(match &finding.explained {
+            if let Ok(grade) = grade
+                && let ("DIFF_BELIEF", Some(first)) = (grade.note, grade.diagnosis.first())
+            {
+                finding.explained = Some(match known {
                     Some(known) => format!("{known}; or {}", first.message),
                     None => first.message.clone(),
                 });

@@ -7,6 +7,7 @@
 mod explain;
 mod matrix;
 mod number;
+mod remainder;
 
 use std::collections::BTreeMap;
 
@@ -39,6 +40,9 @@ pub struct Finding {
     pub caught_by: Option<String>,
 }
 
+/// What is said where nothing explains a wrong thing.
+pub const UNEXPLAINED: &str = "no single slip of the pen leads to it";
+
 /// Checks everything printed about a scene.
 pub fn check(scene: &Scene, derivation: &Derivation) -> Vec<Finding> {
     let desk = Desk::new(scene, derivation);
@@ -48,6 +52,9 @@ pub fn check(scene: &Scene, derivation: &Derivation) -> Vec<Finding> {
         .map(|printed| desk.check(printed))
         .collect();
     desk.consequences(&mut findings);
+    for finding in findings.iter_mut().filter(|f| f.holds == Some(false)) {
+        finding.explained.get_or_insert_with(|| UNEXPLAINED.into());
+    }
     findings
 }
 
@@ -269,7 +276,9 @@ impl<'a> Desk<'a> {
                 .before(item, &all)
                 .or_else(|| self.factor(&all))
                 .or_else(|| self.exchanged(&all))
-                .or_else(|| self.slip(&all));
+                .or_else(|| self.slip(&all))
+                .or_else(|| self.component(&all))
+                .or_else(|| self.short_factor(&all));
         }
         Ok(())
     }
@@ -303,7 +312,10 @@ impl<'a> Desk<'a> {
                     .turned(sides, printed)
                     .or_else(|| self.factor(&pairs))
                     .or_else(|| self.exchanged(&pairs))
-                    .or_else(|| self.slip_in_equation(sides, printed));
+                    .or_else(|| self.slip_in_equation(sides, printed))
+                    .or_else(|| self.lacking(&pairs))
+                    .or_else(|| self.short_factor(&pairs))
+                    .or_else(|| self.condition(sides, printed));
             }
             return Ok(());
         }
@@ -319,6 +331,9 @@ impl<'a> Desk<'a> {
             };
         }
         finding.holds = holds;
+        if holds == Some(false) {
+            self.loose(&values, signs, finding);
+        }
         Ok(())
     }
 

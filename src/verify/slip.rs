@@ -112,6 +112,16 @@ fn changes(
             }
         }
         Node::Sum(terms) => {
+            if let [a, b] = terms.as_slice()
+                && let (Some((x, plus)), Some((y, also))) = (square_of(a), square_of(b))
+            {
+                // 1 − e² and (1 − e)².
+                let join = |minus: bool| if minus { &x - &y } else { &x + &y };
+                let changed = join(plus != also).powi(2);
+                let changed = if plus { changed } else { -changed };
+                let words = format!("{} stands for {}", say(&changed), say(e));
+                out.push((changed, words));
+            }
             for (i, term) in terms.iter().enumerate() {
                 let mut all = terms.clone();
                 all[i] = -term;
@@ -181,4 +191,28 @@ fn changes(
         Node::Call(..) => {}
     }
     out
+}
+
+/// The root of a square, and whether the square is added: e of −e², 1 of 1.
+fn square_of(e: &Expr) -> Option<(Expr, bool)> {
+    match e.node() {
+        Node::Number(value) => {
+            let size = num_traits::Signed::abs(value);
+            let root = crate::expr::number::sqrt_exact(&size)?;
+            Some((Expr::from(root), !num_traits::Signed::is_negative(value)))
+        }
+        Node::Power(base, k) => {
+            let half = k.as_number()? * ratio(1, 2);
+            half.is_integer()
+                .then(|| (base.power(Expr::from(half)), true))
+        }
+        Node::Product(factors) => match factors.as_slice() {
+            [minus, square] if *minus == Expr::from(-1) => {
+                let (root, plus) = square_of(square)?;
+                Some((root, !plus))
+            }
+            _ => None,
+        },
+        _ => None,
+    }
 }

@@ -74,6 +74,17 @@ impl Desk<'_> {
                                 ("on the right".to_string(), &rows[i].1)
                             }
                         };
+                        let turned = self.same(printed, &-&mend.value);
+                        let slip = match turned {
+                            true => "the sign of one entry is turned",
+                            false => "one entry is misprinted",
+                        };
+                        let felt = if masked {
+                            ", and nothing here feels it"
+                        } else {
+                            ""
+                        };
+                        finding.explained = Some(format!("{slip}{felt}: a misprint of its own"));
                         let printed = self.say(printed);
                         words.push_str(&format!(
                             "; with {better} {place} in place of {printed} it would be"

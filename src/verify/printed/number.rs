@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use num_traits::Signed;
 
-use super::{Desk, Finding};
+use super::{Desk, Finding, remainder};
 use crate::dimension;
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Point, Rational, Symbol, ratio};
@@ -38,6 +38,18 @@ impl Desk<'_> {
                         q.unit_text, q.unit.dimension
                     );
                     finding.caught_by = Some("dimensions".into());
+                    let place = reading.literal.as_ref();
+                    let place = place.map_or_else(|| last_place(text), |l| l.place);
+                    let right = self.value(&self.put_in(of_expr, printed)?);
+                    let near = |v: &Rational| {
+                        let written = fraction(&q.written)?;
+                        Some((written - v).abs() <= ten_to(place) * ratio(1, 2))
+                    };
+                    finding.explained = match right.ok().and_then(|[low, _]| near(&low)) {
+                        Some(true) => Some(format!("the number is right for {}", is.spoken())),
+                        Some(false) => Some("the number is wrong too".into()),
+                        None => None,
+                    };
                     return Ok(());
                 }
                 (q.written.clone(), q.unit.value())
@@ -91,6 +103,7 @@ impl Desk<'_> {
             let unit = unit.ok_or("the unit has no size")?;
             let [wanted, room] = [&written, &half].map(|v| to_f64(v) * unit);
             self.slips(of_expr, wanted, room * 1.000_001)
+                .or_else(|| remainder::digits(&written, &low, place))
         };
         Ok(())
     }

@@ -1,0 +1,145 @@
+//! What stands between a printed thing and the right one, where no slip of the pen does: a factor, a term, a component, a
+//! condition, one digit.
+
+use num_traits::{Signed, Zero};
+
+use super::{Desk, Finding};
+use crate::algebra::Field;
+use crate::equality::{self, Equality};
+use crate::expr::{Expr, Rational};
+use crate::formula::{Content, Relation};
+use crate::scene::Printed;
+use crate::verify::rounding::ten_to;
+
+/// Longest factor that is told.
+const SHORT: usize = 6;
+
+impl Desk<'_> {
+    /// A component that is printed as zero and is not.
+    pub(super) fn component(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
+        let wrong: Vec<usize> = (0..pairs.len())
+            .filter(|i| !self.same(&pairs[*i].0, &pairs[*i].1))
+            .collect();
+        match wrong.as_slice() {
+            [i] if pairs.len() > 1 && pairs[*i].1.is_zero() => {
+                let axis = ["x", "y", "z"].get(*i)?;
+                Some(format!("the {axis}-component is left out"))
+            }
+            _ => None,
+        }
+    }
+
+    /// Two sides that agree but for a short factor.
+    pub(super) fn short_factor(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
+        let [(right, printed)] = pairs else {
+            return None;
+        };
+        let mut field = Field::new(&self.scene.domains);
+        field.prepare([right, printed]);
+        let (a, b) = (field.element(right).ok()?, field.element(printed).ok()?);
+        if field.is_zero(&a) || field.is_zero(&b) {
+            return None;
+        }
+        let more = field.expr(&field.div(&b, &a).ok()?);
+        let less = field.expr(&field.div(&a, &b).ok()?);
+        match more.size() <= less.size() {
+            true if more.size() <= SHORT => {
+                Some(format!("the factor {} is too much", self.say(&more)))
+            }
+            false if less.size() <= SHORT => {
+                Some(format!("the factor {} is left out", self.say(&less)))
+            }
+            _ => None,
+        }
+    }
+
+    /// An equation that lacks one quantity of the scene, such as the impulse at a hinge.
+    pub(super) fn lacking(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
+        let [(left, right)] = pairs else { return None };
+        let difference = right - left;
+        let (name, _) = self.closed.iter().find(|(_, value)| {
+            !value.is_zero() && (self.same(value, &difference) || self.same(value, &-&difference))
+        })?;
+        Some(format!("it would hold with {name} added to one side"))
+    }
+
+    /// A claim for a special value of a parameter that holds for another one.
+    pub(super) fn condition(&self, sides: &[Content], printed: &Printed) -> Option<String> {
+        let ([left, right], [[name, _]]) = (sides, printed.at.as_slice()) else {
+            return None;
+        };
+        let open = Printed {
+            at: Vec::new(),
+            ..printed.clone()
+        };
+        let put_in = |side: &Content| self.put_in(side.expr()?, &open).ok();
+        let difference = put_in(left)? - put_in(right)?;
+        let mut field = Field::new(&self.scene.domains);
+        field.prepare([&difference]);
+        let element = field.element(&difference).ok()?;
+        let powers = field.powers(&element, name).ok()??;
+        let [root] = powers.factors.as_slice() else {
+            return None;
+        };
+        let [constant, slope] = root.as_slice() else {
+            return None;
+        };
+        let value = field.neg(&field.div(constant, slope).ok()?);
+        Some(format!(
+            "it would hold for {name} = {}",
+            self.say(&field.expr(&value))
+        ))
+    }
+
+    /// A strict inequality that holds with equality allowed.
+    pub(super) fn loose(&self, values: &[Expr], signs: &[Relation], finding: &mut Finding) {
+        let weak = |sign: &Relation| match sign {
+            Relation::Less => Relation::LessEqual,
+            Relation::Greater => Relation::GreaterEqual,
+            other => *other,
+        };
+        let mut scratch = finding.clone();
+        let holds = values.windows(2).zip(signs).all(|(pair, sign)| {
+            self.inequality(&pair[0], &pair[1], weak(sign), &mut scratch) == Some(true)
+        });
+        finding.caught_by = Some("trying the ends of the domain".into());
+        finding.explained = Some(match holds {
+            true => "it holds with ≤ in place of <: an end of the domain is left out".into(),
+            false => "it fails inside the domain too".into(),
+        });
+    }
+
+    pub(super) fn same(&self, a: &Expr, b: &Expr) -> bool {
+        let found = equality::decide(a, b, &self.scene.domains).equality;
+        matches!(found, Equality::Same { .. })
+    }
+}
+
+/// One digit misprinted or two exchanged: what the right value, rounded to the same place, shows.
+pub(super) fn digits(written: &Rational, right: &Rational, place: i32) -> Option<String> {
+    let whole = |v: &Rational| (v.abs() / ten_to(place)).round().numer().to_string();
+    let (mine, theirs) = (whole(written), whole(right));
+    if mine.len() != theirs.len() || written.is_negative() != right.is_negative() {
+        return None;
+    }
+    let apart: Vec<usize> = (0..mine.len())
+        .filter(|i| mine.as_bytes()[*i] != theirs.as_bytes()[*i])
+        .collect();
+    let digit = |text: &str, i: usize| text.as_bytes()[i];
+    let words = match apart.as_slice() {
+        [i] => format!(
+            "one digit is misprinted: {} for {}",
+            char::from(digit(&mine, *i)),
+            char::from(digit(&theirs, *i))
+        ),
+        [i, j]
+            if *j == i + 1
+                && digit(&mine, *i) == digit(&theirs, *j)
+                && digit(&mine, *j) == digit(&theirs, *i) =>
+        {
+            "two digits stand exchanged".to_string()
+        }
+        _ => return None,
+    };
+    (!right.is_zero()).then(|| format!("{words}; a misprint of its own"))
+}
