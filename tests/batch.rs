@@ -289,6 +289,55 @@ fn a_scene_below_the_working_folder_gives_key_and_symbols() {
     assert_eq!(judged(own), "equivalent EQUIV_IDENTITY");
     let strange = json!({"scene": scene, "expected": "m v", "answer": "M v"});
     assert_eq!(judged(strange), "invalid INVALID_SYNTAX");
+    // Questions about answers: what a condition is solved for, and the bound it sets.
+    for (scene, quantity, answer, verdict) in [
+        (
+            "book/ball-hits-bat",
+            "d_0",
+            "4l/3",
+            "equivalent EQUIV_IDENTITY",
+        ),
+        (
+            "book/ball-hits-bat",
+            "d_0",
+            "d = 4l/3",
+            "equivalent EQUIV_IDENTITY",
+        ),
+        (
+            "book/ball-hits-bat",
+            "d_0",
+            "d = 2l/3",
+            "different DIFF_FACTOR",
+        ),
+        (
+            "book/falling-stick",
+            "upright",
+            "90°",
+            "equivalent EQUIV_IDENTITY",
+        ),
+        (
+            "problems/tipping-box",
+            "flattest",
+            "a <= b",
+            "different DIFF_INEQUALITY",
+        ),
+        (
+            "problems/tipping-box",
+            "flattest",
+            "a >= 2b/sqrt(5)",
+            "different DIFF_TURNED",
+        ),
+        (
+            "problems/tipping-box",
+            "flattest",
+            "2b/sqrt(5)",
+            "equivalent EQUIV_IDENTITY",
+        ),
+    ] {
+        let scene = format!("derivations/{scene}.json");
+        let line = json!({"scene": scene, "quantity": quantity, "answer": answer});
+        assert_eq!(judged(line), verdict, "{quantity}: {answer}");
+    }
     for (path, quantity) in [
         (scene, "spin"),
         ("derivations/none.json", "omega"),

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::{Failure, Format, pretty, print, read_scene};
 use carom::grade::entry;
-use carom::grade::sheet::{self, Sheet};
+use carom::grade::sheet::{Bound, Sheet};
 use carom::grade::{Form, Given, Options, Question, Strength, Verdict};
 use carom::{dimension, formula, grade, render};
 
@@ -196,9 +196,38 @@ pub(super) fn open(path: &Path) -> Result<Sheet, Failure> {
             .map_err(|reason| Failure::Input(format!("{}: {reason}", path.display())))?;
         let (scene, derivation) = carom::story::sheet(&scene, &told)
             .map_err(|stop| Failure::Input(format!("{}: {stop}", path.display())))?;
-        return Ok(sheet::Sheet { scene, derivation });
+        let bounds = bounds(&told.answers);
+        return Ok(Sheet {
+            scene,
+            derivation,
+            bounds,
+        });
     }
-    sheet::sheet(scene).map_err(|stop| Failure::Input(format!("{}: {stop}", path.display())))
+    let (scene, derivation, answers) = carom::story::with_special(scene)
+        .map_err(|reason| Failure::Input(format!("{}: {reason}", path.display())))?;
+    Ok(Sheet {
+        scene,
+        derivation,
+        bounds: bounds(&answers),
+    })
+}
+
+/// The answers that are one bound on a parameter.
+fn bounds(answers: &[carom::story::Answer]) -> Vec<Bound> {
+    let bound = |a: &carom::story::Answer| match a.range.as_slice() {
+        [(parameter, relation, value)]
+            if a.name == a.question && a.formula.as_ref().is_none_or(|f| f == value) =>
+        {
+            Some(Bound {
+                name: a.name.clone(),
+                parameter: parameter.clone(),
+                relation: *relation,
+                value: value.clone(),
+            })
+        }
+        _ => None,
+    };
+    answers.iter().filter_map(bound).collect()
 }
 
 fn options(args: &GradeArgs) -> Result<Options, Failure> {

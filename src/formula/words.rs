@@ -299,7 +299,11 @@ impl Lexer<'_> {
         {
             return None;
         }
-        self.finish(start, at, parts).ok()
+        let found = self.finish(start, at, parts).ok();
+        if found.is_none() {
+            self.pos = start;
+        }
+        found
     }
 }
 

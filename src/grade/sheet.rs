@@ -18,6 +18,21 @@ pub struct Sheet {
     pub scene: Scene,
     /// Its derivation.
     pub derivation: Derivation,
+    /// Answers that say for which values of a parameter something holds.
+    pub bounds: Vec<Bound>,
+}
+
+/// An answer such as d ≤ 4ℓ/3.
+#[derive(Clone, Debug)]
+pub struct Bound {
+    /// Name of the answer.
+    pub name: String,
+    /// The parameter.
+    pub parameter: Symbol,
+    /// How it stands to the value.
+    pub relation: Relation,
+    /// The value.
+    pub value: Expr,
 }
 
 /// A quantity of a sheet: a question, or one component of its answer.
@@ -38,7 +53,11 @@ pub struct Entry {
 /// Derives a scene's answers.
 pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
     let derivation = derive::derive(&scene)?;
-    Ok(Sheet { scene, derivation })
+    Ok(Sheet {
+        scene,
+        derivation,
+        bounds: Vec::new(),
+    })
 }
 
 impl Sheet {
@@ -109,6 +128,13 @@ impl Sheet {
             latex: component.map_or(question.latex.clone(), |_| Some(first.latex.clone())),
             dimension: Some(first.dimension.clone()),
         });
+        // `d = …` and `d ≤ …` answer a question about d.
+        let bound = self.bounds.iter().find(|b| b.name == first.name);
+        declared.asked.extend(bound.map(|b| Given {
+            name: b.parameter.clone(),
+            latex: None,
+            dimension: Some(first.dimension.clone()),
+        }));
         let mut values = Vec::new();
         for answer in &chosen {
             match &answer.form {
@@ -163,6 +189,15 @@ impl Sheet {
         let Ok(reading) = super::read::answer(&entry.key, answer) else {
             return grade;
         };
+        if let Some(bound) = self.bounds.iter().find(|b| b.name == entry.name)
+            && let Content::Relations(_, signs) = &reading.content
+            && signs.iter().any(|s| *s != Relation::Equal)
+        {
+            let sides = [Expr::symbol(&bound.parameter), bound.value.clone()];
+            let sides = sides.map(Content::Scalar).to_vec();
+            let content = Content::Relations(sides, vec![bound.relation]);
+            return judge_against(&key_of(content, &self.question()), answer, options);
+        }
         let numeric = self.numeric(entry, &reading, answer, options);
         let rounding = numeric.as_ref().and_then(|(_, room)| *room);
         if let Some((better, _)) = numeric {

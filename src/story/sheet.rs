@@ -52,11 +52,6 @@ pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
             *value = case.put_in(value);
         }
     }
-    // A question of another stage has no meaning in this scene; what was before hangs on no law and misleads nobody.
-    let elsewhere = || Ask::Energy {
-        when: EnergyWhen::Before,
-        of: None,
-    };
     let asked = scene.story.iter().flat_map(|s| &s.questions);
     flat.questions = asked
         .map(|q| Question {
@@ -77,6 +72,57 @@ pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
     let has_answer = |q: &Question| derivation.answers.iter().any(|a| a.question == q.name);
     flat.questions.retain(has_answer);
     Ok((flat, derivation))
+}
+
+/// A scene of one impact with its questions about answers among the others.
+pub fn with_special(
+    mut scene: Scene,
+) -> Result<(Scene, Derivation, Vec<super::Answer>), Unanswered> {
+    let mut derivation = derive::derive(&scene).map_err(Unanswered::Stopped)?;
+    let known = super::special::known(&derivation);
+    let special = std::mem::take(&mut scene.special);
+    let answers = super::special::about(&scene, &special, &known).map_err(Unanswered::Refused)?;
+    derivation
+        .answers
+        .extend(answers.iter().filter_map(flat_answer));
+    scene.questions.extend(special.iter().map(|q| Question {
+        name: q.name.clone(),
+        latex: q.latex.clone(),
+        ask: elsewhere(),
+    }));
+    scene.special = special;
+    let has_answer = |q: &Question| derivation.answers.iter().any(|a| a.question == q.name);
+    scene
+        .questions
+        .retain(|q| has_answer(q) || !scene.special.iter().any(|s| s.name == q.name));
+    Ok((scene, derivation, answers))
+}
+
+/// A question of another stage, or about formulas, has no meaning under changed laws; what was before hangs on no law and
+/// misleads nobody.
+fn elsewhere() -> Ask {
+    Ask::Energy {
+        when: EnergyWhen::Before,
+        of: None,
+    }
+}
+
+/// Why a scene has no sheet.
+#[derive(Debug)]
+pub enum Unanswered {
+    /// The derivation stopped.
+    Stopped(Stop),
+    /// A question about answers was refused.
+    Refused(super::Refused),
+}
+
+impl std::fmt::Display for Unanswered {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Unanswered::Stopped(stop) => stop.fmt(f),
+            Unanswered::Refused(refused) => refused.fmt(f),
+        }
+    }
 }
 
 fn flat_answer(a: &super::Answer) -> Option<Answer> {
