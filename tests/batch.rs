@@ -325,7 +325,7 @@ fn a_scene_below_the_working_folder_gives_key_and_symbols() {
             "problems/tipping-box",
             "flattest",
             "a >= 2b/sqrt(5)",
-            "different DIFF_TURNED",
+            "equivalent EQUIV_SOLUTIONS",
         ),
         (
             "problems/tipping-box",

@@ -213,11 +213,30 @@ fn same_sign(expected: &Normal, answer: &Normal, domains: &Domains) -> Option<bo
     if field.is_zero(&e) || field.is_zero(&a) {
         return (field.is_zero(&e) && field.is_zero(&a)).then_some(true);
     }
-    match field.sign(&field.div(&a, &e).ok()?)? {
+    let definite = |sign: Option<Sign>| match sign? {
         Sign::Positive => Some(true),
         Sign::Negative => Some(false),
         _ => None,
+    };
+    if let Some(sign) = definite(field.sign(&field.div(&a, &e).ok()?)) {
+        return Some(sign);
     }
+    // Roots of numbers may hide in a quotient what they cancel: √5 a − 2 b is √5 (a − 2√5 b/5). Slopes tell the factor.
+    let names = answer.difference.symbols();
+    names.iter().take(4).find_map(|name| {
+        let slopes = [&answer.difference, &expected.difference].map(|d| d.derivative(name));
+        let [mine, theirs] = slopes.map(|slope| field.element(&slope).ok());
+        let (mine, theirs) = (mine?, theirs?);
+        if field.is_zero(&theirs) {
+            return None;
+        }
+        let factor = field.div(&mine, &theirs).ok()?;
+        let scaled = field.mul(&factor, &e).ok()?;
+        match field.equal(&scaled, &a) {
+            true => definite(field.sign(&factor)),
+            false => None,
+        }
+    })
 }
 
 /// Two equations whose quotient changes sign or vanishes somewhere, or is not known.
