@@ -49,6 +49,11 @@ pub struct Line {
     pub diagnosis: Vec<Diagnosis>,
 }
 
+/// Most equations above a line that are solved together.
+const MOST_STATED: usize = 24;
+/// Most wrong lines that are tried as the cause of a later one.
+const MOST_CAUSES: usize = 4;
+
 /// Longest worked solution, in lines.
 pub const MAX_LINES: usize = 400;
 
@@ -80,6 +85,9 @@ struct Desk<'a> {
     believed: Vec<(usize, BTreeMap<Symbol, Expr>)>,
     /// The wrong lines themselves, left minus right, with the student's own names put in.
     wrong: Vec<(usize, Expr)>,
+    /// Every equation so far that was decided, as left minus right with the student's own names put in, and the wrong line
+    /// it hangs on; `None` for what holds.
+    stated: Vec<(Option<usize>, Expr)>,
     /// Names of velocities and spins that all follow from any one of them; empty unless the motion has one freedom.
     moving: BTreeSet<Symbol>,
     /// Names the student introduced.
@@ -125,6 +133,7 @@ impl<'a> Desk<'a> {
             closed,
             believed: Vec::new(),
             wrong: Vec::new(),
+            stated: Vec::new(),
             moving: if one_freedom(&sheet.scene) {
                 moving
             } else {
@@ -207,6 +216,7 @@ impl<'a> Desk<'a> {
         match self.all_zero(&differences, &BTreeMap::new()) {
             Some(true) => {
                 self.link(&reading);
+                self.state(None, &differences);
                 return (Status::Holds, none());
             }
             None => return (Status::Undecided, none()),
@@ -214,6 +224,7 @@ impl<'a> Desk<'a> {
         }
         if let Some(cause) = self.cause(&differences) {
             self.believe(cause, &differences);
+            self.state(Some(cause), &differences);
             return (Status::Carried(cause), none());
         }
         // The student may have meant the other reading of a slash.
@@ -223,6 +234,7 @@ impl<'a> Desk<'a> {
             };
             if let Some(cause) = self.cause(&differences) {
                 self.believe(cause, &differences);
+                self.state(Some(cause), &differences);
                 return (Status::Carried(cause), none());
             }
             if self.all_zero(&differences, &BTreeMap::new()) == Some(true) {
@@ -236,6 +248,7 @@ impl<'a> Desk<'a> {
             }
         }
         self.believe(number, &differences);
+        self.state(Some(number), &differences);
         if let [one] = differences.as_slice() {
             self.wrong.push((number, self.with_own(one)));
         }
@@ -258,6 +271,48 @@ impl<'a> Desk<'a> {
             said.filter(|(_, f)| follows(f, &one, domains))
                 .map(|(cause, _)| *cause)
                 .next()
+                .or_else(|| self.eliminated(&one))
+        })
+    }
+
+    /// Notes equations for later lines.
+    fn state(&mut self, cause: Option<usize>, differences: &[Expr]) {
+        let all = differences.iter().map(|d| (cause, self.with_own(d)));
+        let all: Vec<_> = all.collect();
+        self.stated.extend(all);
+        let excess = self.stated.len().saturating_sub(MOST_STATED);
+        self.stated.drain(..excess);
+    }
+
+    /// The wrong line that makes an equation follow from those above it: they are solved for one name after another, first
+    /// the wrong line and what hangs on it, and put in.
+    fn eliminated(&self, one: &Expr) -> Option<usize> {
+        let domains = &self.sheet.scene.domains;
+        let is_zero = |e: &Expr| {
+            let decided = equality::decide(e, &Expr::zero(), domains).equality;
+            matches!(decided, Equality::Same { .. })
+        };
+        let mut causes: Vec<usize> = self.stated.iter().filter_map(|(c, _)| *c).collect();
+        causes.sort_unstable();
+        causes.dedup();
+        causes.into_iter().rev().take(MOST_CAUSES).find(|&cause| {
+            let of = |wanted: Option<usize>| self.stated.iter().filter(move |(c, _)| *c == wanted);
+            let mut rules: Vec<BTreeMap<Symbol, Expr>> = Vec::new();
+            let reduced = |e: &Expr, rules: &[BTreeMap<Symbol, Expr>]| {
+                rules.iter().fold(e.clone(), |e, rule| e.substitute(rule))
+            };
+            for (_, line) in of(Some(cause)).chain(of(None)) {
+                let line = reduced(line, &rules);
+                // What says nothing new, or contradicts those before, gives no rule.
+                let symbols = line.symbols();
+                let mut names = symbols.iter().filter(|n| self.closed.contains_key(*n));
+                let rule = names.find_map(|name| {
+                    let root = solve_for(&line, name, domains)?;
+                    Some(BTreeMap::from([(name.clone(), root)]))
+                });
+                rules.extend(rule);
+            }
+            is_zero(&reduced(one, &rules))
         })
     }
 
