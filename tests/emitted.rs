@@ -9,9 +9,10 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 use carom::derive;
+use carom::dimension::Dimension;
 use carom::domain::Limit;
 use carom::emit::{Function, Heading, Language, file, functions};
-use carom::expr::number::from_f64;
+use carom::expr::number::{from_f64, to_f64};
 use carom::expr::{Expr, Point, Scalar};
 use carom::formula::{Symbols, read_expr};
 use carom::numeric::deep::Deep;
@@ -24,9 +25,12 @@ struct Case {
     scene: Scene,
     functions: Vec<Function>,
     arguments: Vec<Vec<Vec<f64>>>,
+    /// How many points of each function do not cancel.
+    plain: Vec<usize>,
 }
 
-/// How many points of a function are ordinary ones; the rest all but cancel.
+/// How many points of a function are ordinary ones. Some follow in units that make arguments huge or tiny, then some at
+/// which the value all but cancels.
 const USUAL: usize = 12;
 
 fn cases() -> &'static [Case] {
@@ -48,6 +52,7 @@ fn read_cases() -> Vec<Case> {
         let derivation = derive::derive(&scene).expect("closed forms");
         let (functions, _) = functions(&scene, &derivation);
         let mut dice = Dice(17);
+        let mut plain = Vec::new();
         let arguments = functions
             .iter()
             .map(|f| {
@@ -58,7 +63,11 @@ fn read_cases() -> Vec<Case> {
                     .take(USUAL)
                     .collect();
                 assert_eq!(points.len(), USUAL, "{}", f.formula);
-                points.extend(nearly_cancelling(&points, f));
+                let cancelling = nearly_cancelling(&points, f);
+                let far: Vec<Vec<f64>> = points.iter().filter_map(|x| dice.far(f, x)).collect();
+                points.extend(far);
+                plain.push(points.len());
+                points.extend(cancelling);
                 points
             })
             .collect();
@@ -72,6 +81,7 @@ fn read_cases() -> Vec<Case> {
             scene,
             functions,
             arguments,
+            plain,
         });
     }
     cases
@@ -109,6 +119,11 @@ fn nearly_cancelling(points: &[Vec<f64>], f: &Function) -> Vec<Vec<f64>> {
 
 /// The formula in a function's comment, read back and evaluated at exactly these arguments.
 fn truth(f: &Function, x: &[f64]) -> Option<f64> {
+    let value = enclosed(f, x)?;
+    Some(value.rounded().unwrap_or_else(|| value.near()))
+}
+
+fn enclosed(f: &Function, x: &[f64]) -> Option<Deep<512>> {
     let mut symbols = Symbols::strict();
     let mut point = Point::default();
     for (argument, v) in f.arguments.iter().zip(x) {
@@ -119,7 +134,7 @@ fn truth(f: &Function, x: &[f64]) -> Option<f64> {
             .insert(argument.symbol.clone(), Deep::<512>::from_rational(&exact));
     }
     let e = read_expr(&f.formula, &symbols).expect("carom reads what it writes");
-    Some(e.evaluate(&point)?.near())
+    e.evaluate(&point)
 }
 
 /// Random numbers from a seed.
@@ -132,6 +147,34 @@ impl Dice {
             .wrapping_mul(6_364_136_223_846_793_005)
             .wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// The same arguments measured in units of 10^±280 at most, such that doubles hold all of them and the value.
+    fn far(&mut self, f: &Function, x: &[f64]) -> Option<Vec<f64>> {
+        f.units.as_ref()?;
+        for _ in 0..50 {
+            let [mass, length, time] =
+                [0; 3].map(|_| ((self.unit() * 561.0).floor() - 280.0) as i64);
+            let power = |d: &Dimension| {
+                let all = [(&d.mass, mass), (&d.length, length), (&d.time, time)];
+                all.into_iter()
+                    .map(|(e, by)| to_f64(e) * by as f64)
+                    .sum::<f64>()
+            };
+            let powers: Vec<f64> = f.arguments.iter().map(|a| power(&a.dimension)).collect();
+            if powers.iter().any(|p| p.abs() > 295.0) {
+                continue;
+            }
+            let values = x.iter().zip(&powers).map(|(x, p)| x * 10f64.powf(*p));
+            let values: Vec<f64> = values.collect();
+            let fits = enclosed(f, &values)
+                .and_then(|v| v.rounded())
+                .is_some_and(|v| (1e-290..1e300).contains(&v.abs()));
+            if fits {
+                return Some(values);
+            }
+        }
+        None
     }
 
     /// Arguments in the domains of the scene: between their ends, or of sizes from 1/100 to 100.
@@ -192,7 +235,7 @@ fn calls<'a>(case: &'a Case, text: &'a str) -> impl Iterator<Item = String> + 'a
             .or(l.strip_prefix("double "))
             .or(l.strip_prefix("def "))?;
         let name = rest.split('(').next()?;
-        let helper = ["wide_", "two_", "quick_"]
+        let helper = ["wide_", "two_", "quick_", "unit_"]
             .iter()
             .any(|h| name.starts_with(h));
         (!helper).then_some(name)
@@ -210,16 +253,17 @@ fn hold(cases: &[Case], language: &str, output: &str) {
     let mut values = output
         .lines()
         .map(|l| l.trim().parse::<f64>().expect("a number"));
-    let mut cancelled = 0;
+    let (mut cancelled, mut far) = (0, 0);
     for case in cases {
-        for (f, points) in case.functions.iter().zip(&case.arguments) {
+        for ((f, points), plain) in case.functions.iter().zip(&case.arguments).zip(&case.plain) {
+            far += plain - USUAL;
             for (i, x) in points.iter().enumerate() {
                 let value = values.next().expect("a value for every call");
                 let truth = truth(f, x).expect("a value");
                 let bound = f.bound.expect("no scene has a function without a bound");
                 // What cancels to neighbouring doubles cancels by 2⁵³, times the number of terms.
-                let cancels = if i < USUAL { 1e4 } else { 2f64.powi(56) };
-                cancelled += usize::from(i >= USUAL);
+                let cancels = if i < *plain { 1e4 } else { 2f64.powi(56) };
+                cancelled += usize::from(i >= *plain);
                 let allowed =
                     (bound.plain + bound.wide * cancels + 1.0) * 2f64.powi(-53) * truth.abs();
                 assert!(
@@ -238,6 +282,7 @@ fn hold(cases: &[Case], language: &str, output: &str) {
         }
     }
     assert!(values.next().is_none());
+    assert!(far > 500, "only {far} points far from one");
     assert!(
         cancelled > 30,
         "only {cancelled} points at which the answer cancels"

@@ -7,7 +7,9 @@ use num_traits::{One, Zero};
 use super::arrange::{Atoms, arranged, signs, without_angles};
 use super::program::{Bound, Program, Step};
 use super::range::{Input, divides_safely, reach};
+use super::units::{Units, units};
 use crate::derive::{Answer, Derivation, Form};
+use crate::dimension::{self, Dimension};
 use crate::expr::angle::angle;
 use crate::expr::number::{from_f64, to_f64};
 use crate::expr::{Expr, Function as Call, Node, Rational, Symbol};
@@ -20,6 +22,8 @@ use crate::scene::Scene;
 pub struct Argument {
     /// The scene's symbol.
     pub symbol: Symbol,
+    /// Its dimension.
+    pub dimension: Dimension,
     /// Its unit; values are in SI units.
     pub unit: String,
     /// What it is, in words; empty where the scene does not say.
@@ -70,6 +74,8 @@ pub struct Function {
     pub bound: Option<Bound>,
     /// Nothing over- or underflows while no argument other than zero lies outside 10^−k … 10^k, sums that cancel aside.
     pub reach: i32,
+    /// Units in which larger and smaller arguments are measured first; `None` where the formula allows none.
+    pub units: Option<Units>,
 }
 
 /// Error of a cosine or sine of the library, one unit in the last place, in units of 2⁻⁵³.
@@ -124,16 +130,29 @@ fn function(scene: &Scene, derivation: &Derivation, answer: &Answer) -> Option<F
     }
     let wide_errors: Vec<f64> = errors.iter().map(|e| e.min(WIDE_WAVE)).collect();
     let bound = program.bound(&errors, &wide_errors);
+    let arguments: Vec<Argument> = arguments.iter().map(|a| argument(scene, a)).collect();
     Some(Function {
         name: answer.name.clone(),
         words: format!("{} [{}]", answer.words, answer.dimension.si()),
         formula: write_plain(&form),
-        arguments: arguments.iter().map(|a| argument(scene, a)).collect(),
+        units: units_of(&form, &arguments, &answer.dimension).filter(|_| reach > 0),
+        arguments,
         turns,
         program,
         bound,
         reach,
     })
+}
+
+/// Units for a formula whose dimensions agree: one with a length written as a bare number gives other values in others.
+fn units_of(form: &Expr, arguments: &[Argument], value: &Dimension) -> Option<Units> {
+    let known = |name: &str| {
+        let argument = arguments.iter().find(|a| &*a.symbol == name)?;
+        Some(argument.dimension.clone())
+    };
+    let agrees = dimension::of(form, &known).is_ok_and(|found| found.as_ref() == Some(value));
+    let dimensions: Vec<Dimension> = arguments.iter().map(|a| a.dimension.clone()).collect();
+    agrees.then(|| units(&dimensions, value))?
 }
 
 /// A program with its arguments, and the cosines and sines that follow them as inputs.
@@ -239,6 +258,7 @@ fn argument(scene: &Scene, symbol: &Symbol) -> Argument {
     let parameter = scene.parameters.iter().find(|p| p.name == *symbol);
     Argument {
         symbol: symbol.clone(),
+        dimension: parameter.map_or_else(Dimension::none, |p| p.dimension.clone()),
         unit: parameter.map_or_else(String::new, |p| match p.dimension.is_none() {
             true if p.unit.contains("deg") || p.unit == "rad" => "rad".into(),
             true => "1".into(),

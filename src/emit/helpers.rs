@@ -99,7 +99,8 @@ impl Helper {
 
 /// Whether a name is a helper's.
 pub fn is_helper(name: &str) -> bool {
-    name == "Wide" || name == "split" || Helper::ALL.iter().any(|h| h.name() == name)
+    let own = |name: &str| Helper::ALL.iter().any(|h| h.name() == name);
+    name == "Wide" || name == "split" || own(name) || super::units::NAMES.contains(&name)
 }
 
 /// What stands before the functions: imports, and the helpers used.

@@ -1,7 +1,7 @@
 //! From a closed form to code: arranged for accuracy, with an error bound it can state, in three languages.
 //!
 //! `arrange` turns an expression into a straight-line program, `program` runs it and bounds its error, `range` tells where it
-//! over- or underflows, `function` gathers what a reader has to know, `write` writes it out. Knows nothing of how the
+//! over- or underflows, `units` keep it from that, `function` gathers what a reader has to know, `write` writes it out. Knows nothing of how the
 //! closed form was found.
 
 pub mod arrange;
@@ -9,6 +9,7 @@ pub mod function;
 mod helpers;
 pub mod program;
 mod range;
+pub mod units;
 pub mod write;
 
 pub use arrange::{Atoms, Signs, arranged, as_derived, signs, without_angles};

@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 use super::function::{Function, LIBRARY, Turn};
 use super::helpers::{self, Helper};
 use super::program::Step;
+use super::units::{self, Units};
 use crate::numeric::dd::Dd;
 
 /// The languages.
@@ -50,6 +51,9 @@ pub fn file(language: Language, heading: &Heading, functions: &[Function]) -> St
     let mut out = comment(language, &head(heading), true);
     out.push('\n');
     out.push_str(&helpers::text(language, &used));
+    if functions.iter().any(|f| f.units.is_some()) {
+        out.push_str(units::helpers(language));
+    }
     out.push_str(&bodies.join("\n"));
     out
 }
@@ -168,10 +172,17 @@ impl<'a> Writer<'a> {
 
     fn function(mut self, name: &str) -> String {
         let documentation = documentation(self.function, &self.arguments);
-        for turn in &self.function.turns {
+        let function = self.function;
+        let scales = function.units.as_ref().map(|units| self.scale(units));
+        for turn in &function.turns {
             self.turn(turn);
         }
-        let value = self.steps();
+        let mut value = self.steps();
+        if let Some((units, scales)) = function.units.as_ref().zip(scales.as_deref()) {
+            if let Some(power) = power(&units.value, scales, 1) {
+                value = format!("unit_scaled({value}, {power})");
+            }
+        }
         let list = |of: &str| {
             let each = self.arguments.iter().map(|a| of.replace('#', a));
             each.collect::<Vec<_>>().join(", ")
@@ -219,6 +230,63 @@ impl<'a> Writer<'a> {
             }
         }
         out
+    }
+
+    /// Measures the arguments in units near them where one is far from one; gives the names of the units' exponents.
+    fn scale(&mut self, units: &Units) -> Vec<String> {
+        let limit = number(10f64.powi(self.function.reach));
+        let powers = units.arguments.iter().zip(self.arguments.clone());
+        let changed: Vec<(&Vec<i64>, String)> = powers
+            .filter(|(powers, _)| powers.iter().any(|p| *p != 0))
+            .collect();
+        let or = if self.language == Language::Python {
+            " or "
+        } else {
+            " || "
+        };
+        let tests = changed
+            .iter()
+            .map(|(_, a)| format!("unit_far({a}, {limit})"));
+        let tests = tests.collect::<Vec<_>>().join(or);
+        let far = self.names.fresh("far");
+        self.lines.push(match self.language {
+            Language::Rust => format!("let {far} = {tests};"),
+            Language::C => format!("const int {far} = {tests};"),
+            Language::Python => format!("{far} = {tests}"),
+        });
+        let mut scales = Vec::new();
+        for class in &units.of {
+            let sizes = class
+                .iter()
+                .map(|a| self.library("abs", &self.arguments[*a], Holds::Atom));
+            let largest = sizes.reduce(|a, b| match self.language {
+                Language::Rust => format!("{a}.max({b})"),
+                Language::C => format!("fmax({a}, {b})"),
+                Language::Python => format!("max({a}, {b})"),
+            });
+            let largest = largest.unwrap_or_default();
+            let name = format!("size_{}", self.arguments[class[0]]);
+            let name = self.names.fresh(&name);
+            self.lines.push(match self.language {
+                Language::Rust => {
+                    format!("let {name} = if {far} {{ unit_size({largest}) }} else {{ 0 }};")
+                }
+                Language::C => format!("const int {name} = {far} ? unit_size({largest}) : 0;"),
+                Language::Python => format!("{name} = unit_size({largest}) if {far} else 0"),
+            });
+            scales.push(name);
+        }
+        for (powers, argument) in changed {
+            if let Some(power) = power(powers, &scales, -1) {
+                let text = format!("{argument} = unit_scaled({argument}, {power})");
+                self.lines.push(match self.language {
+                    Language::Rust => format!("let {text};"),
+                    Language::C => format!("{text};"),
+                    Language::Python => text,
+                });
+            }
+        }
+        scales
     }
 
     fn assign(&mut self, name: &str, value: &str, wide: bool) {
@@ -426,6 +494,25 @@ pub(super) fn number(v: f64) -> String {
 }
 
 /// What the comment of a function says.
+/// A sum of exponents: powers times the exponents' names, all times a sign; `None` for an empty one.
+fn power(powers: &[i64], names: &[String], sign: i64) -> Option<String> {
+    let mut text = String::new();
+    for (power, name) in powers.iter().zip(names).filter(|(p, _)| **p != 0) {
+        let power = power * sign;
+        text.push_str(match (text.is_empty(), power < 0) {
+            (true, true) => "-",
+            (true, false) => "",
+            (false, true) => " - ",
+            (false, false) => " + ",
+        });
+        text.push_str(&match power.abs() {
+            1 => name.clone(),
+            k => format!("{k} * {name}"),
+        });
+    }
+    (!text.is_empty()).then_some(text)
+}
+
 fn documentation(f: &Function, names: &[String]) -> Vec<String> {
     let mut lines = vec![format!("{}: {}.", f.name, f.words.trim_end_matches('.'))];
     lines.push(String::new());
@@ -445,12 +532,12 @@ fn documentation(f: &Function, names: &[String]) -> Vec<String> {
     if !f.arguments.is_empty() {
         lines.push(String::new());
     }
-    lines.extend(promise(f));
+    lines.extend(promise(f, names));
     lines
 }
 
 /// The bound in words, and what it covers.
-fn promise(f: &Function) -> Vec<String> {
+fn promise(f: &Function, names: &[String]) -> Vec<String> {
     let Some(bound) = f.bound else {
         return vec![
             "Error: no bound is stated, for it rests on a library function of unknown error."
@@ -489,6 +576,20 @@ fn promise(f: &Function) -> Vec<String> {
         ". Nothing over- or underflows while every argument is zero or of a size within 1e-{0} to 1e{0}",
         f.reach
     ));
+    if let Some(units) = &f.units {
+        let near = units.of.iter().map(|class| match class.as_slice() {
+            [one] => names[*one].clone(),
+            many => {
+                let list: Vec<&str> = many.iter().map(|a| names[*a].as_str()).collect();
+                format!("the largest of {}", list.join(", "))
+            }
+        });
+        text.push_str(&format!(
+            "; beyond, while they are in units in which {} {} near one, powers of two that change no digit",
+            near.collect::<Vec<_>>().join(" and "),
+            if units.of.len() == 1 { "is" } else { "are" },
+        ));
+    }
     text.push_str(match bound.wide > 0.0 {
         true => ", unless a sum cancels to less.",
         false => ".",
@@ -501,8 +602,8 @@ fn promise(f: &Function) -> Vec<String> {
 struct Names(BTreeSet<String>);
 
 const KEPT: &str = "False None True abs abstract alignas and as assert async auto await become bool box break case char class const \
-    continue cos crate def default del do double dyn elif else enum except extern fabs false final finally float fn \
-    for from gen global goto if impl import in inline int is lambda let long loop macro main match math mod \
+    continue cos crate def default del do double dyn elif else enum except extern fabs false final finally float fmax fn \
+    for from gen global goto if impl import in inline int is lambda let long loop macro main match math max mod \
     move mut nonlocal not or override pass pow priv pub raise ref register remainder restrict return round self short signed sin \
     sizeof sqrt static struct super switch tan trait true try type typedef typeof union unsafe unsigned unsized use virtual \
     void volatile where while wide with yield Self";

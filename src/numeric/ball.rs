@@ -24,6 +24,10 @@ pub struct Ball {
 
 /// Relative error of one rounding.
 const ROUNDING: f64 = 1.0 / (1u64 << 53) as f64;
+/// The same four times over.
+const FOUR: f64 = 4.0 * ROUNDING;
+/// The same of a rounding's own rounding, twice over.
+const FINEST: f64 = 2.0 * ROUNDING * ROUNDING;
 /// Relative error of a number as a double-double, rounded up.
 const STEP: f64 = 1.0 / (1u128 << 102) as f64;
 /// Relative error of a root, absolute error of a sine, rounded up.
@@ -71,17 +75,18 @@ impl Ball {
         let (p, q) = (a.high * b.low, a.low * b.high);
         let mixed = p + q;
         let low = lead.low + mixed;
-        // Four roundings, the product of the lows that is left out, and the errors that came in.
-        let slips = ROUNDING * ((p.abs() + q.abs()) + (mixed.abs() + low.abs()));
-        let reach_b = b.high.abs() + (b.low.abs() + other.error);
-        let spread = (a.high.abs() + a.low.abs()) * other.error
-            + (reach_b * self.error + (a.low * b.low).abs());
+        // The roundings of p, q and both sums are at most 2⁻⁵³ of 3|p| + 3|q| + |lead.low|. What is left out, and what the
+        // errors that came in bring, are the products below.
+        let (rest_a, rest_b) = (a.low.abs(), b.low.abs());
+        let spread = a.high.abs() * (other.error + FOUR * rest_b)
+            + b.high.abs() * (self.error + FOUR * rest_a)
+            + (rest_a + self.error) * (rest_b + other.error);
         Ball {
             middle: Dd {
                 high: lead.high,
                 low,
             },
-            error: spread + (slips + FLOOR),
+            error: spread + (lead.high.abs() * FINEST + FLOOR),
         }
     }
 
@@ -107,8 +112,7 @@ impl Ball {
     pub fn plus_double(self, other: f64) -> Ball {
         let lead = two_sum(self.middle.high, other);
         let low = lead.low + self.middle.low;
-        // A sum errs by no more than a rounding, and by no more than its smaller part.
-        let slip = lesser(ROUNDING * low.abs(), self.middle.low.abs());
+        let slip = ROUNDING * low.abs();
         Ball {
             middle: Dd {
                 high: lead.high,
@@ -193,12 +197,6 @@ impl Ball {
     }
 }
 
-/// The smaller of two, by one instruction.
-#[inline(always)]
-fn lesser(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
-}
-
 impl Scalar for Ball {
     fn from_rational(value: &Rational) -> Ball {
         let middle = Dd::from_rational(value);
@@ -224,7 +222,7 @@ impl Scalar for Ball {
         let lead = two_sum(self.middle.high, other.middle.high);
         let lows = self.middle.low + other.middle.low;
         let low = lead.low + lows;
-        let slips = ROUNDING * lows.abs() + lesser(ROUNDING * low.abs(), lows.abs());
+        let slips = ROUNDING * (lows.abs() + low.abs());
         Ball {
             middle: Dd {
                 high: lead.high,

@@ -66,7 +66,12 @@ pub fn certify_into(given: &Given<f64>, found: &mut Certified) -> Result<(), Unc
     unknowns(given, &mut found.unknowns);
     found.start();
     let mut told = true;
-    let solved = enclosures(given, |ball| told &= found.take(&ball));
+    let mut slots = found.solution.values.iter_mut().zip(&mut found.tiers);
+    let solved = enclosures(given, |ball| {
+        if let Some((value, tier)) = slots.next() {
+            told &= take(&ball, value, tier);
+        }
+    });
     if solved.is_some() && told {
         return Ok(());
     }
@@ -88,29 +93,34 @@ pub fn certify_into(given: &Given<f64>, found: &mut Certified) -> Result<(), Unc
 }
 
 impl Certified {
+    /// Makes room for as many unknowns as there are names.
     fn start(&mut self) {
         let n = self.unknowns.len();
-        self.solution.values.clear();
-        self.tiers.clear();
+        self.solution.values.resize(n, f64::NAN);
+        self.tiers.resize(n, Tier::Exact);
         self.solution.unique.clear();
         self.solution.unique.resize(n, true);
         self.solution.rank = n;
     }
 
-    /// The rounding of the next unknown's ball; false where it is too wide.
-    #[inline(always)]
-    fn take(&mut self, ball: &Ball) -> bool {
-        let rounded = ball.rounded();
-        self.solution.values.push(rounded.unwrap_or(f64::NAN));
-        self.tiers.push(tier(ball));
-        rounded.is_some()
-    }
-
+    /// The roundings of balls; false where one is too wide.
     fn take_all(&mut self, balls: &[Ball]) -> bool {
         self.start();
-        let untold = balls.iter().filter(|ball| !self.take(ball)).count();
-        untold == 0
+        let slots = self.solution.values.iter_mut().zip(&mut self.tiers);
+        let all = slots
+            .zip(balls)
+            .map(|((value, t), ball)| take(ball, value, t));
+        all.fold(true, |told, one| told & one)
     }
+}
+
+/// The rounding of a ball and what it took; false where the ball is too wide.
+#[inline(always)]
+fn take(ball: &Ball, value: &mut f64, told: &mut Tier) -> bool {
+    let rounded = ball.rounded();
+    *value = rounded.unwrap_or(f64::NAN);
+    *told = tier(ball);
+    rounded.is_some()
 }
 
 /// What an enclosure that rounds to one double is good for.
