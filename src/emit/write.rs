@@ -178,10 +178,9 @@ impl<'a> Writer<'a> {
             self.turn(turn);
         }
         let mut value = self.steps();
-        if let Some((units, scales)) = function.units.as_ref().zip(scales.as_deref()) {
-            if let Some(power) = power(&units.value, scales, 1) {
-                value = format!("unit_scaled({value}, {power})");
-            }
+        let back = function.units.as_ref().zip(scales.as_deref());
+        if let Some(power) = back.and_then(|(units, scales)| power(&units.value, scales, 1)) {
+            value = format!("unit_scaled({value}, {power})");
         }
         let list = |of: &str| {
             let each = self.arguments.iter().map(|a| of.replace('#', a));
