@@ -1,14 +1,21 @@
 //! Grading: from two texts to a verdict, by class of formula, and answers against stored keys.
 //!
-//! `cargo bench --bench grade`; the same pairs go through SymPy and giac by `benches/peers.py`.
+//! `cargo bench --bench grade`; with `stages` behind it, one table of what each stage takes, by class of formula. The same
+//! pairs go through SymPy and giac by `benches/peers.py`, which sets them beside that table.
 
-use carom::formula::stream::Seen;
+use std::hint::black_box;
+use std::time::Instant;
+
+use carom::formula::stream::{Angle, Builder, Names, Ratio, Seen, Table, stream};
 use carom::grade::plain::plain;
-use carom::grade::{Options, Question, Strength, judge, judge_against, key, quick};
+use carom::grade::{Options, Question, Strength, Verdict, judge, judge_against, key, quick};
 use carom::render::grade::Frame;
 
 fn main() {
-    divan::main();
+    match std::env::args().any(|arg| arg == "stages") {
+        true => stages(),
+        false => divan::main(),
+    }
 }
 
 /// Class, expected, an equal answer, a different answer.
@@ -118,10 +125,113 @@ fn line_of_a_batch_fast(bencher: divan::Bencher, class: usize) {
     let mut frame = Frame::of(&key).expect("a key judged at points");
     let (mut seen, mut out) = (Seen::default(), String::new());
     bencher.bench_local(|| {
-        let line = plain(divan::black_box(&line)).expect("a plain line");
+        let line = plain(black_box(&line)).expect("a plain line");
         let judged = quick(&key, &line.answer, &options, &mut seen).expect("a plain formula");
         out.clear();
         frame.line(&mut out, line.id, &judged, &seen);
         out.len()
     });
+}
+
+/// A formula that is read and thrown away.
+struct Nothing;
+
+impl Builder for Nothing {
+    type Value = ();
+    fn number(&mut self, _: u64, _: u32) -> Option<()> {
+        Some(())
+    }
+    fn symbol(&mut self, _: usize, _: &[u8]) -> Option<()> {
+        Some(())
+    }
+    fn pi(&mut self) -> Option<()> {
+        Some(())
+    }
+    fn negative(&mut self, _: ()) -> Option<()> {
+        Some(())
+    }
+    fn sum(&mut self, _: (), _: ()) -> Option<()> {
+        Some(())
+    }
+    fn product(&mut self, _: (), _: ()) -> Option<()> {
+        Some(())
+    }
+    fn quotient(&mut self, _: (), _: ()) -> Option<()> {
+        Some(())
+    }
+    fn power(&mut self, _: (), _: i32) -> Option<()> {
+        Some(())
+    }
+    fn turn(&mut self, _: Ratio, _: &Angle, _: &[&[u8]]) -> Option<()> {
+        Some(())
+    }
+}
+
+/// The median time of a call in microseconds, of a few thousand calls.
+fn median(mut call: impl FnMut()) -> f64 {
+    let mut times: Vec<f64> = (0..4_000)
+        .map(|_| {
+            let start = Instant::now();
+            call();
+            start.elapsed().as_secs_f64() * 1e6
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+/// Reads both texts of a pair, the second with the names of the first.
+fn read_both(expected: &str, answer: &str) {
+    let (mut names, mut seen) = (Names::collecting(), Seen::default());
+    black_box(stream(
+        expected,
+        Table::Collect(&mut names),
+        &mut Nothing,
+        &mut seen,
+    ));
+    names.close();
+    black_box(stream(
+        answer,
+        Table::Known(&names),
+        &mut Nothing,
+        &mut seen,
+    ));
+}
+
+/// What the stages take, each told with those before it, in microseconds and as a multiple of reading.
+fn stages() {
+    let [fast, identity] = [Strength::Fast, Strength::Identity].map(options);
+    println!(
+        "{:<15} {:>9} {:>16} {:>16} {:>16} {:>16}",
+        "us (x reading)", "reading", "points, equal", "points, differ", "proof", "stored key"
+    );
+    for (name, expected, equal, other) in PAIRS {
+        let judged = |answer: &str, options: &Options, verdict: Verdict| {
+            let once = || {
+                judge(
+                    black_box(expected),
+                    black_box(answer),
+                    &Question::default(),
+                    options,
+                )
+            };
+            assert_eq!(once().verdict, verdict);
+            median(|| drop(black_box(once())))
+        };
+        let reading = median(|| read_both(black_box(expected), black_box(equal)));
+        let kept = key(expected, &Question::default()).expect("a readable formula");
+        let mut seen = Seen::default();
+        let stored = median(|| {
+            black_box(quick(&kept, black_box(equal), &fast, &mut seen));
+        });
+        let columns = [
+            judged(equal, &fast, Verdict::Equivalent),
+            judged(other, &fast, Verdict::Different),
+            judged(equal, &identity, Verdict::Equivalent),
+            stored,
+        ];
+        let shown = columns.map(|time| format!("{time:.2} ({:.1})", time / reading));
+        let [a, b, c, d] = shown;
+        println!("{name:<15} {reading:>9.2} {a:>16} {b:>16} {c:>16} {d:>16}");
+    }
 }

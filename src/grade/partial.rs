@@ -10,9 +10,9 @@ use num_traits::Signed;
 use super::compare::{Context, is_short, quotient, same_number};
 use super::{Diagnosis, fraction, number};
 use crate::dimension::{self, Clash, Dimension};
-use crate::domain::{Domains, roles, samples};
+use crate::domain::{Coordinate, Domains, Sample, roles, samples};
 use crate::equality::{self, Equality, How};
-use crate::expr::{Expr, Function, Node, Point, Symbol, ratio};
+use crate::expr::{Expr, Function, Node, Point, Scalar, Symbol, ratio};
 use crate::formula::write_plain;
 use crate::interval::{Interval, Outcome, evaluate};
 
@@ -207,15 +207,23 @@ struct Trial<'a> {
 impl<'a> Trial<'a> {
     fn new(ctx: &'a Context, expected: &'a Expr, answer: &'a Expr) -> Trial<'a> {
         let domains = &ctx.key.question.domains;
-        let half = |e: &Expr| -> Expr { e.clone() };
-        let uses = roles(&[&half(expected), answer]);
+        let uses = roles(&[expected, answer]);
         let (all, _) = domains.completed(&uses);
         // The first points have many ones, at which a power is as good as another.
-        let points: Vec<_> = samples(&uses, &all, 2 + GLANCES)
-            .iter()
-            .skip(2)
-            .map(|s| s.point(true))
-            .collect();
+        let points = samples(&uses, &all, 2 + GLANCES);
+        // What is known by its direction alone costs less by far; that does where no angle is needed in radians.
+        let radians = uses.radians
+            || uses
+                .symbols
+                .iter()
+                .filter(|(_, r)| r.turns)
+                .any(|(name, r)| {
+                    let direction = |s: &Sample| {
+                        matches!(s.coordinates.get(name), Some(Coordinate::Direction { .. }))
+                    };
+                    r.bare || !points.iter().all(direction)
+                });
+        let points: Vec<_> = points.iter().skip(2).map(|s| s.point(radians)).collect();
         let at = |e: &Expr| points.iter().map(|p| evaluate(e, p)).collect::<Vec<_>>();
         Trial {
             expected,
@@ -227,29 +235,45 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// Whether two lists of values may be of equal expressions.
-    fn alike(a: &[Outcome<Interval>], b: &[Outcome<Interval>]) -> bool {
-        let mut known = 0;
-        for (a, b) in a.iter().zip(b) {
-            match (a, b) {
-                (Outcome::Value(a), Outcome::Value(b)) if a.is_disjoint(b) => return false,
-                (Outcome::Value(_), Outcome::Value(_)) => known += 1,
+    /// Whether two lists of values are of different expressions for certain.
+    fn apart(a: &[Outcome<Interval>], b: &[Outcome<Interval>]) -> bool {
+        a.iter().zip(b).any(|pair| match pair {
+            (Outcome::Value(a), Outcome::Value(b)) => a.is_disjoint(b),
+            _ => false,
+        })
+    }
+
+    /// Whether an expression may have these values, some of which are known; the first point that tells them apart ends it.
+    fn may_be(&self, values: &[Outcome<Interval>], e: &Expr) -> bool {
+        let mut known = false;
+        for (value, point) in values.iter().zip(&self.points) {
+            match (value, evaluate(e, point)) {
+                (Outcome::Value(a), Outcome::Value(b)) if a.is_disjoint(&b) => return false,
+                (Outcome::Value(_), Outcome::Value(_)) => known = true,
                 _ => {}
             }
         }
-        known > 0
+        known
+    }
+
+    /// Whether the answer may be the expected formula times a number: no two points tell two different ones.
+    fn in_proportion(&self) -> bool {
+        let [mut left, mut right] = [Vec::new(), Vec::new()];
+        for (i, (value, answer)) in self.values.iter().zip(&self.answers).enumerate() {
+            left.extend(self.answers[..i].iter().map(|other| value.times(other)));
+            right.extend(self.values[..i].iter().map(|other| answer.times(other)));
+        }
+        !Trial::apart(&left, &right)
     }
 
     /// Whether a changed answer equals the expected formula.
     fn mends(&self, changed: &Expr) -> bool {
-        let values: Vec<_> = self.points.iter().map(|p| evaluate(changed, p)).collect();
-        Trial::alike(&self.values, &values) && proved(self.expected, changed, self.domains)
+        self.may_be(&self.values, changed) && proved(self.expected, changed, self.domains)
     }
 
     /// Whether the answer is the expected formula changed in a known way.
     fn is(&self, changed: &Expr) -> bool {
-        let values: Vec<_> = self.points.iter().map(|p| evaluate(changed, p)).collect();
-        Trial::alike(&self.answers, &values) && proved(changed, self.answer, self.domains)
+        self.may_be(&self.answers, changed) && proved(changed, self.answer, self.domains)
     }
 
     fn sign(&self) -> Option<Diagnosis> {
@@ -264,7 +288,7 @@ impl<'a> Trial<'a> {
 
     /// A constant factor.
     fn factor(&self, ctx: &Context) -> Option<Diagnosis> {
-        if self.expected.is_zero() || self.answer.is_zero() {
+        if self.expected.is_zero() || self.answer.is_zero() || !self.in_proportion() {
             return None;
         }
         if let Some(k) = quotient(self.answer, self.expected, ctx) {
@@ -570,6 +594,11 @@ impl<'a> Trial<'a> {
             let (mut e, mut a) = (self.expected.clone(), self.answer.clone());
             for order in 0..3 {
                 let (e0, a0) = (at_zero(&e), at_zero(&a));
+                let at =
+                    |e: &Expr| -> Vec<_> { self.points.iter().map(|p| evaluate(e, p)).collect() };
+                if Trial::apart(&at(&e0), &at(&a0)) {
+                    break;
+                }
                 let zero = |x: &Expr| proved(x, &Expr::zero(), self.domains);
                 match (zero(&e0), zero(&a0)) {
                     (true, true) => {
