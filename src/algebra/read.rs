@@ -447,6 +447,16 @@ impl Field {
     fn exponential(&mut self, x: &Element) -> Result<Element, Stop> {
         let mut total = self.integer(1);
         for (term, factor) in self.angle_terms(x) {
+            // e to the logarithm of something is that.
+            let inside = self.as_generator(&term).map(|v| self.gens[v].kind.clone());
+            if let Some(Kind::Call(Function::Ln, inner)) = inside
+                && let (Some(k), Some(n @ (1 | 2))) =
+                    (factor.numer().as_i64(), factor.denom().as_i64())
+            {
+                let base = if n == 2 { self.sqrt(&inner)? } else { inner };
+                total = self.mul(&total, &self.pow(&base, k)?)?;
+                continue;
+            }
             let known = self
                 .gens
                 .iter()

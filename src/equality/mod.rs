@@ -308,30 +308,30 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
 
 /// The verdict for a proved identity, with what was seen of points where only one side has a value.
 fn same(mut assumptions: Vec<Assumption>, ground: Ground, tally: &Tally) -> Equality {
-    let how = match tally.apart.as_slice() {
-        [] => How::Identity {
+    // A point where the first formula has a value and the second has none tells more than one the other way round.
+    let telling = |(_, left, _): &&(Sample, Value, Value)| *left != Value::None;
+    let elsewhere = tally.apart.iter().find(telling).or(tally.apart.first());
+    let how = match (tally.apart.as_slice(), elsewhere) {
+        ([], _) | (_, None) => How::Identity {
             ground,
             assumptions,
         },
-        [(at, ..)] => {
+        ([(at, ..)], _) => {
             assumptions.push(Assumption::NotAt(at.clone()));
             How::Identity {
                 ground,
                 assumptions,
             }
         }
-        [(at, left, right), ..] => {
-            let elsewhere = Counterexample {
+        (_, Some((at, left, right))) => How::OnBranch {
+            condition: Condition::BothDefined,
+            elsewhere: Counterexample {
                 at: at.clone(),
                 left: left.clone(),
                 right: right.clone(),
                 confirmed: true,
-            };
-            How::OnBranch {
-                condition: Condition::BothDefined,
-                elsewhere,
-            }
-        }
+            },
+        },
     };
     Equality::Same { how }
 }

@@ -173,6 +173,9 @@ impl Reading {
 /// Reads a formula. Of several `\boxed{}` the last counts, and what stands around it is passed over; so are words
 /// around a single formula in dollars.
 pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
+    if let Some(pair) = two_values(text, symbols) {
+        return Ok(pair);
+    }
     let usual = read_as(text, symbols, 0);
     let worded = match &usual {
         Ok(reading) => reading.notes.iter().any(|n| n.remark == Remark::Letters),
@@ -191,6 +194,51 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         return Ok(reading);
     }
     usual.map_err(|fault| *fault)
+}
+
+/// `x = 3 or x = -3` and `2, -2` as one pair of values.
+fn two_values(text: &str, symbols: &Symbols) -> Option<Reading> {
+    if text.len() > MAX_BYTES || symbols.find("or").is_some() || symbols.find("and").is_some() {
+        return None;
+    }
+    let (start, stop) = boxed(text).ok()?;
+    let (end, next) = prose::alternatives(&text[start..stop])?;
+    let part = |from: usize, to: usize| {
+        let strict = read_inner(&text[..to], from, symbols, false, 0);
+        let worded = |r: &Reading| r.notes.iter().any(|n| n.remark == Remark::Letters);
+        strict.ok().filter(|r| !worded(r))
+    };
+    let (first, second) = (part(start, start + end)?, part(start + next, stop)?);
+    let named = |content: &Content| match content {
+        Content::Relations(sides, signs) if signs == &[Relation::Equal] => match sides.as_slice() {
+            [Content::Scalar(name), Content::Scalar(value)] => {
+                Some((Some(name.as_symbol()?.clone()), value.clone()))
+            }
+            _ => None,
+        },
+        Content::Scalar(value) => Some((None, value.clone())),
+        _ => None,
+    };
+    let ((name, a), (other, b)) = (named(&first.content)?, named(&second.content)?);
+    if other.is_some() && other != name {
+        return None;
+    }
+    let pair = Content::Either([a, b]);
+    let content = match name {
+        None => pair,
+        Some(name) => {
+            let sides = vec![Content::Scalar(Expr::symbol(&name)), pair];
+            Content::Relations(sides, vec![Relation::Equal])
+        }
+    };
+    Some(Reading {
+        content,
+        written: first.written.into_iter().chain(second.written).collect(),
+        literal: None,
+        unit: None,
+        notes: first.notes.into_iter().chain(second.notes).collect(),
+        choices: 0,
+    })
 }
 
 /// Reads a formula that is a single expression, such as those in scenes.

@@ -3,6 +3,45 @@
 //! Deliberately timid: it finds nothing where two formulas stand in the sentence, or where what stands outside could
 //! belong to the formula.
 
+/// Where one of two values ends and the other begins: `x = 3 or x = -3`, `2, -2`. Nothing where more than two stand there.
+pub(super) fn alternatives(text: &str) -> Option<(usize, usize)> {
+    const WORDS: [&str; 6] = [
+        "\\text{ or }",
+        "\\text{or}",
+        "\\mathrm{or}",
+        " or ",
+        "\\text{ and }",
+        " and ",
+    ];
+    let mut found = None;
+    let mut depth = 0i32;
+    let mut at = 0;
+    while let Some(c) = text[at..].chars().next() {
+        let word = WORDS.iter().find(|word| text[at..].starts_with(**word));
+        let length = match (word, c) {
+            (Some(word), _) if depth == 0 => word.len(),
+            (None, ',') if depth == 0 && text[at + 1..].starts_with([' ', '\\']) => 1,
+            _ => 0,
+        };
+        if length > 0 {
+            if found.is_some() {
+                return None;
+            }
+            found = Some((at, at + length));
+            at += length;
+            continue;
+        }
+        match c {
+            '(' | '[' | '{' => depth += 1,
+            ')' | ']' | '}' => depth -= 1,
+            _ => {}
+        }
+        at += c.len_utf8();
+    }
+    found
+        .filter(|(start, end)| !text[..*start].trim().is_empty() && !text[*end..].trim().is_empty())
+}
+
 /// Start and end of the only formula in a sentence; nothing where there are none or several, or no words around it.
 pub(super) fn formula_in_words(text: &str) -> Option<(usize, usize)> {
     let (from, to, start, end) = [("$$", "$$"), ("$", "$"), ("\\(", "\\)"), ("\\[", "\\]")]

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::algebra::Field;
 use crate::dimension::Dimension;
-use crate::equality::{self, Assumption, Condition, Equality, How, Reason, Side};
+use crate::equality::{self, Assumption, Condition, Equality, How, Reason, Side, Value};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Content, Reading, Relation, write_plain, write_unicode};
 
@@ -414,6 +414,23 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
                     Assumption::NotAt(sample) => format!("not at {}", sample.words()),
                 })
                 .collect();
+            finding
+        }
+        // Where the expected formula has no value it says nothing.
+        Equality::Same {
+            how:
+                How::OnBranch {
+                    condition: Condition::BothDefined,
+                    elsewhere,
+                },
+        } if elsewhere.left == Value::None => {
+            let words = "equal wherever the expected formula has a value";
+            let mut finding = Finding::new(
+                Verdict::Equivalent,
+                "EQUIV_ASSUMED",
+                Proof::of("identity", words),
+            );
+            finding.assumed = vec![format!("{} has a value", ctx.say(expected))];
             finding
         }
         Equality::Same {

@@ -24,7 +24,7 @@ use std::collections::BTreeSet;
 
 use crate::dimension::Dimension;
 use crate::domain::{Domain, Domains};
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::stream::{Names, Seen};
 use crate::formula::{self, Content, Fault, Note, Reading, Remark, Symbols};
 pub(crate) use crate::verify::rounding::fraction;
@@ -225,6 +225,8 @@ pub struct Key {
     pub(crate) residues: Option<modular::Residues>,
     /// The key as a quantity, where its text is one as well as a product: `5 m`.
     pub(crate) quantity: Option<Box<Key>>,
+    /// Whether the question says itself what e is.
+    pub(crate) declares_e: bool,
     /// The names for answers that are read in one pass.
     pub(crate) names: Option<Names>,
 }
@@ -281,6 +283,7 @@ pub fn key_of(content: Content, question: &Question) -> Key {
 }
 
 fn from_reading(reading: Reading, question: &Question) -> Key {
+    let declares_e = question.symbols.iter().any(|g| &*g.name == "e");
     let mut question = question.clone();
     let known: BTreeSet<Symbol> = question
         .symbols
@@ -321,6 +324,7 @@ fn from_reading(reading: Reading, question: &Question) -> Key {
         readable,
         residues,
         quantity: None,
+        declares_e,
         names,
     }
 }
@@ -504,6 +508,7 @@ pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
     let mut finding = compare::contents(key, &reading, options);
     unit::behind(key, &reading, &mut finding);
     let open_to_doubt = reading.choices > 0 || power_of_function(&reading.content).is_some();
+    euler(key, &reading, options, &mut finding);
     if options.strength == Strength::Identity && open_to_doubt {
         ambiguity(key, answer, options, &reading, &mut finding);
     }
@@ -549,6 +554,54 @@ fn power_of_function(content: &Content) -> Option<Content> {
         _ => return None,
     };
     (changed != *content).then_some(changed)
+}
+
+/// `e^x` against `exp(x)` with an e that nobody declared: e is a symbol here, and the verdict hangs on that.
+fn euler(key: &Key, reading: &Reading, options: &Options, finding: &mut compare::Finding) {
+    fn number(e: &Expr) -> Expr {
+        match e.node() {
+            Node::Power(base, k) if base.as_symbol().is_some_and(|s| &**s == "e") => {
+                Expr::call(Function::Exp, number(k))
+            }
+            _ => e.map_parts(number),
+        }
+    }
+    let (Some(expected), Some(answer)) = (key.reading.expr(), reading.expr()) else {
+        return;
+    };
+    let occurs = |e: &Expr| e.symbols().contains("e");
+    if finding.verdict != Verdict::Different || occurs(expected) == occurs(answer) || key.declares_e
+    {
+        return;
+    }
+    let (a, b) = (number(expected), number(answer));
+    if occurs(&a) || occurs(&b) {
+        return;
+    }
+    let other = Key {
+        reading: Reading {
+            content: Content::Scalar(a),
+            ..key.reading.clone()
+        },
+        ..key.clone()
+    };
+    let mine = Reading {
+        content: Content::Scalar(b),
+        ..reading.clone()
+    };
+    let plain = Options {
+        forms: Vec::new(),
+        ..options.clone()
+    };
+    if compare::verdict_of(&other, &mine, &plain) == Verdict::Equivalent {
+        let words = "e is a symbol; as the base of the natural logarithm it would be right";
+        finding.verdict = Verdict::Undecided;
+        finding.note = "UNDECIDED_AMBIGUOUS";
+        finding.proof = Proof::of("none", words);
+        finding.counterexample = None;
+        let hint = "write exp(x) for the exponential function";
+        finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+    }
 }
 
 /// Where a text could be read in another way and that would be right, the grade says so; the usual reading decides.

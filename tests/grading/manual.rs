@@ -10,7 +10,7 @@ use carom::grade::{Options, judge};
 const SHOWN: usize = 10;
 
 /// Tables in the order of the manual, with what they are about.
-const TABLES: [(&str, &str, &str); 13] = [
+const TABLES: [(&str, &str, &str); 14] = [
     (
         "typing.tsv",
         "Formulas as people type them",
@@ -30,6 +30,11 @@ const TABLES: [(&str, &str, &str); 13] = [
         "sentences.tsv",
         "Words, boxes and precedence",
         "A product without a sign binds tighter than a slash; where another reading would change the verdict the grade says so. How far the root of `√ab` reaches no habit decides: where the two readings part, the verdict is undecided.",
+    ),
+    (
+        "graders.tsv",
+        "What other graders are tested with",
+        "Pairs of the kind that suites of other graders hold. An `e` that nobody declared is a symbol; where the verdict hangs on it, it is undecided.",
     ),
     (
         "hostile.tsv",
