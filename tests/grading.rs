@@ -248,9 +248,22 @@ fn worked_solutions_are_judged_line_by_line() {
             .lines()
             .map(|row| row.split_once('\t').expect("two cells"))
             .unzip();
+        // A third cell names what is found to have led to the line.
+        let (lines, codes): (Vec<&str>, Vec<&str>) = lines
+            .into_iter()
+            .map(|rest| rest.split_once('\t').unwrap_or((rest, "")))
+            .unzip();
         let found = check(&sheet, &lines.join("\n"), &Options::default());
         assert_eq!(found.len(), lines.len(), "{}", file.display());
-        for (line, told) in found.iter().zip(told) {
+        for ((line, told), code) in found.iter().zip(told).zip(codes) {
+            if !code.is_empty() && line.diagnosis.iter().all(|d| d.code != code) {
+                let place = format!("{}:{}", file.display(), line.number);
+                let _ = writeln!(
+                    wrong,
+                    "{place} {} lacks {code}: {:?}",
+                    line.text, line.diagnosis
+                );
+            }
             let word = match &line.status {
                 Status::Holds => "holds",
                 Status::Defines => "defines",

@@ -16,7 +16,7 @@ const POINTS: u64 = 4;
 /// Pairs of beliefs are searched while there are no more of them than this.
 const PAIRS: usize = 6_000;
 /// Beliefs and quantities named at most.
-const NAMED: usize = 4;
+pub(super) const NAMED: usize = 4;
 /// Pairs of beliefs named at most.
 const PAIRS_NAMED: usize = 3;
 
@@ -99,7 +99,7 @@ fn opposite(written: &Written, trials: &Trials, slips: &[(&Belief, Slip)]) -> Ve
     .unwrap_or_default()
 }
 
-fn words(belief: &Belief, slip: &Slip, rounded: bool) -> Diagnosis {
+pub(super) fn words(belief: &Belief, slip: &Slip, rounded: bool) -> Diagnosis {
     let place = if slip.place.is_empty() {
         String::new()
     } else {
@@ -257,7 +257,8 @@ fn bounded(e: &Expr, point: &Point<Rational>) -> Option<Rational> {
     tame.then(|| e.evaluate(point)).flatten()
 }
 
-fn doubles(written: &Written, slip: &Slip, point: &Point<f64>) -> Option<Vec<f64>> {
+/// What is asked, in the motion a slip leads to.
+pub(super) fn doubles(written: &Written, slip: &Slip, point: &Point<f64>) -> Option<Vec<f64>> {
     if slip.changes.iter().any(|c| matches!(c, Change::EnergyKept)) {
         return energy_kept(written, slip, point);
     }

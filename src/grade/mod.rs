@@ -5,6 +5,7 @@
 //! undecided never counts as wrong, and what cannot be read is invalid rather than wrong. This module writes no format
 //! and knows no file.
 
+mod behind;
 pub mod belief;
 pub mod believed;
 mod compare;

@@ -7,12 +7,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::behind::{Named, behind};
 use super::relation::{follows, solve_for};
 use super::sheet::Sheet;
 use super::{Diagnosis, Options};
 use crate::derive::Form;
 use crate::equality::{self, Equality};
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{self, Content, Fault, Reading, Relation, Symbols};
 use crate::laws;
 use crate::scene::{Ask, ContactLaw, Scene};
@@ -51,6 +52,8 @@ pub struct Line {
 
 /// Most equations above a line that are solved together.
 const MOST_STATED: usize = 24;
+/// Most terms of an equation whose signs are tried.
+const MOST_TERMS: usize = 12;
 /// Most wrong lines that are tried as the cause of a later one.
 const MOST_CAUSES: usize = 4;
 
@@ -475,11 +478,81 @@ impl<'a> Desk<'a> {
             .first()
             .and_then(Content::expr)
             .and_then(Expr::as_symbol);
-        let Some(entry) = name.and_then(|n| self.sheet.entry(n).ok()) else {
+        if let Some(entry) = name.and_then(|n| self.sheet.entry(n).ok()) {
+            return self.sheet.judge(&entry, text, options).diagnosis;
+        }
+        // A law with a slip.
+        let [left, right] = sides.as_slice() else {
             return Vec::new();
         };
-        let grade = self.sheet.judge(&entry, text, options);
-        grade.diagnosis
+        let (Some(left), Some(right)) = (left.expr(), right.expr()) else {
+            return Vec::new();
+        };
+        let (left, right) = (self.with_own(left), self.with_own(right));
+        let used: BTreeSet<Symbol> = left.symbols().union(&right.symbols()).cloned().collect();
+        let names = used.into_iter().filter(|n| self.closed.contains_key(n));
+        let named: Option<Vec<_>> = names.map(|n| self.named(n)).collect();
+        let mut found: Vec<Diagnosis> = self.turned(&left, &right).into_iter().collect();
+        if let Some(named @ [_, ..]) = named.as_deref() {
+            found.extend(behind(&self.sheet.scene, [&left, &right], named));
+        }
+        found
+    }
+
+    /// The term with whose other sign an equation holds.
+    fn turned(&self, left: &Expr, right: &Expr) -> Option<Diagnosis> {
+        let terms = |e: &Expr| match e.node() {
+            Node::Sum(terms) => terms.to_vec(),
+            _ => vec![e.clone()],
+        };
+        let gap = left - right;
+        let all = terms(left).into_iter().chain(terms(right));
+        let twice = |term: &Expr, k: i64| [&gap + &(term * &Expr::from(k))];
+        let mut single = all.take(MOST_TERMS).filter(|term| {
+            let none = BTreeMap::new();
+            // On the left a term stands in the gap as it is, on the right with the other sign.
+            [-2, 2]
+                .iter()
+                .any(|k| self.all_zero(&twice(term, *k), &none) == Some(true))
+        });
+        let term = formula::write_plain(&single.next()?);
+        Some(Diagnosis::new(
+            "TERM_SIGN",
+            format!(
+                "this line holds with the other sign of the term {}",
+                term.trim_start_matches('-')
+            ),
+            "check the sign of every term: which directions count as positive?",
+        ))
+    }
+
+    /// What a name stands for in the motion.
+    fn named(&self, name: Symbol) -> Option<Named> {
+        let (scene, d) = (&self.sheet.scene, &self.sheet.derivation);
+        if let Some(answer) = d.answers.iter().find(|a| *a.name == *name) {
+            let question = scene.questions.iter().find(|q| q.name == answer.question)?;
+            let component = match answer.name.strip_prefix(&answer.question) {
+                Some("_x") => Some(0),
+                Some("_y") => Some(1),
+                _ => None,
+            };
+            return Some((name, question.ask.clone(), component));
+        }
+        let unknown = laws::unknowns(scene)
+            .into_iter()
+            .find(|u| d.names.plain(*u) == &*name)?;
+        let (ask, component) = match unknown {
+            laws::Unknown::Velocity(body, axis) => {
+                let (point, along) = (None, None);
+                (Ask::Velocity { body, point, along }, Some(axis))
+            }
+            laws::Unknown::Spin(body) => {
+                let clockwise = d.names.is_reversed(unknown);
+                (Ask::Spin { body, clockwise }, None)
+            }
+            _ => return None,
+        };
+        Some((name, ask, component))
     }
 }
 
