@@ -55,7 +55,14 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
     let mut page = args.html.as_deref().map(create).transpose()?;
     let mut scenes = Vec::new();
     for path in &args.scenes {
-        scenes.push((path, read_scene(path, &args.set)?));
+        let scene = read_scene(path, &args.set)?;
+        if scene.story.is_some() {
+            return Err(Failure::Input(format!(
+                "{}: a scene with stages has no single system of equations to measure\nhint: write a scene of one collision",
+                path.display()
+            )));
+        }
+        scenes.push((path, scene));
     }
     let stop = Arc::new(AtomicBool::new(false));
     let seen = Arc::clone(&stop);

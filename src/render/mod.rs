@@ -203,6 +203,15 @@ fn trimmed(text: &str) -> &str {
     }
 }
 
+/// Title and source in one line, as far as they are given.
+fn heading(title: &str, source: &str) -> String {
+    let given: Vec<&str> = [title, source]
+        .into_iter()
+        .filter(|t| !t.is_empty())
+        .collect();
+    given.join(" · ")
+}
+
 /// A matrix equation in LaTeX.
 pub fn latex_matrix(scene: &Scene, m: &Matrix) -> String {
     latex_system(m, |e| latex(scene, e), " ")

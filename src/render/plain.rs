@@ -13,13 +13,7 @@ const WIDTH: usize = 88;
 /// The whole solution.
 pub fn solution(s: &Solution) -> String {
     let mut out = String::new();
-    let title = [s.title.as_str(), s.source.as_str()];
-    let title: Vec<String> = title
-        .iter()
-        .filter(|t| !t.is_empty())
-        .map(|t| clean(t))
-        .collect();
-    let title = title.join(" · ");
+    let title = super::heading(&clean(&s.title), &clean(&s.source));
     line(&mut out, &title);
     if !title.is_empty() {
         line(&mut out, &"═".repeat(title.chars().count().min(WIDTH)));

@@ -7,7 +7,8 @@ use crate::verify::printed::Finding;
 
 /// Findings as a list; `total` counts those left out too.
 pub fn text(scene: &Scene, findings: &[Finding], total: usize) -> String {
-    let mut out = format!("{} · {}: {total} printed\n", scene.source, scene.title);
+    let heading = super::heading(&scene.title, &scene.source);
+    let mut out = format!("{heading}: {total} printed\n");
     for f in findings {
         let sign = match f.holds {
             Some(true) => "holds",

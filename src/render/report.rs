@@ -13,7 +13,7 @@ use crate::report::{BINS, Report, Route};
 /// The tables for a terminal.
 pub fn text(report: &Report) -> String {
     let mut out = String::new();
-    let _ = writeln!(out, "{} · {}", report.title, report.source);
+    let _ = writeln!(out, "{}", super::heading(&report.title, &report.source));
     let _ = writeln!(out, "{}", effort(report));
     let _ = writeln!(out, "\n{}\n", report.verdict);
     let _ = writeln!(

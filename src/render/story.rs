@@ -127,16 +127,12 @@ fn check(c: &Check) -> Value {
 /// The story as plain text: a section for each stage, then the answers.
 pub fn text(scene: &Scene, told: &Told) -> String {
     let mut out = String::new();
-    let title: Vec<&str> = [scene.title.as_str(), scene.source.as_str()]
-        .into_iter()
-        .filter(|t| !t.is_empty())
-        .collect();
     let written = |words: &Sentence| words.written(|e| unicode(scene, e));
     let mut line = |text: String| {
         out.push_str(text.trim_end());
         out.push('\n');
     };
-    line(title.join(" · "));
+    line(super::heading(&scene.title, &scene.source));
     for reading in &told.readings {
         line(format!("read as: {reading}"));
     }

@@ -12,9 +12,7 @@ use crate::verify::{Check, Proof};
 /// The whole derivation as plain text.
 pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof, special: &[Special]) -> String {
     let mut out = String::new();
-    let title = [scene.title.as_str(), scene.source.as_str()];
-    let title: Vec<&str> = title.into_iter().filter(|t| !t.is_empty()).collect();
-    line(&mut out, "", &title.join(" · "));
+    line(&mut out, "", &super::heading(&scene.title, &scene.source));
     counting(&mut out, d);
     for (unknown, value) in &d.given {
         let name = d.names.plain(*unknown);
