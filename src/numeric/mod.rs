@@ -22,6 +22,7 @@ pub mod invariants;
 pub mod number;
 pub mod points;
 pub mod random;
+pub mod redundant;
 pub mod solution;
 pub mod system;
 pub mod values;

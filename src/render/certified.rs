@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use crate::numeric::{Correct, CorrectAnswers, How, Unknown};
+use crate::numeric::redundant::POINTS;
+use crate::numeric::{Correct, CorrectAnswers, How, Law, Unknown};
 use crate::scene::Scene;
 
 /// Answers first, then every unknown of the full system.
@@ -39,8 +40,36 @@ pub fn text(scene: &Scene, answers: &CorrectAnswers) -> String {
         let (name, unit) = unknown_words(scene, *unknown);
         line(&name, unit, value);
     }
-    out.push_str("each number is the double nearest to the true value\n");
+    out.push_str("each number is the double nearest to the true value");
+    if !answers.left_out.is_empty() {
+        let laws: Vec<String> = answers.left_out.iter().map(|l| law(scene, *l)).collect();
+        let _ = write!(
+            out,
+            ", if the laws agree: {} left out, for at {POINTS} random exact points the others imply {}, which is seen, not proved",
+            laws.join(" and "),
+            if laws.len() == 1 { "it" } else { "them" }
+        );
+    }
+    out.push('\n');
     out
+}
+
+/// A law by the scene's names.
+fn law(scene: &Scene, law: Law) -> String {
+    let body = |b: usize| &scene.bodies[b].name;
+    let hinge = |h: usize| &scene.hinges[h].name;
+    let contact = |c: usize| &scene.contacts[c].name;
+    match law {
+        Law::MomentumX(b) => format!("momentum of {} along x", body(b)),
+        Law::MomentumY(b) => format!("momentum of {} along y", body(b)),
+        Law::AngularMomentum(b) => format!("angular momentum of {}", body(b)),
+        Law::HingeX(h) => format!("hinge {} along x", hinge(h)),
+        Law::HingeY(h) => format!("hinge {} along y", hinge(h)),
+        Law::StickingX(c) => format!("sticking at {} along x", contact(c)),
+        Law::StickingY(c) => format!("sticking at {} along y", contact(c)),
+        Law::Restitution(c) => format!("restitution at {}", contact(c)),
+        Law::Known(k) => format!("known value {}", k + 1),
+    }
 }
 
 /// The same as data.
@@ -74,7 +103,12 @@ pub fn json(scene: &Scene, answers: &CorrectAnswers) -> Value {
             entry(&name, unit, value)
         })
         .collect();
-    json!({"title": scene.title, "source": scene.source, "answers": list, "unknowns": unknowns})
+    let mut out = json!({"title": scene.title, "source": scene.source, "answers": list, "unknowns": unknowns});
+    if !answers.left_out.is_empty() {
+        let laws: Vec<String> = answers.left_out.iter().map(|l| law(scene, *l)).collect();
+        out["left_out"] = json!({"laws": laws, "because": "the others imply them", "known_at_random_points": POINTS, "proved": false});
+    }
+    out
 }
 
 fn components<'a>(question: &str, values: &'a [Correct]) -> Vec<(String, &'a Correct)> {

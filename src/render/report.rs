@@ -210,7 +210,7 @@ pub(super) fn findings(out: &mut String, heading: &str, list: &[Finding]) {
         };
         let _ = write!(
             out,
-            "<li><b class=\"{class}\">{mark}</b> {} <span>{}</span></li>",
+            "<li><b class=\"{class}\">{mark}</b> {} <span>— {}</span></li>",
             escape(&f.claim),
             escape(&f.evidence)
         );
@@ -359,7 +359,11 @@ fn family_plot(report: &Report, family: &Swept) -> Option<String> {
 fn histogram(out: &mut String, report: &Report) {
     out.push_str("<table class=\"counts\"><thead><tr><th>route");
     for bin in BINS {
-        let _ = write!(out, "<th>≤ {bin:e}");
+        let bin = match bin < 1e4 {
+            true => bin.to_string(),
+            false => format!("{bin:e}"),
+        };
+        let _ = write!(out, "<th>≤ {bin}");
     }
     out.push_str("<th>more</tr></thead><tbody>");
     for r in &report.routes {

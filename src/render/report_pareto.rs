@@ -8,7 +8,7 @@ use crate::report::Report;
 const WIDTH: f64 = 460.0;
 const HEIGHT: f64 = 320.0;
 /// Left, top, right and bottom of the field.
-const FIELD: [f64; 4] = [44.0, 14.0, 448.0, 276.0];
+const FIELD: [f64; 4] = [44.0, 14.0, 436.0, 276.0];
 const LETTER: f64 = 6.3;
 
 struct Dot {
@@ -73,7 +73,10 @@ pub fn plot(report: &Report) -> Option<String> {
             &mut out,
             [FIELD[0] - 6.0, at + 4.0],
             "end",
-            &format!("1e{k}"),
+            &match k {
+                0 => String::from("1"),
+                _ => format!("1e{k}"),
+            },
         );
     }
     text(
@@ -97,6 +100,14 @@ pub fn plot(report: &Report) -> Option<String> {
         .iter()
         .map(|d| [d.at[0] - 4.0, d.at[1] - 4.0, d.at[0] + 4.0, d.at[1] + 4.0])
         .collect();
+    // No label lies on the line either.
+    for pair in front.windows(2) {
+        for k in 1..40 {
+            let share = f64::from(k) / 40.0;
+            let [x, y] = [0, 1].map(|i| pair[0][i] + share * (pair[1][i] - pair[0][i]));
+            taken.push([x - 1.0, y - 1.0, x + 1.0, y + 1.0]);
+        }
+    }
     for dot in &dots {
         let (fill, opacity) = if dot.best {
             ("rgb(47,129,214)", 1.0)

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::report::{escape, figure, findings};
 use crate::plot::{Axis, Curve, Mark, Plot, curve};
-use crate::report::batch::{Route, Throughput};
+use crate::report::batch::{Doubling, Route, Throughput};
 use crate::report::growth::{ChainRoute, Growth, Pose};
 use crate::report::stiff::{Contact, End, Ground, Integrator, Restitution, Run, Variables};
 use crate::report::studies::{Studies, millions, route_words};
@@ -124,11 +124,25 @@ pub fn text(studies: &Studies) -> String {
                 millions(r.per_second)
             );
         }
+        for d in &b.doublings {
+            let _ = writeln!(out, "  {}", doubling(d));
+        }
     }
     if studies.interrupted {
         out.push_str("\ninterrupted: what was finished is above\n");
     }
     out
+}
+
+/// What a second thread brings, in words.
+fn doubling(d: &Doubling) -> String {
+    let rate = |k: usize| millions(d.points as f64 / d.seconds[k]);
+    format!(
+        "{} points: {} a second in blocks on one thread, {} on two",
+        d.points,
+        rate(0),
+        rate(1)
+    )
 }
 
 fn run_row(r: &Run) -> Vec<String> {
@@ -287,7 +301,11 @@ pub fn section(out: &mut String, studies: &Studies) {
                 millions(r.per_second)
             );
         }
-        out.push_str("</tbody></table>");
+        out.push_str("</tbody></table><ul>");
+        for d in &b.doublings {
+            let _ = write!(out, "<li>{}</li>", escape(&doubling(d)));
+        }
+        out.push_str("</ul>");
     }
     if !studies.stiff.runs.is_empty() {
         out.push_str("<details><summary>Every integration</summary><table><thead><tr><th>p<th>K<th>method<th>variables<th>tolerance<th>steps<th>time<th>from rigid<th>energy<th>end</tr></thead><tbody>");

@@ -12,7 +12,7 @@ use crate::expr::Function;
 
 pub use compile::{Unbound, compile};
 pub(crate) use throughput::quartiles;
-pub use throughput::{Route, Throughput, throughput};
+pub use throughput::{Doubling, Route, Throughput, doublings, throughput};
 
 /// Points worked on at once: a slot of 64 doubles is 512 bytes, so fifty operations stay in the first-level cache.
 const LANES: usize = 64;

@@ -9,7 +9,7 @@ pub use judge::{millions, route_words};
 
 use serde::Serialize;
 
-use super::batch::{Throughput, compile, quartiles, throughput};
+use super::batch::{Doubling, Throughput, compile, doublings, quartiles, throughput};
 use super::growth::{CROOKED, Chain, Growth, Pose, chain_scene, measure as measure_chain};
 use super::measure::Machine;
 use super::stiff::{
@@ -95,6 +95,8 @@ pub struct Batch {
     pub difference: f64,
     /// The ways.
     pub rows: Vec<Throughput>,
+    /// What a second thread brings, by the number of points.
+    pub doublings: Vec<Doubling>,
 }
 
 /// Angle of the rod: an ordinary one.
@@ -287,6 +289,9 @@ fn batch(studies: &mut Studies, row: &mut impl FnMut(&str) -> bool) -> bool {
     row("points per second")
 }
 
+/// Numbers of points at which one thread is held against two.
+const SIZES: [usize; 6] = [1 << 10, 1 << 12, 1 << 14, 1 << 16, 1 << 18, 1 << 20];
+
 fn measure_batch(quick: bool) -> Option<Batch> {
     let scene = scene::read(TWO_BODIES).ok()?;
     let derivation = derive::derive(&scene).ok()?;
@@ -295,7 +300,7 @@ fn measure_batch(quick: bool) -> Option<Batch> {
         return None;
     };
     let (program, _) = shortest(&derivation, closed, short, &INPUTS)?;
-    let points = if quick { 1 << 14 } else { 1 << 18 };
+    let points = if quick { 1 << 16 } else { 1 << 20 };
     let mut columns: Vec<Vec<f64>> = (0..INPUTS.len())
         .map(|i| {
             (0..points)
@@ -323,20 +328,15 @@ fn measure_batch(quick: bool) -> Option<Batch> {
             let hand = by_hand(&x);
             worst.max((value - hand).abs() / hand.abs().max(1e-3))
         });
-    let rows = throughput(
-        &program,
-        by_hand,
-        &columns,
-        &[1, 2],
-        if quick { 5 } else { 21 },
-    )
-    .ok()?;
+    let runs = if quick { 5 } else { 21 };
+    let rows = throughput(&program, by_hand, &columns, &[1, 2], runs).ok()?;
     Some(Batch {
         formula: "impulse between two smooth bodies, (17.57)",
         operations: program.operations(),
         inputs: INPUTS.len(),
         difference,
         rows,
+        doublings: doublings(&program, &columns, &SIZES, runs).ok()?,
     })
 }
 

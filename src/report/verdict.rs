@@ -53,17 +53,17 @@ fn verdict(report: &Report) -> String {
     let safe = fastest(&|r| r.worst <= ACCURATE);
     match safe {
         Some(best) if best.route == quick.route => format!(
-            "Use the {}: it is the fastest route here ({}) and stays within {} ulp on everything measured.",
-            best.words,
+            "Use {}: it is the fastest route here ({}) and stays within {} ulp on everything measured.",
+            advised(best.words),
             nanoseconds(best.seconds[1]),
             short(best.worst)
         ),
         Some(best) => format!(
-            "Use the {}: {} and within {} ulp on everything measured; the {} takes {} but loses up to {:.0} digits ({}).",
-            best.words,
+            "Use {}: {} and within {} ulp on everything measured; {} takes {} but loses up to {:.0} digits ({}).",
+            advised(best.words),
             nanoseconds(best.seconds[1]),
             short(best.worst),
-            quick.words,
+            advised(quick.words),
             nanoseconds(quick.seconds[1]),
             digits_lost(quick.worst),
             quick.worst_family
@@ -75,13 +75,25 @@ fn verdict(report: &Report) -> String {
                 .min_by(|a, b| a.worst.total_cmp(&b.worst))
                 .unwrap_or(quick);
             format!(
-                "No route stays within {ACCURATE} ulp everywhere: the {} is closest with {} ulp ({}), at {}.",
-                calm.words,
+                "No route stays within {ACCURATE} ulp everywhere: {} is closest with {} ulp ({}), at {}.",
+                advised(calm.words),
                 short(calm.worst),
                 calm.worst_family,
                 nanoseconds(calm.seconds[1])
             )
         }
+    }
+}
+
+/// A route as a sentence speaks of it.
+fn advised(words: &str) -> String {
+    match words {
+        "certified" => "the certified route".into(),
+        "about the joints" => "angular momentum about the joints".into(),
+        "effective mass" => "effective mass at the joints".into(),
+        "double-double" => "double-double arithmetic".into(),
+        _ if words.starts_with("exact") => words.into(),
+        _ => format!("the {words}"),
     }
 }
 

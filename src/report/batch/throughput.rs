@@ -70,6 +70,50 @@ pub fn throughput(
     Ok(rows)
 }
 
+/// The compiled program in blocks on one thread and on two, at one number of points.
+#[derive(Clone, Debug, Serialize)]
+pub struct Doubling {
+    /// Points per run.
+    pub points: usize,
+    /// Median time of one run on one thread and on two \[s\].
+    pub seconds: [f64; 2],
+}
+
+/// What a second thread brings at each number of points; the two take turns, so that what else the machine does meets
+/// both.
+pub fn doublings(
+    program: &Program,
+    columns: &[&[f64]],
+    sizes: &[usize],
+    runs: usize,
+) -> Result<Vec<Doubling>, rayon::ThreadPoolBuildError> {
+    let pool = |count| rayon::ThreadPoolBuilder::new().num_threads(count).build();
+    let pools = [pool(1)?, pool(2)?];
+    let most = columns.iter().map(|c| c.len()).min().unwrap_or(0);
+    let mut out = vec![0.0; most];
+    let mut rows = Vec::new();
+    for &points in sizes.iter().filter(|n| **n <= most) {
+        let part: Vec<&[f64]> = columns.iter().map(|c| &c[..points]).collect();
+        let mut times = [Vec::new(), Vec::new()];
+        for run in 0..=runs {
+            for (pool, times) in pools.iter().zip(&mut times) {
+                let start = Instant::now();
+                pool.install(|| program.eval_all_parallel(&part, &mut out[..points]));
+                // The first run of each does not count.
+                if run > 0 {
+                    times.push(start.elapsed().as_secs_f64());
+                }
+            }
+        }
+        let seconds = times.map(|mut all| {
+            all.sort_by(f64::total_cmp);
+            all[all.len() / 2]
+        });
+        rows.push(Doubling { points, seconds });
+    }
+    Ok(rows)
+}
+
 /// Evaluates point by point on the current pool; `value` gets scratch space of the asked length.
 fn by_point(
     columns: &[&[f64]],

@@ -175,11 +175,28 @@ pub fn findings(studies: &Studies) -> Vec<Finding> {
                 "a compiled closed form in blocks is as fast as the function written by hand",
                 blocks >= 0.8 * hand,
                 format!(
-                    "{} points/s against {} on one thread, {} on two; difference {:.1e}",
+                    "{} points/s against {} on one thread; difference {:.1e}",
                     millions(blocks),
                     millions(hand),
-                    rate(batch::Route::Blocks, 2).map_or("–".into(), millions),
                     b.difference
+                ),
+            );
+        }
+        let gain = |d: &batch::Doubling| d.seconds[0] / d.seconds[1];
+        if let Some(last) = b.doublings.last() {
+            let pays = b.doublings.iter().find(|d| gain(d) > 1.2);
+            let from = match pays {
+                Some(d) => format!("quicker from {} points on", d.points),
+                None => String::from("no quicker at any size"),
+            };
+            say(
+                "a second thread takes a large batch at least half as fast again",
+                gain(last) > 1.5,
+                format!(
+                    "{from}, {:.2} times as fast at {} points, on {} processors",
+                    gain(last),
+                    last.points,
+                    studies.machine.processors
                 ),
             );
         }
