@@ -1,5 +1,8 @@
-"""The pairs of benches/grade.rs through SymPy, and giac where it is installed. Run by hand: python3 benches/peers.py"""
-import re, shutil, statistics, subprocess, time
+"""The pairs of benches/grade.rs through SymPy and giac, beside what carom takes for them in the same run.
+
+By hand: python3 benches/peers.py [giac]; the argument says where giac is, if it is not on the path.
+"""
+import re, shutil, statistics, subprocess, sys, time
 import sympy
 from sympy.parsing.sympy_parser import parse_expr
 
@@ -37,18 +40,55 @@ def timed(f, *args, rounds=5):
     return statistics.median(times), result
 
 
-def giac_pair(a, b):
-    out = subprocess.run(["giac", f"simplify(({a})-({b}))"], capture_output=True, text=True, timeout=60)
-    return out.stdout.strip().splitlines()[-1] == "0"
+def giac_pair(program, a, b, rounds=40):
+    """Seconds of one simplification, start-up left out, and whether it gives 0."""
+    names = sorted(set(re.findall(r"[a-zA-Z]\w*", a + " " + b)) - {"sin", "cos", "sqrt"})
+    # e and i have a meaning of their own there.
+    renamed = {n: f"{n}_" if n in ("e", "i") else n for n in names}
+    text = re.sub(r"[a-zA-Z]\w*", lambda m: renamed.get(m[0], m[0]), f"simplify(({a})-({b}))")
+    assumed = "".join(f"assume({n}>0):;\n" for n in renamed.values())
+
+    def run(times):
+        start = time.perf_counter()
+        out = subprocess.run([program], input=assumed + (text + "\n") * times, capture_output=True, text=True, timeout=60)
+        return time.perf_counter() - start, out.stdout
+
+    few, out = min((run(1) for _ in range(3)), key=lambda r: r[0])
+    many, _ = min((run(1 + rounds) for _ in range(3)), key=lambda r: r[0])
+    lines = [re.sub(r"^(\d+>>\s*)+", "", line).strip() for line in out.splitlines()]
+    values = [line for line in lines if line and not line.startswith("//")]
+    return max(many - few, 0) / rounds, values[-1] == "0"
 
 
+def carom_times():
+    """Microseconds by class, from the bench itself: equal pairs with the identity proved, different ones told apart."""
+    command = ["cargo", "bench", "--quiet", "--bench", "grade", "--", "stages"]
+    out = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    times = {}
+    for row in out.splitlines()[1:]:
+        name, *cells = row.split()
+        times[name] = {"equal": float(cells[5]), "different": float(cells[3])}
+    return times
+
+
+giac = shutil.which(sys.argv[1] if len(sys.argv) > 1 else "giac")
+carom = carom_times()
+print(f"{'class':15} {'pair':10} {'carom us':>9}  SymPy {sympy.__version__}: us, times carom, says   giac: us, times carom, says")
 for name, expected, equal, other in PAIRS:
     for kind, answer in (("equal", equal), ("different", other)):
-        try:
-            seconds, verdict = timed(sympy_pair, plain(expected), plain(answer))
-            print(f"SymPy {sympy.__version__}  {name:15} {kind:10} {seconds * 1e3:9.2f} ms  equal: {verdict}")
-        except Exception as trouble:
-            print(f"SymPy {sympy.__version__}  {name:15} {kind:10} {type(trouble).__name__}: {trouble}")
-        if shutil.which("giac"):
-            seconds, verdict = timed(giac_pair, plain(expected), plain(answer))
-            print(f"giac (with start-up)  {name:15} {kind:10} {seconds * 1e3:9.2f} ms  equal: {verdict}")
+        ours = carom[name][kind]
+        row = f"{name:15} {kind:10} {ours:9.2f}"
+        for peer in ("SymPy", "giac"):
+            try:
+                if peer == "SymPy":
+                    seconds, verdict = timed(sympy_pair, plain(expected), plain(answer))
+                elif giac:
+                    seconds, verdict = giac_pair(giac, plain(expected), plain(answer))
+                else:
+                    row += "   not installed"
+                    continue
+                said = "equal" if verdict else "different"
+                row += f"  {seconds * 1e6:10.0f} {seconds * 1e6 / ours:9.0f}x {said:9}"
+            except Exception as trouble:
+                row += f"  {type(trouble).__name__}: {trouble}"
+        print(row, flush=True)

@@ -9,6 +9,18 @@ use crate::formula::symbols::{ACCENTS, greek_name};
 /// Most letters in a row that are looked at.
 const RUN: usize = 24;
 
+/// Bytes behind a letter that could belong to its name or to a longer word.
+const GOES_ON: [bool; 256] = {
+    let mut set = [false; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        let b = byte as u8;
+        set[byte] = b.is_ascii_alphanumeric() || matches!(b, b'_' | b'\'' | 0xcc | 0xe2);
+        byte += 1;
+    }
+    set
+};
+
 /// What a word is.
 pub(super) enum Word {
     Name(usize),
@@ -158,8 +170,11 @@ impl<B: Builder> Reader<'_, B> {
     #[inline]
     fn word_here(&mut self, look: bool) -> Option<Word> {
         match self.byte(0) {
+            b'a'..=b'z' | b'A'..=b'Z' => match self.short(look) {
+                None => self.letters(look),
+                word => word,
+            },
             b'\\' => self.command(look),
-            b if b.is_ascii_alphabetic() => self.letters(look),
             0xe2 if self.starts("√") => {
                 self.at += 3;
                 Some(Word::Root { tex: false })
@@ -192,7 +207,7 @@ impl<B: Builder> Reader<'_, B> {
             true => (u128::from(letter) | u128::from(next) << 8, 2, after),
             false => (u128::from(letter), 1, next),
         };
-        if self.before || end.is_ascii_alphanumeric() || matches!(end, b'_' | b'\'' | 0xcc | 0xe2) {
+        if self.before || GOES_ON[usize::from(end)] {
             return None;
         }
         let word = self.name(key, look)?;
@@ -201,9 +216,6 @@ impl<B: Builder> Reader<'_, B> {
     }
 
     fn letters(&mut self, look: bool) -> Option<Word> {
-        if let Some(word) = self.short(look) {
-            return Some(word);
-        }
         let rest = &self.text[self.at..];
         let count = rest.iter().take_while(|b| b.is_ascii_alphabetic()).count();
         if count > RUN {
