@@ -9,6 +9,7 @@ mod behind;
 pub mod belief;
 pub mod believed;
 mod compare;
+mod doubt;
 pub mod entry;
 mod form;
 mod modular;
@@ -20,19 +21,21 @@ mod relation;
 pub mod sheet;
 pub mod steps;
 mod unit;
+mod verdict;
 
 use std::collections::BTreeSet;
 
 use crate::dimension::Dimension;
 use crate::domain::{Domain, Domains};
-use crate::expr::{Expr, Function, Node, Symbol};
+use crate::expr::Symbol;
 use crate::formula::stream::{Names, Seen};
-use crate::formula::{self, Content, Fault, Note, Reading, Remark, Symbols};
+use crate::formula::{self, Content, Fault, Reading, Symbols};
 pub(crate) use crate::verify::rounding::fraction;
 
 pub use form::Form;
 pub use modular::Quick;
 pub use number::Tolerance;
+pub use verdict::{Apart, Diagnosis, Grade, Proof, Verdict};
 
 /// What a question declares about its symbols.
 #[derive(Clone, Debug, Default)]
@@ -97,120 +100,6 @@ pub enum Strength {
     Identity,
     /// Equal at random points modulo 2⁶¹ − 1 where no root occurs, with the bound of error stated; no diagnosis.
     Fast,
-}
-
-/// The verdict on an answer with everything it rests on.
-#[derive(Clone, Debug)]
-pub struct Grade {
-    /// The verdict.
-    pub verdict: Verdict,
-    /// Stable code of the reason; it does not depend on points or texts.
-    pub note: &'static str,
-    /// How the verdict is known.
-    pub proof: Proof,
-    /// What was assumed, in words.
-    pub assumed: Vec<String>,
-    /// A point at which the two part.
-    pub counterexample: Option<Apart>,
-    /// Why the answer, or the expected formula, cannot be read.
-    pub error: Option<Fault>,
-    /// What is wrong, and how much is right.
-    pub diagnosis: Vec<Diagnosis>,
-    /// How the answer was read, in plain notation.
-    pub read_as: Option<String>,
-    /// The names in the answer.
-    pub symbols: Vec<Symbol>,
-}
-
-/// The four verdicts.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Verdict {
-    /// Same value on the whole domain.
-    Equivalent,
-    /// Not the same.
-    Different,
-    /// No readable answer.
-    Invalid,
-    /// Not known; never to be counted as wrong.
-    Undecided,
-}
-
-impl Verdict {
-    /// The word for it.
-    pub fn word(self) -> &'static str {
-        match self {
-            Verdict::Equivalent => "equivalent",
-            Verdict::Different => "different",
-            Verdict::Invalid => "invalid",
-            Verdict::Undecided => "undecided",
-        }
-    }
-
-    /// 1 for equivalent, 0 for different, nothing for what is invalid or undecided.
-    pub fn reward(self) -> Option<u8> {
-        match self {
-            Verdict::Equivalent => Some(1),
-            Verdict::Different => Some(0),
-            Verdict::Invalid | Verdict::Undecided => None,
-        }
-    }
-}
-
-/// How a verdict is known.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Proof {
-    /// Stable name: `identity`, `modular`, `counterexample`, `solutions`, `kind`, `dimension`, `tolerance`, `branch`, `none`.
-    pub kind: &'static str,
-    /// The same in words.
-    pub words: String,
-    /// Largest probability of error, where the proof is probabilistic.
-    pub bound: Option<f64>,
-}
-
-impl Proof {
-    pub(crate) fn of(kind: &'static str, words: impl Into<String>) -> Proof {
-        Proof {
-            kind,
-            words: words.into(),
-            bound: None,
-        }
-    }
-}
-
-/// A point at which two formulas differ, in words.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Apart {
-    /// The point.
-    pub at: String,
-    /// Value of the answer there.
-    pub yours: String,
-    /// Value of the expected formula there.
-    pub expected: String,
-}
-
-/// One thing found out about a wrong answer.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Diagnosis {
-    /// Stable code.
-    pub code: &'static str,
-    /// For the teacher.
-    pub message: String,
-    /// For the student: helps and does not give the answer away.
-    pub hint: String,
-}
-
-impl Diagnosis {
-    pub(crate) fn new(
-        code: &'static str,
-        message: impl Into<String>,
-        hint: impl Into<String>,
-    ) -> Diagnosis {
-        Diagnosis {
-            code,
-            message: message.into(),
-            hint: hint.into(),
-        }
-    }
 }
 
 /// An expected formula, read once and compared many times.
@@ -508,10 +397,10 @@ pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
     };
     let mut finding = compare::contents(key, &reading, options);
     unit::behind(key, &reading, &mut finding);
-    let open_to_doubt = reading.choices > 0 || power_of_function(&reading.content).is_some();
-    euler(key, &reading, options, &mut finding);
+    let open_to_doubt = reading.choices > 0 || doubt::power_of_function(&reading.content).is_some();
+    doubt::euler(key, &reading, options, &mut finding);
     if options.strength == Strength::Identity && open_to_doubt {
-        ambiguity(key, answer, options, &reading, &mut finding);
+        doubt::ambiguity(key, answer, options, &reading, &mut finding);
     }
     if finding.verdict == Verdict::Equivalent
         && let Some((note, diagnosis)) = form::unmet(&options.forms, key, &reading)
@@ -523,7 +412,7 @@ pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
     if options.strength == Strength::Identity {
         finding
             .diagnosis
-            .extend(remarks(&reading, answer, finding.verdict));
+            .extend(doubt::remarks(&reading, answer, finding.verdict));
     }
     Grade {
         verdict: finding.verdict,
@@ -536,158 +425,6 @@ pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
         read_as: Some(show(&reading.content)),
         symbols: reading.symbols().into_iter().collect(),
     }
-}
-
-/// `cosθ^2`, read as the cosine of a square, would be right as the square of the cosine.
-fn power_of_function(content: &Content) -> Option<Content> {
-    fn lift(e: &Expr) -> Expr {
-        if let Node::Call(f, x) = e.node()
-            && let Node::Power(base, k) = x.node()
-            && k.as_number().is_some_and(|k| k.is_integer())
-        {
-            return Expr::call(*f, base.clone()).power(k.clone());
-        }
-        e.map_parts(lift)
-    }
-    let changed = match content {
-        Content::Scalar(e) => Content::Scalar(lift(e)),
-        Content::Vector(v) => Content::Vector([lift(&v[0]), lift(&v[1]), lift(&v[2])]),
-        _ => return None,
-    };
-    (changed != *content).then_some(changed)
-}
-
-/// `e^x` against `exp(x)` with an e that nobody declared: e is a symbol here, and the verdict hangs on that.
-fn euler(key: &Key, reading: &Reading, options: &Options, finding: &mut compare::Finding) {
-    fn number(e: &Expr) -> Expr {
-        match e.node() {
-            Node::Power(base, k) if base.as_symbol().is_some_and(|s| &**s == "e") => {
-                Expr::call(Function::Exp, number(k))
-            }
-            _ => e.map_parts(number),
-        }
-    }
-    let (Some(expected), Some(answer)) = (key.reading.expr(), reading.expr()) else {
-        return;
-    };
-    let occurs = |e: &Expr| e.symbols().contains("e");
-    if finding.verdict != Verdict::Different || occurs(expected) == occurs(answer) || key.declares_e
-    {
-        return;
-    }
-    let (a, b) = (number(expected), number(answer));
-    if occurs(&a) || occurs(&b) {
-        return;
-    }
-    let other = Key {
-        reading: Reading {
-            content: Content::Scalar(a),
-            ..key.reading.clone()
-        },
-        ..key.clone()
-    };
-    let mine = Reading {
-        content: Content::Scalar(b),
-        ..reading.clone()
-    };
-    let plain = Options {
-        forms: Vec::new(),
-        ..options.clone()
-    };
-    if compare::verdict_of(&other, &mine, &plain) == Verdict::Equivalent {
-        let words = "e is a symbol; as the base of the natural logarithm it would be right";
-        finding.verdict = Verdict::Undecided;
-        finding.note = "UNDECIDED_AMBIGUOUS";
-        finding.proof = Proof::of("none", words);
-        finding.counterexample = None;
-        let hint = "write exp(x) for the exponential function";
-        finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
-    }
-}
-
-/// Where a text could be read in another way and that would be right, the grade says so; the usual reading decides.
-fn ambiguity(
-    key: &Key,
-    answer: &str,
-    options: &Options,
-    reading: &Reading,
-    finding: &mut compare::Finding,
-) {
-    if !matches!(finding.verdict, Verdict::Equivalent | Verdict::Different) {
-        return;
-    }
-    let plain = Options {
-        forms: Vec::new(),
-        ..options.clone()
-    };
-    let mut others = formula::other_readings(answer, &key.readable);
-    if let Some(content) = power_of_function(&reading.content) {
-        others.push(Reading {
-            content,
-            ..reading.clone()
-        });
-    }
-    for other in others {
-        let verdict = compare::verdict_of(key, &other, &plain);
-        if verdict != finding.verdict && matches!(verdict, Verdict::Equivalent | Verdict::Different)
-        {
-            let message = format!(
-                "read as {}; read as {} it would be {}",
-                show(&reading.content),
-                show(&other.content),
-                if verdict == Verdict::Equivalent {
-                    "right"
-                } else {
-                    "wrong"
-                },
-            );
-            let hint = "the formula can be read in two ways; use brackets to say which is meant";
-            let right = finding.verdict == Verdict::Equivalent;
-            if tight_root(&other, answer, right) {
-                let words = "the root sign may reach over one letter or over all of them";
-                finding.verdict = Verdict::Undecided;
-                finding.note = "UNDECIDED_AMBIGUOUS";
-                finding.proof = Proof::of("none", words);
-                finding.counterexample = None;
-                finding.diagnosis.clear();
-            }
-            finding
-                .diagnosis
-                .insert(0, Diagnosis::new("AMBIGUOUS", message, hint));
-            return;
-        }
-    }
-}
-
-/// Whether a reading takes `√ab`, with nothing between the letters, as the root of all of them: no habit decides that.
-fn tight_root(other: &Reading, answer: &str, right: bool) -> bool {
-    let tight = |note: &Note| {
-        let (root, behind) = answer.split_at_checked(note.middle).unwrap_or_default();
-        // The root of a number and then letters is what most mean by `√2x`.
-        if right && root.ends_with(|c: char| c.is_ascii_digit()) {
-            return false;
-        }
-        behind.starts_with(|c: char| c.is_alphanumeric() || c == '\\')
-    };
-    let long = Remark::Root { long: true };
-    other.notes.iter().any(|n| n.remark == long && tight(n))
-}
-
-/// What the reader decided that a student should know about.
-fn remarks(reading: &Reading, answer: &str, verdict: Verdict) -> Vec<Diagnosis> {
-    let wrong = verdict != Verdict::Equivalent;
-    let worth = |note: &&Note| match note.remark {
-        Remark::Letters => wrong && note.end > note.start + 3,
-        Remark::Radians | Remark::NaturalLogarithm => wrong,
-        Remark::UnitOfSymbols | Remark::Words => true,
-        Remark::Inverse | Remark::UnitNotSymbols => wrong,
-        _ => false,
-    };
-    let said = reading.notes.iter().filter(worth).map(|note| {
-        let words = note.message(answer);
-        Diagnosis::new("READING", words.clone(), words)
-    });
-    said.collect()
 }
 
 /// A content in plain notation.

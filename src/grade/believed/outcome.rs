@@ -1,0 +1,338 @@
+//! What comes out of a scene under a slip: the altered equations solved in doubles or fractions, and the answer read off.
+//!
+//! In: what was written, a slip and a point. Out: values of the quantity asked for.
+
+use super::super::belief::{Change, Slip};
+use super::Written;
+use crate::expr::{Point, Rational};
+use crate::numeric::{self, Answer, Given, Motion, Number, Solution, System, Unknown};
+use crate::scene::{Ask, EnergyWhen, ImpulseAt};
+
+pub(super) fn doubles(written: &Written, slip: &Slip, point: &Point<f64>) -> Option<Vec<f64>> {
+    if slip.changes.iter().any(|c| matches!(c, Change::EnergyKept)) {
+        return energy_kept(written, slip, point);
+    }
+    outcome(written, slip, point, |system| {
+        numeric::solve_f64(system).ok()
+    })
+}
+
+pub(super) fn fractions(
+    written: &Written,
+    slip: &Slip,
+    point: &Point<Rational>,
+) -> Option<Vec<Rational>> {
+    if slip.changes.iter().any(|c| matches!(c, Change::EnergyKept)) {
+        return None;
+    }
+    outcome(written, slip, point, |system| {
+        numeric::solve_exact(system).ok()
+    })
+}
+
+pub(super) fn outcome<T: Number>(
+    written: &Written,
+    slip: &Slip,
+    point: &Point<T>,
+    solve: impl Fn(&System<T>) -> Option<Solution<T>>,
+) -> Option<Vec<T>> {
+    let given = numeric::given(&slip.scene, point).ok()?;
+    let mut system = numeric::assemble(&given);
+    for change in &slip.changes {
+        alter(change, point, &given, &mut system)?;
+    }
+    let solution = solve(&system)?;
+    let motion = numeric::motion(&given, &system, &solution);
+    read_off(written, slip, point, given, &motion)
+}
+
+pub(super) fn read_off<T: Number>(
+    written: &Written,
+    slip: &Slip,
+    point: &Point<T>,
+    mut given: Given<T>,
+    motion: &Motion<T>,
+) -> Option<Vec<T>> {
+    let mut ask = written.ask.clone();
+    for change in &slip.changes {
+        match change {
+            Change::NoRotationEnergy | Change::NoTranslationEnergy => {
+                let Ask::Energy { when, of } = &ask else {
+                    return None;
+                };
+                return energies(change, *when, *of, &given, motion).map(|e| vec![e]);
+            }
+            Change::PointIsCenter => match &mut ask {
+                Ask::Velocity {
+                    point: at @ Some(_),
+                    ..
+                } => *at = None,
+                _ => return None,
+            },
+            _ => {}
+        }
+    }
+    // Impulses of hinges that the belief removed have no value.
+    if let Ask::Impulse {
+        from: ImpulseAt::Hinge(h),
+        ..
+    } = &ask
+        && slip.scene.hinges.len() != written.scene.hinges.len()
+    {
+        let _ = h;
+        return None;
+    }
+    given.known.clear();
+    match numeric::answer(&ask, point, &given, motion).ok()? {
+        Answer::Scalar(value) => Some(vec![value]),
+        Answer::Vector([x, y]) => Some(match written.component {
+            Some(0) => vec![x],
+            Some(_) => vec![y],
+            None => vec![x, y],
+        }),
+    }
+}
+
+/// Energies with one part left out.
+fn energies<T: Number>(
+    change: &Change,
+    when: EnergyWhen,
+    of: Option<usize>,
+    given: &Given<T>,
+    motion: &Motion<T>,
+) -> Option<T> {
+    let mut counted = given.clone();
+    for body in &mut counted.bodies {
+        match change {
+            Change::NoRotationEnergy => body.inertia = T::zero(),
+            _ => body.mass = T::zero(),
+        }
+    }
+    let before = numeric::energy_before(&counted, of);
+    let after = numeric::energy_after(&counted, motion, of);
+    Some(match when {
+        EnergyWhen::Before => before,
+        EnergyWhen::After => after,
+        EnergyWhen::Lost => before.minus(&after),
+    })
+}
+
+/// Changes the equations; `None` where the change does not apply.
+fn alter<T: Number>(
+    change: &Change,
+    point: &Point<T>,
+    given: &Given<T>,
+    system: &mut System<T>,
+) -> Option<()> {
+    use numeric::Law;
+    let n = system.unknowns.len();
+    let row_of = |system: &System<T>, law: Law| system.laws.iter().position(|l| *l == law);
+    let set =
+        |system: &mut System<T>, row: usize, entries: &[(Unknown, T)], right: T| -> Option<()> {
+            for column in 0..n {
+                system.matrix[row * n + column] = T::zero();
+            }
+            for (unknown, value) in entries {
+                let column = system.column(*unknown)?;
+                let cell = &mut system.matrix[row * n + column];
+                *cell = cell.plus(value);
+            }
+            system.right[row] = right;
+            Some(())
+        };
+    match change {
+        Change::MomentsIgnored {
+            bodies,
+            about,
+            instead,
+        } => {
+            let o = [about[0].evaluate(point)?, about[1].evaluate(point)?];
+            let row = row_of(system, Law::AngularMomentum(*instead))?;
+            let mut entries = Vec::new();
+            let mut right = T::zero();
+            for &b in bodies {
+                let body = &given.bodies[b];
+                let r = [body.center[0].minus(&o[0]), body.center[1].minus(&o[1])];
+                let m = &body.mass;
+                entries.push((Unknown::VelocityX(b), m.times(&r[1]).negated()));
+                entries.push((Unknown::VelocityY(b), m.times(&r[0])));
+                right = right.plus(
+                    &m.times(
+                        &r[0]
+                            .times(&body.velocity[1])
+                            .minus(&r[1].times(&body.velocity[0])),
+                    ),
+                );
+                if body.freedom == numeric::given::Freedom::Rigid {
+                    entries.push((Unknown::Spin(b), body.inertia.clone()));
+                    right = right.plus(&body.inertia.times(&body.spin));
+                }
+            }
+            set(system, row, &entries, right)
+        }
+        Change::NoHingeImpulse {
+            hinge,
+            axis,
+            instead,
+        } => {
+            let row = row_of(system, Law::AngularMomentum(*instead))?;
+            let unknown = if *axis == 0 {
+                Unknown::HingeX(*hinge)
+            } else {
+                Unknown::HingeY(*hinge)
+            };
+            set(system, row, &[(unknown, T::one())], T::zero())
+        }
+        Change::NoContactImpulse {
+            contact,
+            axis,
+            instead,
+        } => {
+            let row = row_of(system, Law::AngularMomentum(*instead))?;
+            let unknown = if *axis == 0 {
+                Unknown::ContactX(*contact)
+            } else {
+                Unknown::ContactY(*contact)
+            };
+            set(system, row, &[(unknown, T::one())], T::zero())
+        }
+        Change::CentersBounce(c) => {
+            let contact = &given.contacts[*c];
+            let normal = contact.normal.clone()?;
+            let numeric::given::GivenLaw::Frictionless(e) = &contact.law else {
+                return None;
+            };
+            let row = row_of(system, Law::Restitution(*c))?;
+            let mut entries = Vec::new();
+            let mut right = T::zero();
+            for (sign, b) in [
+                (T::one().negated(), contact.joint.bodies[0]),
+                (T::one(), contact.joint.bodies[1]),
+            ] {
+                let body = &given.bodies[b];
+                let before = numeric::number::dot(&body.velocity, &normal).times(&sign);
+                right = right.minus(&e.times(&before));
+                if body.freedom == numeric::given::Freedom::Fixed {
+                    right = right.minus(&before);
+                } else {
+                    entries.push((Unknown::VelocityX(b), normal[0].times(&sign)));
+                    entries.push((Unknown::VelocityY(b), normal[1].times(&sign)));
+                }
+            }
+            set(system, row, &entries, right)
+        }
+        Change::WholeBounce { contact, body } => {
+            let numeric::given::GivenLaw::Frictionless(e) = &given.contacts[*contact].law else {
+                return None;
+            };
+            let velocity = given.bodies[*body].velocity.clone();
+            let [x, y] = velocity.map(|v| v.times(e).negated());
+            // The impulse follows from the momentum along the normal; the balances of the body give way.
+            let normal = given.contacts[*contact].normal.clone()?;
+            let m = given.bodies[*body].mass.clone();
+            let first = given.contacts[*contact].joint.bodies[0] == *body;
+            let change = numeric::number::dot(
+                &[
+                    x.minus(&given.bodies[*body].velocity[0]),
+                    y.minus(&given.bodies[*body].velocity[1]),
+                ],
+                &normal,
+            );
+            let impulse = if first {
+                m.times(&change).negated()
+            } else {
+                m.times(&change)
+            };
+            let rows = [
+                Law::MomentumX(*body),
+                Law::MomentumY(*body),
+                Law::Restitution(*contact),
+            ]
+            .map(|law| row_of(system, law));
+            set(
+                system,
+                rows[0]?,
+                &[(Unknown::VelocityX(*body), T::one())],
+                x,
+            )?;
+            set(
+                system,
+                rows[1]?,
+                &[(Unknown::VelocityY(*body), T::one())],
+                y,
+            )?;
+            set(
+                system,
+                rows[2]?,
+                &[(Unknown::ContactNormal(*contact), T::one())],
+                impulse,
+            )
+        }
+        Change::EnergyKept => None,
+        Change::NoRotationEnergy | Change::NoTranslationEnergy | Change::PointIsCenter => Some(()),
+    }
+}
+
+/// The motion with the joints' one freedom and the energy before.
+pub(super) fn energy_kept(written: &Written, slip: &Slip, point: &Point<f64>) -> Option<Vec<f64>> {
+    let given = numeric::given(&slip.scene, point).ok()?;
+    if given.known.iter().any(|_| true) {
+        return None;
+    }
+    let mut system = numeric::assemble(&given);
+    let velocity = |u: &Unknown| {
+        matches!(
+            u,
+            Unknown::VelocityX(_) | Unknown::VelocityY(_) | Unknown::Spin(_)
+        )
+    };
+    let n = system.unknowns.len();
+    // The shape of the motion: what the laws themselves give, which has the joints' freedom.
+    let real = numeric::solve_f64(&system).ok()?;
+    let kinematic: Vec<usize> = (0..system.laws.len())
+        .filter(|i| {
+            use numeric::Law::*;
+            matches!(
+                system.laws[*i],
+                HingeX(_) | HingeY(_) | StickingX(_) | StickingY(_)
+            )
+        })
+        .collect();
+    let columns: Vec<usize> = (0..n).filter(|c| velocity(&system.unknowns[*c])).collect();
+    let matrix =
+        nalgebra::DMatrix::from_fn(kinematic.len().max(columns.len()), columns.len(), |i, j| {
+            kinematic
+                .get(i)
+                .map_or(0.0, |row| system.matrix[row * n + columns[j]])
+        });
+    let singular = matrix.singular_values();
+    let largest = singular.iter().copied().fold(0.0, f64::max);
+    if singular.iter().filter(|s| **s <= 1e-10 * largest).count() != 1 {
+        return None;
+    }
+    let mut solution = real;
+    let motion = numeric::motion(&given, &system, &solution);
+    let (before, after) = (
+        numeric::energy_before(&given, None),
+        numeric::energy_after(&given, &motion, None),
+    );
+    if after <= 0.0 || !before.is_finite() {
+        return None;
+    }
+    let scale = (before / after).sqrt();
+    solution.values.iter_mut().for_each(|v| *v *= scale);
+    system.right.iter_mut().for_each(|v| *v *= scale);
+    // Impulses do not scale with the motion.
+    if matches!(written.ask, Ask::Impulse { .. }) {
+        return None;
+    }
+    let motion = numeric::motion(&given, &system, &solution);
+    if let Ask::Energy {
+        when: EnergyWhen::Lost,
+        of: None,
+    } = written.ask
+    {
+        return Some(vec![0.0]);
+    }
+    read_off(written, slip, point, given, &motion)
+}

@@ -1,0 +1,309 @@
+//! Two expressions: equal, different or undecided, in the words of a grade; tolerances; quotients that are numbers.
+
+use super::super::number::{self, Tolerance};
+use super::super::{Apart, Diagnosis, Proof, Strength, Verdict, fraction, modular, partial};
+use super::{Context, Finding};
+use crate::algebra::Field;
+use crate::equality::{self, Assumption, Condition, Equality, How, Reason, Side, Value};
+use crate::expr::{Expr, Node};
+use crate::formula::write_plain;
+
+/// Two expressions.
+pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Finding {
+    if let Some(tolerance) = &ctx.options.tolerance
+        && let Some(finding) = tolerant(ctx, expected, answer, tolerance)
+    {
+        return finding;
+    }
+    if ctx.options.strength == Strength::Fast {
+        let usual = ctx
+            .key
+            .residues
+            .as_ref()
+            .filter(|_| ctx.key.reading.expr() == Some(expected));
+        let found = match usual {
+            Some(residues) => residues.compare(answer),
+            None => modular::Residues::of(expected, &ctx.key.question.domains, Vec::new())
+                .and_then(|r| r.compare(answer)),
+        };
+        if let Some(finding) = found {
+            return finding;
+        }
+    }
+    let decision = equality::decide(expected, answer, &ctx.key.question.domains);
+    let mut finding = decided(ctx, expected, answer, decision.equality);
+    finding.assumed.splice(0..0, decision.assumed);
+    for e in [expected, answer] {
+        finding.assumed.extend(odd_root(ctx, e));
+    }
+    finding.assumed.dedup();
+    if ctx.diagnose && finding.verdict == Verdict::Different {
+        let found = partial::diagnose(ctx, expected, answer);
+        if finding.note == "DIFF"
+            && let Some(first) = found.first()
+        {
+            finding.note = partial::note(first.code);
+        }
+        finding.diagnosis.extend(found);
+    }
+    finding
+}
+
+fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) -> Finding {
+    match equality {
+        Equality::Same {
+            how: How::Identity {
+                ground,
+                assumptions,
+            },
+        } => {
+            let proof = Proof::of("identity", ground.words());
+            let signs = assumptions
+                .iter()
+                .any(|a| matches!(a, Assumption::NotNegative(_)));
+            let note = if signs {
+                "EQUIV_ASSUMED"
+            } else {
+                "EQUIV_IDENTITY"
+            };
+            let mut finding = Finding::new(Verdict::Equivalent, note, proof);
+            finding.assumed = assumptions
+                .iter()
+                .map(|a| match a {
+                    Assumption::NotNegative(e) => format!("{} ≥ 0", write_plain(e)),
+                    Assumption::NotAt(sample) => format!("not at {}", sample.words()),
+                })
+                .collect();
+            finding
+        }
+        // Where the expected formula has no value it says nothing.
+        Equality::Same {
+            how:
+                How::OnBranch {
+                    condition: Condition::BothDefined,
+                    elsewhere,
+                },
+        } if elsewhere.left == Value::None => {
+            let words = "equal wherever the expected formula has a value";
+            let mut finding = Finding::new(
+                Verdict::Equivalent,
+                "EQUIV_ASSUMED",
+                Proof::of("identity", words),
+            );
+            finding.assumed = vec![format!("{} has a value", ctx.say(expected))];
+            finding
+        }
+        Equality::Same {
+            how: How::OnBranch {
+                condition,
+                elsewhere,
+            },
+        } => {
+            let where_equal = match condition {
+                Condition::NotNegative(e) => format!("where {} ≥ 0", ctx.say(&e)),
+                Condition::BothDefined => "where both have a value".to_string(),
+            };
+            let mut finding = Finding::different(
+                "DIFF_BRANCH",
+                "branch",
+                format!("equal {where_equal}, different elsewhere"),
+            );
+            finding.counterexample = Some(apart(&elsewhere));
+            finding.with(Diagnosis::new(
+                "BRANCH",
+                format!("right {where_equal}; elsewhere it differs"),
+                "your formula is right on a part of the domain only: think of signs",
+            ))
+        }
+        Equality::Different(at) => {
+            let mut finding = Finding::different(
+                "DIFF",
+                "counterexample",
+                "the values differ at a point of the domain",
+            );
+            finding.counterexample = Some(apart(&at));
+            finding
+        }
+        Equality::Invalid {
+            side: Side::Right, ..
+        } => {
+            let words = format!("{} has no value anywhere", ctx.say(answer));
+            Finding::new(Verdict::Invalid, "INVALID_UNDEFINED", Proof::of("none", words.clone())).with(Diagnosis::new(
+                "UNDEFINED",
+                words,
+                "your formula has no value anywhere: look for a division by zero or the root of something negative",
+            ))
+        }
+        Equality::Invalid {
+            side: Side::Left, ..
+        } => {
+            let words = format!("the expected {} has no value anywhere", ctx.say(expected));
+            Finding::new(
+                Verdict::Invalid,
+                "INVALID_EXPECTED",
+                Proof::of("none", words),
+            )
+        }
+        Equality::Undecided { reason, evidence } => {
+            let (note, words) = match reason {
+                Reason::TooLarge => (
+                    "UNDECIDED_SIZE",
+                    "the formulas are larger than the limit".to_string(),
+                ),
+                Reason::NoPoint => (
+                    "UNDECIDED_POINT",
+                    "no point of the domain at which both have a value was found".into(),
+                ),
+                Reason::NoPointApart => (
+                    "UNDECIDED_POINT",
+                    "no identity, yet no point was found at which they differ".into(),
+                ),
+                Reason::UnknownLaws => (
+                    "UNDECIDED_FUNCTION",
+                    "a function occurs whose laws are not known".into(),
+                ),
+                Reason::Limit(what) => ("UNDECIDED_LIMIT", what),
+            };
+            let seen = match (evidence.exact_points, evidence.enclosed_points) {
+                (0, 0) => String::new(),
+                (n, m) => format!(
+                    "; equal at {n} exact points, to {} digits at {m} more",
+                    evidence.digits
+                ),
+            };
+            Finding::new(
+                Verdict::Undecided,
+                note,
+                Proof::of("none", format!("{words}{seen}")),
+            )
+        }
+    }
+}
+
+fn apart(c: &equality::Counterexample) -> Apart {
+    let [expected, yours] = c.values();
+    Apart {
+        at: c.at.words(),
+        yours,
+        expected,
+    }
+}
+
+/// How the root of odd degree of a negative number is understood, where one occurs.
+fn odd_root(ctx: &Context, e: &Expr) -> Option<String> {
+    let mut found = None;
+    e.walk(&mut |part| {
+        if let Node::Power(base, k) = part.node()
+            && let (Some(base), Some(k)) = (base.as_number(), k.as_number())
+            && base.is_negative()
+            && !k.is_integer()
+        {
+            found.get_or_insert_with(|| format!("{} is the real root", ctx.say(part)));
+        }
+    });
+    found
+}
+
+/// Within a tolerance: numbers, or formulas whose quotient is a number.
+fn tolerant(
+    ctx: &Context,
+    expected: &Expr,
+    answer: &Expr,
+    tolerance: &Tolerance,
+) -> Option<Finding> {
+    let constant = expected.symbols().is_empty() && answer.symbols().is_empty();
+    let inside = if constant {
+        number::within(answer, expected, tolerance)?
+    } else {
+        // A formula with rounded coefficients: its ratio to the exact one is a number near 1.
+        let (Tolerance::Relative(_) | Tolerance::Significant(_)) = tolerance else {
+            return None;
+        };
+        let ratio = quotient(answer, expected, ctx)?;
+        number::within(&ratio, &Expr::one(), tolerance)?
+    };
+    if inside {
+        return Some(Finding::new(
+            Verdict::Equivalent,
+            "EQUIV_TOLERANCE",
+            Proof::of("tolerance", tolerance.words()),
+        ));
+    }
+    constant.then(|| {
+        let mut finding = Finding::different(
+            "DIFF_TOLERANCE",
+            "tolerance",
+            format!("not {}", tolerance.words()),
+        );
+        if ctx.diagnose {
+            finding.diagnosis = partial::numbers(expected, answer);
+        }
+        finding
+    })
+}
+
+/// Most terms of what is written out while looking for what is wrong; more would cost much and tell nobody anything.
+pub(crate) const WRITTEN: usize = 300;
+
+/// Most products of terms it may take to write out two formulas while looking for what is wrong.
+const PRODUCTS: usize = 100_000;
+
+/// Whether two formulas are written out as sums of products without much work.
+pub(crate) fn is_short(a: &Expr, b: &Expr) -> bool {
+    /// Terms, and products of terms on the way there; both at most.
+    fn cost(e: &Expr) -> (usize, usize) {
+        match e.node() {
+            Node::Sum(parts) => parts.iter().map(cost).fold((0, 0), |total, part| {
+                let work = total.1.saturating_add(part.1);
+                (total.0.saturating_add(part.0), work)
+            }),
+            Node::Product(parts) => parts.iter().map(cost).fold((1, 0), |total, part| {
+                let terms = total.0.saturating_mul(part.0);
+                let work = total.1.saturating_add(part.1);
+                (terms, work.saturating_add(terms))
+            }),
+            Node::Power(base, k) => {
+                let (base, work) = cost(base);
+                let k = k.as_number().filter(|k| k.is_integer());
+                let k = k.and_then(|k| k.numer().as_i64()).unwrap_or(1);
+                let k = usize::try_from(k.unsigned_abs()).unwrap_or(usize::MAX);
+                // k of the terms, their order left aside: (base + k − 1 over k).
+                let mut terms = 1usize;
+                for i in 1..base.min(6) {
+                    terms = terms.saturating_mul(k.saturating_add(i)) / i;
+                }
+                let squared = terms.saturating_mul(terms);
+                (
+                    terms,
+                    work.saturating_add(if base > 1 { squared } else { 0 }),
+                )
+            }
+            _ => (1, 0),
+        }
+    }
+    cost(a).1.saturating_add(cost(b).1) <= PRODUCTS
+}
+
+/// The quotient of two expressions where it is a number.
+pub(crate) fn quotient(a: &Expr, b: &Expr, ctx: &Context) -> Option<Expr> {
+    if !is_short(a, b) {
+        return None;
+    }
+    let mut field = Field::new(&ctx.key.question.domains);
+    field.prepare([a, b]);
+    let (x, y) = (field.element(a).ok()?, field.element(b).ok()?);
+    if field.is_zero(&y) {
+        return None;
+    }
+    let q = field.div(&x, &y).ok()?;
+    if q.terms() > WRITTEN {
+        return None;
+    }
+    let q = field.expr(&q);
+    q.symbols().is_empty().then_some(q)
+}
+
+/// Whether two constants are plainly equal.
+pub(crate) fn same_number(a: &Expr, b: &Expr) -> bool {
+    matches!((fraction(a), fraction(b)), (Some(a), Some(b)) if a == b)
+}

@@ -1,0 +1,163 @@
+//! Where a text could mean something else: other readings, an e that nobody declared, and what the reader decided.
+
+use super::compare;
+use super::{Diagnosis, Key, Options, Proof, Verdict, show};
+use crate::expr::{Expr, Function, Node};
+use crate::formula::{self, Content, Note, Reading, Remark};
+
+/// `cosθ^2`, read as the cosine of a square, would be right as the square of the cosine.
+pub(super) fn power_of_function(content: &Content) -> Option<Content> {
+    fn lift(e: &Expr) -> Expr {
+        if let Node::Call(f, x) = e.node()
+            && let Node::Power(base, k) = x.node()
+            && k.as_number().is_some_and(|k| k.is_integer())
+        {
+            return Expr::call(*f, base.clone()).power(k.clone());
+        }
+        e.map_parts(lift)
+    }
+    let changed = match content {
+        Content::Scalar(e) => Content::Scalar(lift(e)),
+        Content::Vector(v) => Content::Vector([lift(&v[0]), lift(&v[1]), lift(&v[2])]),
+        _ => return None,
+    };
+    (changed != *content).then_some(changed)
+}
+
+/// `e^x` against `exp(x)` with an e that nobody declared: e is a symbol here, and the verdict hangs on that.
+pub(super) fn euler(
+    key: &Key,
+    reading: &Reading,
+    options: &Options,
+    finding: &mut compare::Finding,
+) {
+    fn number(e: &Expr) -> Expr {
+        match e.node() {
+            Node::Power(base, k) if base.as_symbol().is_some_and(|s| &**s == "e") => {
+                Expr::call(Function::Exp, number(k))
+            }
+            _ => e.map_parts(number),
+        }
+    }
+    let (Some(expected), Some(answer)) = (key.reading.expr(), reading.expr()) else {
+        return;
+    };
+    let occurs = |e: &Expr| e.symbols().contains("e");
+    if finding.verdict != Verdict::Different || occurs(expected) == occurs(answer) || key.declares_e
+    {
+        return;
+    }
+    let (a, b) = (number(expected), number(answer));
+    if occurs(&a) || occurs(&b) {
+        return;
+    }
+    let other = Key {
+        reading: Reading {
+            content: Content::Scalar(a),
+            ..key.reading.clone()
+        },
+        ..key.clone()
+    };
+    let mine = Reading {
+        content: Content::Scalar(b),
+        ..reading.clone()
+    };
+    let plain = Options {
+        forms: Vec::new(),
+        ..options.clone()
+    };
+    if compare::verdict_of(&other, &mine, &plain) == Verdict::Equivalent {
+        let words = "e is a symbol; as the base of the natural logarithm it would be right";
+        finding.verdict = Verdict::Undecided;
+        finding.note = "UNDECIDED_AMBIGUOUS";
+        finding.proof = Proof::of("none", words);
+        finding.counterexample = None;
+        let hint = "write exp(x) for the exponential function";
+        finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+    }
+}
+
+/// Where a text could be read in another way and that would be right, the grade says so; the usual reading decides.
+pub(super) fn ambiguity(
+    key: &Key,
+    answer: &str,
+    options: &Options,
+    reading: &Reading,
+    finding: &mut compare::Finding,
+) {
+    if !matches!(finding.verdict, Verdict::Equivalent | Verdict::Different) {
+        return;
+    }
+    let plain = Options {
+        forms: Vec::new(),
+        ..options.clone()
+    };
+    let mut others = formula::other_readings(answer, &key.readable);
+    if let Some(content) = power_of_function(&reading.content) {
+        others.push(Reading {
+            content,
+            ..reading.clone()
+        });
+    }
+    for other in others {
+        let verdict = compare::verdict_of(key, &other, &plain);
+        if verdict != finding.verdict && matches!(verdict, Verdict::Equivalent | Verdict::Different)
+        {
+            let message = format!(
+                "read as {}; read as {} it would be {}",
+                show(&reading.content),
+                show(&other.content),
+                if verdict == Verdict::Equivalent {
+                    "right"
+                } else {
+                    "wrong"
+                },
+            );
+            let hint = "the formula can be read in two ways; use brackets to say which is meant";
+            let right = finding.verdict == Verdict::Equivalent;
+            if tight_root(&other, answer, right) {
+                let words = "the root sign may reach over one letter or over all of them";
+                finding.verdict = Verdict::Undecided;
+                finding.note = "UNDECIDED_AMBIGUOUS";
+                finding.proof = Proof::of("none", words);
+                finding.counterexample = None;
+                finding.diagnosis.clear();
+            }
+            finding
+                .diagnosis
+                .insert(0, Diagnosis::new("AMBIGUOUS", message, hint));
+            return;
+        }
+    }
+}
+
+/// Whether a reading takes `√ab`, with nothing between the letters, as the root of all of them: no habit decides that.
+fn tight_root(other: &Reading, answer: &str, right: bool) -> bool {
+    let tight = |note: &Note| {
+        let (root, behind) = answer.split_at_checked(note.middle).unwrap_or_default();
+        // The root of a number and then letters is what most mean by `√2x`.
+        if right && root.ends_with(|c: char| c.is_ascii_digit()) {
+            return false;
+        }
+        behind.starts_with(|c: char| c.is_alphanumeric() || c == '\\')
+    };
+    let long = Remark::Root { long: true };
+    other.notes.iter().any(|n| n.remark == long && tight(n))
+}
+
+/// What the reader decided that a student should know about.
+pub(super) fn remarks(reading: &Reading, answer: &str, verdict: Verdict) -> Vec<Diagnosis> {
+    let wrong = verdict != Verdict::Equivalent;
+    let worth = |note: &&Note| match note.remark {
+        Remark::Letters => wrong && note.end > note.start + 3,
+        Remark::Radians | Remark::NaturalLogarithm => wrong,
+        Remark::UnitOfSymbols | Remark::Words => true,
+        Remark::Inverse | Remark::UnitNotSymbols => wrong,
+        _ => false,
+    };
+    let said = reading.notes.iter().filter(worth).map(|note| {
+        let words = note.message(answer);
+        Diagnosis::new("READING", words.clone(), words)
+    });
+    said.collect()
+}

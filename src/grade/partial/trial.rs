@@ -1,0 +1,457 @@
+//! One wrong formula held against the right one: what change of it would be right.
+//!
+//! A glance at a few points comes before every proof, so that what cannot be is not tried.
+
+use super::super::compare::{Context, is_short, quotient};
+use super::super::{Diagnosis, fraction, number};
+use super::{GLANCES, angle, dimensions, proved, simple, swap, symbols};
+use crate::domain::{Coordinate, Domains, Sample, roles, samples};
+use crate::expr::{Expr, Node, Point, Symbol, ratio};
+use crate::formula::write_plain;
+use crate::interval::{Interval, Outcome, evaluate};
+use std::collections::{BTreeMap, BTreeSet};
+
+pub(super) struct Trial<'a> {
+    expected: &'a Expr,
+    answer: &'a Expr,
+    domains: &'a Domains,
+    points: Vec<Point<Outcome<Interval>>>,
+    values: Vec<Outcome<Interval>>,
+    answers: Vec<Outcome<Interval>>,
+}
+
+impl<'a> Trial<'a> {
+    pub(super) fn new(ctx: &'a Context, expected: &'a Expr, answer: &'a Expr) -> Trial<'a> {
+        let domains = &ctx.key.question.domains;
+        let uses = roles(&[expected, answer]);
+        let (all, _) = domains.completed(&uses);
+        // The first points have many ones, at which a power is as good as another.
+        let points = samples(&uses, &all, 2 + GLANCES);
+        // What is known by its direction alone costs less by far; that does where no angle is needed in radians.
+        let radians = uses.radians
+            || uses
+                .symbols
+                .iter()
+                .filter(|(_, r)| r.turns)
+                .any(|(name, r)| {
+                    let direction = |s: &Sample| {
+                        matches!(s.coordinates.get(name), Some(Coordinate::Direction { .. }))
+                    };
+                    r.bare || !points.iter().all(direction)
+                });
+        let points: Vec<_> = points.iter().skip(2).map(|s| s.point(radians)).collect();
+        let at = |e: &Expr| points.iter().map(|p| evaluate(e, p)).collect::<Vec<_>>();
+        Trial {
+            expected,
+            answer,
+            domains,
+            values: at(expected),
+            answers: at(answer),
+            points,
+        }
+    }
+
+    /// Whether two lists of values are of different expressions for certain.
+    pub(super) fn apart(a: &[Outcome<Interval>], b: &[Outcome<Interval>]) -> bool {
+        a.iter().zip(b).any(|pair| match pair {
+            (Outcome::Value(a), Outcome::Value(b)) => a.is_disjoint(b),
+            _ => false,
+        })
+    }
+
+    /// Whether an expression may have these values, some of which are known; the first point that tells them apart ends it.
+    pub(super) fn may_be(&self, values: &[Outcome<Interval>], e: &Expr) -> bool {
+        let mut known = false;
+        for (value, point) in values.iter().zip(&self.points) {
+            match (value, evaluate(e, point)) {
+                (Outcome::Value(a), Outcome::Value(b)) if a.is_disjoint(&b) => return false,
+                (Outcome::Value(_), Outcome::Value(_)) => known = true,
+                _ => {}
+            }
+        }
+        known
+    }
+
+    /// Whether the answer may be the expected formula times a number: no two points tell two different ones.
+    pub(super) fn in_proportion(&self) -> bool {
+        let [mut left, mut right] = [Vec::new(), Vec::new()];
+        for (i, (value, answer)) in self.values.iter().zip(&self.answers).enumerate() {
+            left.extend(self.answers[..i].iter().map(|other| value.times(other)));
+            right.extend(self.values[..i].iter().map(|other| answer.times(other)));
+        }
+        !Trial::apart(&left, &right)
+    }
+
+    /// Whether a changed answer equals the expected formula.
+    pub(super) fn mends(&self, changed: &Expr) -> bool {
+        self.may_be(&self.values, changed) && proved(self.expected, changed, self.domains)
+    }
+
+    /// Whether the answer is the expected formula changed in a known way.
+    pub(super) fn is(&self, changed: &Expr) -> bool {
+        self.may_be(&self.answers, changed) && proved(changed, self.answer, self.domains)
+    }
+
+    pub(super) fn sign(&self) -> Option<Diagnosis> {
+        self.mends(&-self.answer).then(|| {
+            Diagnosis::new(
+                "SIGN",
+                "right up to the sign",
+                "check the sign, and which direction counts as positive",
+            )
+        })
+    }
+
+    /// A constant factor.
+    pub(super) fn factor(&self, ctx: &Context) -> Option<Diagnosis> {
+        if self.expected.is_zero() || self.answer.is_zero() || !self.in_proportion() {
+            return None;
+        }
+        if let Some(k) = quotient(self.answer, self.expected, ctx) {
+            let value = fraction(&k);
+            if let Some(value) = &value {
+                let off = (value - ratio(1, 1)).abs();
+                if !simple(value) && off < ratio(1, 50) {
+                    let digits = number::digits_shared(value, &[ratio(1, 1), ratio(1, 1)]).min(30);
+                    let message =
+                        format!("right to about {digits} digits: a coefficient was rounded");
+                    return Some(Diagnosis::new(
+                        "ROUNDED",
+                        message,
+                        "give exact coefficients rather than rounded ones",
+                    ));
+                }
+            }
+            let message = format!("right up to the constant factor {}", write_plain(&k));
+            return Some(Diagnosis::new(
+                "FACTOR",
+                message,
+                "a constant factor is wrong",
+            ));
+        }
+        None
+    }
+
+    /// A factor made of symbols that both formulas know.
+    pub(super) fn factor_of_symbols(&self, ctx: &Context) -> Option<Diagnosis> {
+        let short = is_short(self.expected, self.answer);
+        if self.expected.is_zero() || self.answer.is_zero() || !short {
+            return None;
+        }
+        let mut field = crate::algebra::Field::new(self.domains);
+        field.prepare([self.answer, self.expected]);
+        let (a, e) = (
+            field.element(self.answer).ok()?,
+            field.element(self.expected).ok()?,
+        );
+        let q = field.div(&a, &e).ok()?;
+        if !q.is_monomial() {
+            return None;
+        }
+        let shown = field.expr(&q);
+        let known: BTreeSet<Symbol> = ctx
+            .key
+            .question
+            .symbols
+            .iter()
+            .map(|g| g.name.clone())
+            .collect();
+        let mut calls = false;
+        shown.walk(&mut |e| calls |= matches!(e.node(), Node::Call(..)));
+        if calls || !shown.symbols().is_subset(&known) || shown.size() > 12 {
+            return None;
+        }
+        let message = format!("too large by the factor {}", ctx.say(&shown));
+        Some(Diagnosis::new(
+            "FACTOR_SYMBOL",
+            message,
+            "a factor is missing or too much; compare the dimensions",
+        ))
+    }
+
+    pub(super) fn magnitude(&self) -> Option<Diagnosis> {
+        let square = |e: &Expr| e.powi(2);
+        let values = |v: &[Outcome<Interval>]| -> Vec<f64> {
+            v.iter()
+                .filter_map(|o| o.clone().value())
+                .map(|i| i.low.abs().max(i.high.abs()))
+                .collect()
+        };
+        let close = values(&self.values)
+            .iter()
+            .zip(values(&self.answers))
+            .all(|(a, b)| (a - b).abs() <= 1e-9 * a.abs().max(b));
+        (close && proved(&square(self.expected), &square(self.answer), self.domains)).then(|| {
+            Diagnosis::new(
+                "MAGNITUDE",
+                "right in magnitude; the sign is wrong on a part of the domain",
+                "the magnitude is right: think of the sign",
+            )
+        })
+    }
+
+    pub(super) fn reciprocal(&self) -> Option<Diagnosis> {
+        if self.answer.is_zero() {
+            return None;
+        }
+        self.mends(&self.answer.powi(-1)).then(|| {
+            Diagnosis::new(
+                "RECIPROCAL",
+                "the reciprocal of the expected value",
+                "numerator and denominator look exchanged",
+            )
+        })
+    }
+
+    pub(super) fn sin_cos(&self) -> Option<Diagnosis> {
+        let swapped = swap(self.answer);
+        (swapped != *self.answer && self.mends(&swapped))
+            .then(|| {
+                Diagnosis::new(
+                    "SIN_COS",
+                    "right with sine and cosine exchanged",
+                    "check from which side the angle is measured",
+                )
+            })
+            .or_else(|| self.one_swapped())
+    }
+
+    /// One symbol's sines and cosines exchanged.
+    pub(super) fn one_swapped(&self) -> Option<Diagnosis> {
+        let angles: Vec<Symbol> = roles(&[self.answer])
+            .symbols
+            .into_iter()
+            .filter(|(_, r)| r.turns)
+            .map(|(n, _)| n)
+            .collect();
+        if angles.len() < 2 {
+            return None;
+        }
+        let right = Expr::pi() * Expr::ratio(1, 2);
+        angles.iter().find_map(|name| {
+            let turned = self.answer.substitute(&BTreeMap::from([(
+                name.clone(),
+                &right - &Expr::symbol(name),
+            )]));
+            self.mends(&turned).then(|| {
+                Diagnosis::new(
+                    "SIN_COS",
+                    format!("right with {name} measured from the other side"),
+                    "check from which side the angle is measured",
+                )
+            })
+        })
+    }
+
+    pub(super) fn symbol_signs(&self) -> Option<Diagnosis> {
+        self.answer.symbols().into_iter().find_map(|name| {
+            let flipped = self
+                .answer
+                .substitute(&BTreeMap::from([(name.clone(), -Expr::symbol(&name))]));
+            self.mends(&flipped).then(|| {
+                Diagnosis::new(
+                    "SYMBOL_SIGN",
+                    format!("right with {name} replaced by -{name}"),
+                    format!("check the sign with which {name} enters"),
+                )
+            })
+        })
+    }
+
+    /// A length, mass or the like taken twice or half.
+    pub(super) fn doubled(&self, ctx: &Context) -> Option<Diagnosis> {
+        self.answer
+            .symbols()
+            .into_iter()
+            .filter(|n| !angle(n, self.answer))
+            .find_map(|name| {
+                for (n, d, code, words) in [(1, 2, "HALF", "half of"), (2, 1, "DOUBLE", "twice")] {
+                    let scaled = self.answer.substitute(&BTreeMap::from([(
+                        name.clone(),
+                        Expr::symbol(&name) * Expr::ratio(n, d),
+                    )]));
+                    if self.mends(&scaled) {
+                        let message = format!(
+                            "right with {words} {} in place of {}",
+                            ctx.say(&Expr::symbol(&name)),
+                            ctx.say(&Expr::symbol(&name))
+                        );
+                        return Some(Diagnosis::new(
+                            code,
+                            message,
+                            format!("check what {name} measures: the whole or the half"),
+                        ));
+                    }
+                }
+                None
+            })
+    }
+
+    /// Two symbols of the same kind exchanged, or all symbols of body 1 with those of body 2.
+    pub(super) fn exchanged(&self, ctx: &Context) -> Option<Diagnosis> {
+        let names: Vec<Symbol> = self
+            .expected
+            .symbols()
+            .union(&self.answer.symbols())
+            .cloned()
+            .collect();
+        let mut all = BTreeMap::new();
+        for (i, a) in names.iter().enumerate() {
+            for b in &names[i + 1..] {
+                let base = |n: &str| {
+                    n.trim_end_matches(|c: char| c.is_ascii_digit() || c == '_')
+                        .to_string()
+                };
+                let kin = match (ctx.dimension_of(a), ctx.dimension_of(b)) {
+                    (Some(x), Some(y)) => x == y && !x.is_none(),
+                    _ => base(a) == base(b),
+                };
+                if !kin {
+                    continue;
+                }
+                let pair =
+                    BTreeMap::from([(a.clone(), Expr::symbol(b)), (b.clone(), Expr::symbol(a))]);
+                if base(a) == base(b) {
+                    all.extend(pair.clone());
+                }
+                if self.mends(&self.answer.substitute(&pair)) {
+                    return Some(Diagnosis::new(
+                        "EXCHANGED",
+                        format!("right with {a} and {b} exchanged"),
+                        format!("check which is {a} and which {b}"),
+                    ));
+                }
+            }
+        }
+        (all.len() > 2 && self.mends(&self.answer.substitute(&all))).then(|| {
+            Diagnosis::new(
+                "EXCHANGED",
+                "right with the two bodies exchanged",
+                "check which body is which",
+            )
+        })
+    }
+
+    /// The answer is the expected formula at a special value of one symbol.
+    pub(super) fn special(&self, ctx: &Context) -> Option<Diagnosis> {
+        let mine = self.answer.symbols();
+        for name in self.expected.symbols() {
+            if mine.contains(&name) {
+                continue;
+            }
+            let turning = angle(&name, self.expected);
+            let cases: Vec<(Expr, String)> = if turning {
+                vec![
+                    (Expr::zero(), format!("{name} = 0")),
+                    (Expr::pi() * Expr::ratio(1, 2), format!("{name} = 90°")),
+                ]
+            } else {
+                vec![
+                    (Expr::zero(), format!("{name} = 0")),
+                    (Expr::one(), format!("{name} = 1")),
+                ]
+            };
+            for (value, words) in cases {
+                let number = ctx.dimension_of(&name).is_none_or(|d| d.is_none());
+                if value.is_one() && !number {
+                    continue;
+                }
+                let special = self
+                    .expected
+                    .substitute(&BTreeMap::from([(name.clone(), value.clone())]));
+                if self.is(&special) {
+                    let (code, words) = match turning && value.is_zero() {
+                        true => (
+                            "SMALL_ANGLE",
+                            format!("right only for small {name} (to leading order)"),
+                        ),
+                        false => ("SPECIAL_CASE", format!("right only for {words}")),
+                    };
+                    return Some(Diagnosis::new(
+                        code,
+                        words,
+                        format!("the answer should depend on {name}"),
+                    ));
+                }
+            }
+        }
+        // Two masses taken as equal, and the like.
+        let names: Vec<Symbol> = self.expected.symbols().into_iter().collect();
+        for a in &names {
+            for b in names.iter().filter(|b| *b != a && !mine.contains(*b)) {
+                if ctx.dimension_of(a).is_none() || ctx.dimension_of(a) != ctx.dimension_of(b) {
+                    continue;
+                }
+                if self.is(&self
+                    .expected
+                    .substitute(&BTreeMap::from([(b.clone(), Expr::symbol(a))])))
+                {
+                    return Some(Diagnosis::new(
+                        "SPECIAL_CASE",
+                        format!("right only for {b} = {a}"),
+                        format!("the answer should depend on {b}"),
+                    ));
+                }
+            }
+        }
+        None
+    }
+
+    /// The same leading term as an angle goes to zero.
+    pub(super) fn small_angle(&self) -> Option<Diagnosis> {
+        let angles: BTreeSet<Symbol> = roles(&[self.expected, self.answer])
+            .symbols
+            .into_iter()
+            .filter(|(_, r)| r.turns)
+            .map(|(n, _)| n)
+            .collect();
+        for name in angles {
+            let at_zero = |e: &Expr| e.substitute(&BTreeMap::from([(name.clone(), Expr::zero())]));
+            let (mut e, mut a) = (self.expected.clone(), self.answer.clone());
+            for order in 0..3 {
+                let (e0, a0) = (at_zero(&e), at_zero(&a));
+                let at =
+                    |e: &Expr| -> Vec<_> { self.points.iter().map(|p| evaluate(e, p)).collect() };
+                if Trial::apart(&at(&e0), &at(&a0)) {
+                    break;
+                }
+                let zero = |x: &Expr| proved(x, &Expr::zero(), self.domains);
+                match (zero(&e0), zero(&a0)) {
+                    (true, true) => {
+                        (e, a) = (e.derivative(&name), a.derivative(&name));
+                        let _ = order;
+                        continue;
+                    }
+                    (false, false) if proved(&e0, &a0, self.domains) => {
+                        let words = format!("right only for small {name}, to leading order");
+                        return Some(Diagnosis::new(
+                            "SMALL_ANGLE",
+                            words,
+                            format!("right only where {name} is small"),
+                        ));
+                    }
+                    _ => break,
+                }
+            }
+        }
+        None
+    }
+
+    pub(super) fn power(&self) -> Option<Diagnosis> {
+        if self.mends(&self.answer.powi(2)) {
+            return Some(Diagnosis::new(
+                "POWER",
+                "the square root of the expected value",
+                "a root is too much",
+            ));
+        }
+        if self.mends(&self.answer.sqrt()) {
+            return Some(Diagnosis::new(
+                "POWER",
+                "the square of the expected value",
+                "a root is missing",
+            ));
+        }
+        None
+    }
+}

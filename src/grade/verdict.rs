@@ -1,0 +1,118 @@
+//! What a judgement says: the verdict, how it is known, the point that shows a difference, what is wrong.
+
+use crate::expr::Symbol;
+use crate::formula::Fault;
+
+/// The verdict on an answer with everything it rests on.
+#[derive(Clone, Debug)]
+pub struct Grade {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Stable code of the reason; it does not depend on points or texts.
+    pub note: &'static str,
+    /// How the verdict is known.
+    pub proof: Proof,
+    /// What was assumed, in words.
+    pub assumed: Vec<String>,
+    /// A point at which the two part.
+    pub counterexample: Option<Apart>,
+    /// Why the answer, or the expected formula, cannot be read.
+    pub error: Option<Fault>,
+    /// What is wrong, and how much is right.
+    pub diagnosis: Vec<Diagnosis>,
+    /// How the answer was read, in plain notation.
+    pub read_as: Option<String>,
+    /// The names in the answer.
+    pub symbols: Vec<Symbol>,
+}
+
+/// The four verdicts.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Verdict {
+    /// Same value on the whole domain.
+    Equivalent,
+    /// Not the same.
+    Different,
+    /// No readable answer.
+    Invalid,
+    /// Not known; never to be counted as wrong.
+    Undecided,
+}
+
+impl Verdict {
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Verdict::Equivalent => "equivalent",
+            Verdict::Different => "different",
+            Verdict::Invalid => "invalid",
+            Verdict::Undecided => "undecided",
+        }
+    }
+
+    /// 1 for equivalent, 0 for different, nothing for what is invalid or undecided.
+    pub fn reward(self) -> Option<u8> {
+        match self {
+            Verdict::Equivalent => Some(1),
+            Verdict::Different => Some(0),
+            Verdict::Invalid | Verdict::Undecided => None,
+        }
+    }
+}
+
+/// How a verdict is known.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Proof {
+    /// Stable name: `identity`, `modular`, `counterexample`, `solutions`, `kind`, `dimension`, `tolerance`, `branch`, `none`.
+    pub kind: &'static str,
+    /// The same in words.
+    pub words: String,
+    /// Largest probability of error, where the proof is probabilistic.
+    pub bound: Option<f64>,
+}
+
+impl Proof {
+    pub(crate) fn of(kind: &'static str, words: impl Into<String>) -> Proof {
+        Proof {
+            kind,
+            words: words.into(),
+            bound: None,
+        }
+    }
+}
+
+/// A point at which two formulas differ, in words.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Apart {
+    /// The point.
+    pub at: String,
+    /// Value of the answer there.
+    pub yours: String,
+    /// Value of the expected formula there.
+    pub expected: String,
+}
+
+/// One thing found out about a wrong answer.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Diagnosis {
+    /// Stable code.
+    pub code: &'static str,
+    /// For the teacher.
+    pub message: String,
+    /// For the student: helps and does not give the answer away.
+    pub hint: String,
+}
+
+impl Diagnosis {
+    pub(crate) fn new(
+        code: &'static str,
+        message: impl Into<String>,
+        hint: impl Into<String>,
+    ) -> Diagnosis {
+        Diagnosis {
+            code,
+            message: message.into(),
+            hint: hint.into(),
+        }
+    }
+}
