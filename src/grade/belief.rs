@@ -10,7 +10,7 @@ use crate::expr::{Expr, Vector, minus};
 use crate::scene::{ContactLaw, Scene, Shape};
 use slips::{
     all_places, changed, frictionless, inertia, lengths, movable, other_shapes, places,
-    restitution, rigid, shifted, slip, velocities,
+    restitution, rigid, shifted, slip, spins, velocities,
 };
 
 /// A belief.
@@ -353,31 +353,13 @@ pub const BELIEFS: &[Belief] = &[
         code: "SPIN_BEFORE_IGNORED",
         belief: "the rotation before the collision is left out",
         hint: "what is the angular momentum just before?",
-        slips: |s| {
-            (0..s.bodies.len())
-                .filter(|b| !s.bodies[*b].spin.is_zero())
-                .map(|b| {
-                    let mut scene = s.clone();
-                    scene.bodies[b].spin = Expr::zero();
-                    slip(scene, &format!("of {}", s.bodies[b].name))
-                })
-                .collect()
-        },
+        slips: |s| spins(s, &|_| Expr::zero()),
     },
     Belief {
         code: "SPIN_BEFORE_SIGN",
         belief: "the rotation before the collision has the wrong sense",
         hint: "check the sense of rotation before the collision",
-        slips: |s| {
-            (0..s.bodies.len())
-                .filter(|b| !s.bodies[*b].spin.is_zero())
-                .map(|b| {
-                    let mut scene = s.clone();
-                    scene.bodies[b].spin = -&scene.bodies[b].spin;
-                    slip(scene, &format!("of {}", s.bodies[b].name))
-                })
-                .collect()
-        },
+        slips: |s| spins(s, &|spin| -spin),
     },
     Belief {
         code: "VELOCITY_BEFORE_IGNORED",

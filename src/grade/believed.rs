@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use super::Diagnosis;
 use super::belief::{BELIEFS, Belief, Slip};
 use crate::expr::{Expr, Node, Point, Rational, Symbol};
-use crate::numeric::{self, Number};
+use crate::numeric;
 use crate::scene::{Ask, Scene};
 pub use others::other_quantities;
 use outcome::{doubles, fractions};

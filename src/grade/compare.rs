@@ -4,18 +4,13 @@ mod scalar;
 
 use std::collections::BTreeMap;
 
-use num_traits::Signed;
-
-use super::number::{self, Tolerance};
 use super::{
-    Apart, Diagnosis, Key, Options, Proof, Strength, Verdict, fraction, modular, partial, relation,
-    show, unit,
+    Apart, Diagnosis, Key, Options, Proof, Strength, Verdict, partial, relation, show, unit,
 };
-use crate::algebra::Field;
 use crate::dimension::Dimension;
-use crate::equality::{self, Assumption, Condition, Equality, How, Reason, Side, Value};
-use crate::expr::{Expr, Node, Symbol};
-use crate::formula::{Content, Reading, Relation, write_plain, write_unicode};
+use crate::equality::{self, Equality};
+use crate::expr::{Expr, Symbol};
+use crate::formula::{Content, Reading, Relation, write_unicode};
 pub(crate) use scalar::{WRITTEN, is_short, quotient, same_number, scalars};
 
 /// What a comparison found; the grade without what concerns the text.
@@ -296,39 +291,27 @@ fn values(ctx: &Context, expected: &Content, answer: &Content, reading: &Reading
         (Content::Vector(e), Content::Vector(a)) => all_of(ctx, e, a),
         (Content::Either(e), Content::Either(a)) => pairs(ctx, e, a),
         (Content::Either(e), Content::Scalar(a)) => {
-            let one = e
-                .iter()
-                .any(|e| scalars(ctx, e, a).verdict == Verdict::Equivalent);
-            let words = if one {
-                "one of the two values is missing"
-            } else {
-                "two values are expected"
+            let one = e.iter().any(|e| equal(ctx, e, a));
+            let words = match one {
+                true => "one of the two values is missing",
+                false => "two values are expected",
             };
-            Finding::different("DIFF_ONE_OF_TWO", "kind", words).with(Diagnosis::new(
-                "ONE_OF_TWO",
-                words,
-                "there are two values",
-            ))
+            let finding = Finding::different("DIFF_ONE_OF_TWO", "kind", words);
+            finding.with(Diagnosis::new("ONE_OF_TWO", words, "there are two values"))
         }
         (Content::Scalar(e), Content::Either(a)) => {
-            let one = a
-                .iter()
-                .any(|a| scalars(ctx, e, a).verdict == Verdict::Equivalent);
-            let words = if one {
-                "one of the two values is the expected one; the other is not"
-            } else {
-                "one value is expected"
+            let one = a.iter().any(|a| equal(ctx, e, a));
+            let words = match one {
+                true => "one of the two values is the expected one; the other is not",
+                false => "one value is expected",
             };
-            Finding::different("DIFF_TWO_FOR_ONE", "kind", words).with(Diagnosis::new(
-                "TWO_FOR_ONE",
-                words,
-                "the answer is a single value: decide which sign it has",
-            ))
+            let hint = "the answer is a single value: decide which sign it has";
+            let finding = Finding::different("DIFF_TWO_FOR_ONE", "kind", words);
+            finding.with(Diagnosis::new("TWO_FOR_ONE", words, hint))
         }
         (Content::Vector(e), Content::Scalar(a)) => {
             let nonzero: Vec<&Expr> = e.iter().filter(|c| !c.is_zero()).collect();
-            let right =
-                nonzero.len() == 1 && scalars(ctx, nonzero[0], a).verdict == Verdict::Equivalent;
+            let right = nonzero.len() == 1 && equal(ctx, nonzero[0], a);
             let message = match right {
                 true => "the component is right; the direction is missing",
                 false => "a vector is expected, and the answer is a number",
@@ -349,6 +332,10 @@ fn values(ctx: &Context, expected: &Content, answer: &Content, reading: &Reading
         }
         _ => kind("the answer is of another kind than what is expected"),
     }
+}
+
+fn equal(ctx: &Context, expected: &Expr, answer: &Expr) -> bool {
+    scalars(ctx, expected, answer).verdict == Verdict::Equivalent
 }
 
 /// Components of vectors, one by one; the first that differs decides.

@@ -5,18 +5,14 @@
 
 mod trial;
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use num_traits::Signed;
 
-use super::compare::{Context, is_short, quotient, same_number};
+use super::compare::{Context, same_number};
 use super::{Diagnosis, fraction, number};
 use crate::dimension::{self, Clash, Dimension};
-use crate::domain::{Coordinate, Domains, Sample, roles, samples};
+use crate::domain::{Domains, roles};
 use crate::equality::{self, Equality, How};
-use crate::expr::{Expr, Function, Node, Point, Scalar, Symbol, ratio};
-use crate::formula::write_plain;
-use crate::interval::{Interval, Outcome, evaluate};
+use crate::expr::{Expr, Function, Node, Symbol, ratio};
 use trial::Trial;
 
 /// Points weighed before a proof.

@@ -356,30 +356,21 @@ impl Sheet {
 
 /// Names of the unknown motion, for equations that hold them.
 fn declare_unknowns(sheet: &Sheet, question: &mut Question) {
-    for unknown in crate::laws::unknowns(&sheet.scene) {
-        let name = Symbol::from(sheet.derivation.names.plain(unknown));
-        question
-            .domains
-            .symbols
-            .insert(name.clone(), crate::domain::Domain::real());
+    let unknowns = crate::laws::unknowns(&sheet.scene).into_iter();
+    let unknowns = unknowns.map(|u| (sheet.derivation.names.plain(u).to_string(), None));
+    let asked = sheet.scene.questions.iter();
+    let asked = asked.map(|q| (q.name.clone(), q.latex.clone()));
+    for (name, latex) in unknowns.chain(asked) {
+        let name = Symbol::from(name.as_str());
+        if question.symbols.iter().any(|g| g.name == name) {
+            continue;
+        }
+        let real = crate::domain::Domain::real();
+        question.domains.symbols.insert(name.clone(), real);
         question.symbols.push(Given {
             name,
-            latex: None,
+            latex,
             dimension: None,
         });
-    }
-    for q in &sheet.scene.questions {
-        let name = Symbol::from(q.name.as_str());
-        if !question.symbols.iter().any(|g| g.name == name) {
-            question
-                .domains
-                .symbols
-                .insert(name.clone(), crate::domain::Domain::real());
-            question.symbols.push(Given {
-                name,
-                latex: q.latex.clone(),
-                dimension: None,
-            });
-        }
     }
 }

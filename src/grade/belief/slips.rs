@@ -220,3 +220,15 @@ pub(super) fn lengths(s: &Scene) -> Vec<Slip> {
     }
     found
 }
+
+/// Every body that turns, with another spin before.
+pub(super) fn spins(s: &Scene, other: &dyn Fn(&Expr) -> Expr) -> Vec<Slip> {
+    (0..s.bodies.len())
+        .filter(|b| !s.bodies[*b].spin.is_zero())
+        .map(|b| {
+            let mut scene = s.clone();
+            scene.bodies[b].spin = other(&s.bodies[b].spin);
+            slip(scene, &format!("of {}", s.bodies[b].name))
+        })
+        .collect()
+}

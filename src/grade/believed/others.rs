@@ -4,7 +4,7 @@
 
 use super::super::Diagnosis;
 use super::super::belief::Slip;
-use super::{Written, trials, values, words};
+use super::{Written, trials};
 use crate::expr::Expr;
 use crate::scene::{Ask, EnergyWhen, ImpulseAt};
 

@@ -46,7 +46,7 @@ pub(super) fn outcome<T: Number>(
     read_off(written, slip, point, given, &motion)
 }
 
-pub(super) fn read_off<T: Number>(
+fn read_off<T: Number>(
     written: &Written,
     slip: &Slip,
     point: &Point<T>,
@@ -175,12 +175,8 @@ fn alter<T: Number>(
             axis,
             instead,
         } => {
+            let unknown = [Unknown::HingeX, Unknown::HingeY][*axis](*hinge);
             let row = row_of(system, Law::AngularMomentum(*instead))?;
-            let unknown = if *axis == 0 {
-                Unknown::HingeX(*hinge)
-            } else {
-                Unknown::HingeY(*hinge)
-            };
             set(system, row, &[(unknown, T::one())], T::zero())
         }
         Change::NoContactImpulse {
@@ -188,12 +184,8 @@ fn alter<T: Number>(
             axis,
             instead,
         } => {
+            let unknown = [Unknown::ContactX, Unknown::ContactY][*axis](*contact);
             let row = row_of(system, Law::AngularMomentum(*instead))?;
-            let unknown = if *axis == 0 {
-                Unknown::ContactX(*contact)
-            } else {
-                Unknown::ContactY(*contact)
-            };
             set(system, row, &[(unknown, T::one())], T::zero())
         }
         Change::CentersBounce(c) => {
@@ -274,7 +266,7 @@ fn alter<T: Number>(
 }
 
 /// The motion with the joints' one freedom and the energy before.
-pub(super) fn energy_kept(written: &Written, slip: &Slip, point: &Point<f64>) -> Option<Vec<f64>> {
+fn energy_kept(written: &Written, slip: &Slip, point: &Point<f64>) -> Option<Vec<f64>> {
     let given = numeric::given(&slip.scene, point).ok()?;
     if given.known.iter().any(|_| true) {
         return None;

@@ -1,5 +1,7 @@
 //! Two expressions: equal, different or undecided, in the words of a grade; tolerances; quotients that are numbers.
 
+use num_traits::Signed;
+
 use super::super::number::{self, Tolerance};
 use super::super::{Apart, Diagnosis, Proof, Strength, Verdict, fraction, modular, partial};
 use super::{Context, Finding};

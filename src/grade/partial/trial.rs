@@ -2,15 +2,19 @@
 //!
 //! A glance at a few points comes before every proof, so that what cannot be is not tried.
 
-use super::super::compare::{Context, is_short, quotient};
-use super::super::{Diagnosis, fraction, number};
-use super::{GLANCES, angle, dimensions, proved, simple, swap, symbols};
-use crate::domain::{Coordinate, Domains, Sample, roles, samples};
-use crate::expr::{Expr, Node, Point, Symbol, ratio};
-use crate::formula::write_plain;
-use crate::interval::{Interval, Outcome, evaluate};
 use std::collections::{BTreeMap, BTreeSet};
 
+use num_traits::Signed;
+
+use super::super::compare::{Context, is_short, quotient};
+use super::super::{Diagnosis, fraction, number};
+use super::{GLANCES, angle, proved, simple, swap};
+use crate::domain::{Coordinate, Domains, Sample, roles, samples};
+use crate::expr::{Expr, Node, Point, Scalar, Symbol, ratio};
+use crate::formula::write_plain;
+use crate::interval::{Interval, Outcome, evaluate};
+
+/// The pair, and the values of both at a few points.
 pub(super) struct Trial<'a> {
     expected: &'a Expr,
     answer: &'a Expr,
@@ -52,7 +56,7 @@ impl<'a> Trial<'a> {
     }
 
     /// Whether two lists of values are of different expressions for certain.
-    pub(super) fn apart(a: &[Outcome<Interval>], b: &[Outcome<Interval>]) -> bool {
+    fn apart(a: &[Outcome<Interval>], b: &[Outcome<Interval>]) -> bool {
         a.iter().zip(b).any(|pair| match pair {
             (Outcome::Value(a), Outcome::Value(b)) => a.is_disjoint(b),
             _ => false,
@@ -60,7 +64,7 @@ impl<'a> Trial<'a> {
     }
 
     /// Whether an expression may have these values, some of which are known; the first point that tells them apart ends it.
-    pub(super) fn may_be(&self, values: &[Outcome<Interval>], e: &Expr) -> bool {
+    fn may_be(&self, values: &[Outcome<Interval>], e: &Expr) -> bool {
         let mut known = false;
         for (value, point) in values.iter().zip(&self.points) {
             match (value, evaluate(e, point)) {
@@ -73,7 +77,7 @@ impl<'a> Trial<'a> {
     }
 
     /// Whether the answer may be the expected formula times a number: no two points tell two different ones.
-    pub(super) fn in_proportion(&self) -> bool {
+    fn in_proportion(&self) -> bool {
         let [mut left, mut right] = [Vec::new(), Vec::new()];
         for (i, (value, answer)) in self.values.iter().zip(&self.answers).enumerate() {
             left.extend(self.answers[..i].iter().map(|other| value.times(other)));
@@ -83,7 +87,7 @@ impl<'a> Trial<'a> {
     }
 
     /// Whether a changed answer equals the expected formula.
-    pub(super) fn mends(&self, changed: &Expr) -> bool {
+    fn mends(&self, changed: &Expr) -> bool {
         self.may_be(&self.values, changed) && proved(self.expected, changed, self.domains)
     }
 
@@ -217,7 +221,7 @@ impl<'a> Trial<'a> {
     }
 
     /// One symbol's sines and cosines exchanged.
-    pub(super) fn one_swapped(&self) -> Option<Diagnosis> {
+    fn one_swapped(&self) -> Option<Diagnosis> {
         let angles: Vec<Symbol> = roles(&[self.answer])
             .symbols
             .into_iter()
