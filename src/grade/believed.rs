@@ -14,14 +14,15 @@ use crate::expr::{Expr, Node, Point, Rational, Symbol};
 use crate::numeric;
 use crate::scene::{Ask, Scene};
 pub use others::other_quantities;
-use outcome::{doubles, fractions};
+pub(super) use outcome::doubles;
+use outcome::fractions;
 
 /// Points at which every belief is tried.
 const POINTS: u64 = 4;
 /// Pairs of beliefs are searched while there are no more of them than this.
 const PAIRS: usize = 6_000;
 /// Beliefs and quantities named at most.
-const NAMED: usize = 4;
+pub(super) const NAMED: usize = 4;
 /// Pairs of beliefs named at most.
 const PAIRS_NAMED: usize = 3;
 
@@ -104,7 +105,7 @@ fn opposite(written: &Written, trials: &Trials, slips: &[(&Belief, Slip)]) -> Ve
     .unwrap_or_default()
 }
 
-fn words(belief: &Belief, slip: &Slip, rounded: bool) -> Diagnosis {
+pub(super) fn words(belief: &Belief, slip: &Slip, rounded: bool) -> Diagnosis {
     let place = if slip.place.is_empty() {
         String::new()
     } else {

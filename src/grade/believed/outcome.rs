@@ -8,7 +8,12 @@ use crate::expr::{Point, Rational};
 use crate::numeric::{self, Answer, Given, Motion, Number, Solution, System, Unknown};
 use crate::scene::{Ask, EnergyWhen, ImpulseAt};
 
-pub(super) fn doubles(written: &Written, slip: &Slip, point: &Point<f64>) -> Option<Vec<f64>> {
+/// What is asked, in the motion a slip leads to.
+pub(in crate::grade) fn doubles(
+    written: &Written,
+    slip: &Slip,
+    point: &Point<f64>,
+) -> Option<Vec<f64>> {
     if slip.changes.iter().any(|c| matches!(c, Change::EnergyKept)) {
         return energy_kept(written, slip, point);
     }
