@@ -13,6 +13,10 @@ use crate::verify::Check;
 
 /// Points at which motions are integrated.
 const POINTS: u64 = 3;
+/// Points that are tried to find them.
+const TRIED: u64 = 60;
+/// The first of these are of ordinary size.
+const ORDINARY: u64 = 12;
 /// Relative difference that counts as agreement; the integrator works to 1e-12.
 const CLOSE: f64 = 1e-7;
 
@@ -31,13 +35,19 @@ fn points_in(domains: &Domains, all: &[&Expr], count: u64) -> Vec<Point<f64>> {
         let domain = domains.symbols.get(name);
         let fraction =
             (0.618_033_988_75 * (k + 1) as f64 + 0.381_7 * seed as f64).fract() * 0.9 + 0.05;
+        // Later points are of all sizes: a motion may get to its end only where something is large.
+        let size = (0.754_877_666 * (k + 1) as f64 + 0.569_840_291 * seed as f64).fract();
+        let size = match seed {
+            0..=ORDINARY => 1.0,
+            _ => 10f64.powf(6.0 * size - 3.0),
+        };
         let low = domain.and_then(|d| d.low.as_ref()).map(Limit::approximate);
         let high = domain.and_then(|d| d.high.as_ref()).map(Limit::approximate);
         match (low, high) {
             (Some(low), Some(high)) => low + fraction * (high - low),
-            (Some(low), None) => low + 0.3 + 2.0 * fraction,
-            (None, Some(high)) => high - 0.3 - 2.0 * fraction,
-            (None, None) => 4.0 * fraction - 2.0,
+            (Some(low), None) => low + (0.3 + 2.0 * fraction) * size,
+            (None, Some(high)) => high - (0.3 + 2.0 * fraction) * size,
+            (None, None) => (4.0 * fraction - 2.0) * size,
         }
     };
     (1..=count)
@@ -96,7 +106,7 @@ pub(super) fn turn(stage: &Stage, told: &StageTold, turn: &Turn, way: i64) -> Ve
         false => 0.0,
     };
     let (mut worst, mut count) = (0.0f64, 0);
-    for point in points(stage, &all, 4 * POINTS) {
+    for point in points(stage, &all, TRIED) {
         let value = |e: &Expr| e.evaluate(&point);
         let values: Option<Vec<f64>> = all.iter().map(|e| value(e)).collect();
         let Some(v) = values else { continue };
@@ -121,7 +131,10 @@ pub(super) fn turn(stage: &Stage, told: &StageTold, turn: &Turn, way: i64) -> Ve
             continue;
         };
         let expected = way * v[10];
-        worst = worst.max((speed - expected).abs() / expected.abs().max(1e-9));
+        // Squares are compared, as energies: at a place just reached the speed itself is the root of rounding.
+        let gap = speed * speed.abs() - expected * expected.abs();
+        let largest = expected.abs().max(v[9].abs());
+        worst = worst.max(gap.abs() / (largest * largest).max(motion.rate()).max(1e-300));
         count += 1;
         if count as u64 == POINTS {
             break;
@@ -150,7 +163,7 @@ pub(super) fn reaction(
         &r[0], &r[1], &inertia, &body.mass, g, torque, spin, &along[0], &along[1], force,
     ];
     let (mut worst, mut count) = (0.0f64, 0);
-    for point in points(stage, &all, 4 * POINTS) {
+    for point in points(stage, &all, TRIED) {
         let values: Option<Vec<f64>> = all.iter().map(|e| e.evaluate(&point)).collect();
         let Some(v) = values else { continue };
         let way = way as f64;
@@ -420,7 +433,7 @@ pub(super) fn slide(stage: &Stage, told: &StageTold, slide: &Slide) -> Vec<Check
         &end,
     ];
     let (mut worst, mut count) = (0.0f64, 0);
-    for point in points(stage, &all, 4 * POINTS) {
+    for point in points(stage, &all, TRIED) {
         let values: Option<Vec<f64>> = all.iter().map(|e| e.evaluate(&point)).collect();
         let Some(&[mass, g, force, up, distance, begin, end]) = values.as_deref() else {
             continue;
@@ -484,7 +497,7 @@ pub(super) fn fall(stage: &Stage, told: &StageTold, fall: &Fall) -> Vec<Check> {
 /// The rope on a pole of small radius ρ: with φ the angle of the tangent point and L = L₀ − ρφ, Lagrange gives φ″ = ρ φ′²/L.
 pub(super) fn wind(stage: &Stage, free: &Expr, speed: &Expr, wind: &Wind) -> Vec<Check> {
     let (mut worst, mut count) = (0.0f64, 0);
-    for point in points(stage, &[free, speed, &wind.to], 4 * POINTS) {
+    for point in points(stage, &[free, speed, &wind.to], TRIED) {
         let value = |e: &Expr| e.evaluate(&point);
         let (Some(free), Some(speed), Some(to)) = (value(free), value(speed), value(&wind.to))
         else {

@@ -89,9 +89,9 @@ pub(super) fn sense(
     let body = &stage.scene.bodies[turn.body].name;
     let begins = sign(spin, domains);
     let declared = turn.clockwise.map(|c| if c { -1 } else { 1 });
-    let seen = if begins.is_positive() {
+    let seen = if begins.is_positive() || begins == Seen::Proved(Sign::NotNegative) {
         Some(1)
-    } else if begins.is_negative() {
+    } else if begins.is_negative() || begins == Seen::Proved(Sign::NotPositive) {
         Some(-1)
     } else {
         None
@@ -181,7 +181,7 @@ pub(super) fn turn(stage: &Stage, mut before: State, turn: &Turn) -> Result<Stag
     let work = tidied(stage, &Expr::sum(parts.iter().map(|(_, w)| w.clone())))?;
     let end = tidied(stage, &(&start + &work))?;
     let reaches = sign(&end, domains);
-    if let Seen::Proved(Sign::Negative) = reaches {
+    if let Seen::Proved(Sign::Negative | Sign::NotPositive) = reaches {
         return Err(Refused::new(
             &stage.name,
             format!(
@@ -468,7 +468,7 @@ pub(super) fn slide(stage: &Stage, before: State, slide: &Slide) -> Result<Stage
     let work = tidied(stage, &Expr::sum(parts.iter().map(|(_, w)| w.clone())))?;
     let end = tidied(stage, &(&start + &work))?;
     let reaches = sign(&end, domains);
-    if let Seen::Proved(Sign::Negative) = reaches {
+    if let Seen::Proved(Sign::Negative | Sign::NotPositive) = reaches {
         return Err(Refused::new(
             &stage.name,
             format!("`{}` never gets there: it comes to rest before", body.name),
