@@ -233,7 +233,7 @@ impl<'a> Writer<'a> {
 
     /// Measures the arguments in units near them where one is far from one; gives the names of the units' exponents.
     fn scale(&mut self, units: &Units) -> Vec<String> {
-        let limit = number(10f64.powi(self.function.reach));
+        let limit = format!("1e{}", self.function.reach);
         let powers = units.arguments.iter().zip(self.arguments.clone());
         let changed: Vec<(&Vec<i64>, String)> = powers
             .filter(|(powers, _)| powers.iter().any(|p| *p != 0))
