@@ -331,6 +331,18 @@ impl Expr {
         }
     }
 
+    /// The same, if `f` gives something for every part.
+    pub fn try_map_parts(&self, mut f: impl FnMut(&Expr) -> Option<Expr>) -> Option<Expr> {
+        let mut whole = true;
+        let out = self.map_parts(|part| {
+            f(part).unwrap_or_else(|| {
+                whole = false;
+                part.clone()
+            })
+        });
+        whole.then_some(out)
+    }
+
     /// The names of all symbols, `pi` not among them.
     pub fn symbols(&self) -> BTreeSet<Symbol> {
         let mut names = BTreeSet::new();

@@ -12,6 +12,7 @@ use crate::algebra::{Element, Field, Powers, Sign, Stop};
 use crate::domain::{Domain, Domains, roles, samples};
 use crate::expr::{Expr, Function, Node, Symbol};
 use crate::interval::{Interval, Outcome, evaluate};
+use crate::verify::Check;
 
 /// Points at which a sign that could not be proved is looked at.
 const POINTS: usize = 24;
@@ -43,6 +44,16 @@ impl Seen {
     /// Whether it is proved.
     pub fn is_proved(self) -> bool {
         matches!(self, Seen::Proved(_))
+    }
+}
+
+/// A check that rests on signs, with how they are known where `{how}` stands in its words.
+pub fn by_signs(kind: &'static str, words: &str, proved: bool) -> Check {
+    let how = if proved { "proved" } else { "seen at points" };
+    Check {
+        kind,
+        words: words.replace("{how}", how),
+        holds: proved.then_some(true),
     }
 }
 

@@ -7,13 +7,12 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use super::calc::{Root, Seen, essential, sign};
+use super::calc::{Root, Seen, by_signs, essential, sign};
 use super::threshold::beside;
 use super::{Answer, Sentence, sentence::sentence};
 use crate::domain::{Domain, Domains};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
-use crate::verify::Check;
 
 /// Tells the intervals.
 pub(super) fn fill(
@@ -64,14 +63,8 @@ pub(super) fn fill(
         sentence!["it holds for ", Sentence::join(pieces, ", and for ")]
     });
     let proved = signs.iter().all(|s| s.is_proved());
-    out.checks.push(Check {
-        kind: "sign",
-        words: format!(
-            "between these values, below and above them the sign of the difference is {}, and there is no other value at which the sides meet",
-            if proved { "proved" } else { "seen at points" }
-        ),
-        holds: proved.then_some(true),
-    });
+    let words = "between these values, below and above them the sign of the difference is {how}, and there is no other value at which the sides meet";
+    out.checks.push(by_signs("sign", words, proved));
 }
 
 /// The zeros, ascending; `None` where the order is not the same on the whole domain.

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use super::calc::{Seen, Unsolved, essential, is_zero, sign, solve, tidy};
+use super::calc::{Seen, Unsolved, by_signs, essential, is_zero, sign, solve, tidy};
 use super::{Answer, Refused};
 use super::{Sentence, sentence::sentence};
 use crate::algebra::Sign;
@@ -126,16 +126,11 @@ pub(super) fn maximum(
     let place = tidy(&best.value.powi(2), &domains).map_err(|s| refused(&s.to_string()))?;
     out.discarded = discarded;
     out.dimension = super::special::dimension_of(scene, &value, &name)?;
-    let proved = if before.is_proved() && after.is_proved() {
-        "proved"
-    } else {
-        "seen at points"
-    };
-    out.checks.push(Check {
-        kind: "maximum",
-        words: format!("the derivative vanishes there and nowhere else; the value rises before and falls after ({proved})"),
-        holds: (proved == "proved").then_some(true),
-    });
+    out.checks.push(by_signs(
+        "maximum",
+        "the derivative vanishes there and nowhere else; the value rises before and falls after ({how})",
+        before.is_proved() && after.is_proved(),
+    ));
     out.checks.push(Check {
         kind: "identity",
         words: String::from("the derivative at that place is zero in the normal form"),
@@ -268,15 +263,9 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
                 return Ok(vec![at_the_rim(out, &slope, p, domains)]);
             };
             let value = value_of(&end);
-            let proved = rising.is_proved();
-            out.checks.push(Check {
-                kind: "maximum",
-                words: format!(
-                    "the derivative has one sign inside the interval ({})",
-                    if proved { "proved" } else { "seen at points" }
-                ),
-                holds: proved.then_some(true),
-            });
+            let words = "the derivative has one sign inside the interval ({how})";
+            out.checks
+                .push(by_signs("maximum", words, rising.is_proved()));
             out.text.push(sentence![
                 "the derivative by ",
                 p,
@@ -321,14 +310,8 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
             let proved = others
                 .clone()
                 .all(|(_, (_, other))| above(value, other).is_proved());
-            out.checks.push(Check {
-                kind: "maximum",
-                words: format!(
-                    "of the places where the derivative vanishes and the two ends it is largest there ({})",
-                    if proved { "proved" } else { "seen at points" }
-                ),
-                holds: proved.then_some(true),
-            });
+            let words = "of the places where the derivative vanishes and the two ends it is largest there ({how})";
+            out.checks.push(by_signs("maximum", words, proved));
             place.clone()
         }
     };

@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::calc::{Roots, Seen, Unsolved, essential, sign, solve, tidy};
+use super::calc::{Roots, Seen, Unsolved, by_signs, essential, sign, solve, tidy};
 use super::{Answer, intervals, limit};
 use super::{Sentence, sentence::sentence};
 use crate::algebra::Sign;
@@ -176,14 +176,8 @@ fn sides(
         Some(relation) => {
             out.range.push((parameter.clone(), relation, value.clone()));
             let proved = below.is_proved() && above.is_proved();
-            out.checks.push(Check {
-                kind: "sign",
-                words: format!(
-                    "below and above that value the sides differ with opposite signs{}, and there is no other value at which they meet",
-                    if proved { " (proved)" } else { " (seen at points)" }
-                ),
-                holds: proved.then_some(true),
-            });
+            let words = "below and above that value the sides differ with opposite signs ({how}), and there is no other value at which they meet";
+            out.checks.push(by_signs("sign", words, proved));
             let only = if strict {
                 "there the two sides are equal and it fails"
             } else {

@@ -218,16 +218,7 @@ fn in_one(e: &Expr, symbol: &Symbol, function: Function, x: &Expr) -> Option<Exp
                 .then(|| (Expr::one() - x.powi(2)).power(Expr::from(half)))
         }
         Node::Symbol(_) | Node::Call(..) => None,
-        _ => {
-            let mut whole = true;
-            let out = e.map_parts(|part| {
-                in_one(part, symbol, function, x).unwrap_or_else(|| {
-                    whole = false;
-                    part.clone()
-                })
-            });
-            whole.then_some(out)
-        }
+        _ => e.try_map_parts(|part| in_one(part, symbol, function, x)),
     }
 }
 
@@ -347,16 +338,7 @@ fn swap(e: &Expr, symbol: &Symbol, t: &Expr, below: &Expr) -> Option<Expr> {
             _ => None,
         },
         Node::Symbol(_) | Node::Number(_) | Node::Call(..) => None,
-        _ => {
-            let mut whole = true;
-            let out = e.map_parts(|part| {
-                swap(part, symbol, t, below).unwrap_or_else(|| {
-                    whole = false;
-                    part.clone()
-                })
-            });
-            whole.then_some(out)
-        }
+        _ => e.try_map_parts(|part| swap(part, symbol, t, below)),
     }
 }
 
