@@ -17,11 +17,14 @@ use crate::domain::{Domain, Domains, Roles, Sample, roles, samples};
 use crate::expr::{Expr, Rational};
 use crate::interval::Enclosure;
 use measure::Size;
+pub(crate) use measure::work;
 use proof::Proof;
 use refute::{Probe, Tally};
 
 /// Points tried before any proof.
 const FIRST: usize = 2;
+/// Products of terms beyond which a proof costs more than a look at many digits.
+const COSTLY: usize = 2_000_000;
 
 /// The answer with what it rests on.
 #[derive(Clone, PartialEq, Debug)]
@@ -236,6 +239,12 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
     let look = size.partial || tally.both_defined == 0;
     if look && let Some(found) = extend(&mut tally, size.points().min(seen)) {
         return different(found);
+    }
+    if a != b && work(a).saturating_add(work(b)) > COSTLY {
+        let first = samples(roles, domains, FIRST);
+        if let Some(found) = probe.rising_precision(&first, size, &mut Tally::default()) {
+            return different(found);
+        }
     }
     let proof = if a == b {
         Proof::Equal(Vec::new(), Ground::NormalForm)

@@ -252,38 +252,7 @@ const PRODUCTS: usize = 100_000;
 
 /// Whether two formulas are written out as sums of products without much work.
 pub(crate) fn is_short(a: &Expr, b: &Expr) -> bool {
-    /// Terms, and products of terms on the way there; both at most.
-    fn cost(e: &Expr) -> (usize, usize) {
-        match e.node() {
-            Node::Sum(parts) => parts.iter().map(cost).fold((0, 0), |total, part| {
-                let work = total.1.saturating_add(part.1);
-                (total.0.saturating_add(part.0), work)
-            }),
-            Node::Product(parts) => parts.iter().map(cost).fold((1, 0), |total, part| {
-                let terms = total.0.saturating_mul(part.0);
-                let work = total.1.saturating_add(part.1);
-                (terms, work.saturating_add(terms))
-            }),
-            Node::Power(base, k) => {
-                let (base, work) = cost(base);
-                let k = k.as_number().filter(|k| k.is_integer());
-                let k = k.and_then(|k| k.numer().as_i64()).unwrap_or(1);
-                let k = usize::try_from(k.unsigned_abs()).unwrap_or(usize::MAX);
-                // k of the terms, their order left aside: (base + k − 1 over k).
-                let mut terms = 1usize;
-                for i in 1..base.min(6) {
-                    terms = terms.saturating_mul(k.saturating_add(i)) / i;
-                }
-                let squared = terms.saturating_mul(terms);
-                (
-                    terms,
-                    work.saturating_add(if base > 1 { squared } else { 0 }),
-                )
-            }
-            _ => (1, 0),
-        }
-    }
-    cost(a).1.saturating_add(cost(b).1) <= PRODUCTS
+    equality::work(a).saturating_add(equality::work(b)) <= PRODUCTS
 }
 
 /// The quotient of two expressions where it is a number.

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use num_traits::Signed;
 
-use super::super::compare::{Context, is_short, quotient};
+use super::super::compare::{Context, quotient};
 use super::super::{Diagnosis, fraction, number};
 use super::{GLANCES, angle, proved, simple, swap};
 use crate::domain::{Coordinate, Domains, Sample, roles, samples};
@@ -138,8 +138,7 @@ impl<'a> Trial<'a> {
 
     /// A factor made of symbols that both formulas know.
     pub(super) fn factor_of_symbols(&self, ctx: &Context) -> Option<Diagnosis> {
-        let short = is_short(self.expected, self.answer);
-        if self.expected.is_zero() || self.answer.is_zero() || !short {
+        if self.expected.is_zero() || self.answer.is_zero() {
             return None;
         }
         let mut field = crate::algebra::Field::new(self.domains);
