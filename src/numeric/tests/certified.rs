@@ -223,11 +223,17 @@ fn hold(given: &Given<f64>) {
     {
         let converted = given.map(|v| Ball::exact(*v));
         let mut others = Vec::new();
-        contact_space::enclosures(&converted, |ball| others.push(ball)).expect("the same scene");
+        let wider = contact_space::enclosures(&converted, |ball| others.push(ball));
         assert_eq!(balls.len(), truth.values.len());
-        for (i, right) in truth.values.iter().enumerate() {
-            assert_holds(&balls[i], right);
-            assert_holds(&others[i], right);
+        for (ball, right) in balls.iter().zip(&truth.values) {
+            assert_holds(ball, right);
+        }
+        // Operations on balls round more often; where that leaves a pivot open there is no enclosure, which is never wrong.
+        if wider.is_some() {
+            assert_eq!(others.len(), truth.values.len());
+            for (ball, right) in others.iter().zip(&truth.values) {
+                assert_holds(ball, right);
+            }
         }
     }
     if let Some(values) = solve_dyadic(given) {
