@@ -7,9 +7,9 @@
 mod measure;
 mod scene;
 
-use nalgebra::DMatrix;
-use nalgebra_sparse::factorization::CscCholesky;
-use nalgebra_sparse::{CooMatrix, CscMatrix};
+use faer::linalg::solvers::Solve;
+use faer::sparse::{SparseColMat, Triplet};
+use faer::{Col, Side};
 use serde::Serialize;
 
 use crate::expr::ratio;
@@ -158,23 +158,20 @@ pub fn sparse(chain: &Chain<f64>) -> Result<Swing<f64>, NotDefinite> {
     }
     if n > 1 {
         let rows = constraints(&chain.directions);
-        let weighted = weighted(&rows, &inverse_mass);
-        let complement = &weighted * &rows.transpose();
-        let factor = CscCholesky::factor(&complement).map_err(|_| NotDefinite)?;
-        let mut reactions = DMatrix::zeros(2 * (n - 1), 1);
-        for (column, values) in rows.col_iter().enumerate() {
-            for (row, a) in values.row_indices().iter().zip(values.values()) {
+        let size = 2 * (n - 1);
+        let complement = complement(&rows, &inverse_mass, size)?;
+        let factor = complement
+            .sp_cholesky(Side::Lower)
+            .map_err(|_| NotDefinite)?;
+        let mut reactions = Col::<f64>::zeros(size);
+        for (column, entries) in rows.iter().enumerate() {
+            for (row, a) in entries {
                 reactions[*row] -= a * free[column];
             }
         }
-        factor.solve_mut(&mut reactions);
-        for (column, values) in rows.col_iter().enumerate() {
-            let impulse: f64 = values
-                .row_indices()
-                .iter()
-                .zip(values.values())
-                .map(|(r, a)| a * reactions[*r])
-                .sum();
+        factor.solve_in_place(reactions.as_mat_mut());
+        for (column, entries) in rows.iter().enumerate() {
+            let impulse: f64 = entries.iter().map(|(row, a)| a * reactions[*row]).sum();
             free[column] += inverse_mass[column % 3] * impulse;
         }
     }
@@ -185,33 +182,40 @@ pub fn sparse(chain: &Chain<f64>) -> Result<Swing<f64>, NotDefinite> {
     })
 }
 
-/// A: at each hinge, velocity of the next rod's near end minus that of the rod's far end, by (x, y, θ) of each rod.
-fn constraints(directions: &[[f64; 2]]) -> CscMatrix<f64> {
+/// A by columns (x, y, θ of each rod): at each hinge, velocity of the next rod's near end minus that of the rod's far end.
+fn constraints(directions: &[[f64; 2]]) -> Vec<Vec<(usize, f64)>> {
     let hinges = directions.len().saturating_sub(1);
-    let mut entries = CooMatrix::new(2 * hinges, 3 * directions.len());
+    let mut columns = vec![Vec::new(); 3 * directions.len()];
     for i in 0..hinges {
         for (body, sign) in [(i, -1.0), (i + 1, 1.0)] {
             let [c, s] = directions[body];
             // The arm is ±d/2, +  at the far end of rod i, − at the near end of the next: the turn is −½(−s, c) in both.
             for (k, turn) in [0.5 * s, -0.5 * c].into_iter().enumerate() {
-                entries.push(2 * i + k, 3 * body + k, sign);
-                entries.push(2 * i + k, 3 * body + 2, turn);
+                columns[3 * body + k].push((2 * i + k, sign));
+                columns[3 * body + 2].push((2 * i + k, turn));
             }
         }
     }
-    CscMatrix::from(&entries)
+    columns
 }
 
-/// A M⁻¹.
-fn weighted(rows: &CscMatrix<f64>, inverse_mass: &[f64; 3]) -> CscMatrix<f64> {
-    let mut out = rows.clone();
-    for (column, mut values) in out.col_iter_mut().enumerate() {
-        values
-            .values_mut()
-            .iter_mut()
-            .for_each(|v| *v *= inverse_mass[column % 3]);
+/// A M⁻¹ Aᵀ.
+fn complement(
+    rows: &[Vec<(usize, f64)>],
+    inverse_mass: &[f64; 3],
+    size: usize,
+) -> Result<SparseColMat<usize, f64>, NotDefinite> {
+    let mut entries = Vec::with_capacity(8 * rows.len());
+    for (column, touched) in rows.iter().enumerate() {
+        let w = inverse_mass[column % 3];
+        for (row, a) in touched {
+            let products = touched
+                .iter()
+                .map(|(other, b)| Triplet::new(*row, *other, a * w * b));
+            entries.extend(products);
+        }
     }
-    out
+    SparseColMat::try_new_from_triplets(size, size, &entries).map_err(|_| NotDefinite)
 }
 
 /// Directions with exact decimals or short fractions, so that a pattern has no symmetry; rounded to doubles where needed.
