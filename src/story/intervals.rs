@@ -23,15 +23,14 @@ pub(super) fn fill(
     roots: &[Root],
     domains: &Domains,
 ) {
+    let meet = |values: &[Expr], why: &str| {
+        let values = Sentence::join(values.iter().map(Sentence::from), " and at ");
+        sentence!["the sides meet at ", parameter, " = ", values, why]
+    };
     let Some(zeros) = ordered(roots, domains) else {
-        let values = roots.iter().map(|r| Sentence::from(&r.value));
-        out.text.push(sentence![
-            "the sides meet at ",
-            parameter,
-            " = ",
-            Sentence::join(values, " and at "),
-            ", and which of these is larger hangs on the values"
-        ]);
+        let values: Vec<Expr> = roots.iter().map(|r| r.value.clone()).collect();
+        let why = ", and which of these is larger hangs on the values";
+        out.text.push(meet(&values, why));
         return;
     };
     let signs = between(parameter, gap, &zeros, domains);
@@ -46,14 +45,8 @@ pub(super) fn fill(
         })
         .collect();
     let Some(holds) = holds else {
-        let values = zeros.iter().map(Sentence::from);
-        out.text.push(sentence![
-            "the sides meet at ",
-            parameter,
-            " = ",
-            Sentence::join(values, " and at "),
-            "; which of them is larger in between could not be told"
-        ]);
+        let why = "; which of them is larger in between could not be told";
+        out.text.push(meet(&zeros, why));
         return;
     };
     let pieces = pieces(parameter, &zeros, &holds, strict);
