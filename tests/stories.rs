@@ -215,7 +215,6 @@ fn a_condition_that_always_or_never_holds_is_told_as_such() {
     assert!(said(r#""q": {"threshold": "g", "holds": "v > 0"}"#).contains("plays no part"));
 }
 
-#[cfg(feature = "report")]
 #[test]
 fn just_below_and_just_above_a_threshold_the_integrated_motion_differs() {
     let a = answer(r#""q": {"threshold": "v", "holds": "K <= 0"}"#);

@@ -530,7 +530,6 @@ pub(super) fn wind(stage: &Stage, free: &Expr, speed: &Expr, wind: &Wind) -> Vec
 }
 
 /// The state after a time, by an explicit Runge–Kutta method of order 8.
-#[cfg(feature = "report")]
 fn advance(field: impl Fn([f64; 2]) -> [f64; 2], y: [f64; 2], time: f64) -> Option<[f64; 2]> {
     use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 
@@ -550,10 +549,4 @@ fn advance(field: impl Fn([f64; 2]) -> [f64; 2], y: [f64; 2], time: f64) -> Opti
         .solve()
         .ok()?;
     solution.y.last().copied()
-}
-
-/// Without the integrator nothing is integrated.
-#[cfg(not(feature = "report"))]
-fn advance(_: impl Fn([f64; 2]) -> [f64; 2], _: [f64; 2], _: f64) -> Option<[f64; 2]> {
-    None
 }
