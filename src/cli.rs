@@ -1,17 +1,18 @@
 //! Commands: each reads its input, calls the library once, and prints.
 //!
 //! Results go to standard output, everything else to standard error. Exit status: 0 done and everything held; 1 a check
-//! failed or an answer was refuted; 2 unusable input; 3 undecided; 70 a fault of carom itself.
+//! failed or an answer was refuted; 2 unusable input; 3 undecided; 70 a fault of carom itself; 74 no room for the output.
 
 mod batch;
 mod draw;
 mod emit;
+mod files;
 mod grade;
 #[cfg(feature = "report")]
 mod report;
 mod solution;
 
-use std::io::{Read, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -98,14 +99,8 @@ enum Format {
 enum Failure {
     /// Unusable input: the message is complete.
     Input(String),
-    /// The output could not be written.
-    Output(std::io::Error),
-}
-
-impl From<std::io::Error> for Failure {
-    fn from(error: std::io::Error) -> Failure {
-        Failure::Output(error)
-    }
+    /// The output could not be written: where, and why.
+    Output(String),
 }
 
 /// Runs the command line and gives the exit status.
@@ -139,16 +134,12 @@ pub fn run() -> ExitCode {
     match outcome {
         Ok(status) => ExitCode::from(status),
         Err(Failure::Input(message)) => {
-            eprintln!("{message}");
+            complain(&message);
             ExitCode::from(2)
         }
-        // Whoever reads the output has seen enough; that is no fault.
-        Err(Failure::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => {
-            ExitCode::SUCCESS
-        }
-        Err(Failure::Output(error)) => {
-            eprintln!("carom: cannot write the output: {error}");
-            ExitCode::from(70)
+        Err(Failure::Output(message)) => {
+            complain(&format!("the output cannot be written: {message}"));
+            ExitCode::from(74)
         }
     }
 }
@@ -300,13 +291,7 @@ fn read_scene(path: &Path, set: &[String]) -> Result<scene::Scene, Failure> {
 /// The same, with the text of the scene.
 fn read_scene_text(path: &Path, set: &[String]) -> Result<(scene::Scene, String), Failure> {
     let name = path.display().to_string();
-    let mut text = String::new();
-    let read = if name == "-" {
-        std::io::stdin().read_to_string(&mut text).map(|_| ())
-    } else {
-        std::fs::read_to_string(path).map(|t| text = t)
-    };
-    read.map_err(|e| Failure::Input(format!("{name}: cannot be read: {e}")))?;
+    let text = files::read(path, scene::LONGEST)?;
     let mut scene =
         scene::read(&text).map_err(|faults| Failure::Input(faults.render(&name, &text)))?;
     for assignment in set {
@@ -325,24 +310,6 @@ fn read_scene_text(path: &Path, set: &[String]) -> Result<(scene::Scene, String)
     Ok((scene, text))
 }
 
-/// Writes a file whole or not at all: beside it first, then renamed.
-fn save(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let refused =
-        |e: std::io::Error| Failure::Input(format!("{}: cannot be written: {e}", path.display()));
-    let folder = path
-        .parent()
-        .filter(|p| !p.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let draft = folder.join(format!(".{name}.{}.part", std::process::id()));
-    let written = std::fs::write(&draft, bytes).and_then(|()| std::fs::rename(&draft, path));
-    written.map_err(|e| {
-        // Nothing half-written stays behind; that the draft may not exist either is fine.
-        let _ = std::fs::remove_file(&draft);
-        refused(e)
-    })
-}
-
 fn with_hint(message: &str, hint: Option<&str>) -> String {
     match hint {
         Some(hint) => format!("{message}\nhint: {hint}"),
@@ -350,13 +317,24 @@ fn with_hint(message: &str, hint: Option<&str>) -> String {
     }
 }
 
+/// Prints to standard output. Where nobody reads on, the command still ends with the status of what it found.
 fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
-    out.write_all(text.as_bytes())?;
-    if !text.ends_with('\n') {
-        out.write_all(b"\n")?;
+    let end = if text.ends_with('\n') { "" } else { "\n" };
+    let written = out
+        .write_all(text.as_bytes())
+        .and_then(|()| out.write_all(end.as_bytes()))
+        .and_then(|()| out.flush());
+    match written {
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::Output(e.to_string())),
+        _ => Ok(()),
     }
-    Ok(())
+}
+
+/// Tells people what is wrong, no longer than a screen. That nobody may be there to hear it changes nothing.
+fn complain(message: &str) {
+    let message = render::screen(message);
+    let _ = writeln!(std::io::stderr(), "{message}");
 }
 
 fn pretty(value: &serde_json::Value) -> String {

@@ -98,7 +98,11 @@ fn every_line_has_an_answer_in_its_place() {
                 _ => json!(null),
             };
             assert_eq!(line["reward"], reward, "{line}");
-            format!("{} {}", line["id"], line["note"].as_str().unwrap_or(""))
+            let at = match line["error"]["line"].as_u64() {
+                Some(number) => format!(" at {number}"),
+                None => String::new(),
+            };
+            format!("{} {}{at}", line["id"], line["note"].as_str().unwrap_or(""))
         })
         .collect();
     assert_eq!(
@@ -106,22 +110,44 @@ fn every_line_has_an_answer_in_its_place() {
         [
             "\"a\" EQUIV_IDENTITY",
             "\"a\" DIFF_FACTOR",
-            "null INVALID_LINE",
-            "null INVALID_LINE",
-            "null INVALID_LINE",
-            "7 INVALID_LINE",
-            "[1,{\"x\":2.50}] INVALID_LINE",
-            "null INVALID_LINE",
-            "null INVALID_LINE",
-            "3 INVALID_EXPECTED",
-            "4 INVALID_SYNTAX",
+            "null INVALID_LINE at 3",
+            "null INVALID_LINE at 4",
+            "null INVALID_LINE at 5",
+            "null INVALID_LINE at 6",
+            "null INVALID_LINE at 7",
+            "7 INVALID_LINE at 8",
+            "[1,{\"x\":2.50}] INVALID_LINE at 9",
+            "1 INVALID_LINE at 10",
+            "2 INVALID_LINE at 11",
+            "3 INVALID_EXPECTED at 12",
+            "4 INVALID_SYNTAX at 13",
             "5 EQUIV_IDENTITY",
             "123456789012345678901234567890 EQUIV_IDENTITY",
-            "6 INVALID_LINE",
-            "null INVALID_LINE",
+            "6 INVALID_LINE at 16",
+            "8 INVALID_LINE at 17",
             "\"last\" EQUIV_IDENTITY",
         ]
     );
+}
+
+#[test]
+fn a_message_is_never_longer_than_a_screen() {
+    let long = "a".repeat(100_000);
+    for line in [
+        json!({"expected": "a", "answer": "a", long.as_str(): 1}),
+        json!({"expected": "a", "answer": "a", "form": long}),
+        json!({"expected": "a", "answer": "a", "tolerance": long}),
+        json!({"expected": "a", "answer": "a", "symbols": {long.as_str(): {}}}),
+        json!({"expected": "a", "answer": "a", "symbols": {"a": long}}),
+        json!({"expected": "a", "answer": "a", "symbols": {"a": {"unit": long}}}),
+        json!({"expected": "a", "answer": "a", "scene": long}),
+        json!({"expected": "a", "answer": format!("{long}$")}),
+        json!({"expected": format!("({long}"), "answer": "a"}),
+    ] {
+        let out = one(line);
+        let error = out["error"].to_string();
+        assert!(!out["error"].is_null() && error.len() < 2_000, "{error}");
+    }
 }
 
 #[test]

@@ -310,7 +310,7 @@ fn grade_anything(cases: u64) {
                     let no_scene = |_: &entry::Entry, _: &str| Err("no scene here".to_string());
                     let grade = entry::judge(&entry, &mut entry::Keys::default(), &no_scene);
                     let mut out = String::new();
-                    render::grade::line(&mut out, &entry.id, &grade, &entry.answer);
+                    render::grade::line(&mut out, &entry.id, 1, &grade, &entry.answer);
                     let _: serde_json::Value = serde_json::from_str(&out).expect("JSON out");
                 }
             }

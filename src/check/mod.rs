@@ -19,7 +19,7 @@ use crate::scene::{self, Ask, BlowImpulse, ImpulseAt, Scene};
 /// Points tried; a wrong claim about rational functions is equal at a random point only by a rare chance, at three hardly ever.
 const POINTS: u64 = 3;
 /// Largest file, in bytes.
-const LONGEST: usize = 16 << 20;
+pub const LONGEST: usize = 16 << 20;
 /// Most claims in a file.
 const MOST: usize = 20_000;
 /// Substeps within substeps.

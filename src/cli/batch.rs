@@ -1,18 +1,20 @@
-//! `carom grade --batch`: JSON lines in, one JSON line out for each, in order.
+//! `carom grade --batch`: JSON lines in, one JSON line out for each, blank ones too, in order.
 //!
 //! A thread reads blocks of whole lines; tasks on all cores judge them, each with the keys it has read before; the main
-//! thread writes. Memory is bounded whatever comes in, and lines that are there are not made to wait for more.
+//! thread writes. Memory is bounded whatever comes in, and lines that are there are not made to wait for more. Where a
+//! signal ends the program, what stands in the output is whole lines.
 
 use std::collections::HashMap;
 use std::io::{IsTerminal, Read, Write};
 use std::path::Path;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex};
+use std::time::Duration;
 
 use rayon::prelude::*;
-use serde_json::Value;
 
 use super::Failure;
+use super::files::Held;
 use super::grade::{GradeArgs, only_quantity, open};
 use carom::formula::Fault;
 use carom::formula::stream::Seen;
@@ -26,6 +28,10 @@ use carom::render;
 const READ: usize = 1 << 20;
 /// Blocks waiting to be judged.
 const WAITING: usize = 8;
+/// How often a signal is looked for where no lines come.
+const LOOK: Duration = Duration::from_millis(50);
+/// Bytes kept of a line that is too long: its `id` should be there.
+const START: usize = 1 << 12;
 /// Bytes of a task, about.
 const TASK: usize = 1 << 16;
 
@@ -33,8 +39,8 @@ const TASK: usize = 1 << 16;
 enum Block {
     /// Whole lines; only the last may lack its end.
     Lines(Vec<u8>),
-    /// A line that is too long; it was read and forgotten.
-    Long,
+    /// The start of a line that is too long; the rest was read and forgotten.
+    Long(Vec<u8>),
     /// Reading failed.
     Failed(std::io::Error),
 }
@@ -48,57 +54,77 @@ pub(super) fn batch(args: &GradeArgs, options: &Options) -> Result<u8, Failure> 
     let pool = pool
         .build()
         .map_err(|e| Failure::Input(format!("--jobs: {e}")))?;
+    let held = Held::new();
     let judges = Judges {
         options,
         sheets: Sheets::default(),
         idle: Mutex::default(),
+        held: &held,
     };
-    let progress = std::io::stderr().is_terminal().then(|| {
+    let progress = progress();
+    let (sender, blocks) = sync_channel(WAITING);
+    // Not joined: where the answers are no longer wanted, nobody waits for more questions.
+    std::thread::spawn(move || send_blocks(&mut std::io::stdin().lock(), &sender));
+    let mut out = std::io::stdout().lock();
+    let mut read = 0;
+    while let Some(blocks) = waiting(&blocks, &held) {
+        let mut tasks: Vec<Task> = Vec::new();
+        for block in &blocks {
+            match block {
+                Block::Lines(bytes) => cut(bytes, &mut read, &mut tasks),
+                Block::Long(start) => {
+                    read += 1;
+                    tasks.push(Task::Long(read, start));
+                }
+                Block::Failed(e) => {
+                    return Err(Failure::Input(format!("standard input: {e}")));
+                }
+            }
+        }
+        let judged: Vec<(String, bool)> = match tasks.len() {
+            // Not worth handing out.
+            1 => vec![judges.judge(&tasks[0])],
+            _ => pool.install(|| tasks.par_iter().map(|task| judges.judge(task)).collect()),
+        };
+        // After a signal what was judged goes up to the first line that was not.
+        for (text, whole) in judged {
+            match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+                Ok(()) => {}
+                Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => return Ok(0),
+                Err(e) => return Err(Failure::Output(e.to_string())),
+            }
+            if !whole {
+                break;
+            }
+        }
+        if let Some(bar) = &progress {
+            bar.set_position(read);
+        }
+    }
+    if let Some(bar) = progress {
+        bar.finish_and_clear();
+    }
+    held.release();
+    Ok(0)
+}
+
+/// How far it is, where somebody looks on.
+fn progress() -> Option<indicatif::ProgressBar> {
+    std::io::stderr().is_terminal().then(|| {
         let bar = indicatif::ProgressBar::new_spinner();
         bar.set_style(
             indicatif::ProgressStyle::with_template("{human_pos} lines, {per_sec}, {elapsed}")
                 .unwrap_or_else(|_| indicatif::ProgressStyle::default_spinner()),
         );
         bar
-    });
-    let (sender, blocks) = sync_channel(WAITING);
-    // Not joined: where the answers are no longer wanted, nobody waits for more questions.
-    std::thread::spawn(move || send_blocks(&mut std::io::stdin().lock(), &sender));
-    let mut out = std::io::stdout().lock();
-    while let Some(blocks) = waiting(&blocks) {
-        let mut tasks: Vec<Task> = Vec::new();
-        for block in &blocks {
-            match block {
-                Block::Lines(bytes) => cut(bytes, &mut tasks),
-                Block::Long => tasks.push(Task::Long),
-                Block::Failed(e) => {
-                    return Err(Failure::Input(format!("standard input: {e}")));
-                }
-            }
-        }
-        let judged: Vec<(String, u64)> = match tasks.len() {
-            // Not worth handing out.
-            1 => vec![judges.judge(&tasks[0])],
-            _ => pool.install(|| tasks.par_iter().map(|task| judges.judge(task)).collect()),
-        };
-        for (text, lines) in judged {
-            out.write_all(text.as_bytes())?;
-            if let Some(bar) = &progress {
-                bar.inc(lines);
-            }
-        }
-        out.flush()?;
-    }
-    if let Some(bar) = progress {
-        bar.finish_and_clear();
-    }
-    Ok(0)
+    })
 }
 
 /// Reads to the end and sends what comes.
 fn send_blocks(input: &mut impl Read, sender: &SyncSender<Block>) {
     let mut held: Vec<u8> = Vec::new();
-    let mut long = false;
+    // The start of a line that is too long.
+    let mut long: Option<Vec<u8>> = None;
     loop {
         let start = held.len();
         held.resize(start + READ, 0);
@@ -113,19 +139,19 @@ fn send_blocks(input: &mut impl Read, sender: &SyncSender<Block>) {
         held.truncate(start + got);
         if got == 0 {
             let rest = match long {
-                true => Block::Long,
-                false => Block::Lines(held),
+                Some(start) => Block::Long(start),
+                None => Block::Lines(held),
             };
             let _ = sender.send(rest);
             return;
         }
-        if long {
-            // The rest of a line that is too long.
+        if let Some(start) = &mut long {
             match held.iter().position(|b| *b == b'\n') {
                 Some(end) => {
                     held.drain(..=end);
-                    long = false;
-                    if sender.send(Block::Long).is_err() {
+                    let start = std::mem::take(start);
+                    long = None;
+                    if sender.send(Block::Long(start)).is_err() {
                         return;
                     }
                 }
@@ -143,27 +169,38 @@ fn send_blocks(input: &mut impl Read, sender: &SyncSender<Block>) {
             held = rest;
         }
         if held.len() > entry::MAX_LINE {
-            held.clear();
-            long = true;
+            held.truncate(START);
+            long = Some(std::mem::take(&mut held));
         }
     }
 }
 
-/// All blocks that are there, at least one; `None` at the end.
-fn waiting(blocks: &Receiver<Block>) -> Option<Vec<Block>> {
-    let mut all = vec![blocks.recv().ok()?];
-    all.extend(blocks.try_iter().take(WAITING));
-    Some(all)
+/// All blocks that are there, at least one; `None` at the end, and after a signal.
+fn waiting(blocks: &Receiver<Block>, held: &Held) -> Option<Vec<Block>> {
+    loop {
+        if held.signal().is_some() {
+            return None;
+        }
+        match blocks.recv_timeout(LOOK) {
+            Ok(first) => {
+                let mut all = vec![first];
+                all.extend(blocks.try_iter().take(WAITING));
+                return Some(all);
+            }
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return None,
+        }
+    }
 }
 
-/// What one task judges.
+/// What one task judges, with the number of its first line.
 enum Task<'a> {
-    Lines(&'a [u8]),
-    Long,
+    Lines(u64, &'a [u8]),
+    Long(u64, &'a [u8]),
 }
 
-/// Cuts a block into tasks at ends of lines.
-fn cut<'a>(mut bytes: &'a [u8], tasks: &mut Vec<Task<'a>>) {
+/// Cuts a block into tasks at ends of lines; `read` lines came before, and those of the block are added.
+fn cut<'a>(mut bytes: &'a [u8], read: &mut u64, tasks: &mut Vec<Task<'a>>) {
     while !bytes.is_empty() {
         let end = match bytes.get(TASK..) {
             Some(behind) => {
@@ -173,7 +210,9 @@ fn cut<'a>(mut bytes: &'a [u8], tasks: &mut Vec<Task<'a>>) {
             None => bytes.len(),
         };
         let (task, rest) = bytes.split_at(end);
-        tasks.push(Task::Lines(task));
+        tasks.push(Task::Lines(*read + 1, task));
+        let ends = task.iter().filter(|b| **b == b'\n').count();
+        *read += ends as u64 + u64::from(!task.ends_with(b"\n"));
         bytes = rest;
     }
 }
@@ -184,65 +223,68 @@ struct Judges<'a> {
     sheets: Sheets,
     /// Judges at rest, with the keys they know.
     idle: Mutex<Vec<Judge>>,
+    held: &'a Held,
 }
 
 impl Judges<'_> {
-    fn judge(&self, task: &Task) -> (String, u64) {
+    /// The lines that answer a task, and whether these are all; after a signal they need not be.
+    fn judge(&self, task: &Task) -> (String, bool) {
         let rested = match self.idle.lock() {
             Ok(mut idle) => idle.pop(),
             Err(_) => None,
         };
         let mut judge = rested.unwrap_or_default();
         let mut out = String::new();
-        let mut lines = 0;
+        let mut whole = true;
         match task {
-            Task::Long => {
+            Task::Long(number, start) => {
                 let message = format!("a line has at most {} bytes", entry::MAX_LINE);
-                refuse(message, &mut out);
-                lines = 1;
+                refuse(start, *number, message, &mut out);
             }
-            Task::Lines(bytes) => {
+            Task::Lines(first, bytes) => {
                 out.reserve(bytes.len() * 3 / 2);
-                let whole = std::str::from_utf8(bytes);
-                match whole {
-                    Ok(text) => text.split('\n').for_each(|line| {
-                        lines += u64::from(self.line(&mut judge, line, &mut out));
-                    }),
-                    Err(_) => {
-                        bytes.split(|b| *b == b'\n').for_each(|line| {
-                            match std::str::from_utf8(line) {
-                                Ok(line) => {
-                                    lines += u64::from(self.line(&mut judge, line, &mut out))
-                                }
-                                Err(e) => {
-                                    lines += 1;
-                                    refuse(
-                                        format!("no UTF-8 at byte {}", e.valid_up_to()),
-                                        &mut out,
-                                    );
-                                }
-                            }
-                        })
+                let bytes = bytes.strip_suffix(b"\n").unwrap_or(bytes);
+                let mut number = *first;
+                let mut one = |line: Result<&str, &[u8]>| {
+                    if self.held.signal().is_some() {
+                        return false;
                     }
-                }
+                    match line {
+                        Ok(text) => self.line(&mut judge, text, number, &mut out),
+                        Err(line) => {
+                            let good = String::from_utf8_lossy(line);
+                            let at = good.find('\u{fffd}').unwrap_or_default();
+                            refuse(line, number, format!("no UTF-8 at byte {at}"), &mut out);
+                        }
+                    }
+                    number += 1;
+                    true
+                };
+                let lines = |b: &u8| *b == b'\n';
+                whole = match std::str::from_utf8(bytes) {
+                    Ok(text) => text.split('\n').all(|line| one(Ok(line))),
+                    Err(_) => bytes
+                        .split(lines)
+                        .all(|line| one(std::str::from_utf8(line).map_err(|_| line))),
+                };
             }
         }
         if let Ok(mut idle) = self.idle.lock() {
             idle.push(judge);
         }
-        (out, lines)
+        (out, whole)
     }
 
-    /// Judges a line; blank ones are passed over.
-    fn line(&self, judge: &mut Judge, line: &str, out: &mut String) -> bool {
+    /// Judges a line.
+    fn line(&self, judge: &mut Judge, line: &str, number: u64, out: &mut String) {
         if line.len() <= entry::MAX_LINE
             && let Some(plain) = plain(line)
             && judge.plain(line, &plain, self.options, out)
         {
-            return true;
+            return;
         }
         if line.bytes().all(|b| b.is_ascii_whitespace()) {
-            return false;
+            return refuse(&[], number, String::from("the line is blank"), out);
         }
         match entry::entry(line, self.options) {
             Ok(entry) => {
@@ -253,16 +295,19 @@ impl Judges<'_> {
                     "INVALID_LINE" => "",
                     _ => &entry.answer,
                 };
-                render::grade::line(out, &entry.id, &grade, text);
+                render::grade::line(out, &entry.id, number, &grade, text);
             }
-            Err(bad) => render::grade::line(out, &bad.id, &entry::refused(bad.message), ""),
+            Err(bad) => {
+                render::grade::line(out, &bad.id, number, &entry::refused(bad.message), "");
+            }
         }
-        true
     }
 }
 
-fn refuse(message: String, out: &mut String) {
-    render::grade::line(out, &Value::Null, &entry::refused(message), "");
+/// Answers a line that cannot be read, with its `id` where that can.
+fn refuse(line: &[u8], number: u64, message: String, out: &mut String) {
+    let id = entry::id_in(&String::from_utf8_lossy(line));
+    render::grade::line(out, &id, number, &entry::refused(message), "");
 }
 
 /// Keys kept by the texts they stand in; when there are more, all are read anew.

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::solution::{chapters, plots};
-use super::{Failure, print, read_scene, save};
+use super::{Failure, files, print, read_scene};
 use carom::figure::{self, Chapter, Drawing, Subject, Which};
 use carom::scene::Scene;
 use carom::{derive, story, verify};
@@ -162,6 +162,6 @@ fn write(args: &DrawArgs, drawing: &Drawing) -> Result<u8, Failure> {
             )));
         }
     };
-    save(output, &bytes)?;
+    files::save(output, &bytes, &[&args.scene])?;
     Ok(0)
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{Failure, print, read_scene, save};
+use super::{Failure, complain, files, print, read_scene};
 use carom::emit::{Heading, Language, file, functions};
 use carom::{derive, render, verify};
 
@@ -44,9 +44,9 @@ pub fn run(args: &EmitArgs) -> Result<u8, Failure> {
         derive::derive(&scene).map_err(|stop| Failure::Input(format!("{name}: {stop}")))?;
     let proof = verify::prove(&scene, &derivation);
     if !proof.holds() || derivation.counting.contradictory {
-        eprintln!(
+        complain(&format!(
             "{name}: the closed forms are not proved, so no code is written\nhint: `carom derive` tells what failed"
-        );
+        ));
         return Ok(1);
     }
     let (mut found, without) = functions(&scene, &derivation);
@@ -68,10 +68,10 @@ pub fn run(args: &EmitArgs) -> Result<u8, Failure> {
         )));
     }
     if args.quantity.is_empty() && !without.is_empty() {
-        eprintln!(
+        complain(&format!(
             "{name}: no function for {}: no closed form in numbers",
             without.join(", ")
-        );
+        ));
     }
     let heading = Heading {
         title: scene.title.clone(),
@@ -85,7 +85,7 @@ pub fn run(args: &EmitArgs) -> Result<u8, Failure> {
     };
     let text = file(language, &heading, &found);
     match &args.output {
-        Some(path) => save(path, text.as_bytes())?,
+        Some(path) => files::save(path, text.as_bytes(), &[&args.scene])?,
         None => print(&text)?,
     }
     Ok(0)

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
-use super::{Failure, Format, pretty, print, read_scene};
+use super::{Failure, Format, files, pretty, print, read_scene};
 use carom::grade::entry;
 use carom::grade::sheet::{Bound, Sheet};
 use carom::grade::{Form, Given, Options, Question, Strength, Verdict};
@@ -152,21 +152,10 @@ pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
 }
 
 /// Longest worked solution, in bytes.
-const MAX_STEPS: u64 = 1 << 18;
+const MAX_STEPS: usize = 1 << 18;
 
 fn steps(scene: &Path, file: &Path, options: &Options, format: Format) -> Result<u8, Failure> {
-    use std::io::Read;
-    let unreadable =
-        |e: std::io::Error| Failure::Input(format!("{}: cannot be read: {e}", file.display()));
-    let mut text = String::new();
-    let source: Box<dyn Read> = match file.to_str() {
-        Some("-") => Box::new(std::io::stdin()),
-        _ => Box::new(std::fs::File::open(file).map_err(unreadable)?),
-    };
-    source
-        .take(MAX_STEPS)
-        .read_to_string(&mut text)
-        .map_err(unreadable)?;
+    let text = files::read(file, MAX_STEPS)?;
     let sheet = open(scene)?;
     let lines = grade::steps::check(&sheet, &text, options);
     print(&match format {
@@ -283,8 +272,7 @@ fn question(args: &GradeArgs) -> Result<Question, Failure> {
 /// The list of printed things in a file beside the scene.
 fn printed_list(path: &Path) -> Result<Vec<carom::scene::Printed>, Failure> {
     let name = path.display().to_string();
-    let text = std::fs::read_to_string(path)
-        .map_err(|e| Failure::Input(format!("{name}: cannot be read: {e}")))?;
+    let text = files::read(path, carom::scene::LONGEST)?;
     carom::scene::read_printed(&text).map_err(|faults| Failure::Input(faults.render(&name, &text)))
 }
 

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{Failure, Format, pretty, print, read_scene};
+use super::{Failure, Format, complain, files, pretty, print, read_scene};
 use carom::report::studies::{self, Extent};
 use carom::report::{Effort, Report, Row, measure};
 use carom::{derive, numeric, render};
@@ -51,8 +51,15 @@ pub struct ReportArgs {
 /// Runs `carom report`: exit status 0, or 130 after an interrupt with everything finished until then printed.
 pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
     // Paths first: an hour of measuring should not end at a folder that is not there.
-    let mut rows = args.rows.as_deref().map(create).transpose()?;
-    let mut page = args.html.as_deref().map(create).transpose()?;
+    let inputs: Vec<&Path> = args.scenes.iter().map(PathBuf::as_path).collect();
+    let mut rows = args
+        .rows
+        .as_deref()
+        .map(|path| create(path, &inputs))
+        .transpose()?;
+    if let Some(path) = &args.html {
+        files::writable(path, &inputs)?;
+    }
     let mut scenes = Vec::new();
     for path in &args.scenes {
         let scene = read_scene(path, &args.set)?;
@@ -66,7 +73,7 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
     }
     let stop = Arc::new(AtomicBool::new(false));
     let seen = Arc::clone(&stop);
-    let handled = ctrlc::set_handler(move || seen.store(true, Ordering::SeqCst)).is_ok();
+    let handled = signal_hook::flag::register(signal_hook::consts::SIGINT, seen).is_ok();
     let effort = Effort {
         seed: args.seed,
         points: args.points.unwrap_or(if args.quick { 4 } else { 40 }),
@@ -78,14 +85,16 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
     for (path, scene) in &scenes {
         let name = path.display();
         if let Err(numeric::NoPoint::Missing(symbols)) = numeric::values(scene) {
-            eprintln!(
+            complain(&format!(
                 "{name}: no value for {}; measured at seeded points of the domains",
                 symbols.join(", ")
-            );
+            ));
         }
         let derivation = derive::derive(scene);
         if let Err(why) = &derivation {
-            eprintln!("{name}: no closed forms ({why}); their routes are left out");
+            complain(&format!(
+                "{name}: no closed forms ({why}); their routes are left out"
+            ));
         }
         let bar = bar(&scene.title);
         let mut failed: Option<std::io::Error> = None;
@@ -102,7 +111,7 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
             .map_err(|why| Failure::Input(format!("{name}: {why}")))?;
         bar.finish_and_clear();
         if let Some(error) = failed {
-            return Err(Failure::Output(error));
+            return Err(Failure::Output(error.to_string()));
         }
         if args.format == Format::Text {
             print(&render::report::text(&report))?;
@@ -138,13 +147,15 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
     if args.format == Format::Json {
         print(&pretty(&render::report::json(&reports, studied.as_ref())))?;
     }
-    if let Some(file) = &mut page {
-        file.write_all(render::report::html(&reports, studied.as_ref()).as_bytes())?;
+    if let Some(path) = &args.html {
+        let page = render::report::html(&reports, studied.as_ref());
+        files::save(path, page.as_bytes(), &inputs)?;
     }
     Ok(if interrupted { 130 } else { 0 })
 }
 
-fn create(path: &Path) -> Result<File, Failure> {
+fn create(path: &Path, inputs: &[&Path]) -> Result<File, Failure> {
+    files::writable(path, inputs)?;
     File::create(path)
         .map_err(|e| Failure::Input(format!("{}: cannot be written: {e}", path.display())))
 }

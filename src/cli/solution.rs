@@ -1,12 +1,11 @@
 //! `carom solution` and `carom check`: the worked solution of a scene in any format, and the replay of its steps.
 
 use std::collections::BTreeMap;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::{Failure, pretty, print, read_scene_text, save};
+use super::{Failure, files, pretty, print, read_scene_text};
 use carom::figure::{self, Chapter, Which};
 use carom::render::html::Picture;
 use carom::solution::{self, Detail, Slot};
@@ -109,7 +108,7 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         }
     };
     let linked = match (kind, &args.output) {
-        (Some(kind), Some(path)) => link(path, kind, drawn())?,
+        (Some(kind), Some(path)) => link(path, &args.scene, kind, drawn())?,
         _ => Vec::new(),
     };
     let output = match args.format {
@@ -124,7 +123,7 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         FormatArg::Json => pretty(&render::steps::solution(&solution, &text, &args.set)),
     };
     match &args.output {
-        Some(path) => save(path, output.as_bytes())?,
+        Some(path) => files::save(path, output.as_bytes(), &[&args.scene])?,
         None => print(&output)?,
     }
     Ok(u8::from(!holds))
@@ -198,9 +197,11 @@ fn picture(slot: Slot, drawing: figure::Drawing) -> Picture {
 /// Writes pictures beside the output; gives them with the names by which it links them.
 fn link(
     output: &Path,
+    scene: &Path,
     kind: &str,
     pictures: Vec<(Picture, String)>,
 ) -> Result<Vec<(Picture, String)>, Failure> {
+    files::writable(output, &[scene])?;
     let stem = output.file_stem().unwrap_or_default().to_string_lossy();
     let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '.';
     if kind == "png" && !stem.chars().all(is_plain) {
@@ -217,7 +218,7 @@ fn link(
     }
     let mut linked = Vec::new();
     for (bytes, file, picture) in files {
-        save(&file, &bytes)?;
+        files::save(&file, &bytes, &[scene])?;
         let name = file.file_name().unwrap_or_default().to_string_lossy();
         linked.push((picture, name.replace(' ', "%20")));
     }
@@ -239,13 +240,7 @@ fn bytes(kind: &str, svg: &str) -> Result<Vec<u8>, Failure> {
 /// Replays a solution file.
 pub fn check(args: &CheckArgs) -> Result<u8, Failure> {
     let name = args.file.display().to_string();
-    let mut text = String::new();
-    let read = if name == "-" {
-        std::io::stdin().read_to_string(&mut text).map(|_| ())
-    } else {
-        std::fs::read_to_string(&args.file).map(|t| text = t)
-    };
-    read.map_err(|e| Failure::Input(format!("{name}: cannot be read: {e}")))?;
+    let text = files::read(&args.file, check::LONGEST)?;
     let report = check::check(&text)
         .map_err(|check::Unusable(message)| Failure::Input(format!("{name}: {message}")))?;
     let mut out = String::new();

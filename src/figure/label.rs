@@ -5,7 +5,7 @@
 
 use super::{inline, latex};
 use crate::expr::Expr;
-use crate::formula::latex_name;
+use crate::formula::{is_hidden, latex_name};
 use crate::scene::Scene;
 
 /// Where a run stands against the line of text.
@@ -210,15 +210,11 @@ impl Label {
 
 /// Control characters, and those that would turn the direction of text, are shown as a box.
 pub fn visible(text: &str) -> String {
-    let hidden = |c: char| {
-        c.is_control()
-            || matches!(c, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}')
-    };
     text.chars()
         .map(|c| {
             if c == '\n' || c == '\t' {
                 ' '
-            } else if hidden(c) {
+            } else if is_hidden(c) {
                 '□'
             } else {
                 c

@@ -37,7 +37,7 @@ use place::Room;
 pub use png::{PngFault, png};
 use sheet::{Item, SMALL, Sheet};
 use stage::Stage;
-pub(crate) use svg::escape;
+pub use svg::escape;
 
 /// Which picture.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::label::{Level, SMALL, visible};
+use super::label::{Level, SMALL};
 use super::sheet::{Ink, Item, Line};
 
 /// A picture with its words.
@@ -43,10 +43,10 @@ pub fn write(page: &Page) -> String {
     out
 }
 
-/// Text for an element or attribute: markup escaped, characters XML forbids replaced.
+/// Text for an element or attribute of SVG, HTML or MathML: markup escaped, hidden characters named.
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    for c in visible(text).chars() {
+    for c in crate::formula::visible(text).chars() {
         match c {
             '&' => out.push_str("&amp;"),
             '<' => out.push_str("&lt;"),
@@ -246,7 +246,7 @@ mod tests {
     fn text_cannot_leave_its_element() {
         assert_eq!(
             escape("<script>&\"'\u{202e}\u{0}"),
-            "&lt;script&gt;&amp;&quot;&#39;□□"
+            "&lt;script&gt;&amp;&quot;&#39;[U+202E][U+0000]"
         );
     }
 

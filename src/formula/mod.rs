@@ -19,6 +19,7 @@ pub mod stream;
 mod symbols;
 mod tex;
 mod units;
+mod visible;
 mod words;
 mod write;
 mod written;
@@ -34,6 +35,7 @@ use fault::Faulty;
 pub use note::{Note, Remark};
 use parser::{Parser, Side};
 pub use symbols::{Declared, Symbols};
+pub use visible::{is_hidden, visible};
 pub use write::{latex_name, unicode_name, write_latex, write_plain, write_unicode};
 pub use written::{Link, Literal, Shape, Sign, Written};
 

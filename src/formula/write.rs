@@ -6,6 +6,7 @@
 use num_traits::{One, Signed};
 
 use super::symbols::{greek_letter, is_greek, parts_of};
+use super::visible::{in_math, visible};
 use crate::expr::{Expr, Function, Node, Rational, ratio};
 
 /// How a name is typeset where the caller says so.
@@ -470,8 +471,8 @@ pub fn latex_name(name: &str) -> String {
         "pi" => "\\pi".to_string(),
         base if is_greek(base) => format!("\\{base}"),
         "ell" => "\\ell".to_string(),
-        base if base.chars().count() == 1 => base.to_string(),
-        base => format!("\\mathrm{{{base}}}"),
+        base if base.chars().count() == 1 => in_math(base),
+        base => format!("\\mathrm{{{}}}", in_math(base)),
     };
     let mut out = match parts.accent {
         "" => base,
@@ -481,11 +482,11 @@ pub fn latex_name(name: &str) -> String {
         out.push_str(&format!("_{{{}}}", latex_index(&parts.index)));
     }
     let (primes, raised) = parts.marks.split_once('^').unwrap_or((&parts.marks, ""));
-    out.push_str(primes);
+    out.push_str(&in_math(primes));
     match raised {
         "" => {}
         "+" | "-" | "*" => out.push_str(&format!("^{{{raised}}}")),
-        word => out.push_str(&format!("^{{\\mathrm{{{word}}}}}")),
+        word => out.push_str(&format!("^{{\\mathrm{{{}}}}}", in_math(word))),
     }
     out
 }
@@ -494,7 +495,7 @@ fn latex_index(index: &str) -> String {
     if is_greek(index) {
         format!("\\{index}")
     } else {
-        index.to_string()
+        in_math(index)
     }
 }
 
@@ -532,7 +533,7 @@ pub fn unicode_name(name: &str) -> String {
         "-" => out.push('⁻'),
         word => out.push_str(&format!("^{{{word}}}")),
     }
-    out
+    visible(&out)
 }
 
 fn unicode_of_latex(name: &str, latex: &str) -> String {

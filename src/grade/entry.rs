@@ -59,7 +59,7 @@ pub fn entry(line: &str, defaults: &Options) -> Result<Entry, BadLine> {
     };
     if line.len() > MAX_LINE {
         return Err(bad(
-            &Value::Null,
+            &id_in(line),
             format!("a line has at most {MAX_LINE} bytes"),
         ));
     }
@@ -74,6 +74,8 @@ pub fn entry(line: &str, defaults: &Options) -> Result<Entry, BadLine> {
     let id = fields.get("id").cloned().unwrap_or(Value::Null);
     fill(&fields, &id, defaults).map_err(|message| bad(&id, message))
 }
+
+pub use strict::id_in;
 
 fn fill(fields: &Map<String, Value>, id: &Value, defaults: &Options) -> Result<Entry, String> {
     const FIELDS: [&str; 8] = [

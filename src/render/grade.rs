@@ -49,8 +49,9 @@ pub fn json(id: Option<&Value>, grade: &Grade, text: &str) -> Value {
     Value::Object(out)
 }
 
-/// The same as [`json()`] with an `id`, appended to `out` as one line; a batch spends no time on building values.
-pub fn line(out: &mut String, id: &Value, grade: &Grade, text: &str) {
+/// The same as [`json()`] with an `id`, appended to `out` as one line; a batch spends no time on building values. An error
+/// tells the number of its line, from 1.
+pub fn line(out: &mut String, id: &Value, number: u64, grade: &Grade, text: &str) {
     out.push_str("{\"id\":");
     match id {
         Value::String(text) => quoted(out, text),
@@ -89,7 +90,9 @@ pub fn line(out: &mut String, id: &Value, grade: &Grade, text: &str) {
     }
     if let Some(fault) = &grade.error {
         out.push_str(",\"error\":");
-        out.push_str(&error(fault, text).to_string());
+        let mut fault = error(fault, text);
+        fault["line"] = json!(number);
+        out.push_str(&fault.to_string());
     }
     if !grade.diagnosis.is_empty() {
         out.push_str(",\"diagnosis\":");
@@ -231,16 +234,19 @@ fn diagnosis(d: &Diagnosis) -> Value {
     json!({"code": d.code, "message": d.message, "hint": d.hint})
 }
 
+/// Longest message of a fault, in characters.
+const MESSAGE: usize = 600;
+
 /// A fault of a formula as data.
 pub fn error(fault: &Fault, text: &str) -> Value {
     let characters = |byte: usize| text.char_indices().take_while(|(i, _)| *i < byte).count();
     let mut out = json!({
-        "message": fault.message,
+        "message": super::shortened(&fault.message, MESSAGE),
         "start": characters(fault.start),
         "end": characters(fault.end),
     });
     if let (Some(hint), Value::Object(fields)) = (&fault.hint, &mut out) {
-        fields.insert("hint".into(), json!(hint));
+        fields.insert("hint".into(), json!(super::shortened(hint, MESSAGE)));
     }
     out
 }

@@ -3,7 +3,6 @@
 use super::html::Picture;
 use super::markdown::matrix;
 use super::math::{latex, rows};
-use super::plain::clean;
 use crate::solution::{Inline, Part, Solution};
 
 /// A document that compiles on its own; `pictures` are included by their file names.
@@ -112,7 +111,7 @@ fn sentence(s: &Solution, pieces: &[Inline]) -> String {
 /// Words with everything TeX would act on made literal; what the usual fonts do not have is named by its number.
 pub fn text(words: &str) -> String {
     let mut out = String::new();
-    for c in clean(words).chars() {
+    for c in crate::formula::visible(words).chars() {
         match c {
             '\\' => out.push_str("\\textbackslash{}"),
             '{' | '}' | '#' | '$' | '%' | '&' | '_' => {

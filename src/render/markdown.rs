@@ -2,8 +2,8 @@
 
 use super::html::Picture;
 use super::math::{latex, rows};
-use super::mathml::is_hidden;
 use crate::derive::Matrix;
+use crate::formula::visible;
 use crate::solution::{Inline, Part, Solution};
 
 /// The whole solution; `pictures` are linked by their file names.
@@ -74,7 +74,7 @@ fn sentence(s: &Solution, pieces: &[Inline]) -> String {
 /// Words with everything Markdown or HTML would act on made literal.
 pub fn text(words: &str) -> String {
     let mut out = String::with_capacity(words.len());
-    for c in words.chars() {
+    for c in visible(words).chars() {
         match c {
             '&' => out.push_str("&amp;"),
             '<' => out.push_str("&lt;"),
@@ -87,14 +87,15 @@ pub fn text(words: &str) -> String {
             '$' => out.push_str("&#36;"),
             '!' => out.push_str("&#33;"),
             '@' => out.push_str("&#64;"),
-            c if c.is_whitespace() => out.push(' '),
-            c if is_hidden(c) => out.push_str(&format!("\\[U+{:04X}\\]", u32::from(c))),
             c => out.push(c),
         }
     }
     // A line must not start a list, a quotation or a rule.
+    let digits = out.bytes().take_while(u8::is_ascii_digit).count();
     if out.starts_with(['-', '+', '=']) {
         out.insert(0, '\\');
+    } else if digits > 0 && out[digits..].starts_with(['.', ')']) {
+        out.insert(digits, '\\');
     }
     // An address must not become a link.
     out.replace("://", "&#58;//").replace("www.", "www&#46;")

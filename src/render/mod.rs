@@ -26,17 +26,50 @@ use std::collections::BTreeMap;
 
 use crate::derive::{Derivation, Equation, Matrix};
 use crate::expr::{Expr, Point, Rational, Symbol};
+use crate::formula::visible;
 use crate::numeric::{self, Answered};
 use crate::scene::Scene;
+use crate::solution::is_safe_latex;
 use crate::verify::Proof;
 
-/// LaTeX of a scene's own symbols.
+/// Lines, and characters of a line, that are told of what is wrong.
+const SCREEN: (usize, usize) = (100, 400);
+
+/// A message for people: no longer than they will read, without characters that a terminal would obey.
+pub fn screen(message: &str) -> String {
+    let mut out = String::new();
+    let mut lines = message.trim_end().lines();
+    for line in lines.by_ref().take(SCREEN.0) {
+        if !out.is_empty() {
+            out.push('\n');
+        }
+        out.push_str(&shortened(&visible(line), SCREEN.1));
+    }
+    match lines.count() {
+        0 => {}
+        n => out.push_str(&format!("\nand {n} more lines")),
+    }
+    out
+}
+
+/// A text of at most `most` characters and how many more there are.
+pub fn shortened(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
+        None => text.to_string(),
+        Some((at, _)) => {
+            let more = text[at..].chars().count();
+            format!("{}… ({more} more characters)", &text[..at])
+        }
+    }
+}
+
+/// LaTeX of a scene's own symbols, where it only sets symbols.
 pub fn latex_names(scene: &Scene) -> BTreeMap<String, String> {
     let named = scene
         .parameters
         .iter()
         .filter_map(|p| Some((p.name.to_string(), p.latex.clone()?)));
-    named.collect()
+    named.filter(|(_, latex)| is_safe_latex(latex)).collect()
 }
 
 /// An expression in LaTeX with the scene's own symbols.

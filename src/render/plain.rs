@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::math::{rows, unicode};
-use super::mathml::is_hidden;
 use crate::derive::Matrix;
+use crate::formula::visible;
 use crate::solution::{Inline, Part, Solution};
 
 /// Longest line of running text.
@@ -13,7 +13,7 @@ const WIDTH: usize = 88;
 /// The whole solution.
 pub fn solution(s: &Solution) -> String {
     let mut out = String::new();
-    let title = super::heading(&clean(&s.title), &clean(&s.source));
+    let title = super::heading(&visible(&s.title), &visible(&s.source));
     line(&mut out, &title);
     if !title.is_empty() {
         line(&mut out, &"═".repeat(title.chars().count().min(WIDTH)));
@@ -70,23 +70,8 @@ pub fn solution(s: &Solution) -> String {
 fn sentence(s: &Solution, text: &[Inline]) -> String {
     text.iter()
         .map(|piece| match piece {
-            Inline::Text(words) => clean(words),
+            Inline::Text(words) => visible(words),
             Inline::Math(math) => unicode(s, math),
-        })
-        .collect()
-}
-
-/// One line without characters that a terminal would obey.
-pub fn clean(text: &str) -> String {
-    text.chars()
-        .map(|c| {
-            if c.is_whitespace() {
-                String::from(" ")
-            } else if is_hidden(c) {
-                format!("[U+{:04X}]", u32::from(c))
-            } else {
-                c.to_string()
-            }
         })
         .collect()
 }

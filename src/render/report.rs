@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
+use super::mathml::escape;
 use crate::plot::{Axis, Curve, Plot, curve};
 use crate::report::measure::{Cell, Residuals, Swept};
 use crate::report::studies::Studies;
@@ -406,20 +407,6 @@ fn conditions(out: &mut String, report: &Report) {
         out.push_str("</tr>");
     }
     out.push_str("</tbody></table><p class=\"small\">Largest error [ulp] per quantity; – where the answer is exactly zero.</p>");
-}
-
-pub(super) fn escape(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '&' => out.push_str("&amp;"),
-            '"' => out.push_str("&quot;"),
-            _ => out.push(c),
-        }
-    }
-    out
 }
 
 const HEAD: &str = r#"<!DOCTYPE html>

@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use super::report::{escape, level};
+use super::mathml::escape;
+use super::report::level;
 use crate::report::Report;
 
 const WIDTH: f64 = 460.0;

@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use super::report::{escape, figure, findings};
+use super::mathml::escape;
+use super::report::{figure, findings};
 use crate::plot::{Axis, Curve, Mark, Plot, curve};
 use crate::report::batch::{Doubling, Route, Throughput};
 use crate::report::growth::{ChainRoute, Growth, Pose};

@@ -180,15 +180,11 @@ fn snippet(out: &mut String, fault: &Fault, text: &str) {
 
 /// The text with characters that would act on the terminal, or hide, shown by their number.
 fn visible(text: &str) -> String {
-    let hides = |c: char| {
-        c.is_control()
-            || matches!(c, '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
-    };
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
             '\t' => out.push(' '),
-            c if hides(c) => {
+            c if crate::formula::is_hidden(c) => {
                 let _ = write!(out, "<U+{:04X}>", u32::from(c));
             }
             c => out.push(c),

@@ -34,7 +34,7 @@ pub use stage::{
 };
 
 /// Longest text of a scene file, in bytes.
-const LONGEST: usize = 1 << 20;
+pub const LONGEST: usize = 1 << 20;
 
 /// Reads a scene file, JSON with comments. What is wrong with it comes back as faults, all that one pass can find.
 pub fn read(text: &str) -> Result<Scene, Faults> {
