@@ -25,11 +25,11 @@ pub fn solution(s: &Solution, pictures: &[(Picture, String)]) -> String {
         }
         for part in &section.parts {
             match part {
-                Part::Text(words) => blocks.push(sentence(s, words)),
+                Part::Text(words) => blocks.push(paragraph(s, words)),
                 Part::List(items) => {
                     let items: Vec<String> = items
                         .iter()
-                        .map(|i| format!("- {}", sentence(s, i)))
+                        .map(|i| format!("- {}", paragraph(s, i)))
                         .collect();
                     blocks.push(items.join("\n"));
                 }
@@ -57,6 +57,16 @@ pub fn solution(s: &Solution, pictures: &[(Picture, String)]) -> String {
     }
     let mut out = blocks.join("\n\n");
     out.push('\n');
+    out
+}
+
+/// A sentence that does not start a numbered list.
+fn paragraph(s: &Solution, pieces: &[Inline]) -> String {
+    let mut out = sentence(s, pieces);
+    let digits = out.bytes().take_while(u8::is_ascii_digit).count();
+    if digits > 0 && out[digits..].starts_with(['.', ')']) {
+        out.insert(digits, '\\');
+    }
     out
 }
 
@@ -91,11 +101,8 @@ pub fn text(words: &str) -> String {
         }
     }
     // A line must not start a list, a quotation or a rule.
-    let digits = out.bytes().take_while(u8::is_ascii_digit).count();
     if out.starts_with(['-', '+', '=']) {
         out.insert(0, '\\');
-    } else if digits > 0 && out[digits..].starts_with(['.', ')']) {
-        out.insert(digits, '\\');
     }
     // An address must not become a link.
     out.replace("://", "&#58;//").replace("www.", "www&#46;")
