@@ -35,6 +35,7 @@ fn body(
         shape,
         mass,
         inertia,
+        inertia_given: true,
         center,
         angle: Expr::zero(),
         velocity,

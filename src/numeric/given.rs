@@ -228,16 +228,6 @@ impl std::error::Error for Undefined {}
 
 /// Every number of the scene at a point, or the first quantity that has none.
 pub fn given<T: Number>(scene: &Scene, at: &Point<T>) -> Result<Given<T>, Undefined> {
-    let known_body = |body: usize, whose: &dyn Fn() -> String| match scene.bodies.get(body) {
-        Some(_) => Ok(body),
-        None => Err(Undefined {
-            quantity: whose(),
-            reason: Reason::Missing,
-        }),
-    };
-    let pair = |bodies: [usize; 2], whose: &dyn Fn() -> String| {
-        Ok([known_body(bodies[0], whose)?, known_body(bodies[1], whose)?])
-    };
     let mut bodies = Vec::with_capacity(scene.bodies.len());
     for body in &scene.bodies {
         let name = &body.name;
@@ -263,6 +253,25 @@ pub fn given<T: Number>(scene: &Scene, at: &Point<T>) -> Result<Given<T>, Undefi
             spin: scalar(freedom != Freedom::Particle, &body.spin, "spin")?,
         });
     }
+    around(scene, bodies, at)
+}
+
+/// Hinges, contacts, blows and what is known after, round bodies whose numbers are found.
+pub(super) fn around<T: Number>(
+    scene: &Scene,
+    bodies: Vec<GivenBody<T>>,
+    at: &Point<T>,
+) -> Result<Given<T>, Undefined> {
+    let known_body = |body: usize, whose: &dyn Fn() -> String| match scene.bodies.get(body) {
+        Some(_) => Ok(body),
+        None => Err(Undefined {
+            quantity: whose(),
+            reason: Reason::Missing,
+        }),
+    };
+    let pair = |bodies: [usize; 2], whose: &dyn Fn() -> String| {
+        Ok([known_body(bodies[0], whose)?, known_body(bodies[1], whose)?])
+    };
     let mut hinges = Vec::with_capacity(scene.hinges.len());
     for hinge in &scene.hinges {
         hinges.push(Joint {
@@ -344,7 +353,7 @@ pub fn given<T: Number>(scene: &Scene, at: &Point<T>) -> Result<Given<T>, Undefi
     })
 }
 
-fn value<T: Number>(
+pub(super) fn value<T: Number>(
     e: &Expr,
     at: &Point<T>,
     quantity: impl Fn() -> String,

@@ -20,6 +20,8 @@ pub(super) struct Solid {
     pub mass: Expr,
     /// About the center of mass.
     pub inertia: Expr,
+    /// Whether the file gives it.
+    pub inertia_given: bool,
 }
 
 /// Reads bodies.
@@ -62,11 +64,13 @@ impl SolidReader<'_> {
         let mass = self.mass(body);
         let own = self.own_inertia(body);
         let (shape, mass, own) = (shape?, mass?, own?);
+        let inertia_given = own.is_some();
         let inertia = own.unwrap_or_else(|| uniform(&shape, &mass));
         Some(Solid {
             shape,
             mass,
             inertia,
+            inertia_given,
         })
     }
 
@@ -105,6 +109,7 @@ impl SolidReader<'_> {
                 shape: Shape::Composite { parts },
                 mass,
                 inertia,
+                inertia_given: false,
             },
             center,
         ))

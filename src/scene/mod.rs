@@ -211,6 +211,8 @@ pub struct Body {
     pub mass: Expr,
     /// Moment of inertia about the center of mass, I_G [kg m²].
     pub inertia: Expr,
+    /// Whether the file gives the moment of inertia itself instead of leaving it to the shape.
+    pub inertia_given: bool,
     /// Center of mass G \[m\]; for a fixed body the point its velocity refers to.
     pub center: Vector,
     /// Orientation of the body's long axis, counterclockwise from x \[rad\].

@@ -116,12 +116,14 @@ impl<'f> Resolver<'f> {
                     shape,
                     mass,
                     inertia,
+                    inertia_given,
                 } = solid?;
                 Some(Body {
                     name: name.text.clone(),
                     shape,
                     mass,
                     inertia,
+                    inertia_given,
                     center: center?,
                     angle: angle.unwrap_or_else(|| Some(Expr::zero()))?,
                     velocity: origin(),

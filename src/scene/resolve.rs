@@ -251,6 +251,7 @@ impl<'f> Resolver<'f> {
             shape: Shape::Other,
             mass: Expr::zero(),
             inertia: Expr::zero(),
+            inertia_given: false,
             center: self.center(i).unwrap_or_else(origin),
             angle: Expr::zero(),
             velocity: origin(),
@@ -264,6 +265,7 @@ impl<'f> Resolver<'f> {
         };
         if let Some(solid) = solid {
             (body.shape, body.mass, body.inertia) = (solid.shape, solid.mass, solid.inertia);
+            body.inertia_given = solid.inertia_given;
         }
         if let Some(angle) = &entry.angle {
             body.angle = self

@@ -39,6 +39,7 @@ pub fn body(
         shape,
         mass,
         inertia,
+        inertia_given: false,
         center,
         angle: n(0),
         velocity,

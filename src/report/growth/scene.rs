@@ -93,6 +93,7 @@ pub fn chain_scene(n: usize, pose: Pose) -> Scene {
             shape: Shape::Rod { length: l.clone() },
             mass: m.clone(),
             inertia: &m * &l.powi(2) * Expr::ratio(1, 12),
+            inertia_given: false,
             center,
             angle,
             velocity: [Expr::zero(), Expr::zero()],

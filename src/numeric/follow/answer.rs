@@ -1,0 +1,188 @@
+//! The number that a question about motion asks for, from what was followed.
+//!
+//! In: a scene, what was followed, a question. Out: a number or a vector, or why there is none. Questions about formulas
+//! (limits, thresholds, …) are not answered here.
+
+use std::fmt;
+
+use super::impact::velocity_at;
+use super::{Component, Course, Followed, Impact, Impulse, Lost, Open, Passed, What, kinetic};
+use crate::expr::{Point, Vector};
+use crate::numeric::Answer;
+use crate::numeric::given::{Freedom, Undefined, vector};
+use crate::numeric::number::{cross, dot};
+use crate::scene::{Ask, EnergyWhen, ImpulseAt, Scene, StoryAsk};
+
+/// Why a question has no number.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unanswered {
+    /// The stage did not get to its end.
+    Lost(Lost),
+    /// A component it needs is open.
+    Open(Open),
+    /// A point or direction in the question has no value.
+    Undefined(Undefined),
+    /// It does not ask for a number of the motion.
+    NotANumber,
+}
+
+impl fmt::Display for Unanswered {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unanswered::Lost(lost) => write!(f, "{lost}"),
+            Unanswered::Open(open) => write!(f, "{open}"),
+            Unanswered::Undefined(undefined) => write!(f, "{undefined}"),
+            Unanswered::NotANumber => f.write_str("asks for no number of the motion"),
+        }
+    }
+}
+
+impl std::error::Error for Unanswered {}
+
+impl From<Open> for Unanswered {
+    fn from(open: Open) -> Unanswered {
+        Unanswered::Open(open)
+    }
+}
+
+/// The number or vector that a question about a stage asks for.
+pub fn answer(
+    scene: &Scene,
+    followed: &Followed,
+    ask: &StoryAsk,
+    values: &Point<f64>,
+) -> Result<Answer<f64>, Unanswered> {
+    let index = ask.stage().ok_or(Unanswered::NotANumber)?;
+    let stage = scene.story.as_ref().and_then(|s| s.stages.get(index));
+    let stage = stage.ok_or(Unanswered::NotANumber)?;
+    let passed = match &followed.stages[index] {
+        Ok(passed) => passed,
+        Err(lost) => return Err(Unanswered::Lost(lost.clone())),
+    };
+    let values = super::with_angles(values);
+    let course = Course {
+        name: &stage.name,
+        scene: &stage.scene,
+        solids: &followed.solids,
+        values: &values,
+    };
+    match ask {
+        StoryAsk::Quantity { question, .. } => {
+            let question = stage.scene.questions.get(*question);
+            about_end(
+                &course,
+                passed,
+                &question.ok_or(Unanswered::NotANumber)?.ask,
+            )
+        }
+        StoryAsk::Reaction { along, at_end, .. } => {
+            let What::Motion(moved) = &passed.what else {
+                return Err(Unanswered::NotANumber);
+            };
+            let reaction = moved.reaction.as_ref().ok_or(Unanswered::NotANumber)?;
+            component(&course, reaction[usize::from(*at_end)].clone(), Some(along))
+        }
+        StoryAsk::AngularMomentum {
+            body,
+            about,
+            at_end,
+            ..
+        } => {
+            let about = pair(&course, about)?;
+            let state = if *at_end {
+                &passed.after
+            } else {
+                &passed.before
+            };
+            let (solid, body) = (&followed.solids[*body], &state.bodies[*body]);
+            let [x, y, _, u, v, w] = body.components();
+            let arm = [x.clone()? - about[0], y.clone()? - about[1]];
+            let orbital = solid.mass * cross(&arm, &[u.clone()?, v.clone()?]);
+            let own = match solid.freedom {
+                Freedom::Rigid => solid.inertia * w.clone()?,
+                Freedom::Particle | Freedom::Fixed => 0.0,
+            };
+            Ok(Answer::Scalar(orbital + own))
+        }
+        _ => Err(Unanswered::NotANumber),
+    }
+}
+
+/// A question about the end of a stage, or about the impact of a scene without stages.
+pub(super) fn about_end(
+    course: &Course<'_>,
+    passed: &Passed,
+    ask: &Ask,
+) -> Result<Answer<f64>, Unanswered> {
+    let after = &passed.after.bodies;
+    match ask {
+        Ask::Velocity { body, point, along } => {
+            let velocity = match point {
+                None => after[*body].velocity.clone(),
+                Some((_, at)) => {
+                    let at = pair(course, at)?;
+                    velocity_at(course.solids[*body].freedom, &after[*body], &at)
+                }
+            };
+            component(course, velocity, along.as_ref())
+        }
+        Ask::Spin { body, clockwise } => {
+            let spin = after[*body].spin.clone()?;
+            Ok(Answer::Scalar(if *clockwise { -spin } else { spin }))
+        }
+        Ask::Impulse { from, on, along } => {
+            let What::Impact(impact) = &passed.what else {
+                return Err(Unanswered::NotANumber);
+            };
+            let found = transmitted(impact, *from).ok_or(Unanswered::NotANumber)?;
+            let felt = match found.on == *on {
+                true => found.impulse.clone(),
+                false => found.impulse.clone().map(|c| c.map(|p| -p)),
+            };
+            component(course, felt, along.as_ref())
+        }
+        Ask::Energy { when, of } => {
+            let [before, after] = [&passed.before, &passed.after];
+            let energy = |state| kinetic(course.solids, state, *of);
+            Ok(Answer::Scalar(match when {
+                EnergyWhen::Before => energy(before)?,
+                EnergyWhen::After => energy(after)?,
+                EnergyWhen::Lost => energy(before)? - energy(after)?,
+            }))
+        }
+        Ask::Balance { .. } | Ask::Matrix { .. } => Err(Unanswered::NotANumber),
+    }
+}
+
+fn transmitted(impact: &Impact, from: ImpulseAt) -> Option<&Impulse> {
+    match from {
+        ImpulseAt::Contact(i) => impact.contacts.get(i),
+        ImpulseAt::Hinge(i) => impact.hinges.get(i),
+        ImpulseAt::Blow(i) => impact.blows.get(i),
+    }
+}
+
+fn pair(course: &Course<'_>, v: &Vector) -> Result<[f64; 2], Unanswered> {
+    vector(v, course.values, || "point or direction asked for".into())
+        .map_err(Unanswered::Undefined)
+}
+
+fn component(
+    course: &Course<'_>,
+    v: [Component; 2],
+    along: Option<&Vector>,
+) -> Result<Answer<f64>, Unanswered> {
+    let Some(along) = along else {
+        let [x, y] = v;
+        return Ok(Answer::Vector([x?, y?]));
+    };
+    let along = pair(course, along)?;
+    // A component across the direction may stay open.
+    let mut known = [0.0; 2];
+    for (k, c) in v.into_iter().enumerate() {
+        if along[k] != 0.0 {
+            known[k] = c?;
+        }
+    }
+    Ok(Answer::Scalar(dot(&known, &along)))
+}

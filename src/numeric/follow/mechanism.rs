@@ -1,0 +1,307 @@
+//! Bodies with constraints, moved in time by Newton's and Euler's equations.
+//!
+//! In: masses, constraints, constant forces, a state; all in units in which they are of ordinary size. Out: the state and
+//! the time at which something happens, with samples on the way. The accelerations come with the multipliers of the
+//! constraints from one linear system, M a − Jᵀλ = F and J a = −J̇ v; the integrator is the explicit Runge–Kutta method of
+//! order 8 of Dormand and Prince (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.5). Nothing here
+//! knows of energy.
+//!
+//! A state is a list: x, y, angle of each body, then their rates.
+
+use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
+use nalgebra::{DMatrix, DVector};
+
+/// Pieces into which a motion may be cut.
+const PIECES: usize = 20_000;
+/// Length of a piece; in the units of the mechanism something happens within 1.
+const PIECE: f64 = 0.5;
+/// What counts as reached at a place where the motion comes to rest.
+const REACHED: f64 = 1e-12;
+
+/// A goal missed by less than this is met.
+const CLOSE: f64 = 2e-16;
+
+/// Something that bodies cannot do.
+pub(super) enum Constraint {
+    /// A point of a body stays at the origin; the arm leads from the body's center to it, in the body's frame.
+    Pin {
+        /// The body.
+        body: usize,
+        /// The arm.
+        arm: [f64; 2],
+    },
+    /// The second body keeps its place and angle in the frame of the first; the arm leads from the first center to the second.
+    Weld {
+        /// The bodies.
+        bodies: [usize; 2],
+        /// The arm.
+        arm: [f64; 2],
+    },
+    /// The body does not turn, and its center moves along this direction.
+    Guide {
+        /// The body.
+        body: usize,
+        /// The direction, a unit vector.
+        along: [f64; 2],
+    },
+}
+
+/// Bodies, what they cannot do, and what acts on them.
+pub(super) struct Mechanism {
+    /// Mass and moment of inertia about the center, of each body.
+    pub inertias: Vec<[f64; 2]>,
+    /// The constraints.
+    pub constraints: Vec<Constraint>,
+    /// Force and moment on each body; they do not change.
+    pub forces: Vec<[f64; 3]>,
+}
+
+/// A motion that got to its end.
+pub(super) struct Run {
+    /// How long it took.
+    pub time: f64,
+    /// State at the end.
+    pub end: Vec<f64>,
+    /// Times and states on the way, beginning and end among them.
+    pub samples: Vec<(f64, Vec<f64>)>,
+}
+
+/// Why a motion did not get to its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stop {
+    /// The motion says so itself.
+    Never,
+    /// The number of pieces is used up.
+    TooLong,
+    /// The equations of motion have no single solution, or the numbers leave the doubles.
+    Broken,
+}
+
+/// How far a motion is from its end.
+pub(super) struct Goal<'a> {
+    /// Negative until the end is reached.
+    pub left: &'a dyn Fn(&[f64]) -> f64,
+    /// A rate that changes its sign where the motion turns back.
+    pub rate: &'a dyn Fn(&[f64]) -> f64,
+    /// Whether the end will never come, seen after each piece; `true` for its argument where the motion has just turned back.
+    pub never: &'a mut dyn FnMut(&[f64], bool) -> bool,
+}
+
+impl Mechanism {
+    /// Accelerations, and the multipliers in the order of the constraints; those of a pin are the force on the body.
+    pub fn accelerations(&self, y: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+        let n = 3 * self.inertias.len();
+        let (place, rate) = y.split_at(n);
+        let turned = |b: usize, [x, y]: [f64; 2]| {
+            let (s, c) = place[3 * b + 2].sin_cos();
+            [x * c - y * s, x * s + y * c]
+        };
+        let mut rows: Vec<(Vec<(usize, f64)>, f64)> = Vec::new();
+        for constraint in &self.constraints {
+            match constraint {
+                Constraint::Pin { body, arm } => {
+                    let (r, w) = (turned(*body, *arm), rate[3 * body + 2]);
+                    let b = 3 * body;
+                    rows.push((vec![(b, 1.0), (b + 2, -r[1])], w * w * r[0]));
+                    rows.push((vec![(b + 1, 1.0), (b + 2, r[0])], w * w * r[1]));
+                }
+                Constraint::Weld { bodies, arm } => {
+                    let [a, b] = bodies.map(|b| 3 * b);
+                    let (r, w) = (turned(bodies[0], *arm), rate[a + 2]);
+                    let x = vec![(b, 1.0), (a, -1.0), (a + 2, r[1])];
+                    let y = vec![(b + 1, 1.0), (a + 1, -1.0), (a + 2, -r[0])];
+                    rows.push((x, -w * w * r[0]));
+                    rows.push((y, -w * w * r[1]));
+                    rows.push((vec![(b + 2, 1.0), (a + 2, -1.0)], 0.0));
+                }
+                Constraint::Guide { body, along } => {
+                    let b = 3 * body;
+                    rows.push((vec![(b, -along[1]), (b + 1, along[0])], 0.0));
+                    rows.push((vec![(b + 2, 1.0)], 0.0));
+                }
+            }
+        }
+        let all = n + rows.len();
+        let mut matrix = DMatrix::zeros(all, all);
+        let mut right = DVector::zeros(all);
+        for (b, [mass, inertia]) in self.inertias.iter().enumerate() {
+            for (k, m) in [mass, mass, inertia].into_iter().enumerate() {
+                matrix[(3 * b + k, 3 * b + k)] = *m;
+                right[3 * b + k] = self.forces[b][k];
+            }
+        }
+        for (i, (terms, value)) in rows.into_iter().enumerate() {
+            for (k, factor) in terms {
+                matrix[(n + i, k)] = factor;
+                matrix[(k, n + i)] = -factor;
+            }
+            right[n + i] = value;
+        }
+        let found = matrix.lu().solve(&right)?;
+        let found: Vec<f64> = found.iter().copied().collect();
+        let is_sound = found.iter().all(|v| v.is_finite());
+        is_sound.then(|| (found[..n].to_vec(), found[n..].to_vec()))
+    }
+
+    /// Moves on until the goal is reached.
+    pub fn until(&self, start: &[f64], goal: &mut Goal<'_>) -> Result<Run, Stop> {
+        let mut run = Run {
+            time: 0.0,
+            end: start.to_vec(),
+            samples: vec![(0.0, start.to_vec())],
+        };
+        if (goal.left)(start) >= 0.0 {
+            return Ok(run);
+        }
+        for _ in 0..PIECES {
+            let next = self.advance(&run.end, PIECE).ok_or(Stop::Broken)?;
+            let rates = [&run.end, &next].map(|y| (goal.rate)(y));
+            let turns_back = rates[0] * rates[1] < 0.0;
+            let mut reached = (goal.left)(&next) >= 0.0;
+            let mut longest = PIECE;
+            if turns_back {
+                let sign = rates[1].signum();
+                let (time, rest) = self.root(&run.end, PIECE, &|y| sign * (goal.rate)(y))?;
+                let left = (goal.left)(&rest);
+                if (-REACHED..0.0).contains(&left) {
+                    return Ok(run.ended(time, rest));
+                }
+                if left >= 0.0 {
+                    (reached, longest) = (true, time);
+                }
+            }
+            if reached {
+                let (time, end) = self.root(&run.end, longest, goal.left)?;
+                return Ok(run.ended(time, end));
+            }
+            run = run.ended(PIECE, next);
+            if (goal.never)(&run.end, turns_back) {
+                return Err(Stop::Never);
+            }
+        }
+        Err(Stop::TooLong)
+    }
+
+    /// Moves on for a time.
+    pub fn lasting(&self, start: &[f64], time: f64) -> Result<Run, Stop> {
+        let mut run = Run {
+            time: 0.0,
+            end: start.to_vec(),
+            samples: vec![(0.0, start.to_vec())],
+        };
+        let pieces = (time / PIECE).ceil().max(1.0);
+        if pieces > PIECES as f64 {
+            return Err(Stop::TooLong);
+        }
+        for _ in 0..pieces as usize {
+            let step = time / pieces;
+            let next = self.advance(&run.end, step).ok_or(Stop::Broken)?;
+            run = run.ended(step, next);
+        }
+        run.time = time;
+        Ok(run)
+    }
+
+    /// The first state within a piece at which a function that begins negative is not, by the Illinois method.
+    fn root(
+        &self,
+        start: &[f64],
+        longest: f64,
+        f: &dyn Fn(&[f64]) -> f64,
+    ) -> Result<(f64, Vec<f64>), Stop> {
+        let at = |time: f64| -> Result<(f64, Vec<f64>), Stop> {
+            let state = self.advance(start, time).ok_or(Stop::Broken)?;
+            Ok((f(&state), state))
+        };
+        let (mut low, mut high) = ((0.0, f(start)), (longest, f64::NAN));
+        let (value, mut state) = at(longest)?;
+        high.1 = value;
+        let mut kept = 0i32;
+        for _ in 0..80 {
+            if high.0 - low.0 <= 4.0 * f64::EPSILON * longest || high.1 == 0.0 {
+                break;
+            }
+            let secant = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+            let is_inside = secant > low.0 && secant < high.0;
+            let time = if is_inside {
+                secant
+            } else {
+                0.5 * (low.0 + high.0)
+            };
+            let (value, there) = at(time)?;
+            if value < 0.0 {
+                // The end that stays counts half, or it would stay for ever.
+                if kept > 0 {
+                    high.1 /= 2.0;
+                }
+                (low, kept) = ((time, value), kept.max(0) + 1);
+                if value > -CLOSE {
+                    (high.0, state) = (time, there);
+                    break;
+                }
+            } else {
+                if kept < 0 {
+                    low.1 /= 2.0;
+                }
+                (high, kept, state) = ((time, value), kept.min(0) - 1, there);
+                if value < CLOSE {
+                    break;
+                }
+            }
+        }
+        Ok((high.0, state))
+    }
+
+    /// The state after a time.
+    fn advance(&self, start: &[f64], time: f64) -> Option<Vec<f64>> {
+        if time <= 0.0 {
+            return Some(start.to_vec());
+        }
+        integrated(&|y| self.rates(y), start, time)
+    }
+
+    fn rates(&self, y: &[f64]) -> Option<Vec<f64>> {
+        let n = y.len() / 2;
+        let (accelerations, _) = self.accelerations(y)?;
+        Some([&y[n..], &accelerations].concat())
+    }
+}
+
+impl Run {
+    fn ended(mut self, step: f64, end: Vec<f64>) -> Run {
+        self.time += step;
+        self.samples.push((self.time, end.clone()));
+        self.end = end;
+        self
+    }
+}
+
+/// The state after a time; `None` where the rates have no value on the way.
+pub(super) fn integrated(
+    rates: &dyn Fn(&[f64]) -> Option<Vec<f64>>,
+    start: &[f64],
+    time: f64,
+) -> Option<Vec<f64>> {
+    struct Equations<'a>(&'a dyn Fn(&[f64]) -> Option<Vec<f64>>);
+    impl ODE<f64, Vec<f64>> for Equations<'_> {
+        fn diff(&self, _: f64, y: &Vec<f64>, rates: &mut Vec<f64>) {
+            match (self.0)(y) {
+                Some(found) => rates.copy_from_slice(&found),
+                None => rates.fill(f64::NAN),
+            }
+        }
+    }
+    (self_check(rates, start)).then_some(())?;
+    let method = ExplicitRungeKutta::dop853().rtol(1e-12).atol(1e-14);
+    let solution = IVP::ode(&Equations(rates), 0.0, time, start.to_vec())
+        .method(method)
+        .solve()
+        .ok()?;
+    let end = solution.y.last()?.clone();
+    end.iter().all(|v| v.is_finite()).then_some(end)
+}
+
+/// Whether there are rates at the start at all.
+fn self_check(rates: &dyn Fn(&[f64]) -> Option<Vec<f64>>, start: &[f64]) -> bool {
+    rates(start).is_some_and(|r| r.iter().all(|v| v.is_finite()))
+}

@@ -1,0 +1,557 @@
+//! The second way through a whole scene, stage by stage, in doubles.
+//!
+//! In: a [`Scene`] and values of its parameters. Out: [`Followed`], for every stage what it begins and ends with.
+//!
+//! ```text
+//! let followed = numeric::follow(&scene, &values)?;      // Err: a quantity that has no value at the point
+//! for stage in &followed.stages {                        // in the order of the file
+//!     let passed: &Passed = match stage { Ok(p) => p, Err(lost) => … };
+//!     passed.after.bodies[b].velocity[0]                 // a Component: Ok(value), or Err(why it is open)
+//! }
+//! follow::answer(&scene, &followed, &ask, &values)       // the number that a question about motion asks for
+//! ```
+//!
+//! Nothing here comes from `laws`, `derive` or `algebra`, and of `scene` only what the file says of places, joints and
+//! motions: mass, center and moment of inertia are integrated over the outlines ([`outline`]), impacts are one linear system of
+//! all bodies and impulses ([`impact`]), one-sided supports are found by complementarity, motions are integrated in time
+//! from the equations of motion with their constraints ([`mechanism`], [`motion`], [`wind`]). No step uses energy, so that
+//! energies can be held against it.
+//!
+//! A component that the laws leave open stays open, and so does what needs it. A scene without stages is one impact.
+//!
+//! How the words of a file are taken, where they leave a choice:
+//! - a body that takes part in nothing yet waits where the file puts it; afterwards it flies on uniformly while others move,
+//!   unless the stage names gravity or a force, for then nobody says what acts on it;
+//! - at rest a body begins to turn where its weight pulls it, or where the file says; balanced, it needs a small push, and the
+//!   time until it gets away is open;
+//! - a rotation until `above` or `below` that begins there goes all the way round; a fall through a height ends on the way
+//!   down;
+//! - after winding on a thin pole the axes are turned so that the rope lies along x, as the file's places have it.
+
+mod answer;
+mod impact;
+mod least;
+mod mechanism;
+mod motion;
+mod outline;
+mod wind;
+
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+use super::given::{Freedom, GivenBody, Undefined, value, vector};
+use super::points::needed;
+use crate::expr::{Expr, Point, Symbol};
+use crate::scene::{Scene, Stage, StageKind, Until};
+
+pub use answer::{Unanswered, answer};
+pub use impact::{Breach, Impact, Impulse, Opening};
+pub use motion::{Moved, Sample};
+pub use outline::Solid;
+
+/// A component of the motion, or why it has no value.
+pub type Component = Result<f64, Open>;
+
+/// Why a component has no value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Open {
+    /// Name of the stage that left it open.
+    pub stage: String,
+    /// What left it open.
+    pub why: Why,
+}
+
+/// What leaves a component open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Why {
+    /// The laws of the impact allow several values.
+    Laws,
+    /// Several sets of supports and strings fit, with different motions.
+    Supports,
+    /// It needs a component that was open before.
+    Needed,
+    /// The stage takes a time that is not known.
+    Time,
+    /// Gravity or a force acts in the stage, and what acts on this body is not said.
+    Forces,
+    /// Joined to a body that moves on, and not said to move along.
+    Joined,
+    /// It grows beyond bounds as the pole becomes thinner.
+    Pole,
+    /// The body is balanced, and the push that sets it going decides.
+    Push,
+}
+
+impl fmt::Display for Open {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let stage = &self.stage;
+        match self.why {
+            Why::Laws => write!(f, "not determined by the laws of `{stage}`"),
+            Why::Supports => write!(f, "several sets of supports fit in `{stage}`"),
+            Why::Needed => write!(f, "`{stage}` needs what is open before it"),
+            Why::Time => write!(f, "`{stage}` takes a time that is not known"),
+            Why::Forces => write!(f, "what acts on it during `{stage}` is not said"),
+            Why::Joined => write!(f, "joined to a body that moves on in `{stage}`"),
+            Why::Pole => write!(f, "the thinner the pole in `{stage}`, the more it grows"),
+            Why::Push => write!(f, "depends on the push that begins `{stage}`"),
+        }
+    }
+}
+
+/// How one body stands and moves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyState {
+    /// Center of mass G \[m\].
+    pub center: [Component; 2],
+    /// Orientation as in [`crate::scene::Body::angle`] \[rad\]; as the file has it for a particle.
+    pub angle: Component,
+    /// Velocity of G [m/s].
+    pub velocity: [Component; 2],
+    /// Angular velocity [rad/s], counterclockwise; 0 for a particle, which has none.
+    pub spin: Component,
+    /// Whether it has taken part in an impact or a motion.
+    pub has_begun: bool,
+}
+
+/// How all bodies stand and move.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// The bodies, in the scene's order.
+    pub bodies: Vec<BodyState>,
+    /// Bodies that a sticking contact or a hinge of the last impact joins.
+    pub joined: Vec<[usize; 2]>,
+}
+
+/// A stage that was followed to its end.
+#[derive(Clone, Debug)]
+pub struct Passed {
+    /// Name of the stage; empty for the impact of a scene without stages.
+    pub name: String,
+    /// How long it takes \[s\]; 0 for an impact.
+    pub time: Component,
+    /// At its beginning.
+    pub before: State,
+    /// At its end.
+    pub after: State,
+    /// Kinetic energy of all bodies that are not fixed, at the beginning and at the end \[J\].
+    pub energy: [Component; 2],
+    /// What happened.
+    pub what: What,
+}
+
+/// What happened in a stage.
+#[derive(Clone, Debug)]
+pub enum What {
+    /// Velocities jumped.
+    Impact(Impact),
+    /// Bodies moved.
+    Motion(Moved),
+}
+
+/// Why a stage was not followed to its end.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Lost {
+    /// Its laws, or the motion it begins with, contradict each other.
+    Contradiction {
+        /// Name of the stage.
+        stage: String,
+        /// What cannot hold, in words.
+        reason: String,
+    },
+    /// The motion never gets to its end.
+    NeverEnds {
+        /// Name of the stage.
+        stage: String,
+        /// What happens instead, in words.
+        reason: String,
+    },
+    /// A limit of the calculation was met, so that nothing is known.
+    OutOfReach {
+        /// Name of the stage.
+        stage: String,
+        /// The limit, in words.
+        reason: String,
+    },
+    /// A formula of the stage has no value at the point.
+    Undefined {
+        /// Name of the stage.
+        stage: String,
+        /// The quantity.
+        quantity: Undefined,
+    },
+    /// The stage before was lost.
+    After {
+        /// Name of the stage.
+        stage: String,
+        /// Name of the stage that was lost.
+        lost: String,
+    },
+}
+
+impl Lost {
+    /// Name of the stage.
+    pub fn stage(&self) -> &str {
+        match self {
+            Lost::Contradiction { stage, .. }
+            | Lost::NeverEnds { stage, .. }
+            | Lost::OutOfReach { stage, .. }
+            | Lost::Undefined { stage, .. }
+            | Lost::After { stage, .. } => stage,
+        }
+    }
+}
+
+impl fmt::Display for Lost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Lost::Contradiction { reason, .. } => write!(f, "a contradiction: {reason}"),
+            Lost::NeverEnds { reason, .. } => write!(f, "it never gets to its end: {reason}"),
+            Lost::OutOfReach { reason, .. } => write!(f, "not followed: {reason}"),
+            Lost::Undefined { quantity, .. } => write!(f, "{quantity}"),
+            Lost::After { lost, .. } => write!(f, "`{lost}` before it does not get to its end"),
+        }
+    }
+}
+
+impl std::error::Error for Lost {}
+
+/// A scene, followed from its beginning to the end of every stage.
+#[derive(Clone, Debug)]
+pub struct Followed {
+    /// The bodies in numbers, in the scene's order.
+    pub solids: Vec<Solid>,
+    /// The stages in the order of the file, or the one impact of a scene without stages.
+    pub stages: Vec<Result<Passed, Lost>>,
+}
+
+/// Follows a scene at a point that has a value for every parameter; an angle may have its direction only.
+pub fn follow(scene: &Scene, values: &Point<f64>) -> Result<Followed, Undefined> {
+    let values = with_angles(values);
+    let all = scene.bodies.iter();
+    let solids: Vec<Solid> = all
+        .map(|b| outline::solid(b, &values))
+        .collect::<Result<_, _>>()?;
+    let start = start(scene, &solids, &values)?;
+    let Some(story) = &scene.story else {
+        let only = Course {
+            name: "",
+            scene,
+            solids: &solids,
+            values: &values,
+        };
+        let stage = impact::impact(&only, &[], None, &start)
+            .map(|(what, after)| only.passed(Ok(0.0), start.clone(), after, What::Impact(what)));
+        let stages = vec![stage];
+        return Ok(Followed { solids, stages });
+    };
+    let mut stages: Vec<Result<Passed, Lost>> = Vec::new();
+    for stage in &story.stages {
+        let before = match stage.from {
+            None => changed(stage, &start, &values),
+            Some(j) => match &stages[j] {
+                Ok(passed) => Ok(passed.after.clone()),
+                Err(_) => Err(Lost::After {
+                    stage: stage.name.clone(),
+                    lost: story.stages[j].name.clone(),
+                }),
+            },
+        };
+        stages.push(before.and_then(|before| one(stage, &solids, before, &values)));
+    }
+    Ok(Followed { solids, stages })
+}
+
+/// The symbols that have to have values so that a scene can be followed.
+pub fn symbols(scene: &Scene) -> BTreeSet<Symbol> {
+    let mut out = BTreeSet::new();
+    let mut add = |e: &Expr| out.extend(e.symbols().into_iter().filter(|s| &**s != "pi"));
+    let mut of_scene = |scene: &Scene| {
+        let needed = needed(scene);
+        let angles = scene.bodies.iter().filter(|b| !b.is_particle());
+        angles.for_each(|b| add(&b.angle));
+        let names = needed.plain.into_iter().chain(needed.angles.into_keys());
+        names.for_each(|n| add(&Expr::symbol(&n)));
+    };
+    let Some(story) = &scene.story else {
+        of_scene(scene);
+        return out;
+    };
+    let bodies = Scene {
+        bodies: scene.bodies.clone(),
+        ..Scene::default()
+    };
+    of_scene(&bodies);
+    for stage in &story.stages {
+        let without = Scene {
+            bodies: Vec::new(),
+            ..stage.scene.clone()
+        };
+        of_scene(&without);
+    }
+    for stage in &story.stages {
+        for (_, velocity, spin) in &stage.start {
+            velocity.iter().flatten().for_each(&mut add);
+            spin.iter().for_each(&mut add);
+        }
+        of_kind(&stage.kind).into_iter().for_each(&mut add);
+    }
+    out
+}
+
+/// Every formula of a kind of stage.
+fn of_kind(kind: &StageKind) -> Vec<&Expr> {
+    match kind {
+        StageKind::Impact { one_sided, .. } => one_sided
+            .iter()
+            .flat_map(|o| o.at.iter().chain(&o.normal))
+            .collect(),
+        StageKind::Turn(turn) => {
+            let end = match &turn.until {
+                Until::By(e) | Until::For(e) => Some(e),
+                Until::Above | Until::Below => None,
+            };
+            let forces = turn.gravity.iter().chain(&turn.torque);
+            turn.about.iter().chain(end).chain(forces).collect()
+        }
+        StageKind::Slide(slide) => {
+            let forces = slide.gravity.iter().chain(&slide.force);
+            let way = slide.along.iter().chain([&slide.distance]);
+            way.chain(forces).collect()
+        }
+        StageKind::Fall(fall) => {
+            let end = fall.height.iter().chain(&fall.time);
+            end.chain(&fall.gravity).collect()
+        }
+        StageKind::Wind(wind) => wind.around.iter().chain([&wind.to]).collect(),
+    }
+}
+
+/// What the followers of single stages look at.
+pub(super) struct Course<'a> {
+    /// Name of the stage.
+    pub name: &'a str,
+    /// The stage's own scene.
+    pub scene: &'a Scene,
+    /// The bodies in numbers.
+    pub solids: &'a [Solid],
+    /// Values of the parameters, and of the places at the beginning of the stage.
+    pub values: &'a Point<f64>,
+}
+
+impl Course<'_> {
+    fn open(&self, why: Why) -> Open {
+        Open {
+            stage: self.name.into(),
+            why,
+        }
+    }
+
+    fn contradiction(&self, reason: impl Into<String>) -> Lost {
+        Lost::Contradiction {
+            stage: self.name.into(),
+            reason: reason.into(),
+        }
+    }
+
+    fn never(&self, reason: impl Into<String>) -> Lost {
+        Lost::NeverEnds {
+            stage: self.name.into(),
+            reason: reason.into(),
+        }
+    }
+
+    fn out_of_reach(&self, reason: impl Into<String>) -> Lost {
+        Lost::OutOfReach {
+            stage: self.name.into(),
+            reason: reason.into(),
+        }
+    }
+
+    fn undefined(&self, quantity: Undefined) -> Lost {
+        Lost::Undefined {
+            stage: self.name.into(),
+            quantity,
+        }
+    }
+
+    fn number(&self, e: &Expr, what: &str) -> Result<f64, Lost> {
+        let found = value(e, self.values, || what.into()).map_err(|u| self.undefined(u))?;
+        match found.is_finite() {
+            true => Ok(found),
+            false => Err(self.out_of_reach(format!("{what} is beyond the largest double"))),
+        }
+    }
+
+    /// A number that may be left out, and is zero then.
+    fn optional(&self, e: Option<&Expr>, what: &str) -> Result<f64, Lost> {
+        e.map_or(Ok(0.0), |e| self.number(e, what))
+    }
+
+    fn pair(&self, v: &[Expr; 2], what: &str) -> Result<[f64; 2], Lost> {
+        Ok([self.number(&v[0], what)?, self.number(&v[1], what)?])
+    }
+
+    fn passed(&self, time: Component, before: State, after: State, what: What) -> Passed {
+        Passed {
+            name: self.name.into(),
+            time,
+            energy: [&before, &after].map(|state| kinetic(self.solids, state, None)),
+            before,
+            after,
+            what,
+        }
+    }
+}
+
+/// Kinetic energy of one body, or of all that are not fixed \[J\].
+pub fn kinetic(solids: &[Solid], state: &State, of: Option<usize>) -> Component {
+    let mut total = 0.0;
+    for (b, (solid, body)) in solids.iter().zip(&state.bodies).enumerate() {
+        if solid.freedom == Freedom::Fixed || of.is_some_and(|o| o != b) {
+            continue;
+        }
+        if solid.mass > 0.0 {
+            for v in &body.velocity {
+                total += 0.5 * solid.mass * v.clone()?.powi(2);
+            }
+        }
+        if solid.freedom == Freedom::Rigid && solid.inertia > 0.0 {
+            total += 0.5 * solid.inertia * body.spin.clone()?.powi(2);
+        }
+    }
+    Ok(total)
+}
+
+impl BodyState {
+    /// The six components: place, angle, velocity, spin.
+    pub fn components(&self) -> [&Component; 6] {
+        let [x, y] = &self.center;
+        let [u, v] = &self.velocity;
+        [x, y, &self.angle, u, v, &self.spin]
+    }
+
+    /// Place, angle, velocity and spin where all are known.
+    fn known(&self) -> Result<[f64; 6], Open> {
+        let mut out = [0.0; 6];
+        for (out, component) in out.iter_mut().zip(self.components()) {
+            *out = component.clone()?;
+        }
+        Ok(out)
+    }
+
+    fn set(&mut self, [x, y, angle, u, v, spin]: [f64; 6]) {
+        self.center = [Ok(x), Ok(y)];
+        self.angle = Ok(angle);
+        self.velocity = [Ok(u), Ok(v)];
+        self.spin = Ok(spin);
+    }
+
+    /// Leaves every component open.
+    fn leave_open(&mut self, open: &Open) {
+        let open = || Err(open.clone());
+        self.center = [open(), open()];
+        self.angle = open();
+        self.velocity = [open(), open()];
+        self.spin = open();
+    }
+
+    /// The body in numbers as an impact takes it, open velocities as zero.
+    fn given(&self, solid: &Solid) -> GivenBody<f64> {
+        let number = |c: &Component| c.clone().unwrap_or(0.0);
+        GivenBody {
+            freedom: solid.freedom,
+            mass: solid.mass,
+            inertia: solid.inertia,
+            center: [number(&self.center[0]), number(&self.center[1])],
+            velocity: [number(&self.velocity[0]), number(&self.velocity[1])],
+            spin: number(&self.spin),
+        }
+    }
+}
+
+/// Angles that are known by their direction only get their value between −π and π, times the divisor.
+fn with_angles(values: &Point<f64>) -> Point<f64> {
+    let mut out = values.clone();
+    for (name, (divisor, [c, s])) in &values.directions {
+        let whole = s.atan2(*c) * f64::from(*divisor);
+        out.values.entry(name.clone()).or_insert(whole);
+    }
+    out
+}
+
+/// The bodies as the file gives them.
+fn start(scene: &Scene, solids: &[Solid], at: &Point<f64>) -> Result<State, Undefined> {
+    let mut bodies = Vec::with_capacity(solids.len());
+    for (body, solid) in scene.bodies.iter().zip(solids) {
+        let number = |e: &Expr, what: &str| value(e, at, || format!("{what} of {}", body.name));
+        let is_particle = solid.freedom == Freedom::Particle;
+        let turning = |e: &Expr, what: &str| match is_particle {
+            true => Ok(0.0),
+            false => number(e, what),
+        };
+        let velocity = vector(&body.velocity, at, || format!("velocity of {}", body.name))?;
+        bodies.push(BodyState {
+            center: solid.center.map(Ok),
+            angle: Ok(turning(&body.angle, "angle")?),
+            velocity: velocity.map(Ok),
+            spin: Ok(turning(&body.spin, "spin")?),
+            has_begun: false,
+        });
+    }
+    Ok(State {
+        bodies,
+        joined: Vec::new(),
+    })
+}
+
+/// The beginning, with what a stage has otherwise.
+fn changed(stage: &Stage, start: &State, at: &Point<f64>) -> Result<State, Lost> {
+    let mut state = start.clone();
+    let lost = |quantity| Lost::Undefined {
+        stage: stage.name.clone(),
+        quantity,
+    };
+    for (body, velocity, spin) in &stage.start {
+        let name = &stage.scene.bodies[*body].name;
+        let body = &mut state.bodies[*body];
+        if let Some(v) = velocity {
+            let v = vector(v, at, || format!("velocity of {name}")).map_err(lost)?;
+            body.velocity = v.map(Ok);
+        }
+        if let Some(w) = spin {
+            body.spin = Ok(value(w, at, || format!("spin of {name}")).map_err(lost)?);
+        }
+    }
+    Ok(state)
+}
+
+/// One stage.
+fn one(
+    stage: &Stage,
+    solids: &[Solid],
+    before: State,
+    values: &Point<f64>,
+) -> Result<Passed, Lost> {
+    let course = Course {
+        name: &stage.name,
+        scene: &stage.scene,
+        solids,
+        values,
+    };
+    match &stage.kind {
+        StageKind::Impact {
+            one_sided,
+            supposed,
+        } => {
+            let (what, after) = impact::impact(&course, one_sided, supposed.as_deref(), &before)?;
+            Ok(course.passed(Ok(0.0), before, after, What::Impact(what)))
+        }
+        StageKind::Turn(turn) => motion::turn(&course, before, turn),
+        StageKind::Slide(slide) => motion::slide(&course, before, slide),
+        StageKind::Fall(fall) => motion::fall(&course, before, fall),
+        StageKind::Wind(wind) => wind::wind(&course, before, wind),
+    }
+}

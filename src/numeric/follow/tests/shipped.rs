@@ -1,0 +1,92 @@
+//! Every shipped scene is followed without loss, and without stages the answers are those of the other solver.
+
+use super::*;
+
+fn scenes() -> BTreeMap<String, Scene> {
+    fn collect(folder: &Path, out: &mut BTreeMap<String, Scene>) {
+        for entry in std::fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() && !path.ends_with("refused") {
+                collect(&path, out);
+            } else if path.extension().is_some_and(|e| e == "json") {
+                let text = std::fs::read_to_string(&path).expect("a scene");
+                out.insert(path.display().to_string(), read(&text));
+            }
+        }
+    }
+    let mut out = BTreeMap::new();
+    collect(Path::new("derivations/book"), &mut out);
+    collect(Path::new("derivations/more"), &mut out);
+    collect(Path::new("derivations/problems"), &mut out);
+    out
+}
+
+#[test]
+fn every_shipped_scene_is_followed_at_points_of_its_domain() {
+    for (file, scene) in scenes() {
+        let mut whole = 0;
+        for seed in 0..12 {
+            let at = random(&scene, seed);
+            let followed = follow(&scene, &at).unwrap_or_else(|u| panic!("{file}: {u}"));
+            let mut got_through = true;
+            for stage in &followed.stages {
+                match stage {
+                    Ok(_) => {}
+                    // Where it is slow, a swing turns back; where a side is too long, a triangle does not close.
+                    Err(Lost::NeverEnds { .. } | Lost::After { .. } | Lost::Undefined { .. }) => {
+                        got_through = false;
+                    }
+                    Err(lost) => panic!("{file}, stage `{}` at {at:?}: {lost}", lost.stage()),
+                }
+            }
+            whole += u32::from(got_through);
+            if whole == 3 {
+                break;
+            }
+        }
+        assert!(whole == 3, "{file}: followed at {whole} of 12 points");
+    }
+}
+
+#[test]
+fn without_stages_the_other_solver_says_the_same() {
+    for (file, scene) in scenes() {
+        if scene.story.is_some() {
+            continue;
+        }
+        for seed in 0..5 {
+            let at = with_angles(&random(&scene, seed));
+            if numeric::given(&scene, &at).is_err() {
+                continue;
+            }
+            let followed = follow(&scene, &at).expect("numbers");
+            let passed = passed(&followed, 0);
+            let course = Course {
+                name: "",
+                scene: &scene,
+                solids: &followed.solids,
+                values: &at,
+            };
+            let answers = numeric::answers(&scene, &at, numeric::solve_f64).expect("answers");
+            for (name, told) in answers {
+                let question = scene
+                    .questions
+                    .iter()
+                    .find(|q| q.name == name)
+                    .expect("asked");
+                let found = answer::about_end(&course, passed, &question.ask);
+                match (told, found) {
+                    (Ok(numeric::Answer::Scalar(a)), Ok(numeric::Answer::Scalar(b))) => {
+                        close(b, a, 1e-9);
+                    }
+                    (Ok(numeric::Answer::Vector(a)), Ok(numeric::Answer::Vector(b))) => {
+                        close(b[0], a[0], 1e-9);
+                        close(b[1], a[1], 1e-9);
+                    }
+                    (Err(_), Err(_)) => {}
+                    (told, found) => panic!("{file}, {name}: {told:?} and {found:?}"),
+                }
+            }
+        }
+    }
+}
