@@ -18,6 +18,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 
+use carom::render::pretty;
 use carom::{derive, numeric, render, scene, story, verify};
 
 /// Collisions of rigid bodies in the plane: closed forms a teacher would reach, each one proved or marked.
@@ -320,6 +321,7 @@ fn with_hint(message: &str, hint: Option<&str>) -> String {
 /// Prints to standard output. Where nobody reads on, the command still ends with the status of what it found.
 fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
+    let text = render::terminal(text);
     let end = if text.ends_with('\n') { "" } else { "\n" };
     let written = out
         .write_all(text.as_bytes())
@@ -335,8 +337,4 @@ fn print(text: &str) -> Result<(), Failure> {
 fn complain(message: &str) {
     let message = render::screen(message);
     let _ = writeln!(std::io::stderr(), "{message}");
-}
-
-fn pretty(value: &serde_json::Value) -> String {
-    serde_json::to_string_pretty(value).unwrap_or_default()
 }

@@ -9,6 +9,7 @@ use super::function::{Function, LIBRARY, Turn};
 use super::helpers::{self, Helper};
 use super::program::Step;
 use super::units::{self, Units};
+use crate::formula::visible;
 use crate::numeric::dd::Dd;
 
 /// The languages.
@@ -76,8 +77,7 @@ fn head(heading: &Heading) -> Vec<String> {
 
 /// Lines as a comment: of the file, or of the item that follows.
 fn comment(language: Language, lines: &[String], of_file: bool) -> String {
-    let safe = |l: &String| l.replace("*/", "* /").replace("\\", "/").replace('"', "'");
-    let lines: Vec<String> = lines.iter().flat_map(|l| wrapped(&safe(l))).collect();
+    let lines: Vec<String> = lines.iter().flat_map(|l| wrapped(&harmless(l))).collect();
     let mut out = String::new();
     match language {
         Language::Rust => {
@@ -106,6 +106,27 @@ fn comment(language: Language, lines: &[String], of_file: bool) -> String {
             };
             out.push_str(&format!("{end}\"\"\"\n"));
         }
+    }
+    out
+}
+
+/// Words that end no comment and no text in quotes, and start none, in any of the languages.
+fn harmless(words: &str) -> String {
+    let mut out = String::new();
+    for c in visible(words).chars() {
+        let c = match c {
+            '\\' => '/',
+            '"' => '\'',
+            c => c,
+        };
+        // `??` starts a trigraph of C.
+        if matches!(
+            (out.chars().last(), c),
+            (Some('*'), '/') | (Some('/'), '*') | (Some('?'), '?')
+        ) {
+            out.push(' ');
+        }
+        out.push(c);
     }
     out
 }
@@ -614,10 +635,15 @@ const C_LIBRARY: &str = "abort bsearch ceil clock div exit exp floor free gamma 
 impl Names {
     /// The name as an identifier of all three languages, not given before.
     fn fresh(&mut self, name: &str) -> String {
-        let mut base: String = name
-            .chars()
-            .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
-            .collect();
+        // One underscore for any number of other signs.
+        let mut base = String::new();
+        for c in name.chars() {
+            match c {
+                c if c.is_ascii_alphanumeric() => base.push(c),
+                _ if base.ends_with('_') => {}
+                _ => base.push('_'),
+            }
+        }
         if base.is_empty() || base.starts_with(|c: char| c.is_ascii_digit() || c == '_') {
             base = format!("q{base}");
         }

@@ -5,7 +5,7 @@
 
 use num_traits::{One, Signed};
 
-use super::symbols::{greek_letter, is_greek, parts_of};
+use super::symbols::{greek_letter, greek_name, is_greek, parts_of};
 use super::visible::{in_math, visible};
 use crate::expr::{Expr, Function, Node, Rational, ratio};
 
@@ -471,7 +471,10 @@ pub fn latex_name(name: &str) -> String {
         "pi" => "\\pi".to_string(),
         base if is_greek(base) => format!("\\{base}"),
         "ell" => "\\ell".to_string(),
-        base if base.chars().count() == 1 => in_math(base),
+        base if base.chars().count() == 1 => match base.chars().next().and_then(greek_name) {
+            Some(name) => format!("\\{name}"),
+            None => in_math(base),
+        },
         base => format!("\\mathrm{{{}}}", in_math(base)),
     };
     let mut out = match parts.accent {

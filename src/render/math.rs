@@ -1,7 +1,7 @@
 //! Formulas of a worked solution as Unicode and as LaTeX, and how long displayed lines are broken, the same in every format.
 
 use crate::expr::{Expr, Node};
-use crate::formula::{write_latex, write_unicode};
+use crate::formula::{visible, write_latex, write_unicode};
 use crate::solution::{Line, Math, Name, Solution};
 
 /// Longest displayed line, in characters of its Unicode form.
@@ -269,7 +269,7 @@ fn unicode_name(name: &Name) -> String {
     } else {
         format!("_{index}")
     };
-    format!("{letter}{sub}{mark}")
+    visible(&format!("{letter}{sub}{mark}"))
 }
 
 /// A formula in LaTeX.

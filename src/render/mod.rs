@@ -26,7 +26,7 @@ use std::collections::BTreeMap;
 
 use crate::derive::{Derivation, Equation, Matrix};
 use crate::expr::{Expr, Point, Rational, Symbol};
-use crate::formula::visible;
+use crate::formula::{is_hidden, visible};
 use crate::numeric::{self, Answered};
 use crate::scene::Scene;
 use crate::solution::is_safe_latex;
@@ -48,6 +48,36 @@ pub fn screen(message: &str) -> String {
     match lines.count() {
         0 => {}
         n => out.push_str(&format!("\nand {n} more lines")),
+    }
+    out
+}
+
+/// Text for a terminal: characters that it would obey are named.
+pub fn terminal(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '\n' | '\t' => out.push(c),
+            c if is_hidden(c) => out.push_str(&format!("[U+{:04X}]", u32::from(c))),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// Data as JSON for people and programs; what would be hidden stands there by its number.
+pub fn pretty(value: &serde_json::Value) -> String {
+    let text = serde_json::to_string_pretty(value).unwrap_or_default();
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        if c != '\n' && is_hidden(c) {
+            let units = c.encode_utf16(&mut [0; 2]).to_vec();
+            units
+                .iter()
+                .for_each(|u| out.push_str(&format!("\\u{u:04x}")));
+        } else {
+            out.push(c);
+        }
     }
     out
 }
@@ -238,11 +268,8 @@ fn trimmed(text: &str) -> &str {
 
 /// Title and source in one line, as far as they are given.
 fn heading(title: &str, source: &str) -> String {
-    let given: Vec<&str> = [title, source]
-        .into_iter()
-        .filter(|t| !t.is_empty())
-        .collect();
-    given.join(" · ")
+    let given = [title, source].into_iter().filter(|t| !t.is_empty());
+    given.map(visible).collect::<Vec<_>>().join(" · ")
 }
 
 /// A matrix equation in LaTeX.

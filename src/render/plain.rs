@@ -13,7 +13,7 @@ const WIDTH: usize = 88;
 /// The whole solution.
 pub fn solution(s: &Solution) -> String {
     let mut out = String::new();
-    let title = super::heading(&visible(&s.title), &visible(&s.source));
+    let title = super::heading(&s.title, &s.source);
     line(&mut out, &title);
     if !title.is_empty() {
         line(&mut out, &"═".repeat(title.chars().count().min(WIDTH)));

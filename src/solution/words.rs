@@ -312,7 +312,8 @@ const COMMANDS: &[&str] = &[
 
 /// Whether the LaTeX a scene gives for a symbol only sets a symbol: known commands, balanced braces, plain characters.
 pub fn is_safe_latex(latex: &str) -> bool {
-    if latex.is_empty() || latex.len() > 80 {
+    // `^^5c` is a backslash to TeX.
+    if latex.is_empty() || latex.len() > 80 || latex.contains("^^") {
         return false;
     }
     let mut depth = 0_i32;
