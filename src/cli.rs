@@ -173,20 +173,22 @@ fn derive_command(
     }
     let derivation = derive::derive(&scene).map_err(stopped)?;
     let proof = verify::prove(&scene, &derivation);
+    let possible = verify::possible::judge(&scene, &derivation);
     let special = story::special(&scene, &derivation, &proof)
         .map_err(|reason| Failure::Input(format!("{}: {reason}", path.display())))?;
     print(&match format {
-        Format::Text => render::text::derivation(&scene, &derivation, &proof, &special),
+        Format::Text => render::text::derivation(&scene, &derivation, &proof, &possible, &special),
         Format::Json => pretty(&render::json::derivation(
             &scene,
             &derivation,
             &proof,
+            &possible,
             &special,
         )),
     })?;
     let special_holds = special.iter().all(story::Answer::holds);
     Ok(u8::from(
-        !proof.holds() || !special_holds || derivation.counting.contradictory,
+        !proof.holds() || !possible.holds() || !special_holds || derivation.counting.contradictory,
     ))
 }
 

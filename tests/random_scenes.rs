@@ -132,7 +132,7 @@ impl Structure {
             )
         } else {
             format!(
-                r#""missile": {{"shape": "disk", "radius": "r", "mass": "m", "center": {{"from": "K", "by": ["-r", "r/2"]}}, "velocity": {velocity}, "spin": "w"}}"#
+                r#""missile": {{"shape": "disk", "radius": "r", "mass": "m", "center": {{"from": "K", "by": ["-4*r/5", "3*r/5"]}}, "velocity": {velocity}, "spin": "w"}}"#
             )
         };
         let contact = |law: &str| {

@@ -9,6 +9,7 @@ use crate::formula::write_plain;
 use crate::laws;
 use crate::scene::Scene;
 use crate::story::Answer as Special;
+use crate::verify::possible::Possible;
 use crate::verify::{Check, Proof};
 
 /// Everything about a derivation and its proof.
@@ -16,6 +17,7 @@ pub fn derivation(
     scene: &Scene,
     derivation: &Derivation,
     proof: &Proof,
+    possible: &Possible,
     special: &[Special],
 ) -> Value {
     let counting = &derivation.counting;
@@ -51,6 +53,7 @@ pub fn derivation(
         "left_out": derivation.left_out.iter().map(|l| json!({"what": l.what, "why": l.why})).collect::<Vec<_>>(),
         "assumptions": assumptions(scene, derivation, proof),
         "checks": proof.scene.iter().map(check).collect::<Vec<_>>(),
+        "admissible": super::possible::json(scene, possible),
         "verified": proof.holds() && special.iter().all(Special::holds),
     })
 }

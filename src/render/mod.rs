@@ -11,6 +11,7 @@ pub mod math;
 pub mod mathml;
 pub mod plain;
 pub mod plots;
+pub mod possible;
 pub mod printed;
 #[cfg(feature = "report")]
 pub mod report;

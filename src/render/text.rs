@@ -7,11 +7,21 @@ use crate::derive::{Derivation, Form, Matrix};
 use crate::laws;
 use crate::scene::Scene;
 use crate::story::Answer as Special;
+use crate::verify::possible::Possible;
 use crate::verify::{Check, Proof};
 
 /// The whole derivation as plain text.
-pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof, special: &[Special]) -> String {
+pub fn derivation(
+    scene: &Scene,
+    d: &Derivation,
+    proof: &Proof,
+    possible: &Possible,
+    special: &[Special],
+) -> String {
     let mut out = String::new();
+    if let Some(refusal) = super::possible::refusal(possible) {
+        line(&mut out, "", &refusal);
+    }
     line(&mut out, "", &super::heading(&scene.title, &scene.source));
     counting(&mut out, d);
     for (unknown, value) in &d.given {
@@ -123,6 +133,10 @@ pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof, special: &[Speci
     if !under.is_empty() {
         line(&mut out, "\nunder: ", &under.join(", "));
     }
+    let only = super::possible::conditions(scene, possible);
+    if !only.is_empty() {
+        line(&mut out, "\npossible where: ", &only.join(", "));
+    }
     if !d.left_out.is_empty() {
         line(&mut out, "\n", "left out:");
         for left in &d.left_out {
@@ -131,6 +145,15 @@ pub fn derivation(scene: &Scene, d: &Derivation, proof: &Proof, special: &[Speci
     }
     line(&mut out, "\n", "checked:");
     proof.scene.iter().for_each(|c| check(&mut out, "  ", c));
+    if let Some(possible) = super::possible::check(scene, possible) {
+        check(&mut out, "  ", &possible);
+    }
+    for words in &possible.not_judged {
+        line(&mut out, "  – not judged: ", words);
+    }
+    for note in &possible.notes {
+        line(&mut out, "  – ", note);
+    }
     for (answer, checks) in d.answers.iter().zip(&proof.answers) {
         for c in checks {
             check(&mut out, &format!("  {}: ", answer.name), c);

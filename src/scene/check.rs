@@ -6,7 +6,7 @@
 use super::fault::{Fault, Span};
 use super::parameters::number_words;
 use super::proof::{Given, Zero, given, middle, sign, violation, zero};
-use super::{Body, Contact, Hinge, Scene, geometry};
+use super::{Body, Contact, Hinge, Scene, geometry, touch};
 use crate::algebra::Sign;
 use crate::expr::{Expr, Function, Node, Symbol, Vector, dot, minus};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -31,6 +31,8 @@ pub(super) enum Claim {
     },
     /// The bodies of this contact do not separate.
     Approach(usize),
+    /// This contact lies on the bodies that touch there.
+    Touch(usize),
     /// Both bodies of this hinge move alike there.
     Hinge(usize),
 }
@@ -46,6 +48,10 @@ pub(super) fn check(scene: &mut Scene, claims: &[Claimed]) -> Vec<Fault> {
     let mut faults = Vec::new();
     let given = given(scene);
     for claimed in claims {
+        // Where a size or a place is wrong, so is the outline.
+        if matches!(claimed.claim, Claim::Touch(_)) && !faults.is_empty() {
+            continue;
+        }
         let (fault, remark) = try_claim(scene, claimed, &given);
         faults.extend(fault);
         scene.remarks.extend(remark);
@@ -63,10 +69,9 @@ pub(super) fn at_values(scene: &Scene, span: Span) -> Option<Fault> {
         let claim = Claim::Unit([value(&pair[0])?, value(&pair[1])?]);
         Some(Claimed { span, claim })
     });
-    let approaches = (0..scene.contacts.len()).map(|i| Claimed {
-        span,
-        claim: Claim::Approach(i),
-    });
+    let contacts = 0..scene.contacts.len();
+    let contacts = contacts.flat_map(|i| [Claim::Touch(i), Claim::Approach(i)]);
+    let approaches = contacts.map(|claim| Claimed { span, claim });
     let given = given(scene);
     unit_vectors
         .chain(approaches)
@@ -157,6 +162,10 @@ fn try_claim(scene: &Scene, claimed: &Claimed, given: &Given) -> (Option<Fault>,
             (Some(fault(message).hint(hint)), None)
         }
         Claim::Approach(i) => (approach(scene, *i, given, claimed.span), None),
+        Claim::Touch(i) => {
+            let misplaced = touch::misplaced_contact(scene, *i);
+            (misplaced.map(|m| fault(m.words).hint(m.hint)), None)
+        }
         Claim::Hinge(i) => {
             let Some(hinge) = scene.hinges.get(*i) else {
                 return (None, None);

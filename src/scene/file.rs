@@ -37,6 +37,9 @@ record! {
         blows: Option<Map<BlowFile>>,
         /// What is known of the motion just after, in place of a law.
         after: Option<Vec<KnownFile>>,
+        /// Kinetic energy may be gained at the contacts, as where a spring or a charge is set free there. Missing: it may not,
+        /// and a result by which it is gained is not possible.
+        gains_energy: Option<bool>,
         /// Finite forces that act too, such as weight. They have no impulse, and the solution says so.
         forces: Option<Vec<ForceFile>>,
         /// What happens before and after the collision: stages that hand the motion on. Hinges, contacts, supports and blows

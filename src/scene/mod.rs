@@ -10,6 +10,7 @@ mod file;
 mod formulas;
 mod geometry;
 mod json;
+pub mod outline;
 mod parameters;
 mod place;
 mod printed;
@@ -21,6 +22,7 @@ mod special;
 mod stage;
 mod stage_file;
 mod stages;
+pub mod touch;
 
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
@@ -163,6 +165,8 @@ pub struct Scene {
     /// Stages before and after collisions, where the scene tells them; hinges, contacts, blows and questions then stand
     /// there.
     pub story: Option<Box<Story>>,
+    /// Whether kinetic energy may be gained at the contacts: something is set free there that the scene does not tell.
+    pub gains_energy: bool,
     /// What the reader noticed that is no fault, such as a parameter that nothing uses.
     pub remarks: Vec<String>,
 }

@@ -43,6 +43,7 @@ pub(super) fn resolve(file: &SceneFile, mut faults: Vec<Fault>) -> (Scene, Vec<F
         title: text(&file.title),
         source: text(&file.source),
         statement: text(&file.statement),
+        gains_energy: file.gains_energy.unwrap_or_default(),
         ..Scene::default()
     };
     scene.printed = super::printed::resolve(file, &mut faults);
@@ -369,6 +370,13 @@ impl<'f> Resolver<'f> {
         let normal = normal.map_or(Some(None), |n| n.map(Some));
         if let (Some(bodies), Some(at), Some(normal), Some(law)) = (bodies, at, normal, law) {
             self.reach(bodies, &at, name.span, &name.text);
+            if self.file.stages.is_none() {
+                // In stages bodies have moved by then; where they are shows when the stages are followed.
+                self.claims.push(Claimed {
+                    span: name.span,
+                    claim: Claim::Touch(scene.contacts.len()),
+                });
+            }
             if normal.is_some() {
                 self.claims.push(Claimed {
                     span: name.span,

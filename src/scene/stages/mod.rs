@@ -250,6 +250,7 @@ fn one(
         source: whole.source.clone(),
         parameters: whole.parameters.clone(),
         domains: whole.domains.clone(),
+        gains_energy: whole.gains_energy,
         ..Scene::default()
     };
     if let Some(start) = &start {
@@ -270,8 +271,12 @@ fn one(
     let kind = kind::kind(&mut r, &mut scene, stage);
     let end = kind.as_ref().map(|k| kind::placed_after(&scene, k));
     // Motion before an impact is known only when the stages before it are worked out; the story checks it then.
-    r.claims
-        .retain(|c| !matches!(c.claim, Claim::Approach(_) | Claim::Hinge(_)));
+    r.claims.retain(|c| {
+        !matches!(
+            c.claim,
+            Claim::Approach(_) | Claim::Touch(_) | Claim::Hinge(_)
+        )
+    });
     let Resolver {
         symbols,
         mut faults,

@@ -1,0 +1,126 @@
+//! Whether a collision is possible, in the formats people and programs read.
+
+use serde_json::{Value, json};
+
+use super::{latex, unicode};
+use crate::formula::write_plain;
+use crate::scene::Scene;
+use crate::verify::Check;
+use crate::verify::possible::{Condition, Possible, Verdict, inequality};
+
+/// The sentence that stands first where a result is not possible.
+pub fn refusal(possible: &Possible) -> Option<String> {
+    if possible.holds() {
+        return None;
+    }
+    let whatever = if possible.verdict == Verdict::Nowhere {
+        "whatever the parameters"
+    } else {
+        "at the given values"
+    };
+    let reasons = possible.reasons().join("; ");
+    Some(format!("not possible: {reasons}, {whatever}"))
+}
+
+/// The conditions under which it is possible, such as `2 l ≥ d`.
+pub fn conditions(scene: &Scene, possible: &Possible) -> Vec<String> {
+    let written = |e: &_| unicode(scene, e);
+    possible
+        .open()
+        .into_iter()
+        .filter_map(|c| sides(c, written))
+        .collect()
+}
+
+/// What was judged, as a check.
+pub fn check(scene: &Scene, possible: &Possible) -> Option<Check> {
+    if scene.contacts.is_empty() {
+        return None;
+    }
+    let at_values = match possible.at_values {
+        Some(true) => "; all hold at the given values",
+        Some(false) => "; not at the given values",
+        None => "",
+    };
+    let words = match possible.verdict {
+        _ if possible.conditions.is_empty() && possible.not_judged.is_empty() => {
+            String::from("whether it is possible: no normal and no outline to judge by")
+        }
+        Verdict::Everywhere => String::from("possible for all admitted parameters"),
+        Verdict::Where => format!("possible on a part of the domain only{at_values}"),
+        Verdict::Nowhere => String::from("possible nowhere"),
+        Verdict::Undecided => {
+            let open = possible.conditions.iter();
+            let open = open.filter(|c| c.verdict == Verdict::Undecided);
+            let mut open: Vec<&str> = open.map(|c| c.words.as_str()).collect();
+            open.dedup();
+            match open.as_slice() {
+                [] => String::from("possible as far as it could be judged"),
+                open => format!("not decided whether {}{at_values}", open.join(", ")),
+            }
+        }
+    };
+    let holds = match (possible.verdict, possible.at_values) {
+        (Verdict::Nowhere, _) | (_, Some(false)) => Some(false),
+        (Verdict::Everywhere, _) if !possible.conditions.is_empty() => Some(true),
+        (_, Some(true)) => Some(true),
+        _ => None,
+    };
+    Some(Check {
+        kind: "possible",
+        words,
+        holds,
+    })
+}
+
+/// The verdict as data.
+pub fn json(scene: &Scene, possible: &Possible) -> Value {
+    let all: Vec<Value> = possible
+        .conditions
+        .iter()
+        .map(|c| {
+            json!({
+                "rule": c.rule.name(),
+                "words": c.words,
+                "verdict": verdict(c.verdict),
+                "condition": sides(c, write_plain),
+                "latex": sides_latex(scene, c),
+                "at_values": c.at_values,
+            })
+        })
+        .collect();
+    json!({
+        "holds": possible.holds(),
+        "verdict": verdict(possible.verdict),
+        "at_values": possible.at_values,
+        "reasons": possible.reasons(),
+        "conditions": all,
+        "not_judged": possible.not_judged,
+        "notes": possible.notes,
+    })
+}
+
+fn verdict(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Everywhere => "everywhere",
+        Verdict::Where => "where",
+        Verdict::Nowhere => "nowhere",
+        Verdict::Undecided => "undecided",
+    }
+}
+
+fn sides(c: &Condition, written: impl Fn(&crate::expr::Expr) -> String) -> Option<String> {
+    let (left, right) = inequality(c.essential.as_ref()?);
+    let relation = if c.is_equation { "=" } else { "≥" };
+    Some(format!("{} {relation} {}", written(&left), written(&right)))
+}
+
+fn sides_latex(scene: &Scene, c: &Condition) -> Option<String> {
+    let (left, right) = inequality(c.essential.as_ref()?);
+    let relation = if c.is_equation { "=" } else { "\\ge" };
+    Some(format!(
+        "{} {relation} {}",
+        latex(scene, &left),
+        latex(scene, &right)
+    ))
+}

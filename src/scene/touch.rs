@@ -1,0 +1,186 @@
+//! Whether contacts lie on the bodies that touch there, as far as the scene tells their outlines.
+//!
+//! In: a scene whose bodies stand where they are at the impact, with the values it gives. Out: words for a contact that lies
+//! off one of its bodies: at the given values, or whatever the parameters are. What depends on parameters without a value is
+//! no fault; `verify` tells the condition. A contact that sticks may also lie inside a body, as a bullet does in a block or
+//! an axle in a wheel; one that does not stick can only touch from outside.
+
+use std::collections::BTreeMap;
+
+use super::outline::{Need, Spot, distance, pieces};
+use super::parameters::number_words;
+use super::proof::{middle, sign};
+use super::{Body, Contact, ContactLaw, Scene, Shape};
+use crate::algebra::Sign;
+use crate::domain::{Domains, roles, samples};
+use crate::expr::{Expr, Point, Symbol, Vector};
+use crate::interval::{Interval, Outcome};
+
+/// A contact that does not lie on one of its bodies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Misplaced {
+    /// Index of the contact.
+    pub contact: usize,
+    /// Index of the body.
+    pub body: usize,
+    /// Where it is, such as "the contact `C` is 3 m from the nearest point of `rod`".
+    pub words: String,
+    /// What to do about it.
+    pub hint: String,
+}
+
+/// Whether something may lie inside the bodies at this contact, and not on their outlines alone.
+pub fn may_lie_inside(contact: &Contact) -> bool {
+    contact.law == ContactLaw::Sticking
+}
+
+/// The contacts that lie off their bodies.
+pub fn misplaced(scene: &Scene) -> Vec<Misplaced> {
+    let all = 0..scene.contacts.len();
+    all.filter_map(|i| misplaced_contact(scene, i)).collect()
+}
+
+/// The same for one contact.
+pub fn misplaced_contact(scene: &Scene, i: usize) -> Option<Misplaced> {
+    let contact = scene.contacts.get(i)?;
+    contact.bodies.iter().find_map(|&b| {
+        let body = scene.bodies.get(b)?;
+        let words = off(scene, contact, body)?;
+        Some(Misplaced {
+            contact: i,
+            body: b,
+            words: format!("the contact `{}` {words}", contact.name),
+            hint: hint(body),
+        })
+    })
+}
+
+/// How a contact lies off a body, if it does for certain.
+fn off(scene: &Scene, contact: &Contact, body: &Body) -> Option<String> {
+    // Where a particle is touched elsewhere, that has its own words.
+    if body.is_particle() {
+        return None;
+    }
+    let (at, inside) = (&contact.at, may_lie_inside(contact));
+    if let Some(distance) = distance(body, at, inside, &values(scene)) {
+        return (distance > 0.0).then(|| away(distance, &body.name));
+    }
+    let spots: Vec<Spot> = spots(body, at, inside);
+    let given: BTreeMap<Symbol, Expr> = given(scene);
+    let nowhere = |spot: &Spot| {
+        let mut needs = spot.needs.iter();
+        needs.any(|need| is_refuted(need, &given, &scene.domains))
+    };
+    if spots.is_empty() || !spots.iter().all(nowhere) {
+        return None;
+    }
+    let seen = example(&spots, &given, &scene.domains, |point| {
+        distance(body, at, inside, point).filter(|d| *d > 0.0)
+    });
+    let seen = seen.map_or(String::new(), |(distance, words)| {
+        format!("; at {words} it {}", away(distance, &body.name))
+    });
+    Some(format!(
+        "is not on `{}`, whatever the parameters{seen}",
+        body.name
+    ))
+}
+
+/// All spots of a body at which a point may lie.
+pub fn spots(body: &Body, at: &Vector, inside: bool) -> Vec<Spot> {
+    let pieces = pieces(body);
+    pieces.iter().flat_map(|p| p.spots(at, inside)).collect()
+}
+
+fn away(distance: f64, body: &str) -> String {
+    let distance = number_words(distance);
+    format!("is {distance} m from the nearest point of `{body}`")
+}
+
+/// Whether what must hold fails on the whole domain.
+fn is_refuted(need: &Need, given: &BTreeMap<Symbol, Expr>, domains: &Domains) -> bool {
+    match need {
+        Need::Zero(e) if e.is_zero() => false,
+        Need::Zero(e) => matches!(
+            sign(&e.substitute(given), domains),
+            Some(Sign::Positive | Sign::Negative)
+        ),
+        Need::NotNegative(e) => sign(&e.substitute(given), domains) == Some(Sign::Negative),
+    }
+}
+
+/// The first point of the domain at which `look` finds something, with the point in words.
+fn example(
+    spots: &[Spot],
+    given: &BTreeMap<Symbol, Expr>,
+    domains: &Domains,
+    look: impl Fn(&Point<f64>) -> Option<f64>,
+) -> Option<(f64, String)> {
+    let needs = spots.iter().flat_map(|s| &s.needs).map(|need| match need {
+        Need::Zero(e) | Need::NotNegative(e) => e.clone(),
+    });
+    let all: Vec<Expr> = needs.collect();
+    let roles = roles(&all.iter().collect::<Vec<_>>());
+    let (domains, _) = domains.completed(&roles);
+    samples(&roles, &domains, 4).iter().find_map(|sample| {
+        let point = sample.point::<Interval>(true);
+        let number = |x: &Outcome<Interval>| match x {
+            Outcome::Value(v) => middle(v),
+            _ => f64::NAN,
+        };
+        let mut doubles = Point::default();
+        for (name, x) in &point.values {
+            doubles.values.insert(name.clone(), number(x));
+        }
+        for (name, (divisor, unit)) in &point.directions {
+            let unit = unit.each_ref().map(number);
+            doubles.directions.insert(name.clone(), (*divisor, unit));
+        }
+        // What is given stays as it is given; the sample stands for the rest.
+        for (name, value) in given {
+            doubles.directions.remove(name);
+            doubles
+                .values
+                .insert(name.clone(), value.evaluate(&Point::default())?);
+        }
+        let mut told = sample.clone();
+        told.coordinates.retain(|name, _| !given.contains_key(name));
+        Some((look(&doubles)?, told.words()))
+    })
+}
+
+/// The values that the scene gives.
+fn given(scene: &Scene) -> BTreeMap<Symbol, Expr> {
+    let values = scene.parameters.iter();
+    values
+        .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
+        .collect()
+}
+
+/// The same in doubles.
+fn values(scene: &Scene) -> Point<f64> {
+    let mut point = Point::default();
+    for (name, value) in given(scene) {
+        if let Some(value) = value.evaluate(&Point::<f64>::default()) {
+            point.values.insert(name, value);
+        }
+    }
+    point
+}
+
+fn hint(body: &Body) -> String {
+    let outline = match body.shape {
+        Shape::Rod { .. } => "reaches half its `length` from its `center` to either side",
+        Shape::Rectangle { .. } => {
+            "reaches half its `width` from its `center` along `angle`, and half its `height` across"
+        }
+        Shape::Composite { .. } => {
+            "consists of its parts and of straight bars between their centers"
+        }
+        _ => "reaches its `radius` from its `center`",
+    };
+    format!(
+        "`{}` {outline}; a body of unknown outline has the shape \"body\"",
+        body.name
+    )
+}

@@ -1,0 +1,335 @@
+//! Where in the domain an expression is not negative, and at the given values.
+//!
+//! In: expressions, domains, and a scene with values. Out: verdicts, with the condition where there is one. Signs are proved
+//! by normal forms; points of both signs show that a condition holds on a part only; what neither decides stays undecided.
+
+use num_traits::Signed;
+
+use super::{Condition, Verdict};
+use crate::algebra::{Field, Sign};
+use crate::derive::Derivation;
+use crate::domain::{Domains, roles, samples};
+use crate::expr::{Expr, Node, Point, Rational, Scalar, Symbol};
+use crate::interval::{Interval, Outcome, evaluate};
+use crate::laws::{self, Unknown};
+use crate::numeric::{self, Motion};
+use crate::scene::outline::Need;
+use crate::scene::{ContactLaw, Scene};
+
+/// Largest expression whose sign is looked at, in nodes; longer ones take seconds in normal form.
+const LARGEST: usize = 3000;
+
+/// Points tried for both signs.
+const POINTS: usize = 24;
+
+/// A verdict with its condition.
+#[derive(Clone, Debug)]
+pub(super) struct Decided {
+    pub verdict: Verdict,
+    pub essential: Option<Expr>,
+}
+
+/// Not known.
+pub(super) const UNDECIDED: Decided = Decided {
+    verdict: Verdict::Undecided,
+    essential: None,
+};
+
+fn plain(verdict: Verdict) -> Decided {
+    Decided {
+        verdict,
+        essential: None,
+    }
+}
+
+/// The sign on the whole domain, where it is proved.
+pub(super) fn sign(e: &Expr, domains: &Domains) -> Option<Sign> {
+    if let Some(value) = e.as_number() {
+        return Some(match () {
+            () if value.is_positive() => Sign::Positive,
+            () if value.is_negative() => Sign::Negative,
+            () => Sign::Zero,
+        });
+    }
+    if e.size() > LARGEST {
+        return None;
+    }
+    let mut field = Field::new(domains);
+    field.prepare([e]);
+    let element = field.element(e).ok()?;
+    let proved = field.assumptions().is_empty();
+    proved.then(|| field.sign(&element))?
+}
+
+/// Where an expression is not negative.
+pub(super) fn decide(e: &Expr, domains: &Domains) -> Decided {
+    match sign(e, domains) {
+        Some(s) if s.is_not_negative() => return plain(Verdict::Everywhere),
+        Some(Sign::Negative) => return plain(Verdict::Nowhere),
+        _ => {}
+    }
+    if e.size() > LARGEST {
+        return UNDECIDED;
+    }
+    let [above, below] = seen(e, domains);
+    if above && below || sign(e, domains) == Some(Sign::NotPositive) {
+        return Decided {
+            verdict: Verdict::Where,
+            essential: Some(essential(e, domains)),
+        };
+    }
+    UNDECIDED
+}
+
+/// The same for something that must hold.
+pub(super) fn need(need: &Need, domains: &Domains) -> Decided {
+    match need {
+        Need::NotNegative(e) => decide(e, domains),
+        Need::Zero(e) => match sign(e, domains) {
+            Some(Sign::Zero) => plain(Verdict::Everywhere),
+            Some(Sign::Positive | Sign::Negative) => plain(Verdict::Nowhere),
+            _ => Decided {
+                verdict: Verdict::Where,
+                essential: Some(essential(e, domains)),
+            },
+        },
+    }
+}
+
+/// Whether values above and below zero are found in the domain.
+fn seen(e: &Expr, domains: &Domains) -> [bool; 2] {
+    let roles = roles(&[e]);
+    let (domains, _) = domains.completed(&roles);
+    let (mut above, mut below) = (false, false);
+    for sample in samples(&roles, &domains, POINTS) {
+        if let Outcome::Value(v) = evaluate::<Interval>(e, &sample.point(roles.radians)) {
+            above |= v.low > 0.0;
+            below |= v.high < 0.0;
+        }
+    }
+    [above, below]
+}
+
+/// Whether one expression is nowhere below zero where the other is above it, and the reverse, at the points tried.
+pub(super) fn signs_agree(a: &Expr, b: &Expr, domains: &Domains) -> bool {
+    let roles = roles(&[a, b]);
+    let (domains, _) = domains.completed(&roles);
+    let mut compared = 0;
+    for sample in samples(&roles, &domains, POINTS) {
+        let point = sample.point(roles.radians);
+        let [x, y] = [a, b].map(|e| evaluate::<Interval>(e, &point));
+        if let (Outcome::Value(x), Outcome::Value(y)) = (x, y) {
+            compared += 1;
+            if x.high < 0.0 && y.low > 0.0 || x.low > 0.0 && y.high < 0.0 {
+                return false;
+            }
+        }
+    }
+    compared > 0
+}
+
+/// The expression without factors known to be positive, which do not change where it is not negative; what is negative
+/// turns the rest round.
+fn essential(e: &Expr, domains: &Domains) -> Expr {
+    let mut field = Field::new(domains);
+    field.prepare([e]);
+    let Ok(element) = field.element(e) else {
+        return e.clone();
+    };
+    let tidy = field.expr(&element);
+    let list: Vec<Expr> = match tidy.node() {
+        Node::Product(factors) => factors.clone(),
+        _ => vec![tidy.clone()],
+    };
+    let mut minus = false;
+    let mut rest = Vec::new();
+    for factor in list {
+        match sign(&factor, domains) {
+            Some(Sign::Positive) => {}
+            Some(Sign::Negative) => minus = !minus,
+            _ => rest.push(factor),
+        }
+    }
+    let rest = Expr::product(rest);
+    let turned = if minus { -&rest } else { rest };
+    let mut field = Field::new(domains);
+    field.prepare([&turned]);
+    let tidied = field.element(&turned).map(|x| field.expr(&x));
+    tidied.unwrap_or(turned)
+}
+
+/// Both sides of `e ≥ 0` as a person would write it: what is subtracted stands on the right.
+pub fn inequality(e: &Expr) -> (Expr, Expr) {
+    let terms: Vec<Expr> = match e.node() {
+        Node::Sum(terms) => terms.clone(),
+        _ => vec![e.clone()],
+    };
+    let is_subtracted = |t: &Expr| match t.node() {
+        Node::Number(value) => value.is_negative(),
+        Node::Product(factors) => factors[0].as_number().is_some_and(Signed::is_negative),
+        _ => false,
+    };
+    let (right, left): (Vec<Expr>, Vec<Expr>) = terms.into_iter().partition(is_subtracted);
+    (Expr::sum(left), -Expr::sum(right))
+}
+
+/// Lets a condition that follows from a shorter one be that one: v² − u² ≥ 0 and e (v − u) ≥ 0 follow from v − u ≥ 0.
+pub(super) fn without_consequences(conditions: &mut [Condition], domains: &Domains) {
+    let known = conditions.iter().filter(|c| !c.is_equation);
+    let mut known: Vec<Expr> = known.filter_map(|c| c.essential.clone()).collect();
+    known.sort_by_key(Expr::size);
+    known.dedup();
+    for condition in conditions.iter_mut().filter(|c| !c.is_equation) {
+        let Some(e) = &condition.essential else {
+            continue;
+        };
+        let shorter = known.iter().filter(|k| k.size() < e.size());
+        let follows = |k: &&Expr| sign(&(e / *k), domains).is_some_and(Sign::is_not_negative);
+        if let Some(cause) = shorter.into_iter().find(follows) {
+            condition.essential = Some(cause.clone());
+        }
+    }
+}
+
+/// The given values with the independent solution at them.
+pub(super) struct Values {
+    exact: Option<Point<Rational>>,
+    close: Option<Point<Outcome<Interval>>>,
+}
+
+/// How far a speed or impulse in doubles may be off, against the largest of its kind: the square root of what a double
+/// resolves, as for an ill-conditioned system.
+const SLACK: f64 = 1e-8;
+
+impl Values {
+    /// The values of the scene, where it gives all it needs and its equations have a solution there.
+    pub fn of(scene: &Scene, derivation: &Derivation) -> Values {
+        let exact = numeric::exact_values(scene).ok().and_then(|point| {
+            let given = numeric::given(scene, &point).ok()?;
+            let system = numeric::assemble(&given);
+            let solution = numeric::solve_exact(&system).ok()?;
+            let motion = numeric::motion(&given, &system, &solution);
+            Some(with_motion(scene, derivation, point, &motion, |_, x| {
+                x.clone()
+            }))
+        });
+        if exact.is_some() {
+            return Values { exact, close: None };
+        }
+        let close = numeric::values(scene).ok().and_then(|point| {
+            let given = numeric::given(scene, &point).ok()?;
+            let system = numeric::assemble(&given);
+            let solution = numeric::solve_f64(&system).ok()?;
+            let motion = numeric::motion(&given, &system, &solution);
+            let [speed, impulse] = sizes(&given, &motion);
+            let around = |unknown: Unknown, x: &f64| {
+                let size = if unknown.is_impulse() { impulse } else { speed };
+                let slack = SLACK * size.max(x.abs());
+                Outcome::Value(Interval {
+                    low: x - slack,
+                    high: x + slack,
+                })
+            };
+            Some(with_motion(
+                scene,
+                derivation,
+                enclosed(scene),
+                &motion,
+                around,
+            ))
+        });
+        Values { exact: None, close }
+    }
+
+    /// Whether every symbol of an expression has a value.
+    pub fn knows(&self, e: &Expr) -> bool {
+        let has = |names: &dyn Fn(&Symbol) -> bool| e.symbols().iter().all(names);
+        match (&self.exact, &self.close) {
+            (Some(p), _) => has(&|s| p.values.contains_key(s) || p.directions.contains_key(s)),
+            (None, Some(p)) => has(&|s| p.values.contains_key(s)),
+            (None, None) => false,
+        }
+    }
+
+    /// Whether an expression in parameters and unknowns is not negative; in doubles, whether it is not below zero for sure.
+    pub fn not_negative(&self, e: &Expr) -> Option<bool> {
+        if let Some(point) = &self.exact {
+            return e.evaluate(point).map(|v| !v.is_negative());
+        }
+        match evaluate::<Interval>(e, self.close.as_ref()?) {
+            Outcome::Value(v) => Some(v.high >= 0.0),
+            _ => None,
+        }
+    }
+}
+
+/// The values of the parameters, enclosed.
+fn enclosed(scene: &Scene) -> Point<Outcome<Interval>> {
+    let mut point = Point::default();
+    for p in &scene.parameters {
+        if let Some(value) = &p.value {
+            let value = evaluate::<Interval>(value, &Point::default());
+            point.values.insert(p.name.clone(), value);
+        }
+    }
+    point
+}
+
+/// The largest speed [m/s] and impulse [N s]. An impulse of rounding only, beside the momentum of the bodies, is none.
+fn sizes(given: &numeric::Given<f64>, motion: &Motion<f64>) -> [f64; 2] {
+    let largest = |all: &[[f64; 2]]| all.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let before: Vec<[f64; 2]> = given.bodies.iter().map(|b| b.velocity).collect();
+    let speed = largest(&motion.velocity).max(largest(&before));
+    let mass = given.bodies.iter().fold(0.0_f64, |m, b| m.max(b.mass));
+    [speed, largest(&motion.contact).max(SLACK * mass * speed)]
+}
+
+/// A point with the values of the unknowns that the equations determine, under their symbols.
+fn with_motion<T, U: Scalar>(
+    scene: &Scene,
+    derivation: &Derivation,
+    mut point: Point<U>,
+    motion: &Motion<T>,
+    value: impl Fn(Unknown, &T) -> U,
+) -> Point<U> {
+    for unknown in laws::unknowns(scene) {
+        if !derivation.counting.is_unique(unknown) {
+            continue;
+        }
+        let value = |x: &T| value(unknown, x);
+        let found = match unknown {
+            Unknown::Velocity(b, axis) => value(&motion.velocity[b][axis]),
+            Unknown::Spin(b) => value(&motion.spin[b]),
+            Unknown::Contact(c, axis) => value(&motion.contact[c][axis]),
+            Unknown::Hinge(h, axis) => value(&motion.hinge[h][axis]),
+            // The judge writes these impulses along their normals, unit vectors.
+            Unknown::Normal(c) => {
+                match along_normal(scene, &point, c, &motion.contact[c], &value) {
+                    Some(size) => size,
+                    None => continue,
+                }
+            }
+            Unknown::Blow(_) => continue,
+        };
+        let name = derivation.names.plain(unknown).into();
+        point.values.insert(name, found);
+    }
+    point
+}
+
+/// The size of a frictionless contact's impulse along its normal.
+fn along_normal<T, U: Scalar>(
+    scene: &Scene,
+    point: &Point<U>,
+    c: usize,
+    impulse: &[T; 2],
+    value: &impl Fn(&T) -> U,
+) -> Option<U> {
+    let contact = &scene.contacts[c];
+    let (ContactLaw::Frictionless { .. }, Some(n)) = (&contact.law, &contact.normal) else {
+        return None;
+    };
+    let n = [n[0].evaluate(point)?, n[1].evaluate(point)?];
+    let [x, y] = impulse.each_ref().map(value);
+    Some(x.times(&n[0]).plus(&y.times(&n[1])))
+}

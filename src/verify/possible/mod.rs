@@ -1,0 +1,512 @@
+//! Whether a derived collision can happen: bodies touch where they are, come together, do not enter each other, push and
+//! do not pull, and gain no energy.
+//!
+//! In: the scene of one impact, its bodies where they stand then, and its derivation. Out: conditions, each decided for
+//! symbols (everywhere, where, nowhere, undecided) from the closed forms, and for given values from the independent numeric
+//! solution. The laws of the derivation are not asked: a motion that fulfils all of them may still be impossible.
+//!
+//! The rules, for the relative velocity u of the second body against the first at a contact (u⁻ before, u⁺ after), a normal
+//! n out of the first body, and the impulse P on the second (unilateral contact: Glocker, "Set-Valued Force Laws", ch. 5;
+//! Pfeiffer and Glocker, "Multibody Dynamics with Unilateral Contacts", ch. 8):
+//! - place: the contact lies on the outlines of its bodies; [`touch`](crate::scene::touch) tells which have one;
+//! - approach: u⁻·n ≤ 0; otherwise the bodies part before they collide. A sticking contact grips and may catch what moves
+//!   away, like a hook; it has to approach only along a normal that the scene gives;
+//! - apart: u⁺·n ≥ 0 at every touching point, also at the ends of straight sides that lie along each other (first order:
+//!   positions are frozen during the impact). At the point of a sticking contact itself u⁺ = 0 by its law;
+//! - push: P·n ≥ 0, except where the contact sticks: what grips may pull, and that is told where n is given;
+//! - energy: nothing is gained at all contacts together, −Σ ½ P·(u⁻ + u⁺) ≥ 0 (Kelvin's theorem; moving walls do their work
+//!   outside this sum). Where all contacts have one restitution, Carnot's theorem gives it; where a blow acts at the same
+//!   instant, the sum depends on the order of events and is not judged;
+//! - restitution: of a contact without law, u⁺·n ≤ −u⁻·n, so that the implied e = −u⁺·n/u⁻·n is at most 1.
+//!
+//! The last two do not apply to a scene that says it gains energy. The normal is the one the scene gives, and that of the
+//! outlines wherever they have one: none at corners, at the ends of rods and inside a body. A thin rod or a ring can be
+//! touched from either side; then n points to the body that touches it, as its center or its approach tells.
+
+mod decide;
+mod sides;
+
+use std::collections::BTreeMap;
+
+use crate::derive::Derivation;
+use crate::domain::Domains;
+use crate::expr::{Expr, Symbol, Vector, dot, minus};
+use crate::laws::{self, Unknown};
+use crate::scene::outline::Need;
+use crate::scene::{Body, Contact, ContactLaw, Scene, touch};
+
+pub use decide::inequality;
+use decide::{Values, decide};
+use sides::{Sense, Side};
+
+/// Where in the domain something holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// On the whole domain.
+    Everywhere,
+    /// On a part of it.
+    Where,
+    /// At no point of it.
+    Nowhere,
+    /// Not known.
+    Undecided,
+}
+
+/// The rule a condition comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Rule {
+    Place,
+    Approach,
+    Apart,
+    Push,
+    Energy,
+    Restitution,
+}
+
+impl Rule {
+    /// Its stable name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Rule::Place => "place",
+            Rule::Approach => "approach",
+            Rule::Apart => "apart",
+            Rule::Push => "push",
+            Rule::Energy => "energy",
+            Rule::Restitution => "restitution",
+        }
+    }
+}
+
+/// Something that must hold for the collision to be possible.
+#[derive(Clone, Debug)]
+pub struct Condition {
+    /// The rule it comes from.
+    pub rule: Rule,
+    /// What must hold, such as "the bodies approach at `C`".
+    pub words: String,
+    /// What happens where it does not hold, such as "the bodies separate at `C` before they collide".
+    pub otherwise: String,
+    /// Whether it holds for symbols.
+    pub verdict: Verdict,
+    /// What must not be negative, without positive factors: a polynomial that a person can read as a condition. Present
+    /// where the verdict is [`Verdict::Where`].
+    pub essential: Option<Expr>,
+    /// Whether `essential` must be zero, and not only not negative.
+    pub is_equation: bool,
+    /// Whether it holds at the given values; `None` without them.
+    pub at_values: Option<bool>,
+}
+
+/// The outcome.
+#[derive(Clone, Debug)]
+pub struct Possible {
+    /// For symbols: the least of what the conditions allow.
+    pub verdict: Verdict,
+    /// At the given values; `None` without them.
+    pub at_values: Option<bool>,
+    /// All conditions that were looked at.
+    pub conditions: Vec<Condition>,
+    /// What could not be judged, in words; then the verdict is at best undecided.
+    pub not_judged: Vec<String>,
+    /// What is worth knowing besides, in words.
+    pub notes: Vec<String>,
+}
+
+impl Possible {
+    /// Whether the collision can happen, as far as is known: not refuted for all parameters or at the given values.
+    pub fn holds(&self) -> bool {
+        self.verdict != Verdict::Nowhere && self.at_values != Some(false)
+    }
+
+    /// Why it cannot happen; empty where it can.
+    pub fn reasons(&self) -> Vec<&str> {
+        let mut reasons: Vec<&str> = Vec::new();
+        for c in &self.conditions {
+            let fails = c.verdict == Verdict::Nowhere || c.at_values == Some(false);
+            if fails && !reasons.contains(&c.otherwise.as_str()) {
+                reasons.push(&c.otherwise);
+            }
+        }
+        reasons
+    }
+
+    /// The conditions on parameters, each once.
+    pub fn open(&self) -> Vec<&Condition> {
+        let mut open: Vec<&Condition> = Vec::new();
+        for c in &self.conditions {
+            let seen = |o: &&Condition| o.essential == c.essential;
+            if c.verdict == Verdict::Where && !open.iter().any(seen) {
+                open.push(c);
+            }
+        }
+        open
+    }
+}
+
+/// Judges an impact.
+pub fn judge(scene: &Scene, derivation: &Derivation) -> Possible {
+    let mut judge = Judge {
+        scene,
+        derivation,
+        values: Values::of(scene, derivation),
+        conditions: Vec::new(),
+        not_judged: Vec::new(),
+        notes: Vec::new(),
+    };
+    if derivation.counting.contradictory {
+        let words = String::from("the motion after: the laws contradict each other");
+        judge.not_judged.push(words);
+    } else {
+        for i in 0..scene.contacts.len() {
+            judge.contact(i);
+        }
+        judge.energy();
+    }
+    judge.outcome()
+}
+
+struct Judge<'a> {
+    scene: &'a Scene,
+    derivation: &'a Derivation,
+    values: Values,
+    conditions: Vec<Condition>,
+    not_judged: Vec<String>,
+    notes: Vec<String>,
+}
+
+impl Judge<'_> {
+    fn contact(&mut self, i: usize) {
+        let contact = &self.scene.contacts[i];
+        let name = &contact.name;
+        for b in contact.bodies {
+            self.place(contact, &self.scene.bodies[b]);
+        }
+        let sticks = contact.law == ContactLaw::Sticking;
+        let [before, after] = [
+            self.relative(contact, &contact.at, false),
+            self.relative(contact, &contact.at, true),
+        ];
+        let impulse = self.impulse(i);
+        let sides = sides::of(self.scene, contact);
+        if sides.list.is_empty() && !sticks {
+            self.not_judged.push(format!(
+                "the motion at `{name}`: neither the scene nor an outline gives a normal"
+            ));
+        }
+        for Side {
+            normal,
+            sense,
+            is_given,
+        } in &sides.list
+        {
+            let from = self.conditions.len();
+            let opening = dot(&before, normal);
+            let sense = match sense {
+                Sense::Out => Expr::one(),
+                Sense::ByApproach => -&opening,
+            };
+            let signed = |e: Expr| &sense * &e;
+            if *is_given || !sticks {
+                self.claim(
+                    Rule::Approach,
+                    format!("the bodies approach at `{name}`"),
+                    format!("the bodies separate at `{name}` before: they do not collide"),
+                    signed(-&opening),
+                );
+            }
+            if !sticks {
+                self.claim(
+                    Rule::Apart,
+                    format!("the bodies do not enter each other at `{name}`"),
+                    format!("the bodies pass through each other at `{name}`"),
+                    signed(dot(&after, normal)),
+                );
+            }
+            let push = signed(dot(&impulse, normal));
+            if sticks && *is_given {
+                self.grip(name, &push);
+            } else if !sticks {
+                self.claim(
+                    Rule::Push,
+                    format!("the bodies push at `{name}`"),
+                    format!("the bodies would have to pull each other at `{name}`"),
+                    push,
+                );
+            }
+            let approaches = self.conditions[from..]
+                .iter()
+                .all(|c| c.rule != Rule::Approach || c.verdict != Verdict::Nowhere);
+            if contact.law == ContactLaw::None && approaches && !self.scene.gains_energy {
+                let rest = dot(&before, normal) + dot(&after, normal);
+                self.claim(
+                    Rule::Restitution,
+                    format!("the bodies leave `{name}` no faster than they came"),
+                    format!("the bodies leave `{name}` faster than they came: e > 1"),
+                    signed(-rest),
+                );
+            }
+            if *is_given {
+                self.by_approach_alone(from, contact);
+            }
+        }
+        self.along_sides(contact, &before, &sides);
+    }
+
+    /// The other touching points, where straight sides lie along each other.
+    fn along_sides(&mut self, contact: &Contact, before: &Vector, sides: &sides::Sides) {
+        let [a, b] = contact.bodies.map(|b| &self.scene.bodies[b].name);
+        for touching in &sides.along {
+            let after = self.relative(contact, &touching.at, true);
+            let sense = match touching.sense {
+                Sense::Out => Expr::one(),
+                Sense::ByApproach => -dot(before, &touching.normal),
+            };
+            self.claim(
+                Rule::Apart,
+                format!("the sides of `{a}` and `{b}` along each other at `{}` stay apart", contact.name),
+                format!(
+                    "the sides of `{a}` and `{b}` that lie along each other at `{}` enter each other",
+                    contact.name
+                ),
+                &sense * &dot(&after, &touching.normal),
+            );
+        }
+        if sides.unsure {
+            self.not_judged.push(format!(
+                "how far the sides of `{a}` and `{b}` lie along each other at `{}`",
+                contact.name
+            ));
+        }
+    }
+
+    /// Whether the contact lies on the body.
+    fn place(&mut self, contact: &Contact, body: &Body) {
+        if body.is_particle() {
+            return;
+        }
+        let spots = touch::spots(body, &contact.at, touch::may_lie_inside(contact));
+        let mut best: Option<Vec<(Need, decide::Decided)>> = None;
+        for spot in spots {
+            let needs: Vec<(Need, decide::Decided)> = spot
+                .needs
+                .into_iter()
+                .map(|need| {
+                    let decided = decide::need(&need, &self.scene.domains);
+                    (need, decided)
+                })
+                .collect();
+            let rank = |needs: &[(Need, decide::Decided)]| {
+                let of = |v| needs.iter().filter(|(_, d)| d.verdict == v).count();
+                let equations = |(need, d): &&(Need, decide::Decided)| {
+                    matches!(need, Need::Zero(_)) && d.verdict != Verdict::Everywhere
+                };
+                let equations = needs.iter().filter(equations).count();
+                (
+                    of(Verdict::Nowhere),
+                    equations,
+                    of(Verdict::Undecided),
+                    of(Verdict::Where),
+                )
+            };
+            if best.as_ref().is_none_or(|b| rank(&needs) < rank(b)) {
+                best = Some(needs);
+            }
+        }
+        for (need, decided) in best.into_iter().flatten() {
+            let (Need::Zero(e) | Need::NotNegative(e)) = &need;
+            // Numbers and given values that are off the outline were refused when the scene was read.
+            if e.symbols().is_empty() {
+                continue;
+            }
+            let at_values = self.values.knows(e).then_some(true);
+            self.conditions.push(Condition {
+                rule: Rule::Place,
+                words: format!("`{}` lies on `{}`", contact.name, body.name),
+                otherwise: format!("`{}` does not lie on `{}`", contact.name, body.name),
+                verdict: decided.verdict,
+                essential: decided.essential,
+                is_equation: matches!(need, Need::Zero(_)),
+                at_values,
+            });
+        }
+    }
+
+    /// What grips may pull; that it does is told.
+    fn grip(&mut self, name: &str, push: &Expr) {
+        let Some(closed) = self.closed(push) else {
+            return;
+        };
+        let pulls = decide(&closed, &self.scene.domains).verdict == Verdict::Nowhere
+            || self.values.not_negative(push) == Some(false);
+        if pulls {
+            self.notes.push(format!(
+                "the bodies hold each other at `{name}`: the impulse there pulls, as only what sticks can"
+            ));
+        }
+    }
+
+    /// Energy lost at all contacts together.
+    fn energy(&mut self) {
+        let scene = self.scene;
+        if scene.gains_energy || scene.contacts.is_empty() || !scene.blows.is_empty() {
+            return;
+        }
+        let first = &scene.contacts[0].law;
+        let free = scene.contacts.iter().any(|c| c.law == ContactLaw::None);
+        let alike = scene.contacts.iter().all(|c| c.law == *first);
+        if !free && alike && scene.after.is_empty() {
+            return;
+        }
+        let lost = Expr::sum(scene.contacts.iter().enumerate().map(|(i, contact)| {
+            let [before, after] = [false, true].map(|a| self.relative(contact, &contact.at, a));
+            let both = [&before[0] + &after[0], &before[1] + &after[1]];
+            dot(&self.impulse(i), &both) * Expr::ratio(-1, 2)
+        }));
+        self.claim(
+            Rule::Energy,
+            String::from("no kinetic energy is gained"),
+            String::from("kinetic energy is gained"),
+            lost,
+        );
+    }
+
+    /// Whether this is the one contact of a scene in which nothing else acts. Then its impulse is −(1 + e)(u⁻·n)/W with the
+    /// W > 0 of a quadratic form in the masses (Delassus), so that it pushes, and the bodies part, exactly where they approach.
+    fn acts_alone(&self, contact: &Contact) -> bool {
+        let scene = self.scene;
+        scene.contacts.len() == 1
+            && scene.blows.is_empty()
+            && scene.after.is_empty()
+            && matches!(contact.law, ContactLaw::Frictionless { .. })
+    }
+
+    /// Replaces the conditions along the given normal of a contact that acts alone by the approach, where no point shows that
+    /// the derived motion does otherwise. Their own forms are long, and the sign of W is out of reach of the algebra.
+    fn by_approach_alone(&mut self, from: usize, contact: &Contact) {
+        if !self.acts_alone(contact) {
+            return;
+        }
+        let own = &mut self.conditions[from..];
+        let Some(approach) = own.iter().find(|c| c.rule == Rule::Approach) else {
+            return;
+        };
+        let (verdict, Some(essential)) = (approach.verdict, approach.essential.clone()) else {
+            return;
+        };
+        for c in own
+            .iter_mut()
+            .filter(|c| matches!(c.rule, Rule::Apart | Rule::Push))
+        {
+            let agrees = |e: &Expr| decide::signs_agree(e, &essential, &self.scene.domains);
+            if c.essential.as_ref().is_some_and(agrees) {
+                (c.verdict, c.essential) = (verdict, Some(essential.clone()));
+            }
+        }
+    }
+
+    /// Adds the condition that an expression in parameters and unknowns is not negative.
+    fn claim(&mut self, rule: Rule, words: String, otherwise: String, e: Expr) {
+        let decided = match self.closed(&e) {
+            Some(closed) => decide(&closed, &self.scene.domains),
+            None => decide::UNDECIDED,
+        };
+        let at_values = self.values.not_negative(&e);
+        self.conditions.push(Condition {
+            rule,
+            words,
+            otherwise,
+            verdict: decided.verdict,
+            essential: decided.essential,
+            is_equation: false,
+            at_values,
+        });
+    }
+
+    /// The closed form of an expression in unknowns; `None` where one is open or too long to be multiplied out.
+    fn closed(&self, e: &Expr) -> Option<Expr> {
+        let mut forms: BTreeMap<Symbol, Expr> = BTreeMap::new();
+        let symbols = e.symbols();
+        for unknown in laws::unknowns(self.scene) {
+            let name: Symbol = self.derivation.names.plain(unknown).into();
+            if symbols.contains(&name) {
+                if self.derivation.in_steps {
+                    return None;
+                }
+                forms.insert(name, self.derivation.motion.get(&unknown)?.clone());
+            }
+        }
+        Some(e.substitute(&forms))
+    }
+
+    fn unknown(&self, unknown: Unknown) -> Expr {
+        Expr::symbol(self.derivation.names.plain(unknown))
+    }
+
+    /// Velocity of the second body against the first at a point, before or after; after in terms of unknowns.
+    fn relative(&self, contact: &Contact, at: &Vector, after: bool) -> Vector {
+        let [a, b] = contact.bodies.map(|b| self.velocity(b, at, after));
+        minus(&b, &a)
+    }
+
+    fn velocity(&self, b: usize, at: &Vector, after: bool) -> Vector {
+        let body = &self.scene.bodies[b];
+        let (v, w) = if after && !body.is_fixed() {
+            let v = [0, 1].map(|axis| self.unknown(Unknown::Velocity(b, axis)));
+            let spins = !body.is_particle();
+            let w = spins.then(|| self.unknown(Unknown::Spin(b)));
+            (v, w.unwrap_or_else(Expr::zero))
+        } else {
+            (body.velocity.clone(), body.spin.clone())
+        };
+        if body.is_particle() {
+            return v;
+        }
+        let r = minus(at, &body.center);
+        [&v[0] - &(&w * &r[1]), &v[1] + &(&w * &r[0])]
+    }
+
+    /// Impulse of a contact on its second body, in terms of unknowns.
+    fn impulse(&self, i: usize) -> Vector {
+        let contact = &self.scene.contacts[i];
+        match (&contact.law, &contact.normal) {
+            (ContactLaw::Frictionless { .. }, Some(n)) => {
+                let size = self.unknown(Unknown::Normal(i));
+                [&size * &n[0], &size * &n[1]]
+            }
+            _ => [0, 1].map(|axis| self.unknown(Unknown::Contact(i, axis))),
+        }
+    }
+
+    fn outcome(mut self) -> Possible {
+        decide::without_consequences(&mut self.conditions, &self.scene.domains);
+        let any = |v| self.conditions.iter().any(|c| c.verdict == v);
+        let open = any(Verdict::Undecided) || !self.not_judged.is_empty();
+        let verdict = match () {
+            () if any(Verdict::Nowhere) => Verdict::Nowhere,
+            () if any(Verdict::Where) => Verdict::Where,
+            () if open => Verdict::Undecided,
+            () => Verdict::Everywhere,
+        };
+        let known: Option<Vec<bool>> = self.conditions.iter().map(|c| c.at_values).collect();
+        let at_values = if self.conditions.iter().any(|c| c.at_values == Some(false)) {
+            Some(false)
+        } else {
+            known
+                .filter(|k| !k.is_empty())
+                .map(|k| k.into_iter().all(|held| held))
+        };
+        Possible {
+            verdict,
+            at_values,
+            conditions: self.conditions,
+            not_judged: self.not_judged,
+            notes: self.notes,
+        }
+    }
+}
+
+/// Whether an expression is zero on the whole domain, by its normal form.
+fn is_zero(e: &Expr, domains: &Domains) -> bool {
+    decide::sign(e, domains) == Some(crate::algebra::Sign::Zero)
+}
