@@ -11,6 +11,7 @@ use super::factor::{factor, primes_with_powers, square_part};
 use super::field::{Field, Generator, Kind};
 use super::mono::{exponent, mono_variables};
 use super::poly::{MOST_UNDER_ROOT, Poly};
+use super::substitution::Found;
 use super::{Sign, Stop};
 use crate::expr::Int;
 
@@ -342,7 +343,11 @@ impl Field {
             Some(_) => return Ok(Element::from_poly(f.neg())),
             None => {}
         }
-        match self.seen_signs(f) {
+        let seen = match self.by_substitution(f) {
+            Found::Mixed => (true, true),
+            _ => self.seen_signs(f),
+        };
+        match seen {
             (true, false) => {
                 self.assume(f.clone());
                 Ok(Element::from_poly(f.clone()))

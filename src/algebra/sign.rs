@@ -1,7 +1,8 @@
 //! Signs on the domain: proved by coefficients, or merely seen at sample points.
 //!
 //! A proof writes every variable as a positive one — an interval through x = (lo + hi·u)/(1 + u), an angle through the
-//! tangent of its half — and finds all coefficients of one sign. Ends that are no fractions are enclosed from outside.
+//! tangent of its half — and finds all coefficients of one sign, on the whole domain or on each of its parts. Ends that are
+//! no fractions are enclosed from outside.
 
 use num_traits::{Signed, Zero};
 
@@ -9,8 +10,9 @@ use super::Sign;
 use super::element::Element;
 use super::factor::factor;
 use super::field::{AngleOf, Field, Kind};
-use super::mono::{exponent, mono_variables, powers};
+use super::mono::{exponent, mono_variables};
 use super::poly::Poly;
+use super::substitution::Found;
 use crate::domain::Limit;
 use crate::expr::{Function, Int, Rational, Symbol, ratio};
 
@@ -24,6 +26,16 @@ pub(crate) struct Interval {
     pub high: Option<(Rational, bool)>,
 }
 
+/// What a variable that stands for another one may also be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct End {
+    pub v: usize,
+    /// It may be 0.
+    pub zero: bool,
+    /// It may be infinite, where only terms of this degree in it count.
+    pub infinite: Option<u32>,
+}
+
 /// What is known of a variable's sign without work.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Known {
@@ -33,7 +45,8 @@ enum Known {
 }
 
 impl Field {
-    /// The sign, where it is proved for the whole domain.
+    /// The sign at all points of the domain at which there is a value, where it is proved. It says nothing of where there
+    /// is one: 1/e is positive on the closed interval from 0 to 1.
     pub fn sign(&self, x: &Element) -> Option<Sign> {
         self.fuel.refill();
         self.sign_of(x)
@@ -58,7 +71,7 @@ impl Field {
         if p.is_zero() {
             return Some(Sign::Zero);
         }
-        if let Some(sign) = self.by_coefficients(p, &[], &[]) {
+        if let Some(sign) = self.by_coefficients(p, &[]) {
             return Some(sign);
         }
         if p.len() > super::substitution::MOST_TERMS {
@@ -88,10 +101,14 @@ impl Field {
     }
 
     fn sign_irreducible(&self, p: &Poly, depth: u32) -> Option<Sign> {
-        if let Some(sign) = self.by_coefficients(p, &[], &[]) {
+        if let Some(sign) = self.by_coefficients(p, &[]) {
             return Some(sign);
         }
-        self.by_substitution(p)
+        let found = self.by_substitution(p);
+        if found == Found::Mixed {
+            return None;
+        }
+        proved(found)
             .or_else(|| {
                 if depth == 0 {
                     None
@@ -177,7 +194,7 @@ impl Field {
         Some(sign)
     }
 
-    /// A quadratic without real zeros has the sign of its leading coefficient.
+    /// A quadratic without two real zeros has the sign of its leading coefficient, or is zero.
     fn by_discriminant(&self, p: &Poly, depth: u32) -> Option<Sign> {
         if p.len() > MOST_QUADRATIC {
             return None;
@@ -193,58 +210,48 @@ impl Field {
                 continue;
             };
             let discriminant = bb.sub(&ac.scale(&Int::from(4)));
-            if self.sign_sub(&discriminant, depth) == Some(Sign::Negative)
+            let below = self.sign_sub(&discriminant, depth);
+            if let Some(below @ (Sign::Negative | Sign::NotPositive)) = below
                 && let Some(sign @ (Sign::Positive | Sign::Negative)) = self.sign_sub(a, depth)
             {
-                return Some(sign);
+                return Some(match (below, sign) {
+                    (Sign::Negative, sign) => sign,
+                    (_, Sign::Positive) => Sign::NotNegative,
+                    _ => Sign::NotPositive,
+                });
             }
         }
         None
     }
 
-    /// All terms of one sign. Variables in `weak` may be zero, those in `closed` may be infinite; all other replaced ones
-    /// are positive.
-    pub(crate) fn by_coefficients(
-        &self,
-        p: &Poly,
-        weak: &[(usize, bool)],
-        closed: &[usize],
-    ) -> Option<Sign> {
+    /// All terms of one sign. Variables that stand for others are positive, up to what `ends` adds; strict is a sign only if
+    /// at every corner of the closed domain some term is left that does not vanish there.
+    pub(crate) fn by_coefficients(&self, p: &Poly, ends: &[End]) -> Option<Sign> {
         let negative = p.leading_is_negative();
-        let mut definite = false;
-        let degrees = p.degrees();
-        let mut at_infinity = closed.is_empty();
-        for (mono, coeff) in p.terms() {
-            if coeff.is_negative() != negative {
-                return None;
-            }
-            let (mut strict, mut top) = (true, closed.len() == 1);
-            for (v, power) in powers(mono) {
-                let known = match weak.iter().find(|(w, _)| *w == v) {
-                    Some((_, true)) => Known::NotNegative,
-                    Some((_, false)) => Known::Positive,
-                    None => self.known(v),
-                };
-                match known {
-                    Known::Positive => {}
-                    Known::NotNegative => {
-                        strict = false;
-                        top &= closed.contains(&v);
-                    }
-                    Known::Unknown if power % 2 == 0 => {
-                        strict = false;
-                        top = false;
-                    }
-                    Known::Unknown => return None,
-                }
-            }
-            definite |= strict;
-            at_infinity |= top
-                && closed
-                    .iter()
-                    .all(|v| exponent(mono, *v) == exponent(&degrees, *v));
+        if p.terms().any(|(_, coeff)| coeff.is_negative() != negative) {
+            return None;
         }
-        let sign = if definite && at_infinity {
+        let mut corners: Vec<(usize, Vec<u32>)> = Vec::new();
+        for end in ends {
+            let zero = end.zero.then_some(0);
+            corners.push((end.v, zero.into_iter().chain(end.infinite).collect()));
+        }
+        for v in p.variables() {
+            if ends.iter().any(|end| end.v == v) {
+                continue;
+            }
+            match self.known(v) {
+                Known::Positive => {}
+                Known::NotNegative => corners.push((v, vec![0])),
+                Known::Unknown if p.terms().all(|(m, _)| exponent(m, v) % 2 == 0) => {
+                    corners.push((v, vec![0]));
+                }
+                Known::Unknown => return None,
+            }
+        }
+        corners.retain(|(_, left)| !left.is_empty());
+        let terms: Vec<&[u64]> = p.terms().map(|(mono, _)| mono).collect();
+        let sign = if left_at_corners(&terms, &corners) {
             Sign::Positive
         } else {
             Sign::NotNegative
@@ -368,6 +375,24 @@ impl Field {
         let (low, high) = (end(&domain.low, false), end(&domain.high, true));
         (low.is_some() && high.is_some()).then_some(Interval { low, high })
     }
+}
+
+fn proved(found: Found) -> Option<Sign> {
+    match found {
+        Found::Proved(sign) => Some(sign),
+        _ => None,
+    }
+}
+
+/// Whether some term is left at every corner: where a variable is 0 or infinite, only those of one degree in it.
+fn left_at_corners(terms: &[&[u64]], corners: &[(usize, Vec<u32>)]) -> bool {
+    let Some(((v, degrees), others)) = corners.split_first() else {
+        return !terms.is_empty();
+    };
+    degrees.iter().all(|degree| {
+        let left = terms.iter().filter(|m| exponent(m, *v) == *degree);
+        left_at_corners(&left.copied().collect::<Vec<_>>(), others)
+    })
 }
 
 /// A divisor has a value, so it is not zero.

@@ -1,10 +1,13 @@
 //! Signs of polynomials by writing every variable as a positive one in the place of its interval.
+//!
+//! In one variable, halving the interval until the coefficients tell isolates the zeros (Vincent, Collins and Akritas):
+//! where the steps suffice, a sign is proved or a change of sign found. In several variables the same halving encloses.
 
 use super::field::Field;
 use super::field::Kind;
 use super::mono::{exponent, mono_of};
 use super::poly::Poly;
-use super::sign::Interval;
+use super::sign::{End, Interval};
 use super::{Sign, Stop};
 use crate::expr::number::{self, to_f64};
 use crate::expr::{Int, Rational, ratio};
@@ -13,11 +16,85 @@ use num_traits::{One, Signed, Zero};
 /// Largest polynomial whose variables are replaced by positive ones.
 pub(crate) const MOST_TERMS: usize = 400;
 
+/// A variable with the interval it ranges over.
+#[derive(Clone, Debug)]
+struct Axis {
+    v: usize,
+    low: Option<(Rational, bool)>,
+    high: Option<(Rational, bool)>,
+    /// Where an infinite end belongs to the interval: the degree of the terms that count there.
+    at_infinity: Option<u32>,
+}
+
+/// What is known of the sign of a polynomial on a domain.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Found {
+    Proved(Sign),
+    /// Both signs occur.
+    Mixed,
+    Unknown,
+}
+
+/// Work for one sign: parts of the domain, times terms, times degrees.
+const WORK: usize = 30_000;
+/// Most parts of a domain.
+const MOST_PARTS: usize = 160;
+
 impl Field {
-    /// Writes variables of unknown sign as positive ones, then looks at the coefficients.
-    pub(crate) fn by_substitution(&self, p: &Poly) -> Option<Sign> {
+    /// Writes variables of unknown sign as positive ones, then looks at the coefficients; where they are of both signs, the
+    /// domain is halved as far as a count of parts allows.
+    pub(crate) fn by_substitution(&self, p: &Poly) -> Found {
+        let Some((p, axes)) = self.axes(p) else {
+            return Found::Unknown;
+        };
+        let first = self.on_box(&p, &axes);
+        if first != Found::Unknown {
+            return first;
+        }
+        // Halving helps only where every variable ranges over an interval.
+        let all = p.variables();
+        if !all.iter().all(|v| axes.iter().any(|a| a.v == *v)) || changes_sign(&p, &axes) {
+            return Found::Unknown;
+        }
+        let degree: u32 = all.iter().map(|v| p.degree(*v)).sum();
+        let mut left = (WORK / (p.len() * (1 + degree as usize))).clamp(2, MOST_PARTS);
+        let mut total: Option<Sign> = None;
+        let mut open = vec![(axes, 0)];
+        while let Some((part, depth)) = open.pop() {
+            let sign = match self.on_box(&p, &part) {
+                Found::Proved(sign) => sign,
+                Found::Mixed => return Found::Mixed,
+                Found::Unknown => {
+                    let Some(rest) = left.checked_sub(1) else {
+                        return Found::Unknown;
+                    };
+                    left = rest;
+                    let at = depth % part.len();
+                    open.extend(part[at].halves().map(|half| {
+                        let mut part = part.clone();
+                        part[at] = half;
+                        (part, depth + 1)
+                    }));
+                    continue;
+                }
+            };
+            total = Some(match total {
+                None => sign,
+                Some(known) if known == sign => sign,
+                Some(known) if known.is_not_negative() != sign.is_not_negative() => {
+                    return Found::Mixed;
+                }
+                Some(known) if known.is_not_negative() => Sign::NotNegative,
+                Some(_) => Sign::NotPositive,
+            });
+        }
+        total.map_or(Found::Unknown, Found::Proved)
+    }
+
+    /// The polynomial with half tangents for angles, up to a positive factor, and the intervals of its variables.
+    fn axes(&self, p: &Poly) -> Option<(Poly, Vec<Axis>)> {
         let mut p = p.clone();
-        let (mut weak, mut closed) = (Vec::new(), Vec::new());
+        let mut axes = Vec::new();
         for (index, base) in self.bases.iter().enumerate() {
             if !p.has(base.cos) && !p.has(base.sin) {
                 continue;
@@ -44,29 +121,71 @@ impl Field {
                     break;
                 }
             }
-            let tangent = Interval {
-                low: half_tangent(range.low.as_ref()?, false)?,
-                high: half_tangent(range.high.as_ref()?, true)?,
-            };
-            let t = base.cos;
-            p = half_angle(&p, base.cos, base.sin).ok()?;
-            p = replace(&p, t, &tangent, &mut weak, &mut closed)?;
+            if !p.has(base.cos) && !p.has(base.sin) {
+                continue;
+            }
+            let (low, high) = (range.low.as_ref()?, range.high.as_ref()?);
+            let (from, to) = (half_tangent(low, false)?, half_tangent(high, true)?);
+            let closed = (from.is_none() && !low.1) || (to.is_none() && !high.1);
+            let (tangents, degree) = half_angle(&p, base.cos, base.sin).ok()?;
+            p = tangents;
+            axes.push(Axis {
+                v: base.cos,
+                low: from,
+                high: to,
+                at_infinity: closed.then_some(2 * degree),
+            });
         }
         for v in p.variables() {
             if let Kind::Symbol(name) = &self.gens[v].kind {
                 let range = self.interval(name);
-                let plain =
-                    range.high.is_none() && range.low.as_ref().is_some_and(|(l, _)| l.is_zero());
-                if plain || (range.low.is_none() && range.high.is_none()) {
-                    continue;
-                }
-                p = replace(&p, v, &range, &mut weak, &mut closed)?;
-            }
-            if p.len() > MOST_TERMS {
-                return None;
+                axes.push(Axis {
+                    v,
+                    low: range.low,
+                    high: range.high,
+                    at_infinity: None,
+                });
             }
         }
-        self.by_coefficients(&p, &weak, &closed)
+        (p.len() <= MOST_TERMS).then_some((p, axes))
+    }
+
+    /// The sign on one part of the domain, from the coefficients alone.
+    fn on_box(&self, p: &Poly, axes: &[Axis]) -> Found {
+        let mut ends = Vec::with_capacity(axes.len());
+        let mut p = std::borrow::Cow::Borrowed(p);
+        for axis in axes {
+            if axis.low.is_none() && axis.high.is_none() {
+                match self.gens[axis.v].kind {
+                    Kind::Symbol(_) => continue,
+                    // Half tangents are of both signs, whatever the cosine in whose place they stand.
+                    _ => return Found::Unknown,
+                }
+            }
+            let Some((replaced, end)) = axis.replaced(&p) else {
+                return Found::Unknown;
+            };
+            p = std::borrow::Cow::Owned(replaced);
+            ends.push(end);
+            if p.len() > MOST_TERMS {
+                return Found::Unknown;
+            }
+        }
+        if let Some(sign) = self.by_coefficients(&p, &ends) {
+            return Found::Proved(sign);
+        }
+        // One change of sign among the coefficients is one simple zero (Descartes).
+        match (p.variables().as_slice(), ends.as_slice()) {
+            ([v], [end]) if *v == end.v => {
+                let signs = p.terms().map(|(_, k)| k.is_negative());
+                let signs: Vec<bool> = signs.collect();
+                match signs.windows(2).filter(|w| w[0] != w[1]).count() {
+                    1 => Found::Mixed,
+                    _ => Found::Unknown,
+                }
+            }
+            _ => Found::Unknown,
+        }
     }
 
     /// Rewrites a polynomial of even degree in (cos β, sin β), s reduced, through C = cos 2β and S = sin 2β in the same
@@ -135,8 +254,8 @@ fn half_tangent(end: &(Rational, bool), up: bool) -> Option<Option<(Rational, bo
     Some(Some((numerator / ratio(1 << 24, 1), true)))
 }
 
-/// cos β = (1−t²)/(1+t²), sin β = 2t/(1+t²), times the positive power of 1+t²; t takes the place of the cosine.
-fn half_angle(p: &Poly, c: usize, s: usize) -> Result<Poly, Stop> {
+/// cos β = (1−t²)/(1+t²), sin β = 2t/(1+t²), times the power of 1+t² that is told; t takes the place of the cosine.
+fn half_angle(p: &Poly, c: usize, s: usize) -> Result<(Poly, u32), Stop> {
     let d = p
         .terms()
         .map(|(m, _)| exponent(m, c) + exponent(m, s))
@@ -161,55 +280,118 @@ fn half_angle(p: &Poly, c: usize, s: usize) -> Result<Poly, Stop> {
             total = total.add(&q.mul(&shape)?);
         }
     }
-    Ok(total)
+    Ok((total, d))
 }
 
-/// Writes v, which ranges over an interval, as a positive variable in the same place, up to a positive factor.
-fn replace(
-    p: &Poly,
-    v: usize,
-    range: &Interval,
-    weak: &mut Vec<(usize, bool)>,
-    closed: &mut Vec<usize>,
-) -> Option<Poly> {
-    let scale = |value: &Rational, d: &Int| value.numer() * &(d / value.denom());
-    let linear = |a: Int, b: Int| Poly::constant(a).add(&Poly::var(v).scale(&b));
-    let (above, below) = match (&range.low, &range.high) {
-        (Some((low, open)), Some((high, high_open))) => {
-            let d = num_integer::Integer::lcm(low.denom(), high.denom());
-            weak.push((v, !open));
-            if !high_open {
-                closed.push(v);
+impl Axis {
+    /// The polynomial with the variable written as a positive one in the same place, up to a positive factor, and what that
+    /// one may also be.
+    fn replaced(&self, p: &Poly) -> Option<(Poly, End)> {
+        let v = self.v;
+        let degree = p.degree(v);
+        let scale = |value: &Rational, d: &Int| value.numer() * &(d / value.denom());
+        let linear = |a: Int, b: Int| Poly::constant(a).add(&Poly::var(v).scale(&b));
+        let (above, below, open, infinite) = match (&self.low, &self.high) {
+            (Some((low, open)), None) if low.is_zero() => {
+                let end = End {
+                    v,
+                    zero: !open,
+                    infinite: self.at_infinity,
+                };
+                return Some((p.clone(), end));
             }
-            (
-                linear(scale(low, &d), scale(high, &d)),
-                linear(d.clone(), d),
-            )
+            (Some((low, open)), Some((high, high_open))) => {
+                let d = num_integer::Integer::lcm(low.denom(), high.denom());
+                let above = linear(scale(low, &d), scale(high, &d));
+                let infinite = (!high_open).then_some(degree);
+                (above, linear(d.clone(), d), open, infinite)
+            }
+            (Some((low, open)), None) => {
+                let d = low.denom().clone();
+                let above = linear(scale(low, &d), d.clone());
+                (above, Poly::constant(d), open, self.at_infinity)
+            }
+            (None, Some((high, open))) => {
+                let d = high.denom().clone();
+                let above = linear(scale(high, &d), -d.clone());
+                (above, Poly::constant(d), open, self.at_infinity)
+            }
+            (None, None) => return None,
+        };
+        let mut total = Poly::zero();
+        for (k, part) in p.by_power(v).iter().enumerate() {
+            let k = k as u32;
+            if !part.is_zero() {
+                let part = part.mul(&above.pow(k).ok()?).ok()?;
+                total = total.add(&part.mul(&below.pow(degree - k).ok()?).ok()?);
+            }
         }
-        (Some((low, open)), None) => {
-            let d = low.denom().clone();
-            weak.push((v, !open));
-            (linear(scale(low, &d), d.clone()), Poly::constant(d))
-        }
-        (None, Some((high, open))) => {
-            let d = high.denom().clone();
-            weak.push((v, !open));
-            (linear(scale(high, &d), -d.clone()), Poly::constant(d))
-        }
-        (None, None) => return Some(p.clone()),
-    };
-    let parts = p.by_power(v);
-    let d = parts.len() as u32 - 1;
-    let mut total = Poly::zero();
-    for (k, part) in parts.iter().enumerate().filter(|(_, q)| !q.is_zero()) {
-        let k = k as u32;
-        total = total.add(
-            &part
-                .mul(&above.pow(k).ok()?)
-                .ok()?
-                .mul(&below.pow(d - k).ok()?)
-                .ok()?,
-        );
+        let end = End {
+            v,
+            zero: !open,
+            infinite,
+        };
+        Some((total, end))
     }
-    Some(total)
+
+    /// The interval in two; where they meet belongs to both.
+    fn halves(&self) -> [Axis; 2] {
+        let one = Rational::one();
+        let middle = match (&self.low, &self.high) {
+            (Some((low, _)), Some((high, _))) => (low + high) * ratio(1, 2),
+            (Some((low, _)), None) => low + low.abs().max(one),
+            (None, Some((high, _))) => high - high.abs().max(one),
+            (None, None) => Rational::zero(),
+        };
+        let end = Some((middle, false));
+        let lower = Axis {
+            high: end.clone(),
+            at_infinity: self.at_infinity.filter(|_| self.low.is_none()),
+            ..self.clone()
+        };
+        let upper = Axis {
+            low: end,
+            at_infinity: self.at_infinity.filter(|_| self.high.is_none()),
+            ..self.clone()
+        };
+        [lower, upper]
+    }
+
+    /// A number inside, for a share of the whole.
+    fn at(&self, share: f64) -> f64 {
+        let far = (1.0 / (1.0 - share) - 1.0).powi(2);
+        match (&self.low, &self.high) {
+            (Some((low, _)), Some((high, _))) => to_f64(low) + (to_f64(high) - to_f64(low)) * share,
+            (Some((low, _)), None) => to_f64(low) + far,
+            (None, Some((high, _))) => to_f64(high) - far,
+            (None, None) => far - 1.0 / (far + 1e-9).sqrt(),
+        }
+    }
+}
+
+/// Points at which a change of sign is looked for before a proof of none.
+const LOOKS: usize = 12;
+
+/// Whether doubles see both signs, so that no proof of one is worth trying.
+fn changes_sign(p: &Poly, axes: &[Axis]) -> bool {
+    let (mut plus, mut minus) = (false, false);
+    for k in 0..LOOKS {
+        let (mut total, mut size) = (0.0, 0.0);
+        for (mono, coeff) in p.terms() {
+            let mut value = to_f64(&Rational::from(coeff.clone()));
+            for (i, axis) in axes.iter().enumerate() {
+                // Multiples of the golden ratio's powers spread well, and differ between the axes.
+                let share = 0.618_033_988_749_895_f64.powi(1 + i as i32) * (1 + k) as f64;
+                let share = 0.001 + 0.998 * share.fract();
+                value *= axis.at(share).powi(exponent(mono, axis.v) as i32);
+            }
+            total += value;
+            size += value.abs();
+        }
+        if size.is_finite() && total.abs() > 1e-9 * size {
+            plus |= total > 0.0;
+            minus |= total < 0.0;
+        }
+    }
+    plus && minus
 }
