@@ -25,6 +25,7 @@ mod sign;
 mod solve;
 mod substitution;
 mod write;
+mod zeros;
 
 use std::fmt;
 
@@ -32,6 +33,7 @@ pub use element::Element;
 pub use field::{Assumption, Field};
 pub use powers::Powers;
 pub use solve::{Row, Solution, solve};
+pub use zeros::Cell;
 
 /// Why a computation ended without a result.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -183,6 +183,31 @@ pub fn samples(roles: &Roles, domains: &Domains, count: usize) -> Vec<Sample> {
     out
 }
 
+/// A simple value of a symbol in a part of its domain.
+pub fn within(part: &Domain, domain: &Domain, role: &Role) -> Option<Coordinate> {
+    let fits = |x: &Rational| part.contains(x) && domain.contains(x);
+    if role.turns && !role.bare {
+        let found = directions(part, role.divisor.max(1), 1);
+        let number = |c: &Coordinate| match c {
+            Coordinate::Number(x) => fits(x),
+            _ => true,
+        };
+        return found.into_iter().find(number);
+    }
+    let one = Rational::one();
+    let beside = match (&part.low, &part.high) {
+        (Some(low), None) if !low.of_pi => Some(low.value.floor() + one),
+        (None, Some(high)) if !high.of_pi => Some(high.value.ceil() - one),
+        _ => None,
+    };
+    let simple = numbers(part, 3).into_iter().filter_map(|c| match c {
+        Coordinate::Number(x) => Some(x),
+        _ => None,
+    });
+    let found = beside.into_iter().chain(simple).find(fits);
+    found.map(Coordinate::Number)
+}
+
 /// Moves the components of declared unit vectors to a rational point of the circle; `false` where none fits.
 fn place_units(point: &mut Sample, domains: &Domains, k: usize) -> bool {
     for (i, pair) in domains.unit_vectors.iter().enumerate() {

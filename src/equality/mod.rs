@@ -7,8 +7,11 @@
 mod arcs;
 mod branch;
 mod constants;
+mod critical;
 mod exact;
-mod extreme;
+mod gap;
+mod line;
+
 mod measure;
 mod proof;
 mod refute;
@@ -16,6 +19,7 @@ mod refute;
 use crate::domain::{Domain, Domains, Roles, Sample, roles, samples};
 use crate::expr::{Expr, Rational};
 use crate::interval::Enclosure;
+pub(crate) use line::zero_apart;
 use measure::Size;
 pub(crate) use measure::work;
 use proof::Proof;
@@ -111,6 +115,8 @@ pub enum Assumption {
     NotNegative(Expr),
     /// This isolated point is left out: one formula has no value there.
     NotAt(Sample),
+    /// Where the expression is zero only one formula has a value.
+    NotZero(Expr),
 }
 
 /// The part of a domain on which two formulas are equal.
@@ -240,13 +246,31 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
     if look && let Some(found) = extend(&mut tally, size.points().min(seen)) {
         return different(found);
     }
+    // Then where roots and absolute values ask for: both sides of the places where their arguments change sign.
+    let arguments = match size.branches || size.partial {
+        true => critical::arguments(&[a, b]),
+        false => Vec::new(),
+    };
+    let unsure = arguments.iter().map(|(e, _)| e);
+    let unsure = unsure.filter(|e| !critical::nowhere_negative(e, domains));
+    let unsure: Vec<Expr> = unsure.cloned().collect();
+    let risky = match unsure.as_slice() {
+        [] => Vec::new(),
+        unsure => {
+            let near = samples(roles, domains, FIRST + 2);
+            critical::points(unsure, &near, domains, roles)
+        }
+    };
+    if let Some(found) = probe.points(&risky, &mut tally) {
+        return different(found);
+    }
     if a != b && work(a).saturating_add(work(b)) > COSTLY {
         let first = samples(roles, domains, FIRST);
         if let Some(found) = probe.rising_precision(&first, size, &mut Tally::default()) {
             return different(found);
         }
     }
-    let proof = if a == b {
+    let proof = if a == b && tally.both_defined > 0 {
         Proof::Equal(Vec::new(), Ground::NormalForm)
     } else {
         match proof::compare(a, b, domains) {
@@ -271,21 +295,35 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
         Proof::Equal(assumptions, ground) if tally.both_defined > 0 => {
             // A sign that was only seen is put to the test first.
             let near = samples(roles, domains, FIRST + 2);
-            let risky = extreme::points(&assumptions, &near, domains);
-            if let Some(found) = probe.points(&risky, &mut Tally::default()) {
-                return different(found);
+            match critical::tested(&assumptions, &near, domains, roles) {
+                Ok(assumptions) => return gap::same((a, b), domains, assumptions, ground, &tally),
+                Err(points) => {
+                    if let Some(found) = probe.points(&points, &mut tally) {
+                        return different(found);
+                    }
+                    return Equality::Undecided {
+                        reason: Reason::NoPointApart,
+                        evidence: tally.evidence(),
+                    };
+                }
             }
-            return same(assumptions, ground, &tally);
         }
         _ => {}
     }
     if let Some(found) = extend(&mut tally, size.points()) {
         return different(found);
     }
-    for side in [Side::Left, Side::Right] {
-        // Constants have one point only.
-        let enough = if roles.symbols.is_empty() { 1 } else { 3 };
-        if tally.undefined(side) >= enough && tally.defined(side) == 0 {
+    for (side, e) in [(Side::Left, a), (Side::Right, b)] {
+        if tally.defined(side) > 0 || tally.undefined(side) == 0 {
+            continue;
+        }
+        // Constants have one point only; elsewhere no value at points is no proof.
+        let needed = critical::arguments(&[e]).into_iter();
+        let needed: Vec<Expr> = needed
+            .filter(|(_, needed)| *needed)
+            .map(|(e, _)| e)
+            .collect();
+        if roles.symbols.is_empty() || critical::nowhere(&needed, domains) {
             return Equality::Invalid {
                 side,
                 points: tally.undefined(side),
@@ -298,7 +336,9 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
     let reason = match proof {
         _ if tally.both_defined == 0 => Reason::NoPoint,
         // A point at which both have a value was found only now.
-        Proof::Equal(assumptions, ground) => return same(assumptions, ground, &tally),
+        Proof::Equal(assumptions, ground) => {
+            return gap::same((a, b), domains, assumptions, ground, &tally);
+        }
         Proof::Unequal { settled: true } => Reason::NoPointApart,
         Proof::Unequal { settled: false } => Reason::UnknownLaws,
         Proof::Stopped(limit) => Reason::Limit(limit),
@@ -313,36 +353,6 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
         reason,
         evidence: tally.evidence(),
     }
-}
-
-/// The verdict for a proved identity, with what was seen of points where only one side has a value.
-fn same(mut assumptions: Vec<Assumption>, ground: Ground, tally: &Tally) -> Equality {
-    // A point where the first formula has a value and the second has none tells more than one the other way round.
-    let telling = |(_, left, _): &&(Sample, Value, Value)| *left != Value::None;
-    let elsewhere = tally.apart.iter().find(telling).or(tally.apart.first());
-    let how = match (tally.apart.as_slice(), elsewhere) {
-        ([], _) | (_, None) => How::Identity {
-            ground,
-            assumptions,
-        },
-        ([(at, ..)], _) => {
-            assumptions.push(Assumption::NotAt(at.clone()));
-            How::Identity {
-                ground,
-                assumptions,
-            }
-        }
-        (_, Some((at, left, right))) => How::OnBranch {
-            condition: Condition::BothDefined,
-            elsewhere: Counterexample {
-                at: at.clone(),
-                left: left.clone(),
-                right: right.clone(),
-                confirmed: true,
-            },
-        },
-    };
-    Equality::Same { how }
 }
 
 impl Value {

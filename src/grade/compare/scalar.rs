@@ -60,13 +60,11 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
             },
         } => {
             let proof = Proof::of("identity", ground.words());
-            let signs = assumptions
-                .iter()
-                .any(|a| matches!(a, Assumption::NotNegative(_)));
-            let note = if signs {
-                "EQUIV_ASSUMED"
-            } else {
-                "EQUIV_IDENTITY"
+            let sign = |a: &Assumption| matches!(a, Assumption::NotNegative(_));
+            let note = match assumptions.iter().any(sign) {
+                true => "EQUIV_ASSUMED",
+                false if assumptions.is_empty() => "EQUIV_IDENTITY",
+                false => "EQUIV_WHERE_DEFINED",
             };
             let mut finding = Finding::new(Verdict::Equivalent, note, proof);
             finding.assumed = assumptions
@@ -74,25 +72,28 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
                 .map(|a| match a {
                     Assumption::NotNegative(e) => format!("{} ≥ 0", write_plain(e)),
                     Assumption::NotAt(sample) => format!("not at {}", sample.words()),
+                    Assumption::NotZero(e) => format!("{} ≠ 0", write_plain(e)),
                 })
                 .collect();
             finding
         }
-        // Where the expected formula has no value it says nothing.
+        // Where only one of them has a value, nothing is compared; that is told.
         Equality::Same {
             how:
                 How::OnBranch {
                     condition: Condition::BothDefined,
                     elsewhere,
                 },
-        } if elsewhere.left == Value::None => {
-            let words = "equal wherever the expected formula has a value";
-            let mut finding = Finding::new(
-                Verdict::Equivalent,
-                "EQUIV_ASSUMED",
-                Proof::of("identity", words),
-            );
-            finding.assumed = vec![format!("{} has a value", ctx.say(expected))];
+        } => {
+            let words = "equal wherever both formulas have a value";
+            let proof = Proof::of("identity", words);
+            let mut finding = Finding::new(Verdict::Equivalent, "EQUIV_WHERE_DEFINED", proof);
+            let lacking = match elsewhere.left == Value::None {
+                true => "the expected formula",
+                false => "the answer",
+            };
+            let at = elsewhere.at.words();
+            finding.assumed = vec![format!("both have a value: {lacking} has none at {at}")];
             finding
         }
         Equality::Same {
@@ -103,7 +104,7 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
         } => {
             let where_equal = match condition {
                 Condition::NotNegative(e) => format!("where {} ≥ 0", ctx.say(&e)),
-                Condition::BothDefined => "where both have a value".to_string(),
+                Condition::BothDefined => "where both have a value".into(),
             };
             let mut finding = Finding::different(
                 "DIFF_BRANCH",

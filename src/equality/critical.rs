@@ -1,0 +1,296 @@
+//! Points that a formula's branches ask for: roots, logarithms and absolute values change where their arguments change sign.
+//!
+//! √(v² − 200) has no value at any number a person would try first, and |x + 1000| is x + 1000 at all of them. From given
+//! points, each symbol is led to both sides of every place where an argument changes sign; one point is kept for each
+//! new pattern of signs. Also whether the arguments forbid a value on the whole domain, by enclosures over its parts.
+
+use num_traits::Zero;
+
+use super::Assumption;
+use super::line::{doubles, rough_zeros};
+use super::refute::sign_at;
+use crate::domain::{Coordinate, Domain, Domains, Limit, Roles, Sample};
+use crate::expr::number::from_f64;
+use crate::expr::{Expr, Function, Int, Node, Point, Rational, Symbol};
+use crate::interval::{Interval, Outcome, evaluate};
+
+/// Most points that come out.
+const MOST: usize = 20;
+/// Most arguments looked at.
+const ARGUMENTS: usize = 8;
+/// Most symbols walked along, from each point.
+const SYMBOLS: usize = 6;
+/// Most points walked from.
+const STARTS: usize = 10;
+/// Most parts of a domain that are looked at.
+const PARTS: usize = 400;
+
+/// What a formula takes roots, logarithms, arcs or absolute values of: it has a value only where those marked with `true` are
+/// not negative.
+pub(super) fn arguments(formulas: &[&Expr]) -> Vec<(Expr, bool)> {
+    let mut out: Vec<(Expr, bool)> = Vec::new();
+    let mut note = |e: Expr, needed: bool| {
+        if !e.symbols().is_empty()
+            && out.len() < ARGUMENTS
+            && !out.iter().any(|(f, n)| *f == e && *n == needed)
+        {
+            out.push((e, needed));
+        }
+    };
+    for formula in formulas {
+        formula.walk(&mut |part| match part.node() {
+            Node::Call(Function::Abs, x) => note(x.clone(), false),
+            Node::Call(Function::Ln, x) => note(x.clone(), true),
+            Node::Call(Function::Asin | Function::Acos, x) => {
+                note(Expr::one() - x, true);
+                note(Expr::one() + x, true);
+            }
+            Node::Power(base, k) => match k.as_number() {
+                Some(k) if k.is_integer() => {}
+                // A root of odd degree is real everywhere.
+                Some(k)
+                    if k.denom().bits() > 1 && k.denom().as_i64().is_some_and(|d| d % 2 != 0) =>
+                {
+                    note(base.clone(), false);
+                }
+                _ => note(base.clone(), true),
+            },
+            _ => {}
+        });
+    }
+    out
+}
+
+/// Points at which the signs of the arguments form patterns not seen at the given ones.
+pub(super) fn points(
+    arguments: &[Expr],
+    near: &[Sample],
+    domains: &Domains,
+    roles: &Roles,
+) -> Vec<Sample> {
+    let pattern = |at: &Point<f64>| -> Vec<Option<bool>> {
+        let sign = |e: &Expr| e.evaluate(at).filter(|v| *v != 0.0).map(|v| v > 0.0);
+        arguments.iter().map(sign).collect()
+    };
+    let mut starts: Vec<Sample> = near.iter().take(2).cloned().collect();
+    let mut seen: Vec<Vec<Option<bool>>> = near.iter().map(|at| pattern(&doubles(at))).collect();
+    let mut out = Vec::new();
+    let mut next = 0;
+    while next < starts.len().min(STARTS) && out.len() < MOST {
+        let start = starts[next].clone();
+        next += 1;
+        for name in free_symbols(arguments, domains, &start) {
+            let Some(domain) = domains.symbols.get(&name) else {
+                continue;
+            };
+            let from = doubles(&start);
+            let mut zeros: Vec<f64> = arguments
+                .iter()
+                .filter(|e| e.symbols().contains(&name))
+                .flat_map(|e| rough_zeros(e, &name, &from, domain))
+                .collect();
+            zeros.sort_by(f64::total_cmp);
+            zeros.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * a.abs().max(1e-9));
+            for part in parts(domain, &zeros) {
+                let role = roles.symbols.get(&name).cloned().unwrap_or_default();
+                let Some(value) = crate::domain::sample::within(&part, domain, &role) else {
+                    continue;
+                };
+                let mut moved = start.clone();
+                moved.coordinates.insert(name.clone(), value);
+                let signs = pattern(&doubles(&moved));
+                if seen.contains(&signs) {
+                    continue;
+                }
+                seen.push(signs);
+                starts.push(moved.clone());
+                out.push(moved);
+                if out.len() >= MOST {
+                    return out;
+                }
+            }
+        }
+    }
+    out
+}
+
+fn free_symbols(arguments: &[Expr], domains: &Domains, at: &Sample) -> Vec<Symbol> {
+    let mut names: Vec<Symbol> = arguments.iter().flat_map(|e| e.symbols()).collect();
+    names.sort();
+    names.dedup();
+    names.retain(|name| {
+        at.coordinates.contains_key(name)
+            && !domains.unit_vectors.iter().flatten().any(|s| s == name)
+    });
+    names.truncate(SYMBOLS);
+    names
+}
+
+/// The parts of a domain between numbers.
+fn parts(domain: &Domain, cuts: &[f64]) -> Vec<Domain> {
+    let mut out = Vec::new();
+    let mut low = domain.low.clone();
+    for cut in cuts {
+        let Some(value) = from_f64(*cut) else {
+            continue;
+        };
+        let end = Some(Limit::number(value, true));
+        out.push(Domain {
+            low: low.clone(),
+            high: end.clone(),
+        });
+        low = end;
+    }
+    out.push(Domain {
+        low,
+        high: domain.high.clone(),
+    });
+    out
+}
+
+/// A part of a domain: an interval for each symbol.
+type Part = Vec<(Symbol, [f64; 2])>;
+
+/// The whole domain of some symbols, widened by the rounding of its ends.
+fn whole(arguments: &[&Expr], domains: &Domains) -> Option<Part> {
+    let mut names: Vec<Symbol> = arguments.iter().flat_map(|e| e.symbols()).collect();
+    names.sort();
+    names.dedup();
+    names.retain(|name| &**name != "pi");
+    if names.len() > SYMBOLS {
+        return None;
+    }
+    let end = |limit: &Option<Limit>, missing: f64, out: f64| {
+        limit.as_ref().map_or(missing, |l| {
+            let x = l.approximate();
+            x + out * x.abs() * 1e-15
+        })
+    };
+    let interval = |name: Symbol| {
+        let domain = domains.symbols.get(&name)?;
+        let low = end(&domain.low, f64::NEG_INFINITY, -1.0);
+        let high = end(&domain.high, f64::INFINITY, 1.0);
+        Some((name, [low, high]))
+    };
+    names.into_iter().map(interval).collect()
+}
+
+/// The values of an expression on a part of the domain.
+fn enclosed(e: &Expr, part: &Part) -> Outcome<Interval> {
+    let mut point = Point::default();
+    for (name, [low, high]) in part {
+        let value = Interval {
+            low: *low,
+            high: *high,
+        };
+        point.values.insert(name.clone(), Outcome::Value(value));
+    }
+    evaluate(e, &point)
+}
+
+/// Whether one enclosure shows that an expression is nowhere negative on the domain.
+pub(super) fn nowhere_negative(e: &Expr, domains: &Domains) -> bool {
+    let Some(part) = whole(&[e], domains) else {
+        return false;
+    };
+    matches!(enclosed(e, &part), Outcome::Value(v) if v.low >= 0.0)
+}
+
+/// Whether one of the arguments is negative at every point of the domain, by enclosures over parts of it.
+pub(super) fn nowhere(arguments: &[Expr], domains: &Domains) -> bool {
+    let all: Vec<&Expr> = arguments.iter().collect();
+    let Some(whole) = whole(&all, domains).filter(|_| !arguments.is_empty()) else {
+        return false;
+    };
+    let mut open = vec![(whole, 0)];
+    let mut left = PARTS;
+    while let Some((part, depth)) = open.pop() {
+        let below = |e: &Expr| match enclosed(e, &part) {
+            Outcome::Value(v) => v.high < 0.0,
+            Outcome::Undefined => true,
+            Outcome::Unknown => false,
+        };
+        if arguments.iter().any(below) {
+            continue;
+        }
+        let Some(rest) = left.checked_sub(1).filter(|_| !part.is_empty()) else {
+            return false;
+        };
+        left = rest;
+        let at = depth % part.len();
+        let [low, high] = part[at].1;
+        let middle = match (low.is_finite(), high.is_finite()) {
+            (true, true) => 0.5 * (low + high),
+            (true, false) => low + low.abs().max(1.0),
+            (false, true) => high - high.abs().max(1.0),
+            (false, false) => 0.0,
+        };
+        if !(low < middle && middle < high) {
+            return false;
+        }
+        for half in [[low, middle], [middle, high]] {
+            let mut part = part.clone();
+            part[at].1 = half;
+            open.push((part, depth + 1));
+        }
+    }
+    true
+}
+
+/// Puts signs that were only seen to the test: each symbol is led to both sides of every place where one changes, and far
+/// out. Points at which one does not hold, or the assumptions that are left after those that enclosures prove.
+pub(super) fn tested(
+    assumptions: &[Assumption],
+    near: &[Sample],
+    domains: &Domains,
+    roles: &Roles,
+) -> Result<Vec<Assumption>, Vec<Sample>> {
+    let mut left = Vec::new();
+    for assumption in assumptions {
+        let Assumption::NotNegative(e) = assumption else {
+            left.push(assumption.clone());
+            continue;
+        };
+        if nowhere(&[-e], domains) {
+            continue;
+        }
+        let mut all = points(std::slice::from_ref(e), near, domains, roles);
+        for start in near {
+            for name in free_symbols(std::slice::from_ref(e), domains, start) {
+                if let (Some(domain), Some(Coordinate::Number(_))) =
+                    (domains.symbols.get(&name), start.coordinates.get(&name))
+                {
+                    all.extend(far(domain).into_iter().map(|value| {
+                        let mut moved = start.clone();
+                        moved.coordinates.insert(name.clone(), value);
+                        moved
+                    }));
+                }
+            }
+        }
+        all.retain(|at| sign_at(e, at) == Some(-1));
+        if !all.is_empty() {
+            return Err(all);
+        }
+        left.push(assumption.clone());
+    }
+    Ok(left)
+}
+
+/// Numbers far out and near the ends of a domain.
+fn far(domain: &Domain) -> Vec<Coordinate> {
+    let mut out = Vec::new();
+    for k in [-9i32, -4, -2, 1, 2, 3, 4, 6, 12] {
+        let power = Rational::from(Int::from(10).pow(k.unsigned_abs()));
+        let size = if k < 0 { power.recip() } else { power };
+        out.extend([size.clone(), -size.clone()]);
+        for end in [&domain.low, &domain.high].into_iter().flatten() {
+            if !end.of_pi {
+                out.extend([&end.value + &size, &end.value - &size]);
+            }
+        }
+    }
+    out.push(Rational::zero());
+    out.retain(|v| domain.contains(v));
+    out.into_iter().map(Coordinate::Number).collect()
+}

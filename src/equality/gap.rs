@@ -1,0 +1,106 @@
+//! Two formulas proved equal wherever both have values: do they have them at the same points?
+//!
+//! What one divides by and the other does not is told where it may be zero; where only one has values on a whole part of
+//! the domain, such as √(d − g)² beside d − g, the part is told with a point of it.
+
+use super::line::doubles;
+use super::refute::Tally;
+use super::{Assumption, Condition, Counterexample, Equality, Ground, How, Value, critical};
+use crate::algebra::{Field, Sign};
+use crate::domain::{Domains, Sample};
+use crate::expr::{Expr, Function, Node};
+
+/// The verdict for a proved identity, with what is known of points where only one side has a value.
+pub(super) fn same(
+    (a, b): (&Expr, &Expr),
+    domains: &Domains,
+    mut assumptions: Vec<Assumption>,
+    ground: Ground,
+    tally: &Tally,
+) -> Equality {
+    let region = |(at, ..): &&(Sample, Value, Value)| forbidden(a, b, at);
+    let how = match tally.apart.iter().find(region) {
+        Some((at, left, right)) => How::OnBranch {
+            condition: Condition::BothDefined,
+            elsewhere: Counterexample {
+                at: at.clone(),
+                left: left.clone(),
+                right: right.clone(),
+                confirmed: true,
+            },
+        },
+        None => {
+            let poles = poles(a, b, domains);
+            match tally.apart.first() {
+                Some((at, ..)) if poles.is_empty() => {
+                    assumptions.push(Assumption::NotAt(at.clone()));
+                }
+                _ => assumptions.extend(poles.into_iter().map(Assumption::NotZero)),
+            }
+            How::Identity {
+                ground,
+                assumptions,
+            }
+        }
+    };
+    Equality::Same { how }
+}
+
+/// Whether a root or logarithm of something negative forbids a value at a point, so that it does so around it as well.
+fn forbidden(a: &Expr, b: &Expr, at: &Sample) -> bool {
+    let point = doubles(at);
+    let negative = |e: &Expr| e.evaluate(&point).is_some_and(|v| v < 0.0);
+    let arguments = critical::arguments(&[a, b]);
+    arguments.iter().any(|(e, needed)| *needed && negative(e))
+}
+
+/// What one of the two divides by and the other does not, where it may be zero on the domain.
+fn poles(a: &Expr, b: &Expr, domains: &Domains) -> Vec<Expr> {
+    let (mut left, mut right) = (divisors(a, domains), divisors(b, domains));
+    let both: Vec<Expr> = left.iter().filter(|e| right.contains(e)).cloned().collect();
+    left.retain(|e| !both.contains(e));
+    right.retain(|e| !both.contains(e));
+    if left.is_empty() && right.is_empty() {
+        return Vec::new();
+    }
+    let whole = |rest: &[Expr]| Expr::product(both.iter().chain(rest).cloned());
+    let (left, right) = (whole(&left), whole(&right));
+    let mut field = Field::new(domains);
+    field.prepare([&left, &right]);
+    let split = |field: &mut Field| {
+        let (x, y) = (field.element(&left).ok()?, field.element(&right).ok()?);
+        field.split_zeros(&x, &y).ok()
+    };
+    let Some([only_left, _, only_right]) = split(&mut field) else {
+        return Vec::new();
+    };
+    let mut out: Vec<Expr> = Vec::new();
+    for x in only_left.iter().chain(&only_right) {
+        if !matches!(field.sign(x), Some(Sign::Positive | Sign::Negative)) {
+            out.push(field.expr(x));
+        }
+    }
+    out
+}
+
+/// What a formula divides by, positive symbols left out.
+fn divisors(e: &Expr, domains: &Domains) -> Vec<Expr> {
+    let mut out: Vec<Expr> = Vec::new();
+    e.walk(&mut |part| {
+        let base = match part.node() {
+            Node::Power(base, k) if k.as_number().is_some_and(num_traits::Signed::is_negative) => {
+                base.clone()
+            }
+            Node::Call(Function::Tan, x) => x.cos(),
+            _ => return,
+        };
+        let positive = base.as_symbol().is_some_and(|name| {
+            let low = domains.symbols.get(name).and_then(|d| d.low.as_ref());
+            low.is_some_and(|l| l.open && !num_traits::Signed::is_negative(&l.value))
+        });
+        if !positive && base.as_number().is_none() && !out.contains(&base) {
+            out.push(base);
+        }
+    });
+    out
+}
