@@ -68,6 +68,18 @@ impl Field {
         Ok([left, common, right].map(elements))
     }
 
+    /// The different parts of the numerator: where it vanishes, one of them does.
+    pub fn zeros(&self, x: &Element) -> Vec<Element> {
+        self.fuel.refill();
+        let parts = self.parts(&x.num);
+        parts.into_iter().map(Element::from_poly).collect()
+    }
+
+    /// The denominator as an element.
+    pub fn below(&self, x: &Element) -> Result<Element, Stop> {
+        Ok(Element::from_poly(x.den.expand(self)?))
+    }
+
     /// The different parts of a polynomial.
     fn parts(&self, p: &Poly) -> Vec<Poly> {
         let parts = factor(p, &self.fuel);

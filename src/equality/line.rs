@@ -4,7 +4,8 @@ use super::refute::sign_at;
 use crate::domain::{Coordinate, Domain, Sample};
 use crate::expr::number::{from_f64, to_f64};
 use crate::expr::{Expr, Point, Symbol};
-use crate::interval::{Interval, Outcome, evaluate};
+use crate::interval::dyadic::Dyadic;
+use crate::interval::{Enclosure, Interval, Outcome, evaluate};
 
 /// Steps of a search between two numbers.
 const STEPS: u32 = 60;
@@ -130,7 +131,7 @@ pub(crate) fn zero_apart(
     name: &Symbol,
     at: &Sample,
     domain: &Domain,
-) -> Option<(Interval, Interval)> {
+) -> Option<[Enclosure; 2]> {
     let here = |low: f64, high: f64| {
         let mut point = at.point::<Interval>(true);
         point.directions.remove(name);
@@ -154,13 +155,7 @@ pub(crate) fn zero_apart(
             if sign_at(f, &exact) == Some(0)
                 && let Some(other) = apart(root, root)
             {
-                return Some((
-                    Interval {
-                        low: root,
-                        high: root,
-                    },
-                    other,
-                ));
+                return Some([exactly(root, root)?, exactly(other.low, other.high)?]);
             }
         }
         [1e-14, 1e-11, 1e-8, 1e-5].into_iter().find_map(|share| {
@@ -179,7 +174,14 @@ pub(crate) fn zero_apart(
             let other = (continuous && crosses)
                 .then(|| apart(low, high))
                 .flatten()?;
-            Some((Interval { low, high }, other))
+            Some([exactly(low, high)?, exactly(other.low, other.high)?])
         })
+    })
+}
+
+fn exactly(low: f64, high: f64) -> Option<Enclosure> {
+    Some(Enclosure {
+        low: Dyadic::from_f64(low)?,
+        high: Dyadic::from_f64(high)?,
     })
 }

@@ -142,11 +142,6 @@ fn claim(content: &Content) -> Claim<'_> {
 }
 
 fn compare(ctx: &Context, answer: &Reading) -> Finding {
-    if matches!(answer.content, Content::Relations(..)) && answer.content == ctx.key.reading.content
-    {
-        let proof = Proof::of("identity", "the same relation");
-        return Finding::new(Verdict::Equivalent, "EQUIV_SOLUTIONS", proof);
-    }
     let asked = &ctx.key.question.asked;
     let is_asked = |name: &Symbol| asked.iter().any(|g| g.name == *name);
     match (claim(&ctx.key.reading.content), claim(&answer.content)) {
@@ -189,7 +184,17 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
             finding
         }
         (Claim::Relations(sides, signs), Claim::Relations(mine, my_signs)) => {
-            relation::compare(ctx, (sides, signs), (mine, my_signs))
+            let finding = relation::compare(ctx, (sides, signs), (mine, my_signs));
+            let same = answer.content == ctx.key.reading.content;
+            match finding.verdict {
+                // What cannot be solved still says the same as itself.
+                Verdict::Equivalent | Verdict::Invalid => finding,
+                _ if same => {
+                    let proof = Proof::of("identity", "the same relation");
+                    Finding::new(Verdict::Equivalent, "EQUIV_SOLUTIONS", proof)
+                }
+                _ => finding,
+            }
         }
         (Claim::Relations(sides, signs), Claim::Value(Some(_), _)) => match &answer.content {
             Content::Relations(mine, my_signs) => {

@@ -1,139 +1,109 @@
 //! Equations and inequalities: the same when they have the same solutions on the domain.
 //!
-//! F = 0 and G = 0 have the same solutions where F/G keeps one sign; where it does not, each equation is solved for a
-//! symbol in which it is linear and put into the other. Roots gained or lost are reported with a point.
+//! In one symbol the solutions are found. In several, the parts of two differences that only one of them has are looked at:
+//! one that vanishes nowhere, or only where the other relation holds as well, changes nothing; one without the sought
+//! quantity leaves the relations equivalent given that it is not zero; any other is a root lost or gained, shown at a point.
+//! Relations without solutions, or that hold everywhere on the domain, are compared over the reals; none of them is rewarded
+//! for saying nothing.
 
+mod cells;
+mod locus;
 mod solved;
+mod system;
 
-use num_traits::Signed;
+use std::collections::BTreeSet;
 
 use super::compare::{Context, Finding, WRITTEN, scalars};
 use super::{Apart, Diagnosis, Proof, Verdict};
-use crate::algebra::{Field, Sign};
-use crate::domain::{Domains, roles, samples};
-use crate::expr::{Expr, Node};
-use crate::formula::{Content, Relation};
+use crate::algebra::{Element, Field, Sign};
+use crate::domain::{Domain, Domains, roles, samples};
+use crate::expr::{Expr, Node, Symbol};
+use crate::formula::{Content, Relation, write_plain};
 use crate::interval::{Interval, Outcome, evaluate};
+use cells::holds;
+use locus::{Compared, Extent, Part};
+use num_traits::Signed;
 pub(super) use solved::solve_for;
-use solved::{same_angle, solution_apart, solved_in, unknowns};
+use solved::{same_angle, solved_in, unknowns};
 
 /// `left − right  rel  0`, turned so that the relation is one of =, ≠, <, ≤.
+#[derive(Clone, Debug)]
 struct Normal {
     difference: Expr,
     relation: Relation,
 }
 
-/// Compares two chains of relations link by link, in any order.
+/// Compares two systems of relations.
 pub(crate) fn compare(
     ctx: &Context,
     (sides, signs): (&[Content], &[Relation]),
     (mine, my_signs): (&[Content], &[Relation]),
 ) -> Finding {
-    if let Some(finding) = vector_equation(ctx, (sides, signs), (mine, my_signs)) {
-        return finding;
-    }
     let (Some(expected), Some(answer)) = (links(sides, signs), links(mine, my_signs)) else {
         let words = "the relation holds something that is not a plain expression";
         return Finding::different("DIFF_KIND", "kind", words);
     };
-    if expected.len() != answer.len() {
-        let words = format!(
-            "{} relations are expected, and there are {}",
-            expected.len(),
-            answer.len()
-        );
-        return Finding::different("DIFF_KIND", "kind", words.clone()).with(Diagnosis::new(
-            "KIND",
-            words.clone(),
-            words,
-        ));
+    let domains = &ctx.key.question.domains;
+    if let Some(found) = system::in_one_symbol(ctx, &expected, &answer, domains) {
+        return found;
     }
-    if let ([e], [a]) = (expected.as_slice(), answer.as_slice()) {
-        return link(ctx, e, a);
+    match (expected.as_slice(), answer.as_slice()) {
+        ([e], [a]) => link(ctx, e, a),
+        _ => system::compare(ctx, &expected, &answer, domains),
     }
-    let mut left: Vec<&Normal> = answer.iter().collect();
-    let mut total: Option<Finding> = None;
-    for e in &expected {
-        let mut first: Option<Finding> = None;
-        let mut found = None;
-        for (i, a) in left.iter().enumerate() {
-            let finding = link(ctx, e, a);
-            if finding.verdict == Verdict::Equivalent {
-                found = Some((i, finding));
-                break;
-            }
-            first.get_or_insert(finding);
-        }
-        match (found, first) {
-            (Some((i, finding)), _) => {
-                left.remove(i);
-                total.get_or_insert(finding);
-            }
-            (None, Some(first)) => return first,
-            (None, None) => break,
-        }
-    }
-    total.unwrap_or_else(|| Finding::different("DIFF_KIND", "kind", "no relation"))
 }
 
-/// `v = [a, b]` against `v = [c, d]`, and `[a, b] = [c, d]` against its like.
-fn vector_equation(
-    ctx: &Context,
-    (sides, signs): (&[Content], &[Relation]),
-    (mine, my_signs): (&[Content], &[Relation]),
-) -> Option<Finding> {
-    let [Content::Vector(a), Content::Vector(b)] = sides else {
-        return None;
-    };
-    let [Content::Vector(c), Content::Vector(d)] = mine else {
-        return None;
-    };
-    if signs != [Relation::Equal] || my_signs != [Relation::Equal] {
-        return None;
-    }
-    let mut total = None;
-    for i in 0..3 {
-        let e = Normal {
-            difference: &a[i] - &b[i],
-            relation: Relation::Equal,
-        };
-        let m = Normal {
-            difference: &c[i] - &d[i],
-            relation: Relation::Equal,
-        };
-        if e.difference.is_zero() && m.difference.is_zero() {
-            continue;
-        }
-        let finding = link(ctx, &e, &m);
-        if finding.verdict != Verdict::Equivalent {
-            return Some(finding);
-        }
-        total = Some(finding);
-    }
-    total
-}
-
+/// The relations of a chain; an equation between vectors is one for each component, and with ± it is one that vanishes for
+/// either sign.
 fn links(sides: &[Content], signs: &[Relation]) -> Option<Vec<Normal>> {
-    let exprs: Option<Vec<&Expr>> = sides.iter().map(Content::expr).collect();
-    let exprs = exprs?;
-    let pairs = exprs.windows(2).zip(signs);
-    let normal = |(pair, sign): (&[&Expr], &Relation)| {
-        let (difference, relation) = match sign {
-            Relation::Greater => (pair[1] - pair[0], Relation::Less),
-            Relation::GreaterEqual => (pair[1] - pair[0], Relation::LessEqual),
-            other => (pair[0] - pair[1], *other),
-        };
-        let equation = matches!(relation, Relation::Equal | Relation::NotEqual);
-        Normal {
-            difference: if equation {
-                rooted(difference)
-            } else {
-                difference
-            },
-            relation,
+    let mut out = Vec::new();
+    for (pair, sign) in sides.windows(2).zip(signs) {
+        let equation = matches!(sign, Relation::Equal | Relation::NotEqual);
+        match pair {
+            [Content::Vector(a), Content::Vector(b)] if *sign == Relation::Equal => {
+                let parts = a.iter().zip(b).map(|(a, b)| normal(a, b, *sign));
+                out.extend(parts.filter(|n| !n.difference.is_zero()));
+            }
+            [Content::Either(a), Content::Either(b)] if equation => {
+                out.push(either(&a[0], &b[0], &a[1], &b[1], *sign));
+            }
+            [Content::Either(a), b] if equation => {
+                let b = b.expr()?;
+                out.push(either(&a[0], b, &a[1], b, *sign));
+            }
+            [a, Content::Either(b)] if equation => {
+                let a = a.expr()?;
+                out.push(either(a, &b[0], a, &b[1], *sign));
+            }
+            [a, b] => out.push(normal(a.expr()?, b.expr()?, *sign)),
+            _ => return None,
         }
+    }
+    (!out.is_empty()).then_some(out)
+}
+
+fn either(a: &Expr, b: &Expr, c: &Expr, d: &Expr, relation: Relation) -> Normal {
+    Normal {
+        difference: (a - b) * (c - d),
+        relation,
+    }
+}
+
+fn normal(left: &Expr, right: &Expr, relation: Relation) -> Normal {
+    let (difference, relation) = match relation {
+        Relation::Greater => (right - left, Relation::Less),
+        Relation::GreaterEqual => (right - left, Relation::LessEqual),
+        other => (left - right, other),
     };
-    Some(pairs.map(normal).collect())
+    let equation = matches!(relation, Relation::Equal | Relation::NotEqual);
+    Normal {
+        difference: if equation {
+            rooted(difference)
+        } else {
+            difference
+        },
+        relation,
+    }
 }
 
 /// A power vanishes where its base does.
@@ -145,54 +115,55 @@ fn rooted(difference: Expr) -> Expr {
 }
 
 fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
-    let domains = &ctx.key.question.domains;
-    if expected.relation != answer.relation {
-        let kinds = [expected.relation, answer.relation];
-        let strict = |r: Relation| matches!(r, Relation::Less | Relation::LessEqual);
-        if kinds.iter().all(|r| strict(*r)) && same_sign(expected, answer, domains) == Some(true) {
-            let words = "the boundary belongs to one of the two inequalities and not to the other";
-            return Finding::different("DIFF_STRICT", "solutions", words).with(Diagnosis::new(
-                "STRICT",
-                words,
-                "look at the case of equality",
-            ));
+    let is_equation = |n: &Normal| !matches!(n.relation, Relation::Less | Relation::LessEqual);
+    match (is_equation(expected), is_equation(answer)) {
+        (true, true) if expected.relation == answer.relation => equations(ctx, expected, answer),
+        (false, false) => inequalities(ctx, expected, answer),
+        _ => {
+            let words = format!(
+                "{} is expected, and the answer has {}",
+                expected.relation.sign(),
+                answer.relation.sign()
+            );
+            let finding = Finding::different("DIFF_RELATION", "kind", words.clone());
+            finding.with(Diagnosis::new("RELATION", words.clone(), words))
         }
-        let words = format!(
-            "{} is expected, and the answer has {}",
-            expected.relation.sign(),
-            answer.relation.sign()
-        );
-        return Finding::different("DIFF_RELATION", "kind", words.clone()).with(Diagnosis::new(
-            "RELATION",
-            words.clone(),
-            words,
-        ));
-    }
-    let equation = matches!(
-        expected.relation,
-        Relation::Equal | Relation::NotEqual | Relation::Approximately
-    );
-    match (same_sign(expected, answer, domains), equation) {
-        (Some(true), _) | (Some(false), true) => {
-            let words = "the two differ by a factor that is nowhere zero";
-            Finding::new(
-                Verdict::Equivalent,
-                "EQUIV_SOLUTIONS",
-                Proof::of("solutions", words),
-            )
-        }
-        (Some(false), false) => {
-            let words = "the inequality points the other way";
-            Finding::different("DIFF_TURNED", "solutions", words).with(Diagnosis::new(
-                "TURNED",
-                words,
-                "multiplying by something negative turns an inequality round",
-            ))
-        }
-        (None, true) => equations(ctx, expected, answer),
-        (None, false) => inequalities(ctx, expected, answer),
     }
 }
+
+fn same_solutions(words: &str) -> Finding {
+    let proof = Proof::of("solutions", words);
+    Finding::new(Verdict::Equivalent, "EQUIV_SOLUTIONS", proof)
+}
+
+fn undecided(words: &str) -> Finding {
+    let proof = Proof::of("none", words);
+    Finding::new(Verdict::Undecided, "UNDECIDED_SOLUTIONS", proof)
+}
+
+/// The finding where the expected relation says nothing.
+fn says_nothing(what: &str) -> Finding {
+    let words = format!("the expected relation {what}, even over the reals: it says nothing");
+    Finding::new(
+        Verdict::Invalid,
+        "INVALID_EXPECTED",
+        Proof::of("none", words),
+    )
+}
+
+/// The domains with every symbol real.
+fn over_reals(domains: &Domains, expressions: &[&Expr]) -> Domains {
+    let mut all = domains.clone();
+    for name in expressions.iter().flat_map(|e| e.symbols()) {
+        if &*name != "pi" {
+            all.symbols.insert(name, Domain::real());
+        }
+    }
+    all
+}
+
+/// What is told where relations had to be compared over the reals.
+const REALS: &str = "compared over the reals";
 
 /// Whether `g = 0` says the same as `f = 0`, or follows from it: up to a factor without zeros, or solved for a symbol.
 pub(crate) fn follows(f: &Expr, g: &Expr, domains: &Domains) -> bool {
@@ -239,62 +210,30 @@ fn same_sign(expected: &Normal, answer: &Normal, domains: &Domains) -> Option<bo
     })
 }
 
-/// Two equations whose quotient changes sign or vanishes somewhere, or is not known.
+/// Two equations.
 fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     let domains = &ctx.key.question.domains;
     let (f, g) = (&expected.difference, &answer.difference);
     let same_angle = same_angle(f, g, domains);
     if same_angle == Some(true) {
-        let words = "each equation fixes the angle, and at the same value";
-        let proof = Proof::of("solutions", words);
-        return Finding::new(Verdict::Equivalent, "EQUIV_SOLUTIONS", proof);
+        return same_solutions("each equation fixes the angle, and at the same value");
     }
-    // A solution of one that the other lacks.
-    let lost = solution_apart(f, g, domains);
-    if let (Some(at), Some(_)) = (&lost, solution_apart(g, f, domains)) {
-        let words = "the equation says something else than the expected one";
-        let mut finding = parted(ctx, words, "DIFF_EQUATION", at.clone());
-        if let Some(term) = turned_term(f, g, domains) {
-            let message = format!("right with the sign of {} turned", ctx.say(&term));
-            finding.note = "DIFF_TERM_SIGN";
-            finding.diagnosis = vec![Diagnosis::new(
-                "TERM_SIGN",
-                message,
-                "one term of your equation has the wrong sign",
-            )];
+    let compared = locus::compare(f, g, domains);
+    match compared.as_ref().map(|c| c.extents) {
+        Some([Extent::All, Extent::All] | [Extent::None, Extent::None]) => {
+            return vacuous(ctx, f, g);
         }
-        return finding;
-    }
-    if let Some(at) = lost {
-        let words = "a solution of the expected equation does not fulfil the answer";
-        return parted(ctx, words, "DIFF_ROOT_LOST", at);
-    }
-    if let Some(at) = solution_apart(g, f, domains) {
-        let words = "the answer has a solution that the expected equation lacks";
-        return parted(ctx, words, "DIFF_ROOT_GAINED", at);
-    }
-    // Where one is the other times something that vanishes inside the domain, that is a root more.
-    if let Some(ratio) = ratio(f, g, domains) {
-        if let Some(at) = solution_apart(&ratio.powi(-1), g, domains) {
-            let words = "divided by something that vanishes inside the domain";
-            return parted(ctx, words, "DIFF_ROOT_LOST", at);
+        Some([Extent::All, _]) => {
+            let words = "the expected equation holds everywhere, and the answer does not";
+            return Finding::different("DIFF_EQUATION", "solutions", words);
         }
-        if let Some(at) = solution_apart(&ratio, f, domains) {
-            let words = "multiplied by something that vanishes inside the domain";
-            let swapped = (at.0, at.2, at.1);
-            return parted(ctx, words, "DIFF_ROOT_GAINED", swapped);
+        Some([_, Extent::All]) => {
+            let words = "the answer holds everywhere: it says nothing";
+            return Finding::different("DIFF_EQUATION", "solutions", words);
         }
+        _ => {}
     }
-    let both_ways = solved_in(f, g, domains) && solved_in(g, f, domains);
-    if both_ways {
-        let mut finding = Finding::new(
-            Verdict::Equivalent,
-            "EQUIV_SOLUTIONS",
-            Proof::of("solutions", "each equation, solved, fulfils the other"),
-        );
-        finding
-            .assumed
-            .push("what was divided by is not zero".into());
+    if let Some(finding) = compared.and_then(|c| from_parts(ctx, f, g, c)) {
         return finding;
     }
     if same_angle == Some(false) {
@@ -305,23 +244,117 @@ fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
             "compare your equation with the law it comes from, term by term",
         ));
     }
-    Finding::new(
-        Verdict::Undecided,
-        "UNDECIDED_SOLUTIONS",
-        Proof::of(
-            "none",
-            "the equations could not be solved to compare their solutions",
-        ),
-    )
+    if solved_in(f, g, domains) && solved_in(g, f, domains) {
+        let mut finding = same_solutions("each equation, solved, fulfils the other");
+        finding
+            .assumed
+            .push("what was divided by is not zero".into());
+        return finding;
+    }
+    undecided("the equations could not be solved to compare their solutions")
 }
 
-fn parted(ctx: &Context, words: &str, note: &'static str, at: (String, Expr, Expr)) -> Finding {
+/// Two equations that both hold nowhere on the domain, or both everywhere.
+fn vacuous(ctx: &Context, f: &Expr, g: &Expr) -> Finding {
+    let reals = over_reals(&ctx.key.question.domains, &[f, g]);
+    let Some(compared) = locus::compare(f, g, &reals) else {
+        return undecided("neither equation has a solution on the domain");
+    };
+    match compared.extents {
+        [Extent::All, _] => return says_nothing("holds everywhere"),
+        [Extent::None, _] => return says_nothing("has no solution"),
+        [Extent::Unknown, _] | [_, Extent::Unknown] => {
+            return undecided("no solution of the equations was found, on the domain or beyond it");
+        }
+        _ => {}
+    }
+    match from_parts(ctx, f, g, compared) {
+        Some(mut finding) => {
+            let words = "neither equation has a solution on the domain: ";
+            finding.proof.words = format!("{words}{REALS}, {}", finding.proof.words);
+            finding.assumed.push(REALS.into());
+            finding
+        }
+        None => undecided("neither equation has a solution on the domain"),
+    }
+}
+
+/// The verdict from the parts that only one of two equations has, where they tell.
+fn from_parts(ctx: &Context, f: &Expr, g: &Expr, compared: Compared) -> Option<Finding> {
+    let Compared {
+        lost,
+        gained,
+        shared,
+        extents,
+    } = compared;
+    if lost.is_empty() && gained.is_empty() {
+        let mut finding =
+            same_solutions("whatever sets the two apart is nowhere zero where it matters");
+        if extents.contains(&Extent::Unknown) {
+            finding.assumed.push("the equation has a solution".into());
+        }
+        return Some(finding);
+    }
+    let sought: BTreeSet<Symbol> = {
+        let asked = ctx.key.question.asked.iter().map(|g| g.name.clone());
+        let asked: BTreeSet<Symbol> = asked.filter(|name| shared.contains(name)).collect();
+        if asked.is_empty() { shared } else { asked }
+    };
+    let free = |part: &Part| part.expr.symbols().is_disjoint(&sought);
+    if !sought.is_empty() && lost.iter().chain(&gained).all(free) {
+        let mut finding = same_solutions("the two differ by factors without the sought quantity");
+        let factors = lost.iter().chain(&gained);
+        finding.assumed = factors
+            .map(|part| format!("{} ≠ 0", write_plain(&part.expr)))
+            .collect();
+        return Some(finding);
+    }
+    let found = |parts: &[Part]| parts.iter().find(|p| p.at.is_some()).cloned();
+    let open = |parts: &[Part]| parts.iter().any(|p| p.at.is_none());
+    match (found(&lost), found(&gained)) {
+        (Some(at), Some(_)) => {
+            let words = "the equation says something else than the expected one";
+            let mut finding = parted(ctx, words, "DIFF_EQUATION", &at, false);
+            if let Some(term) = turned_term(f, g, &ctx.key.question.domains) {
+                let message = format!("right with the sign of {} turned", ctx.say(&term));
+                finding.note = "DIFF_TERM_SIGN";
+                finding.diagnosis = vec![Diagnosis::new(
+                    "TERM_SIGN",
+                    message,
+                    "one term of your equation has the wrong sign",
+                )];
+            }
+            Some(finding)
+        }
+        (Some(at), None) => {
+            let words = "a solution of the expected equation does not fulfil the answer";
+            Some(parted(ctx, words, "DIFF_ROOT_LOST", &at, false))
+        }
+        (None, Some(at)) => {
+            let words = "the answer has a solution that the expected equation lacks";
+            Some(parted(ctx, words, "DIFF_ROOT_GAINED", &at, true))
+        }
+        (None, None) => {
+            debug_assert!(open(&lost) || open(&gained));
+            None
+        }
+    }
+}
+
+fn parted(ctx: &Context, words: &str, note: &'static str, part: &Part, gained: bool) -> Finding {
     let mut finding = Finding::different(note, "solutions", words);
-    finding.counterexample = Some(Apart {
-        at: at.0,
-        yours: format!("left minus right is {}", ctx.say(&at.2)),
-        expected: format!("left minus right is {}", ctx.say(&at.1)),
-    });
+    if let Some((at, value)) = &part.at {
+        let (zero, other) = (
+            "left minus right is 0".to_string(),
+            format!("left minus right is {}", ctx.say(value)),
+        );
+        let (yours, expected) = if gained { (zero, other) } else { (other, zero) };
+        finding.counterexample = Some(Apart {
+            at: at.clone(),
+            yours,
+            expected,
+        });
+    }
     let hint = match note {
         "DIFF_EQUATION" => "compare your equation with the law it comes from, term by term",
         "DIFF_ROOT_LOST" => "a solution is missing or the equation says something else",
@@ -353,76 +386,221 @@ fn turned_term(f: &Expr, g: &Expr, domains: &Domains) -> Option<Expr> {
     })
 }
 
-/// The quotient g/f in its normal form.
-fn ratio(f: &Expr, g: &Expr, domains: &Domains) -> Option<Expr> {
+/// What sets two differences apart: the sign of the quotient where it has one, and its parts that may vanish.
+struct Factor {
+    positive: bool,
+    weak: Vec<Expr>,
+}
+
+/// The quotient of two differences, where its sign is known.
+fn factor(f: &Expr, g: &Expr, domains: &Domains) -> Option<Factor> {
     let (domains, _) = domains.completed(&roles(&[f, g]));
     let mut field = Field::new(&domains);
     field.prepare([f, g]);
-    let (a, b) = (field.element(f).ok()?, field.element(g).ok()?);
-    let ratio = field.div(&b, &a).ok()?;
-    (ratio.terms() <= WRITTEN).then(|| field.expr(&ratio))
+    let (x, y) = (field.element(f).ok()?, field.element(g).ok()?);
+    if field.is_zero(&x) || field.is_zero(&y) {
+        return None;
+    }
+    let quotient = field.div(&y, &x).ok()?;
+    if quotient.terms() > WRITTEN {
+        return None;
+    }
+    let sign = field.sign(&quotient)?;
+    let strict = |x: &Element| matches!(field.sign(x), Some(Sign::Positive | Sign::Negative));
+    let below = field.below(&quotient).ok()?;
+    let parts = [field.zeros(&quotient), field.zeros(&below)].concat();
+    let weak = parts.iter().filter(|x| !strict(x));
+    Some(Factor {
+        positive: sign.is_not_negative(),
+        weak: weak.map(|x| field.expr(x)).collect(),
+    })
 }
 
-/// Two inequalities whose quotient is not known to keep a sign.
+/// Where a relation `difference < 0` or `≤ 0` holds on a domain, as far as the sign of its difference tells.
+fn extent(n: &Normal, domains: &Domains) -> Extent {
+    let (domains, _) = domains.completed(&roles(&[&n.difference]));
+    let mut field = Field::new(&domains);
+    field.prepare([&n.difference]);
+    let sign = field.element(&n.difference).ok();
+    let sign = sign.and_then(|x| field.sign(&x));
+    match (sign, n.relation) {
+        (Some(Sign::Negative), _) => Extent::All,
+        (Some(Sign::NotPositive | Sign::Zero), Relation::LessEqual) => Extent::All,
+        (Some(Sign::Positive), _) => Extent::None,
+        (Some(Sign::NotNegative | Sign::Zero), Relation::Less) => Extent::None,
+        (Some(_), _) => Extent::Unknown,
+        (None, _) => Extent::Some,
+    }
+}
+
+/// Two inequalities.
 fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     let domains = &ctx.key.question.domains;
     let (f, g) = (&expected.difference, &answer.difference);
-    let uses = roles(&[f, g]);
-    let (all, assumed) = domains.completed(&uses);
-    for sample in samples(&uses, &all, 48) {
-        let at = |e: &Expr| match evaluate::<Interval>(e, &sample.point(true)) {
-            Outcome::Value(v) if v.high < 0.0 => Some(true),
-            Outcome::Value(v) if v.low > 0.0 => Some(false),
-            _ => None,
-        };
-        if let (Some(a), Some(b)) = (at(f), at(g))
-            && a != b
-        {
-            let word = |holds: bool| if holds { "holds" } else { "does not hold" }.to_string();
-            let mut finding = Finding::different(
-                "DIFF_INEQUALITY",
-                "counterexample",
-                "one holds where the other does not",
-            );
-            finding.counterexample = Some(Apart {
-                at: sample.words(),
-                yours: word(b),
-                expected: word(a),
-            });
-            finding.assumed = assumed;
-            return finding.with(Diagnosis::new(
-                "INEQUALITY",
-                "the inequality holds elsewhere than it should",
-                "check the bound and the direction of your inequality",
+    match [expected, answer].map(|n| extent(n, domains)) {
+        [Extent::All, Extent::All] | [Extent::None, Extent::None] => {
+            let reals = over_reals(domains, &[f, g]);
+            let extents = [expected, answer].map(|n| extent(n, &reals));
+            match extents {
+                [Extent::All, _] => return says_nothing("holds everywhere"),
+                [Extent::None, _] => return says_nothing("has no solution"),
+                _ => {}
+            }
+            let same = expected.relation == answer.relation
+                && factor(f, g, &reals).is_some_and(|q| q.positive && q.weak.is_empty());
+            if same && !extents.contains(&Extent::None) && !extents.contains(&Extent::All) {
+                let mut finding = same_solutions("the two differ by a factor that is positive");
+                finding.assumed.push(REALS.into());
+                return finding;
+            }
+            return undecided("on the domain neither inequality says anything");
+        }
+        [
+            a @ (Extent::All | Extent::None),
+            b @ (Extent::All | Extent::None),
+        ] if a != b => {
+            let words = "one holds everywhere on the domain and the other nowhere";
+            return Finding::different("DIFF_INEQUALITY", "solutions", words);
+        }
+        _ => {}
+    }
+    let common = factor(f, g, domains);
+    if let Some(common) = &common {
+        let free = |e: &Expr| e.symbols().is_disjoint(&asked_in(ctx, f));
+        if common.positive && expected.relation == answer.relation {
+            if common.weak.is_empty() {
+                return same_solutions("the two differ by a factor that is positive");
+            }
+            if common.weak.iter().all(free) {
+                let mut finding = same_solutions("the two differ by a factor that is not negative");
+                let words = common
+                    .weak
+                    .iter()
+                    .map(|e| format!("{} ≠ 0", write_plain(e)));
+                finding.assumed = words.collect();
+                return finding;
+            }
+        }
+        let boundary = || locus::vanishing(f, &Expr::one(), domains);
+        if common.positive && expected.relation != answer.relation {
+            match boundary() {
+                Some((at, _)) => {
+                    let words =
+                        "the boundary belongs to one of the two inequalities and not to the other";
+                    let mut finding = Finding::different("DIFF_STRICT", "solutions", words);
+                    let word = |r| {
+                        if r == Relation::Less {
+                            "does not hold"
+                        } else {
+                            "holds"
+                        }
+                    };
+                    finding.counterexample = Some(Apart {
+                        at,
+                        yours: word(answer.relation).into(),
+                        expected: word(expected.relation).into(),
+                    });
+                    return finding.with(Diagnosis::new(
+                        "STRICT",
+                        words,
+                        "look at the case of equality",
+                    ));
+                }
+                None => return undecided("the two differ at most on their boundary"),
+            }
+        }
+        if !common.positive && common.weak.is_empty() {
+            let words = "the inequality points the other way";
+            return Finding::different("DIFF_TURNED", "solutions", words).with(Diagnosis::new(
+                "TURNED",
+                words,
+                "multiplying by something negative turns an inequality round",
             ));
         }
     }
-    // The same bound on the same symbol?
-    for name in unknowns(f, g) {
-        if let (Some(a), Some(b)) = (solve_for(f, &name, domains), solve_for(g, &name, domains)) {
-            let finding = scalars(
-                &Context {
-                    key: ctx.key,
-                    options: ctx.options,
-                    diagnose: false,
-                },
-                &a,
-                &b,
-            );
-            if finding.verdict == Verdict::Different {
-                return Finding {
-                    note: "DIFF_INEQUALITY",
-                    ..finding
+    apart_at_points(
+        ctx,
+        std::slice::from_ref(expected),
+        std::slice::from_ref(answer),
+    )
+    .or_else(|| other_bound(ctx, f, g))
+    .unwrap_or_else(|| {
+        undecided("the inequalities agree at every point tried, and no proof was found")
+    })
+}
+
+/// The sought quantity of a relation: what is asked for, else all its symbols.
+fn asked_in(ctx: &Context, f: &Expr) -> BTreeSet<Symbol> {
+    let all = f.symbols();
+    let asked = ctx.key.question.asked.iter().map(|g| g.name.clone());
+    let asked: BTreeSet<Symbol> = asked.filter(|name| all.contains(name)).collect();
+    if asked.is_empty() { all } else { asked }
+}
+
+/// A point at which one system of relations holds and the other does not.
+fn apart_at_points(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Option<Finding> {
+    let all: Vec<&Expr> = expected
+        .iter()
+        .chain(answer)
+        .map(|n| &n.difference)
+        .collect();
+    let uses = roles(&all);
+    let (domains, assumed) = ctx.key.question.domains.completed(&uses);
+    for sample in samples(&uses, &domains, 48) {
+        // Whether all relations hold: nothing where one is too near to its boundary.
+        let point = sample.point::<Interval>(true);
+        let truth = |system: &[Normal]| {
+            let mut all = true;
+            for link in system {
+                let sign = match evaluate::<Interval>(&link.difference, &point) {
+                    Outcome::Value(v) if v.high < 0.0 => Some(std::cmp::Ordering::Less),
+                    Outcome::Value(v) if v.low > 0.0 => Some(std::cmp::Ordering::Greater),
+                    Outcome::Value(v) if v.low == 0.0 && v.high == 0.0 => {
+                        Some(std::cmp::Ordering::Equal)
+                    }
+                    Outcome::Undefined => None,
+                    _ => return None,
                 };
+                all &= holds(link.relation, sign);
             }
+            Some(all)
+        };
+        if let (Some(e), Some(a)) = (truth(expected), truth(answer))
+            && e != a
+        {
+            let word = |holds: bool| if holds { "holds" } else { "does not hold" }.to_string();
+            let words = "one holds where the other does not";
+            let mut finding = Finding::different("DIFF_INEQUALITY", "counterexample", words);
+            finding.counterexample = Some(Apart {
+                at: sample.words(),
+                yours: word(a),
+                expected: word(e),
+            });
+            finding.assumed = assumed;
+            return Some(finding.with(Diagnosis::new(
+                "INEQUALITY",
+                "the inequality holds elsewhere than it should",
+                "check the bound and the direction of your inequality",
+            )));
         }
     }
-    Finding::new(
-        Verdict::Undecided,
-        "UNDECIDED_SOLUTIONS",
-        Proof::of(
-            "none",
-            "the inequalities agree at every point tried, and no proof was found",
-        ),
-    )
+    None
+}
+
+/// Whether two inequalities set different bounds on the same symbol.
+fn other_bound(ctx: &Context, f: &Expr, g: &Expr) -> Option<Finding> {
+    let domains = &ctx.key.question.domains;
+    let plain = Context {
+        key: ctx.key,
+        options: ctx.options,
+        diagnose: false,
+    };
+    unknowns(f, g).iter().find_map(|name| {
+        let (a, b) = (solve_for(f, name, domains)?, solve_for(g, name, domains)?);
+        let finding = scalars(&plain, &a, &b);
+        (finding.verdict == Verdict::Different).then_some(Finding {
+            note: "DIFF_INEQUALITY",
+            ..finding
+        })
+    })
 }

@@ -58,12 +58,25 @@ pub(super) fn solved_in(f: &Expr, g: &Expr, domains: &Domains) -> bool {
     })
 }
 
-/// A point inside the domain where `f` vanishes and `g` does not, in words, with both values there.
-pub(super) fn solution_apart(
-    f: &Expr,
-    g: &Expr,
-    domains: &Domains,
-) -> Option<(String, Expr, Expr)> {
+/// A point with another value of one symbol, in words.
+pub(super) fn words_at(sample: &Sample, name: &Symbol, value: &Enclosure) -> String {
+    let mut others = sample.clone();
+    others.coordinates.remove(name);
+    let words = others.words();
+    let here = format!("{name} = {}", value.decimal(6));
+    match words.is_empty() {
+        true => here,
+        false => format!("{words}, {here}"),
+    }
+}
+
+/// A value rounded to be shown.
+pub(super) fn rounded(value: &Enclosure) -> Expr {
+    number::decimal(&value.decimal(6)).map_or_else(Expr::zero, Expr::from)
+}
+
+/// A point inside the domain where `f` vanishes and `g` does not, in words, with the value of `g` there.
+pub(super) fn solution_apart(f: &Expr, g: &Expr, domains: &Domains) -> Option<(String, Expr)> {
     let uses = roles(&[f, g]);
     let (domains, _) = domains.completed(&uses);
     for name in unknowns(f, g) {
@@ -88,21 +101,20 @@ pub(super) fn solution_apart(
             if let Outcome::Value(left) = evaluate(g, &there)
                 && !left.0.has_zero()
             {
-                let digits = |v: &Enclosure| v.decimal(6);
-                let mut shown = sample.clone();
-                shown.coordinates.remove(&name);
-                let mut at = shown.words();
-                if !at.is_empty() {
-                    at.push_str(", ");
-                }
-                at.push_str(&format!("{name} = {}", digits(&value.0)));
-                let number =
-                    |text: String| number::decimal(&text).map_or_else(Expr::zero, Expr::from);
-                return Some((at, Expr::zero(), number(digits(&left.0))));
+                return Some((words_at(&sample, &name, &value.0), rounded(&left.0)));
             }
         }
     }
     None
+}
+
+/// Whether a value lies in a symbol's domain, which is positive where nothing is declared.
+pub(super) fn lies_in(value: &Enclosure, name: &Symbol, domains: &Domains) -> bool {
+    let domain = domains.symbols.get(name).cloned();
+    let domain = domain.unwrap_or_else(Domain::positive);
+    [&value.low, &value.high]
+        .into_iter()
+        .all(|end| domain.contains(&end.to_rational()))
 }
 
 /// Whether the root's value lies strictly inside the symbol's domain.

@@ -1,0 +1,196 @@
+//! Where equations hold: two of them compared by the parts of their numerators that may vanish.
+//!
+//! In: the differences of two equations over a domain. Out: whether every part that only one of them has vanishes nowhere, or
+//! where the other vanishes too; else a point at which one holds and the other does not.
+
+use super::solved::{rounded, solution_apart, solve_for, unknowns, words_at};
+use crate::algebra::{Element, Field, Sign};
+use crate::domain::{Domains, roles, samples};
+use crate::equality::{self, Equality, How, zero_apart};
+use crate::expr::{Expr, Symbol};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A point in words, with the value there of the difference that does not vanish.
+pub(super) type Point = (String, Expr);
+
+/// Most points from which a zero is looked for.
+const STARTS: usize = 6;
+/// Most roots squared away.
+const ROOTS: usize = 4;
+
+/// A part of one equation that the other lacks.
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    pub expr: Expr,
+    /// A point at which it vanishes and the other equation does not hold; `None` where none was found.
+    pub at: Option<Point>,
+}
+
+/// Whether an equation has solutions.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Extent {
+    /// It holds everywhere.
+    All,
+    /// It holds at some points and not at others.
+    Some,
+    /// It holds nowhere.
+    None,
+    Unknown,
+}
+
+/// Two equations.
+pub(super) struct Compared {
+    /// Parts of the first that the second lacks and that may vanish where it does not hold.
+    pub lost: Vec<Part>,
+    /// The other way round.
+    pub gained: Vec<Part>,
+    /// The symbols of the parts they share.
+    pub shared: BTreeSet<Symbol>,
+    pub extents: [Extent; 2],
+}
+
+/// Compares the solutions of `f = 0` and `g = 0`; `None` where their normal forms cannot be found.
+pub(super) fn compare(f: &Expr, g: &Expr, domains: &Domains) -> Option<Compared> {
+    let (domains, _) = domains.completed(&roles(&[f, g]));
+    let mut field = Field::new(&domains);
+    field.prepare([f, g]);
+    let (x, y) = (field.element(f).ok()?, field.element(g).ok()?);
+    let zero = [field.is_zero(&x), field.is_zero(&y)];
+    if zero != [false, false] {
+        let extents = [&x, &y].map(|x| match field.is_zero(x) {
+            true => Extent::All,
+            false => extent(&field, &field.zeros(x), &domains),
+        });
+        return Some(Compared {
+            lost: Vec::new(),
+            gained: Vec::new(),
+            shared: BTreeSet::new(),
+            extents,
+        });
+    }
+    let mut split = field.split_zeros(&x, &y).ok()?;
+    let written = |list: &[Element]| -> Vec<(Element, Expr)> {
+        list.iter().map(|x| (x.clone(), field.expr(x))).collect()
+    };
+    let [lost, mut shared, gained] = [&split[0], &split[1], &split[2]].map(|l| written(l));
+    if shared.is_empty() {
+        // Roots squared away may show what the two share: √y = √x and y = x.
+        let (plain_x, plain_y) = (squared(&field, &x)?, squared(&field, &y)?);
+        let again = field.split_zeros(&plain_x, &plain_y).ok()?;
+        shared = again[1]
+            .iter()
+            .map(|x| (x.clone(), field.expr(x)))
+            .collect();
+        split[1] = again[1].clone();
+    }
+    let part = |(element, expr): (Element, Expr), other: &Expr| {
+        if matches!(field.sign(&element), Some(Sign::Positive | Sign::Negative)) {
+            return None;
+        }
+        if covered(&expr, other, &domains) {
+            return None;
+        }
+        let at = vanishing(&expr, other, &domains);
+        Some(Part { expr, at })
+    };
+    let whole = |parts: &[(Element, Expr)]| {
+        let elements: Vec<Element> = parts.iter().map(|(x, _)| x.clone()).collect();
+        elements
+    };
+    let extents = [
+        [whole(&lost), whole(&shared)].concat(),
+        [whole(&gained), whole(&shared)].concat(),
+    ]
+    .map(|parts| extent(&field, &parts, &domains));
+    let symbols = shared.iter().flat_map(|(_, e)| e.symbols()).collect();
+    Some(Compared {
+        lost: lost.into_iter().filter_map(|p| part(p, g)).collect(),
+        gained: gained.into_iter().filter_map(|p| part(p, f)).collect(),
+        shared: symbols,
+        extents,
+    })
+}
+
+/// The numerator with all square roots squared away.
+fn squared(field: &Field, x: &Element) -> Option<Element> {
+    let mut x = x.clone();
+    for _ in 0..ROOTS {
+        match field.without_root(&x).ok()? {
+            Some(norm) if !field.is_zero(&norm) => x = norm,
+            _ => break,
+        }
+    }
+    Some(x)
+}
+
+/// Whether a product of parts vanishes somewhere on the domain.
+fn extent(field: &Field, parts: &[Element], domains: &Domains) -> Extent {
+    let strict = |x: &&Element| matches!(field.sign(x), Some(Sign::Positive | Sign::Negative));
+    let left: Vec<&Element> = parts.iter().filter(|x| !strict(x)).collect();
+    if left.is_empty() {
+        return Extent::None;
+    }
+    let one = Expr::one();
+    let somewhere = |x: &&&Element| vanishing(&field.expr(x), &one, domains).is_some();
+    match left.iter().any(|x| somewhere(&x)) {
+        true => Extent::Some,
+        false => Extent::Unknown,
+    }
+}
+
+/// Whether `other` vanishes wherever `part` does: what the part is with its roots squared away divides it, or is linear in
+/// some symbol and, solved for it, turns it into zero.
+fn covered(part: &Expr, other: &Expr, domains: &Domains) -> bool {
+    let mut field = Field::new(domains);
+    field.prepare([part, other]);
+    let pieces = |field: &mut Field| {
+        let (x, y) = (field.element(part).ok()?, field.element(other).ok()?);
+        let plain = squared(field, &x)?;
+        let [left, _, _] = field.split_zeros(&plain, &y).ok()?;
+        Some(left)
+    };
+    let Some(left) = pieces(&mut field) else {
+        return false;
+    };
+    let strict = |x: &Element| matches!(field.sign(x), Some(Sign::Positive | Sign::Negative));
+    left.iter()
+        .all(|x| strict(x) || solved(&field.expr(x), other, domains))
+}
+
+/// Whether `part = 0`, solved for some symbol in which it is linear, turns `other` into zero identically.
+fn solved(part: &Expr, other: &Expr, domains: &Domains) -> bool {
+    unknowns(part, part).iter().any(|name| {
+        solve_for(part, name, domains).is_some_and(|root| {
+            let there = other.substitute(&BTreeMap::from([(name.clone(), root)]));
+            matches!(
+                equality::decide(&there, &Expr::zero(), domains).equality,
+                Equality::Same {
+                    how: How::Identity { .. }
+                }
+            )
+        })
+    })
+}
+
+/// A point of the domain at which `part` vanishes and `other` does not.
+pub(super) fn vanishing(part: &Expr, other: &Expr, domains: &Domains) -> Option<Point> {
+    if let Some(found) = solution_apart(part, other, domains) {
+        return Some(found);
+    }
+    let uses = roles(&[part, other]);
+    let (domains, _) = domains.completed(&uses);
+    for start in samples(&uses, &domains, STARTS) {
+        for name in part.symbols() {
+            let Some(domain) = domains.symbols.get(&name) else {
+                continue;
+            };
+            if domains.unit_vectors.iter().flatten().any(|s| *s == name) {
+                continue;
+            }
+            if let Some([root, value]) = zero_apart(part, other, &name, &start, domain) {
+                return Some((words_at(&start, &name, &root), rounded(&value)));
+            }
+        }
+    }
+    None
+}

@@ -1,0 +1,265 @@
+//! Several relations at once: chains, components of vectors, and whatever is in one symbol only.
+
+use super::super::compare::{Context, Finding};
+use super::super::{Apart, Diagnosis, Verdict};
+use super::cells::{self, Along};
+use super::solved::{rounded, solve_for, unknowns};
+use super::{
+    Normal, REALS, apart_at_points, link, over_reals, same_solutions, says_nothing, undecided,
+};
+use crate::domain::{Domains, roles, samples};
+use crate::equality::{self, Equality, How};
+use crate::expr::{Expr, Symbol};
+use crate::formula::Relation;
+use crate::interval::{Big, Outcome, evaluate};
+use std::collections::BTreeMap;
+
+/// The verdict on relations in one symbol, whose solutions are found.
+pub(super) fn in_one_symbol(
+    ctx: &Context,
+    expected: &[Normal],
+    answer: &[Normal],
+    domains: &Domains,
+) -> Option<Finding> {
+    let along = cells::compare(expected, answer, domains)?;
+    let [[some, not_all], [mine, not_mine]] = along.holds;
+    if along.lost.is_some() || along.gained.is_some() {
+        return Some(apart(ctx, expected, answer, &along));
+    }
+    if some && not_all {
+        return Some(same_solutions(
+            "the two hold at the same numbers of the domain",
+        ));
+    }
+    debug_assert!(some == mine && not_all == not_mine);
+    let all: Vec<&Expr> = expected
+        .iter()
+        .chain(answer)
+        .map(|n| &n.difference)
+        .collect();
+    let along = cells::compare(expected, answer, &over_reals(domains, &all))?;
+    let [[some_real, not_all_real], _] = along.holds;
+    if !some_real {
+        return Some(says_nothing("has no solution"));
+    }
+    if !not_all_real {
+        return Some(says_nothing("holds everywhere"));
+    }
+    let here = match some {
+        true => "both hold everywhere on the domain",
+        false => "neither has a solution on the domain",
+    };
+    if along.lost.is_none() && along.gained.is_none() {
+        let words = format!("{here}: {REALS}, the two hold at the same numbers");
+        let mut finding = same_solutions(&words);
+        finding.assumed.push(REALS.into());
+        return Some(finding);
+    }
+    // Different beyond a domain on which both always hold is not different on it.
+    if some {
+        let words = format!("{here}; over the reals they part");
+        return Some(undecided(&words));
+    }
+    let mut finding = apart(ctx, expected, answer, &along);
+    finding.proof.words = format!("{here}: {REALS}, {}", finding.proof.words);
+    finding.assumed.push(REALS.into());
+    Some(finding)
+}
+
+/// The finding for relations in one symbol that part at a number.
+fn apart(ctx: &Context, expected: &[Normal], answer: &[Normal], along: &Along) -> Finding {
+    let equation = |n: &Normal| n.relation == Relation::Equal;
+    let at = |at: &String, lost: bool| {
+        let word = |holds: bool| if holds { "holds" } else { "does not hold" }.to_string();
+        Apart {
+            at: at.clone(),
+            yours: word(!lost),
+            expected: word(lost),
+        }
+    };
+    let somewhere = || {
+        let gained = along.gained.as_ref().map(|x| at(x, false));
+        along.lost.as_ref().map(|x| at(x, true)).or(gained)
+    };
+    let (note, code, words, hint) = match (expected, answer) {
+        ([e], [a]) if equation(e) && equation(a) => match (&along.lost, &along.gained) {
+            (Some(_), Some(_)) => (
+                "DIFF_EQUATION",
+                "EQUATION",
+                "the equation says something else than the expected one",
+                "compare your equation with the law it comes from, term by term",
+            ),
+            (Some(_), None) => (
+                "DIFF_ROOT_LOST",
+                "ROOT_LOST",
+                "a solution of the expected equation does not fulfil the answer",
+                "a solution is missing or the equation says something else",
+            ),
+            _ => (
+                "DIFF_ROOT_GAINED",
+                "ROOT_GAINED",
+                "the answer has a solution that the expected equation lacks",
+                "your equation is fulfilled where it should not be",
+            ),
+        },
+        // Bounds and directions are told as those of inequalities in several symbols.
+        ([e], [a]) => {
+            let mut finding = link(ctx, e, a);
+            if finding.verdict == Verdict::Different {
+                finding.counterexample = finding.counterexample.or_else(somewhere);
+                return finding;
+            }
+            OTHER_NUMBERS
+        }
+        _ => OTHER_NUMBERS,
+    };
+    let mut finding = Finding::different(note, "solutions", words);
+    finding.counterexample = somewhere();
+    finding.with(Diagnosis::new(code, words, hint))
+}
+
+/// Note, code, words and hint for relations that hold at different numbers.
+const OTHER_NUMBERS: (&str, &str, &str, &str) = (
+    "DIFF_INEQUALITY",
+    "INEQUALITY",
+    "one holds where the other does not",
+    "check the bound and the direction of your inequality",
+);
+
+/// Two systems, at least one of several relations.
+pub(super) fn compare(
+    ctx: &Context,
+    expected: &[Normal],
+    answer: &[Normal],
+    domains: &Domains,
+) -> Finding {
+    if expected.len() == answer.len()
+        && let Some(finding) = matched(ctx, expected, answer)
+    {
+        return finding;
+    }
+    let equations = |system: &[Normal]| system.iter().all(|n| n.relation == Relation::Equal);
+    if equations(expected) && equations(answer) {
+        let [lost, gained] = [(expected, answer), (answer, expected)]
+            .map(|(system, other)| fulfilled(system, other, domains));
+        match (lost, gained) {
+            (Some(Ok(())), Some(Ok(()))) => {
+                return same_solutions("each system of equations, solved, fulfils the other");
+            }
+            (Some(Err(at)), _) => return other_system(at, true),
+            (_, Some(Err(at))) => return other_system(at, false),
+            _ => {}
+        }
+    }
+    apart_at_points(ctx, expected, answer).unwrap_or_else(|| {
+        undecided("the relations could not be solved to compare their solutions")
+    })
+}
+
+/// Every relation of the one system with one of the other that says the same.
+fn matched(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Option<Finding> {
+    let plain = Context {
+        key: ctx.key,
+        options: ctx.options,
+        diagnose: false,
+    };
+    let mut left: Vec<&Normal> = answer.iter().collect();
+    let mut assumed: Vec<String> = Vec::new();
+    for e in expected {
+        let found = left.iter().enumerate().find_map(|(i, a)| {
+            let finding = link(&plain, e, a);
+            (finding.verdict == Verdict::Equivalent).then_some((i, finding))
+        });
+        let (i, finding) = found?;
+        left.remove(i);
+        assumed.extend(finding.assumed);
+    }
+    let mut finding = same_solutions("each relation says the same as one of the other side");
+    assumed.sort();
+    assumed.dedup();
+    finding.assumed = assumed;
+    Some(finding)
+}
+
+/// Where a point parts two systems.
+type At = (String, Expr);
+
+/// Whether a system of equations, solved one after the other, fulfils another; else a point at which it does not.
+fn fulfilled(system: &[Normal], other: &[Normal], domains: &Domains) -> Option<Result<(), At>> {
+    let mut known: BTreeMap<Symbol, Expr> = BTreeMap::new();
+    for n in system {
+        let left = n.difference.substitute(&known);
+        if matches!(
+            equality::decide(&left, &Expr::zero(), domains).equality,
+            Equality::Same { .. }
+        ) {
+            continue;
+        }
+        let (name, root) = unknowns(&left, &left)
+            .into_iter()
+            .find_map(|name| Some((name.clone(), solve_for(&left, &name, domains)?)))?;
+        let one = BTreeMap::from([(name.clone(), root.clone())]);
+        for value in known.values_mut() {
+            *value = value.substitute(&one);
+        }
+        known.insert(name, root);
+    }
+    for n in other {
+        let there = n.difference.substitute(&known);
+        match equality::decide(&there, &Expr::zero(), domains).equality {
+            Equality::Same {
+                how: How::Identity { .. },
+            } => {}
+            Equality::Different(_) => return point_of(&known, &there, domains).map(Err),
+            _ => return None,
+        }
+    }
+    // Solutions have to lie in the domain to say anything.
+    point_of(&known, &Expr::one(), domains).map(|_| Ok(()))
+}
+
+/// A point of the domain among the solutions at which an expression is not zero.
+fn point_of(known: &BTreeMap<Symbol, Expr>, not_zero: &Expr, domains: &Domains) -> Option<At> {
+    let all: Vec<&Expr> = known.values().chain([not_zero]).collect();
+    let uses = roles(&all);
+    let (domains, _) = domains.completed(&uses);
+    samples(&uses, &domains, 24).into_iter().find_map(|sample| {
+        let point = sample.point::<Big<200>>(true);
+        let mut words = vec![sample.words()];
+        for (name, root) in known {
+            let Outcome::Value(value) = evaluate(root, &point) else {
+                return None;
+            };
+            if !super::solved::lies_in(&value.0, name, &domains) {
+                return None;
+            }
+            words.push(format!("{name} = {}", value.0.decimal(6)));
+        }
+        match evaluate(not_zero, &point) {
+            Outcome::Value(value) if !value.0.has_zero() => {
+                words.retain(|w| !w.is_empty());
+                Some((words.join(", "), rounded(&value.0)))
+            }
+            _ => None,
+        }
+    })
+}
+
+fn other_system((at, _): At, lost: bool) -> Finding {
+    let words = match lost {
+        true => "a solution of the expected equations does not fulfil the answer",
+        false => "a solution of the answer does not fulfil the expected equations",
+    };
+    let mut finding = Finding::different("DIFF_EQUATION", "solutions", words);
+    let word = |holds: bool| if holds { "fulfilled" } else { "not fulfilled" }.to_string();
+    finding.counterexample = Some(Apart {
+        at,
+        yours: word(!lost),
+        expected: word(lost),
+    });
+    finding.with(Diagnosis::new(
+        "EQUATION",
+        words,
+        "compare your equations with the laws they come from, term by term",
+    ))
+}
