@@ -78,6 +78,8 @@ pub struct Field {
     /// Exponent bits ≥ 2 of the algebraic generators: a quick test for "nothing to reduce".
     mask: Mono,
     pub(crate) assumed: Vec<Element>,
+    /// Polynomials that are taken not to be negative, by [`Field::suppose`].
+    pub(crate) supposed: Vec<Poly>,
     pub(crate) complete: bool,
     /// Values of the generators at fixed points of the domain, made when first needed.
     pub(crate) samples: Vec<Vec<f64>>,
@@ -99,6 +101,7 @@ impl Field {
             algebraic: Vec::new(),
             mask: Mono::new(),
             assumed: Vec::new(),
+            supposed: Vec::new(),
             complete: true,
             samples: Vec::new(),
             fuel: Fuel::new(),
@@ -141,6 +144,7 @@ impl Field {
             }
         }
         self.note_terms(&nested, &mut found.angles, &mut terms);
+        self.add_exponentials(&found.exponents);
         for (term, divisor) in terms {
             let known = self
                 .bases
@@ -187,6 +191,58 @@ impl Field {
                 }
             }
         }
+    }
+
+    /// e to the largest parts of exponents of which all are whole multiples: eˣ is the square of what stands for e^(x/2),
+    /// whichever is read first.
+    fn add_exponentials(&mut self, exponents: &[Expr]) {
+        if exponents.len() < 2 {
+            return;
+        }
+        let mut terms: Vec<(Element, Int)> = Vec::new();
+        self.note_terms(exponents, &mut BTreeMap::new(), &mut terms);
+        for e in exponents {
+            let Ok(element) = self.element(e) else {
+                continue;
+            };
+            // Bare symbols are not among the terms.
+            for (term, factor) in self.angle_terms(&element) {
+                match terms.iter_mut().find(|(t, _)| self.equal(t, &term)) {
+                    Some((_, divisor)) => *divisor = divisor.lcm(factor.denom()),
+                    None => terms.push((term, factor.denom().clone())),
+                }
+            }
+        }
+        for (term, divisor) in terms {
+            let part = self.number(&Rational::new(Int::one(), divisor));
+            if let Ok(own) = self.mul(&term, &part) {
+                let _ = self.exponential(&own);
+            }
+        }
+    }
+
+    /// Takes what an expression vanishes with not to be negative: for proofs about points at which a root or a logarithm of
+    /// it has a value. Whether anything new was learnt.
+    pub fn suppose(&mut self, e: &Expr) -> bool {
+        let Ok(x) = self.element(e) else {
+            return false;
+        };
+        let (mut negative, parts) = self.powers_of_parts(&x);
+        let mut unknown = Vec::new();
+        for (f, k) in parts.into_iter().filter(|(_, k)| k % 2 != 0) {
+            match self.sign_poly(&f) {
+                Some(sign) => negative ^= !sign.is_not_negative(),
+                None => unknown.push((f, k)),
+            }
+        }
+        let [(f, _)] = unknown.as_slice() else {
+            return false;
+        };
+        self.supposed
+            .push(if negative { f.neg() } else { f.clone() });
+        // Normal forms found before know nothing of it.
+        self.read.clear();
+        true
     }
 
     /// The variable of a symbol, new if need be.
@@ -470,6 +526,8 @@ struct Found {
     angles: BTreeMap<Symbol, u32>,
     /// Arguments of sin, cos, tan that are not linear in symbols.
     others: Vec<Expr>,
+    /// Different exponents of the exponential function.
+    exponents: Vec<Expr>,
 }
 
 impl Found {
@@ -502,7 +560,12 @@ impl Found {
                     }
                 }
             }
-            Node::Call(_, argument) => self.collect(argument),
+            Node::Call(function, argument) => {
+                self.collect(argument);
+                if *function == Function::Exp && !self.exponents.contains(argument) {
+                    self.exponents.push(argument.clone());
+                }
+            }
         }
     }
 }

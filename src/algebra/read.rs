@@ -3,11 +3,11 @@
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
+use super::Stop;
 use super::element::{Den, Element};
 use super::field::{AngleOf, Field, Generator, Kind};
 use super::mono::{exponent, mono_of, mono_variables};
 use super::poly::Poly;
-use super::{Sign, Stop};
 use crate::expr::angle::angle;
 use crate::expr::{Expr, Function, Int, Node, Rational, Symbol, ratio};
 
@@ -15,6 +15,8 @@ use crate::expr::{Expr, Function, Int, Node, Rational, Symbol, ratio};
 const MOST_DEPTH: u32 = 120;
 /// Largest multiple of a base angle.
 const MOST_TURNS: i64 = 100;
+/// Largest power of a sum that is written out.
+const MOST_POWER: i64 = 127;
 /// Most different angles in one argument.
 pub(super) const MOST_ANGLES: usize = 24;
 
@@ -58,6 +60,9 @@ impl Field {
                 }
                 Ok(total)
             }
+            Node::Product(factors) if factors.iter().any(is_high_power) => {
+                self.read_high_powers(factors, depth)
+            }
             Node::Product(factors) => {
                 let mut total = self.read(&factors[0], depth)?;
                 for factor in &factors[1..] {
@@ -87,6 +92,35 @@ impl Field {
                 Ok(element)
             }
         }
+    }
+
+    /// A product with high powers: those of the same base are joined first.
+    fn read_high_powers(&mut self, factors: &[Expr], depth: u32) -> Result<Element, Stop> {
+        let mut powers: Vec<(Expr, Rational)> = Vec::new();
+        let mut total = self.integer(1);
+        for factor in factors {
+            let (base, k) = match factor.node() {
+                Node::Power(base, k) if k.as_number().is_some() => (
+                    base.clone(),
+                    k.as_number().cloned().unwrap_or_else(Rational::one),
+                ),
+                Node::Number(_) => {
+                    let number = self.read(factor, depth)?;
+                    total = self.mul(&total, &number)?;
+                    continue;
+                }
+                _ => (factor.clone(), Rational::one()),
+            };
+            match powers.iter_mut().find(|(b, _)| *b == base) {
+                Some((_, sum)) => *sum += k,
+                None => powers.push((base, k)),
+            }
+        }
+        for (base, k) in powers.into_iter().filter(|(_, k)| !k.is_zero()) {
+            let power = self.read_power(&base, &Expr::from(k), depth)?;
+            total = self.mul(&total, &power)?;
+        }
+        Ok(total)
     }
 
     fn read_power(&mut self, base: &Expr, exponent: &Expr, depth: u32) -> Result<Element, Stop> {
@@ -120,6 +154,11 @@ impl Field {
         let gcd = even.extended_gcd(&odd);
         let over_odd = (i128::from(k) * i128::from(gcd.x)).rem_euclid(i128::from(odd)) as i64;
         let over_even = (k - over_odd * even) / odd;
+        // What cannot be written out may still be the same power of the same.
+        if odd == 1 && even == 1 && k.abs() > MOST_POWER && base.num.len() > 1 {
+            let exponent = self.integer(k);
+            return Ok(self.opaque_power(base, exponent));
+        }
         let mut root = base.clone();
         for _ in 0..even.ilog2() {
             root = self.sqrt(&root)?;
@@ -412,39 +451,61 @@ impl Field {
         Ok(None)
     }
 
-    /// ln of a product as a sum, where every factor is known to be positive.
+    /// ln of a product as a sum over its factors, wherever the product is positive: those that are not negative stand for
+    /// themselves, even powers for those of the absolute value, and one factor of unknown sign has the sign of the rest.
+    /// Several of unknown sign stay together.
     fn logarithm(&mut self, x: &Element) -> Result<Option<Element>, Stop> {
-        let (negative, parts) = self.powers_of_parts(x);
-        if negative {
-            return Ok(None);
+        let (mut negative, parts) = self.powers_of_parts(x);
+        let mut known: Vec<(Element, i64)> = Vec::new();
+        let mut unknown: Vec<(Poly, i64)> = Vec::new();
+        for (f, k) in parts {
+            match self.sign_poly(&f) {
+                Some(sign) if sign.is_not_negative() => known.push((Element::from_poly(f), k)),
+                Some(_) => {
+                    negative ^= k % 2 != 0;
+                    known.push((Element::from_poly(f.neg()), k));
+                }
+                None if k % 2 == 0 => known.push((self.abs_poly(&f)?, k)),
+                None => unknown.push((f, k)),
+            }
         }
-        if parts
-            .iter()
-            .any(|(f, _)| self.sign_poly(f) != Some(Sign::Positive))
-        {
-            return Ok(None);
+        match unknown.as_slice() {
+            [] if negative => return Ok(None),
+            [] => {}
+            [(f, k)] => {
+                let f = if negative { f.neg() } else { f.clone() };
+                known.push((Element::from_poly(f), *k));
+            }
+            several => {
+                if known.is_empty() {
+                    return Ok(None);
+                }
+                let mut rest = self.integer(if negative { -1 } else { 1 });
+                for (f, k) in several {
+                    let power = self.pow(&Element::from_poly(f.clone()), *k)?;
+                    rest = self.mul(&rest, &power)?;
+                }
+                known.push((rest, 1));
+            }
         }
         let mut total = Element::zero();
-        for (f, k) in parts {
+        for (f, k) in known {
             // ln √p is half of ln p.
-            let (f, k) = match self
-                .as_generator(&Element::from_poly(f.clone()))
-                .map(|v| self.gens[v].clone())
-            {
+            let (f, k) = match self.as_generator(&f).map(|v| self.gens[v].clone()) {
                 Some(Generator {
                     kind: Kind::Root,
                     relation: Some((n, value)),
-                }) => (value, ratio(k, i64::from(n))),
+                }) => (Element::from_poly(value), ratio(k, i64::from(n))),
                 _ => (f, ratio(k, 1)),
             };
-            let ln = self.opaque(Function::Ln, Element::from_poly(f));
+            let ln = self.opaque(Function::Ln, f);
             total = self.add(&total, &self.mul(&ln, &self.number(&k))?)?;
         }
         Ok(Some(total))
     }
 
     /// e raised to a sum as a product over its terms.
-    fn exponential(&mut self, x: &Element) -> Result<Element, Stop> {
+    pub(super) fn exponential(&mut self, x: &Element) -> Result<Element, Stop> {
         let mut total = self.integer(1);
         for (term, factor) in self.angle_terms(x) {
             // e to the logarithm of something is that.
@@ -662,6 +723,13 @@ fn constructible(mut d: i64) -> bool {
         d /= 2;
     }
     matches!(d, 1 | 3 | 5 | 15)
+}
+
+fn is_high_power(e: &Expr) -> bool {
+    match e.node() {
+        Node::Power(_, k) => whole(k).is_some_and(|k| k.abs() > MOST_POWER),
+        _ => false,
+    }
 }
 
 fn whole(exponent: &Expr) -> Option<i64> {

@@ -337,7 +337,7 @@ impl Field {
         self.div(&total, &below)
     }
 
-    fn abs_poly(&mut self, f: &Poly) -> Result<Element, Stop> {
+    pub(super) fn abs_poly(&mut self, f: &Poly) -> Result<Element, Stop> {
         match self.sign_poly(f) {
             Some(sign) if sign.is_not_negative() => return Ok(Element::from_poly(f.clone())),
             Some(_) => return Ok(Element::from_poly(f.neg())),

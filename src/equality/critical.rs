@@ -126,20 +126,20 @@ fn free_symbols(arguments: &[Expr], domains: &Domains, at: &Sample) -> Vec<Symbo
     names
 }
 
-/// The parts of a domain between numbers.
+/// The parts of a domain between numbers, which are rounded: they and their nearest neighbours belong to none.
 fn parts(domain: &Domain, cuts: &[f64]) -> Vec<Domain> {
+    let beside = |cut: f64, side: f64| {
+        let value = from_f64(cut + side * 1e-9 * cut.abs().max(1e-3))?;
+        Some(Limit::number(value, true))
+    };
     let mut out = Vec::new();
     let mut low = domain.low.clone();
     for cut in cuts {
-        let Some(value) = from_f64(*cut) else {
-            continue;
-        };
-        let end = Some(Limit::number(value, true));
         out.push(Domain {
             low: low.clone(),
-            high: end.clone(),
+            high: beside(*cut, -1.0),
         });
-        low = end;
+        low = beside(*cut, 1.0);
     }
     out.push(Domain {
         low,

@@ -20,7 +20,8 @@ pub(super) fn same(
 ) -> Equality {
     let region = |(at, ..): &&(Sample, Value, Value)| forbidden(a, b, at);
     let how = match tally.apart.iter().find(region) {
-        Some((at, left, right)) => How::OnBranch {
+        // A sign that was only seen has to be told first.
+        Some((at, left, right)) if assumptions.iter().all(|a| !is_seen(a)) => How::OnBranch {
             condition: Condition::BothDefined,
             elsewhere: Counterexample {
                 at: at.clone(),
@@ -29,7 +30,7 @@ pub(super) fn same(
                 confirmed: true,
             },
         },
-        None => {
+        _ => {
             let poles = poles(a, b, domains);
             match tally.apart.first() {
                 Some((at, ..)) if poles.is_empty() => {
@@ -44,6 +45,10 @@ pub(super) fn same(
         }
     };
     Equality::Same { how }
+}
+
+fn is_seen(assumption: &Assumption) -> bool {
+    matches!(assumption, Assumption::NotNegative(_))
 }
 
 /// Whether a root or logarithm of something negative forbids a value at a point, so that it does so around it as well.

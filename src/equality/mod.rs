@@ -113,6 +113,8 @@ impl Ground {
 pub enum Assumption {
     /// The expression is ≥ 0 on the whole domain, which was seen at points but not proved.
     NotNegative(Expr),
+    /// The expression is ≥ 0 wherever both formulas have values.
+    HasRoot(Expr),
     /// This isolated point is left out: one formula has no value there.
     NotAt(Sample),
     /// Where the expression is zero only one formula has a value.
@@ -281,6 +283,17 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
                 let arcs = || arcs::prove(a, b, domains);
                 let arcs = if known { None } else { arcs() };
                 arcs.or_else(|| constants::prove(a, b, domains))
+                    .or_else(|| {
+                        // Both have values only where what they take roots of is not negative.
+                        let needed = arguments.iter().filter(|(e, n)| *n && unsure.contains(e));
+                        let needed: Vec<Expr> = needed.map(|(e, _)| e.clone()).collect();
+                        let (proof, used) = proof::compare_where_defined(a, b, domains, &needed)?;
+                        let Proof::Equal(mut assumed, ground) = proof else {
+                            return None;
+                        };
+                        assumed.extend(used.into_iter().map(Assumption::HasRoot));
+                        Some(Proof::Equal(assumed, ground))
+                    })
                     .unwrap_or(open)
             }
         }

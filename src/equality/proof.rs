@@ -23,6 +23,28 @@ pub(super) enum Proof {
 pub(super) fn compare(a: &Expr, b: &Expr, domains: &Domains) -> Proof {
     let mut field = Field::new(domains);
     field.prepare([a, b]);
+    compare_in(&mut field, a, b)
+}
+
+/// Compares them at points at which both have values: what they take roots and logarithms of is not negative there. With
+/// what was used; `None` where nothing new is learnt.
+pub(super) fn compare_where_defined(
+    a: &Expr,
+    b: &Expr,
+    domains: &Domains,
+    needed: &[Expr],
+) -> Option<(Proof, Vec<Expr>)> {
+    let mut field = Field::new(domains);
+    field.prepare([a, b]);
+    let used: Vec<Expr> = needed
+        .iter()
+        .filter(|e| field.suppose(e))
+        .cloned()
+        .collect();
+    (!used.is_empty()).then(|| (compare_in(&mut field, a, b), used))
+}
+
+fn compare_in(field: &mut Field, a: &Expr, b: &Expr) -> Proof {
     let mut read = |e: &Expr, side: Side| match field.element(e) {
         Ok(element) => Ok(element),
         Err(Stop::TooLarge(what)) => Err(Proof::Stopped(what.into())),
@@ -34,7 +56,7 @@ pub(super) fn compare(a: &Expr, b: &Expr, domains: &Domains) -> Proof {
     };
     match field.sub(&left, &right) {
         Ok(difference) if field.is_zero(&difference) => {
-            Proof::Equal(seen(&field), Ground::NormalForm)
+            Proof::Equal(seen(field), Ground::NormalForm)
         }
         Ok(_) => Proof::Unequal {
             settled: field.complete(),

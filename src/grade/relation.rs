@@ -261,8 +261,8 @@ fn vacuous(ctx: &Context, f: &Expr, g: &Expr) -> Finding {
         return undecided("neither equation has a solution on the domain");
     };
     match compared.extents {
-        [Extent::All, _] => return says_nothing("holds everywhere"),
-        [Extent::None, _] => return says_nothing("has no solution"),
+        [Extent::All, Extent::All] => return says_nothing("holds everywhere"),
+        [Extent::None, Extent::None] => return says_nothing("has no solution"),
         [Extent::Unknown, _] | [_, Extent::Unknown] => {
             return undecided("no solution of the equations was found, on the domain or beyond it");
         }
@@ -401,11 +401,12 @@ fn factor(f: &Expr, g: &Expr, domains: &Domains) -> Option<Factor> {
     if field.is_zero(&x) || field.is_zero(&y) {
         return None;
     }
-    let quotient = field.div(&y, &x).ok()?;
-    if quotient.terms() > WRITTEN {
-        return None;
-    }
-    let sign = field.sign(&quotient)?;
+    // One way round a quotient may divide out that does not the other way.
+    let (quotient, sign) = [(&y, &x), (&x, &y)].into_iter().find_map(|(a, b)| {
+        let quotient = field.div(a, b).ok().filter(|q| q.terms() <= WRITTEN)?;
+        let sign = field.sign(&quotient)?;
+        Some((quotient, sign))
+    })?;
     let strict = |x: &Element| matches!(field.sign(x), Some(Sign::Positive | Sign::Negative));
     let below = field.below(&quotient).ok()?;
     let parts = [field.zeros(&quotient), field.zeros(&below)].concat();
@@ -442,8 +443,8 @@ fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
             let reals = over_reals(domains, &[f, g]);
             let extents = [expected, answer].map(|n| extent(n, &reals));
             match extents {
-                [Extent::All, _] => return says_nothing("holds everywhere"),
-                [Extent::None, _] => return says_nothing("has no solution"),
+                [Extent::All, Extent::All] => return says_nothing("holds everywhere"),
+                [Extent::None, Extent::None] => return says_nothing("has no solution"),
                 _ => {}
             }
             let same = expected.relation == answer.relation
@@ -466,7 +467,8 @@ fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     }
     let common = factor(f, g, domains);
     if let Some(common) = &common {
-        let free = |e: &Expr| e.symbols().is_disjoint(&asked_in(ctx, f));
+        let sought = sought_in(ctx, f, g);
+        let free = |e: &Expr| e.symbols().is_disjoint(&sought);
         if common.positive && expected.relation == answer.relation {
             if common.weak.is_empty() {
                 return same_solutions("the two differ by a factor that is positive");
@@ -529,9 +531,9 @@ fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     })
 }
 
-/// The sought quantity of a relation: what is asked for, else all its symbols.
-fn asked_in(ctx: &Context, f: &Expr) -> BTreeSet<Symbol> {
-    let all = f.symbols();
+/// The sought quantity of two relations: what is asked for, else the symbols they share.
+fn sought_in(ctx: &Context, f: &Expr, g: &Expr) -> BTreeSet<Symbol> {
+    let all: BTreeSet<Symbol> = f.symbols().intersection(&g.symbols()).cloned().collect();
     let asked = ctx.key.question.asked.iter().map(|g| g.name.clone());
     let asked: BTreeSet<Symbol> = asked.filter(|name| all.contains(name)).collect();
     if asked.is_empty() { all } else { asked }

@@ -70,7 +70,9 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
             finding.assumed = assumptions
                 .iter()
                 .map(|a| match a {
-                    Assumption::NotNegative(e) => format!("{} ≥ 0", write_plain(e)),
+                    Assumption::NotNegative(e) | Assumption::HasRoot(e) => {
+                        format!("{} ≥ 0", write_plain(e))
+                    }
                     Assumption::NotAt(sample) => format!("not at {}", sample.words()),
                     Assumption::NotZero(e) => format!("{} ≠ 0", write_plain(e)),
                 })

@@ -263,7 +263,8 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
             self.rooted = true;
             return None;
         }
-        if !a.monomial {
+        // Without lanes nothing tells one generator from another.
+        if !a.monomial && self.state.alive != 0 {
             for at in 0..MOST_ROOTS {
                 if let Some(generator) = self.state.generators[at]
                     && self.same(&generator.core, &a)
@@ -362,14 +363,19 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         let conjugates = 1 << self.state.degree();
         let whole = left.plus(right).power(conjugates);
         let largest = prime::prime::<C>() as f64;
-        // Otherwise the prime could divide all coefficients; the bounds are rounded.
-        if equal && f64::from(whole.norm) >= largest * 0.99 {
+        // Otherwise the prime could divide all coefficients; the bounds are rounded, and one that overflowed is none.
+        let small = f64::from(whole.norm) < largest * 0.99 && whole.degree.is_finite();
+        if equal && !small {
             return None;
         }
-        let lanes = self.state.alive.count_ones().min(2) as i32;
+        // Any two of the lanes may be those left: as many pairs, as many chances.
+        let (lanes, choices) = match self.state.alive.count_ones() {
+            1 => (1, L as f64),
+            _ => (2, (L * (L - 1) / 2) as f64),
+        };
         Some(Compared {
             equal,
-            bound: (f64::from(whole.degree).max(1.0) / largest).powi(lanes),
+            bound: choices * (f64::from(whole.degree).max(1.0) / largest).powi(lanes),
         })
     }
 }

@@ -64,7 +64,7 @@ impl Quick {
             (true, false) => "equal at random points modulo 2^61 - 1",
             (true, true) => "equal at random points modulo 2^61 - 139666593, roots included",
             (false, false) => "no identity: the values differ modulo 2^61 - 1",
-            (false, true) => "no identity: the values differ modulo 2^61 - 139666593",
+            (false, true) => "the values differ at a real point, by enclosures",
         }
     }
 

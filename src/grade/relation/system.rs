@@ -38,12 +38,10 @@ pub(super) fn in_one_symbol(
         .map(|n| &n.difference)
         .collect();
     let along = cells::compare(expected, answer, &over_reals(domains, &all))?;
-    let [[some_real, not_all_real], _] = along.holds;
-    if !some_real {
-        return Some(says_nothing("has no solution"));
-    }
-    if !not_all_real {
-        return Some(says_nothing("holds everywhere"));
+    match along.holds {
+        [[false, _], [false, _]] => return Some(says_nothing("has no solution")),
+        [[_, false], [_, false]] => return Some(says_nothing("holds everywhere")),
+        _ => {}
     }
     let here = match some {
         true => "both hold everywhere on the domain",
@@ -106,7 +104,7 @@ fn apart(ctx: &Context, expected: &[Normal], answer: &[Normal], along: &Along) -
         ([e], [a]) => {
             let mut finding = link(ctx, e, a);
             if finding.verdict == Verdict::Different {
-                finding.counterexample = finding.counterexample.or_else(somewhere);
+                finding.counterexample = somewhere();
                 return finding;
             }
             OTHER_NUMBERS
