@@ -251,7 +251,7 @@ impl Field {
             match self.known(v) {
                 Known::Positive => {}
                 Known::NotNegative => corners.push((v, vec![0])),
-                Known::Unknown if p.terms().all(|(m, _)| exponent(m, v) % 2 == 0) => {
+                Known::Unknown if p.terms().all(|(m, _)| exponent(m, v).is_multiple_of(2)) => {
                     corners.push((v, vec![0]));
                 }
                 Known::Unknown => return None,

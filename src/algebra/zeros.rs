@@ -437,7 +437,7 @@ mod tests {
         use Ordering::{Equal, Greater, Less};
         let x = Expr::symbol("x");
         let square = x.powi(2) - Expr::from(2);
-        let found = cells(Domain::real(), &[square.clone()]);
+        let found = cells(Domain::real(), std::slice::from_ref(&square));
         let signs: Vec<_> = found.iter().map(|c| c.signs[0]).collect();
         assert_eq!(
             signs,
