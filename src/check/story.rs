@@ -15,8 +15,8 @@ use crate::expr::{Expr, Point, Symbol};
 use crate::formula::{self, Symbols};
 use crate::numeric::{self, Answer};
 use crate::scene::{
-    Ask, Contact, ContactLaw, EnergyWhen, ImpulseAt, Parameter, Scene, Stage, StageKind, Story,
-    Turn, Until,
+    Ask, Contact, ContactLaw, EnergyWhen, FallEnd, ImpulseAt, Parameter, Scene, Stage, StageKind,
+    Story, Turn, Until,
 };
 
 /// Points looked at before a motion that does not get to its end is given up.
@@ -215,7 +215,10 @@ fn formulas(stage: &Stage) -> Vec<&Expr> {
             out.extend(s.along.iter().chain([&s.distance]));
             out.extend(s.gravity.iter().chain(&s.force));
         }
-        StageKind::Fall(f) => out.extend(f.gravity.iter().chain(&f.height).chain(&f.time)),
+        StageKind::Fall(f) => {
+            let (FallEnd::Drop(e) | FallEnd::Range(e) | FallEnd::Time(e)) = &f.until;
+            out.extend(f.gravity.iter().chain([e]));
+        }
         StageKind::Wind(w) => out.extend(w.around.iter().chain([&w.to])),
     }
     out
@@ -271,10 +274,10 @@ fn follow(story: &Story, impacts: &[Impact], at: &Point<f64>) -> Option<Vec<Foll
             StageKind::Fall(f) => {
                 let [vx, vy] = before[f.body].0;
                 let g = f.gravity.as_ref().map_or(Some(0.0), |g| g.evaluate(at))?;
-                let vy = match (&f.height, &f.time) {
-                    (Some(h), _) => -root(vy * vy + 2.0 * g * h.evaluate(at)?)?,
-                    (None, Some(t)) => vy - g * t.evaluate(at)?,
-                    (None, None) => vy,
+                let vy = match &f.until {
+                    FallEnd::Drop(h) => -root(vy * vy + 2.0 * g * h.evaluate(at)?)?,
+                    FallEnd::Time(t) => vy - g * t.evaluate(at)?,
+                    FallEnd::Range(s) => vy - g * s.evaluate(at)? / vx,
                 };
                 after[f.body].0 = [vx, vy];
             }

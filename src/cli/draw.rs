@@ -58,7 +58,7 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
         let refused =
             |reason: String| Failure::Input(format!("{}: {reason}", args.scene.display()));
         let told = carom::story::tell(&scene, stages).map_err(|r| refused(r.to_string()))?;
-        let mut all = chapters(&scene, stages, &told);
+        let mut all = chapters(&scene, &told);
         if let Some(name) = &args.stage {
             let names: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();
             all.retain(|(stage, _)| stage == name);

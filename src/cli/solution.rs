@@ -9,11 +9,7 @@ use super::{Failure, files, pretty, print, read_scene_text};
 use carom::figure::{self, Chapter, Which};
 use carom::render::html::Picture;
 use carom::solution::{self, Detail, Slot};
-use carom::{
-    check, derive, render,
-    scene::{Scene, Story},
-    story, verify,
-};
+use carom::{check, derive, render, scene::Scene, story, verify};
 
 /// Arguments of `carom solution`.
 #[derive(Args)]
@@ -90,9 +86,9 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         (solution, holds, None, plots(&scene, &graphs)?)
     };
     let drawn = || {
-        let mut all = match (&scene.story, &told) {
-            (Some(stages), Some(told)) => stage_pictures(&scene, stages, told),
-            _ => pictures(&scene),
+        let mut all = match &told {
+            Some(told) => stage_pictures(&scene, told),
+            None => pictures(&scene),
         };
         all.extend(plots.iter().cloned());
         all
@@ -141,9 +137,9 @@ pub fn plots(scene: &Scene, graphs: &[story::Graph]) -> Result<Vec<(Picture, Str
 }
 
 /// The pictures of a story, by stage.
-fn stage_pictures(scene: &Scene, stages: &Story, told: &story::Told) -> Vec<(Picture, String)> {
+fn stage_pictures(scene: &Scene, told: &story::Told) -> Vec<(Picture, String)> {
     let mut out = Vec::new();
-    for (i, (name, chapter)) in chapters(scene, stages, told).iter().enumerate() {
+    for (i, (name, chapter)) in chapters(scene, told).iter().enumerate() {
         for (drawing, kind) in figure::chapter(name, chapter) {
             out.push((
                 picture(Slot::Stage(i), drawing),
@@ -155,17 +151,17 @@ fn stage_pictures(scene: &Scene, stages: &Story, told: &story::Told) -> Vec<(Pic
 }
 
 /// What is to be drawn of every stage.
-pub fn chapters(scene: &Scene, stages: &Story, told: &story::Told) -> Vec<(String, Chapter)> {
-    let each = stages.stages.iter().zip(&told.stages);
-    each.map(|(stage, told_stage)| {
-        let chapter = match story::impact(scene, told, Some(&stage.name)) {
+pub fn chapters(scene: &Scene, told: &story::Told) -> Vec<(String, Chapter)> {
+    let each = told.stages.iter();
+    each.map(|t| {
+        let chapter = match story::impact(scene, told, Some(&t.placed.name)) {
             Some(impact) => Chapter::Impact(impact),
             None => {
-                let clockwise = story::is_clockwise(stage, told_stage);
-                Chapter::Motion(stage.scene.clone(), stage.kind.clone(), clockwise)
+                let clockwise = story::is_clockwise(t);
+                Chapter::Motion(t.placed.scene.clone(), t.placed.kind.clone(), clockwise)
             }
         };
-        (stage.name.clone(), chapter)
+        (t.name.clone(), chapter)
     })
     .collect()
 }

@@ -13,7 +13,7 @@ use super::sheet::{Ink, Line, SIZE, SMALL, Sheet, arc};
 use super::stage::{Stage, spanning};
 use super::values::{Pair, Values, size};
 use crate::expr::Expr;
-use crate::scene::{Body, Hinge, Scene, StageKind, Turn, Until};
+use crate::scene::{Body, FallEnd, Hinge, Scene, StageKind, Turn, Until};
 
 /// The scene as it is drawn: a point that is turned about is a hinge here, so that its support is seen.
 pub fn stand_in(scene: &Scene, kind: &StageKind) -> Scene {
@@ -101,7 +101,7 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
         StageKind::Turn(turn) => angle(&stage, &mut sheet, turn, from, &end, clockwise),
         StageKind::Slide(s) => along(&stage, &mut sheet, &points, &s.distance),
         StageKind::Fall(f) => {
-            if let Some(h) = &f.height {
+            if let FallEnd::Drop(h) = &f.until {
                 along(&stage, &mut sheet, &points, h);
             }
         }
@@ -167,9 +167,9 @@ fn way(
             let (along, far) = (values.pair(&s.along)?, values.of(&s.distance)?);
             straight([along[0] * far, along[1] * far])
         }
-        StageKind::Fall(f) => match &f.height {
-            Some(h) => straight([0.0, -values.of(h)?]),
-            None => vec![(from.clone(), 0.0)],
+        StageKind::Fall(f) => match &f.until {
+            FallEnd::Drop(h) => straight([0.0, -values.of(h)?]),
+            FallEnd::Range(_) | FallEnd::Time(_) => vec![(from.clone(), 0.0)],
         },
         StageKind::Wind(w) => {
             let (pole, to) = (values.pair(&w.around)?, values.of(&w.to)?);

@@ -101,7 +101,7 @@ fn stage(scene: &Scene, s: &StageTold) -> Value {
         .collect();
     json!({
         "name": s.name,
-        "kind": s.kind,
+        "kind": s.placed.kind.word(),
         "words": plain(&s.words),
         "conserved": s.kept.iter().map(|k| json!({"what": k.what, "conserved": k.conserved, "why": k.why.to_string()})).collect::<Vec<_>>(),
         "cases": s.cases.iter().map(|c| json!({
@@ -138,7 +138,7 @@ pub fn text(scene: &Scene, told: &Told) -> String {
     }
     for (i, s) in told.stages.iter().enumerate() {
         line(String::new());
-        line(format!("{}. {} ({})", i + 1, s.name, s.kind));
+        line(format!("{}. {} ({})", i + 1, s.name, s.placed.kind.word()));
         for words in &s.words {
             line(format!("   {}", written(words)));
         }

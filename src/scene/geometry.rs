@@ -8,7 +8,7 @@ use crate::expr::{Expr, Int, Rational, Vector, ratio};
 
 /// The unit vector at an angle counterclockwise from x. Multiples of π/2 are taken out, and of ±φ the one is used that
 /// does not start with a minus sign: the direction at π/2 + θ is (−sin θ, cos θ).
-pub(super) fn direction(e: &Expr) -> Vector {
+pub fn direction(e: &Expr) -> Vector {
     let Some(read) = angle(e) else {
         return [e.cos(), e.sin()];
     };

@@ -29,9 +29,10 @@ use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector};
 
 pub use fault::{Fault, Faults, Span};
+pub use geometry::direction;
 pub use printed::{Print, Printed};
 pub use stage::{
-    Fall, Lump, OneSided, PlotAsk, Relation, Slide, Stage, StageKind, Story, StoryAsk,
+    Fall, FallEnd, Lump, OneSided, PlotAsk, Relation, Slide, Stage, StageKind, Story, StoryAsk,
     StoryQuestion, Turn, Until, Wind,
 };
 
@@ -440,6 +441,21 @@ pub enum Ask {
         /// Names of component questions, in order of columns.
         unknowns: Vec<String>,
     },
+}
+
+impl Ask {
+    /// Places and directions in it.
+    fn vectors_mut(&mut self, put: &mut impl FnMut(&mut Expr)) {
+        let (point, along) = match self {
+            Ask::Velocity { point, along, .. } => {
+                (point.as_mut().map(|p| &mut p.1), along.as_mut())
+            }
+            Ask::Impulse { along, .. } => (None, along.as_mut()),
+            Ask::Balance { along, .. } => (None, Some(along)),
+            Ask::Spin { .. } | Ask::Energy { .. } | Ask::Matrix { .. } => (None, None),
+        };
+        point.into_iter().chain(along).flatten().for_each(put);
+    }
 }
 
 /// What transmits an impulse.

@@ -1,9 +1,12 @@
 //! A story: stages that hand the motion on, and what is asked of them. Types only.
 //!
-//! Every stage carries a [`Scene`] that holds the bodies where they are when the stage begins. Where they are follows from
-//! geometry and is known to the reader; how they move is found out by [`crate::story`].
+//! Every stage carries a [`Scene`] with the bodies as they are when it begins. A stage that follows another does not know
+//! where that is: its formulas hold symbols for the places, [`Stage::places`], and each of the two ways puts in what it
+//! has found, [`Stage::placed`].
 
-use super::Scene;
+use std::collections::BTreeMap;
+
+use super::{BlowImpulse, Contact, ContactLaw, KnownQuantity, Scene};
 use crate::expr::{Expr, Symbol, Vector, dot, minus};
 pub use crate::formula::Relation;
 
@@ -29,9 +32,66 @@ pub struct Stage {
     pub start: Vec<(usize, Option<Vector>, Option<Expr>)>,
     /// What happens.
     pub kind: StageKind,
-    /// The bodies where they are at the beginning; of an impact also its hinges, contacts and blows. Its questions are
-    /// those about the end of this stage. Velocities are those of the file and mean nothing after another stage.
+    /// Symbols for center x, y and angle of each body at the beginning, by index of body; empty for a stage that begins as
+    /// the file says.
+    pub places: Vec<[Symbol; 3]>,
+    /// The bodies at the beginning; of an impact also its hinges, contacts and blows. Its questions are those about the
+    /// end of this stage. Velocities are those of the file and mean nothing after another stage.
     pub scene: Scene,
+}
+
+impl Stage {
+    /// The stage with what is known of the places put in; a symbol without a value stays.
+    pub fn placed(&self, values: &BTreeMap<Symbol, Expr>) -> Stage {
+        let mut out = self.clone();
+        if values.is_empty() {
+            return out;
+        }
+        let mut put = |e: &mut Expr| *e = e.substitute(values);
+        out.kind.formulas_mut(&mut put);
+        out.scene.geometry_mut(&mut put);
+        out
+    }
+}
+
+impl Scene {
+    /// Every formula that may depend on where bodies are.
+    fn geometry_mut(&mut self, put: &mut impl FnMut(&mut Expr)) {
+        for point in &mut self.points {
+            point.at.iter_mut().for_each(&mut *put);
+        }
+        for body in &mut self.bodies {
+            body.center.iter_mut().for_each(&mut *put);
+            put(&mut body.angle);
+        }
+        for hinge in &mut self.hinges {
+            hinge.at.iter_mut().for_each(&mut *put);
+        }
+        for Contact {
+            at, normal, law, ..
+        } in &mut self.contacts
+        {
+            at.iter_mut()
+                .chain(normal.iter_mut().flatten())
+                .for_each(&mut *put);
+            if let ContactLaw::Frictionless { restitution } = law {
+                put(restitution);
+            }
+        }
+        for blow in &mut self.blows {
+            let (BlowImpulse::Given(v) | BlowImpulse::Along(v)) = &mut blow.impulse;
+            blow.at.iter_mut().chain(v).for_each(&mut *put);
+        }
+        for known in &mut self.after {
+            put(&mut known.value);
+            if let KnownQuantity::Velocity { at, along } = &mut known.what {
+                at.iter_mut().chain(along).for_each(&mut *put);
+            }
+        }
+        for question in &mut self.questions {
+            question.ask.vectors_mut(put);
+        }
+    }
 }
 
 /// What happens in a stage.
@@ -48,10 +108,82 @@ pub enum StageKind {
     Turn(Turn),
     /// One body moves along a straight line without turning.
     Slide(Slide),
-    /// One body falls freely.
+    /// Bodies fall or fly freely.
     Fall(Fall),
     /// A particle on a rope that winds round a thin pole.
     Wind(Wind),
+}
+
+impl StageKind {
+    /// Every formula of the stage.
+    fn formulas_mut(&mut self, put: &mut impl FnMut(&mut Expr)) {
+        match self {
+            StageKind::Impact { one_sided, .. } => {
+                for o in one_sided {
+                    o.at.iter_mut().chain(&mut o.normal).for_each(&mut *put);
+                }
+            }
+            StageKind::Turn(turn) => {
+                turn.about.iter_mut().for_each(&mut *put);
+                if let Until::By(e) | Until::For(e) = &mut turn.until {
+                    put(e);
+                }
+                turn.gravity
+                    .iter_mut()
+                    .chain(&mut turn.torque)
+                    .for_each(put);
+            }
+            StageKind::Slide(slide) => {
+                let own = [&mut slide.distance];
+                let others = slide.gravity.iter_mut().chain(&mut slide.force);
+                own.into_iter()
+                    .chain(others)
+                    .chain(&mut slide.along)
+                    .for_each(put);
+            }
+            StageKind::Fall(fall) => {
+                let (FallEnd::Drop(e) | FallEnd::Range(e) | FallEnd::Time(e)) = &mut fall.until;
+                put(e);
+                fall.gravity.iter_mut().for_each(put);
+            }
+            StageKind::Wind(wind) => {
+                wind.around.iter_mut().for_each(&mut *put);
+                put(&mut wind.to);
+            }
+        }
+    }
+
+    /// The kind in one word.
+    pub fn word(&self) -> &'static str {
+        match self {
+            StageKind::Impact { .. } => "impact",
+            StageKind::Turn(_) => "turn",
+            StageKind::Slide(_) => "slide",
+            StageKind::Fall(_) => "fall",
+            StageKind::Wind(_) => "wind",
+        }
+    }
+
+    /// Indices of the bodies that a motion moves; of an impact none.
+    pub fn moved(&self) -> Vec<usize> {
+        match self {
+            StageKind::Impact { .. } => Vec::new(),
+            StageKind::Turn(turn) => turn.bodies(),
+            StageKind::Slide(slide) => vec![slide.body],
+            StageKind::Fall(fall) => fall.bodies(),
+            StageKind::Wind(wind) => vec![wind.body],
+        }
+    }
+
+    /// Whether a force that is named here, weight or another, may also act on bodies that are not.
+    pub fn gravity(&self) -> Option<&Expr> {
+        match self {
+            StageKind::Impact { .. } | StageKind::Wind(_) => None,
+            StageKind::Turn(turn) => turn.gravity.as_ref(),
+            StageKind::Slide(slide) => slide.gravity.as_ref(),
+            StageKind::Fall(fall) => fall.gravity.as_ref(),
+        }
+    }
 }
 
 /// A support or string: its impulse on the second body has the direction `normal` or is zero.
@@ -144,7 +276,7 @@ pub enum Until {
     Above,
     /// When the center of mass is straight below the point.
     Below,
-    /// After this time \[s\]; only without moments.
+    /// After this time \[s\]; not under weight, which leaves no closed form.
     For(Expr),
 }
 
@@ -166,14 +298,32 @@ pub struct Slide {
 /// Free fall, or free flight where there is no gravity.
 #[derive(Clone, Debug)]
 pub struct Fall {
-    /// Index of the body.
+    /// Index of the body whose way ends the stage.
     pub body: usize,
+    /// Indices of bodies that fall or fly at the same time, each on its own.
+    pub with: Vec<usize>,
     /// Gravity g \[m/s²\], downwards; `None` for free flight.
     pub gravity: Option<Expr>,
-    /// How the stage ends: after falling through this height \[m\].
-    pub height: Option<Expr>,
-    /// How the stage ends: after this time \[s\].
-    pub time: Option<Expr>,
+    /// How the stage ends.
+    pub until: FallEnd,
+}
+
+impl Fall {
+    /// All bodies that fall.
+    pub fn bodies(&self) -> Vec<usize> {
+        [&[self.body], self.with.as_slice()].concat()
+    }
+}
+
+/// How a fall ends.
+#[derive(Clone, Debug)]
+pub enum FallEnd {
+    /// When the center of mass is so far below its place at the beginning, on its way down \[m\]; above it if negative.
+    Drop(Expr),
+    /// When the center of mass is so far to the right of its place at the beginning \[m\]; to the left of it if negative.
+    Range(Expr),
+    /// After this time \[s\].
+    Time(Expr),
 }
 
 /// A rope that winds round a pole.

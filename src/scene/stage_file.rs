@@ -95,7 +95,7 @@ record! {
         by: Option<Formula>,
         /// Where the center of mass is at the end.
         until: Option<UntilName>,
-        /// Time; only where no moment acts.
+        /// Time; not under gravity, which leaves no closed form.
         time as "for": Option<Formula>,
         /// Whether it turns clockwise. Missing: as it begins.
         clockwise: Option<bool>,
@@ -123,14 +123,18 @@ record! {
 }
 
 record! {
-    /// Free fall, or free flight where no gravity is given; it ends after `height` or after `for`.
+    /// Free fall, or free flight where no gravity is given; it ends after one of `height`, `range` and `for`.
     FallFile {
         /// Name of the body.
         body: Text,
+        /// Names of bodies that fall or fly at the same time, each on its own.
+        with: Option<Vec<Text>>,
         /// Gravity, such as "g".
         gravity: Option<Formula>,
-        /// Height fallen through.
+        /// How far the center of mass is then below its place at the beginning; above it if negative.
         height: Option<Formula>,
+        /// How far the center of mass is then to the right of its place at the beginning; to the left of it if negative.
+        range: Option<Formula>,
         /// Time.
         time as "for": Option<Formula>,
     }

@@ -111,7 +111,7 @@ impl Page<'_> {
     }
 
     fn stage(&mut self, i: usize) {
-        let (told, stage) = (&self.told.stages[i], &self.story.stages[i]);
+        let (told, stage) = (&self.told.stages[i], &self.told.stages[i].placed);
         let number = match self.told.stages.len() {
             1 => String::new(),
             _ => format!("{}. ", i + 1),
@@ -171,9 +171,9 @@ impl Page<'_> {
 
     /// Where a stage begins, if that is not where the one before it ends.
     fn from(&mut self, i: usize) {
-        let text = match self.story.stages[i].from {
+        let text = match self.told.stages[i].branch {
             None if i > 0 => String::from("This begins anew, with the bodies as they are given."),
-            Some(j) if j + 1 != i => {
+            Some((j, _)) if j + 1 != i => {
                 format!("This goes on from the end of {}.", self.told.stages[j].name)
             }
             _ => return,
@@ -373,17 +373,12 @@ impl Page<'_> {
         let mut lines = Vec::new();
         let mut numbers = Vec::new();
         for question in &self.story.questions {
-            let StoryAsk::Quantity { stage, question: q } = &question.ask else {
+            let StoryAsk::Quantity { question: q, .. } = &question.ask else {
                 continue;
             };
-            if *stage != i {
-                continue;
-            }
-            let mine: Vec<&Answer> = self
-                .told
-                .answers
-                .iter()
-                .filter(|a| a.question == question.name)
+            let all = self.told.answers.iter();
+            let mine: Vec<&Answer> = all
+                .filter(|a| a.told == Some(i) && a.question == question.name)
                 .collect();
             for answer in mine {
                 let Some(formula) = &answer.formula else {
@@ -455,7 +450,7 @@ impl Page<'_> {
         if !told.cases.is_empty() || told.work.is_empty() || end.size() > 40 {
             return None;
         }
-        let Ask::Spin { .. } = self.story.stages[i].scene.questions.get(question)?.ask else {
+        let Ask::Spin { .. } = told.placed.scene.questions.get(question)?.ask else {
             return None;
         };
         let raw = (&(&Expr::from(2) * end) / inertia).sqrt();
@@ -505,7 +500,7 @@ impl Page<'_> {
 
     /// Readings and everything else that is taken for granted, and data that no answer needs.
     fn rests_on(&mut self) {
-        let assumed = self.told.assumed(self.story);
+        let assumed = self.told.assumed();
         self.solution.section(0, vec![say("What this rests on")]);
         let mut items: Vec<Vec<Inline>> = Vec::new();
         for a in &assumed {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::calc::{is_zero, tidy};
 use super::special::{self, Known, blank, remember};
-use super::{Answer, Case, Refused, StageTold, Told, integrate, motion, spring, words};
+use super::{Answer, Case, Refused, StageTold, State, Told, integrate, motion, spring, words};
 use super::{Sentence, sentence::sentence};
 use crate::derive::{self, Form};
 use crate::dimension::Dimension;
@@ -21,9 +21,10 @@ pub(super) fn all(
     story: &Story,
     mut stages: Vec<StageTold>,
 ) -> Result<Told, Refused> {
-    for (i, stage) in story.stages.iter().enumerate() {
-        let sentences = words::stage(stage, &stages[i]);
-        stages[i].words = sentences;
+    for told in &mut stages {
+        if told.words.is_empty() {
+            told.words = words::stage(told);
+        }
     }
     let mut answers: Vec<Answer> = Vec::new();
     let mut known = Known::new();
@@ -51,11 +52,6 @@ fn one(
 ) -> Result<Vec<Answer>, Refused> {
     let domains = &scene.domains;
     let name = question.name.as_str();
-    let refused = |reason: String, hint: &str| Refused {
-        at: format!("question `{name}`"),
-        reason,
-        hint: hint.into(),
-    };
     if let Some(mut answers) = special::formulas(scene, question, known)? {
         if let (
             StoryAsk::Condition {
@@ -70,7 +66,7 @@ fn one(
             && let Some(value) = &out.formula
         {
             let gap = special::put(scene, name, known, &(left - right), with)?;
-            let check = tipping(story, stages, &gap, parameter, value, domains);
+            let check = tipping(stages, &gap, parameter, value, domains);
             out.checks.extend(check);
         }
         return Ok(answers);
@@ -84,38 +80,14 @@ fn one(
             along,
             at_end,
         } => {
-            let StageKind::Turn(turn) = &story.stages[*stage].kind else {
-                return Ok(Vec::new());
-            };
-            let told = &stages[*stage];
-            let (way, _) =
-                motion::sense(&story.stages[*stage], &told.before.spin[turn.body], turn)?;
-            let value = reaction(&story.stages[*stage], told, turn, way, along, *at_end)
-                .map_err(|stop| refused(format!("not calculated: {stop}"), ""))?;
-            let when = if *at_end { "end" } else { "beginning" };
-            let mut out = blank(
-                question,
-                name,
-                format!(
-                    "force of the fixed point at the {when} of `{}`",
-                    stages[*stage].name
-                ),
-            );
-            out.dimension = Dimension::new(1, 1, -2);
-            let state = if *at_end { &told.after } else { &told.before };
-            out.checks.push(integrate::reaction(
-                &story.stages[*stage],
-                turn,
-                way,
-                (*at_end, &state.spin[turn.body]),
-                along,
-                &value,
-            ));
-            if *at_end {
-                out.assumptions = told.assumptions.clone();
+            let mut out = Vec::new();
+            for (i, told, label) in ways(stages, &story.stages[*stage]) {
+                let mut one = reaction_asked(question, told, along, *at_end)?;
+                one.told = Some(i);
+                label.put(&mut one);
+                out.push(one);
             }
-            out.formula = Some(value);
-            out
+            return Ok(out);
         }
         StoryAsk::AngularMomentum {
             stage,
@@ -123,34 +95,14 @@ fn one(
             about,
             at_end,
         } => {
-            let told = &stages[*stage];
-            let state = if *at_end { &told.after } else { &told.before };
-            let b = &scene.bodies[*body];
-            let arm = minus(&state.center[*body], about);
-            let h = &(&b.mass * &cross(&arm, &state.velocity[*body]))
-                + &(&b.inertia * &state.spin[*body]);
-            let when = if *at_end { "end" } else { "beginning" };
-            let mut out = blank(
-                question,
-                name,
-                format!(
-                    "angular momentum of `{}` at the {when} of `{}`",
-                    b.name, told.name
-                ),
-            );
-            let value =
-                tidy(&h, domains).map_err(|stop| refused(format!("not calculated: {stop}"), ""))?;
-            out.checks.push(Check {
-                kind: "identity",
-                words: format!(
-                    "r × m v + I ω of the motion told in `{}`: the difference is zero in the normal form",
-                    told.name
-                ),
-                holds: is_zero(&(&h - &value), domains),
-            });
-            out.formula = Some(value);
-            out.dimension = Dimension::new(1, 2, -1);
-            out
+            let mut out = Vec::new();
+            for (i, told, label) in ways(stages, &story.stages[*stage]) {
+                let mut one = angular_momentum(scene, question, told, (*body, about), *at_end)?;
+                one.told = Some(i);
+                label.put(&mut one);
+                out.push(one);
+            }
+            return Ok(out);
         }
         StoryAsk::Share {
             mass,
@@ -164,31 +116,20 @@ fn one(
             );
             return Ok(spring::share(out, [mass, stiffness, during], domains));
         }
-        StoryAsk::Impulsive { stage } => {
-            let mut out = blank(
-                question,
-                name,
-                format!("forces with an impulse in `{}`", stages[*stage].name),
-            );
-            out.text = words::impulsive(&story.stages[*stage], &stages[*stage]);
-            out
-        }
-        StoryAsk::Describe { stage } => {
-            let mut out = blank(
-                question,
-                name,
-                format!("what happens in `{}`", stages[*stage].name),
-            );
-            out.text = stages[*stage].words.clone();
-            out
-        }
-        StoryAsk::Missing { stage } => {
-            let mut out = blank(
-                question,
-                name,
-                format!("what `{}` leaves open", stages[*stage].name),
-            );
-            out.text = words::missing(&story.stages[*stage], &stages[*stage]);
+        StoryAsk::Impulsive { stage }
+        | StoryAsk::Describe { stage }
+        | StoryAsk::Missing { stage } => {
+            let told = ways(stages, &story.stages[*stage]);
+            let name_of = |what: &str| format!("{what} `{}`", story.stages[*stage].name);
+            let (words, each): (String, fn(&StageTold) -> Vec<Sentence>) = match &question.ask {
+                StoryAsk::Impulsive { .. } => {
+                    (name_of("forces with an impulse in"), words::impulsive)
+                }
+                StoryAsk::Describe { .. } => (name_of("what happens in"), |t| t.words.clone()),
+                _ => (format!("{} leaves open", name_of("what")), words::missing),
+            };
+            let mut out = blank(question, name, words);
+            out.text = told.into_iter().flat_map(|(_, t, _)| each(t)).collect();
             out
         }
         // Those about formulas have been answered above.
@@ -205,7 +146,7 @@ fn one(
         }
         StoryAsk::Assumed => {
             let mut out = blank(question, name, "what is assumed");
-            out.text = words::assumed(story, stages);
+            out.text = words::assumed(&story.readings, stages);
             out
         }
         StoryAsk::Unused(of) => {
@@ -248,6 +189,53 @@ fn unused(scene: &Scene, answers: &[Answer]) -> Vec<String> {
         .collect()
 }
 
+/// One of the ways a stage may come about, where there are several.
+struct Way {
+    /// Its number, from 0, where there are several.
+    number: Option<usize>,
+    /// What leads to it, in words.
+    words: String,
+    /// What must be ≥ 0 for it.
+    given: Vec<Sentence>,
+}
+
+impl Way {
+    /// Names the answer after the way.
+    fn put(&self, answer: &mut Answer) {
+        answer.assumptions.splice(0..0, self.given.iter().cloned());
+        if let Some(i) = self.number {
+            if i > 0 {
+                answer.name = format!("{}_case{}", answer.name, i + 1);
+                answer.latex = numbered(&answer.latex, i + 1);
+            }
+            if !self.words.is_empty() {
+                answer.words = format!("{}, {}", answer.words, self.words);
+            }
+        }
+    }
+}
+
+/// All ways a stage has been told.
+fn ways<'a>(stages: &'a [StageTold], stage: &Stage) -> Vec<(usize, &'a StageTold, Way)> {
+    let mine = stages.iter().enumerate();
+    let mine: Vec<_> = mine.filter(|(_, t)| t.placed.name == stage.name).collect();
+    let several = mine.len() > 1;
+    let each = mine.into_iter().enumerate();
+    each.map(|(i, (index, told))| {
+        let way = Way {
+            number: several.then_some(i),
+            words: told.branch.map_or(String::new(), |(parent, k)| {
+                words::leading(stages, parent, k)
+            }),
+            given: (told.given.iter())
+                .map(|(why, e)| sentence![e, " ≥ 0 (", why, ")"])
+                .collect(),
+        };
+        (index, told, way)
+    })
+    .collect()
+}
+
 /// Velocities, spins, impulses and energies at the end of a stage.
 fn quantity(
     scene: &Scene,
@@ -257,43 +245,140 @@ fn quantity(
     stage: usize,
     index: usize,
 ) -> Result<Vec<Answer>, Refused> {
-    let told = &stages[stage];
-    let asked = &story.stages[stage].scene.questions[index];
-    if !told.cases.is_empty() {
-        let several = told.cases.len() > 1;
-        let mut out = Vec::new();
-        for (i, case) in told.cases.iter().enumerate() {
-            out.extend(of_case(
-                question,
-                case,
-                if several { Some(i) } else { None },
-            ));
+    let ways = ways(stages, &story.stages[stage]);
+    let cases: usize = ways.iter().map(|(_, t, _)| t.cases.len().max(1)).sum();
+    let mut number = 0;
+    let mut out = Vec::new();
+    for (i, told, way) in ways {
+        let asked = &told.placed.scene.questions[index];
+        let mut own = if told.cases.is_empty() {
+            of_motion(scene, question, told, asked)?
+        } else {
+            told.cases
+                .iter()
+                .flat_map(|case| of_case(question, case, cases > 1))
+                .collect()
+        };
+        let per = own.len() / told.cases.len().max(1);
+        for (k, answer) in own.iter_mut().enumerate() {
+            let state = match told.cases.get(k / per.max(1)) {
+                Some(case) => &case.after,
+                None => &told.after,
+            };
+            if let Some(formula) = &answer.formula
+                && let Some(why) = state.why_open([formula])
+            {
+                answer.formula = None;
+                answer.checks.clear();
+                answer.text = vec![sentence!["not determined: ", why]];
+            }
+            let way = Way {
+                number: (cases > 1).then_some(number + k / per.max(1)),
+                words: way.words.clone(),
+                given: way.given.clone(),
+            };
+            way.put(answer);
+            answer.told = Some(i);
         }
+        number += told.cases.len().max(1);
+        out.extend(own);
+    }
+    Ok(out)
+}
+
+/// The force of the fixed point on a turning body, as asked.
+fn reaction_asked(
+    question: &StoryQuestion,
+    told: &StageTold,
+    along: &Vector,
+    at_end: bool,
+) -> Result<Answer, Refused> {
+    let when = if at_end { "end" } else { "beginning" };
+    let words = format!("force of the fixed point at the {when} of `{}`", told.name);
+    let mut out = blank(question, &question.name, words);
+    out.dimension = Dimension::new(1, 1, -2);
+    let StageKind::Turn(turn) = &told.placed.kind else {
+        return Ok(out);
+    };
+    let state = if at_end { &told.after } else { &told.before };
+    if let Some(why) = state.why_open(state.spin.iter().take(turn.body + 1).skip(turn.body)) {
+        out.text.push(sentence!["not determined: ", why]);
         return Ok(out);
     }
-    of_motion(scene, question, story, told, stage, asked)
+    let (way, _) = motion::sense(&told.placed, &told.before.spin[turn.body], turn)?;
+    let value = reaction(&told.placed, told, turn, way, along, at_end).map_err(|stop| Refused {
+        at: format!("question `{}`", question.name),
+        reason: format!("not calculated: {stop}"),
+        hint: String::new(),
+    })?;
+    out.checks.push(integrate::reaction(
+        &told.placed,
+        turn,
+        way,
+        (at_end, &state.spin[turn.body]),
+        along,
+        &value,
+    ));
+    if at_end {
+        out.assumptions = told.assumptions.clone();
+    }
+    out.formula = Some(value);
+    Ok(out)
+}
+
+/// The angular momentum of a body about a point at the beginning or end of a stage.
+fn angular_momentum(
+    scene: &Scene,
+    question: &StoryQuestion,
+    told: &StageTold,
+    (body, about): (usize, &Vector),
+    at_end: bool,
+) -> Result<Answer, Refused> {
+    let state = if at_end { &told.after } else { &told.before };
+    let b = &scene.bodies[body];
+    let arm = minus(&state.center[body], about);
+    let h = &(&b.mass * &cross(&arm, &state.velocity[body])) + &(&b.inertia * &state.spin[body]);
+    let when = if at_end { "end" } else { "beginning" };
+    let words = format!(
+        "angular momentum of `{}` at the {when} of `{}`",
+        b.name, told.name
+    );
+    let mut out = blank(question, &question.name, words);
+    out.dimension = Dimension::new(1, 2, -1);
+    if let Some(why) = state.why_open([&h]) {
+        out.text.push(sentence!["not determined: ", why]);
+        return Ok(out);
+    }
+    let value = tidy(&h, &scene.domains).map_err(|stop| Refused {
+        at: format!("question `{}`", question.name),
+        reason: format!("not calculated: {stop}"),
+        hint: String::new(),
+    })?;
+    out.checks.push(Check {
+        kind: "identity",
+        words: format!(
+            "r × m v + I ω of the motion told in `{}`: the difference is zero in the normal form",
+            told.name
+        ),
+        holds: is_zero(&(&h - &value), &scene.domains),
+    });
+    out.formula = Some(value);
+    Ok(out)
 }
 
 /// The answers of one outcome of an impact.
-fn of_case(question: &StoryQuestion, case: &Case, number: Option<usize>) -> Vec<Answer> {
+fn of_case(question: &StoryQuestion, case: &Case, several: bool) -> Vec<Answer> {
     let mut out = Vec::new();
     for (answer, checks) in case.derivation.answers.iter().zip(&case.proof.answers) {
         if answer.question != question.name {
             continue;
         }
-        let name = match number {
-            Some(i) if i > 0 => format!("{}_case{}", answer.name, i + 1),
-            _ => answer.name.clone(),
+        let words = match several {
+            true => format!("{}, {}", answer.words, words::active(case)),
+            false => answer.words.clone(),
         };
-        let words = match number {
-            Some(_) => format!("{}, {}", answer.words, words::active(case)),
-            None => answer.words.clone(),
-        };
-        let mut a = blank(question, &name, words);
-        a.latex = match number {
-            Some(i) if i > 0 => numbered(&answer.latex, i + 1),
-            _ => answer.latex.clone(),
-        };
+        let mut a = blank(question, &answer.name, words);
+        a.latex = answer.latex.clone();
         a.dimension = answer.dimension.clone();
         match &answer.form {
             Form::Value { closed, .. } => a.formula = Some(case.put_in(closed)),
@@ -337,9 +422,6 @@ fn of_case(question: &StoryQuestion, case: &Case, number: Option<usize>) -> Vec<
     }
     if out.is_empty() {
         let mut a = blank(question, &question.name, words::active(case));
-        if let Some(i) = number.filter(|i| *i > 0) {
-            a.name = format!("{}_case{}", question.name, i + 1);
-        }
         a.formula = Some(Expr::zero());
         a.text.push(sentence![
             "nothing is transmitted there: ",
@@ -371,14 +453,14 @@ fn numbered(latex: &str, number: usize) -> String {
 
 /// A threshold at which a rotation just gets to its end, integrated on both sides.
 fn tipping(
-    story: &Story,
     stages: &[StageTold],
     gap: &Expr,
     parameter: &Symbol,
     value: &Expr,
     domains: &Domains,
 ) -> Option<Check> {
-    stages.iter().zip(&story.stages).find_map(|(told, stage)| {
+    stages.iter().find_map(|told| {
+        let stage = &told.placed;
         let (StageKind::Turn(turn), Some([_, end])) = (&stage.kind, &told.energy) else {
             return None;
         };
@@ -398,9 +480,7 @@ fn tipping(
 fn of_motion(
     scene: &Scene,
     question: &StoryQuestion,
-    story: &Story,
     told: &StageTold,
-    stage: usize,
     asked: &Question,
 ) -> Result<Vec<Answer>, Refused> {
     let domains = &scene.domains;
@@ -441,24 +521,16 @@ fn of_motion(
             ));
         }
         Ask::Energy { when, of } => {
-            let Some([before, after]) = &told.energy else {
-                return Err(refuse("this stage has no kinetic energy of its own"));
+            let whole = told.energy.as_ref().filter(|_| is_alone(told, *of));
+            let [before, after] = match whole {
+                Some(energy) => energy.clone(),
+                None => [&told.before, &told.after].map(|state| kinetic(scene, state, *of)),
             };
-            let moving = match &story.stages[stage].kind {
-                StageKind::Turn(t) => t.body,
-                StageKind::Slide(s) => s.body,
-                StageKind::Fall(f) => f.body,
-                StageKind::Wind(w) => w.body,
-                StageKind::Impact { .. } => return Err(refuse("an impact answers this itself")),
-            };
-            if of.is_some_and(|b| b != moving) {
-                return Err(refuse("this body takes no part in the stage"));
-            }
             parts.push((
                 String::new(),
                 match when {
-                    EnergyWhen::Before => before.clone(),
-                    EnergyWhen::After => after.clone(),
+                    EnergyWhen::Before => before,
+                    EnergyWhen::After => after,
                     EnergyWhen::Lost => before - after,
                 },
             ));
@@ -486,6 +558,40 @@ fn of_motion(
     Ok(out)
 }
 
+/// Whether the motion of a stage is all that moves of what is asked about.
+fn is_alone(told: &StageTold, of: Option<usize>) -> bool {
+    let moved = told.placed.kind.moved();
+    let scene = &told.placed.scene;
+    let rests = |b: usize| {
+        let mut parts = told.before.velocity[b].iter().chain([&told.before.spin[b]]);
+        parts.all(|c| is_zero(c, &scene.domains) == Some(true))
+    };
+    match of {
+        Some(body) => moved == [body],
+        None => (0..scene.bodies.len()).all(|b| moved.contains(&b) || rests(b)),
+    }
+}
+
+/// Kinetic energy of a body, or of all.
+fn kinetic(scene: &Scene, state: &State, of: Option<usize>) -> Expr {
+    let half = Expr::ratio(1, 2);
+    let moving = scene
+        .bodies
+        .iter()
+        .enumerate()
+        .filter(|(_, b)| !b.is_fixed());
+    let parts = moving
+        .filter(|(b, _)| of.is_none_or(|of| of == *b))
+        .map(|(b, body)| {
+            let v = &state.velocity[b];
+            let moves = &body.mass * &dot(v, v);
+            // A particle that goes round a point has an angular velocity, but no energy beyond that of its velocity.
+            let turns = &body.inertia * &state.spin[b].powi(2);
+            &half * &(&moves + &turns)
+        });
+    Expr::sum(parts)
+}
+
 /// The kinetic energy of the end, put together again from the motion at the end, where that came from a root.
 fn energy_check(told: &StageTold, domains: &Domains) -> Option<Check> {
     let [_, end] = told.energy.as_ref()?;
@@ -510,7 +616,7 @@ fn reaction(
 ) -> Result<Expr, crate::algebra::Stop> {
     let body = turn.lump(&stage.scene);
     let inertia = motion::inertia_about(stage, turn);
-    let [r0, r1] = motion::arms(stage, turn);
+    let [r0, r1] = motion::arms(stage, turn, &told.before.spin[turn.body]);
     let r = if at_end { &r1 } else { &r0 };
     let square = match &told.energy {
         Some([start, end]) => &(&Expr::from(2) * if at_end { end } else { start }) / &inertia,

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use super::calc::{Seen, essential, is_zero, sign, tidy};
-use super::{Case, Kept, Refused, StageTold, State};
+use super::{Case, Kept, Part, Refused, StageTold, State};
 use super::{Sentence, sentence::sentence};
 use crate::algebra::Sign;
 use crate::derive::{self, Form};
@@ -43,8 +43,9 @@ pub(super) fn tell(
             w.clone()
         };
     }
-    hinges_fit(stage, &base)?;
-    let approaching = approach(stage, &base)?;
+    touches(stage, &base, one_sided, &before)?;
+    hinges_fit(stage, &base, &before)?;
+    let approaching = approach(stage, &base, &before)?;
     let handed = hand_on(&mut base, named);
     let mut cases: Vec<Case> = Vec::new();
     let mut contradiction = None;
@@ -62,8 +63,8 @@ pub(super) fn tell(
     }
     if cases.is_empty() {
         let reason = match contradiction {
-            Some(law) => format!(
-                "the laws contradict each other: {law} cannot hold together with the others"
+            Some(laws) => format!(
+                "the laws contradict each other, with the motion that comes in: {laws} cannot hold together"
             ),
             None => String::from(
                 "no set of supports and strings fits: one of those that act would have to pull or push the wrong way",
@@ -88,7 +89,10 @@ pub(super) fn tell(
     let checks = cases[0].proof.scene.clone();
     Ok(StageTold {
         name: stage.name.clone(),
-        kind: "impact",
+        placed: stage.clone(),
+        branch: None,
+        given: Vec::new(),
+        time: None,
         before,
         after,
         kept,
@@ -202,6 +206,10 @@ fn case(
         },
     ));
     let derivation = derive::derive(&scene)?;
+    if derivation.counting.contradictory {
+        let laws = derivation.counting.conflict.join("; ");
+        return Err(derive::Stop::Contradiction(laws));
+    }
     let values: BTreeMap<String, Expr> = derivation
         .answers
         .iter()
@@ -256,7 +264,7 @@ fn case(
 }
 
 /// Bodies joined by a hinge must move alike there before.
-fn hinges_fit(stage: &Stage, scene: &Scene) -> Result<(), Refused> {
+fn hinges_fit(stage: &Stage, scene: &Scene, before: &State) -> Result<(), Refused> {
     let at = |b: usize, p: &[Expr; 2]| {
         let body = &scene.bodies[b];
         [
@@ -270,7 +278,18 @@ fn hinges_fit(stage: &Stage, scene: &Scene) -> Result<(), Refused> {
             at(hinge.bodies[1], &hinge.at),
         );
         for k in 0..2 {
-            if is_zero(&(&a[k] - &b[k]), &scene.domains) == Some(false) {
+            let gap = &a[k] - &b[k];
+            if let Some(why) = before.why_open([&gap]) {
+                return Err(Refused::new(
+                    &stage.name,
+                    format!(
+                        "whether the bodies move alike at the hinge `{}` is open: {why}",
+                        hinge.name
+                    ),
+                    "what is caught in the impact is a contact with the law sticking, not a hinge",
+                ));
+            }
+            if is_zero(&gap, &scene.domains) == Some(false) {
                 let [first, second] = hinge.bodies.map(|b| &scene.bodies[b].name);
                 return Err(Refused::new(
                     &stage.name,
@@ -287,7 +306,7 @@ fn hinges_fit(stage: &Stage, scene: &Scene) -> Result<(), Refused> {
 }
 
 /// Bodies that part before they touch do not collide. Gives what must be ≥ 0 for them to approach, where that is not sure.
-fn approach(stage: &Stage, scene: &Scene) -> Result<Vec<(String, Expr)>, Refused> {
+fn approach(stage: &Stage, scene: &Scene, before: &State) -> Result<Vec<(String, Expr)>, Refused> {
     let mut conditions = Vec::new();
     for contact in &scene.contacts {
         let Some(normal) = &contact.normal else {
@@ -302,6 +321,9 @@ fn approach(stage: &Stage, scene: &Scene) -> Result<Vec<(String, Expr)>, Refused
             ]
         });
         let opening = crate::expr::dot(&crate::expr::minus(&b, &a), normal);
+        if before.why_open([&opening]).is_some() {
+            continue;
+        }
         let seen = sign(&opening, &scene.domains);
         if let Seen::Proved(Sign::Positive) = seen {
             let [first, second] = contact.bodies.map(|b| &scene.bodies[b].name);
@@ -325,6 +347,7 @@ fn approach(stage: &Stage, scene: &Scene) -> Result<Vec<(String, Expr)>, Refused
     Ok(conditions)
 }
 
+/// The motion just after: what the laws do not determine is open.
 fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<State, Refused> {
     let mut after = before.clone();
     let mut scene = case.scene.clone();
@@ -332,8 +355,10 @@ fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<State, Refu
     let g = crate::laws::Geometry::of(&scene, |e| Ok::<_, std::convert::Infallible>(e.clone()));
     let Ok(g) = g;
     let full = crate::laws::Kinematics::full(&scene, &g);
+    let why = format!("the laws of `{}` do not determine it", stage.name);
     for b in 0..scene.bodies.len() {
-        if scene.bodies[b].is_fixed() {
+        let body = &scene.bodies[b];
+        if body.is_fixed() {
             continue;
         }
         let value = |form: &crate::laws::Affine<Expr>| -> Result<Option<Expr>, Refused> {
@@ -348,14 +373,91 @@ fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<State, Refu
                 .map(Some)
                 .map_err(|s| Refused::stop(&stage.name, s))
         };
-        let [x, y] = &full.velocity[b];
-        let parts = [value(x)?, value(y)?, value(&full.spin[b])?];
-        if let [Some(x), Some(y), Some(w)] = parts {
-            after.velocity[b] = [x, y];
-            after.spin[b] = w;
+        for (k, what) in ["v_x", "v_y"].into_iter().enumerate() {
+            after.velocity[b][k] = match value(&full.velocity[b][k])? {
+                Some(v) => v,
+                None => after.open(what, &body.name, &stage.name, &why),
+            };
         }
+        if !body.is_particle() {
+            after.spin[b] = match value(&full.spin[b])? {
+                Some(w) => w,
+                None => after.open("omega", &body.name, &stage.name, &why),
+            };
+        }
+        after.part[b] = part(&scene, b, before.part[b]);
     }
     Ok(after)
+}
+
+/// How a body takes part after an impact.
+fn part(scene: &Scene, b: usize, before: Part) -> Part {
+    let hinges = scene.hinges.iter().map(|h| (h.bodies, true));
+    let contacts = scene
+        .contacts
+        .iter()
+        .map(|c| (c.bodies, matches!(c.law, ContactLaw::Sticking)));
+    let mut touching = hinges
+        .chain(contacts)
+        .filter(|(bodies, _)| bodies.contains(&b));
+    let struck = scene.blows.iter().any(|blow| blow.body == b)
+        || scene.after.iter().any(|known| known.body == b);
+    match touching.next() {
+        Some((_, true)) => Part::Joined,
+        Some(_) if touching.any(|(_, joins)| joins) => Part::Joined,
+        Some(_) => Part::Free,
+        None if struck => Part::Free,
+        None => before,
+    }
+}
+
+/// A particle is touched where it is.
+fn touches(
+    stage: &Stage,
+    scene: &Scene,
+    one_sided: &[OneSided],
+    before: &State,
+) -> Result<(), Refused> {
+    let contacts = scene.contacts.iter().map(|c| (&c.name, c.bodies, &c.at));
+    let hinges = scene.hinges.iter().map(|h| (&h.name, h.bodies, &h.at));
+    let blows = scene.blows.iter().map(|b| (&b.name, [b.body; 2], &b.at));
+    let supports = one_sided.iter().map(|o| (&o.name, o.bodies, &o.at));
+    for (name, bodies, at) in contacts.chain(hinges).chain(blows).chain(supports) {
+        for body in bodies.map(|b| &scene.bodies[b]) {
+            if !body.is_particle() {
+                continue;
+            }
+            let gap = crate::expr::minus(at, &body.center);
+            if let Some(why) = before.why_open(&gap) {
+                return Err(Refused::new(
+                    &stage.name,
+                    format!(
+                        "where `{}` is, and whether `{name}` touches it, is open: {why}",
+                        body.name
+                    ),
+                    "end the motion before after a time or at a place that has a closed form",
+                ));
+            }
+            if gap
+                .iter()
+                .any(|c| is_zero(c, &scene.domains) == Some(false))
+            {
+                let [x, y] = body.center.each_ref().map(|c| {
+                    let tidy = tidy(c, &scene.domains).unwrap_or_else(|_| c.clone());
+                    crate::formula::write_plain(&tidy)
+                });
+                return Err(Refused::new(
+                    &stage.name,
+                    format!(
+                        "`{name}` is not where the particle `{}` is by then: at ({x}, {y})",
+                        body.name
+                    ),
+                    format!("\"at\": \"{}\" is always where it is", body.name),
+                ));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// What an impact conserves.

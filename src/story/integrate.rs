@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use super::StageTold;
 use crate::domain::{Domains, Limit};
 use crate::expr::{Expr, Point, Symbol, Vector};
-use crate::scene::{Fall, Slide, Stage, Turn, Until, Wind};
+use crate::scene::{Fall, FallEnd, Slide, Stage, Turn, Until, Wind};
 use crate::verify::Check;
 
 /// Points at which motions are integrated.
@@ -83,11 +83,11 @@ fn check(worst: f64, count: usize, what: &str) -> Check {
 
 /// A rotation: I θ″ = moment of weight and applied moment.
 pub(super) fn turn(stage: &Stage, told: &StageTold, turn: &Turn, way: i64) -> Vec<Check> {
-    if turn.gravity.is_none() && turn.torque.is_none() {
+    if turn.gravity.is_none() && turn.torque.is_none() || matches!(turn.until, Until::For(_)) {
         return Vec::new();
     }
     let body = turn.lump(&stage.scene);
-    let [r, r_end] = super::motion::arms(stage, turn);
+    let [r, r_end] = super::motion::arms(stage, turn, &told.before.spin[turn.body]);
     let inertia = super::motion::inertia_about(stage, turn);
     let zero = Expr::zero();
     let g = turn.gravity.as_ref().unwrap_or(&zero);
@@ -154,7 +154,7 @@ pub(super) fn reaction(
     force: &Expr,
 ) -> Check {
     let body = turn.lump(&stage.scene);
-    let r = &super::motion::arms(stage, turn)[usize::from(at_end)];
+    let r = &super::motion::arms(stage, turn, spin)[usize::from(at_end)];
     let inertia = super::motion::inertia_about(stage, turn);
     let zero = Expr::zero();
     let g = turn.gravity.as_ref().unwrap_or(&zero);
@@ -309,7 +309,7 @@ pub(super) fn gets_there(
     point: &Point<f64>,
 ) -> Option<bool> {
     let body = turn.lump(&stage.scene);
-    let [r, r_end] = super::motion::arms(stage, turn);
+    let [r, r_end] = super::motion::arms(stage, turn, &told.before.spin[turn.body]);
     let zero = Expr::zero();
     let value = |e: &Expr| e.evaluate(point);
     let way = way as f64;
@@ -351,7 +351,7 @@ pub(super) fn both_sides(
     value: &Expr,
 ) -> Check {
     let mut all = vec![value, &told.before.spin[turn.body]];
-    let [r, r_end] = super::motion::arms(stage, turn);
+    let [r, r_end] = super::motion::arms(stage, turn, &told.before.spin[turn.body]);
     let inertia = super::motion::inertia_about(stage, turn);
     all.extend(r.iter().chain(&r_end));
     let mass = turn.lump(&stage.scene).mass;
@@ -463,7 +463,7 @@ pub(super) fn slide(stage: &Stage, told: &StageTold, slide: &Slide) -> Vec<Check
 
 /// Free fall: y″ = −g, until the height is fallen through.
 pub(super) fn fall(stage: &Stage, told: &StageTold, fall: &Fall) -> Vec<Check> {
-    let (Some(g), Some(h)) = (&fall.gravity, &fall.height) else {
+    let (Some(g), FallEnd::Drop(h)) = (&fall.gravity, &fall.until) else {
         return Vec::new();
     };
     let (begin, end) = (

@@ -32,20 +32,89 @@ pub use special::{about, known, special};
 
 use crate::derive::{Derivation, Stop};
 use crate::dimension::Dimension;
+use crate::domain::Domain;
 use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::Relation;
-use crate::scene::{Ask, ContactLaw, Scene, Stage, StageKind, Story, StoryAsk, Turn};
+use crate::scene::{Ask, ContactLaw, Scene, Stage, StageKind, Story, StoryAsk};
 use crate::verify::{Check, Proof};
 
-/// Where all bodies are and how they move, by index of body.
+/// How a body has been taking part.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Part {
+    /// Not at all so far: it waits as the scene has it.
+    Waits,
+    /// Nothing holds it.
+    Free,
+    /// Since the last impact it is hinged to something, sticks to it or is held by it.
+    Joined,
+}
+
+/// Where all bodies are and how they move, by index of body. A component that is not determined is a symbol of
+/// [`State::open`]; a formula in which one occurs has no value.
 #[derive(Clone, Debug)]
 pub struct State {
+    /// Symbols of components that are not determined, with the reason.
+    pub open: BTreeMap<Symbol, String>,
+    /// How each body has been taking part.
+    pub part: Vec<Part>,
+    /// Orientations \[rad\], counterclockwise.
+    pub angle: Vec<Expr>,
     /// Centers of mass \[m\].
     pub center: Vec<Vector>,
     /// Velocities of the centers of mass \[m/s\].
     pub velocity: Vec<Vector>,
     /// Angular velocities \[rad/s\], counterclockwise.
     pub spin: Vec<Expr>,
+}
+
+impl State {
+    /// Why a formula of some expressions has no value; `None` where it has one.
+    pub fn why_open<'e>(&self, all: impl IntoIterator<Item = &'e Expr>) -> Option<String> {
+        if self.open.is_empty() {
+            return None;
+        }
+        let symbols = all.into_iter().flat_map(Expr::symbols);
+        symbols.filter_map(|s| self.open.get(&s).cloned()).next()
+    }
+
+    /// Opens a component.
+    fn open(&mut self, what: &str, body: &str, stage: &str, why: &str) -> Expr {
+        let name = Symbol::from(format!("{what} of {body} after {stage}").as_str());
+        self.open.insert(name.clone(), why.to_string());
+        Expr::symbol(&name)
+    }
+
+    /// Where a body is becomes open; with `motion` also how it moves.
+    fn lose(&mut self, scene: &Scene, b: usize, stage: &str, why: &str, motion: bool) {
+        let body = &scene.bodies[b].name;
+        self.center[b] = ["x", "y"].map(|what| self.open(what, body, stage, why));
+        if motion {
+            self.velocity[b] = ["v_x", "v_y"].map(|what| self.open(what, body, stage, why));
+        }
+        if !scene.bodies[b].is_particle() {
+            self.angle[b] = self.open("angle", body, stage, why);
+            if motion {
+                self.spin[b] = self.open("omega", body, stage, why);
+            }
+        }
+    }
+
+    /// The angle of a body becomes open.
+    fn lose_angle(&mut self, scene: &Scene, b: usize, stage: &str, why: &str) {
+        if !scene.bodies[b].is_particle() {
+            self.angle[b] = self.open("angle", &scene.bodies[b].name, stage, why);
+        }
+    }
+
+    /// What stands for the places of a stage that begins like this.
+    fn places(&self, stage: &Stage) -> BTreeMap<Symbol, Expr> {
+        let all = stage.places.iter().enumerate().flat_map(|(b, names)| {
+            let [x, y] = &self.center[b];
+            names.iter().zip([x, y, &self.angle[b]])
+        });
+        all.map(|(name, value)| (name.clone(), value.clone()))
+            .collect()
+    }
 }
 
 /// A quantity that a stage keeps, or does not.
@@ -81,10 +150,16 @@ pub struct Case {
 /// A stage, worked out.
 #[derive(Clone, Debug)]
 pub struct StageTold {
-    /// Name.
+    /// Name; where an earlier impact has several outcomes, with the one it goes on from.
     pub name: String,
-    /// Kind in one word.
-    pub kind: &'static str,
+    /// The stage, with the places of the bodies put in.
+    pub placed: Stage,
+    /// What it goes on from: index of the stage told before it, and of the outcome there.
+    pub branch: Option<(usize, usize)>,
+    /// What must be ≥ 0 for the outcomes it goes on from, in words and as expressions.
+    pub given: Vec<(String, Expr)>,
+    /// How long it lasts \[s\]; `None` for an impact, and where that has no closed form.
+    pub time: Option<Expr>,
     /// Motion at the beginning.
     pub before: State,
     /// Motion at the end.
@@ -114,6 +189,8 @@ pub struct StageTold {
 pub struct Answer {
     /// Name of the question.
     pub question: String,
+    /// Index of the stage it belongs to, among those told; `None` for an answer about formulas alone.
+    pub told: Option<usize>,
     /// Name of the answer.
     pub name: String,
     /// The name typeset.
@@ -181,8 +258,8 @@ pub struct Told {
 
 impl Told {
     /// Everything that is taken for granted: how the statement is read, and what the stages suppose.
-    pub fn assumed(&self, story: &Story) -> Vec<Sentence> {
-        words::assumed(story, &self.stages)
+    pub fn assumed(&self) -> Vec<Sentence> {
+        words::assumed(&self.readings, &self.stages)
     }
 
     /// Whether no check failed.
@@ -237,72 +314,132 @@ impl Refused {
     }
 }
 
-/// Tells the story of a scene.
+/// Most ways through the cases of a scene.
+const BRANCHES: usize = 32;
+
+/// Tells the story of a scene. Where an impact has several outcomes, what follows it is told for each.
 pub fn tell(scene: &Scene, story: &Story) -> Result<Told, Refused> {
     let mut stages: Vec<StageTold> = Vec::new();
+    let mut told_as: Vec<Vec<usize>> = Vec::new();
     for stage in &story.stages {
-        let before = match stage.from {
-            Some(j) => {
-                let mut state = stages[j].after.clone();
-                // Where the bodies are is geometry, and the reader has put it in.
-                state.center = stage
+        let mut mine = Vec::new();
+        for (branch, before, given) in beginnings(stage, &stages, &told_as) {
+            let mut placed = stage.placed(&before.places(stage));
+            for open in before.open.keys() {
+                placed
                     .scene
-                    .bodies
-                    .iter()
-                    .map(|b| b.center.clone())
-                    .collect();
-                state
+                    .domains
+                    .symbols
+                    .insert(open.clone(), Domain::real());
             }
-            None => start(&stage.scene, &stage.start),
-        };
-        let told = match &stage.kind {
-            StageKind::Impact {
-                one_sided,
-                supposed,
-            } => {
-                let named = named(story, &stages);
-                impact::tell(stage, before, one_sided, supposed.as_deref(), &named)?
+            let mut told = one(story, &stages, &placed, before)?;
+            told.branch = branch;
+            told.given = given;
+            if let Some((parent, case)) = branch
+                && (stages[parent].cases.len() > 1 || told_as[stage.from.unwrap_or(0)].len() > 1)
+            {
+                told.name = format!("{} ({})", stage.name, words::leading(&stages, parent, case));
             }
-            StageKind::Turn(turn) => {
-                left_behind(story, stage, turn)?;
-                motion::turn(stage, before, turn)?
+            mine.push(stages.len());
+            stages.push(told);
+            if mine.len() > BRANCHES {
+                return Err(Refused::new(
+                    &stage.name,
+                    format!("more than {BRANCHES} cases lead here"),
+                    "give values, or say with `supposing` which supports act",
+                ));
             }
-            StageKind::Slide(slide) => motion::slide(stage, before, slide)?,
-            StageKind::Fall(fall) => motion::fall(stage, before, fall)?,
-            StageKind::Wind(wind) => motion::wind(stage, before, wind)?,
-        };
-        stages.push(told);
+        }
+        told_as.push(mine);
     }
     answer::all(scene, story, stages)
 }
 
-/// What stuck to a body in the last impact turns along with it.
-fn left_behind(story: &Story, stage: &Stage, turn: &Turn) -> Result<(), Refused> {
-    let turning = turn.bodies();
+type Beginning = (Option<(usize, usize)>, State, Vec<(String, Expr)>);
+
+/// The states a stage begins with, one for each way that leads to it.
+fn beginnings(stage: &Stage, stages: &[StageTold], told_as: &[Vec<usize>]) -> Vec<Beginning> {
+    let Some(from) = stage.from else {
+        return vec![(None, start(&stage.scene, &stage.start), Vec::new())];
+    };
+    let mut out = Vec::new();
+    for &parent in &told_as[from] {
+        let told = &stages[parent];
+        if told.cases.is_empty() {
+            out.push((Some((parent, 0)), told.after.clone(), told.given.clone()));
+        }
+        for (k, case) in told.cases.iter().enumerate() {
+            let mut given = told.given.clone();
+            if told.cases.len() > 1 {
+                given.extend(case.conditions.iter().cloned());
+            }
+            out.push((Some((parent, k)), case.after.clone(), given));
+        }
+    }
+    out
+}
+
+/// One stage, from a state.
+fn one(
+    story: &Story,
+    stages: &[StageTold],
+    stage: &Stage,
+    before: State,
+) -> Result<StageTold, Refused> {
+    if !stage.kind.moved().is_empty() {
+        if let Some(open) = motion::open(stage, before.clone()) {
+            return Ok(open);
+        }
+        left_behind(story, stage)?;
+    }
+    match &stage.kind {
+        StageKind::Impact {
+            one_sided,
+            supposed,
+        } => {
+            let named = named(story, stages);
+            impact::tell(stage, before, one_sided, supposed.as_deref(), &named)
+        }
+        StageKind::Turn(turn) => motion::turn(stage, before, turn),
+        StageKind::Slide(slide) => motion::slide(stage, before, slide),
+        StageKind::Fall(fall) => motion::fall(stage, before, fall),
+        StageKind::Wind(wind) => motion::wind(stage, before, wind),
+    }
+}
+
+/// What has been joined to a body in the last impact moves along with it.
+fn left_behind(story: &Story, stage: &Stage) -> Result<(), Refused> {
+    let moved = stage.kind.moved();
     let mut from = stage.from;
     while let Some(before) = from.map(|j| &story.stages[j]) {
         if let StageKind::Impact { .. } = before.kind {
-            let stuck = before.scene.contacts.iter().find_map(|c| {
-                let [a, b] = c.bodies;
-                let is_other =
-                    |b: usize| !turning.contains(&b) && !stage.scene.bodies[b].is_fixed();
-                let sticks = matches!(c.law, ContactLaw::Sticking);
-                match (turning.contains(&a), turning.contains(&b)) {
-                    (true, false) if sticks && is_other(b) => Some(b),
-                    (false, true) if sticks && is_other(a) => Some(a),
-                    _ => None,
-                }
-            });
-            let Some(stuck) = stuck else { return Ok(()) };
-            let [stuck, body] = [stuck, turn.body].map(|b| &stage.scene.bodies[b].name);
-            return Err(Refused::new(
-                &stage.name,
-                format!(
-                    "`{stuck}` sticks to `{body}` since `{}`, and is not said to turn along",
-                    before.name
-                ),
-                format!("add \"with\": [\"{stuck}\"] to the turn"),
-            ));
+            let sticking = before.scene.contacts.iter();
+            let sticking = sticking.filter(|c| matches!(c.law, ContactLaw::Sticking));
+            let joined = sticking.map(|c| (c.bodies, "sticks to")).chain(
+                before
+                    .scene
+                    .hinges
+                    .iter()
+                    .map(|h| (h.bodies, "is hinged to")),
+            );
+            for ([a, b], how) in joined {
+                let is_other = |b: usize| !stage.scene.bodies[b].is_fixed();
+                let (body, other) = match (moved.contains(&a), moved.contains(&b)) {
+                    (true, false) if is_other(b) => (a, b),
+                    (false, true) if is_other(a) => (b, a),
+                    _ => continue,
+                };
+                let [other, body] = [other, body].map(|b| &stage.scene.bodies[b].name);
+                return Err(Refused::new(
+                    &stage.name,
+                    format!(
+                        "`{other}` {how} `{body}` since `{}`, and is not said to move along",
+                        before.name
+                    ),
+                    format!("a turn takes it along with \"with\": [\"{other}\"]"),
+                ));
+            }
+            return Ok(());
         }
         from = before.from;
     }
@@ -316,7 +453,9 @@ fn named(story: &Story, stages: &[StageTold]) -> Vec<(Symbol, Expr)> {
         let StoryAsk::Quantity { stage, question: q } = &question.ask else {
             continue;
         };
-        let Some(told) = stages.get(*stage).filter(|s| s.cases.is_empty()) else {
+        let name = &story.stages[*stage].name;
+        let is_it = |s: &&StageTold| s.placed.name == *name && s.cases.is_empty();
+        let Some(told) = stages.iter().find(is_it) else {
             continue;
         };
         let value = match &story.stages[*stage].scene.questions[*q].ask {
@@ -339,6 +478,9 @@ fn named(story: &Story, stages: &[StageTold]) -> Vec<(Symbol, Expr)> {
 /// The motion as the file gives it.
 fn start(scene: &Scene, changes: &[(usize, Option<Vector>, Option<Expr>)]) -> State {
     let mut state = State {
+        open: BTreeMap::new(),
+        part: vec![Part::Waits; scene.bodies.len()],
+        angle: scene.bodies.iter().map(|b| b.angle.clone()).collect(),
         center: scene.bodies.iter().map(|b| b.center.clone()).collect(),
         velocity: scene.bodies.iter().map(|b| b.velocity.clone()).collect(),
         spin: scene.bodies.iter().map(|b| b.spin.clone()).collect(),

@@ -7,19 +7,20 @@ use super::calc::sign;
 use super::{Case, StageTold, Told};
 use crate::derive::{self, Answer, Derivation, Form, Stop};
 use crate::expr::{Expr, cross, minus};
-use crate::scene::{Ask, EnergyWhen, Question, Scene, Stage, StageKind, StoryAsk};
+use crate::scene::{Ask, EnergyWhen, Question, Scene, StageKind, StoryAsk};
 
 /// The scene of an impact, by name of its stage; the first one for `None`. `None` where there is no such impact.
 pub fn impact(scene: &Scene, told: &Told, stage: Option<&str>) -> Option<Scene> {
     let found = told
         .stages
         .iter()
-        .find(|s| stage.map_or(!s.cases.is_empty(), |name| s.name == name))?;
+        .find(|s| stage.map_or(!s.cases.is_empty(), |name| s.placed.name == name))?;
     Some(put_together(scene, found.cases.first()?))
 }
 
 /// Whether a rotation, or a rope that winds up, goes clockwise.
-pub fn is_clockwise(stage: &Stage, told: &StageTold) -> bool {
+pub fn is_clockwise(told: &StageTold) -> bool {
+    let stage = &told.placed;
     match &stage.kind {
         StageKind::Turn(turn) => {
             let way = super::motion::sense(stage, &told.before.spin[turn.body], turn);
@@ -36,8 +37,8 @@ pub fn is_clockwise(stage: &Stage, told: &StageTold) -> bool {
 
 /// The story as one scene and one derivation.
 pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
-    let first = told.stages.iter().position(|s| !s.cases.is_empty());
-    let case = first.and_then(|i| told.stages[i].cases.first());
+    let first = told.stages.iter().find(|s| !s.cases.is_empty());
+    let case = first.and_then(|s| s.cases.first());
     let (mut flat, mut derivation) = match case {
         Some(case) => (put_together(scene, case), case.derivation.clone()),
         None => {
@@ -58,10 +59,14 @@ pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
             name: q.name.clone(),
             latex: q.latex.clone(),
             ask: match &q.ask {
-                StoryAsk::Quantity { stage, question } if Some(*stage) == first => scene
-                    .story
-                    .as_ref()
-                    .and_then(|s| s.stages[*stage].scene.questions.get(*question))
+                StoryAsk::Quantity { .. } => first
+                    .and_then(|s| {
+                        s.placed
+                            .scene
+                            .questions
+                            .iter()
+                            .find(|own| own.name == q.name)
+                    })
                     .map_or_else(elsewhere, |q| q.ask.clone()),
                 _ => elsewhere(),
             },

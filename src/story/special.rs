@@ -507,6 +507,7 @@ pub(super) fn blank(question: &StoryQuestion, name: &str, words: impl Into<Strin
         .unwrap_or_else(|| crate::formula::latex_name(name));
     Answer {
         question: question.name.clone(),
+        told: None,
         name: name.to_string(),
         latex,
         words: words.into(),

@@ -7,7 +7,7 @@ use crate::algebra::Sign;
 use crate::derive;
 use crate::domain::Domains;
 use crate::expr::{Expr, minus};
-use crate::scene::{BlowImpulse, ContactLaw, Scene, Stage, StageKind, Story, Turn};
+use crate::scene::{BlowImpulse, ContactLaw, FallEnd, Scene, Stage, StageKind, Turn};
 
 /// Which supports act in an outcome.
 pub(super) fn active(case: &Case) -> String {
@@ -21,6 +21,20 @@ pub(super) fn active(case: &Case) -> String {
     }
 }
 
+/// Which outcomes lead through an outcome of a stage to what follows it.
+pub(super) fn leading(stages: &[StageTold], parent: usize, case: usize) -> String {
+    let mut parts = Vec::new();
+    let mut at = Some((parent, case));
+    while let Some((i, k)) = at {
+        if stages[i].cases.len() > 1 {
+            parts.push(active(&stages[i].cases[k]));
+        }
+        at = stages[i].branch;
+    }
+    parts.reverse();
+    parts.join("; ")
+}
+
 /// `a − h ≥ 0 and b ≥ 0`.
 fn conditions(case: &Case) -> Sentence {
     let each = case.conditions.iter().map(|(_, e)| sentence![e, " ≥ 0"]);
@@ -28,7 +42,8 @@ fn conditions(case: &Case) -> Sentence {
 }
 
 /// What happens in a stage.
-pub(super) fn stage(stage: &Stage, told: &StageTold) -> Vec<Sentence> {
+pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
+    let stage = &told.placed;
     let scene = &stage.scene;
     let mut out: Vec<Sentence> = Vec::new();
     match &stage.kind {
@@ -102,9 +117,22 @@ pub(super) fn stage(stage: &Stage, told: &StageTold) -> Vec<Sentence> {
         ]),
         StageKind::Fall(fall) => {
             let name = &scene.bodies[fall.body].name;
-            out.push(match &fall.height {
-                Some(h) => sentence!["`", name, "` falls freely through ", h],
-                None => sentence!["`", name, "` moves freely"],
+            out.push(match (&fall.until, &fall.gravity) {
+                (FallEnd::Drop(h), Some(_)) => sentence!["`", name, "` falls freely through ", h],
+                (FallEnd::Time(t), Some(_)) => sentence!["`", name, "` falls freely for ", t],
+                (FallEnd::Time(t), None) => sentence!["`", name, "` flies freely for ", t],
+                (FallEnd::Range(s), _) => {
+                    sentence![
+                        "`",
+                        name,
+                        "` flies freely until it is ",
+                        s,
+                        " further right"
+                    ]
+                }
+                (FallEnd::Drop(h), None) => {
+                    sentence!["`", name, "` flies freely until it is ", h, " lower"]
+                }
             });
             if is_zero(&told.after.spin[fall.body], &scene.domains) == Some(false) {
                 out.push(sentence![
@@ -279,7 +307,8 @@ fn spin_words(
 }
 
 /// Which forces have an impulse, and why; which have none.
-pub(super) fn impulsive(stage: &Stage, told: &StageTold) -> Vec<Sentence> {
+pub(super) fn impulsive(told: &StageTold) -> Vec<Sentence> {
+    let stage = &told.placed;
     let StageKind::Impact { one_sided, .. } = &stage.kind else {
         return vec![sentence![
             "`",
@@ -339,7 +368,8 @@ pub(super) fn impulsive(stage: &Stage, told: &StageTold) -> Vec<Sentence> {
 }
 
 /// What the balances alone leave open, and what would close them.
-pub(super) fn missing(stage: &Stage, told: &StageTold) -> Vec<Sentence> {
+pub(super) fn missing(told: &StageTold) -> Vec<Sentence> {
+    let stage = &told.placed;
     let mut bare: Scene = stage.scene.clone();
     for (body, (v, w)) in bare
         .bodies
@@ -423,9 +453,10 @@ pub(super) fn missing(stage: &Stage, told: &StageTold) -> Vec<Sentence> {
 }
 
 /// Everything the story takes for granted.
-pub(super) fn assumed(story: &Story, stages: &[StageTold]) -> Vec<Sentence> {
-    let mut out: Vec<Sentence> = story.readings.iter().map(Sentence::from).collect();
-    for (stage, told) in story.stages.iter().zip(stages) {
+pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence> {
+    let mut out: Vec<Sentence> = readings.iter().map(Sentence::from).collect();
+    for told in stages {
+        let stage = &told.placed;
         match &stage.kind {
             StageKind::Impact { .. } => out.push(sentence!["`", &stage.name, "` takes no time: nothing moves while velocities jump, and finite forces have no impulse"]),
             StageKind::Turn(turn) => out.push(sentence!["in `", &stage.name, "` the body is rigid, and ", &turn.about_name, " is frictionless and does not move"]),

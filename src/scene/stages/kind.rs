@@ -1,17 +1,16 @@
-//! What one stage does, an impact or a motion, and where the bodies are at its end.
+//! What one stage does, an impact or a motion.
 //!
-//! In: the record of a stage and the scene it begins with. Out: a [`StageKind`]; places after a motion follow from geometry.
+//! In: the record of a stage and the scene it begins with. Out: a [`StageKind`].
 
-use super::Placed;
-use crate::expr::{Expr, dot, minus};
+use crate::expr::Expr;
+use crate::scene::Scene;
 use crate::scene::fault::{Fault, Span};
 use crate::scene::file::PositionFile;
 use crate::scene::formulas::Quantity;
 use crate::scene::record::Formula;
 use crate::scene::resolve::Resolver;
-use crate::scene::stage::{Fall, OneSided, Slide, StageKind, Turn, Until, Wind};
-use crate::scene::stage_file::{ImpactFile, StageFile, TurnFile, UntilName};
-use crate::scene::{Scene, geometry};
+use crate::scene::stage::{Fall, FallEnd, OneSided, Slide, StageKind, Turn, Until, Wind};
+use crate::scene::stage_file::{FallFile, ImpactFile, StageFile, TurnFile, UntilName};
 
 pub(super) const TIME: Quantity =
     Quantity::other([0, 0, 1], "a time, such as t, or a number of seconds");
@@ -21,68 +20,6 @@ const ACCELERATION: Quantity = Quantity::other(
 );
 const MOMENT: Quantity = Quantity::other([1, 2, -2], "a moment is a force times a length");
 const FORCE: Quantity = Quantity::other([1, 1, -2], "a force is a mass times an acceleration");
-
-/// Where all bodies are at the end of a stage.
-pub(super) fn placed_after(scene: &Scene, kind: &StageKind) -> Vec<Placed> {
-    let mut all: Vec<Placed> = scene
-        .bodies
-        .iter()
-        .map(|b| (b.center.clone(), b.angle.clone()))
-        .collect();
-    match kind {
-        StageKind::Impact { .. } => {}
-        StageKind::Turn(turn) => {
-            let lump = minus(&turn.lump(scene).center, &turn.about);
-            let length = dot(&lump, &lump).sqrt();
-            let alone = turn.with.is_empty();
-            for body in turn.bodies() {
-                let (center, angle) = &mut all[body];
-                let r = minus(center, &turn.about);
-                let [c, s] = match &turn.until {
-                    Until::By(by) => {
-                        let by = if turn.clockwise == Some(true) {
-                            -by
-                        } else {
-                            by.clone()
-                        };
-                        *angle = &*angle + &by;
-                        geometry::direction(&by)
-                    }
-                    Until::Above if alone => {
-                        *center = [turn.about[0].clone(), &turn.about[1] + &length];
-                        continue;
-                    }
-                    Until::Below if alone => {
-                        *center = [turn.about[0].clone(), &turn.about[1] - &length];
-                        continue;
-                    }
-                    Until::Above => [&lump[1] / &length, &lump[0] / &length],
-                    Until::Below => [-(&lump[1] / &length), -(&lump[0] / &length)],
-                    Until::For(_) => continue,
-                };
-                let x = &(&r[0] * &c) - &(&r[1] * &s);
-                let y = &(&r[0] * &s) + &(&r[1] * &c);
-                *center = [&turn.about[0] + &x, &turn.about[1] + &y];
-            }
-        }
-        StageKind::Slide(slide) => {
-            let center = &mut all[slide.body].0;
-            for (coordinate, along) in center.iter_mut().zip(&slide.along) {
-                *coordinate = &*coordinate + &(along * &slide.distance);
-            }
-        }
-        StageKind::Fall(fall) => {
-            if let Some(height) = &fall.height {
-                let center = &mut all[fall.body].0;
-                center[1] = &center[1] - height;
-            }
-        }
-        StageKind::Wind(wind) => {
-            all[wind.body].0 = [&wind.around[0] + &wind.to, wind.around[1].clone()];
-        }
-    }
-    all
-}
 
 pub(super) fn kind(
     r: &mut Resolver<'_>,
@@ -128,21 +65,7 @@ pub(super) fn kind(
         }));
     }
     if let Some(fall) = &stage.fall {
-        if fall.height.is_some() == fall.time.is_some() {
-            let fault = Fault::new(
-                stage.name.span,
-                "a fall ends after a `height` or after a time `for`",
-            );
-            r.faults.push(fault.hint("give one of them"));
-            return None;
-        }
-        let body = r.moving(&fall.body);
-        return Some(StageKind::Fall(Fall {
-            body: body?,
-            gravity: optional(r, fall.gravity.as_ref(), ACCELERATION)?,
-            height: optional(r, fall.height.as_ref(), Quantity::LENGTH)?,
-            time: optional(r, fall.time.as_ref(), TIME)?,
-        }));
+        return fall_of(r, fall, stage.name.span).map(StageKind::Fall);
     }
     let wind = stage.wind.as_ref()?;
     let body = r.moving(&wind.body);
@@ -225,6 +148,40 @@ fn impact_of(
     })
 }
 
+fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {
+    let ends = usize::from(fall.height.is_some())
+        + usize::from(fall.range.is_some())
+        + usize::from(fall.time.is_some());
+    if ends != 1 {
+        let fault = Fault::new(
+            span,
+            "a fall ends after a `height`, a horizontal distance `range` or a time `for`",
+        );
+        r.faults.push(fault.hint("give one of them"));
+        return None;
+    }
+    let body = r.moving(&fall.body);
+    let with = fall.with.iter().flatten().map(|name| r.moving(name));
+    let with = with.collect::<Option<Vec<usize>>>();
+    let gravity = optional(r, fall.gravity.as_ref(), ACCELERATION)?;
+    let until = match (&fall.height, &fall.range, &fall.time) {
+        (Some(height), ..) => {
+            FallEnd::Drop(r.symbols.read(height, Quantity::LENGTH, &mut r.faults)?)
+        }
+        (_, Some(range), _) => {
+            FallEnd::Range(r.symbols.read(range, Quantity::LENGTH, &mut r.faults)?)
+        }
+        (.., Some(time)) => FallEnd::Time(r.symbols.read(time, TIME, &mut r.faults)?),
+        _ => return None,
+    };
+    Some(Fall {
+        body: body?,
+        with: with?,
+        gravity,
+        until,
+    })
+}
+
 fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
     let ends = usize::from(turn.by.is_some())
         + usize::from(turn.until.is_some())
@@ -237,13 +194,13 @@ fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
         r.faults.push(fault.hint("give one of them"));
         return None;
     }
-    if let (Some(time), true) = (&turn.time, turn.gravity.is_some() || turn.torque.is_some()) {
+    if let (Some(time), true) = (&turn.time, turn.gravity.is_some()) {
         let fault = Fault::new(
             time.span,
-            "a rotation with a moment ends at an angle, not after a time",
+            "a rotation under its weight ends at an angle, not after a time",
         );
         r.faults
-            .push(fault.hint("energy connects places, not times; give `by` or `until`"));
+            .push(fault.hint("where it is after a time has no closed form; give `by` or `until`"));
         return None;
     }
     let body = r.moving(&turn.body);

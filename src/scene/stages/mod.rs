@@ -1,14 +1,14 @@
 //! Stages as written become stages of a scene: each gets its own [`Scene`] with the bodies where they are when it begins.
 //!
-//! In: the records of [`crate::scene::stage_file`]. Out: a [`Story`], or faults. Places after a motion follow from geometry alone
-//! and are put in here; velocities are the affair of [`crate::story`].
+//! In: the records of [`crate::scene::stage_file`]. Out: a [`Story`], or faults. Where bodies are after another stage is
+//! found out by [`crate::story`] and by [`crate::numeric`], each for itself; here symbols stand for it.
 
 mod kind;
 mod questions;
 
 use std::collections::HashMap;
 
-use crate::expr::{Expr, Vector, minus};
+use crate::expr::{Expr, Symbol, Vector, minus};
 use crate::scene::check::{Claim, check};
 use crate::scene::fault::{Fault, nearest};
 use crate::scene::file::{ContactFile, SceneFile, VelocityFile};
@@ -22,9 +22,6 @@ use crate::scene::{Scene, geometry, question};
 
 /// Most stages a scene may have.
 const STAGES: usize = 40;
-
-/// Where a body is: its center and its orientation.
-type Placed = (Vector, Expr);
 
 /// Reads the stages and the questions about them into the scene.
 pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
@@ -68,31 +65,14 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     let composed: Vec<SceneFile> = (0..stages.len())
         .map(|i| composed(file, &stages[i], i, &homes))
         .collect();
-    let mut ends: Vec<Option<Vec<Placed>>> = Vec::new();
     for (i, stage) in stages.iter().enumerate() {
-        let from = match predecessor(base, stages, i) {
-            Some(from) => from,
-            None => {
-                ends.push(None);
-                continue;
-            }
-        };
-        let start = match from {
-            Some(j) => match &ends[j] {
-                Some(end) => Some(end.clone()),
-                // That stage could not be read, which has been reported.
-                None => {
-                    ends.push(None);
-                    continue;
-                }
-            },
-            None => None,
+        let Some(from) = predecessor(base, stages, i) else {
+            continue;
         };
         let symbols = std::mem::replace(&mut base.symbols, Symbols::new(Default::default()));
-        let (read, end, symbols, faults) = one(&composed[i], stage, from, start, scene, symbols);
+        let (read, symbols, faults) = one(&composed[i], stage, from, scene, symbols);
         base.symbols = symbols;
         base.faults.extend(faults);
-        ends.push(end);
         story.stages.extend(read);
     }
     if base.faults.is_empty() {
@@ -222,17 +202,25 @@ fn composed(
     out
 }
 
-type OneRead = (Option<Stage>, Option<Vec<Placed>>, Symbols, Vec<Fault>);
+/// Symbols for where the bodies are when a stage begins; no parameter has a blank in its name.
+fn places(scene: &SceneFile, stage: &str) -> Vec<[Symbol; 3]> {
+    let names = scene.bodies.0.iter().map(|(name, _)| &name.text);
+    names
+        .map(|body| {
+            ["x", "y", "angle"]
+                .map(|what| Symbol::from(format!("{what} of {body} when {stage} begins").as_str()))
+        })
+        .collect()
+}
 
-/// Reads one stage; gives also where the bodies are at its end.
+/// Reads one stage.
 fn one(
     file: &SceneFile,
     stage: &StageFile,
     from: Option<usize>,
-    start: Option<Vec<Placed>>,
     whole: &Scene,
     symbols: Symbols,
-) -> OneRead {
+) -> (Option<Stage>, Symbols, Vec<Fault>) {
     let mut r = Resolver {
         file,
         symbols,
@@ -253,29 +241,25 @@ fn one(
         gains_energy: whole.gains_energy,
         ..Scene::default()
     };
-    if let Some(start) = &start {
-        for (b, (center, _)) in start.iter().enumerate() {
-            // First from the file, so that a composite finds its parts.
-            r.center(b);
-            r.body_places[b] = Place::Done(Some(center.clone()));
-        }
-        r.point_places.fill(Place::Untouched);
+    let places = from.map_or_else(Vec::new, |_| places(file, &stage.name.text));
+    for (b, [x, y, _]) in places.iter().enumerate() {
+        // First from the file, so that a composite finds its parts.
+        r.center(b);
+        r.body_places[b] = Place::Done(Some([Expr::symbol(x), Expr::symbol(y)]));
     }
+    r.point_places.fill(Place::Untouched);
     r.fill(&mut scene);
-    if let Some(start) = &start {
-        for (body, (_, angle)) in scene.bodies.iter_mut().zip(start) {
-            body.angle = angle.clone();
-        }
+    for (body, [_, _, angle]) in scene.bodies.iter_mut().zip(&places) {
+        body.angle = Expr::symbol(angle);
     }
     let starts = starts(&mut r, &scene, stage, from);
     let kind = kind::kind(&mut r, &mut scene, stage);
-    let end = kind.as_ref().map(|k| kind::placed_after(&scene, k));
-    // Motion before an impact is known only when the stages before it are worked out; the story checks it then.
-    r.claims.retain(|c| {
-        !matches!(
-            c.claim,
-            Claim::Approach(_) | Claim::Touch(_) | Claim::Hinge(_)
-        )
+    // Motion before an impact, and places after another stage, are known only when the stages before it are worked out;
+    // they are checked then.
+    r.claims.retain(|c| match &c.claim {
+        Claim::Approach(_) | Claim::Hinge(_) => false,
+        Claim::AtParticle { .. } | Claim::Touch(_) => places.is_empty(),
+        _ => true,
     });
     let Resolver {
         symbols,
@@ -291,9 +275,10 @@ fn one(
         from,
         start: starts,
         kind,
+        places,
         scene,
     });
-    (read, end, symbols, faults)
+    (read, symbols, faults)
 }
 
 /// Bodies that start otherwise.
