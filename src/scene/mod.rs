@@ -53,7 +53,8 @@ pub fn read(text: &str) -> Result<Scene, Faults> {
     let file: Option<file::SceneFile> = record::Read::read(&root, &mut faults);
     let mut scene = Scene::default();
     if let Some(file) = &file {
-        (scene, faults) = resolve::resolve(file, faults);
+        let lone = stages::lone(file);
+        (scene, faults) = resolve::resolve(lone.as_ref().unwrap_or(file), faults);
     }
     if faults.is_empty() {
         return Ok(scene);

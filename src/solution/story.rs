@@ -378,7 +378,7 @@ impl Page<'_> {
             };
             let all = self.told.answers.iter();
             let mine: Vec<&Answer> = all
-                .filter(|a| a.told == Some(i) && a.question == question.name)
+                .filter(|a| a.told.is_some_and(|(t, _)| t == i) && a.question == question.name)
                 .collect();
             for answer in mine {
                 let Some(formula) = &answer.formula else {

@@ -3,8 +3,10 @@
 use std::collections::BTreeSet;
 
 use super::calc::{is_zero, tidy};
-use super::special::{self, Known, blank, remember};
-use super::{Answer, Case, Refused, StageTold, State, Told, integrate, motion, spring, words};
+use super::special::{self, Known, blank};
+use super::{
+    Answer, Case, Refused, StageTold, State, Told, integrate, motion, spring, words, worlds,
+};
 use super::{Sentence, sentence::sentence};
 use crate::derive::{self, Form};
 use crate::dimension::Dimension;
@@ -26,11 +28,18 @@ pub(super) fn all(
             told.words = words::stage(told);
         }
     }
+    let mut worlds = worlds::of(&stages);
     let mut answers: Vec<Answer> = Vec::new();
-    let mut known = Known::new();
     for question in &story.questions {
-        let new = one(scene, story, &stages, question, &known, &answers)?;
-        remember(&new, &mut known);
+        let new = if worlds::about_formulas(&question.ask) {
+            worlds::each(&mut worlds, |known| {
+                formula(scene, &stages, question, known)
+            })?
+        } else {
+            let new = one(scene, story, &stages, question, &answers)?;
+            worlds::remember(&mut worlds, &new);
+            new
+        };
         answers.extend(new);
     }
     let unused = unused(scene, &answers);
@@ -42,35 +51,42 @@ pub(super) fn all(
     })
 }
 
+/// The answers of a question about formulas, with what the answers before stand for.
+fn formula(
+    scene: &Scene,
+    stages: &[StageTold],
+    question: &StoryQuestion,
+    known: &Known,
+) -> Result<Vec<Answer>, Refused> {
+    let mut answers = special::formulas(scene, question, known)?.unwrap_or_default();
+    if let (
+        StoryAsk::Condition {
+            parameter,
+            left,
+            right,
+            with,
+            ..
+        },
+        [out],
+    ) = (&question.ask, answers.as_mut_slice())
+        && let Some(value) = &out.formula
+    {
+        let gap = special::put(scene, &question.name, known, &(left - right), with)?;
+        let check = tipping(stages, &gap, parameter, value, &scene.domains);
+        out.checks.extend(check);
+    }
+    Ok(answers)
+}
+
 fn one(
     scene: &Scene,
     story: &Story,
     stages: &[StageTold],
     question: &StoryQuestion,
-    known: &Known,
     earlier: &[Answer],
 ) -> Result<Vec<Answer>, Refused> {
     let domains = &scene.domains;
     let name = question.name.as_str();
-    if let Some(mut answers) = special::formulas(scene, question, known)? {
-        if let (
-            StoryAsk::Condition {
-                parameter,
-                left,
-                right,
-                with,
-                ..
-            },
-            [out],
-        ) = (&question.ask, answers.as_mut_slice())
-            && let Some(value) = &out.formula
-        {
-            let gap = special::put(scene, name, known, &(left - right), with)?;
-            let check = tipping(stages, &gap, parameter, value, domains);
-            out.checks.extend(check);
-        }
-        return Ok(answers);
-    }
     let mut out = match &question.ask {
         StoryAsk::Quantity { stage, question: q } => {
             return quantity(scene, story, stages, question, *stage, *q);
@@ -83,7 +99,7 @@ fn one(
             let mut out = Vec::new();
             for (i, told, label) in ways(stages, &story.stages[*stage]) {
                 let mut one = reaction_asked(question, told, along, *at_end)?;
-                one.told = Some(i);
+                one.told = Some((i, 0));
                 label.put(&mut one);
                 out.push(one);
             }
@@ -98,7 +114,7 @@ fn one(
             let mut out = Vec::new();
             for (i, told, label) in ways(stages, &story.stages[*stage]) {
                 let mut one = angular_momentum(scene, question, told, (*body, about), *at_end)?;
-                one.told = Some(i);
+                one.told = Some((i, 0));
                 label.put(&mut one);
                 out.push(one);
             }
@@ -205,8 +221,7 @@ impl Way {
         answer.assumptions.splice(0..0, self.given.iter().cloned());
         if let Some(i) = self.number {
             if i > 0 {
-                answer.name = format!("{}_case{}", answer.name, i + 1);
-                answer.latex = numbered(&answer.latex, i + 1);
+                number_case(answer, i + 1);
             }
             if !self.words.is_empty() {
                 answer.words = format!("{}, {}", answer.words, self.words);
@@ -278,7 +293,7 @@ fn quantity(
                 given: way.given.clone(),
             };
             way.put(answer);
-            answer.told = Some(i);
+            answer.told = Some((i, k / per.max(1)));
         }
         number += told.cases.len().max(1);
         out.extend(own);
@@ -440,6 +455,12 @@ fn of_case(question: &StoryQuestion, case: &Case, several: bool) -> Vec<Answer> 
 /// The laws of an outcome that its motion was put into.
 fn identities(case: &Case) -> impl Iterator<Item = &Check> {
     case.proof.scene.iter().filter(|c| c.kind == "identity")
+}
+
+/// Names an answer after its case.
+pub(super) fn number_case(answer: &mut Answer, number: usize) {
+    answer.name = format!("{}_case{number}", answer.name);
+    answer.latex = numbered(&answer.latex, number);
 }
 
 /// The LaTeX of a symbol with a number at the end of its index.

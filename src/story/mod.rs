@@ -20,6 +20,7 @@ mod special;
 mod spring;
 mod threshold;
 mod words;
+mod worlds;
 mod zeros;
 
 use std::collections::BTreeMap;
@@ -189,8 +190,8 @@ pub struct StageTold {
 pub struct Answer {
     /// Name of the question.
     pub question: String,
-    /// Index of the stage it belongs to, among those told; `None` for an answer about formulas alone.
-    pub told: Option<usize>,
+    /// The stage it belongs to, among those told, and the outcome there; `None` for an answer about formulas alone.
+    pub told: Option<(usize, usize)>,
     /// Name of the answer.
     pub name: String,
     /// The name typeset.

@@ -23,6 +23,47 @@ use crate::scene::{Scene, geometry, question};
 /// Most stages a scene may have.
 const STAGES: usize = 40;
 
+/// A file whose only stage is an impact, written as a scene of one impact: the same scene. `None` where it says more than
+/// such a scene can, or something that is to be refused.
+pub(super) fn lone(file: &SceneFile) -> Option<SceneFile> {
+    let [stage] = file.stages.as_deref()? else {
+        return None;
+    };
+    let impact = stage.impact.as_ref()?;
+    let others = [
+        stage.turn.is_some(),
+        stage.slide.is_some(),
+        stage.fall.is_some(),
+        stage.wind.is_some(),
+        stage.start.is_some(),
+        stage.from.as_ref().is_some_and(|f| f.text != "start"),
+        impact.supports.is_some() || impact.strings.is_some() || impact.supposing.is_some(),
+        file.hinges.is_some() || file.contacts.is_some(),
+        file.blows.is_some() || file.after.is_some(),
+        file.assumptions.is_some(),
+    ];
+    if others.contains(&true) {
+        return None;
+    }
+    let mut out = file.clone();
+    out.stages = None;
+    out.hinges = impact.hinges.clone();
+    out.contacts = impact.contacts.clone();
+    out.blows = impact.blows.clone();
+    out.after = impact.after.clone();
+    let forces = file.forces.iter().chain(&impact.forces);
+    out.forces = Some(forces.flatten().cloned().collect());
+    for (_, q) in out.questions.iter_mut().flat_map(|m| &mut m.0) {
+        let Some(q) = q else { continue };
+        let elsewhere = q.at.as_ref().is_some_and(|at| at.text != stage.name.text);
+        if elsewhere || question::about_stage(q).iter().any(|(_, asked)| *asked) {
+            return None;
+        }
+        q.at = None;
+    }
+    Some(out)
+}
+
 /// Reads the stages and the questions about them into the scene.
 pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     let file = base.file;
