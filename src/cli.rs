@@ -41,6 +41,9 @@ enum Command {
         /// Print the full system of equations in matrix form instead
         #[arg(long)]
         matrix: bool,
+        /// Only the impact of this stage, with the motion that goes into it
+        #[arg(long, value_name = "NAME")]
+        stage: Option<String>,
         /// Give a parameter a value, such as v=2 or theta=acos(3/5); may be repeated
         #[arg(long = "set", value_name = "NAME=VALUE")]
         set: Vec<String>,
@@ -111,8 +114,9 @@ pub fn run() -> ExitCode {
             scene,
             format,
             matrix,
+            stage,
             set,
-        } => derive_command(&scene, format, matrix, &set),
+        } => derive_command(&scene, format, (matrix, stage.as_deref()), &set),
         Command::Solve {
             scene,
             format,
@@ -148,10 +152,13 @@ pub fn run() -> ExitCode {
 fn derive_command(
     path: &Path,
     format: Format,
-    matrix: bool,
+    (matrix, stage): (bool, Option<&str>),
     set: &[String],
 ) -> Result<u8, Failure> {
-    let scene = read_scene(path, set)?;
+    let mut scene = read_scene(path, set)?;
+    if matrix || stage.is_some() {
+        scene = impact_of(scene, path, stage)?;
+    }
     if let Some(stages) = &scene.story {
         let refused = |reason| Failure::Input(format!("{}: {reason}", path.display()));
         let told = story::tell(&scene, stages).map_err(refused)?;
@@ -284,6 +291,41 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
         }
     }
     Ok(())
+}
+
+/// The one impact a command works on: the scene itself, or the one of a stage with the motion that goes into it.
+fn impact_of(
+    scene: scene::Scene,
+    path: &Path,
+    stage: Option<&str>,
+) -> Result<scene::Scene, Failure> {
+    let refused = |reason: String| Failure::Input(format!("{}: {reason}", path.display()));
+    let Some(stages) = &scene.story else {
+        return match stage {
+            Some(name) => Err(refused(format!(
+                "no stage {name}: this scene is one impact"
+            ))),
+            None => Ok(scene),
+        };
+    };
+    let told = story::tell(&scene, stages).map_err(|r| refused(r.to_string()))?;
+    let mut impacts = story::impacts(&scene, &told);
+    let names: Vec<&str> = impacts.iter().map(|(name, _)| name.as_str()).collect();
+    let names = names.join("; ");
+    if let Some(stage) = stage {
+        impacts.retain(|(name, _)| name == stage);
+    }
+    match impacts.len() {
+        1 => Ok(impacts.swap_remove(0).1),
+        0 if names.is_empty() => Err(refused(String::from("no stage of this scene is an impact"))),
+        0 => Err(refused(format!(
+            "no impact {}\nhint: the impacts here: {names}",
+            stage.unwrap_or_default()
+        ))),
+        _ => Err(refused(format!(
+            "several impacts\nhint: choose one with --stage: {names}"
+        ))),
+    }
 }
 
 /// Reads a scene and puts in the values given on the command line.

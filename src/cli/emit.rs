@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{Failure, complain, files, print, read_scene};
+use super::{Failure, complain, files, impact_of, print, read_scene};
 use carom::emit::{Heading, Language, file, functions};
-use carom::{derive, render, verify};
+use carom::{derive, render, story, verify};
 
 /// Arguments of `carom emit`.
 #[derive(Args)]
@@ -19,6 +19,9 @@ pub struct EmitArgs {
     /// Only this answer, such as omega or v_x; may be repeated
     #[arg(long, value_name = "NAME")]
     quantity: Vec<String>,
+    /// Only the impact of this stage; missing: the answers of all stages
+    #[arg(long, value_name = "NAME")]
+    stage: Option<String>,
     /// File to write instead of standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -35,15 +38,26 @@ enum Lang {
 pub fn run(args: &EmitArgs) -> Result<u8, Failure> {
     let scene = read_scene(&args.scene, &[])?;
     let name = args.scene.display();
-    if scene.story.is_some() {
-        return Err(Failure::Input(format!(
-            "{name}: a scene with stages has no single closed form to write as code\nhint: write a scene of one collision"
-        )));
-    }
-    let derivation =
-        derive::derive(&scene).map_err(|stop| Failure::Input(format!("{name}: {stop}")))?;
-    let proof = verify::prove(&scene, &derivation);
-    if !proof.holds() || derivation.counting.contradictory {
+    let refused = |reason: String| Failure::Input(format!("{name}: {reason}"));
+    let (scene, derivation, assumptions, holds) = match (&scene.story, &args.stage) {
+        // All answers of all stages, in parameters.
+        (Some(stages), None) => {
+            let told = story::tell(&scene, stages).map_err(|r| refused(r.to_string()))?;
+            let assumed = told.assumed().iter().map(ToString::to_string).collect();
+            let (flat, derivation) =
+                story::sheet(&scene, &told).map_err(|stop| refused(stop.to_string()))?;
+            (flat, derivation, assumed, told.holds())
+        }
+        _ => {
+            let scene = impact_of(scene, &args.scene, args.stage.as_deref())?;
+            let derivation = derive::derive(&scene).map_err(|stop| refused(stop.to_string()))?;
+            let proof = verify::prove(&scene, &derivation);
+            let assumed = render::assumptions(&scene, &derivation, &proof);
+            let holds = proof.holds() && !derivation.counting.contradictory;
+            (scene, derivation, assumed, holds)
+        }
+    };
+    if !holds {
         complain(&format!(
             "{name}: the closed forms are not proved, so no code is written\nhint: `carom derive` tells what failed"
         ));
@@ -76,7 +90,7 @@ pub fn run(args: &EmitArgs) -> Result<u8, Failure> {
     let heading = Heading {
         title: scene.title.clone(),
         source: scene.source.clone(),
-        assumptions: render::assumptions(&scene, &derivation, &proof),
+        assumptions,
     };
     let language = match args.lang {
         Lang::Rust => Language::Rust,

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{Failure, Format, complain, files, pretty, print, read_scene};
+use super::{Failure, Format, complain, files, impact_of, pretty, print, read_scene};
 use carom::report::studies::{self, Extent};
 use carom::report::{Effort, Report, Row, measure};
 use carom::{derive, numeric, render};
@@ -28,6 +28,9 @@ pub struct ReportArgs {
     /// Seed of all points; the same seed gives the same errors
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// The impact of this stage, where a scene has several
+    #[arg(long, value_name = "NAME")]
+    stage: Option<String>,
     /// Points per level of a family
     #[arg(long)]
     points: Option<usize>,
@@ -63,12 +66,7 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
     let mut scenes = Vec::new();
     for path in &args.scenes {
         let scene = read_scene(path, &args.set)?;
-        if scene.story.is_some() {
-            return Err(Failure::Input(format!(
-                "{}: a scene with stages has no single system of equations to measure\nhint: write a scene of one collision",
-                path.display()
-            )));
-        }
+        let scene = impact_of(scene, path, args.stage.as_deref())?;
         scenes.push((path, scene));
     }
     let stop = Arc::new(AtomicBool::new(false));

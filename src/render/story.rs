@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 use super::{latex, unicode};
 use crate::formula::write_plain;
 use crate::scene::Scene;
-use crate::story::{Answer, Sentence, StageTold, Told};
+use crate::story::{Answer, Case, Sentence, StageTold, Told};
 use crate::verify::Check;
 
 /// What an answer rests on: the domains, how the statement is read, and its own assumptions.
@@ -153,6 +153,12 @@ pub fn text(scene: &Scene, told: &Told) -> String {
         for words in &s.assumptions {
             line(format!("   taken for granted: {}", written(words)));
         }
+        for (k, case) in s.cases.iter().enumerate() {
+            if s.cases.len() > 1 {
+                line(format!("   case {}:", k + 1));
+            }
+            impact(case).lines().for_each(|l| line(format!("   {l}")));
+        }
         for c in &s.checks {
             line(format!("   {} {}", mark(c), c.words));
         }
@@ -163,6 +169,15 @@ pub fn text(scene: &Scene, told: &Told) -> String {
     if !told.unused.is_empty() {
         out.push_str(&format!("\nnot needed: {}\n", told.unused.join(", ")));
     }
+    out
+}
+
+/// The equations of an outcome, and what it did not need.
+fn impact(case: &Case) -> String {
+    let (scene, derivation) = case.asked();
+    let mut out = String::new();
+    super::text::equations(&mut out, &scene, &derivation);
+    super::text::left_out(&mut out, &derivation);
     out
 }
 

@@ -23,39 +23,7 @@ pub fn derivation(
         line(&mut out, "", &refusal);
     }
     line(&mut out, "", &super::heading(&scene.title, &scene.source));
-    counting(&mut out, d);
-    for (unknown, value) in &d.given {
-        let name = d.names.plain(*unknown);
-        line(
-            &mut out,
-            "\ngiven: ",
-            &format!("{name} = {}", unicode(scene, value)),
-        );
-    }
-    for block in &d.blocks {
-        let n = block.equations.len();
-        let heading = format!("{n} equation{} in {n} unknown{}:", plural(n), plural(n));
-        line(&mut out, "\n", &heading);
-        for equation in &block.equations {
-            let (left, right) = super::sides(d, equation);
-            line(&mut out, "  ", &laws::describe(scene, &equation.law));
-            line(
-                &mut out,
-                "      ",
-                &format!("{} = {}", unicode(scene, &left), unicode(scene, &right)),
-            );
-        }
-        for (unknown, value) in block.unknowns.iter().zip(&block.solution) {
-            let value = unicode(scene, value);
-            if value.chars().count() <= 120 {
-                line(
-                    &mut out,
-                    "  ⇒   ",
-                    &format!("{} = {value}", d.names.plain(*unknown)),
-                );
-            }
-        }
-    }
+    equations(&mut out, scene, d);
     if !d.answers.is_empty() {
         line(&mut out, "\n", "answers:");
     }
@@ -137,12 +105,7 @@ pub fn derivation(
     if !only.is_empty() {
         line(&mut out, "\npossible where: ", &only.join(", "));
     }
-    if !d.left_out.is_empty() {
-        line(&mut out, "\n", "left out:");
-        for left in &d.left_out {
-            line(&mut out, "  ", &format!("{}: {}", left.what, left.why));
-        }
-    }
+    left_out(&mut out, d);
     line(&mut out, "\n", "checked:");
     proof.scene.iter().for_each(|c| check(&mut out, "  ", c));
     if let Some(possible) = super::possible::check(scene, possible) {
@@ -164,6 +127,53 @@ pub fn derivation(
         out.push_str(&super::story::answers(scene, special));
     }
     out
+}
+
+/// How many equations there are, and the blocks that answer the questions.
+pub(super) fn equations(out: &mut String, scene: &Scene, d: &Derivation) {
+    counting(out, d);
+    for (unknown, value) in &d.given {
+        let name = d.names.plain(*unknown);
+        line(
+            out,
+            "\ngiven: ",
+            &format!("{name} = {}", unicode(scene, value)),
+        );
+    }
+    for block in &d.blocks {
+        let n = block.equations.len();
+        let heading = format!("{n} equation{} in {n} unknown{}:", plural(n), plural(n));
+        line(out, "\n", &heading);
+        for equation in &block.equations {
+            let (left, right) = super::sides(d, equation);
+            line(out, "  ", &laws::describe(scene, &equation.law));
+            line(
+                out,
+                "      ",
+                &format!("{} = {}", unicode(scene, &left), unicode(scene, &right)),
+            );
+        }
+        for (unknown, value) in block.unknowns.iter().zip(&block.solution) {
+            let value = unicode(scene, value);
+            if value.chars().count() <= 120 {
+                line(
+                    out,
+                    "  ⇒   ",
+                    &format!("{} = {value}", d.names.plain(*unknown)),
+                );
+            }
+        }
+    }
+}
+
+/// What the scene did not need.
+pub(super) fn left_out(out: &mut String, d: &Derivation) {
+    if !d.left_out.is_empty() {
+        line(out, "\n", "left out:");
+        for left in &d.left_out {
+            line(out, "  ", &format!("{}: {}", left.what, left.why));
+        }
+    }
 }
 
 /// Numbers, one a line.

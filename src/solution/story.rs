@@ -6,13 +6,9 @@
 use super::asked::{self, answered, full_sentence, known};
 use super::words::{self, name, say};
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Scope, Slot, Solution, Writer};
-use crate::derive::Derivation;
 use crate::expr::{Expr, Node, Symbol};
-use crate::scene::{Ask, Question, Scene, Stage, StageKind, Story, StoryAsk};
+use crate::scene::{Ask, Scene, Stage, StageKind, Story, StoryAsk};
 use crate::story::{Answer, Case, Sentence, StageTold, Told};
-
-/// Questions that `story` adds to an impact begin so.
-const HIDDEN: char = '\u{1}';
 
 /// Writes the solution of a story.
 pub fn tell(scene: &Scene, story: &Story, told: &Told, detail: Detail) -> Solution {
@@ -202,7 +198,7 @@ impl Page<'_> {
             ));
             self.solution.section(1, heading);
         }
-        let (scene, derivation) = visible(case, several.then_some(k));
+        let (scene, derivation) = case.asked();
         if self.solution.detail != Detail::Brief {
             self.handed(case);
         }
@@ -536,27 +532,6 @@ fn tidied(scene: &Scene, e: &Expr) -> Expr {
         Ok(x) => field.expr(&x),
         Err(_) => e.clone(),
     }
-}
-
-/// The scene and the derivation of an outcome without the questions that were only asked to find it; where several outcomes
-/// are told, names of answers stay those of the first.
-fn visible(case: &Case, _number: Option<usize>) -> (Scene, Derivation) {
-    let mut scene = case.scene.clone();
-    let mut derivation = case.derivation.clone();
-    derivation
-        .answers
-        .retain(|a| !a.question.starts_with(HIDDEN));
-    let has_block = |q: &Question| {
-        derivation
-            .blocks
-            .iter()
-            .any(|b| b.asked_by.as_deref() == Some(q.name.as_str()))
-    };
-    let asked = scene.questions.iter().any(|q| !q.name.starts_with(HIDDEN));
-    scene
-        .questions
-        .retain(|q| !q.name.starts_with(HIDDEN) || (!asked && has_block(q)));
-    (scene, derivation)
 }
 
 /// Whether two formulas are one product, whatever the order of its factors.

@@ -10,7 +10,7 @@ use super::calc::{Seen, essential, is_zero, sign, tidy};
 use super::{Case, Kept, Part, Refused, StageTold, State};
 use super::{Sentence, sentence::sentence};
 use crate::algebra::Sign;
-use crate::derive::{self, Form};
+use crate::derive::{self, Derivation, Form};
 use crate::domain::Domain;
 use crate::expr::{Expr, Node, Symbol};
 use crate::scene::{
@@ -18,7 +18,8 @@ use crate::scene::{
 };
 use crate::verify;
 
-/// Names of the questions this module adds; a scene's names never start so.
+/// How names of the questions begin that this module adds; a scene's names never do.
+const OWN: char = '\u{1}';
 const ENERGY: &str = "\u{1}lost";
 
 /// Works out an impact.
@@ -636,5 +637,23 @@ impl Case {
         }
         let put = e.substitute(&self.handed);
         tidy(&put, &self.scene.domains).unwrap_or(put)
+    }
+
+    /// The scene and the derivation without the questions that were only asked to find the outcome, unless there are no
+    /// others.
+    pub fn asked(&self) -> (Scene, Derivation) {
+        let mut scene = self.scene.clone();
+        let mut derivation = self.derivation.clone();
+        let is_own = |name: &str| name.starts_with(OWN);
+        derivation.answers.retain(|a| !is_own(&a.question));
+        let has_block = |q: &Question| {
+            let mut blocks = derivation.blocks.iter();
+            blocks.any(|b| b.asked_by.as_deref() == Some(q.name.as_str()))
+        };
+        let asked = scene.questions.iter().any(|q| !is_own(&q.name));
+        scene
+            .questions
+            .retain(|q| !is_own(&q.name) || (!asked && has_block(q)));
+        (scene, derivation)
     }
 }

@@ -28,7 +28,7 @@ use std::fmt;
 
 pub use graph::{Curve, Graph, graphs};
 pub use sentence::{Piece, Sentence};
-pub use sheet::{Unanswered, impact, is_clockwise, sheet, with_special};
+pub use sheet::{Unanswered, impact, impacts, is_clockwise, sheet, with_special};
 pub use special::{about, known, special};
 
 use crate::derive::{Derivation, Stop};

@@ -18,6 +18,24 @@ pub fn impact(scene: &Scene, told: &Told, stage: Option<&str>) -> Option<Scene> 
     Some(put_together(scene, found.cases.first()?))
 }
 
+/// The scenes of all impacts with their own questions: name of the stage, and the scene with the motion handed on put in.
+pub fn impacts(scene: &Scene, told: &Told) -> Vec<(String, Scene)> {
+    let mut out = Vec::new();
+    for stage in &told.stages {
+        for (k, case) in stage.cases.iter().enumerate() {
+            let name = match stage.cases.len() {
+                1 => stage.name.clone(),
+                _ => format!("{}, case {}", stage.name, k + 1),
+            };
+            let mut one = put_together(scene, case);
+            one.printed.clear();
+            one.questions = case.asked().0.questions;
+            out.push((name, one));
+        }
+    }
+    out
+}
+
 /// Whether a rotation, or a rope that winds up, goes clockwise.
 pub fn is_clockwise(told: &StageTold) -> bool {
     let stage = &told.placed;

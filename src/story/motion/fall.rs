@@ -1,0 +1,171 @@
+//! Free fall and flight: the center of mass moves as a particle does, and the body keeps its spin.
+
+use super::{half, kept, meanwhile, tidied, told};
+use crate::algebra::Sign;
+use crate::expr::Expr;
+use crate::scene::{Fall, FallEnd, Stage};
+use crate::story::calc::{Seen, is_zero, sign};
+use crate::story::{Refused, StageTold, State, integrate};
+use crate::story::{Sentence, sentence::sentence};
+
+/// Free fall or flight.
+pub(in crate::story) fn fall(
+    stage: &Stage,
+    before: State,
+    fall: &Fall,
+) -> Result<StageTold, Refused> {
+    let scene = &stage.scene;
+    let mut assumptions: Vec<Sentence> = Vec::new();
+    let (time, down) = duration(stage, &before, fall, &mut assumptions)?;
+    let zero = Expr::zero();
+    let g = fall.gravity.as_ref().unwrap_or(&zero);
+    let mut after = before.clone();
+    let mut energy = [Expr::zero(), Expr::zero()];
+    let mut dropped = Vec::new();
+    for b in fall.bodies() {
+        let body = &scene.bodies[b];
+        let [vx, vy] = &before.velocity[b];
+        let v_end = match (&down, b == fall.body) {
+            (Some(down), true) => down.clone(),
+            _ => tidied(stage, &(vy - &(g * &time)))?,
+        };
+        let drop = match (&fall.until, b == fall.body) {
+            (FallEnd::Drop(h), true) => h.clone(),
+            _ => tidied(stage, &-&(&(vy * &time) - &half(&(g * &time.powi(2)))))?,
+        };
+        let along = if is_zero(vx, &scene.domains) == Some(true) {
+            Expr::zero()
+        } else {
+            match (&fall.until, b == fall.body) {
+                (FallEnd::Range(s), true) => s.clone(),
+                _ => tidied(stage, &(vx * &time))?,
+            }
+        };
+        after.center[b] = [&after.center[b][0] + &along, &after.center[b][1] - &drop];
+        if !before.spin[b].is_zero() {
+            after.angle[b] = tidied(stage, &(&before.angle[b] + &(&before.spin[b] * &time)))?;
+        }
+        after.velocity[b] = [vx.clone(), v_end.clone()];
+        let turning = half(&(&body.inertia * &before.spin[b].powi(2)));
+        for (total, vy) in energy.iter_mut().zip([vy, &v_end]) {
+            let moving = half(&(&body.mass * &(&vx.powi(2) + &vy.powi(2))));
+            *total = &*total + &(&moving + &turning);
+        }
+        dropped.push(&(&body.mass * g) * &drop);
+    }
+    assumptions.extend(meanwhile::others(stage, &before, &mut after, Some(&time)));
+    let [start, end] = energy;
+    let energy = [tidied(stage, &start)?, tidied(stage, &end)?];
+    let mut out = told(stage, before, after);
+    out.kept = conserved(fall);
+    out.energy = Some(energy);
+    if fall.gravity.is_some() {
+        out.work = vec![("weight", Expr::sum(dropped))];
+    }
+    out.time = Some(time);
+    out.assumptions = assumptions;
+    out.checks.extend(integrate::fall(stage, &out, fall));
+    Ok(out)
+}
+
+/// The time a fall takes, and where it ends after a height also the vertical velocity at the end.
+fn duration(
+    stage: &Stage,
+    before: &State,
+    fall: &Fall,
+    assumptions: &mut Vec<Sentence>,
+) -> Result<(Expr, Option<Expr>), Refused> {
+    let domains = &stage.scene.domains;
+    let name = &stage.scene.bodies[fall.body].name;
+    let [vx, vy] = &before.velocity[fall.body];
+    let never = |why: &str, hint: &str| {
+        Refused::new(
+            &stage.name,
+            format!("`{name}` never gets there: {why}"),
+            hint,
+        )
+    };
+    let (time, down) = match (&fall.until, &fall.gravity) {
+        (FallEnd::Time(t), _) => (t.clone(), None),
+        (FallEnd::Range(s), _) => {
+            if is_zero(vx, domains) == Some(true) {
+                return Err(never(
+                    "it does not move sideways",
+                    "give a `height` or a time `for`",
+                ));
+            }
+            (tidied(stage, &(s / vx))?, None)
+        }
+        (FallEnd::Drop(h), Some(g)) => {
+            let square = tidied(stage, &(&vy.powi(2) + &(&(&Expr::from(2) * g) * h)))?;
+            match sign(&square, domains) {
+                Seen::Proved(Sign::Negative) => {
+                    return Err(never(
+                        "it turns back below this height",
+                        "give it more speed",
+                    ));
+                }
+                Seen::Proved(s) if s.is_not_negative() => {}
+                _ => assumptions.push(sentence![
+                    &crate::story::calc::essential(&square, domains),
+                    " ≥ 0, so that `",
+                    name,
+                    "` gets there"
+                ]),
+            }
+            let down = tidied(stage, &-square.sqrt())?;
+            (tidied(stage, &(&(vy - &down) / g))?, Some(down))
+        }
+        (FallEnd::Drop(h), None) => {
+            if is_zero(vy, domains) == Some(true) {
+                return Err(never(
+                    "without gravity it stays at its height",
+                    "add \"gravity\": \"g\", or give a time `for`",
+                ));
+            }
+            (tidied(stage, &-(h / vy))?, Some(vy.clone()))
+        }
+    };
+    match sign(&time, domains) {
+        Seen::Proved(Sign::Negative) => Err(never(
+            "it moves the other way",
+            "look at the sign of `height` (counted downwards) or `range` (counted to the right)",
+        )),
+        Seen::Proved(s) if s.is_not_negative() => Ok((time, down)),
+        _ => {
+            assumptions.push(sentence![
+                &crate::story::calc::essential(&time, domains),
+                " ≥ 0, so that `",
+                &stage.name,
+                "` comes after what is before it"
+            ]);
+            Ok((time, down))
+        }
+    }
+}
+
+/// What a flight conserves.
+fn conserved(fall: &Fall) -> Vec<crate::story::Kept> {
+    let heavy = fall.gravity.is_some();
+    let pick = |with, without| if heavy { with } else { without };
+    vec![
+        kept(
+            "energy",
+            true,
+            pick(
+                "weight has a potential, and nothing else acts",
+                "no force acts",
+            ),
+        ),
+        kept(
+            "spin",
+            true,
+            "no force has a moment about the center of mass",
+        ),
+        kept(
+            "momentum",
+            !heavy,
+            pick("weight changes its vertical part", "no force acts"),
+        ),
+    ]
+}

@@ -1,0 +1,67 @@
+//! What the bodies do that a motion does not name, while it lasts.
+//!
+//! A body at rest stays. A body that has taken no part so far waits: it comes into play where the scene has it. A body that
+//! moves freely goes on uniformly, where no weight is named and the time is known. Of any other body nothing is said, and
+//! what is not said is open.
+
+use crate::expr::Expr;
+use crate::scene::Stage;
+use crate::story::calc::{is_zero, tidy};
+use crate::story::{Part, Sentence, State, sentence::sentence};
+
+/// Carries on what the stage does not name; gives what that takes for granted.
+pub(super) fn others(
+    stage: &Stage,
+    before: &State,
+    after: &mut State,
+    time: Option<&Expr>,
+) -> Vec<Sentence> {
+    let scene = &stage.scene;
+    let moved = stage.kind.moved();
+    let mut out = Vec::new();
+    for (b, body) in scene.bodies.iter().enumerate() {
+        if moved.contains(&b) {
+            after.part[b] = Part::Free;
+            continue;
+        }
+        let motion = || before.velocity[b].iter().chain([&before.spin[b]]);
+        if motion().all(|c| is_zero(c, &scene.domains) == Some(true)) {
+            continue;
+        }
+        if before.why_open(motion().chain(&before.center[b])).is_some() {
+            continue;
+        }
+        let weightless = stage.kind.gravity().is_none();
+        match (&before.part[b], time) {
+            (Part::Waits, _) if !body.is_fixed() => out.push(sentence![
+                "`",
+                &body.name,
+                "` comes into play where the scene has it"
+            ]),
+            (Part::Free | Part::Waits, Some(time)) if weightless => {
+                let put = |from: &Expr, rate: &Expr| {
+                    let e = from + &(rate * time);
+                    tidy(&e, &scene.domains).unwrap_or(e)
+                };
+                for k in 0..2 {
+                    after.center[b][k] = put(&before.center[b][k], &before.velocity[b][k]);
+                }
+                after.angle[b] = put(&before.angle[b], &before.spin[b]);
+            }
+            (part, _) => {
+                let why = match (part, weightless) {
+                    (Part::Joined, _) => "it is joined to something, and",
+                    (_, true) => "how long that takes has no closed form, and",
+                    _ => "weight may act on it, and",
+                };
+                let why = format!(
+                    "`{}` goes on moving during `{}`: {why} the stage does not say how",
+                    body.name, stage.name
+                );
+                let steady = weightless && *part != Part::Joined;
+                after.lose(scene, b, &stage.name, &why, !steady);
+            }
+        }
+    }
+    out
+}

@@ -1,0 +1,531 @@
+//! Rotation of a rigid body, and of what is fixed to it, about a point that does not move.
+
+use super::bearing::bearing;
+use super::{arrival, half, kept, meanwhile, tidied, told};
+use crate::algebra::Sign;
+use crate::expr::{Expr, Vector, cross, dot, minus};
+use crate::scene::{Lump, Stage, Turn, Until, direction};
+use crate::story::calc::{Seen, is_zero, sign, tidy};
+use crate::story::{Refused, StageTold, State, integrate};
+use crate::story::{Sentence, sentence::sentence};
+
+/// Rotation about a fixed point.
+pub(in crate::story) fn turn(
+    stage: &Stage,
+    mut before: State,
+    turn: &Turn,
+) -> Result<StageTold, Refused> {
+    let domains = &stage.scene.domains;
+    let body = &stage.scene.bodies[turn.body];
+    let lump = turn.lump(&stage.scene);
+    whirl(stage, &mut before, turn)?;
+    let spin = before.spin[turn.body].clone();
+    fits(stage, &before, turn, &spin)?;
+    let (way, assumed) = sense(stage, &spin, turn)?;
+    let [r, r_end] = arms(stage, turn, &spin);
+    let square = tidied(stage, &dot(&r, &r))?;
+    let about = &tidied(stage, &lump.inertia)? + &(&lump.mass * &square);
+    let inertia = tidied(stage, &about)?;
+    if is_zero(&inertia, domains) == Some(true) {
+        return Err(Refused::new(
+            &stage.name,
+            format!(
+                "`{}` has no moment of inertia about {}",
+                body.name, turn.about_name
+            ),
+            "give it a mass",
+        ));
+    }
+    let start = tidied(stage, &half(&(&inertia * &spin.powi(2))))?;
+    let parts = work(stage, turn, &lump, [&r, &r_end], way, &spin)?;
+    let work = tidied(stage, &Expr::sum(parts.iter().map(|(_, w)| w.clone())))?;
+    let end = tidied(stage, &(&start + &work))?;
+    let reaches = sign(&end, domains);
+    if let Seen::Proved(Sign::Negative | Sign::NotPositive) = reaches {
+        return Err(Refused::new(
+            &stage.name,
+            format!(
+                "`{}` never gets there: its kinetic energy at the end would be {}, which is negative",
+                body.name,
+                crate::formula::write_plain(&end)
+            ),
+            "end the stage earlier, or give it more energy",
+        ));
+    }
+    let mut assumptions: Vec<Sentence> =
+        hurdle(stage, turn, &r, &start, way)?.into_iter().collect();
+    if is_balanced(stage, turn, &spin, &r) {
+        assumptions.push(sentence![
+            "a small push sets `",
+            &body.name,
+            "` going: at rest and in balance it could stay"
+        ]);
+    }
+    assumptions.extend(counts_forward(stage, turn, way)?);
+    let spin_end = if work.is_zero() {
+        spin.clone()
+    } else {
+        assumptions.extend(assumed);
+        let size = (&(&Expr::from(2) * &end) / &inertia).sqrt();
+        tidied(stage, &(&Expr::from(way) * &size))?
+    };
+    let turned = turned(stage, turn, &spin, &r);
+    let time = time(
+        stage,
+        turn,
+        &[&spin, &spin_end],
+        way,
+        turned.as_ref(),
+        &inertia,
+    )?;
+    let mut after = before.clone();
+    carry(
+        stage,
+        turn,
+        &mut after,
+        [&r, &r_end],
+        &spin,
+        turned.as_ref(),
+    )?;
+    for b in turn.bodies() {
+        let [x, y] = arm_at_end(stage, turn, b, [&r, &r_end], &spin);
+        after.velocity[b] = [
+            tidied(stage, &-(&spin_end * &y))?,
+            tidied(stage, &(&spin_end * &x))?,
+        ];
+        after.spin[b] = spin_end.clone();
+    }
+    assumptions.extend(meanwhile::others(stage, &before, &mut after, time.as_ref()));
+    let mut out = told(stage, before, after);
+    out.kept = conserved(turn);
+    out.inertia = Some([about, inertia.clone()]);
+    out.work = parts;
+    out.kinetic = Some(half(&(&inertia * &out.after.spin[turn.body].powi(2))));
+    out.energy = Some([start, end.clone()]);
+    out.time = time;
+    if !work.is_zero() {
+        assumptions.extend(arrival(stage, &end, reaches));
+    }
+    out.assumptions = assumptions;
+    out.checks.extend(integrate::turn(stage, &out, turn, way));
+    Ok(out)
+}
+
+/// Work done on the bodies, by what.
+fn work(
+    stage: &Stage,
+    turn: &Turn,
+    lump: &Lump,
+    [r, r_end]: [&Vector; 2],
+    way: i64,
+    spin: &Expr,
+) -> Result<Vec<(&'static str, Expr)>, Refused> {
+    let mut work = Vec::new();
+    if let Some(g) = &turn.gravity {
+        let height = tidied(stage, &(&r[1] - &r_end[1]))?;
+        work.push(("weight", &(&lump.mass * g) * &height));
+    }
+    if let Some(torque) = &turn.torque {
+        let by = match &turn.until {
+            Until::By(by) => by.clone(),
+            Until::For(_) => {
+                angle_turned(stage, turn, spin).map_or_else(Expr::zero, |by| &Expr::from(way) * &by)
+            }
+            Until::Above | Until::Below => {
+                return Err(Refused::new(
+                    &stage.name,
+                    "the work of a constant moment needs the angle it turns through",
+                    "end the stage with `by`",
+                ));
+            }
+        };
+        work.push(("the applied moment", torque * &by));
+    }
+    Ok(work)
+}
+
+/// The angle `by` counts forward, in the sense of the rotation.
+fn counts_forward(stage: &Stage, turn: &Turn, way: i64) -> Result<Option<Sentence>, Refused> {
+    let Until::By(by) = &turn.until else {
+        return Ok(None);
+    };
+    let body = &stage.scene.bodies[turn.body];
+    if way < 0 && turn.clockwise.is_none() {
+        return Err(Refused::new(
+            &stage.name,
+            format!(
+                "`{}` turns clockwise, and `by` counts counterclockwise here",
+                body.name
+            ),
+            "add \"clockwise\": true",
+        ));
+    }
+    match sign(by, &stage.scene.domains) {
+        Seen::Proved(s) if s.is_not_negative() => Ok(None),
+        Seen::Proved(_) | Seen::Negative => Err(Refused::new(
+            &stage.name,
+            format!(
+                "`by` is the angle turned through, and {} is negative",
+                crate::formula::write_plain(by)
+            ),
+            "turn its sign round, and say \"clockwise\": true if it turns that way",
+        )),
+        _ => Ok(Some(sentence![by, " ≥ 0"])),
+    }
+}
+
+/// The angle turned through, counterclockwise and up to whole turns; `None` where it has no closed form here.
+fn turned(stage: &Stage, turn: &Turn, spin: &Expr, r: &Vector) -> Option<Expr> {
+    let to = match &turn.until {
+        Until::By(_) | Until::For(_) => return angle_turned(stage, turn, spin),
+        Until::Above => Expr::ratio(1, 2),
+        Until::Below => Expr::ratio(-1, 2),
+    };
+    let angle = &stage.scene.bodies[turn.body].angle;
+    let from = bearing(r, angle, &stage.scene.domains)?;
+    tidy(&(&(&to * &Expr::pi()) - &from), &stage.scene.domains).ok()
+}
+
+/// The time a rotation takes, where it has a closed form: without weight.
+fn time(
+    stage: &Stage,
+    turn: &Turn,
+    [spin, spin_end]: &[&Expr; 2],
+    way: i64,
+    turned: Option<&Expr>,
+    inertia: &Expr,
+) -> Result<Option<Expr>, Refused> {
+    if let Until::For(time) = &turn.until {
+        return Ok(Some(time.clone()));
+    }
+    let weightless = turn.gravity.is_none();
+    let time = match (&turn.torque, &turn.until) {
+        (Some(torque), _) if weightless => {
+            let gain = &Expr::from(way) * &(*spin_end - *spin);
+            Some(&(&gain * inertia) / torque)
+        }
+        (None, Until::By(by)) if weightless => Some(by / &(&Expr::from(way) * *spin)),
+        (None, _) if weightless => turned.and_then(|turned| {
+            let forward = &Expr::from(way) * turned;
+            let whole = Expr::from(2) * Expr::pi();
+            match sign(&forward, &stage.scene.domains) {
+                Seen::Proved(s) if s.is_not_negative() => Some(forward),
+                Seen::Proved(Sign::Negative) => Some(&forward + &whole),
+                _ => None,
+            }
+            .map(|angle| &angle / &(&Expr::from(way) * *spin))
+        }),
+        _ => None,
+    };
+    time.map(|t| tidied(stage, &t)).transpose()
+}
+
+/// Leads the bodies round: their places and angles at the end.
+fn carry(
+    stage: &Stage,
+    turn: &Turn,
+    after: &mut State,
+    [r, r_end]: [&Vector; 2],
+    spin: &Expr,
+    turned: Option<&Expr>,
+) -> Result<(), Refused> {
+    let by = angle_turned(stage, turn, spin).map(|by| direction(&by));
+    for b in turn.bodies() {
+        let arm = minus(&stage.scene.bodies[b].center, &turn.about);
+        let [x, y] = match &by {
+            Some(by) => rotated(&arm, by),
+            None => arm_at_end(stage, turn, b, [r, r_end], spin),
+        };
+        after.center[b] = [&turn.about[0] + &x, &turn.about[1] + &y];
+        match turned {
+            Some(by) => after.angle[b] = &after.angle[b] + by,
+            None => after.lose_angle(
+                &stage.scene,
+                b,
+                &stage.name,
+                "its angle is found from where its center of mass is, and this has no direction that could be written",
+            ),
+        }
+    }
+    Ok(())
+}
+
+/// What a rotation conserves.
+fn conserved(turn: &Turn) -> Vec<crate::story::Kept> {
+    let at = &turn.about_name;
+    let energy = match (&turn.gravity, &turn.torque) {
+        (_, Some(_)) => kept(
+            "energy",
+            false,
+            "the moment does work, its size times the angle, and that work is the gain",
+        ),
+        (Some(_), None) => kept(
+            "energy",
+            true,
+            &format!(
+                "the force at {at} does no work, since {at} does not move, and weight has a potential"
+            ),
+        ),
+        (None, None) => kept(
+            "energy",
+            true,
+            &format!("the only force acts at {at}, which does not move"),
+        ),
+    };
+    let why = match (&turn.gravity, &turn.torque) {
+        (None, None) => "no force has a moment about it",
+        (Some(_), None) => "weight has a moment about it",
+        (None, Some(_)) => "the applied moment changes it",
+        (Some(_), Some(_)) => "weight and the applied moment change it",
+    };
+    vec![
+        energy,
+        kept(
+            &format!("angular momentum about {at}"),
+            turn.gravity.is_none() && turn.torque.is_none(),
+            why,
+        ),
+        kept(
+            "momentum",
+            false,
+            &format!("the force at {at} leads the center of mass round"),
+        ),
+    ]
+}
+
+/// The arm from the fixed point to the common center of mass, at the beginning and at the end.
+pub(in crate::story) fn arms(stage: &Stage, turn: &Turn, spin: &Expr) -> [Vector; 2] {
+    let tidied = |e: Expr| tidy(&e, &stage.scene.domains).unwrap_or(e);
+    let r = minus(&turn.lump(&stage.scene).center, &turn.about).map(tidied);
+    let length = tidied(dot(&r, &r).sqrt());
+    let end = match &turn.until {
+        Until::Above => [Expr::zero(), length],
+        Until::Below => [Expr::zero(), -&length],
+        Until::For(_) | Until::By(_) => {
+            let by = angle_turned(stage, turn, spin).unwrap_or_else(Expr::zero);
+            rotated(&r, &[by.cos(), by.sin()])
+        }
+    };
+    [r, end]
+}
+
+/// A vector turned by the angle with this cosine and sine.
+fn rotated(r: &Vector, [c, s]: &Vector) -> Vector {
+    [&(&r[0] * c) - &(&r[1] * s), &(&r[0] * s) + &(&r[1] * c)]
+}
+
+/// The angle turned through, counterclockwise, where the stage gives it or the time; `None` where it ends at a place.
+fn angle_turned(stage: &Stage, turn: &Turn, spin: &Expr) -> Option<Expr> {
+    let way = if turn.clockwise == Some(true) { -1 } else { 1 };
+    match &turn.until {
+        Until::By(by) if way < 0 => Some(-by),
+        Until::By(by) => Some(by.clone()),
+        Until::For(time) => {
+            let steady = spin * time;
+            let Some(torque) = &turn.torque else {
+                return Some(steady);
+            };
+            let (way, _) = sense(stage, spin, turn).ok()?;
+            let gained = &half(&(torque * &time.powi(2))) / &inertia_about(stage, turn);
+            Some(&steady + &(&Expr::from(way) * &gained))
+        }
+        Until::Above | Until::Below => None,
+    }
+}
+
+/// Moment of inertia about the fixed point.
+pub(in crate::story) fn inertia_about(stage: &Stage, turn: &Turn) -> Expr {
+    let lump = turn.lump(&stage.scene);
+    let r = minus(&lump.center, &turn.about);
+    &lump.inertia + &(&lump.mass * &dot(&r, &r))
+}
+
+/// The sense of the rotation: 1 counterclockwise, −1 clockwise.
+pub(in crate::story) fn sense(
+    stage: &Stage,
+    spin: &Expr,
+    turn: &Turn,
+) -> Result<(i64, Option<Sentence>), Refused> {
+    let domains = &stage.scene.domains;
+    let body = &stage.scene.bodies[turn.body].name;
+    let begins = sign(spin, domains);
+    let declared = turn.clockwise.map(|c| if c { -1 } else { 1 });
+    let seen = if begins.is_positive() || begins == Seen::Proved(Sign::NotNegative) {
+        Some(1)
+    } else if begins.is_negative() || begins == Seen::Proved(Sign::NotPositive) {
+        Some(-1)
+    } else {
+        None
+    };
+    let sense_words = |s: i64| {
+        if s > 0 {
+            "counterclockwise"
+        } else {
+            "clockwise"
+        }
+    };
+    match (declared, seen) {
+        (Some(d), Some(s)) if d != s => Err(Refused::new(
+            &stage.name,
+            format!(
+                "`{body}` begins to turn {}, not {}",
+                sense_words(s),
+                sense_words(d)
+            ),
+            "the motion handed on decides the sense; leave `clockwise` out, or look at the stage before",
+        )),
+        (Some(d), _) => Ok((d, None)),
+        (None, Some(s)) => Ok((s, None)),
+        (None, None) if matches!(begins, Seen::Proved(Sign::Zero)) => {
+            let r = minus(&turn.lump(&stage.scene).center, &turn.about);
+            let pull = match (&turn.torque, &turn.gravity) {
+                (Some(_), _) => Seen::Positive,
+                (None, Some(_)) => sign(&-&r[0], domains),
+                (None, None) => Seen::Mixed,
+            };
+            if pull.is_positive() {
+                Ok((1, None))
+            } else if pull.is_negative() {
+                Ok((-1, None))
+            } else {
+                Err(Refused::new(
+                    &stage.name,
+                    format!("`{body}` is at rest, and nothing says which way it begins to turn"),
+                    "add \"clockwise\": true or false, or a moment",
+                ))
+            }
+        }
+        // A spin of either sign keeps it: the end is told for a positive one.
+        (None, None) => Ok((1, Some(sentence!["`", body, "` turns counterclockwise"]))),
+    }
+}
+
+/// A particle that goes round a point has no spin of its own, but an angular velocity about the point.
+fn whirl(stage: &Stage, before: &mut State, turn: &Turn) -> Result<(), Refused> {
+    for b in turn.bodies() {
+        if stage.scene.bodies[b].is_particle() {
+            let r = minus(&stage.scene.bodies[b].center, &turn.about);
+            let square = tidied(stage, &dot(&r, &r))?;
+            if square.is_zero() {
+                continue;
+            }
+            let about = &cross(&r, &before.velocity[b]) / &square;
+            before.spin[b] = tidied(stage, &about)?;
+        }
+    }
+    Ok(())
+}
+
+/// Every body that turns moves as a rotation about the point has it.
+fn fits(stage: &Stage, before: &State, turn: &Turn, spin: &Expr) -> Result<(), Refused> {
+    for b in turn.bodies() {
+        let body = &stage.scene.bodies[b];
+        let r = minus(&body.center, &turn.about);
+        let needed = [-(spin * &r[1]), spin * &r[0]];
+        let mut gaps: Vec<Expr> = (0..2)
+            .map(|k| &before.velocity[b][k] - &needed[k])
+            .collect();
+        if !body.is_particle() {
+            gaps.push(&before.spin[b] - spin);
+        }
+        let moves = |gap: &Expr| is_zero(gap, &stage.scene.domains) == Some(false);
+        if gaps.iter().any(moves) {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "at its beginning the point {} of `{}` moves, so the body does not turn about it, and energy cannot carry over the jump that stops it",
+                    turn.about_name, body.name
+                ),
+                "put an impact before it, in which the point is caught, or begin with a velocity {\"about\": …}",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Where a body is at the end, from the fixed point: the rotation that leads the common center of mass there leads it.
+fn arm_at_end(
+    stage: &Stage,
+    turn: &Turn,
+    body: usize,
+    [r, r_end]: [&Vector; 2],
+    spin: &Expr,
+) -> Vector {
+    if turn.with.is_empty() {
+        return r_end.clone();
+    }
+    let arm = minus(&stage.scene.bodies[body].center, &turn.about);
+    let [c, s] = match angle_turned(stage, turn, spin) {
+        Some(by) => [by.cos(), by.sin()],
+        None => {
+            let square = dot(r, r);
+            [&dot(r, r_end) / &square, &cross(r, r_end) / &square]
+        }
+    };
+    rotated(&arm, &[c, s]).map(|e| tidy(&e, &stage.scene.domains).unwrap_or(e))
+}
+
+/// What is needed to get over the highest place on the way, where a rotation by an angle passes it: energy compares the
+/// ends only.
+fn hurdle(
+    stage: &Stage,
+    turn: &Turn,
+    r: &Vector,
+    start: &Expr,
+    way: i64,
+) -> Result<Option<Sentence>, Refused> {
+    let (Until::By(by), Some(g)) = (&turn.until, &turn.gravity) else {
+        return Ok(None);
+    };
+    if turn.torque.is_some() {
+        return Ok(Some(sentence![
+            "the body does not come to rest on the way through `",
+            &stage.name,
+            "`"
+        ]));
+    }
+    let passes = integrate::points(stage, &[&r[0], &r[1], by], 12)
+        .iter()
+        .any(|point| {
+            let values = [&r[0], &r[1], by].map(|e| e.evaluate(point));
+            let [Some(x), Some(y), Some(by)] = values else {
+                return true;
+            };
+            let to_top = (way as f64 * x).atan2(y).rem_euclid(std::f64::consts::TAU);
+            by > to_top
+        });
+    if !passes {
+        return Ok(None);
+    }
+    let body = &stage.scene.bodies[turn.body];
+    let climb = &dot(r, r).sqrt() - &r[1];
+    let mass = turn.lump(&stage.scene).mass;
+    let left = tidied(stage, &(start - &(&(&mass * g) * &climb)))?;
+    match sign(&left, &stage.scene.domains) {
+        Seen::Proved(s) if s.is_not_negative() => Ok(None),
+        Seen::Proved(Sign::Negative) => Err(Refused::new(
+            &stage.name,
+            format!(
+                "`{}` does not get over the highest place on its way: its kinetic energy there would be {}",
+                body.name,
+                crate::formula::write_plain(&left)
+            ),
+            "end the stage before, or give it more energy",
+        )),
+        _ => Ok(Some(sentence![
+            "where the way through `",
+            &stage.name,
+            "` leads over its highest place, ",
+            &crate::story::calc::essential(&left, &stage.scene.domains),
+            " ≥ 0, so that `",
+            &body.name,
+            "` gets over it"
+        ])),
+    }
+}
+
+/// Whether a body at rest has no moment to start it.
+pub(in crate::story) fn is_balanced(stage: &Stage, turn: &Turn, spin: &Expr, arm: &Vector) -> bool {
+    let zero = |e: &Expr| is_zero(e, &stage.scene.domains) == Some(true);
+    turn.gravity.is_some() && turn.torque.is_none() && zero(spin) && zero(&arm[0])
+}

@@ -1,0 +1,67 @@
+//! A particle on a rope that winds round a thin pole.
+
+use super::{half, kept, meanwhile, tidied, told};
+use crate::algebra::Sign;
+use crate::domain::Domains;
+use crate::expr::{Expr, dot, minus};
+use crate::scene::{Stage, Wind};
+use crate::story::calc::{Seen, is_zero, sign};
+use crate::story::{Refused, Sentence, StageTold, State, integrate};
+
+/// A rope that winds round a pole.
+pub(in crate::story) fn wind(
+    stage: &Stage,
+    before: State,
+    wind: &Wind,
+) -> Result<StageTold, Refused> {
+    let domains: &Domains = &stage.scene.domains;
+    let body = &stage.scene.bodies[wind.body];
+    let v = before.velocity[wind.body].clone();
+    let rope = minus(&stage.scene.bodies[wind.body].center, &wind.around);
+    let free = tidied(stage, &dot(&rope, &rope).sqrt())?;
+    if is_zero(&dot(&rope, &v), domains) == Some(false) {
+        return Err(Refused::new(
+            &stage.name,
+            format!(
+                "`{}` does not move straight across the rope, which would jerk",
+                body.name
+            ),
+            "put an impact with a string before it, in which the rope becomes taut",
+        ));
+    }
+    if let Seen::Proved(Sign::Negative) = sign(&(&free - &wind.to), domains) {
+        return Err(Refused::new(
+            &stage.name,
+            "a rope that winds up gets shorter, and this gets longer",
+            "exchange the lengths",
+        ));
+    }
+    let speed = tidied(stage, &dot(&v, &v).sqrt())?;
+    let mut after = before.clone();
+    after.velocity[wind.body] = [Expr::zero(), speed.clone()];
+    after.center[wind.body] = [&wind.around[0] + &wind.to, wind.around[1].clone()];
+    // How long it takes goes beyond all bounds as the pole gets thinner.
+    let mut assumptions = meanwhile::others(stage, &before, &mut after, None);
+    let energy = tidied(stage, &half(&(&body.mass * &speed.powi(2))))?;
+    let mut out = told(stage, before, after);
+    out.kept = vec![
+        kept(
+            "energy",
+            true,
+            "the rope pulls across the velocity at every moment, because its free part turns about the point where it leaves the pole: no work",
+        ),
+        kept(
+            "angular momentum about the pole",
+            false,
+            "the rope leaves the pole at its surface, so its pull has the pole's radius as an arm; the pole is thin, but the rope winds round it so often that the moment adds up",
+        ),
+    ];
+    out.energy = Some([energy.clone(), energy]);
+    assumptions.push(Sentence::words(
+        "the pole is thin against the rope, and the axes at the end are turned along the rope",
+    ));
+    out.assumptions = assumptions;
+    out.checks
+        .extend(integrate::wind(stage, &free, &speed, wind));
+    Ok(out)
+}

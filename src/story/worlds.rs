@@ -1,0 +1,128 @@
+//! The ways a scene can go as a whole: one outcome chosen of every impact that has several.
+//!
+//! In: the stages as told. Out: what the answers stand for in each, so that a formula of answers is answered for each, with
+//! the conditions under which it holds.
+
+use std::collections::BTreeMap;
+
+use super::answer::number_case;
+use super::special::Known;
+use super::{Answer, Refused, Sentence, StageTold, sentence::sentence};
+use crate::expr::Symbol;
+use crate::scene::StoryAsk;
+
+/// One way a scene can go.
+#[derive(Clone, Default)]
+pub(super) struct World {
+    /// The outcome of each stage told that happens here.
+    outcome: BTreeMap<usize, usize>,
+    /// What must hold for it.
+    given: Vec<Sentence>,
+    /// What answers stand for.
+    known: Known,
+}
+
+/// All ways.
+pub(super) fn of(stages: &[StageTold]) -> Vec<World> {
+    let mut worlds = vec![World::default()];
+    for (i, told) in stages.iter().enumerate() {
+        let mut next = Vec::new();
+        for mut world in worlds {
+            let happens = told
+                .branch
+                .is_none_or(|(parent, case)| world.outcome.get(&parent) == Some(&case));
+            if !happens {
+                next.push(world);
+            } else if told.cases.len() < 2 {
+                world.outcome.insert(i, 0);
+                next.push(world);
+            } else {
+                for (k, case) in told.cases.iter().enumerate() {
+                    let mut one = world.clone();
+                    one.outcome.insert(i, k);
+                    let given = case.conditions.iter();
+                    one.given
+                        .extend(given.map(|(why, e)| sentence![e, " ≥ 0 (", why, ")"]));
+                    next.push(one);
+                }
+            }
+        }
+        worlds = next;
+    }
+    worlds
+}
+
+/// Whether a question is about formulas of answers.
+pub(super) fn about_formulas(ask: &StoryAsk) -> bool {
+    matches!(
+        ask,
+        StoryAsk::Value { .. }
+            | StoryAsk::Condition { .. }
+            | StoryAsk::Maximum { .. }
+            | StoryAsk::Limit { .. }
+            | StoryAsk::Approximate { .. }
+            | StoryAsk::Show { .. }
+    )
+}
+
+/// Answers in every way; where they differ each is told with what it needs, and remembered where it holds.
+pub(super) fn each(
+    worlds: &mut [World],
+    answer: impl Fn(&Known) -> Result<Vec<Answer>, Refused>,
+) -> Result<Vec<Answer>, Refused> {
+    let mut found: Vec<(Vec<Answer>, Vec<Sentence>)> = Vec::new();
+    for world in worlds.iter_mut() {
+        let answers = answer(&world.known)?;
+        for a in &answers {
+            let name = Symbol::from(a.name.as_str());
+            match &a.formula {
+                Some(formula) => world.known.insert(name, formula.clone()),
+                None => world.known.remove(&name),
+            };
+        }
+        let says = |all: &[Answer]| -> Vec<_> {
+            let parts = all.iter();
+            parts
+                .map(|a| (a.formula.clone(), a.range.clone(), a.text.clone()))
+                .collect()
+        };
+        if !found.iter().any(|(f, _)| says(f) == says(&answers)) {
+            found.push((answers, world.given.clone()));
+        }
+    }
+    let several = found.len() > 1;
+    let mut out = Vec::new();
+    for (k, (mut answers, given)) in found.into_iter().enumerate() {
+        for a in answers.iter_mut().filter(|_| several) {
+            if k > 0 {
+                number_case(a, k + 1);
+            }
+            a.assumptions.extend(given.iter().cloned());
+        }
+        out.extend(answers);
+    }
+    Ok(out)
+}
+
+/// Later formulas may use the other answers by the name of their question, each where it holds, and by their own.
+pub(super) fn remember(worlds: &mut [World], answers: &[Answer]) {
+    for a in answers {
+        let Some(formula) = &a.formula else { continue };
+        let numbered = a.name.rsplit_once("_case");
+        let numbered = numbered.filter(|(_, k)| k.bytes().all(|c| c.is_ascii_digit()));
+        let plain = numbered.map_or(a.name.as_str(), |(plain, _)| plain);
+        for world in worlds.iter_mut() {
+            let holds = a
+                .told
+                .is_none_or(|(stage, case)| world.outcome.get(&stage) == Some(&case));
+            if holds {
+                let name = Symbol::from(plain);
+                world.known.insert(name, formula.clone());
+            }
+            if plain != a.name {
+                let name = Symbol::from(a.name.as_str());
+                world.known.insert(name, formula.clone());
+            }
+        }
+    }
+}
