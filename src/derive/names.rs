@@ -67,6 +67,7 @@ fn asked_name(scene: &Scene, unknown: Unknown) -> Option<(String, String)> {
     let (question, axis) = scene
         .questions
         .iter()
+        .filter(|q| !q.hidden)
         .find_map(|q| Some((q, asks_for(scene, &q.ask, unknown)?.0)))?;
     let latex = question
         .latex
@@ -85,6 +86,7 @@ fn asked_reversed(scene: &Scene, unknown: Unknown) -> bool {
     scene
         .questions
         .iter()
+        .filter(|q| !q.hidden)
         .find_map(|q| asks_for(scene, &q.ask, unknown))
         .is_some_and(|(_, reversed)| reversed)
 }

@@ -163,6 +163,10 @@ pub fn text(scene: &Scene, told: &Told) -> String {
             line(format!("   {} {}", mark(c), c.words));
         }
     }
+    for why in &told.ended {
+        line(String::new());
+        line(format!("✗ {why}"));
+    }
     line(String::new());
     line(String::from("answers"));
     out.push_str(&answers(scene, &told.answers));

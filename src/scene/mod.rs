@@ -391,6 +391,8 @@ pub struct Question {
     pub latex: Option<String>,
     /// What is asked.
     pub ask: Ask,
+    /// Asked by carom itself, to find out which supports act and what is lost; not answered to the reader.
+    pub hidden: bool,
 }
 
 /// The kinds of question.

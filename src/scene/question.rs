@@ -28,6 +28,7 @@ pub(super) fn resolve(resolver: &mut Resolver<'_>, scene: &mut Scene) {
                 name: name.text.clone(),
                 latex,
                 ask,
+                hidden: false,
             });
         }
     }

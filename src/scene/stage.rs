@@ -349,6 +349,20 @@ pub struct StoryQuestion {
 }
 
 impl StoryAsk {
+    /// The formulas of answers in it.
+    pub fn formulas(&self) -> Vec<&Expr> {
+        match self {
+            StoryAsk::Value { formula, .. } => vec![formula],
+            StoryAsk::Condition { left, right, .. } | StoryAsk::Show { left, right, .. } => {
+                vec![left, right]
+            }
+            StoryAsk::Maximum { of, .. } => vec![of],
+            StoryAsk::Limit { of, to, .. } => std::iter::once(of).chain(to).collect(),
+            StoryAsk::Approximate { of, to, .. } => vec![of, to],
+            _ => Vec::new(),
+        }
+    }
+
     /// Index of the stage that is asked about; `None` for a question about formulas alone.
     pub fn stage(&self) -> Option<usize> {
         match self {

@@ -128,7 +128,7 @@ impl Writer<'_> {
     /// The heading of a question: what it asks for, and its symbol.
     fn heading(&self, question: &Question) -> Vec<Inline> {
         let body = |b: usize| words::body(self.scene, b);
-        if question.name.starts_with('\u{1}') {
+        if question.hidden {
             return vec![say("The motion just after")];
         }
         let text = match &question.ask {

@@ -33,7 +33,10 @@ pub(super) fn all(
     for question in &story.questions {
         let new = if worlds::about_formulas(&question.ask) {
             worlds::each(&mut worlds, |known| {
-                formula(scene, &stages, question, known)
+                match needs_open(&question.ask, known, &answers) {
+                    Some(why) => Ok(vec![unanswered(question, &why)]),
+                    None => formula(scene, &stages, question, known),
+                }
             })?
         } else {
             let new = one(scene, story, &stages, question, &answers)?;
@@ -48,6 +51,29 @@ pub(super) fn all(
         answers,
         readings: story.readings.clone(),
         unused,
+        ended: Vec::new(),
+    })
+}
+
+/// An answer that has no value, and why.
+fn unanswered(question: &StoryQuestion, why: &Sentence) -> Answer {
+    let mut out = blank(question, &question.name, "what is asked");
+    out.text.push(sentence!["not determined: ", why]);
+    out
+}
+
+/// What a question about formulas needs that has no value.
+fn needs_open(ask: &StoryAsk, known: &Known, earlier: &[Answer]) -> Option<Sentence> {
+    let symbols = ask.formulas().into_iter().flat_map(Expr::symbols);
+    let mut missing = symbols.filter(|s| !known.contains_key(s));
+    missing.find_map(|name| {
+        let is_it = |a: &&Answer| a.name == *name || a.question == *name;
+        let open = earlier
+            .iter()
+            .filter(is_it)
+            .find(|a| a.formula.is_none() && a.told.is_some())?;
+        let why = open.text.first().cloned().unwrap_or_default();
+        Some(sentence!["it needs `", &open.name, "`, which is ", why])
     })
 }
 
@@ -261,6 +287,12 @@ fn quantity(
     index: usize,
 ) -> Result<Vec<Answer>, Refused> {
     let ways = ways(stages, &story.stages[stage]);
+    if ways.is_empty() {
+        let why = Sentence::words("the laws contradict each other before");
+        let mut out = unanswered(question, &why);
+        out.told = Some((usize::MAX, 0));
+        return Ok(vec![out]);
+    }
     let cases: usize = ways.iter().map(|(_, t, _)| t.cases.len().max(1)).sum();
     let mut number = 0;
     let mut out = Vec::new();
@@ -325,6 +357,7 @@ fn reaction_asked(
         at: format!("question `{}`", question.name),
         reason: format!("not calculated: {stop}"),
         hint: String::new(),
+        contradicts: false,
     })?;
     out.checks.push(integrate::reaction(
         &told.placed,
@@ -368,6 +401,7 @@ fn angular_momentum(
         at: format!("question `{}`", question.name),
         reason: format!("not calculated: {stop}"),
         hint: String::new(),
+        contradicts: false,
     })?;
     out.checks.push(Check {
         kind: "identity",
@@ -509,6 +543,7 @@ fn of_motion(
         at: format!("question `{}`", question.name),
         reason: reason.into(),
         hint: String::new(),
+        contradicts: false,
     };
     let what = match &asked.ask {
         Ask::Spin { .. } => "angular velocity",

@@ -59,6 +59,7 @@ fn one(scene: &Scene, ask: &PlotAsk, known: &BTreeMap<Symbol, Expr>) -> Result<G
         at: format!("plot `{}`", ask.name),
         reason,
         hint: hint.to_string(),
+        contradicts: false,
     };
     let values: BTreeMap<Symbol, Expr> = scene
         .parameters

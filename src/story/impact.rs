@@ -18,9 +18,13 @@ use crate::scene::{
 };
 use crate::verify;
 
-/// How names of the questions begin that this module adds; a scene's names never do.
-const OWN: char = '\u{1}';
-const ENERGY: &str = "\u{1}lost";
+/// Name of the question after the kinetic energy lost; no name of a scene has a blank at its end.
+const ENERGY: &str = "energy lost ";
+
+/// Name of the question whether a support or string acts.
+pub(super) fn acting(name: &str) -> String {
+    format!("whether {name} acts ")
+}
 
 /// Works out an impact.
 pub(super) fn tell(
@@ -71,11 +75,11 @@ pub(super) fn tell(
                 "no set of supports and strings fits: one of those that act would have to pull or push the wrong way",
             ),
         };
-        return Err(Refused::new(
-            &stage.name,
-            reason,
-            "look at the directions `normal`, and at the motion handed on",
-        ));
+        let hint = "look at the directions `normal`, and at the motion handed on";
+        return Err(Refused {
+            contradicts: true,
+            ..Refused::new(&stage.name, reason, hint)
+        });
     }
     for case in &mut cases {
         case.conditions.extend(approaching.iter().cloned());
@@ -155,11 +159,12 @@ fn case(
         name,
         latex: None,
         ask,
+        hidden: true,
     };
     for (i, o) in one_sided.iter().enumerate() {
         let [first, second] = o.bodies;
         if set.contains(&i) {
-            let name = format!("\u{1}{}", o.name);
+            let name = acting(&o.name);
             scene.questions.push(hidden(
                 name.clone(),
                 Ask::Impulse {
@@ -180,7 +185,7 @@ fn case(
             let verb = if o.is_string { "pulls" } else { "pushes" };
             wanted.push((name, format!("`{}` {verb}", o.name)));
         } else {
-            let name = format!("\u{1}{}", o.name);
+            let name = acting(&o.name);
             for (suffix, body) in [("2", second), ("1", first)] {
                 scene.questions.push(hidden(
                     format!("{name}{suffix}"),
@@ -374,16 +379,16 @@ fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<State, Refu
                 .map(Some)
                 .map_err(|s| Refused::stop(&stage.name, s))
         };
-        for (k, what) in ["v_x", "v_y"].into_iter().enumerate() {
+        for (k, what) in ["_x", "_y"].into_iter().enumerate() {
             after.velocity[b][k] = match value(&full.velocity[b][k])? {
                 Some(v) => v,
-                None => after.open(what, &body.name, &stage.name, &why),
+                None => after.open(&scene, ["u", what], b, &why),
             };
         }
         if !body.is_particle() {
             after.spin[b] = match value(&full.spin[b])? {
                 Some(w) => w,
-                None => after.open("omega", &body.name, &stage.name, &why),
+                None => after.open(&scene, ["w", ""], b, &why),
             };
         }
         after.part[b] = part(&scene, b, before.part[b]);
@@ -514,6 +519,7 @@ fn kept(scene: &Scene, one_sided: &[OneSided], cases: &[Case]) -> Vec<Kept> {
     }
     if let ([case], true) = (cases, scene.blows.is_empty())
         && let Some(closed) = &case.value(ENERGY)
+        && case.after.why_open([closed]).is_none()
     {
         out.push(if closed.is_zero() {
             Kept {
@@ -644,16 +650,17 @@ impl Case {
     pub fn asked(&self) -> (Scene, Derivation) {
         let mut scene = self.scene.clone();
         let mut derivation = self.derivation.clone();
-        let is_own = |name: &str| name.starts_with(OWN);
+        let own: Vec<&Question> = self.scene.questions.iter().filter(|q| q.hidden).collect();
+        let is_own = |name: &str| own.iter().any(|q| q.name == name);
         derivation.answers.retain(|a| !is_own(&a.question));
         let has_block = |q: &Question| {
             let mut blocks = derivation.blocks.iter();
             blocks.any(|b| b.asked_by.as_deref() == Some(q.name.as_str()))
         };
-        let asked = scene.questions.iter().any(|q| !is_own(&q.name));
+        let asked = scene.questions.iter().any(|q| !q.hidden);
         scene
             .questions
-            .retain(|q| !is_own(&q.name) || (!asked && has_block(q)));
+            .retain(|q| !q.hidden || (!asked && has_block(q)));
         (scene, derivation)
     }
 }

@@ -78,32 +78,38 @@ impl State {
         symbols.filter_map(|s| self.open.get(&s).cloned()).next()
     }
 
-    /// Opens a component.
-    fn open(&mut self, what: &str, body: &str, stage: &str, why: &str) -> Expr {
-        let name = Symbol::from(format!("{what} of {body} after {stage}").as_str());
+    /// A symbol for a component that is not determined, such as u_B_x.
+    fn open(&mut self, scene: &Scene, [letter, axis]: [&str; 2], b: usize, why: &str) -> Expr {
+        let mut name = format!("{letter}_{}{axis}", scene.bodies[b].name);
+        let is_taken = |name: &str| {
+            self.open.contains_key(name)
+                || scene.parameters.iter().any(|p| *p.name == *name)
+                || scene.questions.iter().any(|q| q.name == name)
+        };
+        while is_taken(&name) {
+            name.push('\'');
+        }
+        let name = Symbol::from(name.as_str());
         self.open.insert(name.clone(), why.to_string());
         Expr::symbol(&name)
     }
 
     /// Where a body is becomes open; with `motion` also how it moves.
-    fn lose(&mut self, scene: &Scene, b: usize, stage: &str, why: &str, motion: bool) {
-        let body = &scene.bodies[b].name;
-        self.center[b] = ["x", "y"].map(|what| self.open(what, body, stage, why));
+    fn lose(&mut self, scene: &Scene, b: usize, why: &str, motion: bool) {
+        self.center[b] = ["x", "y"].map(|letter| self.open(scene, [letter, ""], b, why));
+        self.lose_angle(scene, b, why);
         if motion {
-            self.velocity[b] = ["v_x", "v_y"].map(|what| self.open(what, body, stage, why));
-        }
-        if !scene.bodies[b].is_particle() {
-            self.angle[b] = self.open("angle", body, stage, why);
-            if motion {
-                self.spin[b] = self.open("omega", body, stage, why);
+            self.velocity[b] = ["_x", "_y"].map(|axis| self.open(scene, ["u", axis], b, why));
+            if !scene.bodies[b].is_particle() {
+                self.spin[b] = self.open(scene, ["w", ""], b, why);
             }
         }
     }
 
     /// The angle of a body becomes open.
-    fn lose_angle(&mut self, scene: &Scene, b: usize, stage: &str, why: &str) {
+    fn lose_angle(&mut self, scene: &Scene, b: usize, why: &str) {
         if !scene.bodies[b].is_particle() {
-            self.angle[b] = self.open("angle", &scene.bodies[b].name, stage, why);
+            self.angle[b] = self.open(scene, ["theta", ""], b, why);
         }
     }
 
@@ -255,6 +261,8 @@ pub struct Told {
     pub readings: Vec<String>,
     /// Data that no answer needs.
     pub unused: Vec<String>,
+    /// Where the laws contradict each other: the scene ends there, and nothing that would follow is told.
+    pub ended: Vec<Refused>,
 }
 
 impl Told {
@@ -263,7 +271,7 @@ impl Told {
         words::assumed(&self.readings, &self.stages)
     }
 
-    /// Whether no check failed.
+    /// Whether no check failed, and no laws contradict each other.
     pub fn holds(&self) -> bool {
         let stages = self.stages.iter();
         let proofs = stages
@@ -273,7 +281,7 @@ impl Told {
         let checks = stages
             .flat_map(|s| &s.checks)
             .chain(self.answers.iter().flat_map(|a| &a.checks));
-        proofs && checks.clone().all(|c| c.holds != Some(false))
+        self.ended.is_empty() && proofs && checks.clone().all(|c| c.holds != Some(false))
     }
 }
 
@@ -286,6 +294,8 @@ pub struct Refused {
     pub reason: String,
     /// What to do.
     pub hint: String,
+    /// Whether the laws contradict each other, rather than that the file says something that does not fit.
+    pub contradicts: bool,
 }
 
 impl fmt::Display for Refused {
@@ -307,6 +317,7 @@ impl Refused {
             at: format!("stage `{at}`"),
             reason: reason.into(),
             hint: hint.into(),
+            contradicts: false,
         }
     }
 
@@ -322,6 +333,7 @@ const BRANCHES: usize = 32;
 pub fn tell(scene: &Scene, story: &Story) -> Result<Told, Refused> {
     let mut stages: Vec<StageTold> = Vec::new();
     let mut told_as: Vec<Vec<usize>> = Vec::new();
+    let mut ended = Vec::new();
     for stage in &story.stages {
         let mut mine = Vec::new();
         for (branch, before, given) in beginnings(stage, &stages, &told_as) {
@@ -333,7 +345,14 @@ pub fn tell(scene: &Scene, story: &Story) -> Result<Told, Refused> {
                     .symbols
                     .insert(open.clone(), Domain::real());
             }
-            let mut told = one(story, &stages, &placed, before)?;
+            let mut told = match one(story, &stages, &placed, before) {
+                Ok(told) => told,
+                Err(why) if why.contradicts => {
+                    ended.push(why);
+                    continue;
+                }
+                Err(why) => return Err(why),
+            };
             told.branch = branch;
             told.given = given;
             if let Some((parent, case)) = branch
@@ -353,7 +372,9 @@ pub fn tell(scene: &Scene, story: &Story) -> Result<Told, Refused> {
         }
         told_as.push(mine);
     }
-    answer::all(scene, story, stages)
+    let mut told = answer::all(scene, story, stages)?;
+    told.ended = ended;
+    Ok(told)
 }
 
 type Beginning = (Option<(usize, usize)>, State, Vec<(String, Expr)>);

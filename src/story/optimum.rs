@@ -36,6 +36,7 @@ pub(super) fn maximum(
         hint: String::from(
             "the largest value is found over one parameter, or two of which one combination matters",
         ),
+        contradicts: false,
     };
     let plays = |s: &Symbol| !tidy(&of.derivative(s), &domains).is_ok_and(|d| d.is_zero());
     let idle: Vec<&Symbol> = over.iter().filter(|s| !plays(s)).collect();
@@ -183,6 +184,7 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
         at: format!("question `{name}`"),
         reason,
         hint: String::new(),
+        contradicts: false,
     };
     let domain = domains
         .symbols

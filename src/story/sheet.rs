@@ -88,6 +88,7 @@ pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
                     .map_or_else(elsewhere, |q| q.ask.clone()),
                 _ => elsewhere(),
             },
+            hidden: false,
         })
         .collect();
     derivation.definitions.clear();
@@ -112,6 +113,7 @@ pub fn with_special(
         name: q.name.clone(),
         latex: q.latex.clone(),
         ask: elsewhere(),
+        hidden: false,
     }));
     scene.special = special;
     let has_answer = |q: &Question| derivation.answers.iter().any(|a| a.question == q.name);

@@ -54,6 +54,7 @@ pub fn about(
                 at: format!("question `{}`", question.name),
                 reason: String::from("it asks about a stage, and there are none"),
                 hint: String::from("add \"stages\", or ask about a formula"),
+                contradicts: false,
             });
         };
         remember(&new, &mut known);
@@ -147,6 +148,7 @@ pub(super) fn put(
         at: format!("question `{name}`"),
         reason,
         hint: hint.into(),
+        contradicts: false,
     };
     let open = e
         .symbols()
@@ -404,6 +406,7 @@ fn same_kind(
         at: format!("question `{name}`"),
         reason: format!("the sides of {statement} are {l} and {r}"),
         hint: String::from("compare quantities of the same kind"),
+        contradicts: false,
     })
 }
 
@@ -540,6 +543,7 @@ pub(super) fn dimension_of(scene: &Scene, e: &Expr, at: &str) -> Result<Dimensio
             at: format!("question `{at}`"),
             reason: clash.message(&write_plain),
             hint: String::from("both sides of a sum or relation have the same dimension"),
+            contradicts: false,
         }),
     }
 }

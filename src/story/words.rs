@@ -122,16 +122,12 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                 (FallEnd::Time(t), Some(_)) => sentence!["`", name, "` falls freely for ", t],
                 (FallEnd::Time(t), None) => sentence!["`", name, "` flies freely for ", t],
                 (FallEnd::Range(s), _) => {
-                    sentence![
-                        "`",
-                        name,
-                        "` flies freely until it is ",
-                        s,
-                        " further right"
-                    ]
+                    let (far, way) = counted(s, [" further right", " further left"]);
+                    sentence!["`", name, "` flies freely until it is ", &far, way]
                 }
                 (FallEnd::Drop(h), None) => {
-                    sentence!["`", name, "` flies freely until it is ", h, " lower"]
+                    let (far, way) = counted(h, [" lower", " higher"]);
+                    sentence!["`", name, "` flies freely until it is ", &far, way]
                 }
             });
             if is_zero(&told.after.spin[fall.body], &scene.domains) == Some(false) {
@@ -151,6 +147,15 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
         ]),
     }
     out
+}
+
+/// A distance without the minus sign it may begin with, and the word for its direction.
+fn counted(e: &Expr, [plus, minus]: [&'static str; 2]) -> (Expr, &'static str) {
+    if crate::formula::write_plain(e).starts_with('-') {
+        (-e, minus)
+    } else {
+        (e.clone(), plus)
+    }
 }
 
 /// How a rotation goes on: it keeps its sense, and weight or a moment makes it faster or slower.
@@ -189,6 +194,10 @@ struct Change<'a> {
 impl Change<'_> {
     fn words(&self, name: &str, is_particle: bool) -> String {
         let (before, after) = (&self.told.before, &self.case.after);
+        let parts = [before, after].map(|s| s.velocity[self.b].iter().chain([&s.spin[self.b]]));
+        if let Some(why) = after.why_open(parts.into_iter().flatten()) {
+            return format!("how `{name}` moves is not determined: {why}");
+        }
         let (v0, v1) = (&before.velocity[self.b], &after.velocity[self.b]);
         let zero = |v: &[Expr; 2]| v.iter().all(|c| is_zero(c, self.domains) == Some(true));
         let center = if is_particle {
@@ -200,7 +209,10 @@ impl Change<'_> {
             (true, true) => format!("{center} stays at rest"),
             (true, false) => format!("{center} keeps its velocity"),
             (false, true) => format!("{center} comes to rest"),
-            (false, false) => format!("{center} moves {}", self.heading(v1)),
+            (false, false) => match self.heading(v1).as_str() {
+                "" => format!("the velocity of {center} changes"),
+                heading => format!("{center} moves {heading}"),
+            },
         };
         if !is_particle {
             let (w0, w1) = (&before.spin[self.b], &after.spin[self.b]);
@@ -211,18 +223,15 @@ impl Change<'_> {
     }
 
     fn heading(&self, v: &[Expr; 2]) -> String {
-        let part = |e: &Expr, plus, minus, either| {
-            let words = [plus, minus, "not at all", either];
+        // Where the sign depends on the values, the formula says more than words.
+        let part = |e: &Expr, plus: &str, minus: &str| {
+            let words = [plus, minus, "not at all", ""];
             let stays = is_zero(e, self.domains) == Some(true);
-            (!stays).then(|| one_of(e, self.domains, self.given, words))
+            let word = one_of(e, self.domains, self.given, words);
+            (!stays && !word.is_empty()).then_some(word)
         };
-        let x = part(
-            &v[0],
-            "to the right",
-            "to the left",
-            "sideways, to which side hangs on the values",
-        );
-        let y = part(&v[1], "up", "down", "up or down as the values decide");
+        let x = part(&v[0], "to the right", "to the left");
+        let y = part(&v[1], "up", "down");
         let parts: Vec<String> = [x, y].into_iter().flatten().collect();
         parts.join(" and ")
     }
@@ -282,7 +291,7 @@ fn spin_words(
         return format!("{what} ends");
     }
     let sense = |none| {
-        let either = "in a sense that hangs on the values";
+        let either = "in a sense that depends on the values";
         one_of(
             after,
             domains,
@@ -341,7 +350,7 @@ pub(super) fn impulsive(told: &StageTold) -> Vec<Sentence> {
         let verb = if o.is_string { "pull" } else { "push" };
         let mut cases = Vec::new();
         for case in &told.cases {
-            let value = case.value(&format!("\u{1}{}", o.name));
+            let value = case.value(&super::impact::acting(&o.name));
             let size = match &value {
                 Some(v) => Sentence::from(v),
                 None => "none".into(),

@@ -49,6 +49,7 @@ fn scaled(seed: u64, scales: &Scales) -> Scene {
             name,
             latex: None,
             ask,
+            hidden: false,
         })
     };
     for body in 1..scene.bodies.len() {

@@ -129,6 +129,7 @@ pub fn chain_scene(n: usize, pose: Pose) -> Scene {
                 name: format!("omega{i}"),
                 latex: Some(format!("\\omega_{{{i}}}")),
                 ask,
+                hidden: false,
             });
         }
     }

@@ -59,7 +59,7 @@ pub(super) fn others(
                     body.name, stage.name
                 );
                 let steady = weightless && *part != Part::Joined;
-                after.lose(scene, b, &stage.name, &why, !steady);
+                after.lose(scene, b, &why, !steady);
             }
         }
     }

@@ -85,7 +85,7 @@ pub(super) fn open(stage: &Stage, before: State) -> Option<StageTold> {
     let why = reason?;
     let mut after = before.clone();
     for b in moved {
-        after.lose(scene, b, &stage.name, &why, true);
+        after.lose(scene, b, &why, true);
     }
     meanwhile::others(stage, &before, &mut after, None);
     let mut out = told(stage, before, after);

@@ -242,7 +242,6 @@ fn carry(
             None => after.lose_angle(
                 &stage.scene,
                 b,
-                &stage.name,
                 "its angle is found from where its center of mass is, and this has no direction that could be written",
             ),
         }
