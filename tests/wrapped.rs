@@ -73,9 +73,7 @@ fn a_scene_wrapped_in_one_stage_is_the_same_scene() {
             &["derive", "--format", "json"],
             &["solve"],
             &["solution", "--format", "markdown"],
-            &["solution", "--format", "html"],
             &["emit", "--lang", "c"],
-            &["draw"],
             &["verify"],
         ] {
             let (plain, staged) = (said(command, &path), said(command, &other));

@@ -120,7 +120,7 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
         replay(&impact.scene, &impact.meanings, &mine, &mut report);
     }
     match &scene.story {
-        Some(told) => story::replay(&scene, told, &impacts, &meanings, &of(None), &mut report),
+        Some(_) => story::replay(&scene, &impacts, &meanings, &of(None), &mut report),
         None => replay(&scene, &meanings, &of(None), &mut report),
     }
     for near in &claims.near {

@@ -40,12 +40,14 @@ fn scope(x: &Scope) -> Value {
     let before: Map<String, Value> = x
         .before
         .iter()
-        .map(|(body, v, w)| {
+        .map(|b| {
             let motion = json!({
-                "velocity": [write_plain(&v[0]), write_plain(&v[1])],
-                "spin": write_plain(w),
+                "center": b.center.each_ref().map(write_plain),
+                "angle": write_plain(&b.angle),
+                "velocity": b.velocity.each_ref().map(write_plain),
+                "spin": write_plain(&b.spin),
             });
-            (body.clone(), motion)
+            (b.body.clone(), motion)
         })
         .collect();
     let handed: Map<String, Value> = x
@@ -58,6 +60,7 @@ fn scope(x: &Scope) -> Value {
         "stage": x.stage,
         "active": x.active,
         "handed": handed,
+        "open": x.open.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "before": before,
         "symbols": symbols(&x.meanings),
     })

@@ -92,10 +92,27 @@ pub struct Scope {
     pub active: Vec<String>,
     /// Symbols for what an earlier stage hands on, and what they are.
     pub handed: BTreeMap<Symbol, Expr>,
-    /// Bodies with the velocity of their center of mass and their spin just before.
-    pub before: Vec<(String, Vector, Expr)>,
+    /// Symbols that stand for what is not determined.
+    pub open: Vec<Symbol>,
+    /// The bodies just before.
+    pub before: Vec<Before>,
     /// What the other symbols stand for.
     pub meanings: BTreeMap<Symbol, Meaning>,
+}
+
+/// A body just before an impact, as the solution has it.
+#[derive(Clone, Debug)]
+pub struct Before {
+    /// Its name.
+    pub body: String,
+    /// Center of mass \[m\].
+    pub center: Vector,
+    /// Orientation \[rad\].
+    pub angle: Expr,
+    /// Velocity of the center of mass [m/s].
+    pub velocity: Vector,
+    /// Angular velocity [rad/s].
+    pub spin: Expr,
 }
 
 /// A heading and what stands below it.

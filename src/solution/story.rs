@@ -5,7 +5,9 @@
 
 use super::asked::{self, answered, full_sentence, known};
 use super::words::{self, name, say};
-use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Scope, Slot, Solution, Writer};
+use super::{
+    Before, Claim, Detail, Inline, Line, Math, Meaning, Part, Scope, Slot, Solution, Writer,
+};
 use crate::expr::{Expr, Node, Symbol};
 use crate::scene::{Ask, Scene, Stage, StageKind, Story, StoryAsk};
 use crate::story::{Answer, Case, Sentence, StageTold, Told};
@@ -228,13 +230,20 @@ impl Page<'_> {
             .bodies
             .iter()
             .filter(|b| !b.is_fixed())
-            .map(|b| (b.name.clone(), b.velocity.clone(), b.spin.clone()))
+            .map(|b| Before {
+                body: b.name.clone(),
+                center: b.center.clone(),
+                angle: b.angle.clone(),
+                velocity: b.velocity.clone(),
+                spin: b.spin.clone(),
+            })
             .collect();
         self.solution.scopes.push(Scope {
             name: id,
             stage: stage.name.clone(),
             active: case.active.clone(),
             handed: case.handed.clone(),
+            open: told.before.open.keys().cloned().collect(),
             before,
             meanings: writer.solution.meanings,
         });

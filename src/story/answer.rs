@@ -4,9 +4,7 @@ use std::collections::BTreeSet;
 
 use super::calc::{is_zero, tidy};
 use super::special::{self, Known, blank};
-use super::{
-    Answer, Case, Refused, StageTold, State, Told, integrate, motion, spring, words, worlds,
-};
+use super::{Answer, Case, Refused, StageTold, State, Told, motion, second, spring, words, worlds};
 use super::{Sentence, sentence::sentence};
 use crate::derive::{self, Form};
 use crate::dimension::Dimension;
@@ -35,7 +33,7 @@ pub(super) fn all(
             worlds::each(&mut worlds, |known| {
                 match needs_open(&question.ask, known, &answers) {
                     Some(why) => Ok(vec![unanswered(question, &why)]),
-                    None => formula(scene, &stages, question, known),
+                    None => formula(scene, question, known),
                 }
             })?
         } else {
@@ -44,6 +42,17 @@ pub(super) fn all(
             new
         };
         answers.extend(new);
+    }
+    let second = second::look(scene, story, &worlds, &stages);
+    for (i, check) in second::answers(&second, &worlds, &answers) {
+        answers[i].checks.push(check);
+    }
+    let each = stages.iter().enumerate();
+    let checks: Vec<_> = each
+        .map(|(i, told)| second.stage(&worlds, i, told))
+        .collect();
+    for (told, check) in stages.iter_mut().zip(checks) {
+        told.checks.push(check);
     }
     let unused = unused(scene, &answers);
     Ok(Told {
@@ -78,30 +87,8 @@ fn needs_open(ask: &StoryAsk, known: &Known, earlier: &[Answer]) -> Option<Sente
 }
 
 /// The answers of a question about formulas, with what the answers before stand for.
-fn formula(
-    scene: &Scene,
-    stages: &[StageTold],
-    question: &StoryQuestion,
-    known: &Known,
-) -> Result<Vec<Answer>, Refused> {
-    let mut answers = special::formulas(scene, question, known)?.unwrap_or_default();
-    if let (
-        StoryAsk::Condition {
-            parameter,
-            left,
-            right,
-            with,
-            ..
-        },
-        [out],
-    ) = (&question.ask, answers.as_mut_slice())
-        && let Some(value) = &out.formula
-    {
-        let gap = special::put(scene, &question.name, known, &(left - right), with)?;
-        let check = tipping(stages, &gap, parameter, value, &scene.domains);
-        out.checks.extend(check);
-    }
-    Ok(answers)
+fn formula(scene: &Scene, question: &StoryQuestion, known: &Known) -> Result<Vec<Answer>, Refused> {
+    Ok(special::formulas(scene, question, known)?.unwrap_or_default())
 }
 
 fn one(
@@ -319,6 +306,9 @@ fn quantity(
                 answer.checks.clear();
                 answer.text = vec![sentence!["not determined: ", why]];
             }
+            if answer.formula.is_none() && answer.equation.is_none() {
+                answer.checks.clear();
+            }
             let way = Way {
                 number: (cases > 1).then_some(number + k / per.max(1)),
                 words: way.words.clone(),
@@ -359,14 +349,6 @@ fn reaction_asked(
         hint: String::new(),
         contradicts: false,
     })?;
-    out.checks.push(integrate::reaction(
-        &told.placed,
-        turn,
-        way,
-        (at_end, &state.spin[turn.body]),
-        along,
-        &value,
-    ));
     if at_end {
         out.assumptions = told.assumptions.clone();
     }
@@ -442,8 +424,10 @@ fn of_case(question: &StoryQuestion, case: &Case, several: bool) -> Vec<Answer> 
                     .iter()
                     .map(|u| case.derivation.names.plain(*u))
                     .collect();
-                a.text
-                    .push(sentence!["not determined: it hangs on ", names.join(", ")]);
+                a.text.push(sentence![
+                    "not determined: it depends on ",
+                    names.join(", ")
+                ]);
             }
         }
         for (name, value) in &case.handed {
@@ -504,31 +488,6 @@ fn numbered(latex: &str, number: usize) -> String {
         None if latex.contains('_') => format!("{{{latex}}}_{number}"),
         None => format!("{latex}_{number}"),
     }
-}
-
-/// A threshold at which a rotation just gets to its end, integrated on both sides.
-fn tipping(
-    stages: &[StageTold],
-    gap: &Expr,
-    parameter: &Symbol,
-    value: &Expr,
-    domains: &Domains,
-) -> Option<Check> {
-    stages.iter().find_map(|told| {
-        let stage = &told.placed;
-        let (StageKind::Turn(turn), Some([_, end])) = (&stage.kind, &told.energy) else {
-            return None;
-        };
-        let is_end = is_zero(&(gap - end), domains) == Some(true)
-            || is_zero(&(gap + end), domains) == Some(true);
-        if !is_end {
-            return None;
-        }
-        let (way, _) = motion::sense(stage, &told.before.spin[turn.body], turn).ok()?;
-        Some(integrate::both_sides(
-            stage, told, turn, way, parameter, value,
-        ))
-    })
 }
 
 /// Quantities at the end of a motion.

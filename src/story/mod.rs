@@ -14,6 +14,7 @@ mod limit;
 mod motion;
 mod optimum;
 mod roots;
+mod second;
 mod sentence;
 mod sheet;
 mod special;
@@ -198,6 +199,8 @@ pub struct Answer {
     pub question: String,
     /// The stage it belongs to, among those told, and the outcome there; `None` for an answer about formulas alone.
     pub told: Option<(usize, usize)>,
+    /// The ways through the cases in which an answer about formulas holds, by index; empty for all.
+    pub worlds: Vec<usize>,
     /// Name of the answer.
     pub name: String,
     /// The name typeset.

@@ -511,6 +511,7 @@ pub(super) fn blank(question: &StoryQuestion, name: &str, words: impl Into<Strin
     Answer {
         question: question.name.clone(),
         told: None,
+        worlds: Vec::new(),
         name: name.to_string(),
         latex,
         words: words.into(),

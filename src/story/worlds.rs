@@ -15,7 +15,7 @@ use crate::scene::StoryAsk;
 #[derive(Clone, Default)]
 pub(super) struct World {
     /// The outcome of each stage told that happens here.
-    outcome: BTreeMap<usize, usize>,
+    pub outcome: BTreeMap<usize, usize>,
     /// What must hold for it.
     given: Vec<Sentence>,
     /// What answers stand for.
@@ -70,8 +70,8 @@ pub(super) fn each(
     worlds: &mut [World],
     answer: impl Fn(&Known) -> Result<Vec<Answer>, Refused>,
 ) -> Result<Vec<Answer>, Refused> {
-    let mut found: Vec<(Vec<Answer>, Vec<Sentence>)> = Vec::new();
-    for world in worlds.iter_mut() {
+    let mut found: Vec<(Vec<Answer>, Vec<Sentence>, Vec<usize>)> = Vec::new();
+    for (w, world) in worlds.iter_mut().enumerate() {
         let answers = answer(&world.known)?;
         for a in &answers {
             let name = Symbol::from(a.name.as_str());
@@ -86,18 +86,20 @@ pub(super) fn each(
                 .map(|a| (a.formula.clone(), a.range.clone(), a.text.clone()))
                 .collect()
         };
-        if !found.iter().any(|(f, _)| says(f) == says(&answers)) {
-            found.push((answers, world.given.clone()));
+        match found.iter_mut().find(|(f, ..)| says(f) == says(&answers)) {
+            Some((.., holds)) => holds.push(w),
+            None => found.push((answers, world.given.clone(), vec![w])),
         }
     }
     let several = found.len() > 1;
     let mut out = Vec::new();
-    for (k, (mut answers, given)) in found.into_iter().enumerate() {
+    for (k, (mut answers, given, holds)) in found.into_iter().enumerate() {
         for a in answers.iter_mut().filter(|_| several) {
             if k > 0 {
                 number_case(a, k + 1);
             }
             a.assumptions.extend(given.iter().cloned());
+            a.worlds = holds.clone();
         }
         out.extend(answers);
     }

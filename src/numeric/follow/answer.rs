@@ -59,7 +59,8 @@ pub fn answer(
         Ok(passed) => passed,
         Err(lost) => return Err(Unanswered::Lost(lost.clone())),
     };
-    let values = super::with_angles(values);
+    let before = &passed.before;
+    let values = super::at_places(stage, before, &super::with_angles(values));
     let course = Course {
         name: &stage.name,
         scene: &stage.scene,

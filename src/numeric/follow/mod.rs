@@ -45,7 +45,7 @@ use std::fmt;
 use super::given::{Freedom, GivenBody, Undefined, value, vector};
 use super::points::needed;
 use crate::expr::{Expr, Point, Symbol};
-use crate::scene::{Scene, Stage, StageKind, Until};
+use crate::scene::{FallEnd, Scene, Stage, StageKind, Until};
 
 pub use answer::{Unanswered, answer};
 pub use impact::{Breach, Impact, Impulse, Opening};
@@ -264,6 +264,20 @@ pub fn follow(scene: &Scene, values: &Point<f64>) -> Result<Followed, Undefined>
     Ok(Followed { solids, stages })
 }
 
+/// Values of the parameters, and of the places of a stage that begins like this.
+fn at_places(stage: &Stage, before: &State, values: &Point<f64>) -> Point<f64> {
+    let mut out = values.clone();
+    for (names, body) in stage.places.iter().zip(&before.bodies) {
+        let [x, y] = &body.center;
+        for (name, value) in names.iter().zip([x, y, &body.angle]) {
+            if let Ok(value) = value {
+                out.values.insert(name.clone(), *value);
+            }
+        }
+    }
+    out
+}
+
 /// The symbols that have to have values so that a scene can be followed.
 pub fn symbols(scene: &Scene) -> BTreeSet<Symbol> {
     let mut out = BTreeSet::new();
@@ -298,6 +312,10 @@ pub fn symbols(scene: &Scene) -> BTreeSet<Symbol> {
         }
         of_kind(&stage.kind).into_iter().for_each(&mut add);
     }
+    let places = story.stages.iter().flat_map(|s| s.places.iter().flatten());
+    places.for_each(|symbol| {
+        out.remove(symbol);
+    });
     out
 }
 
@@ -322,8 +340,8 @@ fn of_kind(kind: &StageKind) -> Vec<&Expr> {
             way.chain(forces).collect()
         }
         StageKind::Fall(fall) => {
-            let end = fall.height.iter().chain(&fall.time);
-            end.chain(&fall.gravity).collect()
+            let (FallEnd::Drop(end) | FallEnd::Range(end) | FallEnd::Time(end)) = &fall.until;
+            fall.gravity.iter().chain([end]).collect()
         }
         StageKind::Wind(wind) => wind.around.iter().chain([&wind.to]).collect(),
     }
@@ -535,11 +553,12 @@ fn one(
     before: State,
     values: &Point<f64>,
 ) -> Result<Passed, Lost> {
+    let values = at_places(stage, &before, values);
     let course = Course {
         name: &stage.name,
         scene: &stage.scene,
         solids,
-        values,
+        values: &values,
     };
     match &stage.kind {
         StageKind::Impact {

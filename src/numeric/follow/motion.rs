@@ -10,7 +10,7 @@ use super::super::number::{cross, dot};
 use super::impact::first_open;
 use super::mechanism::{Constraint, Goal, Mechanism, Run, Stop};
 use super::{BodyState, Component, Course, Lost, Open, Passed, State, What, Why};
-use crate::scene::{Fall, Slide, Turn, Until};
+use crate::scene::{Fall, FallEnd, Slide, Turn, Until};
 
 /// Differences below this share of what is at hand are rounding.
 const ROUNDING: f64 = 1e-9;
@@ -695,16 +695,18 @@ enum End {
     Time(f64),
     /// After the center has come down by this much.
     Height(f64),
+    /// After the center has come to the right by this much.
+    Range(f64),
 }
 
 /// Flight, with gravity or without.
 pub(super) fn fall(course: &Course<'_>, before: State, fall: &Fall) -> Result<Passed, Lost> {
-    let bodies = vec![fall.body];
+    let bodies = fall.bodies();
     let gravity = course.optional(fall.gravity.as_ref(), "gravity")?;
-    let end = match (&fall.time, &fall.height) {
-        (Some(time), _) => End::Time(course.number(time, "time")?),
-        (None, Some(height)) => End::Height(course.number(height, "height")?),
-        (None, None) => return Err(course.contradiction("nothing says where the flight ends")),
+    let end = match &fall.until {
+        FallEnd::Time(time) => End::Time(course.number(time, "time")?),
+        FallEnd::Drop(height) => End::Height(course.number(height, "height")?),
+        FallEnd::Range(range) => End::Range(course.number(range, "range")?),
     };
     if matches!(end, End::Time(time) if time < 0.0) {
         return Err(course.contradiction("the time is negative"));
@@ -725,6 +727,7 @@ pub(super) fn fall(course: &Course<'_>, before: State, fall: &Fall) -> Result<Pa
     let is_timed = match &end {
         End::Time(_) => true,
         End::Height(_) => leader.velocity[1].is_ok(),
+        End::Range(_) => leader.velocity[0].is_ok(),
     };
     if !is_timed {
         let time = Err(course.open(Why::Needed));
@@ -795,7 +798,8 @@ fn flight(
             (v.abs() + deep) / gravity
         }
         End::Height(h) if v != 0.0 => (h / v).abs(),
-        End::Height(_) => 0.0,
+        End::Range(s) if u != 0.0 => (s / u).abs(),
+        End::Height(_) | End::Range(_) => 0.0,
     };
     let time = if time > 0.0 && time.is_finite() {
         time
@@ -803,7 +807,7 @@ fn flight(
         1.0
     };
     let size = match end {
-        End::Height(h) => h.abs(),
+        End::Height(h) | End::Range(h) => h.abs(),
         End::Time(_) => 0.0,
     };
     let length = size.max(u.hypot(v) * time).max(gravity.abs() * time * time);
@@ -840,6 +844,21 @@ fn flight(
             return Ok((units, run));
         }
         End::Height(height) => height / units.length,
+        End::Range(range) => {
+            let (far, way) = (range / units.length, if *range < 0.0 { -1.0 } else { 1.0 });
+            let sideways = |y: &[f64]| y[n];
+            let mut goal = Goal {
+                left: &|y| way * (y[0] - far),
+                rate: &|_| 1.0,
+                never: &mut |y, _| way * sideways(y) <= 0.0,
+            };
+            let never = || course.never("it does not move that way");
+            if *range != 0.0 && way * u <= 0.0 {
+                return Err(never());
+            }
+            let run = mechanism.until(&start, &mut goal).map_err(stopped)?;
+            return Ok((units, run));
+        }
     };
     let never = || course.never("it does not get to this height");
     let rising = |y: &[f64]| y[n + 1];

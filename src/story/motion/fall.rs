@@ -5,7 +5,7 @@ use crate::algebra::Sign;
 use crate::expr::Expr;
 use crate::scene::{Fall, FallEnd, Stage};
 use crate::story::calc::{Seen, is_zero, sign};
-use crate::story::{Refused, StageTold, State, integrate};
+use crate::story::{Refused, StageTold, State};
 use crate::story::{Sentence, sentence::sentence};
 
 /// Free fall or flight.
@@ -64,7 +64,6 @@ pub(in crate::story) fn fall(
     }
     out.time = Some(time);
     out.assumptions = assumptions;
-    out.checks.extend(integrate::fall(stage, &out, fall));
     Ok(out)
 }
 

@@ -12,7 +12,7 @@ mod wind;
 
 pub(super) use fall::fall;
 pub(super) use slide::slide;
-pub(super) use turn::{arms, inertia_about, is_balanced, sense, turn};
+pub(super) use turn::{arms, inertia_about, sense, turn};
 pub(super) use wind::wind;
 
 use super::calc::{Seen, tidy};

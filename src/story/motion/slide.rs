@@ -6,7 +6,7 @@ use crate::expr::{Expr, dot};
 use crate::scene::{Slide, Stage};
 use crate::story::calc::{Seen, is_zero, sign};
 use crate::story::sentence::sentence;
-use crate::story::{Refused, StageTold, State, integrate};
+use crate::story::{Refused, StageTold, State};
 
 /// Motion along a line.
 pub(in crate::story) fn slide(
@@ -109,6 +109,5 @@ pub(in crate::story) fn slide(
     out.energy = Some([start, end]);
     out.work = parts;
     out.assumptions = assumptions;
-    out.checks.extend(integrate::slide(stage, &out, slide));
     Ok(out)
 }

@@ -107,7 +107,6 @@ pub(in crate::story) fn turn(
         assumptions.extend(arrival(stage, &end, reaches));
     }
     out.assumptions = assumptions;
-    out.checks.extend(integrate::turn(stage, &out, turn, way));
     Ok(out)
 }
 
@@ -483,7 +482,8 @@ fn hurdle(
             "`"
         ]));
     }
-    let passes = integrate::points(stage, &[&r[0], &r[1], by], 12)
+    let names = [&r[0], &r[1], by].into_iter().flat_map(|e| e.symbols());
+    let passes = integrate::points_of(names.collect(), &stage.scene.domains, 12)
         .iter()
         .any(|point| {
             let values = [&r[0], &r[1], by].map(|e| e.evaluate(point));
@@ -524,7 +524,7 @@ fn hurdle(
 }
 
 /// Whether a body at rest has no moment to start it.
-pub(in crate::story) fn is_balanced(stage: &Stage, turn: &Turn, spin: &Expr, arm: &Vector) -> bool {
+fn is_balanced(stage: &Stage, turn: &Turn, spin: &Expr, arm: &Vector) -> bool {
     let zero = |e: &Expr| is_zero(e, &stage.scene.domains) == Some(true);
     turn.gravity.is_some() && turn.torque.is_none() && zero(spin) && zero(&arm[0])
 }

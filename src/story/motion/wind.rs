@@ -6,7 +6,7 @@ use crate::domain::Domains;
 use crate::expr::{Expr, dot, minus};
 use crate::scene::{Stage, Wind};
 use crate::story::calc::{Seen, is_zero, sign};
-use crate::story::{Refused, Sentence, StageTold, State, integrate};
+use crate::story::{Refused, Sentence, StageTold, State};
 
 /// A rope that winds round a pole.
 pub(in crate::story) fn wind(
@@ -61,7 +61,5 @@ pub(in crate::story) fn wind(
         "the pole is thin against the rope, and the axes at the end are turned along the rope",
     ));
     out.assumptions = assumptions;
-    out.checks
-        .extend(integrate::wind(stage, &free, &speed, wind));
     Ok(out)
 }

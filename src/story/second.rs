@@ -1,0 +1,511 @@
+//! What was found of a scene, held against the scene followed in numbers from its beginning.
+//!
+//! In: the stages and answers in closed form. Out: checks. The other side is [`crate::numeric::follow`], which starts at the
+//! file and takes nothing from here: not a place, an inertia, a branch or a sense of rotation. A check that could not be made
+//! says so.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::integrate::points_of;
+use super::worlds::World;
+use super::{Answer, StageTold, State};
+use crate::dimension::Dimension;
+use crate::expr::{Expr, Point, Rational, Symbol};
+use crate::formula::Relation;
+use crate::numeric::Answer as Found;
+use crate::numeric::follow::{self, BodyState, Component, Followed, Lost, Passed, What};
+use crate::scene::{Scene, Story, StoryAsk, StoryQuestion};
+use crate::verify::Check;
+
+/// Points at which each way through the cases is followed.
+const POINTS: usize = 3;
+/// Points that are tried to find them.
+const TRIED: u64 = 40;
+/// Difference that counts as agreement, in parts of the largest quantity of its kind; the integrator works to 1e-12.
+const CLOSE: f64 = 1e-7;
+/// How far from a threshold its sides are looked at, in parts of it.
+const ASIDE: f64 = 1e-3;
+
+/// A scene followed at some points.
+pub(super) struct Second<'a> {
+    scene: &'a Scene,
+    story: &'a Story,
+    points: Vec<Seen>,
+    /// Why points were given up.
+    lost: Vec<Lost>,
+}
+
+/// The scene at one point.
+struct Seen {
+    /// Which way through the cases it takes, by index.
+    world: usize,
+    point: Point<f64>,
+    followed: Followed,
+    units: Units,
+}
+
+/// The largest mass, length and speed there, for telling what is small.
+#[derive(Clone, Copy)]
+struct Units {
+    mass: f64,
+    length: f64,
+    speed: f64,
+}
+
+/// Follows a scene at points of its domain.
+pub(super) fn look<'a>(
+    scene: &'a Scene,
+    story: &'a Story,
+    worlds: &[World],
+    stages: &[StageTold],
+) -> Second<'a> {
+    let mut out = Second {
+        scene,
+        story,
+        points: Vec::new(),
+        lost: Vec::new(),
+    };
+    let mut names: BTreeSet<Symbol> = follow::symbols(scene);
+    names.extend(scene.parameters.iter().map(|p| p.name.clone()));
+    for point in points_of(names, &scene.domains, TRIED) {
+        let Ok(followed) = follow::follow(scene, &point) else {
+            continue;
+        };
+        if let Some(Err(lost)) = followed.stages.iter().find(|s| s.is_err()) {
+            out.lost.push(lost.clone());
+        }
+        let Some(world) = world_of(story, worlds, stages, &followed, &point) else {
+            continue;
+        };
+        if out.points.iter().filter(|s| s.world == world).count() < POINTS {
+            let units = Units::of(&followed);
+            out.points.push(Seen {
+                world,
+                point,
+                followed,
+                units,
+            });
+        }
+        if out.points.len() == POINTS * worlds.len() {
+            break;
+        }
+    }
+    out
+}
+
+/// The way through the cases that the second way takes by itself; `None` where it does not get to its end or lies on a
+/// boundary.
+fn world_of(
+    story: &Story,
+    worlds: &[World],
+    stages: &[StageTold],
+    followed: &Followed,
+    point: &Point<f64>,
+) -> Option<usize> {
+    let fits = |world: &World| {
+        world.outcome.iter().all(|(i, k)| {
+            let told = &stages[*i];
+            let passed = passed(story, followed, told);
+            let Some(case) = told.cases.get(*k) else {
+                return passed.is_some();
+            };
+            let holds = |e: &Expr| e.evaluate(point).is_none_or(|v| v > 0.0);
+            let Some(What::Impact(impact)) = passed.map(|p| &p.what) else {
+                return false;
+            };
+            let acts = match impact.acting.as_slice() {
+                [] => case.active.is_empty(),
+                [acting] => {
+                    acting.len() == case.active.len()
+                        && acting.iter().all(|name| case.active.contains(name))
+                }
+                _ => false,
+            };
+            acts && case.conditions.iter().all(|(_, e)| holds(e))
+        })
+    };
+    worlds.iter().position(fits)
+}
+
+fn passed<'f>(story: &Story, followed: &'f Followed, told: &StageTold) -> Option<&'f Passed> {
+    let index = story
+        .stages
+        .iter()
+        .position(|s| s.name == told.placed.name)?;
+    followed.stages.get(index)?.as_ref().ok()
+}
+
+impl Units {
+    fn of(followed: &Followed) -> Units {
+        let solids = || followed.solids.iter().filter(|s| s.mass > 0.0);
+        let passed = || followed.stages.iter().filter_map(|s| s.as_ref().ok());
+        let states = || passed().flat_map(|p| [&p.before, &p.after]);
+        let bodies = || states().flat_map(|s| &s.bodies);
+        let largest = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0f64, |a, v| a.max(v.abs()));
+        let known = |c: &Component| c.clone().unwrap_or(0.0);
+        let radii = solids().map(|s| (s.inertia / s.mass).sqrt());
+        let centers = bodies().flat_map(|b| b.center.iter().map(known));
+        let length = largest(&mut radii.chain(centers));
+        let speeds = bodies().flat_map(|b| b.velocity.iter().map(known));
+        let spins = bodies().map(|b| known(&b.spin) * length);
+        let speed = largest(&mut speeds.chain(spins));
+        let or_one = |v: f64| if v > 0.0 { v } else { 1.0 };
+        Units {
+            mass: or_one(largest(&mut solids().map(|s| s.mass))),
+            length: or_one(length),
+            speed: or_one(speed),
+        }
+    }
+
+    /// The size of a quantity.
+    fn size(&self, dimension: &Dimension) -> f64 {
+        let number = |k: &Rational| Expr::from(k.clone()).evaluate(&Point::<f64>::default());
+        let power = |base: f64, k: &Rational| base.powf(number(k).unwrap_or(0.0));
+        let second = self.length / self.speed;
+        power(self.mass, &dimension.mass)
+            * power(self.length, &dimension.length)
+            * power(second, &dimension.time)
+    }
+}
+
+/// What a comparison came to.
+#[derive(Default)]
+struct Compared {
+    worst: f64,
+    points: usize,
+    apart: Option<String>,
+}
+
+impl Compared {
+    fn put(&mut self, what: &str, told: f64, found: f64, size: f64) {
+        let size = size.max(told.abs().max(found.abs()) * 1e-3).max(1e-300);
+        let gap = (told - found).abs() / size;
+        if !(gap <= CLOSE) && self.apart.is_none() {
+            self.apart = Some(format!("{what} is {told:.9} here and {found:.9} there"));
+        }
+        self.worst = self.worst.max(gap);
+    }
+
+    fn check(self, what: &str, second: &Second<'_>) -> Check {
+        let kind = "integration";
+        if self.points == 0 {
+            return Check {
+                kind,
+                words: format!("{what}: not followed in numbers{}", second.why_not()),
+                holds: second.contradicts().then_some(false),
+            };
+        }
+        let points = match self.points {
+            1 => String::from("1 point"),
+            n => format!("{n} points"),
+        };
+        let words = match &self.apart {
+            // The integrator works to 1e-12; what is below is the rounding of the machine at hand.
+            None => format!(
+                "{what}: as followed in numbers from the file at {points}, relative difference at most {:.0e}",
+                self.worst.max(1e-10)
+            ),
+            Some(apart) => format!("{what}: followed in numbers from the file, {apart}"),
+        };
+        Check {
+            kind,
+            words,
+            holds: Some(self.apart.is_none()),
+        }
+    }
+}
+
+impl Second<'_> {
+    /// Whether the second way found a contradiction wherever it was tried.
+    fn contradicts(&self) -> bool {
+        let is_one = |lost: &Lost| matches!(lost, Lost::Contradiction { .. });
+        self.points.is_empty() && !self.lost.is_empty() && self.lost.iter().all(is_one)
+    }
+
+    fn why_not(&self) -> String {
+        match (self.points.is_empty(), self.lost.first()) {
+            (true, Some(lost)) => format!(" ({lost})"),
+            _ => String::new(),
+        }
+    }
+
+    /// Holds places, angles, velocities, spins and times of a stage against what was followed.
+    pub fn stage(&self, worlds: &[World], index: usize, told: &StageTold) -> Check {
+        let mut compared = Compared::default();
+        for seen in &self.points {
+            if !worlds[seen.world].outcome.contains_key(&index) {
+                continue;
+            }
+            let Some(passed) = passed(self.story, &seen.followed, told) else {
+                continue;
+            };
+            let outcome = worlds[seen.world].outcome[&index];
+            let after = told.cases.get(outcome).map_or(&told.after, |c| &c.after);
+            compared.points += 1;
+            for (state, bodies, when) in [
+                (&told.before, &passed.before.bodies, "before"),
+                (after, &passed.after.bodies, "after"),
+            ] {
+                self.state(seen, state, bodies, when, &mut compared);
+            }
+            if let (Some(time), Ok(found)) = (&told.time, &passed.time)
+                && let Some(time) = time.evaluate(&seen.point)
+            {
+                let size = seen.units.size(&Dimension::new(0, 0, 1));
+                compared.put("the time it takes", time, *found, size);
+            }
+        }
+        compared.check("where the bodies are and how they move", self)
+    }
+
+    fn state(
+        &self,
+        seen: &Seen,
+        state: &State,
+        bodies: &[BodyState],
+        when: &str,
+        compared: &mut Compared,
+    ) {
+        let units = &seen.units;
+        for (b, found) in bodies.iter().enumerate() {
+            let body = &self.scene.bodies[b];
+            if body.is_fixed() {
+                continue;
+            }
+            let mut put = |what: &str, told: &Expr, found: &Component, size: f64| {
+                if state.why_open([told]).is_some() {
+                    return;
+                }
+                if let (Some(told), Ok(found)) = (told.evaluate(&seen.point), found) {
+                    let what = format!("{what} of `{}` {when}", body.name);
+                    compared.put(&what, told, *found, size);
+                }
+            };
+            for (k, axis) in ["x", "y"].into_iter().enumerate() {
+                put(axis, &state.center[b][k], &found.center[k], units.length);
+                let what = format!("v_{axis}");
+                put(
+                    &what,
+                    &state.velocity[b][k],
+                    &found.velocity[k],
+                    units.speed,
+                );
+            }
+            if body.is_particle() {
+                continue;
+            }
+            put(
+                "spin",
+                &state.spin[b],
+                &found.spin,
+                units.speed / units.length,
+            );
+            if let Ok(angle) = &found.angle {
+                // A body that has turned round is where it was.
+                let turned = &(&state.angle[b] - &Expr::symbol("angle found"));
+                let mut point = seen.point.clone();
+                point.values.insert(Symbol::from("angle found"), *angle);
+                if state.why_open([&state.angle[b]]).is_none()
+                    && let Some(gap) = turned.evaluate(&point)
+                {
+                    let what = format!("angle of `{}` {when}", body.name);
+                    compared.put(&what, 2.0 * (gap / 2.0).sin(), 0.0, 1.0);
+                }
+            }
+        }
+    }
+
+    /// Holds an answer against what was followed; `None` for one that no number is asked of.
+    pub fn answer(
+        &self,
+        worlds: &[World],
+        question: &StoryQuestion,
+        answer: &Answer,
+    ) -> Option<Check> {
+        let formula = answer.formula.as_ref()?;
+        let mut compared = Compared::default();
+        let mut seen_any = false;
+        for seen in &self.points {
+            let world = &worlds[seen.world];
+            let here = match answer.told {
+                Some((stage, case)) => world.outcome.get(&stage) == Some(&case),
+                None => answer.worlds.is_empty() || answer.worlds.contains(&seen.world),
+            };
+            if !here {
+                continue;
+            }
+            let size = seen.units.size(&answer.dimension);
+            match &question.ask {
+                StoryAsk::Condition { parameter, .. } => {
+                    let [(_, relation, value)] = answer.range.as_slice() else {
+                        return None;
+                    };
+                    seen_any = true;
+                    let Some(at) = value.evaluate(&seen.point) else {
+                        continue;
+                    };
+                    let sides = [-ASIDE, 0.0, ASIDE].map(|step| {
+                        let mut point = seen.point.clone();
+                        point.values.insert(parameter.clone(), at * (1.0 + step));
+                        self.gap(question, &point)
+                    });
+                    let Some(agrees) = tips(*relation, &sides) else {
+                        continue;
+                    };
+                    compared.points += 1;
+                    if !agrees {
+                        let shown =
+                            sides.map(|s| s.map_or(String::from("-"), |v| format!("{v:.3e}")));
+                        compared.apart = Some(format!(
+                            "below, at and above it the sides differ by {}",
+                            shown.join(", ")
+                        ));
+                    }
+                }
+                _ => {
+                    let found = self.number(question, answer, &seen.point, &seen.followed);
+                    let Some(found) = found else { continue };
+                    seen_any = true;
+                    let Some(told) = formula.evaluate(&seen.point) else {
+                        continue;
+                    };
+                    compared.points += 1;
+                    compared.put("the value", told, found, size);
+                }
+            }
+        }
+        let asks_motion = question.ask.stage().is_some();
+        (seen_any || asks_motion).then(|| compared.check("this answer", self))
+    }
+
+    /// The number a question asks for, from what was followed.
+    fn number(
+        &self,
+        question: &StoryQuestion,
+        answer: &Answer,
+        point: &Point<f64>,
+        followed: &Followed,
+    ) -> Option<f64> {
+        match &question.ask {
+            StoryAsk::Value { formula, with } => {
+                let mut moved = point.clone();
+                for (name, value) in with {
+                    let value = value.evaluate(point)?;
+                    moved.values.insert(name.clone(), value);
+                }
+                let env = match with.is_empty() {
+                    true => self.answers(point, followed),
+                    false => self.answers(&moved, &follow::follow(self.scene, &moved).ok()?),
+                };
+                let formula = match axis_of(question, answer) {
+                    Some(axis) if formula.as_symbol().is_some() => {
+                        let name = format!("{}_{}", formula.as_symbol()?, ["x", "y"][axis]);
+                        Expr::symbol(&name)
+                    }
+                    _ => formula.clone(),
+                };
+                formula.evaluate(&env)
+            }
+            ask if ask.stage().is_some() => {
+                match follow::answer(self.scene, followed, ask, point).ok()? {
+                    Found::Scalar(value) => Some(value),
+                    Found::Vector(v) => Some(v[axis_of(question, answer)?]),
+                }
+            }
+            _ => None,
+        }
+    }
+
+    /// The point with a value for every answer about motion, and for formulas of them.
+    fn answers(&self, point: &Point<f64>, followed: &Followed) -> Point<f64> {
+        let mut out = point.clone();
+        for question in &self.story.questions {
+            let value = match &question.ask {
+                StoryAsk::Value { formula, with } if with.is_empty() => formula.evaluate(&out),
+                _ => None,
+            };
+            let mut put = |name: String, value: f64| {
+                out.values.insert(Symbol::from(name.as_str()), value);
+            };
+            match &question.ask {
+                StoryAsk::Value { .. } => {
+                    if let Some(value) = value {
+                        put(question.name.clone(), value);
+                    }
+                }
+                ask if ask.stage().is_some() => {
+                    match follow::answer(self.scene, followed, ask, point) {
+                        Ok(Found::Scalar(value)) => put(question.name.clone(), value),
+                        Ok(Found::Vector([x, y])) => {
+                            put(format!("{}_x", question.name), x);
+                            put(format!("{}_y", question.name), y);
+                        }
+                        Err(_) => {}
+                    }
+                }
+                _ => {}
+            }
+        }
+        out
+    }
+
+    /// Left side less right side of a relation, with everything followed at a point.
+    fn gap(&self, question: &StoryQuestion, point: &Point<f64>) -> Option<f64> {
+        let StoryAsk::Condition {
+            left, right, with, ..
+        } = &question.ask
+        else {
+            return None;
+        };
+        let mut moved = point.clone();
+        for (name, value) in with {
+            let value = value.evaluate(point)?;
+            moved.values.insert(name.clone(), value);
+        }
+        let followed = follow::follow(self.scene, &moved).ok()?;
+        let env = self.answers(&moved, &followed);
+        Some(left.evaluate(&env)? - right.evaluate(&env)?)
+    }
+}
+
+/// Whether a relation changes at a value as told, from the gap between its sides below, at and above it; `None` where too
+/// little of it was followed.
+fn tips(told: Relation, gaps: &[Option<f64>; 3]) -> Option<bool> {
+    let [below, on, above] = *gaps;
+    if told == Relation::Equal {
+        // At the value the sides meet, and beside it they do not.
+        let beside = below.or(above)?.abs();
+        return Some(on?.abs() <= 0.1 * beside);
+    }
+    match (below, above) {
+        // A motion that gets to its end on one side only has no gap on the other.
+        (Some(_), None) | (None, Some(_)) => Some(true),
+        (Some(a), Some(b)) => Some(a * b < 0.0),
+        (None, None) => None,
+    }
+}
+
+/// Which component an answer is.
+fn axis_of(question: &StoryQuestion, answer: &Answer) -> Option<usize> {
+    let rest = answer.name.strip_prefix(question.name.as_str())?;
+    ["_x", "_y"].iter().position(|axis| rest.starts_with(axis))
+}
+
+/// Checks of all answers, by index.
+pub(super) fn answers(
+    second: &Second<'_>,
+    worlds: &[World],
+    answers: &[Answer],
+) -> BTreeMap<usize, Check> {
+    let mut out = BTreeMap::new();
+    for (i, answer) in answers.iter().enumerate() {
+        let questions = &second.story.questions;
+        let Some(question) = questions.iter().find(|q| q.name == answer.question) else {
+            continue;
+        };
+        if let Some(check) = second.answer(worlds, question, answer) {
+            out.insert(i, check);
+        }
+    }
+    out
+}
