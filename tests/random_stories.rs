@@ -71,8 +71,8 @@ impl Course {
         let (x, y, angle) = self.lies;
         let shape = match self.shape {
             "rod" => format!(r#""length": "L", "angle": "{angle}""#),
-            "disk" => String::from(r#""radius": "L/4""#),
-            _ => format!(r#""width": "L/2", "height": "L/3", "angle": "{angle}""#),
+            "disk" => String::from(r#""radius": "L/2""#),
+            _ => format!(r#""width": "L", "height": "L/3", "angle": "{angle}""#),
         };
         let turns = self.first.starts_with("\"turn\"");
         let sense = self
@@ -152,7 +152,10 @@ fn every_check_of_a_random_story_holds_and_many_stories_can_be_told() {
         all.fetch_add(1, Ordering::Relaxed);
         let text = course.text();
         let scene = read(&text).map_err(|f| TestCaseError::fail(f.render("story", &text)))?;
-        let story = scene.story.as_ref().expect("stages");
+        // One impact alone is no story.
+        let Some(story) = scene.story.as_ref() else {
+            return Ok(());
+        };
         // Many courses contradict themselves: a sense that is not the motion's, an end that is never reached.
         let Ok(found) = tell(&scene, story) else {
             return Ok(());

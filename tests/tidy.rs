@@ -43,7 +43,7 @@ const LAYERS: &[(&str, &str)] = &[
         "solution",
         "expr domain dimension algebra formula scene laws derive verify story",
     ),
-    ("check", "expr dimension formula scene numeric"),
+    ("check", "expr domain dimension formula scene numeric"),
     (
         "render",
         "expr domain dimension formula scene laws numeric derive verify story grade emit report figure plot solution",

@@ -108,6 +108,7 @@ fn stage(scene: &Scene, s: &StageTold) -> Value {
             "active": c.active,
             "conditions": c.conditions.iter().map(|(why, e)| format!("{} >= 0 ({why})", write_plain(e))).collect::<Vec<_>>(),
             "verified": c.proof.holds(),
+            "admissible": super::possible::json(scene, &c.possible),
         })).collect::<Vec<_>>(),
         "energy": s.energy.as_ref().map(|[a, b]| json!({"before": write_plain(a), "after": write_plain(b)})),
         "bodies": bodies,
@@ -156,6 +157,9 @@ pub fn text(scene: &Scene, told: &Told) -> String {
         for (k, case) in s.cases.iter().enumerate() {
             if s.cases.len() > 1 {
                 line(format!("   case {}:", k + 1));
+            }
+            if let Some(refusal) = super::possible::refusal(&case.possible) {
+                line(format!("   ✗ {refusal}"));
             }
             impact(case).lines().for_each(|l| line(format!("   {l}")));
         }

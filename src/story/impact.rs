@@ -14,7 +14,7 @@ use crate::derive::{self, Derivation, Form};
 use crate::domain::Domain;
 use crate::expr::{Expr, Node, Symbol};
 use crate::scene::{
-    Ask, Contact, ContactLaw, EnergyWhen, ImpulseAt, OneSided, Question, Scene, Stage,
+    Ask, Contact, ContactLaw, EnergyWhen, ImpulseAt, OneSided, Question, Scene, Stage, touch,
 };
 use crate::verify;
 
@@ -67,6 +67,7 @@ pub(super) fn tell(
         cases = vec![cases.swap_remove(sure)];
     }
     if cases.is_empty() {
+        let is_contradiction = contradiction.is_some();
         let reason = match contradiction {
             Some(laws) => format!(
                 "the laws contradict each other, with the motion that comes in: {laws} cannot hold together"
@@ -77,7 +78,7 @@ pub(super) fn tell(
         };
         let hint = "look at the directions `normal`, and at the motion handed on";
         return Err(Refused {
-            contradicts: true,
+            contradicts: is_contradiction,
             ..Refused::new(&stage.name, reason, hint)
         });
     }
@@ -98,6 +99,7 @@ pub(super) fn tell(
         branch: None,
         given: Vec::new(),
         time: None,
+        needs: Vec::new(),
         before,
         after,
         kept,
@@ -258,7 +260,9 @@ fn case(
         return Ok(None);
     }
     let proof = verify::prove(&scene, &derivation);
+    let possible = verify::possible::judge(&scene, &derivation);
     Ok(Some(Case {
+        possible,
         active: set.iter().map(|i| one_sided[*i].name.clone()).collect(),
         conditions,
         handed: handed.clone(),
@@ -463,7 +467,22 @@ fn touches(
             }
         }
     }
-    Ok(())
+    let Some(off) = touch::misplaced(scene).into_iter().next() else {
+        return Ok(());
+    };
+    let body = &scene.bodies[off.body];
+    let [x, y] = body.center.each_ref().map(|c| {
+        let tidy = tidy(c, &scene.domains).unwrap_or_else(|_| c.clone());
+        crate::formula::write_plain(&tidy)
+    });
+    Err(Refused::new(
+        &stage.name,
+        format!(
+            "{}; the center of `{}` is at ({x}, {y}) by then",
+            off.words, body.name
+        ),
+        off.hint,
+    ))
 }
 
 /// What an impact conserves.

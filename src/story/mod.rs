@@ -38,6 +38,7 @@ use crate::domain::Domain;
 use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::Relation;
 use crate::scene::{Ask, ContactLaw, Scene, Stage, StageKind, Story, StoryAsk};
+use crate::verify::possible::Possible;
 use crate::verify::{Check, Proof};
 
 /// How a body has been taking part.
@@ -153,6 +154,8 @@ pub struct Case {
     pub derivation: Derivation,
     /// Its proof.
     pub proof: Proof,
+    /// Whether it can happen: bodies touch, push and do not enter each other.
+    pub possible: Possible,
 }
 
 /// A stage, worked out.
@@ -166,6 +169,8 @@ pub struct StageTold {
     pub branch: Option<(usize, usize)>,
     /// What must be ≥ 0 for the outcomes it goes on from, in words and as expressions.
     pub given: Vec<(String, Expr)>,
+    /// What must be ≥ 0 for a motion to go as told, beyond the domains.
+    pub needs: Vec<Expr>,
     /// How long it lasts \[s\]; `None` for an impact, and where that has no closed form.
     pub time: Option<Expr>,
     /// Motion at the beginning.
@@ -280,7 +285,7 @@ impl Told {
         let proofs = stages
             .clone()
             .flat_map(|s| &s.cases)
-            .all(|c| c.proof.holds());
+            .all(|c| c.proof.holds() && c.possible.holds());
         let checks = stages
             .flat_map(|s| &s.checks)
             .chain(self.answers.iter().flat_map(|a| &a.checks));

@@ -18,7 +18,7 @@ use crate::scene::{Scene, Story, StoryAsk, StoryQuestion};
 use crate::verify::Check;
 
 /// Points at which each way through the cases is followed.
-const POINTS: usize = 3;
+const POINTS: usize = 2;
 /// Points that are tried to find them.
 const TRIED: u64 = 40;
 /// Difference that counts as agreement, in parts of the largest quantity of its kind; the integrator works to 1e-12.
@@ -105,6 +105,10 @@ fn world_of(
     let fits = |world: &World| {
         world.outcome.iter().all(|(i, k)| {
             let told = &stages[*i];
+            let fails = |e: &Expr| e.evaluate(point).is_some_and(|v| v < 0.0);
+            if told.needs.iter().any(fails) {
+                return false;
+            }
             let passed = passed(story, followed, told);
             let Some(case) = told.cases.get(*k) else {
                 return passed.is_some();
@@ -180,7 +184,8 @@ impl Compared {
     fn put(&mut self, what: &str, told: f64, found: f64, size: f64) {
         let size = size.max(told.abs().max(found.abs()) * 1e-3).max(1e-300);
         let gap = (told - found).abs() / size;
-        if !(gap <= CLOSE) && self.apart.is_none() {
+        // A gap that is no number is one.
+        if (gap.is_nan() || gap > CLOSE) && self.apart.is_none() {
             self.apart = Some(format!("{what} is {told:.9} here and {found:.9} there"));
         }
         self.worst = self.worst.max(gap);
@@ -472,16 +477,19 @@ impl Second<'_> {
 /// little of it was followed.
 fn tips(told: Relation, gaps: &[Option<f64>; 3]) -> Option<bool> {
     let [below, on, above] = *gaps;
+    if below.is_some() != above.is_some() {
+        // A motion that gets to its end on one side only.
+        return Some(true);
+    }
     if told == Relation::Equal {
         // At the value the sides meet, and beside it they do not.
         let beside = below.or(above)?.abs();
         return Some(on?.abs() <= 0.1 * beside);
     }
     match (below, above) {
-        // A motion that gets to its end on one side only has no gap on the other.
-        (Some(_), None) | (None, Some(_)) => Some(true),
-        (Some(a), Some(b)) => Some(a * b < 0.0),
-        (None, None) => None,
+        // Where a support comes free, its impulse stays zero beyond.
+        (Some(a), Some(b)) => Some(a * b <= 0.0 && a != b),
+        _ => None,
     }
 }
 

@@ -41,6 +41,8 @@ pub(super) fn lone(file: &SceneFile) -> Option<SceneFile> {
         file.hinges.is_some() || file.contacts.is_some(),
         file.blows.is_some() || file.after.is_some(),
         file.assumptions.is_some(),
+        // Nothing that collides is to be refused.
+        impact.hinges.is_none() && impact.contacts.is_none() && impact.blows.is_none(),
     ];
     if others.contains(&true) {
         return None;

@@ -45,6 +45,7 @@ fn told(stage: &Stage, before: State, after: State) -> StageTold {
         branch: None,
         given: Vec::new(),
         time: None,
+        needs: Vec::new(),
         before,
         after,
         kept: Vec::new(),

@@ -23,6 +23,17 @@ pub(in crate::story) fn turn(
     fits(stage, &before, turn, &spin)?;
     let (way, assumed) = sense(stage, &spin, turn)?;
     let [r, r_end] = arms(stage, turn, &spin);
+    let ends_where_it_begins = matches!(turn.until, Until::Above | Until::Below)
+        && minus(&r, &r_end)
+            .iter()
+            .all(|c| is_zero(c, domains) == Some(true));
+    if ends_where_it_begins {
+        return Err(Refused::new(
+            &stage.name,
+            format!("`{}` is there at the beginning already", body.name),
+            "say with `by` through which angle it turns, such as 2*pi",
+        ));
+    }
     let square = tidied(stage, &dot(&r, &r))?;
     let about = &tidied(stage, &lump.inertia)? + &(&lump.mass * &square);
     let inertia = tidied(stage, &about)?;
@@ -52,8 +63,14 @@ pub(in crate::story) fn turn(
             "end the stage earlier, or give it more energy",
         ));
     }
-    let mut assumptions: Vec<Sentence> =
-        hurdle(stage, turn, &r, &start, way)?.into_iter().collect();
+    let (mut needs, mut assumptions) = (Vec::new(), Vec::new());
+    if let Some((need, words)) = hurdle(stage, turn, &r, &start, way)? {
+        needs.extend(need);
+        assumptions.push(words);
+    }
+    if assumed.is_some() {
+        needs.push(&Expr::from(way) * &spin);
+    }
     if is_balanced(stage, turn, &spin, &r) {
         assumptions.push(sentence![
             "a small push sets `",
@@ -103,6 +120,7 @@ pub(in crate::story) fn turn(
     out.kinetic = Some(half(&(&inertia * &out.after.spin[turn.body].powi(2))));
     out.energy = Some([start, end.clone()]);
     out.time = time;
+    out.needs = needs;
     if !work.is_zero() {
         assumptions.extend(arrival(stage, &end, reaches));
     }
@@ -372,6 +390,26 @@ pub(in crate::story) fn sense(
             ),
             "the motion handed on decides the sense; leave `clockwise` out, or look at the stage before",
         )),
+        (Some(d), None) if begins == Seen::Proved(Sign::Zero) && turn.torque.is_none() => {
+            // From rest a body goes where its weight pulls it.
+            let r = minus(&turn.lump(&stage.scene).center, &turn.about);
+            let pull = match &turn.gravity {
+                Some(_) => sign(&(&Expr::from(-d) * &r[0]), domains),
+                None => Seen::Mixed,
+            };
+            if let Seen::Proved(Sign::Negative | Sign::NotPositive) = pull {
+                return Err(Refused::new(
+                    &stage.name,
+                    format!(
+                        "`{body}` is at rest, and its weight turns it {}, not {}",
+                        sense_words(-d),
+                        sense_words(d)
+                    ),
+                    "leave `clockwise` out, or give it a spin",
+                ));
+            }
+            Ok((d, None))
+        }
         (Some(d), _) => Ok((d, None)),
         (None, Some(s)) => Ok((s, None)),
         (None, None) if matches!(begins, Seen::Proved(Sign::Zero)) => {
@@ -471,16 +509,23 @@ fn hurdle(
     r: &Vector,
     start: &Expr,
     way: i64,
-) -> Result<Option<Sentence>, Refused> {
-    let (Until::By(by), Some(g)) = (&turn.until, &turn.gravity) else {
+) -> Result<Option<(Option<Expr>, Sentence)>, Refused> {
+    let Some(g) = &turn.gravity else {
         return Ok(None);
     };
+    let zero = Expr::zero();
+    let by = match &turn.until {
+        Until::By(by) => by,
+        Until::Below => &zero,
+        Until::Above | Until::For(_) => return Ok(None),
+    };
     if turn.torque.is_some() {
-        return Ok(Some(sentence![
+        let words = sentence![
             "the body does not come to rest on the way through `",
             &stage.name,
             "`"
-        ]));
+        ];
+        return Ok(Some((None, words)));
     }
     let names = [&r[0], &r[1], by].into_iter().flat_map(|e| e.symbols());
     let passes = integrate::points_of(names.collect(), &stage.scene.domains, 12)
@@ -491,7 +536,10 @@ fn hurdle(
                 return true;
             };
             let to_top = (way as f64 * x).atan2(y).rem_euclid(std::f64::consts::TAU);
-            by > to_top
+            match turn.until {
+                Until::Below => to_top < std::f64::consts::PI,
+                _ => by > to_top,
+            }
         });
     if !passes {
         return Ok(None);
@@ -511,15 +559,18 @@ fn hurdle(
             ),
             "end the stage before, or give it more energy",
         )),
-        _ => Ok(Some(sentence![
-            "where the way through `",
-            &stage.name,
-            "` leads over its highest place, ",
-            &crate::story::calc::essential(&left, &stage.scene.domains),
-            " ≥ 0, so that `",
-            &body.name,
-            "` gets over it"
-        ])),
+        _ => {
+            let words = sentence![
+                "where the way through `",
+                &stage.name,
+                "` leads over its highest place, ",
+                &crate::story::calc::essential(&left, &stage.scene.domains),
+                " ≥ 0, so that `",
+                &body.name,
+                "` gets over it"
+            ];
+            Ok(Some((Some(left), words)))
+        }
     }
 }
 
