@@ -48,7 +48,7 @@ enum Command {
         #[arg(long = "set", value_name = "NAME=VALUE")]
         set: Vec<String>,
     },
-    /// Solve a scene in numbers, from its geometry alone
+    /// Solve a scene in numbers, from its geometry alone; a scene with stages is followed from one to the next
     Solve {
         /// Scene file, `-` for standard input
         scene: PathBuf,
@@ -208,10 +208,13 @@ fn solve_command(
 ) -> Result<u8, Failure> {
     let scene = read_scene(path, set)?;
     let name = path.display();
-    if scene.story.is_some() {
-        return Err(Failure::Input(format!(
-            "{name}: a scene with stages is not solved in numbers at one blow\nhint: `carom derive` with --set gives the numbers beside the formulas"
-        )));
+    if let Some(story) = &scene.story {
+        if exact || certify {
+            return Err(Failure::Input(format!(
+                "{name}: a scene with stages is followed in doubles, for its motions are integrated\nhint: leave out --exact and --certify"
+            )));
+        }
+        return follow_command(path, &scene, story, format);
     }
     let no_point = |reason: numeric::NoPoint| {
         Failure::Input(match reason {
@@ -258,6 +261,30 @@ fn solve_command(
         Format::Json => pretty(&render::json::numbers(&scene, &numbers)),
     })?;
     Ok(0)
+}
+
+/// Follows a scene with stages in numbers; a stage that is lost makes the status 1.
+fn follow_command(
+    path: &Path,
+    scene: &scene::Scene,
+    story: &scene::Story,
+    format: Format,
+) -> Result<u8, Failure> {
+    let name = path.display();
+    let point = numeric::follow::values(scene).map_err(|missing| {
+        let first = &missing[0];
+        let list = missing.join(", ");
+        Failure::Input(format!(
+            "{name}: no value for {list}\nhint: give values in the scene or with --set {first}=…"
+        ))
+    })?;
+    let followed = numeric::follow(scene, &point)
+        .map_err(|undefined| Failure::Input(format!("{name}: {undefined}")))?;
+    print(&match format {
+        Format::Text => render::follow::text(scene, story, &followed, &point),
+        Format::Json => pretty(&render::follow::json(scene, story, &followed, &point)),
+    })?;
+    Ok(u8::from(followed.stages.iter().any(Result::is_err)))
 }
 
 fn list(folder: &Path) -> Result<u8, Failure> {

@@ -4,6 +4,8 @@ use std::path::Path;
 
 use carom::equality::{Equality, How, decide};
 use carom::formula::{Content, Symbols, read, write_plain};
+use carom::numeric::{self, follow};
+use carom::render;
 use carom::scene::Scene;
 use carom::story::{Told, tell};
 
@@ -39,6 +41,60 @@ fn shipped() -> Vec<String> {
     }
     names.sort();
     names
+}
+
+#[test]
+fn the_second_way_finds_the_numbers_of_every_formula() {
+    for name in shipped() {
+        let scene = scene(&name);
+        let story = scene.story.as_ref().expect("stages");
+        let told = told(&scene);
+        let mut held = 0;
+        for seed in 0..40 {
+            if held > 20 {
+                break;
+            }
+            let at = follow::random_point(&scene, seed);
+            let followed = numeric::follow(&scene, &at).unwrap_or_else(|u| panic!("{name}: {u}"));
+            // Of several outcomes only the first is told, and only where its conditions hold.
+            let is_told = |mut stage: Option<usize>| {
+                while let Some(i) = stage {
+                    let first = told.stages[i].cases.first();
+                    let mut conditions = first.into_iter().flat_map(|c| &c.conditions);
+                    if conditions.any(|(_, e)| e.evaluate(&at).is_none_or(|v: f64| v < 0.0)) {
+                        return false;
+                    }
+                    stage = story.stages[i].from;
+                }
+                true
+            };
+            for question in story.questions.iter().filter(|q| is_told(q.ask.stage())) {
+                let found = match follow::answer(&scene, &followed, &question.ask, &at) {
+                    Ok(numeric::Answer::Scalar(v)) => vec![(question.name.clone(), v)],
+                    Ok(numeric::Answer::Vector([x, y])) => vec![
+                        (format!("{}_x", question.name), x),
+                        (format!("{}_y", question.name), y),
+                    ],
+                    Err(_) => continue,
+                };
+                for (answer, number) in found {
+                    let formula = told.answers.iter().find(|a| a.name == answer);
+                    let formula = formula.and_then(|a| a.formula.as_ref());
+                    let Some(expected) = formula.and_then(|f| f.evaluate(&at)) else {
+                        continue;
+                    };
+                    let size = expected.abs().max(1e-3);
+                    assert!(
+                        (number - expected).abs() < 1e-7 * size,
+                        "{name}, {answer} at {at:?}: {number} instead of {expected}"
+                    );
+                    held += 1;
+                }
+            }
+        }
+        let asks = story.questions.iter().any(|q| q.ask.stage().is_some());
+        assert!(held > 0 || !asks, "{name}: nothing was compared");
+    }
 }
 
 #[test]
@@ -405,4 +461,33 @@ fn an_angle_turned_through_is_not_taken_for_one_in_the_other_sense() {
         let reason = driven(turn).expect_err("another sense");
         assert!(reason.contains(hint), "{reason}");
     }
+}
+
+#[test]
+fn the_numbers_of_every_stage_are_printed() {
+    let mut scene = scene("acrobat-to-handstand");
+    for (name, value) in [("m", "2"), ("l", "3"), ("g", "10"), ("h", "2")] {
+        carom::scene::set(&mut scene, name, value).expect("a value");
+    }
+    let story = scene.story.as_ref().expect("stages");
+    let at = follow::values(&scene).expect("every parameter has a value");
+    let followed = numeric::follow(&scene, &at).expect("numbers");
+    let text = render::follow::text(&scene, story, &followed, &at);
+    for line in [
+        "fall (fall, 0.632456 s)",
+        "  acrobat  before    1.5      2            0          0          0             0",
+        "  impulse of O on acrobat: (0, 3.16228) N s",
+        "  it never gets to its end: it comes to rest before and turns back",
+        "omega = 3.16227766016838 1/s",
+    ] {
+        assert!(text.lines().any(|l| l == line), "{line}\nis not in\n{text}");
+    }
+    let json = render::follow::json(&scene, story, &followed, &at);
+    assert_eq!(json["stages"][2]["lost"], "never ends");
+    assert_eq!(
+        json["stages"][1]["bodies"][1]["after"]["spin"],
+        -3.16227766016838
+    );
+    scene.parameters[0].value = None;
+    assert!(follow::values(&scene).is_err_and(|missing| missing.len() == 1));
 }

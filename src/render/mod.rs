@@ -2,6 +2,7 @@
 //! and reason comes in ready.
 
 pub mod certified;
+pub mod follow;
 pub mod grade;
 pub mod html;
 pub mod json;

@@ -155,6 +155,8 @@ struct Table<'a> {
     speed: f64,
     /// The size of momenta.
     momentum: f64,
+    /// The longest arm.
+    arm: f64,
 }
 
 impl<'a> Table<'a> {
@@ -245,6 +247,7 @@ impl<'a> Table<'a> {
             loose,
             speed: 0.0,
             momentum: 0.0,
+            arm: 0.0,
         };
         table.measure();
         Ok(table)
@@ -266,6 +269,7 @@ impl<'a> Table<'a> {
             let arms = places.iter().filter(|(bodies, _)| bodies.contains(&b));
             let arm = arms.map(|(_, at)| norm(&body.arm(at))).fold(0.0, f64::max);
             let speed = norm(&body.velocity) + body.spin.abs() * arm;
+            self.arm = self.arm.max(arm);
             self.speed = self.speed.max(speed);
             self.momentum = self.momentum.max(body.mass * speed);
         }
@@ -403,6 +407,11 @@ impl<'a> Table<'a> {
             .iter()
             .flat_map(Tried::speeds)
             .fold(self.speed, f64::max);
+        let spin = if self.arm > 0.0 {
+            speed / self.arm
+        } else {
+            0.0
+        };
         for (b, body) in after.bodies.iter_mut().enumerate() {
             if !self.touched[b] {
                 continue;
@@ -421,7 +430,7 @@ impl<'a> Table<'a> {
                 component(Unknown::VelocityY(b), speed),
             ];
             if freedom == Freedom::Rigid {
-                body.spin = component(Unknown::Spin(b), 0.0);
+                body.spin = component(Unknown::Spin(b), spin);
             }
         }
         let contacts = course.scene.contacts.iter();

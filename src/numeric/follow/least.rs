@@ -1,12 +1,12 @@
 //! Linear equations of any shape: do they contradict each other, and what do they determine?
 //!
-//! In: a matrix and right-hand sides. Out: one solution with the null space of the matrix, by singular values after rows and
-//! columns are scaled by powers of two; or the rows that contradict the others. Knows no mechanics. (Golub & Van Loan,
-//! Matrix Computations, 5.5; scaling after Ruiz 2001.)
+//! In: a matrix and right-hand sides. Out: one solution with the null space of the matrix, by QR with
+//! column pivoting after rows and columns are scaled by powers of two; or the rows that contradict the others. Knows no
+//! mechanics. (Golub & Van Loan, Matrix Computations, 5.4 and 5.5; scaling after Ruiz 2001.)
 
-use nalgebra::{DMatrix, DVector, SVD};
+use nalgebra::{DMatrix, DVector};
 
-/// Singular values below this share of the largest count as zero.
+/// Diagonal entries of the triangle below this share of the first count as zero.
 const ZERO: f64 = 1e-12;
 /// What is left of a row may be this share of its terms.
 const LEFT: f64 = 1e-9;
@@ -20,7 +20,7 @@ pub(super) struct Found {
     pub values: Vec<f64>,
     /// Size that each unknown has in the scaled equations.
     pub unit: Vec<f64>,
-    /// Orthonormal directions in the scaled unknowns along which the equations say nothing, as columns.
+    /// Independent directions of length 1 in the scaled unknowns along which the equations say nothing, as columns.
     null: DMatrix<f64>,
 }
 
@@ -29,7 +29,7 @@ pub(super) struct Found {
 pub(super) enum NoSolution {
     /// These rows cannot hold together with the others.
     Contradiction(Vec<usize>),
-    /// A number is beyond the doubles, or the singular values did not converge.
+    /// A number is beyond the doubles.
     OutOfRange,
 }
 
@@ -55,7 +55,7 @@ impl Found {
 /// Solves matrix × unknowns = right.
 pub(super) fn solve(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Result<Found, NoSolution> {
     let (m, n) = matrix.shape();
-    // The decomposition gives the whole null space only where there are at least as many rows as columns.
+    // At least as many rows as columns, so that the triangle has all columns.
     let mut scaled = DMatrix::zeros(m.max(n), n);
     scaled.rows_mut(0, m).copy_from(matrix);
     let mut b = DVector::zeros(m.max(n));
@@ -74,27 +74,39 @@ pub(super) fn solve(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Result<Found
             rows => Err(NoSolution::Contradiction(rows)),
         };
     }
-    let svd = SVD::try_new(scaled.clone(), true, true, f64::EPSILON, 10_000)
-        .ok_or(NoSolution::OutOfRange)?;
-    let (Some(u), Some(v)) = (&svd.u, &svd.v_t) else {
-        return Err(NoSolution::OutOfRange);
+    let qr = scaled.clone().col_piv_qr();
+    let (q, r) = (qr.q(), qr.r());
+    let mut order = DMatrix::from_fn(1, n, |_, j| j);
+    qr.p().permute_columns(&mut order);
+    let least = ZERO * r[(0, 0)].abs();
+    let rank = (0..n).take_while(|i| r[(*i, *i)].abs() > least).count();
+    let triangle = r.view((0, 0), (rank, rank));
+    let apply = |b: &DVector<f64>| -> Option<DVector<f64>> {
+        let turned = q.tr_mul(b);
+        let found = triangle.solve_upper_triangular(&turned.rows(0, rank))?;
+        let mut x = DVector::zeros(n);
+        (0..rank).for_each(|i| x[order[i]] = found[i]);
+        Some(x)
     };
-    let least = ZERO * svd.singular_values.max();
-    let inverse = svd
-        .singular_values
-        .map(|s| if s > least { s.recip() } else { 0.0 });
-    let apply = |b: &DVector<f64>| v.tr_mul(&u.tr_mul(b).component_mul(&inverse));
-    let mut x = apply(&b);
+    let mut x = apply(&b).ok_or(NoSolution::OutOfRange)?;
     for _ in 0..2 {
-        let change = apply(&(&b - &scaled * &x));
-        x += change;
+        x += apply(&(&b - &scaled * &x)).ok_or(NoSolution::OutOfRange)?;
     }
     let rows = rows_left(&scaled, &b, &x, m);
     if !rows.is_empty() {
         return Err(NoSolution::Contradiction(rows));
     }
-    let idle: Vec<usize> = (0..n).filter(|i| inverse[*i] == 0.0).collect();
-    let null = DMatrix::from_fn(n, idle.len(), |i, j| v[(idle[j], i)]);
+    let mut null = DMatrix::zeros(n, n - rank);
+    let rest = r.view((0, rank), (rank, n - rank)).clone_owned();
+    let rest = triangle
+        .solve_upper_triangular(&rest)
+        .ok_or(NoSolution::OutOfRange)?;
+    for j in 0..n - rank {
+        (0..rank).for_each(|i| null[(order[i], j)] = -rest[(i, j)]);
+        null[(order[rank + j], j)] = 1.0;
+        let length = null.column(j).norm();
+        null.column_mut(j).unscale_mut(length);
+    }
     let values: Vec<f64> = x.iter().zip(&unit).map(|(x, s)| x * s).collect();
     match values.iter().all(|v| v.is_finite()) {
         true => Ok(Found { values, unit, null }),

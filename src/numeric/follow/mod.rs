@@ -9,6 +9,7 @@
 //!     passed.after.bodies[b].velocity[0]                 // a Component: Ok(value), or Err(why it is open)
 //! }
 //! follow::answer(&scene, &followed, &ask, &values)       // the number that a question about motion asks for
+//! follow::random_point(&scene, seed)                     // values inside the domains, for holding formulas against it
 //! ```
 //!
 //! Nothing here comes from `laws`, `derive` or `algebra`, and of `scene` only what the file says of places, joints and
@@ -43,7 +44,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 use super::given::{Freedom, GivenBody, Undefined, value, vector};
-use super::points::needed;
+use super::points::{self, Needed, needed};
 use crate::expr::{Expr, Point, Symbol};
 use crate::scene::{FallEnd, Scene, Stage, StageKind, Until};
 
@@ -317,6 +318,37 @@ pub fn symbols(scene: &Scene) -> BTreeSet<Symbol> {
         out.remove(symbol);
     });
     out
+}
+
+/// A point inside the domains at which a scene can be followed; the same seed gives the same point on every machine.
+pub fn random_point(scene: &Scene, seed: u64) -> Point<f64> {
+    let mut needed = Needed::default();
+    for name in symbols(scene) {
+        needed.add(&Expr::symbol(&name));
+    }
+    with_angles(&points::rounded(&points::random_point(
+        &needed,
+        &scene.domains,
+        seed,
+    )))
+}
+
+/// The point that the values of the scene's own parameters make, or the names of what has no value.
+pub fn values(scene: &Scene) -> Result<Point<f64>, Vec<Symbol>> {
+    let mut point = Point::default();
+    let mut missing = Vec::new();
+    for name in symbols(scene) {
+        let given = scene.parameters.iter().find(|p| p.name == name);
+        let given = given.and_then(|p| p.value.as_ref());
+        match given.and_then(|e| e.evaluate(&Point::<f64>::default())) {
+            Some(value) => _ = point.values.insert(name, value),
+            None => missing.push(name),
+        }
+    }
+    match missing.is_empty() {
+        true => Ok(point),
+        false => Err(missing),
+    }
 }
 
 /// Every formula of a kind of stage.

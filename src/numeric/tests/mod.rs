@@ -1,12 +1,12 @@
 //! Tests of the numeric side: known numbers (`cases`), laws over random scenes (`laws`), the same at
 //! extreme scales (`extreme`).
 
-mod build;
+pub(in crate::numeric) mod build;
 mod cases;
 mod certified;
 mod extreme;
 mod laws;
-mod random;
+pub(in crate::numeric) mod random;
 
 use super::*;
 use crate::expr::{Point, Rational};

@@ -7,9 +7,9 @@ use std::path::Path;
 
 use super::*;
 use crate::numeric;
-use crate::numeric::points::{Needed, random_point, rounded};
 use crate::scene;
 
+mod impacts;
 mod motions;
 mod shipped;
 
@@ -23,15 +23,6 @@ fn point(values: &[(&str, f64)]) -> Point<f64> {
         values: values.iter().map(|(n, v)| (Symbol::from(*n), *v)).collect(),
         ..Point::default()
     }
-}
-
-/// A random point inside the domains.
-fn random(scene: &Scene, seed: u64) -> Point<f64> {
-    let mut needed = Needed::default();
-    for name in symbols(scene) {
-        needed.add(&Expr::symbol(&name));
-    }
-    rounded(&random_point(&needed, &scene.domains, seed))
 }
 
 fn passed(followed: &Followed, stage: usize) -> &Passed {

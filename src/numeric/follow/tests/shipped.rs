@@ -26,7 +26,7 @@ fn every_shipped_scene_is_followed_at_points_of_its_domain() {
     for (file, scene) in scenes() {
         let mut whole = 0;
         for seed in 0..12 {
-            let at = random(&scene, seed);
+            let at = random_point(&scene, seed);
             let followed = follow(&scene, &at).unwrap_or_else(|u| panic!("{file}: {u}"));
             let mut got_through = true;
             for stage in &followed.stages {
@@ -55,7 +55,7 @@ fn without_stages_the_other_solver_says_the_same() {
             continue;
         }
         for seed in 0..5 {
-            let at = with_angles(&random(&scene, seed));
+            let at = random_point(&scene, seed);
             if numeric::given(&scene, &at).is_err() {
                 continue;
             }

@@ -1,0 +1,354 @@
+//! A scene followed stage by stage in numbers, for the terminal and as data.
+
+use std::fmt::Write;
+
+use serde_json::{Map, Value, json};
+
+use crate::expr::Point;
+use crate::numeric::Answer;
+use crate::numeric::follow::{
+    BodyState, Breach, Component, Followed, Impact, Impulse, Lost, Moved, Passed, Unanswered, What,
+    answer,
+};
+use crate::numeric::given::Freedom;
+use crate::scene::{Scene, StageKind, Story, StoryAsk};
+
+/// Names of the components of a body's state, with their units.
+const COMPONENTS: [(&str, &str); 6] = [
+    ("x", "m"),
+    ("y", "m"),
+    ("angle", "rad"),
+    ("v_x", "m/s"),
+    ("v_y", "m/s"),
+    ("spin", "rad/s"),
+];
+
+/// The numbers of every stage, then the answers.
+pub fn text(scene: &Scene, story: &Story, followed: &Followed, at: &Point<f64>) -> String {
+    let mut out = String::new();
+    for (stage, found) in story.stages.iter().zip(&followed.stages) {
+        let kind = kind(&stage.kind);
+        let _ = match found {
+            Ok(passed) => {
+                let time = match (&passed.time, &passed.what) {
+                    (_, What::Impact(_)) => String::new(),
+                    (Ok(time), _) => format!(", {} s", super::digits(*time)),
+                    (Err(_), _) => ", time open".into(),
+                };
+                let body = stage_text(followed, passed);
+                writeln!(out, "{} ({kind}{time})\n{body}", stage.name)
+            }
+            Err(lost) => writeln!(out, "{} ({kind})\n  {lost}\n", stage.name),
+        };
+    }
+    for (name, unit, value) in answers(scene, story, followed, at) {
+        let _ = match value {
+            Ok(value) => writeln!(out, "{name} = {} {unit}", super::double(value)),
+            Err(reason) => writeln!(out, "{name}: {reason}"),
+        };
+    }
+    out
+}
+
+fn stage_text(followed: &Followed, passed: &Passed) -> String {
+    let mut open: Vec<String> = Vec::new();
+    let mut number = |c: &Component, largest: f64| match c {
+        // What is left of sums that cancel is no number to show.
+        Ok(value) if value.abs() < 1e-12 * largest => "0".into(),
+        Ok(value) => super::digits(*value),
+        Err(reason) => {
+            let reason = reason.to_string();
+            if !open.contains(&reason) {
+                open.push(reason);
+            }
+            "open".into()
+        }
+    };
+    let mut rows = vec![
+        ["", ""]
+            .into_iter()
+            .map(String::from)
+            .chain(COMPONENTS.map(|(name, unit)| format!("{name} [{unit}]")))
+            .collect::<Vec<String>>(),
+    ];
+    for (b, solid) in followed.solids.iter().enumerate() {
+        if solid.freedom == Freedom::Fixed {
+            continue;
+        }
+        for (state, when, name) in [
+            (&passed.before, "before", solid.name.as_str()),
+            (&passed.after, "after", ""),
+        ] {
+            let mut row = vec![name.to_string(), when.to_string()];
+            for (k, c) in state.bodies[b].components().into_iter().enumerate() {
+                let is_told = solid.freedom == Freedom::Rigid || !matches!(k, 2 | 5);
+                let largest = largest(&like(passed, k));
+                row.push(if is_told {
+                    number(c, largest)
+                } else {
+                    String::new()
+                });
+            }
+            rows.push(row);
+        }
+    }
+    let mut out = table(&rows);
+    match &passed.what {
+        What::Impact(impact) => {
+            let all: Vec<&Component> = impulses(impact).flat_map(|p| &p.impulse).collect();
+            for p in impulses(impact) {
+                let on = &followed.solids[p.on].name;
+                let [x, y] = [0, 1].map(|k| number(&p.impulse[k], largest(&all)));
+                let _ = writeln!(out, "  impulse of {} on {on}: ({x}, {y}) N s", p.name);
+            }
+            out.push_str(&acting(impact));
+            for breach in &impact.breaches {
+                let _ = writeln!(out, "  not possible: {}", breach_words(breach));
+            }
+        }
+        What::Motion(moved) => {
+            if let Some([begin, end]) = &moved.reaction {
+                let all = [&begin[0], &begin[1], &end[0], &end[1]];
+                let [a, b, c, d] = all.map(|c| number(c, largest(&all)));
+                let _ = writeln!(
+                    out,
+                    "  force of the fixed point: ({a}, {b}) N at the beginning, ({c}, {d}) N at the end"
+                );
+            }
+        }
+    }
+    let all = [&passed.energy[0], &passed.energy[1]];
+    let [before, after] = all.map(|c| number(c, largest(&all)));
+    let _ = writeln!(out, "  kinetic energy: {before} J before, {after} J after");
+    for reason in open {
+        let _ = writeln!(out, "  open: {reason}");
+    }
+    out
+}
+
+/// Components of the same kind as the k-th one, of all bodies before and after.
+fn like(passed: &Passed, k: usize) -> Vec<&Component> {
+    let bodies = passed.before.bodies.iter().chain(&passed.after.bodies);
+    let same: &[usize] = match k {
+        0 | 1 => &[0, 1],
+        3 | 4 => &[3, 4],
+        2 => &[2],
+        _ => &[5],
+    };
+    bodies
+        .flat_map(|b| same.iter().map(|k| b.components()[*k]))
+        .collect()
+}
+
+fn largest(all: &[&Component]) -> f64 {
+    let known = all.iter().filter_map(|c| c.as_ref().ok());
+    known.fold(0.0, |a: f64, v| a.max(v.abs()))
+}
+
+fn acting(impact: &Impact) -> String {
+    let words = |set: &Vec<String>| match set.is_empty() {
+        true => String::from("none"),
+        false => set.join(" and "),
+    };
+    match impact.acting.as_slice() {
+        [only] if only.is_empty() => String::new(),
+        [only] => format!("  supports and strings that act: {}\n", words(only)),
+        several => {
+            let all: Vec<String> = several.iter().map(words).collect();
+            format!(
+                "  supports and strings that may act: {}\n",
+                all.join(", or ")
+            )
+        }
+    }
+}
+
+/// Columns of equal width, names to the left and numbers to the right.
+fn table(rows: &[Vec<String>]) -> String {
+    let width = |j: usize| rows.iter().map(|r| r[j].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..rows[0].len()).map(width).collect();
+    let mut out = String::new();
+    for row in rows {
+        let cells = row.iter().zip(&widths).enumerate();
+        let cells: Vec<String> = cells
+            .map(|(j, (cell, width))| match j {
+                0 | 1 => format!("{cell:<width$}"),
+                _ => format!("{cell:>width$}"),
+            })
+            .collect();
+        let _ = writeln!(out, "  {}", cells.join("  ").trim_end());
+    }
+    out
+}
+
+fn impulses(impact: &Impact) -> impl Iterator<Item = &Impulse> {
+    let all = impact.contacts.iter().chain(&impact.hinges);
+    all.chain(&impact.blows)
+}
+
+fn breach_words(breach: &Breach) -> String {
+    match breach {
+        Breach::Separates(name) => format!("the bodies move apart at {name} before they touch"),
+        Breach::Pulls(name) => format!("the impulse at {name} has the wrong direction"),
+        Breach::Enters(name) => {
+            format!("the bodies go on into each other at {name}, or a string gets longer")
+        }
+    }
+}
+
+fn kind(kind: &StageKind) -> &'static str {
+    match kind {
+        StageKind::Impact { .. } => "impact",
+        StageKind::Turn(_) => "turn",
+        StageKind::Slide(_) => "slide",
+        StageKind::Fall(_) => "fall",
+        StageKind::Wind(_) => "wind",
+    }
+}
+
+/// Name, unit and value of every answer that is a number.
+fn answers(
+    scene: &Scene,
+    story: &Story,
+    followed: &Followed,
+    at: &Point<f64>,
+) -> Vec<(String, String, Result<f64, String>)> {
+    let mut out = Vec::new();
+    for question in &story.questions {
+        let name = &question.name;
+        let found = answer(scene, followed, &question.ask, at);
+        let unit = match &question.ask {
+            StoryAsk::Quantity { stage, .. } => super::unit_of(&story.stages[*stage].scene, name),
+            StoryAsk::Reaction { .. } => "N".into(),
+            StoryAsk::AngularMomentum { .. } => "kg m^2/s".into(),
+            _ => String::new(),
+        };
+        match found {
+            Ok(Answer::Scalar(v)) => out.push((name.clone(), unit, Ok(v))),
+            Ok(Answer::Vector([x, y])) => {
+                out.push((format!("{name}_x"), unit.clone(), Ok(x)));
+                out.push((format!("{name}_y"), unit, Ok(y)));
+            }
+            Err(Unanswered::NotANumber) => {}
+            Err(reason) => out.push((name.clone(), unit, Err(reason.to_string()))),
+        }
+    }
+    out
+}
+
+/// The same as data.
+pub fn json(scene: &Scene, story: &Story, followed: &Followed, at: &Point<f64>) -> Value {
+    let stages = story.stages.iter().zip(&followed.stages);
+    let stages: Vec<Value> = stages
+        .map(|(stage, found)| {
+            let mut out = Map::new();
+            out.insert("name".into(), json!(stage.name));
+            out.insert("kind".into(), json!(kind(&stage.kind)));
+            match found {
+                Ok(passed) => stage_json(followed, passed, &mut out),
+                Err(lost) => {
+                    out.insert("lost".into(), json!(lost_kind(lost)));
+                    out.insert("reason".into(), json!(lost.to_string()));
+                }
+            }
+            Value::Object(out)
+        })
+        .collect();
+    let answers = answers(scene, story, followed, at);
+    let answers = answers.into_iter().map(|(name, unit, value)| match value {
+        Ok(value) => json!({"name": name, "value": value, "unit": unit}),
+        Err(reason) => json!({"name": name, "value": Value::Null, "unit": unit, "reason": reason}),
+    });
+    json!({
+        "title": scene.title,
+        "source": scene.source,
+        "stages": stages,
+        "answers": answers.collect::<Vec<Value>>(),
+    })
+}
+
+fn lost_kind(lost: &Lost) -> &'static str {
+    match lost {
+        Lost::Contradiction { .. } => "contradiction",
+        Lost::NeverEnds { .. } => "never ends",
+        Lost::OutOfReach { .. } => "not followed",
+        Lost::Undefined { .. } => "no value",
+        Lost::After { .. } => "after one that was lost",
+    }
+}
+
+fn stage_json(followed: &Followed, passed: &Passed, out: &mut Map<String, Value>) {
+    out.insert("time".into(), component(&passed.time));
+    let bodies = followed.solids.iter().enumerate().map(|(b, solid)| {
+        json!({
+            "name": solid.name,
+            "mass": solid.mass,
+            "inertia": solid.inertia,
+            "before": body_json(&passed.before.bodies[b]),
+            "after": body_json(&passed.after.bodies[b]),
+        })
+    });
+    out.insert("bodies".into(), bodies.collect());
+    let [before, after] = &passed.energy;
+    let energy = json!({"before": component(before), "after": component(after)});
+    out.insert("kinetic_energy".into(), energy);
+    match &passed.what {
+        What::Impact(impact) => impact_json(followed, impact, out),
+        What::Motion(moved) => motion_json(followed, moved, out),
+    }
+}
+
+fn impact_json(followed: &Followed, impact: &Impact, out: &mut Map<String, Value>) {
+    let all = impulses(impact).map(|p| {
+        json!({
+            "name": p.name,
+            "on": followed.solids[p.on].name,
+            "x": component(&p.impulse[0]),
+            "y": component(&p.impulse[1]),
+        })
+    });
+    out.insert("impulses".into(), all.collect());
+    out.insert("acting".into(), json!(impact.acting));
+    let openings = impact.openings.iter().map(
+        |o| json!({"name": o.name, "before": component(&o.before), "after": component(&o.after)}),
+    );
+    out.insert("opening_speeds".into(), openings.collect());
+    let breaches: Vec<String> = impact.breaches.iter().map(breach_words).collect();
+    out.insert("not_possible".into(), json!(breaches));
+}
+
+fn motion_json(followed: &Followed, moved: &Moved, out: &mut Map<String, Value>) {
+    if let Some([begin, end]) = &moved.reaction {
+        let pair = |c: &[Component; 2]| json!([component(&c[0]), component(&c[1])]);
+        let reaction = json!({"before": pair(begin), "after": pair(end)});
+        out.insert("reaction".into(), reaction);
+    }
+    if let Some(clockwise) = moved.clockwise {
+        out.insert("clockwise".into(), json!(clockwise));
+    }
+    let names: Vec<&String> = moved
+        .bodies
+        .iter()
+        .map(|b| &followed.solids[*b].name)
+        .collect();
+    let poses = moved
+        .samples
+        .iter()
+        .map(|s| json!({"time": s.time, "poses": s.poses}));
+    out.insert("moving".into(), json!(names));
+    out.insert("samples".into(), poses.collect());
+}
+
+fn body_json(body: &BodyState) -> Value {
+    let all = COMPONENTS.iter().zip(body.components());
+    all.map(|((name, _), c)| (name.to_string(), component(c)))
+        .collect()
+}
+
+/// A number, or an object with the reason why there is none.
+fn component(c: &Component) -> Value {
+    match c {
+        Ok(value) => json!(value),
+        Err(open) => json!({"open": open.to_string()}),
+    }
+}
