@@ -8,11 +8,15 @@
 //!
 //! A state is a list: x, y, angle of each body, then their rates.
 
+use std::cell::Cell;
+
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 use nalgebra::{DMatrix, DVector};
 
 /// Pieces into which a motion may be cut.
 const PIECES: usize = 20_000;
+/// Times that the accelerations of one motion may be asked for.
+const LOOKS: u32 = 1_000_000;
 /// Length of a piece; in the units of the mechanism something happens within 1.
 const PIECE: f64 = 0.5;
 /// What counts as reached at a place where the motion comes to rest.
@@ -54,6 +58,8 @@ pub(super) struct Mechanism {
     pub constraints: Vec<Constraint>,
     /// Force and moment on each body; they do not change.
     pub forces: Vec<[f64; 3]>,
+    /// How often the accelerations were asked for.
+    pub looks: Cell<u32>,
 }
 
 /// A motion that got to its end.
@@ -71,7 +77,7 @@ pub(super) struct Run {
 pub(super) enum Stop {
     /// The motion says so itself.
     Never,
-    /// The number of pieces is used up.
+    /// The number of pieces, or of times that accelerations may be asked for, is used up.
     TooLong,
     /// The equations of motion have no single solution, or the numbers leave the doubles.
     Broken,
@@ -154,7 +160,7 @@ impl Mechanism {
             return Ok(run);
         }
         for _ in 0..PIECES {
-            let next = self.advance(&run.end, PIECE).ok_or(Stop::Broken)?;
+            let next = self.advance(&run.end, PIECE)?;
             let rates = [&run.end, &next].map(|y| (goal.rate)(y));
             let turns_back = rates[0] * rates[1] < 0.0;
             let mut reached = (goal.left)(&next) >= 0.0;
@@ -195,7 +201,7 @@ impl Mechanism {
         }
         for _ in 0..pieces as usize {
             let step = time / pieces;
-            let next = self.advance(&run.end, step).ok_or(Stop::Broken)?;
+            let next = self.advance(&run.end, step)?;
             run = run.ended(step, next);
         }
         run.time = time;
@@ -210,7 +216,7 @@ impl Mechanism {
         f: &dyn Fn(&[f64]) -> f64,
     ) -> Result<(f64, Vec<f64>), Stop> {
         let at = |time: f64| -> Result<(f64, Vec<f64>), Stop> {
-            let state = self.advance(start, time).ok_or(Stop::Broken)?;
+            let state = self.advance(start, time)?;
             Ok((f(&state), state))
         };
         let (mut low, mut high) = ((0.0, f(start)), (longest, f64::NAN));
@@ -253,11 +259,19 @@ impl Mechanism {
     }
 
     /// The state after a time.
-    fn advance(&self, start: &[f64], time: f64) -> Option<Vec<f64>> {
+    fn advance(&self, start: &[f64], time: f64) -> Result<Vec<f64>, Stop> {
         if time <= 0.0 {
-            return Some(start.to_vec());
+            return Ok(start.to_vec());
         }
-        integrated(&|y| self.rates(y), start, time)
+        let rates = |y: &[f64]| {
+            self.looks.set(self.looks.get() + 1);
+            (self.looks.get() <= LOOKS).then(|| self.rates(y))?
+        };
+        let found = integrated(&rates, start, time);
+        match self.looks.get() > LOOKS {
+            true => Err(Stop::TooLong),
+            false => found.ok_or(Stop::Broken),
+        }
     }
 
     fn rates(&self, y: &[f64]) -> Option<Vec<f64>> {

@@ -43,9 +43,9 @@ mod tests;
 use std::collections::BTreeSet;
 use std::fmt;
 
-use super::given::{Freedom, GivenBody, Undefined, value, vector};
+use super::given::{Freedom, GivenBody, Reason, Undefined, value};
 use super::points::{self, Needed, needed};
-use crate::expr::{Expr, Point, Symbol};
+use crate::expr::{Expr, Point, Symbol, Vector};
 use crate::scene::{FallEnd, Scene, Stage, StageKind, Until};
 
 pub use answer::{Unanswered, answer};
@@ -428,11 +428,7 @@ impl Course<'_> {
     }
 
     fn number(&self, e: &Expr, what: &str) -> Result<f64, Lost> {
-        let found = value(e, self.values, || what.into()).map_err(|u| self.undefined(u))?;
-        match found.is_finite() {
-            true => Ok(found),
-            false => Err(self.out_of_reach(format!("{what} is beyond the largest double"))),
-        }
+        finite(e, self.values, || what.into()).map_err(|u| self.undefined(u))
     }
 
     /// A number that may be left out, and is zero then.
@@ -532,17 +528,35 @@ fn with_angles(values: &Point<f64>) -> Point<f64> {
     out
 }
 
+/// A value, where it is a number that can be reckoned with.
+fn finite(e: &Expr, at: &Point<f64>, quantity: impl Fn() -> String) -> Result<f64, Undefined> {
+    let found = value(e, at, &quantity)?;
+    found.is_finite().then_some(found).ok_or_else(|| Undefined {
+        quantity: quantity(),
+        reason: Reason::NotANumber,
+    })
+}
+
+/// The same with two components.
+fn finite_pair(
+    v: &Vector,
+    at: &Point<f64>,
+    quantity: impl Fn() -> String + Copy,
+) -> Result<[f64; 2], Undefined> {
+    Ok([finite(&v[0], at, quantity)?, finite(&v[1], at, quantity)?])
+}
+
 /// The bodies as the file gives them.
 fn start(scene: &Scene, solids: &[Solid], at: &Point<f64>) -> Result<State, Undefined> {
     let mut bodies = Vec::with_capacity(solids.len());
     for (body, solid) in scene.bodies.iter().zip(solids) {
-        let number = |e: &Expr, what: &str| value(e, at, || format!("{what} of {}", body.name));
+        let number = |e: &Expr, what: &str| finite(e, at, || format!("{what} of {}", body.name));
         let is_particle = solid.freedom == Freedom::Particle;
         let turning = |e: &Expr, what: &str| match is_particle {
             true => Ok(0.0),
             false => number(e, what),
         };
-        let velocity = vector(&body.velocity, at, || format!("velocity of {}", body.name))?;
+        let velocity = finite_pair(&body.velocity, at, || format!("velocity of {}", body.name))?;
         bodies.push(BodyState {
             center: solid.center.map(Ok),
             angle: Ok(turning(&body.angle, "angle")?),
@@ -568,11 +582,11 @@ fn changed(stage: &Stage, start: &State, at: &Point<f64>) -> Result<State, Lost>
         let name = &stage.scene.bodies[*body].name;
         let body = &mut state.bodies[*body];
         if let Some(v) = velocity {
-            let v = vector(v, at, || format!("velocity of {name}")).map_err(lost)?;
+            let v = finite_pair(v, at, || format!("velocity of {name}")).map_err(lost)?;
             body.velocity = v.map(Ok);
         }
         if let Some(w) = spin {
-            body.spin = Ok(value(w, at, || format!("spin of {name}")).map_err(lost)?);
+            body.spin = Ok(finite(w, at, || format!("spin of {name}")).map_err(lost)?);
         }
     }
     Ok(state)

@@ -3,6 +3,7 @@
 //! In: a stage and the state before. Out: the stage as [`Passed`], or why the motion does not get to its end. Sense of a
 //! rotation, end and time come from the motion itself.
 
+use std::cell::Cell;
 use std::f64::consts::TAU;
 
 use super::super::given::Freedom;
@@ -175,7 +176,7 @@ impl Movers {
 fn stopped(course: &Course<'_>, stop: Stop, never: &str) -> Lost {
     match stop {
         Stop::Never => course.never(never),
-        Stop::TooLong => course.out_of_reach("the motion takes more than 20000 steps"),
+        Stop::TooLong => course.out_of_reach("the motion takes too many steps"),
         Stop::Broken => {
             course.out_of_reach("the equations of motion have no single solution in doubles")
         }
@@ -438,6 +439,7 @@ impl Rotation {
             inertias: self.movers.scaled(units),
             constraints,
             forces,
+            looks: Cell::new(0),
         }
     }
 
@@ -661,6 +663,7 @@ pub(super) fn slide(course: &Course<'_>, before: State, slide: &Slide) -> Result
             (force * along[1] - mass * gravity) / units.force(),
             0.0,
         ]],
+        looks: Cell::new(0),
     };
     let mut start = movers.start(&units);
     // What is across the line, and the spin, are rounding.
@@ -832,6 +835,7 @@ fn flight(
         inertias,
         constraints: Vec::new(),
         forces,
+        looks: Cell::new(0),
     };
     let start = movers.start(&units);
     let n = start.len() / 2;

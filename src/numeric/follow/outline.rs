@@ -6,7 +6,8 @@
 
 use std::f64::consts::TAU;
 
-use super::super::given::{Freedom, Undefined, value, vector};
+use super::super::given::{Freedom, Undefined};
+use super::{finite, finite_pair};
 use crate::expr::{Expr, Point};
 use crate::scene::{Body, Shape};
 
@@ -57,13 +58,17 @@ pub(super) fn solid(body: &Body, at: &Point<f64>) -> Result<Solid, Undefined> {
         inertia: 0.0,
         center: [0.0; 2],
     };
-    if freedom == Freedom::Fixed || (is_massless(body) && !is_composite(body)) {
-        out.center = vector(&body.center, at, || format!("center of {}", body.name))?;
+    if freedom == Freedom::Fixed {
+        out.center = finite_pair(&body.center, at, || format!("center of {}", body.name))?;
         return Ok(out);
     }
     let mut all = Vec::new();
     pieces(body, at, &mut all)?;
     out.mass = all.iter().map(|p| p.mass).sum();
+    if out.mass == 0.0 {
+        out.center = finite_pair(&body.center, at, || format!("center of {}", body.name))?;
+        return Ok(out);
+    }
     // From the first piece, so that a body far from the origin loses nothing.
     let from = all.first().map_or([0.0; 2], |p| p.at);
     let offset = [0, 1].map(|k| {
@@ -81,23 +86,15 @@ pub(super) fn solid(body: &Body, at: &Point<f64>) -> Result<Solid, Undefined> {
     Ok(out)
 }
 
-fn is_massless(body: &Body) -> bool {
-    body.mass.is_zero()
-}
-
-fn is_composite(body: &Body) -> bool {
-    matches!(body.shape, Shape::Composite { .. })
-}
-
 /// Cuts a body into pieces where the file puts it.
 fn pieces(body: &Body, at: &Point<f64>, into: &mut Vec<Piece>) -> Result<(), Undefined> {
     if let Shape::Composite { parts } = &body.shape {
         return parts.iter().try_for_each(|part| pieces(part, at, into));
     }
     let name = &body.name;
-    let number = |e: &Expr, what: &str| value(e, at, || format!("{what} of {name}"));
+    let number = |e: &Expr, what: &str| finite(e, at, || format!("{what} of {name}"));
     let mass = number(&body.mass, "mass")?;
-    let center = vector(&body.center, at, || format!("center of {name}"))?;
+    let center = finite_pair(&body.center, at, || format!("center of {name}"))?;
     if body.inertia_given || matches!(body.shape, Shape::Other) {
         into.push(Piece {
             mass,
