@@ -9,6 +9,7 @@ use super::*;
 use crate::numeric;
 use crate::scene;
 
+mod courses;
 mod impacts;
 mod motions;
 mod shipped;
