@@ -281,8 +281,8 @@ fn follow_command(
     let followed = numeric::follow(scene, &point)
         .map_err(|undefined| Failure::Input(format!("{name}: {undefined}")))?;
     print(&match format {
-        Format::Text => render::follow::text(scene, story, &followed, &point),
-        Format::Json => pretty(&render::follow::json(scene, story, &followed, &point)),
+        Format::Text => render::stages::text(scene, story, &followed, &point),
+        Format::Json => pretty(&render::stages::json(scene, story, &followed, &point)),
     })?;
     Ok(u8::from(followed.stages.iter().any(Result::is_err)))
 }

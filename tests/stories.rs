@@ -472,7 +472,7 @@ fn the_numbers_of_every_stage_are_printed() {
     let story = scene.story.as_ref().expect("stages");
     let at = follow::values(&scene).expect("every parameter has a value");
     let followed = numeric::follow(&scene, &at).expect("numbers");
-    let text = render::follow::text(&scene, story, &followed, &at);
+    let text = render::stages::text(&scene, story, &followed, &at);
     for line in [
         "fall (fall, 0.632456 s)",
         "  acrobat  before    1.5      2            0          0          0             0",
@@ -482,7 +482,7 @@ fn the_numbers_of_every_stage_are_printed() {
     ] {
         assert!(text.lines().any(|l| l == line), "{line}\nis not in\n{text}");
     }
-    let json = render::follow::json(&scene, story, &followed, &at);
+    let json = render::stages::json(&scene, story, &followed, &at);
     assert_eq!(json["stages"][2]["lost"], "never ends");
     assert_eq!(
         json["stages"][1]["bodies"][1]["after"]["spin"],

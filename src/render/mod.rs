@@ -2,7 +2,6 @@
 //! and reason comes in ready.
 
 pub mod certified;
-pub mod follow;
 pub mod grade;
 pub mod html;
 pub mod json;
@@ -20,6 +19,7 @@ pub mod report;
 mod report_pareto;
 #[cfg(feature = "report")]
 pub mod report_studies;
+pub mod stages;
 pub mod steps;
 pub mod story;
 pub mod text;
