@@ -213,158 +213,196 @@ pub fn decide(a: &Expr, b: &Expr, domains: &Domains) -> Decision {
     }
 }
 
+/// A pair with what is known of it so far.
+struct Search<'a> {
+    a: &'a Expr,
+    b: &'a Expr,
+    domains: &'a Domains,
+    roles: &'a Roles,
+    size: Size,
+    probe: Probe<'a>,
+    points: Vec<Sample>,
+    tally: Tally,
+    /// What roots and logarithms are taken of, where that may be negative.
+    unsure: Vec<(Expr, bool)>,
+}
+
 fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -> Equality {
-    let probe = Probe::new(a, b, roles);
-    let mut tally = Tally::default();
-    let different = |found: Counterexample| {
-        let how = if size.branches {
-            branch::equal_where(a, b, domains, roles, &found)
-        } else {
+    let mut search = Search {
+        a,
+        b,
+        domains,
+        roles,
+        size,
+        probe: Probe::new(a, b, roles),
+        points: Vec::new(),
+        tally: Tally::default(),
+        unsure: Vec::new(),
+    };
+    if let Some(found) = search.before_proof() {
+        return search.different(found);
+    }
+    let proof = search.proof();
+    match proof {
+        Proof::Invalid(side) => search.invalid(side),
+        Proof::Equal(assumptions, ground) if search.tally.both_defined > 0 => {
+            search.equal(assumptions, ground)
+        }
+        open => search.after_proof(open),
+    }
+}
+
+impl Search<'_> {
+    /// Points tried before any proof.
+    fn before_proof(&mut self) -> Option<Counterexample> {
+        // The simplest points first: nearly every wrong formula fails there.
+        if let Some(found) = self.extend(FIRST) {
+            return Some(found);
+        }
+        // Roots and logarithms lack values on whole parts of a domain; more points show it.
+        let signed = self.domains.symbols.values().any(Domain::changes_sign);
+        let nowhere = self.tally.both_defined == 0;
+        if self.size.partial || nowhere {
+            let seen = if signed || nowhere { 8 } else { 5 };
+            if let Some(found) = self.extend(self.size.points().min(seen)) {
+                return Some(found);
+            }
+        }
+        // Then both sides of the places where what they are taken of changes sign.
+        if self.size.branches || self.size.partial {
+            self.unsure = critical::arguments(&[self.a, self.b]);
+            self.unsure
+                .retain(|(e, _)| !critical::nowhere_negative(e, self.domains));
+        }
+        if !self.unsure.is_empty() {
+            let arguments: Vec<Expr> = self.unsure.iter().map(|(e, _)| e.clone()).collect();
+            let near = samples(self.roles, self.domains, FIRST + 2);
+            let risky = critical::points(&arguments, &near, self.domains, self.roles);
+            if let Some(found) = self.probe.points(&risky, &mut self.tally) {
+                return Some(found);
+            }
+        }
+        let costly = work(self.a).saturating_add(work(self.b)) > COSTLY;
+        if self.a == self.b || !costly {
+            return None;
+        }
+        let first = samples(self.roles, self.domains, FIRST);
+        self.probe
+            .rising_precision(&first, self.size, &mut Tally::default())
+    }
+
+    /// Compares at the first points of the domain, as many as told, that were not tried yet.
+    fn extend(&mut self, count: usize) -> Option<Counterexample> {
+        let mut new = samples(self.roles, self.domains, count);
+        new.retain(|p| !self.points.contains(p));
+        let found = self.probe.points(&new, &mut self.tally);
+        self.points.extend(new);
+        found
+    }
+
+    fn proof(&self) -> Proof {
+        let (a, b, domains) = (self.a, self.b, self.domains);
+        if a == b && self.tally.both_defined > 0 {
+            return Proof::Equal(Vec::new(), Ground::NormalForm);
+        }
+        let open = match proof::compare(a, b, domains) {
+            known @ (Proof::Equal(..) | Proof::Invalid(_)) => return known,
+            open => open,
+        };
+        let settled = matches!(open, Proof::Unequal { settled: true });
+        let arcs = if settled {
             None
+        } else {
+            arcs::prove(a, b, domains)
+        };
+        arcs.or_else(|| constants::prove(a, b, domains))
+            .or_else(|| self.proof_where_defined())
+            .unwrap_or(open)
+    }
+
+    /// Both have values only where what they take roots of is not negative.
+    fn proof_where_defined(&self) -> Option<Proof> {
+        let needed = self.unsure.iter().filter(|(_, needed)| *needed);
+        let needed: Vec<Expr> = needed.map(|(e, _)| e.clone()).collect();
+        let (proof, used) = proof::compare_where_defined(self.a, self.b, self.domains, &needed)?;
+        match proof {
+            Proof::Equal(mut assumed, ground) => {
+                assumed.extend(used.into_iter().map(Assumption::HasRoot));
+                Some(Proof::Equal(assumed, ground))
+            }
+            _ => None,
+        }
+    }
+
+    /// The verdict for a proved identity, once signs that were only seen are put to the test.
+    fn equal(&mut self, assumptions: Vec<Assumption>, ground: Ground) -> Equality {
+        let near = samples(self.roles, self.domains, FIRST + 2);
+        match critical::tested(&assumptions, &near, self.domains, self.roles) {
+            Ok(assumptions) => {
+                let pair = (self.a, self.b);
+                gap::same(pair, self.domains, assumptions, ground, &self.tally)
+            }
+            Err(points) => match self.probe.points(&points, &mut self.tally) {
+                Some(found) => self.different(found),
+                None => self.undecided(Reason::NoPointApart),
+            },
+        }
+    }
+
+    /// More points and more digits, where no proof was found.
+    fn after_proof(&mut self, proof: Proof) -> Equality {
+        if let Some(found) = self.extend(self.size.points()) {
+            return self.different(found);
+        }
+        for (side, e) in [(Side::Left, self.a), (Side::Right, self.b)] {
+            if self.tally.defined(side) > 0 || self.tally.undefined(side) == 0 {
+                continue;
+            }
+            // Constants have one point only; elsewhere no value at points is no proof.
+            let needed = critical::arguments(&[e]).into_iter();
+            let needed = needed.filter(|(_, needed)| *needed).map(|(e, _)| e);
+            let needed: Vec<Expr> = needed.collect();
+            if self.roles.symbols.is_empty() || critical::nowhere(&needed, self.domains) {
+                return self.invalid(side);
+            }
+        }
+        let found = self
+            .probe
+            .rising_precision(&self.points, self.size, &mut self.tally);
+        if let Some(found) = found {
+            return self.different(found);
+        }
+        match proof {
+            _ if self.tally.both_defined == 0 => self.undecided(Reason::NoPoint),
+            // A point at which both have a value was found only now.
+            Proof::Equal(assumptions, ground) => self.equal(assumptions, ground),
+            Proof::Unequal { settled: true } => self.undecided(Reason::NoPointApart),
+            Proof::Unequal { settled: false } => self.undecided(Reason::UnknownLaws),
+            Proof::Stopped(limit) => self.undecided(Reason::Limit(limit)),
+            Proof::Invalid(side) => self.invalid(side),
+        }
+    }
+
+    fn different(&self, found: Counterexample) -> Equality {
+        let how = match self.size.branches {
+            true => branch::equal_where(self.a, self.b, self.domains, self.roles, &found),
+            false => None,
         };
         how.map_or(Equality::Different(found), |how| Equality::Same { how })
-    };
-    // The simplest points first: nearly every wrong formula fails there.
-    let first = samples(roles, domains, FIRST);
-    if let Some(found) = probe.points(&first, &mut tally) {
-        return different(found);
     }
-    // Roots and logarithms lack values on whole parts of a domain; more points show it.
-    let mut points = first;
-    let mut extend = |tally: &mut Tally, count: usize| {
-        let more = samples(roles, domains, count);
-        let new: Vec<Sample> = more.into_iter().filter(|p| !points.contains(p)).collect();
-        let found = probe.points(&new, tally);
-        points.extend(new);
-        found
-    };
-    let signed = domains.symbols.values().any(Domain::changes_sign);
-    let seen = if signed || tally.both_defined == 0 {
-        8
-    } else {
-        5
-    };
-    let look = size.partial || tally.both_defined == 0;
-    if look && let Some(found) = extend(&mut tally, size.points().min(seen)) {
-        return different(found);
-    }
-    // Then where roots and absolute values ask for: both sides of the places where their arguments change sign.
-    let arguments = match size.branches || size.partial {
-        true => critical::arguments(&[a, b]),
-        false => Vec::new(),
-    };
-    let unsure = arguments.iter().map(|(e, _)| e);
-    let unsure = unsure.filter(|e| !critical::nowhere_negative(e, domains));
-    let unsure: Vec<Expr> = unsure.cloned().collect();
-    let risky = match unsure.as_slice() {
-        [] => Vec::new(),
-        unsure => {
-            let near = samples(roles, domains, FIRST + 2);
-            critical::points(unsure, &near, domains, roles)
-        }
-    };
-    if let Some(found) = probe.points(&risky, &mut tally) {
-        return different(found);
-    }
-    if a != b && work(a).saturating_add(work(b)) > COSTLY {
-        let first = samples(roles, domains, FIRST);
-        if let Some(found) = probe.rising_precision(&first, size, &mut Tally::default()) {
-            return different(found);
+
+    fn invalid(&self, side: Side) -> Equality {
+        Equality::Invalid {
+            side,
+            points: self.tally.undefined(side),
         }
     }
-    let proof = if a == b && tally.both_defined > 0 {
-        Proof::Equal(Vec::new(), Ground::NormalForm)
-    } else {
-        match proof::compare(a, b, domains) {
-            Proof::Equal(assumed, ground) => Proof::Equal(assumed, ground),
-            Proof::Invalid(side) => Proof::Invalid(side),
-            open => {
-                let known = matches!(open, Proof::Unequal { settled: true });
-                let arcs = || arcs::prove(a, b, domains);
-                let arcs = if known { None } else { arcs() };
-                arcs.or_else(|| constants::prove(a, b, domains))
-                    .or_else(|| {
-                        // Both have values only where what they take roots of is not negative.
-                        let needed = arguments.iter().filter(|(e, n)| *n && unsure.contains(e));
-                        let needed: Vec<Expr> = needed.map(|(e, _)| e.clone()).collect();
-                        let (proof, used) = proof::compare_where_defined(a, b, domains, &needed)?;
-                        let Proof::Equal(mut assumed, ground) = proof else {
-                            return None;
-                        };
-                        assumed.extend(used.into_iter().map(Assumption::HasRoot));
-                        Some(Proof::Equal(assumed, ground))
-                    })
-                    .unwrap_or(open)
-            }
+
+    fn undecided(&self, reason: Reason) -> Equality {
+        Equality::Undecided {
+            reason,
+            evidence: self.tally.evidence(),
         }
-    };
-    match proof {
-        Proof::Invalid(side) => {
-            return Equality::Invalid {
-                side,
-                points: tally.undefined(side),
-            };
-        }
-        Proof::Equal(assumptions, ground) if tally.both_defined > 0 => {
-            // A sign that was only seen is put to the test first.
-            let near = samples(roles, domains, FIRST + 2);
-            match critical::tested(&assumptions, &near, domains, roles) {
-                Ok(assumptions) => return gap::same((a, b), domains, assumptions, ground, &tally),
-                Err(points) => {
-                    if let Some(found) = probe.points(&points, &mut tally) {
-                        return different(found);
-                    }
-                    return Equality::Undecided {
-                        reason: Reason::NoPointApart,
-                        evidence: tally.evidence(),
-                    };
-                }
-            }
-        }
-        _ => {}
-    }
-    if let Some(found) = extend(&mut tally, size.points()) {
-        return different(found);
-    }
-    for (side, e) in [(Side::Left, a), (Side::Right, b)] {
-        if tally.defined(side) > 0 || tally.undefined(side) == 0 {
-            continue;
-        }
-        // Constants have one point only; elsewhere no value at points is no proof.
-        let needed = critical::arguments(&[e]).into_iter();
-        let needed: Vec<Expr> = needed
-            .filter(|(_, needed)| *needed)
-            .map(|(e, _)| e)
-            .collect();
-        if roles.symbols.is_empty() || critical::nowhere(&needed, domains) {
-            return Equality::Invalid {
-                side,
-                points: tally.undefined(side),
-            };
-        }
-    }
-    if let Some(found) = probe.rising_precision(&points, size, &mut tally) {
-        return different(found);
-    }
-    let reason = match proof {
-        _ if tally.both_defined == 0 => Reason::NoPoint,
-        // A point at which both have a value was found only now.
-        Proof::Equal(assumptions, ground) => {
-            return gap::same((a, b), domains, assumptions, ground, &tally);
-        }
-        Proof::Unequal { settled: true } => Reason::NoPointApart,
-        Proof::Unequal { settled: false } => Reason::UnknownLaws,
-        Proof::Stopped(limit) => Reason::Limit(limit),
-        Proof::Invalid(side) => {
-            return Equality::Invalid {
-                side,
-                points: tally.undefined(side),
-            };
-        }
-    };
-    Equality::Undecided {
-        reason,
-        evidence: tally.evidence(),
     }
 }
 

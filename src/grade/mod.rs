@@ -132,14 +132,18 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
     let quantity = (!question.closed)
         .then(|| read::quantity(expected, question))
         .flatten();
-    let mut key = from_reading(read::expected(expected, &symbols)?, question);
+    let mut key = from_reading(
+        read::expected(expected, &symbols)?,
+        Some(expected),
+        question,
+    );
     if let Some(reading) = quantity {
         let closed = Question {
             closed: true,
             ..question.clone()
         };
         let same = reading.content == key.reading.content;
-        let alone = from_reading(reading, &closed);
+        let alone = from_reading(reading, Some(expected), &closed);
         if same {
             return Ok(alone);
         }
@@ -150,7 +154,7 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
         match read::answer(&key, expected) {
             Ok(again) if again.content != key.reading.content => {
                 let quantity = key.quantity.take();
-                key = from_reading(again, question);
+                key = from_reading(again, Some(expected), question);
                 key.quantity = quantity;
             }
             _ => break,
@@ -169,10 +173,10 @@ pub fn key_of(content: Content, question: &Question) -> Key {
         notes: Vec::new(),
         choices: 0,
     };
-    from_reading(reading, question)
+    from_reading(reading, None, question)
 }
 
-fn from_reading(reading: Reading, question: &Question) -> Key {
+fn from_reading(reading: Reading, text: Option<&str>, question: &Question) -> Key {
     let declares_e = question.symbols.iter().any(|g| &*g.name == "e");
     let mut question = question.clone();
     let known: BTreeSet<Symbol> = question
@@ -199,7 +203,7 @@ fn from_reading(reading: Reading, question: &Question) -> Key {
     let declared = || question.symbols.iter().chain(&question.asked);
     let residues = reading.expr().and_then(|e| {
         let names = declared().map(|g| g.name.clone()).collect();
-        modular::Residues::of(e, &question.domains, names)
+        modular::Residues::of(e, text, &question.domains, names)
     });
     let names = match &reading.content {
         Content::Scalar(_) if residues.is_some() => Names::declared(

@@ -25,7 +25,7 @@ pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Finding 
             .filter(|_| ctx.key.reading.expr() == Some(expected));
         let found = match usual {
             Some(residues) => residues.compare(answer),
-            None => modular::Residues::of(expected, &ctx.key.question.domains, Vec::new())
+            None => modular::Residues::of(expected, None, &ctx.key.question.domains, Vec::new())
                 .and_then(|r| r.compare(answer)),
         };
         if let Some(finding) = found {

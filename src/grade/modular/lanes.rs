@@ -34,8 +34,6 @@ pub(super) struct Lanes<'a, const C: u64, const L: usize, const R: usize> {
     pub rooted: bool,
     /// The points, by the numbers they are drawn with.
     pub rounds: [u64; L],
-    /// How many generators are known to be true extensions, from lanes that are not among these.
-    pub trusted: usize,
     pub state: State<L, R>,
     /// Values computed while reading, the last ones used up first.
     pub(super) made: Vec<Value<L, R>>,
@@ -83,15 +81,10 @@ impl<const L: usize, const R: usize> State<L, R> {
         (odd == 0).then_some(())
     }
 
-    /// How many generators there are.
-    pub fn count(&self) -> usize {
-        self.generators.iter().flatten().count()
-    }
-
     /// How many square roots have two signs each.
     fn degree(&self) -> i32 {
         let constants = self.constants.iter().filter(|c| **c != 0).count();
-        (self.count() + constants) as i32
+        (self.generators.iter().flatten().count() + constants) as i32
     }
 }
 
@@ -105,7 +98,6 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
             wanted: divisor,
             rooted: false,
             rounds: std::array::from_fn(|lane| lane as u64),
-            trusted: 0,
             state: State {
                 generators: [None; MOST_ROOTS],
                 alive: (1 << L) - 1,
@@ -202,12 +194,6 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         }
     }
 
-    /// Finds the values of a name before anything is read.
-    pub fn prepare(&mut self, index: usize, name: &[u8]) {
-        self.symbol_at(index, name);
-        self.circle_at(index, name);
-    }
-
     #[inline]
     pub(super) fn symbol_at(&mut self, index: usize, name: &[u8]) -> Slot {
         if let Some(Some(_)) = self.known.symbols.get(index) {
@@ -299,7 +285,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         let lost = self.state.alive & !exists;
         let free = self.state.generators.iter().position(Option::is_none);
         match free {
-            Some(free) if lost != 0 || free < self.trusted => {
+            Some(free) if lost != 0 => {
                 self.state.alive &= exists;
                 self.state.generators[free] = Some(Generator { core: a, root });
                 self.state.used |= 1 << free;

@@ -4,9 +4,11 @@
 //! In: texts or expressions and the domains of their symbols; out: equal or not, with the bound. A difference is certain: an
 //! identity over ℚ holds modulo every prime that divides no denominator. An equality is wrong with at most the probability
 //! stated (Schwartz and Zippel: degree over p for each point), where coefficients are shown to be smaller than the prime.
+//! Points are drawn by a strong hash of the two texts and what is declared: nobody can write a formula that meets them.
 //! Roots follow the rules told in [`lanes`]. Whatever fits none of this is declined, and [`crate::equality`] decides.
 
 mod build;
+mod drawn;
 mod exact;
 mod lanes;
 mod poly;
@@ -23,11 +25,12 @@ use super::{Proof, Verdict};
 use crate::domain::{Domain, Domains, roles};
 use crate::expr::{Expr, Symbol};
 use crate::formula::stream::{Names, Seen, Table, stream};
+use crate::formula::write_plain;
 use build::Slot;
 use exact::{Exact, Generator, Read};
-use lanes::{Compared, Lanes, State};
+use lanes::{Compared, Lanes};
 use prime::{PLAIN, ROOTS};
-use value::{Place, Points, Sign, Value};
+use value::{Place, Points, Sign};
 
 /// Points for formulas without roots; each divides the chance of an error by p over the degree.
 const FEW: usize = 2;
@@ -105,35 +108,24 @@ impl From<&Seen> for Uses {
     }
 }
 
-/// Values of an expected formula at fixed points, kept for many answers.
+/// An expected formula, and what it takes to compare many answers with it at points.
 #[derive(Clone, Debug)]
 pub(crate) struct Residues {
+    e: Expr,
+    /// How it was written: points are drawn for the two texts of a pair.
+    text: String,
+    /// What is declared of the names, for the same purpose.
+    declared: Vec<u8>,
     /// The names in play: their place in the list is their index.
     list: Vec<Symbol>,
     places: Vec<Option<Place>>,
     uses: Uses,
-    side: Side,
+    divisor: i32,
+    roots: bool,
     /// Domains assumed, in words.
     assumed: Vec<String>,
     /// The formula as a quotient of polynomials with its generators, where a proof asked for it and it is one.
     exact: OnceLock<Option<(Vec<Generator>, Read)>>,
-}
-
-#[derive(Clone, Debug)]
-enum Side {
-    Plain(Box<Kept<PLAIN, FEW, 0>>),
-    Roots(Box<Kept<ROOTS, FEW, REAL>>),
-    /// Not found yet.
-    None,
-}
-
-/// The value of an expected formula, and what it takes to find those of answers at the same points.
-#[derive(Clone, Debug)]
-struct Kept<const C: u64, const L: usize, const R: usize> {
-    points: Points<L, R>,
-    divisor: i32,
-    value: Value<L, R>,
-    state: State<L, R>,
 }
 
 /// How to go on where lanes stopped.
@@ -156,8 +148,14 @@ impl Again {
 }
 
 impl Residues {
-    /// Values of an expected formula; `names` are the names in play. `None` where it is not of the kind this is for.
-    pub fn of(e: &Expr, domains: &Domains, mut names: Vec<Symbol>) -> Option<Residues> {
+    /// What an expected formula takes; `names` are the names in play and `text` how it was written. `None` where it is not
+    /// of the kind this is for.
+    pub fn of(
+        e: &Expr,
+        text: Option<&str>,
+        domains: &Domains,
+        mut names: Vec<Symbol>,
+    ) -> Option<Residues> {
         // A domain without inside, or a single value, is no place for identities.
         let flat =
             |d: &Domain| matches!((&d.low, &d.high), (Some(l), Some(h)) if l.value == h.value);
@@ -172,90 +170,57 @@ impl Residues {
             .collect();
         names.extend(strange);
         let mut residues = Residues {
+            e: e.clone(),
+            text: text.map_or_else(|| write_plain(e), str::to_string),
+            declared: drawn::declared(domains),
             places: names.iter().map(|name| place(name, domains)).collect(),
             list: names,
             uses: Uses::default(),
-            side: Side::None,
+            divisor: 1,
+            roots: false,
             assumed: domains.completed(&roles).1,
             exact: OnceLock::new(),
         };
-        let (mut divisor, mut roots) = (1, false);
         loop {
-            let kept = match roots {
-                false => residues.keep(e, divisor, None).map(Side::Plain),
-                true => residues.scouted(e, divisor).map(Side::Roots),
+            let again = match residues.roots {
+                false => residues.tried::<PLAIN, FEW, 0>(),
+                true => residues.tried::<ROOTS, MANY, REAL>(),
             };
-            match kept {
-                Ok(side) => {
-                    residues.side = side;
-                    return residues.uses.fit(Uses::default()).then_some(residues);
+            match again {
+                Ok(uses) => {
+                    residues.uses = uses;
+                    return uses.fit(Uses::default()).then_some(residues);
                 }
-                Err(Again::Divide(finer)) => divisor = finer,
-                Err(Again::Roots) => roots = true,
+                Err(Again::Divide(finer)) => residues.divisor = finer,
+                Err(Again::Roots) => residues.roots = true,
                 Err(Again::Never) => return None,
             }
         }
     }
 
-    /// Values at a few points at which all roots exist, found among many.
-    fn scouted(&mut self, e: &Expr, divisor: i32) -> Result<Box<Kept<ROOTS, FEW, REAL>>, Again> {
-        for first in (0..4).map(|k| k * MANY as u64) {
-            let rounds = std::array::from_fn(|lane| first + lane as u64);
-            let many = self.keep::<ROOTS, MANY, REAL>(e, divisor, Some((rounds, 0)))?;
-            let alive = |lane: &usize| many.state.alive >> lane & 1 == 1;
-            let mut lanes = (0..MANY).filter(alive).map(|lane| rounds[lane]);
-            if let (Some(one), Some(other)) = (lanes.next(), lanes.next()) {
-                return self.keep(e, divisor, Some(([one, other], many.state.count())));
-            }
-        }
-        // What real points tell remains.
-        self.keep(e, divisor, None)
-    }
-
-    fn keep<const C: u64, const L: usize, const R: usize>(
-        &mut self,
-        e: &Expr,
-        divisor: i32,
-        at: Option<([u64; L], usize)>,
-    ) -> Result<Box<Kept<C, L, R>>, Again> {
+    /// Whether the formula can be read into lanes of a kind.
+    fn tried<const C: u64, const L: usize, const R: usize>(&self) -> Result<Uses, Again> {
         let none = Points::EMPTY;
-        let mut lanes = Lanes::<C, L, R>::new(&none, &self.places, divisor);
-        if let Some((rounds, trusted)) = at {
-            (lanes.rounds, lanes.trusted) = (rounds, trusted);
-        }
+        let mut lanes = Lanes::<C, L, R>::new(&none, &self.places, self.divisor);
         let (mut list, mut uses) = (self.list.clone(), Uses::default());
-        let Some(value) = walk::value(e, &mut list, &mut uses, &mut lanes) else {
-            return Err(Again::of(&lanes));
-        };
-        for (index, name) in self.list.iter().enumerate() {
-            lanes.prepare(index, name.as_bytes());
+        match walk::value(&self.e, &mut list, &mut uses, &mut lanes) {
+            Some(_) => Ok(uses),
+            None => Err(Again::of(&lanes)),
         }
-        let value = *lanes.at(value);
-        let (points, state) = (
-            std::mem::replace(&mut lanes.points, Points::EMPTY),
-            lanes.state,
-        );
-        self.uses = uses;
-        Ok(Box::new(Kept {
-            points,
-            divisor,
-            value,
-            state,
-        }))
     }
 
     /// Compares an answer; `None` where it is not of the kind this is for.
     pub fn compare(&self, answer: &Expr) -> Option<Finding> {
         let mut list = self.list.clone();
         let mut uses = Uses::default();
-        let quick = match &self.side {
-            Side::Plain(kept) => kept.judge(self, |lanes| {
+        let text = write_plain(answer);
+        let quick = match self.roots {
+            false => self.at_points::<PLAIN, FEW, 0>(&text, |lanes| {
                 walk::value(answer, &mut list, &mut uses, lanes)
             }),
-            Side::Roots(kept) => kept.judge(self, |lanes| {
+            true => self.at_points::<ROOTS, MANY, REAL>(&text, |lanes| {
                 walk::value(answer, &mut list, &mut uses, lanes)
             }),
-            Side::None => None,
         }?;
         uses.fit(self.uses)
             .then(|| quick.finding(self.assumed.clone()))
@@ -263,25 +228,38 @@ impl Residues {
 
     /// Compares an answer that is read in one pass with a table of the names given when this was made.
     pub fn judge(&self, answer: &str, names: &Names, seen: &mut Seen) -> Option<Quick> {
-        let quick = match &self.side {
-            Side::Plain(kept) => kept.judge(self, |lanes| {
+        let quick = match self.roots {
+            false => self.at_points::<PLAIN, FEW, 0>(answer, |lanes| {
                 stream(answer, Table::Known(names), lanes, seen)
             }),
-            Side::Roots(kept) => kept.judge(self, |lanes| {
+            true => self.at_points::<ROOTS, MANY, REAL>(answer, |lanes| {
                 stream(answer, Table::Known(names), lanes, seen)
             }),
-            Side::None => None,
         }?;
         Uses::from(&*seen).fit(self.uses).then_some(quick)
     }
 
+    /// Compares both at points drawn for the pair.
+    fn at_points<const C: u64, const L: usize, const R: usize>(
+        &self,
+        answer: &str,
+        read: impl FnOnce(&mut Lanes<C, L, R>) -> Option<Slot>,
+    ) -> Option<Quick> {
+        let none = Points::EMPTY;
+        let mut lanes = Lanes::<C, L, R>::new(&none, &self.places, self.divisor);
+        lanes.rounds = drawn::rounds([&self.text, answer], &self.declared);
+        let (mut list, mut uses) = (self.list.clone(), Uses::default());
+        let expected = walk::value(&self.e, &mut list, &mut uses, &mut lanes)?;
+        let mine = std::mem::take(&mut lanes.state.used);
+        let answer = read(&mut lanes)?;
+        let theirs = lanes.state.used;
+        let compared = lanes.compare((lanes.at(expected), mine), (lanes.at(answer), theirs))?;
+        Some(Quick::of(compared, C == ROOTS))
+    }
+
     /// Whether an answer that is equal at points is proved to be equal to the formula these values are of.
     pub fn proves(&self, e: &Expr, answer: &str, names: &Names, seen: &mut Seen) -> bool {
-        let divisor = match &self.side {
-            Side::Plain(kept) => kept.divisor,
-            Side::Roots(kept) => kept.divisor,
-            Side::None => return false,
-        };
+        let divisor = self.divisor;
         let expected = |exact: &mut Exact| {
             let (mut list, mut uses) = (self.list.clone(), Uses::default());
             exact.read(|exact| walk::value(e, &mut list, &mut uses, exact))
@@ -304,8 +282,8 @@ impl Residues {
         let proved = exact.proves(mine, &theirs) || {
             // Roots that come first are those by which later ones are known.
             let mut exact = Exact::new(&self.places, divisor, Vec::new());
-            let rooted = matches!(self.side, Side::Roots(_));
-            let turned = rooted
+            let turned = self
+                .roots
                 .then(|| given(&mut exact).zip(expected(&mut exact)))
                 .flatten();
             turned.is_some_and(|(theirs, mine)| exact.proves(&mine, &theirs))
@@ -323,23 +301,6 @@ impl Residues {
     /// The domains that are assumed, in words.
     pub fn assumed(&self) -> &[String] {
         &self.assumed
-    }
-}
-
-impl<const C: u64, const L: usize, const R: usize> Kept<C, L, R> {
-    #[inline]
-    fn judge(
-        &self,
-        with: &Residues,
-        read: impl FnOnce(&mut Lanes<C, L, R>) -> Option<Slot>,
-    ) -> Option<Quick> {
-        let mut lanes = Lanes::new(&self.points, &with.places, self.divisor);
-        lanes.state = self.state;
-        lanes.state.used = 0;
-        let answer = read(&mut lanes)?;
-        let (mine, theirs) = (self.state.used, lanes.state.used);
-        let compared = lanes.compare((&self.value, mine), (lanes.at(answer), theirs))?;
-        Some(Quick::of(compared, C == ROOTS))
     }
 }
 
@@ -429,6 +390,7 @@ fn pair_in<const C: u64, const L: usize, const R: usize>(
 ) -> Result<Pair, Again> {
     let none = Points::EMPTY;
     let mut lanes = Lanes::<C, L, R>::new(&none, &[], divisor);
+    lanes.rounds = drawn::rounds([expected, answer], &[]);
     let mut names = Names::collecting();
     let mut seen = [Seen::default(), Seen::default()];
     let table = Table::Collect(&mut names);
