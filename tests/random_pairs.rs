@@ -196,7 +196,7 @@ fn pair(rng: &mut Rng) -> (Expr, Expr) {
         ),
         42 => (call(Abs, &(&u - &v)), call(Abs, &(&v - &u))),
         43 => ((n(2) * &u).sqrt(), n(2).sqrt() * u.sqrt()),
-        44 => (u.sqrt().sqrt(), u.power(ratio(1, 4))),
+        44 => (u.sqrt().sqrt(), u.power(Expr::ratio(1, 4))),
         45 => ((&u + &v).sqrt(), u.sqrt() + v.sqrt()),
         46 => ((&u + &v).powi(2), u.powi(2) + v.powi(2)),
         _ => (

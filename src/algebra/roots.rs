@@ -253,7 +253,9 @@ impl Field {
         }
         let with = self.mul_poly(p, radicand).ok()?;
         let x = self.square_in(&with, below, fuel)?;
-        self.div(&x, &Element::var(g)).ok()
+        // x/g as x g/g², which is plain where g² divides: sin(α + β) and not a quotient by sin α.
+        let above = self.mul(&x, &Element::var(g)).ok()?;
+        self.div(&above, &Element::from_poly(radicand.clone())).ok()
     }
 
     fn square_of_element(&self, x: &Element, tower: &[usize], fuel: &mut u32) -> Option<Element> {

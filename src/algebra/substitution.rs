@@ -37,8 +37,8 @@ pub(crate) enum Found {
 
 /// Work for one sign: parts of the domain, times terms, times degrees.
 const WORK: usize = 30_000;
-/// Most parts of a domain.
-const MOST_PARTS: usize = 160;
+/// Most parts of a domain, for one variable, two, or more.
+const MOST_PARTS: [usize; 3] = [160, 48, 24];
 
 impl Field {
     /// Writes variables of unknown sign as positive ones, then looks at the coefficients; where they are of both signs, the
@@ -57,7 +57,8 @@ impl Field {
             return Found::Unknown;
         }
         let degree: u32 = all.iter().map(|v| p.degree(*v)).sum();
-        let mut left = (WORK / (p.len() * (1 + degree as usize))).clamp(2, MOST_PARTS);
+        let most = MOST_PARTS[(all.len() - 1).min(2)];
+        let mut left = (WORK / (p.len() * (1 + degree as usize))).clamp(2, most);
         let mut total: Option<Sign> = None;
         let mut open = vec![(axes, 0)];
         while let Some((part, depth)) = open.pop() {

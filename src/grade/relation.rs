@@ -214,10 +214,6 @@ fn same_sign(expected: &Normal, answer: &Normal, domains: &Domains) -> Option<bo
 fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     let domains = &ctx.key.question.domains;
     let (f, g) = (&expected.difference, &answer.difference);
-    let same_angle = same_angle(f, g, domains);
-    if same_angle == Some(true) {
-        return same_solutions("each equation fixes the angle, and at the same value");
-    }
     let compared = locus::compare(f, g, domains);
     match compared.as_ref().map(|c| c.extents) {
         Some([Extent::All, Extent::All] | [Extent::None, Extent::None]) => {
@@ -235,6 +231,10 @@ fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     }
     if let Some(finding) = compared.and_then(|c| from_parts(ctx, f, g, c)) {
         return finding;
+    }
+    let same_angle = same_angle(f, g, domains);
+    if same_angle == Some(true) {
+        return same_solutions("each equation fixes the angle, and at the same value");
     }
     if same_angle == Some(false) {
         let words = "the two equations fix the angle at different values";

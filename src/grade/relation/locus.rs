@@ -179,7 +179,9 @@ pub(super) fn vanishing(part: &Expr, other: &Expr, domains: &Domains) -> Option<
     }
     let uses = roles(&[part, other]);
     let (domains, _) = domains.completed(&uses);
-    for start in samples(&uses, &domains, STARTS) {
+    // Along the only symbol every line is the same.
+    let starts = if uses.symbols.len() == 1 { 1 } else { STARTS };
+    for start in samples(&uses, &domains, starts) {
         for name in part.symbols() {
             let Some(domain) = domains.symbols.get(&name) else {
                 continue;
