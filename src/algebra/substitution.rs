@@ -57,7 +57,7 @@ impl Field {
             return Found::Unknown;
         }
         let degree: u32 = all.iter().map(|v| p.degree(*v)).sum();
-        let most = MOST_PARTS[(all.len() - 1).min(2)];
+        let most = MOST_PARTS[all.len().saturating_sub(1).min(2)];
         let mut left = (WORK / (p.len() * (1 + degree as usize))).clamp(2, most);
         let mut total: Option<Sign> = None;
         let mut open = vec![(axes, 0)];
