@@ -20,7 +20,7 @@ type Long = Big<320>;
 
 fn cases() -> u64 {
     let told = std::env::var("CAROM_CASES").ok();
-    told.and_then(|n| n.parse().ok()).unwrap_or(400)
+    told.and_then(|n| n.parse().ok()).unwrap_or(150)
 }
 
 fn first_case() -> u64 {

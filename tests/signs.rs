@@ -11,7 +11,7 @@ use num_traits::Zero;
 
 fn cases() -> u64 {
     let told = std::env::var("CAROM_CASES").ok();
-    told.and_then(|n| n.parse().ok()).unwrap_or(500)
+    told.and_then(|n| n.parse().ok()).unwrap_or(300)
 }
 
 /// An interval with ends that are small numbers, open or closed or missing; and numbers of it, its ends first.
