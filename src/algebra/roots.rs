@@ -76,11 +76,12 @@ impl Field {
         for f in odd {
             match self.sign_poly(&f) {
                 Some(sign) if sign.is_not_negative() => atoms.push(f),
-                Some(_) => {
+                Some(Sign::Negative) => {
                     rest = -rest;
                     atoms.push(f.neg());
                 }
-                None => together = self.mul_poly(&together, &f)?,
+                // What may be zero at an end has a root there.
+                _ => together = self.mul_poly(&together, &f)?,
             }
         }
         if rest.is_negative() {
@@ -381,6 +382,16 @@ impl Field {
                 Ok(Element::var(v))
             }
         }
+    }
+
+    /// What absolute values are taken of, hidden in roots of squares or written out.
+    pub fn absolute(&self) -> Vec<crate::expr::Expr> {
+        let kinds = self.gens.iter().map(|g| &g.kind);
+        let inside = kinds.filter_map(|kind| match kind {
+            Kind::Abs(p) => Some(self.expr(&Element::from_poly(p.clone()))),
+            _ => None,
+        });
+        inside.collect()
     }
 
     fn assume(&mut self, f: Poly) {

@@ -9,6 +9,7 @@ use num_traits::Zero;
 use super::Assumption;
 use super::line::{doubles, rough_zeros};
 use super::refute::sign_at;
+use crate::algebra::{Field, Sign};
 use crate::domain::{Coordinate, Domain, Domains, Limit, Roles, Sample};
 use crate::expr::number::from_f64;
 use crate::expr::{Expr, Function, Int, Node, Point, Rational, Symbol};
@@ -196,8 +197,32 @@ pub(super) fn nowhere_negative(e: &Expr, domains: &Domains) -> bool {
     matches!(enclosed(e, &part), Outcome::Value(v) if v.low >= 0.0)
 }
 
+/// Whether a formula has no value on the whole domain: a logarithm of what is nowhere positive, a root of what is negative,
+/// or arguments of which one or another is negative everywhere.
+pub(super) fn no_value(e: &Expr, domains: &Domains) -> bool {
+    let mut field = Field::new(domains);
+    let mut sign = |x: &Expr| {
+        field.prepare([x]);
+        let x = field.element(x).ok()?;
+        field.sign(&x)
+    };
+    let mut never = false;
+    e.walk(&mut |part| {
+        if let Node::Call(Function::Ln, x) = part.node() {
+            never =
+                never || sign(x).is_some_and(|s| !matches!(s, Sign::Positive | Sign::NotNegative));
+        }
+    });
+    let needed = arguments(&[e]).into_iter();
+    let needed: Vec<Expr> = needed
+        .filter(|(_, needed)| *needed)
+        .map(|(e, _)| e)
+        .collect();
+    never || needed.iter().any(|x| sign(x) == Some(Sign::Negative)) || nowhere(&needed, domains)
+}
+
 /// Whether one of the arguments is negative at every point of the domain, by enclosures over parts of it.
-pub(super) fn nowhere(arguments: &[Expr], domains: &Domains) -> bool {
+fn nowhere(arguments: &[Expr], domains: &Domains) -> bool {
     let all: Vec<&Expr> = arguments.iter().collect();
     let Some(whole) = whole(&all, domains).filter(|_| !arguments.is_empty()) else {
         return false;

@@ -309,7 +309,7 @@ impl Search<'_> {
             known @ (Proof::Equal(..) | Proof::Invalid(_)) => return known,
             open => open,
         };
-        let settled = matches!(open, Proof::Unequal { settled: true });
+        let settled = matches!(open, Proof::Unequal { settled: true, .. });
         let arcs = if settled {
             None
         } else {
@@ -317,6 +317,11 @@ impl Search<'_> {
         };
         arcs.or_else(|| constants::prove(a, b, domains))
             .or_else(|| self.proof_where_defined())
+            // What is read first may decide how the other is written: neither order knows more than the other.
+            .or_else(|| match proof::compare(b, a, domains) {
+                turned @ Proof::Equal(..) => Some(turned),
+                _ => None,
+            })
             .unwrap_or(open)
     }
 
@@ -354,15 +359,21 @@ impl Search<'_> {
         if let Some(found) = self.extend(self.size.points()) {
             return self.different(found);
         }
+        if let Proof::Unequal { folded, .. } = &proof
+            && !folded.is_empty()
+        {
+            let near = samples(self.roles, self.domains, FIRST + 2);
+            let risky = critical::points(folded, &near, self.domains, self.roles);
+            if let Some(found) = self.probe.points(&risky, &mut self.tally) {
+                return self.different(found);
+            }
+        }
         for (side, e) in [(Side::Left, self.a), (Side::Right, self.b)] {
             if self.tally.defined(side) > 0 || self.tally.undefined(side) == 0 {
                 continue;
             }
             // Constants have one point only; elsewhere no value at points is no proof.
-            let needed = critical::arguments(&[e]).into_iter();
-            let needed = needed.filter(|(_, needed)| *needed).map(|(e, _)| e);
-            let needed: Vec<Expr> = needed.collect();
-            if self.roles.symbols.is_empty() || critical::nowhere(&needed, self.domains) {
+            if self.roles.symbols.is_empty() || critical::no_value(e, self.domains) {
                 return self.invalid(side);
             }
         }
@@ -376,8 +387,8 @@ impl Search<'_> {
             _ if self.tally.both_defined == 0 => self.undecided(Reason::NoPoint),
             // A point at which both have a value was found only now.
             Proof::Equal(assumptions, ground) => self.equal(assumptions, ground),
-            Proof::Unequal { settled: true } => self.undecided(Reason::NoPointApart),
-            Proof::Unequal { settled: false } => self.undecided(Reason::UnknownLaws),
+            Proof::Unequal { settled: true, .. } => self.undecided(Reason::NoPointApart),
+            Proof::Unequal { settled: false, .. } => self.undecided(Reason::UnknownLaws),
             Proof::Stopped(limit) => self.undecided(Reason::Limit(limit)),
             Proof::Invalid(side) => self.invalid(side),
         }

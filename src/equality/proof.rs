@@ -12,7 +12,11 @@ pub(super) enum Proof {
     Equal(Vec<Assumption>, Ground),
     /// The difference is not zero in the normal form. Whether that settles the matter is told by `settled`: not if a
     /// function occurs whose laws the normal form does not know.
-    Unequal { settled: bool },
+    Unequal {
+        settled: bool,
+        /// What absolute values are taken of: where it changes sign, the two may part.
+        folded: Vec<Expr>,
+    },
     /// A formula divides by zero identically, or takes an even root of something negative everywhere.
     Invalid(Side),
     /// A limit was met.
@@ -60,6 +64,7 @@ fn compare_in(field: &mut Field, a: &Expr, b: &Expr) -> Proof {
         }
         Ok(_) => Proof::Unequal {
             settled: field.complete(),
+            folded: field.absolute(),
         },
         Err(stop) => Proof::Stopped(stop.to_string()),
     }
