@@ -138,7 +138,7 @@ proptest! {
         let symbols = if open { Symbols::open() } else { declared() };
         match read(&text, &symbols) {
             Ok(reading) => {
-                for other in other_readings(&text, &symbols) {
+                for other in other_readings(&text, &symbols, true) {
                     prop_assert!(other.content != reading.content);
                 }
                 for note in &reading.notes {
@@ -383,7 +383,7 @@ fn the_other_readings_are_told() {
         } else {
             names.split(' ').collect()
         };
-        let readings = other_readings(text, &symbols);
+        let readings = other_readings(text, &symbols, true);
         let found: BTreeSet<String> = readings
             .iter()
             .filter_map(|r| r.content.expr().map(write_plain))

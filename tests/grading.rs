@@ -339,3 +339,28 @@ fn a_line_judged_at_points_is_the_line_of_its_grade() {
     }
     assert!(judged > 150, "{judged} rows judged at points");
 }
+
+#[test]
+fn a_slash_without_brackets_is_refused_where_authors_ask_for_brackets() {
+    let strict = Options {
+        strict_slash: true,
+        ..Options::default()
+    };
+    let none = Question::default();
+    for (expected, answer, verdict) in [
+        ("3*v/(2*l)", "3v/(2l)", Verdict::Equivalent),
+        ("3*v/(2*l)", "3v/2/l", Verdict::Equivalent),
+        ("3*v/(2*l)", "3v/2l", Verdict::Invalid),
+        ("m*v^2/2", "1/2mv^2", Verdict::Invalid),
+        ("3v/2l", "3*v/(2*l)", Verdict::Invalid),
+    ] {
+        let grade = judge(expected, answer, &none, &strict);
+        assert_eq!(grade.verdict, verdict, "{expected} | {answer}");
+    }
+    // Without that the author of an expected formula is told.
+    let told = judge("3v/2l", "3*v/(2*l)", &none, &Options::default());
+    assert!(
+        told.diagnosis.iter().any(|d| d.code == "EXPECTED_READING"),
+        "{told:?}"
+    );
+}

@@ -49,6 +49,10 @@ pub struct GradeArgs {
     /// Demand on the form: simplified, factored, unit, digits=3, only=m,v; may be repeated
     #[arg(long)]
     form: Vec<String>,
+    /// What a slash without brackets means: `usual` reads a tight product as standing below and tries the other way for an
+    /// answer; `strict` refuses what brackets do not show
+    #[arg(long, value_enum, default_value_t = SlashArg::Usual)]
+    slash: SlashArg,
     /// Declare a symbol, such as v=real, e=0..1 or theta=0..pi/2; may be repeated
     #[arg(long = "symbol", value_name = "NAME=DOMAIN")]
     symbols: Vec<String>,
@@ -94,6 +98,14 @@ enum ProofArg {
     Fast,
     /// An identity
     Identity,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum SlashArg {
+    /// 3v/2l is 3v/(2l), 1/2mv² is half of mv²; an answer may mean the other
+    Usual,
+    /// Brackets have to show what stands below
+    Strict,
 }
 
 /// Runs `carom grade`.
@@ -221,6 +233,7 @@ fn bounds(answers: &[carom::story::Answer]) -> Vec<Bound> {
 
 fn options(args: &GradeArgs) -> Result<Options, Failure> {
     let mut options = Options {
+        strict_slash: args.slash == SlashArg::Strict,
         strength: match args.proof {
             ProofArg::Fast => Strength::Fast,
             ProofArg::Identity => Strength::Identity,
@@ -372,7 +385,7 @@ pub fn read(args: &ReadArgs) -> Result<u8, Failure> {
         .collect();
     let others: Vec<String> = match reading.choices {
         0 => Vec::new(),
-        _ => formula::other_readings(&args.formula, &symbols)
+        _ => formula::other_readings(&args.formula, &symbols, true)
             .iter()
             .map(|r| grade::show(&r.content))
             .collect(),

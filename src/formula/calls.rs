@@ -61,6 +61,19 @@ impl Parser<'_> {
         start: usize,
         end: usize,
     ) -> Faulty<Written> {
+        self.arguments += 1;
+        let called = self.call_here(function, reciprocal, start, end);
+        self.arguments -= 1;
+        called
+    }
+
+    fn call_here(
+        &mut self,
+        function: Function,
+        reciprocal: bool,
+        start: usize,
+        end: usize,
+    ) -> Faulty<Written> {
         let mut exponent = None;
         match self.peek()?.tok {
             Tok::Caret => {

@@ -8,11 +8,13 @@ use super::fault::{Fault, Faulty, is_invisible};
 use super::note::{Note, Remark};
 use super::number::{self, Exponent};
 use super::symbols::{Symbols, greek_name, is_angle_name};
-use super::tex::{decoration, degree_mark};
+use super::tex::{decoration, degree_mark, shows_space};
 use super::written::Literal;
 use crate::dimension::Unit;
 use crate::expr::{Function, Rational, Symbol, ratio};
 
+/// The decision that turns all slashes round; sites below it are turned one by one.
+pub(super) const SLASHES: u32 = 63;
 /// Most tokens of one formula.
 const MAX_TOKENS: u32 = 20_000;
 /// Most digits and powers of ten of all numbers together, beyond what fits a machine word: long fractions cost much.
@@ -82,6 +84,8 @@ pub(crate) struct Lexer<'a> {
     /// Decisions met so far, and which of them are to be turned round.
     pub sites: u32,
     pub flips: u64,
+    /// Whether slashes could reach further or less far.
+    pub slashes: bool,
     pub notes: Vec<Note>,
     /// Undeclared names met in open reading.
     pub found: Vec<Symbol>,
@@ -127,6 +131,7 @@ impl<'a> Lexer<'a> {
             units_first,
             sites: 0,
             flips,
+            slashes: false,
             notes: Vec::new(),
             found: Vec::new(),
             unknown: Vec::new(),
@@ -145,7 +150,13 @@ impl<'a> Lexer<'a> {
     pub fn usual(&mut self) -> bool {
         let site = self.sites;
         self.sites += 1;
-        site >= 64 || self.flips >> site & 1 == 0
+        site >= SLASHES || self.flips >> site & 1 == 0
+    }
+
+    /// Whether slashes reach as far as usual. There is one other reading for all of them, and none `inside` a function.
+    pub fn usual_slash(&mut self, inside: bool) -> bool {
+        self.slashes |= !inside;
+        inside || self.flips >> SLASHES & 1 == 0
     }
 
     pub fn note(&mut self, remark: Remark, start: usize, middle: usize, end: usize) {
@@ -194,7 +205,7 @@ impl<'a> Lexer<'a> {
         })
     }
 
-    /// Passes over spaces and what only decorates.
+    /// Passes over spaces and what only decorates; whether a space is among it that people see.
     fn skip_blanks(&mut self) -> Faulty<bool> {
         let start = self.pos;
         loop {
@@ -224,7 +235,7 @@ impl<'a> Lexer<'a> {
             };
             self.pos += length;
         }
-        Ok(self.pos > start)
+        Ok(self.pos > start && shows_space(self.text.as_bytes(), start, self.pos))
     }
 
     fn token(&mut self, single: bool) -> Faulty<Tok> {

@@ -156,6 +156,8 @@ pub struct Reading {
     pub notes: Vec<Note>,
     /// How many places could be read in another way; see [`other_readings`].
     pub choices: u32,
+    /// Whether one of these is how far slashes reach; see [`slashes_turned`].
+    pub slashes: bool,
 }
 
 impl Reading {
@@ -240,6 +242,7 @@ fn two_values(text: &str, symbols: &Symbols) -> Option<Reading> {
         unit: None,
         notes: first.notes.into_iter().chain(second.notes).collect(),
         choices: 0,
+        slashes: false,
     })
 }
 
@@ -259,16 +262,19 @@ pub fn read_expr(text: &str, symbols: &Symbols) -> Result<Expr, Fault> {
 /// Most readings tried beside the usual one.
 const MAX_READINGS: u32 = 16;
 
-/// The other plausible readings of a text that was read with [`Reading::choices`] above 0: each choice turned round
-/// alone, and all of them together. The same content is given once; a turned reading that fails is left out.
-pub fn other_readings(text: &str, symbols: &Symbols) -> Vec<Reading> {
+/// The other plausible readings of a text that was read with [`Reading::choices`] above 0: all slashes turned round, each
+/// other choice alone, and all of these together. The same content is given once; a turned reading that fails is left out.
+/// Without `slashes` these stay as they are usually read.
+pub fn other_readings(text: &str, symbols: &Symbols, slashes: bool) -> Vec<Reading> {
     let Ok(usual) = read(text, symbols) else {
         return Vec::new();
     };
     let mut out: Vec<Reading> = Vec::new();
-    let count = usual.choices.min(MAX_READINGS);
-    let all = (count > 1).then_some(u64::MAX);
-    for flips in (0..count).map(|site| 1u64 << site).chain(all) {
+    let count = (usual.choices - u32::from(usual.slashes)).min(MAX_READINGS);
+    let all = (count > 1).then_some(!(1u64 << lexer::SLASHES));
+    let slashes = (slashes && usual.slashes).then_some(1u64 << lexer::SLASHES);
+    let sites = (0..count).map(|site| 1u64 << site);
+    for flips in slashes.into_iter().chain(sites).chain(all) {
         if let Ok(reading) = read_as(text, symbols, flips) {
             let known = reading.content == usual.content
                 || out.iter().any(|r| r.content == reading.content);
@@ -278,6 +284,12 @@ pub fn other_readings(text: &str, symbols: &Symbols) -> Vec<Reading> {
         }
     }
     out
+}
+
+/// The reading in which every slash outside functions reaches as far as some people mean it: over the first factor where
+/// all of a tight product was taken, over all where a number or a space parted it.
+pub fn slashes_turned(text: &str, symbols: &Symbols) -> Option<Reading> {
+    read_as(text, symbols, 1u64 << lexer::SLASHES).ok()
 }
 
 fn read_as(text: &str, symbols: &Symbols, flips: u64) -> Faulty<Reading> {
@@ -353,7 +365,8 @@ fn read_inner(
         literal,
         unit,
         notes: lexer.notes,
-        choices: lexer.sites,
+        choices: lexer.sites + u32::from(lexer.slashes),
+        slashes: lexer.slashes,
     })
 }
 

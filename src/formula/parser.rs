@@ -29,6 +29,8 @@ pub(crate) struct Parser<'a> {
     /// Whether there is nothing but blanks to read.
     empty: bool,
     pub(super) bars: u32,
+    /// Functions around the current place.
+    pub(super) arguments: u32,
     /// Units inside the current side.
     units: u32,
 }
@@ -47,6 +49,7 @@ impl<'a> Parser<'a> {
             depth: 0,
             empty: text[start..].trim().is_empty(),
             bars: 0,
+            arguments: 0,
             units: 0,
         }
     }
@@ -269,51 +272,47 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// What stands below a slash: all that follows without a sign, or its first factor alone and the rest apart.
+    /// What stands below a slash, and what follows it: a product without signs and spaces stands below, but behind a
+    /// fraction of two whole numbers only the number does.
     fn below(&mut self, above: &[(Link, Written)]) -> Faulty<(Written, Option<Written>)> {
         let first = self.factor()?;
         if !self.starts_factor()? {
             return Ok((first, None));
         }
-        // `1/2 m v²` with a space behind a fraction of two whole numbers is half of the rest to everybody.
-        let spaced = self.peek()?.spaced;
+        // `1/2mv²` is half of the rest to everybody.
         let whole = |w: &Written| matches!(&w.shape, Shape::Number(n) if !n.decimal);
         let half = match above {
-            [(_, number)] => {
-                whole(number) && whole(&first) && first.start == number.end + 1 && spaced
-            }
+            [(_, number)] => whole(number) && whole(&first) && first.start == number.end + 1,
             _ => false,
         };
         // Brackets show where the divisor ends: `3v/(2l) cosθ`.
         let enclosed = matches!(first.shape, Shape::Bracket(_));
         let vector = matches!(&self.peek()?.tok, Tok::Name(name) if is_unit_vector(name));
-        if vector {
+        if vector || enclosed {
             return Ok((first, Some(self.group()?)));
         }
-        let usual = self.lexer.usual();
-        let tight = (half || enclosed) != usual;
+        let usual = self.lexer.usual_slash(self.arguments > 0);
         let from = above.last().map_or(first.start, |(_, w)| w.start);
         let middle = first.end;
-        let mut rest = self.group_from(if tight { Some(first.clone()) } else { None })?;
-        self.lexer
-            .note(Remark::Slash { tight }, from, middle, rest.end);
-        if !tight {
-            return Ok((first, Some(rest)));
-        }
-        // A unit vector never stands below: 3v/2ℓ k̂.
-        let last = match &mut rest.shape {
-            Shape::Product(factors)
-                if factors.last().is_some_and(|(_, f)| ends_in_unit_vector(f)) =>
-            {
-                factors.pop()
-            }
-            _ => None,
+        let parted = half || self.peek()?.spaced;
+        let product = if parted {
+            first
+        } else {
+            self.group_until(Some(first), true)?
         };
-        if let Some((_, vector)) = last {
-            rest.end = vector.start;
-            return Ok((rest, Some(vector)));
+        let (below, rest) = match (parted || self.starts_factor()?, usual) {
+            (true, true) => (product, Some(self.group()?)),
+            (true, false) => vector_above(self.group_from(Some(product))?),
+            (false, true) => vector_above(product),
+            (false, false) => first_alone(product),
+        };
+        if self.arguments == 0 {
+            let tight = rest.is_none();
+            let middle = if tight { middle } else { below.end };
+            let end = rest.as_ref().map_or(below.end, |r| r.end);
+            self.lexer.note(Remark::Slash { tight }, from, middle, end);
         }
-        Ok((rest, None))
+        Ok((below, rest))
     }
 
     /// Factors side by side.
@@ -323,6 +322,11 @@ impl<'a> Parser<'a> {
     }
 
     pub(super) fn group_from(&mut self, first: Option<Written>) -> Faulty<Written> {
+        self.group_until(first, false)
+    }
+
+    /// Factors side by side, in a `tight` one up to the first space.
+    fn group_until(&mut self, first: Option<Written>, tight: bool) -> Faulty<Written> {
         let first = match first {
             Some(first) => first,
             None => self.factor()?,
@@ -332,7 +336,7 @@ impl<'a> Parser<'a> {
         }
         let (start, mut end) = (first.start, first.end);
         let mut factors = vec![(Link::Beside, first)];
-        while self.starts_factor()? {
+        while self.starts_factor()? && !(tight && self.peek()?.spaced) {
             if let (
                 Tok::Number(_),
                 Some((
@@ -618,6 +622,34 @@ fn beside(before: &Written, factor: &Written) -> Faulty<()> {
         }
         _ => Ok(()),
     }
+}
+
+/// A unit vector never stands below: 3v/2ℓ k̂.
+fn vector_above(mut below: Written) -> (Written, Option<Written>) {
+    let last = match &mut below.shape {
+        Shape::Product(factors) if factors.last().is_some_and(|(_, f)| ends_in_unit_vector(f)) => {
+            factors.pop()
+        }
+        _ => None,
+    };
+    if let Some((_, vector)) = &last {
+        below.end = vector.start;
+    }
+    (below, last.map(|(_, vector)| vector))
+}
+
+/// The first factor of a product, and the others.
+fn first_alone(product: Written) -> (Written, Option<Written>) {
+    let end = product.end;
+    let Shape::Product(mut factors) = product.shape else {
+        return (product, None);
+    };
+    let (_, first) = factors.remove(0);
+    let start = factors.first().map_or(end, |(_, f)| f.start);
+    (
+        first,
+        Some(Written::new(Shape::Product(factors), start, end)),
+    )
 }
 
 fn is_unit_vector(name: &str) -> bool {

@@ -267,6 +267,38 @@ pub(super) fn decoration(rest: &str) -> Option<usize> {
     known.then_some(length)
 }
 
+/// Whether blanks from `start` to `end` show as a space: one that ends a command does not, nor does `\left`.
+pub(super) fn shows_space(text: &[u8], start: usize, end: usize) -> bool {
+    let letters = text[..start]
+        .iter()
+        .rev()
+        .take_while(|b| b.is_ascii_alphabetic())
+        .count();
+    let mut ends_command = letters > 0 && text[..start - letters].ends_with(b"\\");
+    let mut at = start;
+    while at < end {
+        if text[at] != b'\\' {
+            if !ends_command && text[at] != b'$' {
+                return true;
+            }
+            at += 1;
+            continue;
+        }
+        let word = text[at + 1..end]
+            .iter()
+            .take_while(|b| b.is_ascii_alphabetic())
+            .count();
+        match &text[at + 1..at + 1 + word] {
+            b"" if text.get(at + 1) != Some(&b'!') => return true,
+            b"quad" | b"qquad" | b"thinspace" | b"medspace" => return true,
+            _ => {}
+        }
+        ends_command = word > 0;
+        at += 1 + word.max(1);
+    }
+    false
+}
+
 /// Length of a degree sign behind `^`.
 pub(super) fn degree_mark(rest: &str) -> Option<usize> {
     let blanks = rest.len() - rest.trim_start_matches(' ').len();

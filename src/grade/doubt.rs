@@ -3,7 +3,7 @@
 use super::compare;
 use super::{Diagnosis, Key, Options, Proof, Verdict, show};
 use crate::expr::{Expr, Function, Node};
-use crate::formula::{self, Content, Note, Reading, Remark};
+use crate::formula::{self, Content, Fault, Note, Reading, Remark};
 
 /// `cosθ^2`, read as the cosine of a square, would be right as the square of the cosine.
 pub(super) fn power_of_function(content: &Content) -> Option<Content> {
@@ -77,6 +77,65 @@ pub(super) fn euler(
     }
 }
 
+/// An answer that is wrong as it is usually read, and right with every slash turned round, is right, and is told how it was
+/// taken: people differ about slashes.
+pub(super) fn slashes(
+    key: &Key,
+    answer: &str,
+    options: &Options,
+    reading: &mut Reading,
+    finding: &mut compare::Finding,
+) {
+    if !reading.slashes || finding.verdict != Verdict::Different {
+        return;
+    }
+    let Some(other) = formula::slashes_turned(answer, &key.readable) else {
+        return;
+    };
+    let turned = compare::contents(key, &other, options);
+    if turned.verdict != Verdict::Equivalent {
+        return;
+    }
+    let message = format!(
+        "right when it is read as {}; by the usual rule it is {}",
+        show(&other.content),
+        show(&reading.content)
+    );
+    let hint = "the slash can be read in two ways; use brackets to say what stands below";
+    *finding = turned;
+    finding.note = "EQUIV_READING";
+    finding
+        .diagnosis
+        .insert(0, Diagnosis::new("READING", message, hint));
+    *reading = other;
+}
+
+/// What an author should know about an expected formula in which a slash could reach further or less far.
+pub(super) fn told(expected: &str, reading: &Reading) -> Option<String> {
+    if !reading.slashes {
+        return None;
+    }
+    let slash = |n: &&Note| matches!(n.remark, Remark::Slash { .. });
+    let note = reading.notes.iter().find(slash)?;
+    Some(note.message(expected))
+}
+
+/// The fault of a slash whose reach is not shown by brackets, where that is asked for.
+pub(super) fn unclear_slash(text: &str, reading: &Reading) -> Option<Fault> {
+    let slash = |n: &&Note| matches!(n.remark, Remark::Slash { .. });
+    let note = reading.notes.iter().find(slash)?;
+    Some(Fault {
+        message: format!(
+            "what stands below the slash is unclear: {}",
+            note.message(text)
+        ),
+        start: note.start,
+        end: note.end,
+        hint: Some("write brackets around all that stands below".into()),
+        also: Vec::new(),
+    })
+}
+
 /// Where a text could be read in another way and that would be right, the grade says so; the usual reading decides.
 pub(super) fn ambiguity(
     key: &Key,
@@ -92,7 +151,7 @@ pub(super) fn ambiguity(
         forms: Vec::new(),
         ..options.clone()
     };
-    let mut others = formula::other_readings(answer, &key.readable);
+    let mut others = formula::other_readings(answer, &key.readable, false);
     if let Some(content) = power_of_function(&reading.content) {
         others.push(Reading {
             content,

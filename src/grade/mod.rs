@@ -72,12 +72,14 @@ pub struct Options {
     pub tolerance: Option<Tolerance>,
     /// Demands on the way the answer is written.
     pub forms: Vec<Form>,
+    /// Whether brackets have to show what stands below a slash.
+    pub strict_slash: bool,
 }
 
 impl Options {
     /// Whether nothing but equality is asked for.
     fn is_plain(&self) -> bool {
-        self.tolerance.is_none() && self.forms.is_empty()
+        self.tolerance.is_none() && self.forms.is_empty() && !self.strict_slash
     }
 }
 
@@ -119,6 +121,10 @@ pub struct Key {
     pub(crate) declares_e: bool,
     /// The names for answers that are read in one pass.
     pub(crate) names: Option<Names>,
+    /// How the formula was read, where slashes could reach further or less far.
+    pub(crate) told: Option<String>,
+    /// The same as a fault, for those who want brackets.
+    pub(crate) unclear: Option<Fault>,
 }
 
 /// Reads an expected formula.
@@ -149,13 +155,17 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
         }
         key.quantity = Some(Box::new(alone));
     }
+    key.told = doubt::told(expected, &key.reading);
+    key.unclear = doubt::unclear_slash(expected, &key.reading);
     // With its names declared a text may split otherwise; the same text has to mean the same in key and answer.
     for _ in 0..3 {
         match read::answer(&key, expected) {
             Ok(again) if again.content != key.reading.content => {
-                let quantity = key.quantity.take();
+                let before = key;
                 key = from_reading(again, Some(expected), question);
-                key.quantity = quantity;
+                key.quantity = before.quantity;
+                key.told = before.told;
+                key.unclear = before.unclear;
             }
             _ => break,
         }
@@ -172,6 +182,7 @@ pub fn key_of(content: Content, question: &Question) -> Key {
         unit: None,
         notes: Vec::new(),
         choices: 0,
+        slashes: false,
     };
     from_reading(reading, None, question)
 }
@@ -220,6 +231,8 @@ fn from_reading(reading: Reading, text: Option<&str>, question: &Question) -> Ke
         quantity: None,
         declares_e,
         names,
+        told: None,
+        unclear: None,
     }
 }
 
@@ -237,7 +250,9 @@ pub fn judge(expected: &str, answer: &str, question: &Question, options: &Option
     {
         let fast = options.strength == Strength::Fast;
         let proved = || provable(&pair.quick, &pair.seen[1]) && pair.proves(expected, answer);
-        if fast || proved() {
+        let [mine, yours] = &pair.seen;
+        let clear = mine.choices == 0 && (pair.quick.equal || yours.choices == 0);
+        if clear && (fast || proved()) {
             let sorted: Vec<(usize, &str)> = pair.names.sorted().collect();
             let assumed = assumed(&sorted, &pair.seen[0]);
             let finding = match fast {
@@ -306,7 +321,9 @@ pub fn quick(key: &Key, answer: &str, options: &Options, seen: &mut Seen) -> Opt
         return None;
     }
     let residues = key.residues.as_ref()?;
-    residues.judge(answer, key.names.as_ref()?, seen)
+    let quick = residues.judge(answer, key.names.as_ref()?, seen)?;
+    // Another reading could be right.
+    (quick.equal || seen.choices == 0).then_some(quick)
 }
 
 impl Key {
@@ -366,6 +383,25 @@ pub fn unreadable_key(fault: Fault) -> Grade {
 
 /// Judges an answer against an expected formula that was read before.
 pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
+    if options.strict_slash
+        && let Some(fault) = &key.unclear
+    {
+        return unreadable_key(fault.clone());
+    }
+    let mut grade = judge_here(key, answer, options);
+    if options.strength == Strength::Identity
+        && let Some(told) = &key.told
+    {
+        let words = format!("the expected formula is ambiguous: {told}");
+        let hint = "authors write brackets around all that stands below a slash";
+        grade
+            .diagnosis
+            .push(Diagnosis::new("EXPECTED_READING", words, hint));
+    }
+    grade
+}
+
+fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     if let Some(quantity) = &key.quantity
         && read::is_quantity(quantity, answer)
     {
@@ -381,27 +417,22 @@ pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
     if let Some(grade) = plain_against(key, answer, options) {
         return grade;
     }
-    let reading = match read::answer(key, answer) {
+    let mut reading = match read::answer(key, answer) {
         Ok(reading) => reading,
-        Err(fault) => {
-            return Grade {
-                verdict: Verdict::Invalid,
-                note: "INVALID_SYNTAX",
-                error: Some(fault),
-                proof: Proof::of("none", "the answer cannot be read"),
-                ..unreadable_key(Fault {
-                    message: String::new(),
-                    start: 0,
-                    end: 0,
-                    hint: None,
-                    also: Vec::new(),
-                })
-            };
-        }
+        Err(fault) => return unreadable(fault),
     };
+    if options.strict_slash
+        && let Some(fault) = doubt::unclear_slash(answer, &reading)
+    {
+        return unreadable(fault);
+    }
     let mut finding = compare::contents(key, &reading, options);
+    doubt::slashes(key, answer, options, &mut reading, &mut finding);
     unit::behind(key, &reading, &mut finding);
-    let open_to_doubt = reading.choices > 0 || doubt::power_of_function(&reading.content).is_some();
+    let settled = finding.note == "EQUIV_READING";
+    let open_to_doubt = !settled
+        && (reading.choices > u32::from(reading.slashes)
+            || doubt::power_of_function(&reading.content).is_some());
     doubt::euler(key, &reading, options, &mut finding);
     if options.strength == Strength::Identity && open_to_doubt {
         doubt::ambiguity(key, answer, options, &reading, &mut finding);
@@ -428,6 +459,15 @@ pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
         diagnosis: finding.diagnosis,
         read_as: Some(show(&reading.content)),
         symbols: reading.symbols().into_iter().collect(),
+    }
+}
+
+/// The grade of an answer that cannot be read.
+fn unreadable(fault: Fault) -> Grade {
+    Grade {
+        note: "INVALID_SYNTAX",
+        proof: Proof::of("none", "the answer cannot be read"),
+        ..unreadable_key(fault)
     }
 }
 

@@ -3,6 +3,7 @@
 use super::names::no_unit;
 use super::reader::{Peek, Piece, Reader, Tie};
 use super::{Builder, Table};
+use crate::formula::tex::shows_space;
 
 impl<B: Builder> Reader<'_, B> {
     pub(super) fn sum(&mut self) -> Option<Piece<B>> {
@@ -43,7 +44,7 @@ impl<B: Builder> Reader<'_, B> {
     /// Groups tied by signs of multiplication and division, from left to right.
     pub(super) fn term(&mut self) -> Option<Piece<B>> {
         let (mut total, mut tie) = self.group(None)?;
-        // A whole number that ends right here could be half of what follows: `1/2 m v²`.
+        // A whole number that ends right here could be half of what follows: `1/2mv²`.
         let mut number_end = (tie == Tie::Whole).then_some(self.end);
         loop {
             match self.peek()? {
@@ -88,9 +89,10 @@ impl<B: Builder> Reader<'_, B> {
             }
             return self.build.quotient(above, first);
         }
-        let half = close && tie == Tie::Whole && self.at > self.end;
-        self.seen.choices += 1;
-        if half || tie == Tie::Bracket {
+        let half = close && tie == Tie::Whole;
+        let enclosed = tie == Tie::Bracket;
+        self.seen.choices += u32::from(!enclosed);
+        if half || enclosed || self.spaced() {
             if tie == Tie::Product {
                 self.wrap(from);
             }
@@ -99,9 +101,20 @@ impl<B: Builder> Reader<'_, B> {
             let (rest, _) = self.group(None)?;
             return self.build.product(total, rest);
         }
-        let (divisor, _) = self.group(Some((first, tie)))?;
+        let (divisor, _) = self.group_until(Some((first, tie)), true)?;
         self.wrap(from);
-        self.build.quotient(above, divisor)
+        let total = self.build.quotient(above, divisor)?;
+        if !self.goes_on()? {
+            return Some(total);
+        }
+        self.echo.push(b'*');
+        let (rest, _) = self.group(None)?;
+        self.build.product(total, rest)
+    }
+
+    /// Whether a space that people see stands before what comes next.
+    fn spaced(&self) -> bool {
+        self.at > self.end && shows_space(self.text, self.end, self.at)
     }
 
     pub(super) fn wrap(&mut self, from: usize) {
@@ -123,11 +136,17 @@ impl<B: Builder> Reader<'_, B> {
     /// Factors side by side.
     #[inline]
     pub(super) fn group(&mut self, first: Option<Piece<B>>) -> Option<Piece<B>> {
+        self.group_until(first, false)
+    }
+
+    /// Factors side by side, in a `tight` one up to the first space.
+    #[inline]
+    fn group_until(&mut self, first: Option<Piece<B>>, tight: bool) -> Option<Piece<B>> {
         let (mut total, mut tie) = match first {
             Some(first) => first,
             None => self.factor()?,
         };
-        while self.goes_on()? {
+        while self.goes_on()? && !(tight && self.spaced()) {
             self.echo.push(b'*');
             // `2\frac12` could be a mixed number.
             if tie == Tie::Whole
