@@ -87,6 +87,29 @@ impl Parser<'_> {
         let in_bars = self.bars > 0;
         let first = self.peek()?;
         let argument = match first.tok {
+            Tok::Open('(') if function == Function::Ln => {
+                // log(u, b) has its base behind a comma.
+                let list = std::mem::replace(&mut self.lexer.list, true);
+                let inner = self.primary();
+                self.lexer.list = list;
+                let inner = inner?;
+                match inner.shape {
+                    Shape::List(mut parts) if parts.len() == 2 && exponent.is_none() => {
+                        let (base, stop) = (parts.remove(1), inner.end);
+                        let log = |w: Written| {
+                            let (from, to) = (w.start, w.end);
+                            Box::new(Written::new(
+                                Shape::Call(Function::Ln, Box::new(w)),
+                                from,
+                                to,
+                            ))
+                        };
+                        let shape = Shape::Fraction(log(parts.remove(0)), log(base));
+                        return Ok(Written::new(shape, start, stop));
+                    }
+                    shape => Written::new(shape, inner.start, inner.end),
+                }
+            }
             Tok::Open(_) | Tok::Bar | Tok::OpenBar if first.tok != Tok::Bar || !in_bars => {
                 self.primary()?
             }
@@ -107,6 +130,7 @@ impl Parser<'_> {
             | Tok::Root(_)
             | Tok::Call(_)
             | Tok::Reciprocal(_)
+            | Tok::Exponential
             | Tok::Logarithm(_) => self.bare_argument()?,
             _ => {
                 let token = self.next()?;
@@ -137,6 +161,10 @@ impl Parser<'_> {
             Function::Tan => Some(Function::Atan),
             _ => None,
         };
+        let hyperbolic = matches!(function, Function::Sinh | Function::Cosh | Function::Tanh);
+        if minus_one && hyperbolic && !reciprocal {
+            return Ok(inverse_hyperbolic(function, argument, start, stop));
+        }
         if let (true, Some(inverse), false) = (minus_one, inverse, reciprocal) {
             let raised_end = exponent.map_or(end, |e| e.end);
             self.lexer.note(Remark::Inverse, start, start, raised_end);
@@ -163,15 +191,75 @@ impl Parser<'_> {
         })
     }
 
+    /// `arsinh x` is ln(x + √(x² + 1)), `arcosh x` is ln(x + √(x² − 1)), `artanh x` is half of ln((1 + x)/(1 − x)).
+    pub(super) fn area(&mut self, function: Function, start: usize, end: usize) -> Faulty<Written> {
+        let called = self.call(function, false, start, end)?;
+        match called.shape {
+            Shape::Call(_, x) => Ok(inverse_hyperbolic(function, *x, start, called.end)),
+            Shape::Power(base, exponent) => {
+                let Shape::Call(_, x) = base.shape else {
+                    return Err(Fault::new("this exponent is not read", start, end));
+                };
+                let inner = inverse_hyperbolic(function, *x, start, called.end);
+                let shape = Shape::Power(Box::new(inner), exponent);
+                Ok(Written::new(shape, start, called.end))
+            }
+            _ => Err(Fault::new("an argument is missing", start, end)),
+        }
+    }
+
+    /// `root(x, n)` is the root of index n.
+    pub(super) fn root_of(&mut self, start: usize) -> Faulty<Written> {
+        let pair = self.list_of_two("root")?;
+        let end = pair.1.end;
+        let (inner, index) = (Box::new(pair.0), Box::new(pair.1));
+        Ok(Written::new(Shape::Root(Some(index), inner), start, end))
+    }
+
+    fn list_of_two(&mut self, name: &str) -> Faulty<(Written, Written)> {
+        let list = self.lexer.list;
+        self.lexer.list = true;
+        let token = self.peek()?;
+        let (from, to) = (token.start, token.end);
+        let read = self.primary();
+        self.lexer.list = list;
+        match read?.shape {
+            Shape::List(mut parts) if parts.len() == 2 => {
+                let second = parts.remove(1);
+                Ok((parts.remove(0), second))
+            }
+            _ => Err(Fault::new(
+                format!("{name} takes two arguments, as in {name}(x, 3)"),
+                from,
+                to,
+            )),
+        }
+    }
+
+    /// e as the base of the natural logarithm: exp of the exponent behind it, or of 1.
+    pub(super) fn exponential(&mut self, start: usize, end: usize) -> Faulty<Written> {
+        let exponent = match self.peek()?.tok {
+            Tok::Caret => {
+                self.next()?;
+                self.exponent()?
+            }
+            Tok::Raised(_) => raised_number(&self.next()?),
+            _ => whole_number(1, start, end),
+        };
+        let stop = exponent.end;
+        let shape = Shape::Call(Function::Exp, Box::new(exponent));
+        Ok(Written::new(shape, start, stop))
+    }
+
     /// `log_2 x` is ln x over ln 2.
-    pub(super) fn logarithm(&mut self, base: i64, start: usize, end: usize) -> Faulty<Written> {
+    pub(super) fn logarithm(&mut self, base: Written, start: usize, end: usize) -> Faulty<Written> {
         let above = self.call(Function::Ln, false, start, end)?;
         let stop = above.end;
         let (above, power) = match above.shape {
             Shape::Power(called, exponent) => (called, Some(exponent)),
             _ => (Box::new(above), None),
         };
-        let base = Box::new(whole_number(base, start, end));
+        let base = Box::new(base);
         let below = Box::new(Written::new(Shape::Call(Function::Ln, base), start, end));
         let quotient = Written::new(Shape::Fraction(above, below), start, stop);
         Ok(match power {
@@ -275,6 +363,30 @@ impl Parser<'_> {
             _ => false,
         }
     }
+}
+
+/// The inverse of a hyperbolic function, as a logarithm.
+fn inverse_hyperbolic(function: Function, x: Written, start: usize, end: usize) -> Written {
+    let at = |shape| Written::new(shape, start, end);
+    let number = |k| whole_number(k, start, end);
+    let log = |w: Written| at(Shape::Call(Function::Ln, Box::new(w)));
+    let x = at(Shape::Bracket(Box::new(x)));
+    if function == Function::Tanh {
+        let sum = |sign| {
+            let terms = vec![(Sign::Plus, number(1)), (sign, x.clone())];
+            Box::new(at(Shape::Sum(terms)))
+        };
+        let quotient = at(Shape::Fraction(sum(Sign::Plus), sum(Sign::Minus)));
+        return at(Shape::Fraction(Box::new(log(quotient)), Box::new(number(2))));
+    }
+    let sign = match function {
+        Function::Sinh => Sign::Plus,
+        _ => Sign::Minus,
+    };
+    let square = at(Shape::Power(Box::new(x.clone()), Box::new(number(2))));
+    let under = at(Shape::Sum(vec![(Sign::Plus, square), (sign, number(1))]));
+    let root = at(Shape::Root(None, Box::new(under)));
+    log(at(Shape::Sum(vec![(Sign::Plus, x), (Sign::Plus, root)])))
 }
 
 /// Whether the text goes on with a whole number that nothing multiplies.

@@ -71,6 +71,9 @@ impl Echo<'_> {
                 self.out.push_str(match function {
                     crate::expr::Function::Cos => "\\sec",
                     crate::expr::Function::Sin => "\\csc",
+                    crate::expr::Function::Sinh => "\\operatorname{csch}",
+                    crate::expr::Function::Cosh => "\\operatorname{sech}",
+                    crate::expr::Function::Tanh => "\\coth",
                     _ => "\\cot",
                 });
                 self.argument(argument);

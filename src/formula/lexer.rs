@@ -30,6 +30,16 @@ pub(crate) enum Tok {
     Reciprocal(Function),
     /// The logarithm to a whole base.
     Logarithm(i64),
+    /// The logarithm to the base that follows as an argument.
+    LogarithmTo,
+    /// The inverse of a hyperbolic function.
+    Area(Function),
+    /// `root(x, n)`.
+    RootOf,
+    /// The base of the natural logarithm, which shows its exponent behind.
+    Exponential,
+    /// `\over`
+    Over,
     /// The sign of what follows.
     Signum,
     /// A root of index 2 or 3.
@@ -40,6 +50,8 @@ pub(crate) enum Tok {
     PlusMinus,
     MinusPlus,
     Times,
+    /// ×: the product of numbers, or the cross product of vectors.
+    Cross,
     Slash,
     Caret,
     Raised(Rational),
@@ -103,6 +115,10 @@ pub(crate) struct Lexer<'a> {
     long_digits: u32,
     /// Whether a comma between digits separates components here.
     pub list: bool,
+    /// Whether lines are aligned: `&` and `\\\\` only lay them out.
+    pub(super) aligned: bool,
+    /// A token that stands behind the last one in meaning, though before it in the text: the square of `v^2_0`.
+    pub(super) pending: Option<Tok>,
     /// How the components of a column or row are separated.
     pub(super) matrix: Matrix,
 }
@@ -142,6 +158,8 @@ impl<'a> Lexer<'a> {
             count: 0,
             long_digits: 0,
             list: false,
+            aligned: false,
+            pending: None,
             matrix: Matrix::Outside,
         }
     }
@@ -180,7 +198,10 @@ impl<'a> Lexer<'a> {
             let message = format!("a formula has at most {MAX_TOKENS} pieces");
             return Err(Fault::new(message, start, start));
         }
-        let tok = self.token(single)?;
+        let tok = match self.pending.take() {
+            Some(tok) => tok,
+            None => self.token(single)?,
+        };
         self.before = match &tok {
             Tok::Number(literal) => Before::Number {
                 decimal: literal.decimal,
@@ -192,8 +213,12 @@ impl<'a> Lexer<'a> {
             _ => Before::Nothing,
         };
         self.after_value = self.before != Before::Nothing || matches!(tok, Tok::Name(_));
-        if let Tok::Call(_) | Tok::Reciprocal(_) | Tok::Logarithm(_) | Tok::Signum | Tok::Root(_) =
-            tok
+        if let Tok::Call(_)
+        | Tok::Reciprocal(_)
+        | Tok::Logarithm(_)
+        | Tok::Area(_)
+        | Tok::Signum
+        | Tok::Root(_) = tok
         {
             self.run_from = self.pos;
         }
@@ -206,7 +231,7 @@ impl<'a> Lexer<'a> {
     }
 
     /// Passes over spaces and what only decorates; whether a space is among it that people see.
-    fn skip_blanks(&mut self) -> Faulty<bool> {
+    pub(super) fn skip_blanks(&mut self) -> Faulty<bool> {
         let start = self.pos;
         loop {
             let rest = &self.text[self.pos..];
@@ -223,6 +248,8 @@ impl<'a> Lexer<'a> {
                 | '\u{202f}'
                 | '\u{205f}'
                 | '\u{3000}' => c.len_utf8(),
+                '&' if self.aligned => 1,
+                '\\' if self.aligned && rest.starts_with("\\\\") => 2,
                 '\\' => match decoration(&rest[1..]) {
                     Some(length) => 1 + length,
                     None => break,
@@ -238,7 +265,7 @@ impl<'a> Lexer<'a> {
         Ok(self.pos > start && shows_space(self.text.as_bytes(), start, self.pos))
     }
 
-    fn token(&mut self, single: bool) -> Faulty<Tok> {
+    pub(super) fn token(&mut self, single: bool) -> Faulty<Tok> {
         let rest = &self.text[self.pos..];
         let bytes = rest.as_bytes();
         let Some(&first) = bytes.first() else {
@@ -261,7 +288,14 @@ impl<'a> Lexer<'a> {
                 None => return self.number(),
             },
             b'0'..=b'9' => return self.number(),
-            b'.' if second.is_ascii_digit() => return self.number(),
+            b'.' if second.is_ascii_digit() => {
+                // `x.1` is neither x/10 nor x·1.
+                if self.after_value && !self.text[..self.pos].ends_with(char::is_whitespace) {
+                    let fault = Fault::new("a point behind a value", self.pos, self.pos + 1);
+                    return Err(fault.hint("write * for a product, and 0.1 for a tenth"));
+                }
+                return self.number();
+            }
             b'x' | b'X' if self.times_ten(rest) => (1, Tok::Times),
             b'a'..=b'z' | b'A'..=b'Z' => return self.word(single),
             b'\\' => return self.command(single),
@@ -336,9 +370,20 @@ impl<'a> Lexer<'a> {
         let tok = match c {
             '−' | '–' | '—' | '‐' | '‑' | '﹣' | '－' => Tok::Minus,
             '＋' => Tok::Plus,
+            '（' => Tok::Open('('),
+            '）' => Tok::Close(')'),
+            '［' => Tok::Open('['),
+            '］' => Tok::Close(']'),
+            '｛' => Tok::Open('{'),
+            '｝' => Tok::Close('}'),
+            '／' => Tok::Slash,
+            '＾' => Tok::Caret,
+            '，' => Tok::Comma,
+            '∥' | '‖' => Tok::Bar,
             '±' => Tok::PlusMinus,
             '∓' => Tok::MinusPlus,
-            '·' | '⋅' | '×' | '∙' | '•' | '∗' | '⨯' | '✕' => Tok::Times,
+            '·' | '⋅' | '∙' | '•' | '∗' | '＊' => Tok::Times,
+            '×' | '⨯' | '✕' => Tok::Cross,
             '÷' | '∕' | '⁄' => Tok::Slash,
             '√' => Tok::Root(2),
             '∛' => Tok::Root(3),

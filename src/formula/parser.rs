@@ -173,13 +173,13 @@ impl<'a> Parser<'a> {
     fn sum_here(&mut self) -> Faulty<Written> {
         let start = self.peek()?.start;
         let mut terms: Vec<(Sign, Written)> = Vec::new();
-        let mut sign = self.sign()?;
+        let mut sign = self.signs()?;
         let signed = sign.is_some();
         loop {
             let term = self.term()?;
             let term = self.measured(term)?;
             terms.push((sign.unwrap_or(Sign::Plus), term));
-            sign = self.sign()?;
+            sign = self.signs()?;
             if sign.is_none() {
                 break;
             }
@@ -212,6 +212,20 @@ impl<'a> Parser<'a> {
             start,
             token.end,
         ))
+    }
+
+    /// A sign, or two of them, as in `a + -b` and `a - -b`.
+    fn signs(&mut self) -> Faulty<Option<Sign>> {
+        let first = self.sign()?;
+        let second = match (first, &self.peek()?.tok) {
+            (Some(Sign::Plus | Sign::Minus), Tok::Plus | Tok::Minus) => self.sign()?,
+            _ => None,
+        };
+        Ok(match (first, second) {
+            (first, None) => first,
+            (Some(a), Some(b)) if a == b => Some(Sign::Plus),
+            _ => Some(Sign::Minus),
+        })
     }
 
     pub(super) fn sign(&mut self) -> Faulty<Option<Sign>> {
@@ -369,6 +383,10 @@ impl<'a> Parser<'a> {
             | Tok::Call(_)
             | Tok::Reciprocal(_)
             | Tok::Logarithm(_)
+            | Tok::LogarithmTo
+            | Tok::Area(_)
+            | Tok::RootOf
+            | Tok::Exponential
             | Tok::Signum
             | Tok::Root(_)
             | Tok::Fraction => true,
@@ -502,7 +520,17 @@ impl<'a> Parser<'a> {
             Tok::Root(index) => self.deeper(|p| p.root(index, start, end)),
             Tok::Call(function) => self.deeper(|p| p.call(function, false, start, end)),
             Tok::Reciprocal(function) => self.deeper(|p| p.call(function, true, start, end)),
-            Tok::Logarithm(base) => self.deeper(|p| p.logarithm(base, start, end)),
+            Tok::Logarithm(base) => {
+                let base = whole_number(base, start, end);
+                self.deeper(|p| p.logarithm(base, start, end))
+            }
+            Tok::LogarithmTo => self.deeper(|p| {
+                let base = p.argument("the base of the logarithm")?;
+                p.logarithm(base, start, end)
+            }),
+            Tok::Area(function) => self.deeper(|p| p.area(function, start, end)),
+            Tok::RootOf => self.deeper(|p| p.root_of(start)),
+            Tok::Exponential => self.deeper(|p| p.exponential(start, end)),
             Tok::Signum => self.deeper(|p| p.signum(start)),
             _ => Err(self.missing(&token)),
         }
@@ -531,6 +559,16 @@ impl<'a> Parser<'a> {
         let list = std::mem::replace(&mut self.lexer.list, lists);
         let mut parts = vec![self.sum()?];
         let mut token = self.next()?;
+        if token.tok == Tok::Over
+            && open == '{'
+            && let Some(above) = parts.pop()
+        {
+            let below = self.sum()?;
+            let (from, to) = (above.start, below.end);
+            let shape = Shape::Fraction(Box::new(above), Box::new(below));
+            parts.push(Written::new(shape, from, to));
+            token = self.next()?;
+        }
         while token.tok == Tok::Comma && open != '{' {
             if parts.len() >= 3 {
                 return Err(Fault::new(

@@ -29,7 +29,8 @@ impl<'a> Lexer<'a> {
         let tok = match word {
             "frac" | "dfrac" | "tfrac" | "cfrac" => Tok::Fraction,
             "sqrt" | "surd" => Tok::Root(2),
-            "cdot" | "times" | "ast" | "bullet" => Tok::Times,
+            "cdot" | "ast" | "bullet" => Tok::Times,
+            "times" => Tok::Cross,
             "div" => Tok::Slash,
             "pm" => Tok::PlusMinus,
             "mp" => Tok::MinusPlus,
@@ -40,9 +41,12 @@ impl<'a> Lexer<'a> {
             "ne" | "neq" => Tok::Relation(Relation::NotEqual),
             "approx" | "simeq" | "cong" => Tok::Relation(Relation::Approximately),
             "equiv" => Tok::Relation(Relation::Equal),
-            "vert" | "mid" => Tok::Bar,
-            "lvert" => Tok::OpenBar,
-            "rvert" => Tok::CloseBar,
+            "vert" | "mid" | "Vert" => Tok::Bar,
+            "lvert" | "lVert" => Tok::OpenBar,
+            "rvert" | "rVert" => Tok::CloseBar,
+            "lg" => Tok::Logarithm(10),
+            "over" => Tok::Over,
+            "exponentialE" => Tok::Exponential,
             "langle" => Tok::Open('<'),
             "rangle" => Tok::Close('>'),
             "lbrace" => Tok::Open('{'),
@@ -61,6 +65,10 @@ impl<'a> Lexer<'a> {
                     Tok::Close('}')
                 }
                 Some('%') => return self.percent(start, 2),
+                Some('|') => {
+                    self.pos += 1;
+                    Tok::Bar
+                }
                 Some('\\') if self.matrix != Matrix::Outside => {
                     self.pos = start;
                     return self.component(Matrix::Column, 2);
@@ -85,7 +93,7 @@ impl<'a> Lexer<'a> {
             | "boldsymbol" | "bm" | "mathcal" => {
                 return self.font(start, word);
             }
-            "over" | "atop" => {
+            "atop" | "choose" => {
                 return Err(Fault::new(format!("`\\{word}` is not read"), start, end)
                     .hint("write \\frac{…}{…}"));
             }
@@ -123,6 +131,17 @@ impl<'a> Lexer<'a> {
     /// A column or row of components; of other environments nothing is read.
     fn environment(&mut self, start: usize, begins: bool) -> Faulty<Tok> {
         let (name, end) = self.group(start)?;
+        let lines = name.trim_end_matches('*');
+        if matches!(
+            lines,
+            "aligned" | "align" | "alignedat" | "equation" | "gathered" | "split"
+        ) {
+            self.pos = end;
+            self.aligned = begins;
+            self.skip_blanks()?;
+            let single = false;
+            return self.token(single);
+        }
         let known = matches!(name, "pmatrix" | "bmatrix" | "matrix");
         if !known || begins != (self.matrix == Matrix::Outside) {
             let shown: String = name.chars().take(24).collect();
@@ -261,6 +280,15 @@ pub(super) fn decoration(rest: &str) -> Option<usize> {
             | "limits"
             | "thinspace"
             | "medspace"
+            | "thickspace"
+            | "negthinspace"
+            | "negmedspace"
+            | "negthickspace"
+            | "enspace"
+            | "it"
+            | "rm"
+            | "bf"
+            | "sf"
             | "nonumber"
             | "mathstrut"
     );

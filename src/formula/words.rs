@@ -70,6 +70,11 @@ impl Lexer<'_> {
                 self.pos = start + length;
                 return Ok(Tok::Signum);
             }
+            let root = matches!(word, "root" | "nthroot") && rest[length..].starts_with('(');
+            if root && self.symbols.find(word).is_none() {
+                self.pos = start + length;
+                return Ok(Tok::RootOf);
+            }
             if let Some(tok) = function(word) {
                 if !self.function_wanted(word, start) {
                     continue;
@@ -107,8 +112,8 @@ impl Lexer<'_> {
         if !word.eq_ignore_ascii_case("log") || tok != Tok::Call(Function::Ln) {
             return tok;
         }
-        let rest = &self.text[self.pos..];
-        let index = rest.strip_prefix('_');
+        let rest = self.text[self.pos..].trim_start_matches(' ');
+        let index = rest.strip_prefix('_').map(|i| i.trim_start_matches(' '));
         let inside = index.unwrap_or(rest);
         let braced = index.and_then(|i| i.strip_prefix('{'));
         let digits = braced.unwrap_or(inside);
@@ -126,10 +131,17 @@ impl Lexer<'_> {
                 self.pos = self.text.len() - behind.len();
                 Tok::Logarithm(base)
             }
-            _ => {
-                self.note(Remark::NaturalLogarithm, start, start, self.pos);
-                tok
-            }
+            _ => match index {
+                Some(index) => {
+                    self.pos = self.text.len() - index.len();
+                    self.single = !index.starts_with('{');
+                    Tok::LogarithmTo
+                }
+                None => {
+                    self.note(Remark::NaturalLogarithm, start, start, self.pos);
+                    tok
+                }
+            },
         }
     }
 
@@ -340,6 +352,12 @@ pub(super) fn function(word: &str) -> Option<Tok> {
         b"exp" => Tok::Call(Exp),
         b"ln" | b"log" => Tok::Call(Ln),
         b"abs" => Tok::Call(Abs),
+        b"asinh" | b"arsinh" | b"arcsinh" => Tok::Area(Sinh),
+        b"acosh" | b"arcosh" | b"arccosh" => Tok::Area(Cosh),
+        b"atanh" | b"artanh" | b"arctanh" => Tok::Area(Tanh),
+        b"sech" => Tok::Reciprocal(Cosh),
+        b"csch" | b"cosech" => Tok::Reciprocal(Sinh),
+        b"coth" => Tok::Reciprocal(Tanh),
         b"sec" => Tok::Reciprocal(Cos),
         b"csc" | b"cosec" => Tok::Reciprocal(Sin),
         b"cot" | b"cotg" | b"ctg" => Tok::Reciprocal(Tan),

@@ -29,7 +29,7 @@ const TABLES: [(&str, &str, &str); 14] = [
     (
         "sentences.tsv",
         "Words, boxes and precedence",
-        "A product without a sign binds tighter than a slash; where another reading would change the verdict the grade says so. How far the root of `√ab` reaches no habit decides: where the two readings part, the verdict is undecided.",
+        "A product without signs and spaces stands below a slash; behind a fraction of two numbers, or behind a space, it does not. An answer that is right only in the other reading, taken for the whole formula, is right and told so; `--slash strict` wants brackets. How far the root of `√ab` reaches no habit decides: where the two readings part, the verdict is undecided.",
     ),
     (
         "graders.tsv",
