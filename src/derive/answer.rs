@@ -576,5 +576,10 @@ pub fn dimension(ask: &Ask) -> Dimension {
         Ask::Energy { .. } => (one, two.clone(), minus(&two)),
         Ask::Matrix { .. } => (zero.clone(), zero.clone(), zero),
     };
-    Dimension { mass, length, time }
+    Dimension {
+        mass,
+        length,
+        time,
+        ..Dimension::none()
+    }
 }

@@ -1,7 +1,8 @@
 //! Physical dimensions: arithmetic, spelling, units ([`unit()`]), and the dimension of an expression ([`of`]).
 //!
-//! Knows mass, length and time, which is all that mechanics of collisions needs; a plane angle has no dimension. Does not
-//! know how formulas are written: messages take a writer from the caller.
+//! Knows mass, length and time, which is all that mechanics of collisions needs, and current and temperature for the units
+//! of answers from elsewhere; a plane angle has no dimension. Does not know how formulas are written: messages take a writer
+//! from the caller.
 
 mod infer;
 mod unit;
@@ -15,7 +16,7 @@ use crate::expr::Rational;
 pub use infer::{Clash, of};
 pub use unit::{Unit, UnitFault, unit};
 
-/// A product of powers of mass, length and time. A plane angle has no dimension.
+/// A product of powers of mass, length, time, current and temperature. A plane angle has no dimension.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Dimension {
     /// Exponent of mass.
@@ -24,7 +25,13 @@ pub struct Dimension {
     pub length: Rational,
     /// Exponent of time.
     pub time: Rational,
+    /// Exponent of electric current.
+    pub current: Rational,
+    /// Exponent of temperature.
+    pub temperature: Rational,
 }
+
+const NAMES: [&str; 5] = ["mass", "length", "time", "current", "temperature"];
 
 impl Dimension {
     /// The dimension mass^`mass` · length^`length` · time^`time`.
@@ -34,6 +41,7 @@ impl Dimension {
             mass: whole(mass),
             length: whole(length),
             time: whole(time),
+            ..Dimension::default()
         }
     }
 
@@ -44,7 +52,17 @@ impl Dimension {
 
     /// Whether all exponents are zero.
     pub fn is_none(&self) -> bool {
-        self.mass.is_zero() && self.length.is_zero() && self.time.is_zero()
+        self.exponents().iter().all(|k| k.is_zero())
+    }
+
+    fn exponents(&self) -> [&Rational; 5] {
+        [
+            &self.mass,
+            &self.length,
+            &self.time,
+            &self.current,
+            &self.temperature,
+        ]
     }
 
     /// Dimension of a product.
@@ -53,6 +71,8 @@ impl Dimension {
             mass: &self.mass + &other.mass,
             length: &self.length + &other.length,
             time: &self.time + &other.time,
+            current: &self.current + &other.current,
+            temperature: &self.temperature + &other.temperature,
         }
     }
 
@@ -62,6 +82,8 @@ impl Dimension {
             mass: &self.mass - &other.mass,
             length: &self.length - &other.length,
             time: &self.time - &other.time,
+            current: &self.current - &other.current,
+            temperature: &self.temperature - &other.temperature,
         }
     }
 
@@ -71,12 +93,14 @@ impl Dimension {
             mass: &self.mass * exponent,
             length: &self.length * exponent,
             time: &self.time * exponent,
+            current: &self.current * exponent,
+            temperature: &self.temperature * exponent,
         }
     }
 
     /// In plain characters, such as `mass*length^2/time`; `1` without dimension.
     pub fn plain(&self) -> String {
-        self.spell(["mass", "length", "time"], "*", |k| {
+        self.spell(NAMES, "*", |k| {
             if k.is_integer() {
                 format!("^{k}")
             } else {
@@ -87,7 +111,7 @@ impl Dimension {
 
     /// As a unit of the SI, such as `kg m²/s`; `1` without dimension.
     pub fn si(&self) -> String {
-        self.spell(["kg", "m", "s"], " ", superscript)
+        self.spell(["kg", "m", "s", "A", "K"], " ", superscript)
     }
 
     /// The SI unit as a person says it of the quantities of a collision: rad/s, N s, N and J where they fit, else as [`si`].
@@ -112,10 +136,10 @@ impl Dimension {
         }
     }
 
-    fn spell(&self, names: [&str; 3], times: &str, raise: impl Fn(&Rational) -> String) -> String {
+    fn spell(&self, names: [&str; 5], times: &str, raise: impl Fn(&Rational) -> String) -> String {
         let part = |positive: bool| {
             let mut parts = Vec::new();
-            for (name, k) in names.iter().zip([&self.mass, &self.length, &self.time]) {
+            for (name, k) in names.iter().zip(self.exponents()) {
                 if !k.is_zero() && k.is_positive() == positive {
                     let size = k.abs();
                     parts.push(if size.is_one() {
@@ -147,7 +171,7 @@ impl fmt::Display for Dimension {
         if self.is_none() {
             return f.write_str("a number");
         }
-        f.write_str(&self.spell(["mass", "length", "time"], " × ", superscript))
+        f.write_str(&self.spell(NAMES, " × ", superscript))
     }
 }
 

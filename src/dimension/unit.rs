@@ -20,6 +20,8 @@ pub struct Unit {
     pub pi: Rational,
     /// Whether the unit names an angle (rad, deg, rpm): an angle is a number, but not every number is an angle.
     pub angle: bool,
+    /// Whether it counts turns rather than radians: Hz.
+    pub cycles: bool,
 }
 
 impl Unit {
@@ -42,6 +44,7 @@ impl Unit {
             factor: Rational::one(),
             pi: Rational::zero(),
             angle: false,
+            cycles: false,
         }
     }
 
@@ -52,6 +55,7 @@ impl Unit {
             factor: &self.factor * &raise(&other.factor, power),
             pi: &self.pi + &(&other.pi * &k),
             angle: self.angle || other.angle,
+            cycles: self.cycles || other.cycles,
         }
     }
 }
@@ -184,11 +188,13 @@ impl<'a> Reader<'a> {
             _ => {
                 let rest = &self.text[start..];
                 let length = rest
-                    .find(|c: char| !(c.is_ascii_alphabetic() || c == 'µ' || c == 'μ'))
+                    .find(|c: char| {
+                        !(c.is_ascii_alphabetic() || matches!(c, 'µ' | 'μ' | 'Ω' | '\u{2126}'))
+                    })
                     .unwrap_or(rest.len());
                 let word = &rest[..length];
                 let end = start + length.max(rest.chars().next().map_or(0, char::len_utf8));
-                let read = named(word).ok_or_else(|| {
+                let read = named(&word.replace('\u{2126}', "Ω")).ok_or_else(|| {
                     let shown = &self.text[start..end];
                     fault(
                         format!("`{shown}` is no unit of mechanics I know"),
@@ -291,6 +297,7 @@ fn angle(factor: Rational, pi: i64) -> Unit {
         factor,
         pi: ratio(pi, 1),
         angle: true,
+        cycles: false,
     }
 }
 
@@ -299,11 +306,17 @@ fn named(word: &str) -> Option<Unit> {
     if let Some(found) = plain(word) {
         return Some(found);
     }
+    if let Some((prefix, power)) = LONG_PREFIXES.iter().find(|(p, _)| word.starts_with(p)) {
+        let mut found = plain(&word[prefix.len()..]).filter(|_| word.len() > prefix.len() + 3)?;
+        found.factor *= &raise(&ratio(10, 1), *power);
+        return Some(found);
+    }
     let (prefix, power) = PREFIXES
         .iter()
         .find(|(prefix, _)| word.starts_with(prefix) && word.len() > prefix.len())?;
     let base = &word[prefix.len()..];
-    if !TAKES_PREFIX.contains(&base) {
+    let electrical = ELECTRICAL.contains(&base) && matches!(*prefix, "k" | "M" | "m" | "µ" | "μ");
+    if !TAKES_PREFIX.contains(&base) && !electrical {
         return None;
     }
     let mut found = plain(base)?;
@@ -331,6 +344,44 @@ const PREFIXES: [(&str, i64); 13] = [
 /// Units a prefix may stand before.
 const TAKES_PREFIX: [&str; 9] = ["g", "m", "s", "N", "J", "W", "Pa", "Hz", "rad"];
 
+/// Electrical units, which take the prefixes that do not look like a product of letters.
+const ELECTRICAL: [&str; 6] = ["A", "V", "Ω", "C", "F", "T"];
+
+/// Prefixes in full, before a unit in full: `kilojoule`.
+const LONG_PREFIXES: [(&str, i64); 8] = [
+    ("giga", 9),
+    ("mega", 6),
+    ("kilo", 3),
+    ("hecto", 2),
+    ("centi", -2),
+    ("milli", -3),
+    ("micro", -6),
+    ("nano", -9),
+];
+
+fn electric(mass: i64, length: i64, time: i64, current: i64) -> Unit {
+    Unit {
+        dimension: Dimension {
+            current: ratio(current, 1),
+            ..Dimension::new(mass, length, time)
+        },
+        ..Unit::number()
+    }
+}
+
+/// 10^`tens` electron volts, exact since 2019.
+fn electron_volt(tens: i64) -> Unit {
+    let joule = ratio(1_602_176_634, 1)
+        * raise(&ratio(10, 1), -12)
+        * raise(&ratio(10, 1), -12)
+        * ratio(1, 10_000);
+    Unit {
+        dimension: Dimension::new(1, 2, -2),
+        factor: joule * raise(&ratio(10, 1), tens),
+        ..Unit::number()
+    }
+}
+
 fn plain(word: &str) -> Option<Unit> {
     let si = |mass, length, time, factor| Unit {
         dimension: Dimension::new(mass, length, time),
@@ -355,7 +406,60 @@ fn plain(word: &str) -> Option<Unit> {
         "millimeter" | "millimeters" | "millimetre" | "millimetres" => si(0, 1, 0, ratio(1, 1000)),
         "W" => si(1, 2, -3, one()),
         "Pa" => si(1, -1, -2, one()),
-        "Hz" => si(0, 0, -1, one()),
+        "Hz" | "hertz" => Unit {
+            cycles: true,
+            ..si(0, 0, -1, one())
+        },
+        "watt" | "watts" => si(1, 2, -3, one()),
+        "pascal" | "pascals" => si(1, -1, -2, one()),
+        "Wh" => si(1, 2, -2, ratio(3600, 1)),
+        "kWh" => si(1, 2, -2, ratio(3_600_000, 1)),
+        "eV" => electron_volt(0),
+        "keV" => electron_volt(3),
+        "MeV" => electron_volt(6),
+        "GeV" => electron_volt(9),
+        "cal" => si(1, 2, -2, ratio(4184, 1000)),
+        "kcal" => si(1, 2, -2, ratio(4184, 1)),
+        "hp" => si(
+            1,
+            2,
+            -3,
+            ratio(45_359_237, 100_000_000)
+                * ratio(980_665, 100_000)
+                * ratio(381, 1250)
+                * ratio(550, 1),
+        ),
+        "bar" => si(1, -1, -2, ratio(100_000, 1)),
+        "atm" => si(1, -1, -2, ratio(101_325, 1)),
+        "psi" => si(
+            1,
+            -1,
+            -2,
+            ratio(45_359_237, 100_000_000) * ratio(980_665, 100_000) / ratio(127 * 127, 25_000_000),
+        ),
+        "L" | "l" | "liter" | "liters" | "litre" | "litres" => si(0, 3, 0, ratio(1, 1000)),
+        "mL" | "ml" => si(0, 3, 0, ratio(1, 1_000_000)),
+        "mi" | "mile" | "miles" => si(0, 1, 0, ratio(201_168, 125)),
+        "yd" | "yard" | "yards" => si(0, 1, 0, ratio(1143, 1250)),
+        "oz" | "ounce" | "ounces" => si(1, 0, 0, ratio(45_359_237, 1_600_000_000)),
+        "lbs" => si(1, 0, 0, ratio(45_359_237, 100_000_000)),
+        "day" | "days" => si(0, 0, 1, ratio(86_400, 1)),
+        "knot" | "knots" => si(0, 1, -1, ratio(1852, 3600)),
+        "A" | "ampere" | "amperes" => electric(0, 0, 0, 1),
+        "C" | "coulomb" | "coulombs" => electric(0, 0, 1, 1),
+        "V" | "volt" | "volts" => electric(1, 2, -3, -1),
+        "Ω" | "ohm" | "ohms" => electric(1, 2, -3, -2),
+        "F" | "farad" | "farads" => electric(-1, -2, 4, 2),
+        "H" | "henry" => electric(1, 2, -2, -2),
+        "T" | "tesla" => electric(1, 0, -2, -1),
+        "Wb" | "weber" => electric(1, 2, -2, -1),
+        "K" | "kelvin" | "kelvins" => Unit {
+            dimension: Dimension {
+                temperature: one(),
+                ..Dimension::none()
+            },
+            ..Unit::number()
+        },
         "rad" | "radian" | "radians" => angle(one(), 0),
         "deg" | "degree" | "degrees" => angle(ratio(1, 180), 1),
         "rev" | "turn" | "revolution" | "revolutions" => angle(ratio(2, 1), 1),

@@ -377,7 +377,10 @@ fn inverse_hyperbolic(function: Function, x: Written, start: usize, end: usize) 
             Box::new(at(Shape::Sum(terms)))
         };
         let quotient = at(Shape::Fraction(sum(Sign::Plus), sum(Sign::Minus)));
-        return at(Shape::Fraction(Box::new(log(quotient)), Box::new(number(2))));
+        return at(Shape::Fraction(
+            Box::new(log(quotient)),
+            Box::new(number(2)),
+        ));
     }
     let sign = match function {
         Function::Sinh => Sign::Plus,

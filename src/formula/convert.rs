@@ -18,8 +18,17 @@ pub(crate) enum Value {
     Vector([Expr; 3]),
 }
 
-/// The value of a written piece; `upper` says which sign of ± is taken.
-pub(crate) fn value(w: &Written, upper: bool) -> Faulty<Value> {
+/// How a written piece is taken.
+#[derive(Clone, Copy)]
+pub(crate) struct Mode {
+    /// Which sign of ± is taken.
+    pub upper: bool,
+    /// Whether a name with an arrow stands for its three components.
+    pub components: bool,
+}
+
+/// The value of a written piece.
+pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
     let scalar = |e: Expr| Ok(Value::Scalar(e));
     match &w.shape {
         Shape::Number(literal) => scalar(Expr::from(literal.value.clone())),
@@ -27,26 +36,42 @@ pub(crate) fn value(w: &Written, upper: bool) -> Faulty<Value> {
             "i_hat" => Ok(Value::Vector([Expr::one(), Expr::zero(), Expr::zero()])),
             "j_hat" => Ok(Value::Vector([Expr::zero(), Expr::one(), Expr::zero()])),
             "k_hat" => Ok(Value::Vector([Expr::zero(), Expr::zero(), Expr::one()])),
+            name if mode.components && super::symbols::parts_of(name).accent == "vec" => {
+                let along = |axis: &str| Expr::symbol(&format!("{name}_{axis}"));
+                Ok(Value::Vector([along("x"), along("y"), along("z")]))
+            }
             name => scalar(Expr::symbol(name)),
         },
-        Shape::Sum(terms) => sum(w, terms, upper),
-        Shape::Product(factors) => product(w, factors, upper),
+        Shape::Sum(terms) => sum(w, terms, mode),
+        Shape::Product(factors) => product(w, factors, mode),
         Shape::Fraction(above, below) => {
-            let divisor = reciprocal(below, upper)?;
-            multiply(w, [value(above, upper)?, Value::Scalar(divisor)])
+            let divisor = reciprocal(below, mode)?;
+            multiply(w, [value(above, mode)?, Value::Scalar(divisor)])
         }
-        Shape::Power(base, exponent) => scalar(power(w, base, one(exponent, upper)?, upper)?),
+        Shape::Power(base, exponent)
+            if mode.components
+                && base.is_vector()
+                && exponent
+                    .literal()
+                    .is_some_and(|k| k.value == crate::expr::ratio(2, 1)) =>
+        {
+            match value(base, mode)? {
+                Value::Vector(v) => scalar(dot(&v, &v)),
+                Value::Scalar(e) => scalar(e.powi(2)),
+            }
+        }
+        Shape::Power(base, exponent) => scalar(power(w, base, one(exponent, mode)?, mode)?),
         Shape::Root(index, inner) => {
             let index = match index {
-                None => return scalar(one(inner, upper)?.sqrt()),
-                Some(index) => one(index, upper)?,
+                None => return scalar(one(inner, mode)?.sqrt()),
+                Some(index) => one(index, mode)?,
             };
             let k = index
                 .as_number()
                 .filter(|k| k.is_integer() && k.is_positive());
             match k.and_then(|k| k.numer().as_i64()) {
-                Some(2) => scalar(one(inner, upper)?.sqrt()),
-                Some(k) if k <= 64 => scalar(one(inner, upper)?.power(Expr::ratio(1, k))),
+                Some(2) => scalar(one(inner, mode)?.sqrt()),
+                Some(k) if k <= 64 => scalar(one(inner, mode)?.power(Expr::ratio(1, k))),
                 _ => Err(Fault::new(
                     "the index of a root is a whole number from 1 to 64",
                     w.start,
@@ -54,20 +79,23 @@ pub(crate) fn value(w: &Written, upper: bool) -> Faulty<Value> {
                 )),
             }
         }
-        Shape::Call(function, argument) => scalar(call(*function, one(argument, upper)?)),
+        Shape::Call(function, argument) => scalar(call(*function, one(argument, mode)?)),
         Shape::Reciprocal(function, argument) => {
-            scalar(call(*function, one(argument, upper)?).powi(-1))
+            scalar(call(*function, one(argument, mode)?).powi(-1))
         }
-        Shape::Bracket(inner) => value(inner, upper),
-        Shape::Abs(inner) => scalar(Expr::call(Function::Abs, one(inner, upper)?)),
+        Shape::Bracket(inner) => value(inner, mode),
+        Shape::Abs(inner) => scalar(match value(inner, mode)? {
+            Value::Scalar(e) => Expr::call(Function::Abs, e),
+            Value::Vector(v) => dot(&v, &v).sqrt(),
+        }),
         Shape::Measured(inner, unit) => {
-            multiply(w, [value(inner, upper)?, Value::Scalar(unit.value())])
+            multiply(w, [value(inner, mode)?, Value::Scalar(unit.value())])
         }
-        Shape::Degrees(inner) => scalar(one(inner, upper)? * Expr::pi() * Expr::ratio(1, 180)),
+        Shape::Degrees(inner) => scalar(one(inner, mode)? * Expr::pi() * Expr::ratio(1, 180)),
         Shape::List(parts) => {
             let mut components = [Expr::zero(), Expr::zero(), Expr::zero()];
             for (component, part) in components.iter_mut().zip(parts) {
-                *component = one(part, upper)?;
+                *component = one(part, mode)?;
             }
             Ok(Value::Vector(components))
         }
@@ -75,8 +103,8 @@ pub(crate) fn value(w: &Written, upper: bool) -> Faulty<Value> {
 }
 
 /// The expression of a piece that is no vector.
-pub(crate) fn one(w: &Written, upper: bool) -> Faulty<Expr> {
-    match value(w, upper)? {
+pub(crate) fn one(w: &Written, mode: Mode) -> Faulty<Expr> {
+    match value(w, mode)? {
         Value::Scalar(e) => Ok(e),
         Value::Vector(_) => Err(Fault::new(
             "a vector stands where a number is expected",
@@ -95,17 +123,17 @@ fn call(function: Function, argument: Expr) -> Expr {
     }
 }
 
-fn sum(w: &Written, terms: &[(Sign, Written)], upper: bool) -> Faulty<Value> {
+fn sum(w: &Written, terms: &[(Sign, Written)], mode: Mode) -> Faulty<Value> {
     let mut scalars = Vec::with_capacity(terms.len());
     let mut vectors: Vec<[Expr; 3]> = Vec::new();
     for (sign, term) in terms {
         let minus = match sign {
             Sign::Plus => false,
             Sign::Minus => true,
-            Sign::PlusMinus => !upper,
-            Sign::MinusPlus => upper,
+            Sign::PlusMinus => !mode.upper,
+            Sign::MinusPlus => mode.upper,
         };
-        match value(term, upper)? {
+        match value(term, mode)? {
             Value::Scalar(e) => scalars.push(if minus { -e } else { e }),
             Value::Vector(v) => vectors.push(if minus { v.map(|c| -c) } else { v }),
         }
@@ -125,15 +153,42 @@ fn sum(w: &Written, terms: &[(Sign, Written)], upper: bool) -> Faulty<Value> {
     Ok(Value::Vector([along(0), along(1), along(2)]))
 }
 
-fn product(w: &Written, factors: &[(Link, Written)], upper: bool) -> Faulty<Value> {
+fn product(w: &Written, factors: &[(Link, Written)], mode: Mode) -> Faulty<Value> {
     let mut values = Vec::with_capacity(factors.len());
     for (i, (link, factor)) in factors.iter().enumerate() {
-        values.push(match link {
-            Link::Over if i > 0 => Value::Scalar(reciprocal(factor, upper)?),
-            _ => value(factor, upper)?,
-        });
+        let next = match link {
+            Link::Over if i > 0 => Value::Scalar(reciprocal(factor, mode)?),
+            _ => value(factor, mode)?,
+        };
+        // Two vectors: a dot or a cross says what is meant.
+        let before = values
+            .iter()
+            .position(|v| matches!(v, Value::Vector(_)))
+            .filter(|_| matches!(next, Value::Vector(_)));
+        let product = match (before.map(|at| &values[at]), &next, link) {
+            (Some(Value::Vector(a)), Value::Vector(b), Link::Times) => Value::Scalar(dot(a, b)),
+            (Some(Value::Vector(a)), Value::Vector(b), Link::Cross) => Value::Vector(cross(a, b)),
+            _ => {
+                values.push(next);
+                continue;
+            }
+        };
+        if let Some(at) = before {
+            values[at] = product;
+        }
     }
     multiply(w, values)
+}
+
+fn dot(a: &[Expr; 3], b: &[Expr; 3]) -> Expr {
+    Expr::sum((0..3).map(|i| &a[i] * &b[i]))
+}
+
+fn cross(a: &[Expr; 3], b: &[Expr; 3]) -> [Expr; 3] {
+    [0, 1, 2].map(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        &a[j] * &b[k] - &a[k] * &b[j]
+    })
 }
 
 fn multiply(w: &Written, values: impl IntoIterator<Item = Value>) -> Faulty<Value> {
@@ -170,8 +225,8 @@ fn multiply(w: &Written, values: impl IntoIterator<Item = Value>) -> Faulty<Valu
     })
 }
 
-fn reciprocal(w: &Written, upper: bool) -> Faulty<Expr> {
-    let below = one(w, upper)?;
+fn reciprocal(w: &Written, mode: Mode) -> Faulty<Expr> {
+    let below = one(w, mode)?;
     if below.is_zero() {
         return Err(Fault::new("division by zero", w.start, w.end));
     }
@@ -179,8 +234,8 @@ fn reciprocal(w: &Written, upper: bool) -> Faulty<Expr> {
     Ok(below.powi(-1))
 }
 
-fn power(w: &Written, base: &Written, exponent: Expr, upper: bool) -> Faulty<Expr> {
-    let below = one(base, upper)?;
+fn power(w: &Written, base: &Written, exponent: Expr, mode: Mode) -> Faulty<Expr> {
+    let below = one(base, mode)?;
     if let Some(k) = exponent.as_number() {
         let most = Rational::from(crate::expr::Int::from(MAX_POWER));
         if k.abs() > most {

@@ -191,6 +191,7 @@ impl Echo<'_> {
             done.push_str(match link {
                 _ if i == 0 => "",
                 Link::Times => " \\cdot ",
+                Link::Cross => " \\times ",
                 _ if digit => " \\cdot ",
                 _ => " ",
             });

@@ -119,6 +119,8 @@ pub(crate) struct Lexer<'a> {
     pub(super) aligned: bool,
     /// A token that stands behind the last one in meaning, though before it in the text: the square of `v^2_0`.
     pub(super) pending: Option<Tok>,
+    /// Brackets around the current place.
+    pub(super) open: u32,
     /// How the components of a column or row are separated.
     pub(super) matrix: Matrix,
 }
@@ -160,6 +162,7 @@ impl<'a> Lexer<'a> {
             list: false,
             aligned: false,
             pending: None,
+            open: 0,
             matrix: Matrix::Outside,
         }
     }
@@ -202,6 +205,11 @@ impl<'a> Lexer<'a> {
             Some(tok) => tok,
             None => self.token(single)?,
         };
+        match &tok {
+            Tok::Open('(' | '[' | '<' | 'm') => self.open += 1,
+            Tok::Close(')' | ']' | '>' | 'm') => self.open = self.open.saturating_sub(1),
+            _ => {}
+        }
         self.before = match &tok {
             Tok::Number(literal) => Before::Number {
                 decimal: literal.decimal,
@@ -410,16 +418,34 @@ impl<'a> Lexer<'a> {
             '⅞' => Tok::Vulgar(7, 8),
             '⅑' => Tok::Vulgar(1, 9),
             '⅒' => Tok::Vulgar(1, 10),
+            '°' if rest[c.len_utf8()..].starts_with(['C', 'F']) => {
+                let fault = Fault::new(
+                    "a temperature in degrees is not read",
+                    self.pos,
+                    self.pos + 3,
+                );
+                return Err(fault.hint("write it in kelvins, K"));
+            }
             '°' | '∘' => Tok::Degree,
             '⟨' => Tok::Open('<'),
             '⟩' => Tok::Close('>'),
             'π' | '𝜋' | '𝛑' | '𝝅' => Tok::Name("pi".into()),
             '⁰' | '¹' | '²' | '³' | '⁴'..='⁹' | '⁺' | '⁻' => return self.raised(),
+            '∂' | 'ⅆ' => {
+                return match self.derivative() {
+                    Some(derivative) => derivative,
+                    None => {
+                        let message = "∂ is read in a derivative of one name only, as in ∂x/∂t";
+                        Err(Fault::new(message, self.pos, self.pos + c.len_utf8()))
+                    }
+                };
+            }
             'ⁿ' => {
                 let message = "a raised letter is not read here";
                 return Err(Fault::new(message, self.pos, self.pos + c.len_utf8()).hint("write ^n"));
             }
-            'µ' | 'μ' if self.units_first && self.before != Before::Nothing => {
+            'µ' | 'μ' | 'Ω' | '\u{2126}' if self.units_first && self.before != Before::Nothing =>
+            {
                 return match self.unit(false) {
                     Some(tok) => Ok(tok),
                     None => self.name(self.pos, self.pos + c.len_utf8()),
@@ -538,7 +564,18 @@ impl<'a> Lexer<'a> {
                 };
             }
         }
-        let (literal, end) = number::literal(self.text, start, exponent, self.list)?;
+        let (literal, end) = match number::grouped(self.text, start) {
+            Some(found) => found?,
+            None => match number::decimal_comma(self.text, start)
+                .filter(|_| !self.list && self.open == 0)
+            {
+                Some((literal, end)) => {
+                    self.note(Remark::DecimalComma, start, start, end);
+                    (literal, end)
+                }
+                None => number::literal(self.text, start, exponent, self.list)?,
+            },
+        };
         self.long_digits += (literal.digits + literal.place.unsigned_abs()).saturating_sub(18);
         if self.long_digits > MAX_LONG_DIGITS {
             let message =

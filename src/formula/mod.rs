@@ -6,6 +6,7 @@
 
 mod calls;
 mod convert;
+mod differential;
 mod echo;
 mod fault;
 mod lexer;
@@ -300,8 +301,11 @@ fn read_as(text: &str, symbols: &Symbols, flips: u64) -> Faulty<Reading> {
         );
         return Err(Fault::new(message, 0, 0));
     }
-    let (start, end) = boxed(text)?;
+    let (mut start, end) = boxed(text)?;
     let inner = &text[..end];
+    if let Some(last) = prose::conclusion(&inner[start..]) {
+        start += last;
+    }
     read_inner(inner, start, symbols, false, flips).or_else(|first| match symbols.is_open() {
         // The attempt that got further tells more.
         false => {
@@ -344,8 +348,11 @@ fn read_inner(
     }
     let mut contents = Vec::with_capacity(sides.len());
     let mut unit = None;
-    for side in &sides {
-        let (content, behind) = content(side, text, &mut lexer)?;
+    let components = sides.iter().any(|side| side.written.multiplies_vectors());
+    for (i, side) in sides.iter().enumerate() {
+        // The name of what is asked for stays a name.
+        let named = i == 0 && sides.len() > 1 && matches!(side.written.shape, Shape::Symbol(_));
+        let (content, behind) = content(side, text, components && !named, &mut lexer)?;
         contents.push(content);
         unit = behind;
     }
@@ -371,9 +378,15 @@ fn read_inner(
 }
 
 /// The content of a side, and the unit behind it unless the content is a quantity and holds it.
-fn content(side: &Side, text: &str, lexer: &mut lexer::Lexer) -> Faulty<(Content, Option<Unit>)> {
+fn content(
+    side: &Side,
+    text: &str,
+    components: bool,
+    lexer: &mut lexer::Lexer,
+) -> Faulty<(Content, Option<Unit>)> {
     let pair = has_both_signs(&side.written);
-    let (content, constant) = match convert::value(&side.written, true)? {
+    let mode = |upper| convert::Mode { upper, components };
+    let (content, constant) = match convert::value(&side.written, mode(true))? {
         Value::Vector(_) if pair => {
             let (start, end) = (side.written.start, side.written.end);
             return Err(Fault::new("a pair of vectors is not read", start, end));
@@ -386,7 +399,7 @@ fn content(side: &Side, text: &str, lexer: &mut lexer::Lexer) -> Faulty<(Content
             let constant = e.symbols().is_empty();
             match pair {
                 true => {
-                    let lower = convert::one(&side.written, false)?;
+                    let lower = convert::one(&side.written, mode(false))?;
                     (Content::Either([e, lower]), constant)
                 }
                 false => (Content::Scalar(e), constant),

@@ -30,6 +30,9 @@ fn index_text(written: &str) -> Option<String> {
             '{' | '}' | '_' | ' ' | '~' => {}
             '/' | ',' | '+' | '-' | '\'' | '*' => out.push(c),
             '−' => out.push('-'),
+            '⊥' => out.push_str("perp"),
+            '∥' | '‖' => out.push_str("parallel"),
+            '∞' => out.push_str("infty"),
             '′' | '’' => out.push('\''),
             '\\' => {
                 let length = rest
@@ -40,6 +43,9 @@ fn index_text(written: &str) -> Option<String> {
                 match word {
                     "mathrm" | "text" | "rm" | "mathit" | "textrm" | "mathbf" | "mathsf"
                     | "operatorname" | "it" => {}
+                    "max" | "min" | "perp" | "parallel" | "infty" | "rel" | "circ" => {
+                        out.push_str(word)
+                    }
                     "prime" => out.push('\''),
                     "ell" => out.push('l'),
                     "" if rest.starts_with([',', ' ', ';', '!']) => rest = &rest[1..],
@@ -154,11 +160,26 @@ pub(crate) fn tail(
 ) -> usize {
     // Digits right behind a letter are an index in any order with marks; each kind is read once.
     loop {
-        let rest = &text[at..];
+        let mut rest = &text[at..];
+        // A space before an index is not seen: `\epsilon _{0}`.
+        let close = rest.trim_start_matches(' ');
+        if close.len() < rest.len() && close.starts_with('_') && parts.index.is_empty() {
+            at += rest.len() - close.len();
+            rest = close;
+        }
         let Some(c) = rest.chars().next() else {
             return at;
         };
         match c {
+            '[' if parts.index.is_empty() && parts.marks.is_empty() => {
+                // `a[2]` is a_2.
+                let digits = rest[1..].bytes().take_while(u8::is_ascii_digit).count();
+                if !(1..=3).contains(&digits) || !rest[1 + digits..].starts_with(']') {
+                    return at;
+                }
+                put_index(parts, &rest[1..=digits]);
+                at += digits + 2;
+            }
             '0'..='9' if parts.index.is_empty() && parts.marks.is_empty() => {
                 let Some(found) = declared_index(text, at, false, parts, symbols, split) else {
                     return at;
@@ -364,6 +385,15 @@ pub(crate) fn find<'s>(
             return Some(found);
         }
     }
+    if parts.bold && parts.accent.is_empty() {
+        let arrow = Parts {
+            accent: "vec",
+            ..parts.clone()
+        };
+        if let Some(found) = symbols.find(&arrow.key()) {
+            return Some(found);
+        }
+    }
     if !parts.index.is_empty() && parts.accent.is_empty() {
         // `u_{Gx}` for a declared `uGx`; but m_u is not μ.
         let joined = format!("{}{}{}", parts.base, parts.index, parts.marks);
@@ -427,14 +457,21 @@ pub(crate) fn base(text: &str, at: usize, parts: &mut Parts, depth: u32) -> Opti
                     };
                     let accent = parts.accent;
                     let end = argument(text, behind, parts, depth)?;
-                    // A double accent is another name.
+                    // `\ddot{\vec r}`: the dots count; any other double accent is another name.
                     if parts.accent != accent {
-                        return None;
+                        let dots = matches!(accent, "dot" | "ddot") && parts.accent == "vec";
+                        dots.then_some(())?;
+                        parts.accent = accent;
                     }
                     end
                 }
-                "mathrm" | "mathbf" | "mathit" | "boldsymbol" | "bm" | "textbf" | "mathsf"
-                | "text" | "textit" | "textrm" | "mathcal" => argument(text, behind, parts, depth)?,
+                "mathbf" | "boldsymbol" | "bm" | "textbf" => {
+                    parts.bold = true;
+                    argument(text, behind, parts, depth)?
+                }
+                "mathrm" | "mathit" | "mathsf" | "text" | "textit" | "textrm" | "mathcal" => {
+                    argument(text, behind, parts, depth)?
+                }
                 "ell" => {
                     parts.base.push('l');
                     behind

@@ -56,6 +56,10 @@ pub enum Remark {
     Inverse,
     /// A number under a sine counts as radians.
     Radians,
+    /// × between two symbols was read as a product of numbers.
+    Cross,
+    /// A comma was read as a decimal sign.
+    DecimalComma,
     /// A point or comma behind the formula was passed over.
     Punctuation,
     /// A unit behind a formula in symbols says nothing.
@@ -134,6 +138,8 @@ impl Note {
             Remark::Radians => format!(
                 "{whole} under the function counts as radians; degrees are written {whole}°"
             ),
+            Remark::Cross => format!("I read {whole} as a product of numbers"),
+            Remark::DecimalComma => format!("I read {whole} as a decimal number"),
             Remark::Punctuation => format!("I passed over the {whole} behind the formula"),
             Remark::Words => format!("I read {whole} and passed over the words around it"),
             Remark::UnitOfSymbols => {

@@ -136,6 +136,59 @@ pub(crate) fn ten_to(power: i64) -> Rational {
     }
 }
 
+/// A number in groups of three digits with thin spaces between them: `12\,000`.
+pub(crate) fn grouped(text: &str, at: usize) -> Option<Faulty<(Literal, usize)>> {
+    const SPACES: [&str; 3] = ["\\,", "\u{202f}", "\u{2009}"];
+    let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
+    let first = digits(at);
+    if !(1..=3).contains(&first) {
+        return None;
+    }
+    let mut plain = text[at..at + first].to_string();
+    let mut end = at + first;
+    while let Some(space) = SPACES.iter().find(|s| text[end..].starts_with(**s)) {
+        let from = end + space.len();
+        if digits(from) != 3 {
+            break;
+        }
+        plain.push_str(&text[from..from + 3]);
+        end = from + 3;
+    }
+    if end == at + first {
+        return None;
+    }
+    let part = match text[end..].strip_prefix('.') {
+        Some(_) if digits(end + 1) > 0 => 1 + digits(end + 1),
+        _ => 0,
+    };
+    plain.push_str(&text[end..end + part]);
+    let read = literal(&plain, 0, Exponent::Symbol, false);
+    Some(read.map(|(found, _)| (found, end + part)))
+}
+
+/// `3,5` as three and a half, where nothing else can be meant: the only comma, no point elsewhere, not three digits behind
+/// it unless a zero stands before.
+pub(crate) fn decimal_comma(text: &str, at: usize) -> Option<(Literal, usize)> {
+    let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
+    let whole = digits(at);
+    let rest = &text[at + whole..];
+    let sign = ["{,}", ","].into_iter().find(|s| rest.starts_with(s))?;
+    let from = at + whole + sign.len();
+    let part = digits(from);
+    let other = text.replacen(sign, "", 1);
+    let points = other
+        .as_bytes()
+        .windows(2)
+        .any(|w| w[0] == b'.' && w[1].is_ascii_digit() || w[0] == b',' && sign == ",");
+    let thousands = part == 3 && &text[at..at + whole] != "0";
+    if whole == 0 || part == 0 || sign == "," && thousands || points || whole + part > 18 {
+        return None;
+    }
+    let plain = format!("{}.{}", &text[at..at + whole], &text[from..from + part]);
+    let (found, _) = literal(&plain, 0, Exponent::Symbol, false).ok()?;
+    Some((found, from + part))
+}
+
 /// A comma between digits is asked back: it could be a decimal sign, a thousands separator or a list.
 fn comma(text: &str, at: usize, end: usize) -> Faulty<()> {
     let rest = &text[end..];

@@ -173,7 +173,7 @@ impl<'a> Parser<'a> {
     fn sum_here(&mut self) -> Faulty<Written> {
         let start = self.peek()?.start;
         let mut terms: Vec<(Sign, Written)> = Vec::new();
-        let mut sign = self.signs()?;
+        let mut sign = self.sign()?;
         let signed = sign.is_some();
         loop {
             let term = self.term()?;
@@ -249,6 +249,7 @@ impl<'a> Parser<'a> {
         loop {
             let link = match self.peek()?.tok {
                 Tok::Times => Link::Times,
+                Tok::Cross => Link::Cross,
                 Tok::Slash => Link::Over,
                 _ => break,
             };
@@ -274,6 +275,11 @@ impl<'a> Parser<'a> {
                 factor = Written::new(Shape::Sum(vec![(Sign::Minus, factor)]), at, stop);
             }
             end = factor.end;
+            if link == Link::Cross
+                && let Some((_, before)) = factors.last()
+            {
+                self.crossed(before, &factor)?;
+            }
             factors.push((link, factor));
             if let Some(rest) = rest {
                 end = rest.end;
@@ -284,6 +290,28 @@ impl<'a> Parser<'a> {
             Some(only) => Ok(only),
             None => Ok(Written::new(Shape::Product(factors), start, end)),
         }
+    }
+
+    /// × between two symbols that no arrow makes vectors: a product of numbers, unless one is a cross product itself.
+    fn crossed(&mut self, before: &Written, behind: &Written) -> Faulty<()> {
+        let plain = |w: &Written| !w.is_numeric() && !w.is_vector();
+        if !plain(before) || !plain(behind) {
+            return Ok(());
+        }
+        let nested = |w: &Written| {
+            let Shape::Bracket(inner) = &w.shape else {
+                return false;
+            };
+            matches!(&inner.shape, Shape::Product(factors)
+                if factors.iter().any(|(link, f)| *link == Link::Cross && !f.is_numeric()))
+        };
+        let (start, end) = (before.start, behind.end);
+        if nested(before) || nested(behind) {
+            let fault = Fault::new("a cross product of symbols without arrows", start, end);
+            return Err(fault.hint("write \\vec{r} \\times \\vec{p} for vectors, * for a product"));
+        }
+        self.lexer.note(Remark::Cross, start, start, end);
+        Ok(())
     }
 
     /// What stands below a slash, and what follows it: a product without signs and spaces stands below, but behind a

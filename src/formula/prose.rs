@@ -42,6 +42,55 @@ pub(super) fn alternatives(text: &str) -> Option<(usize, usize)> {
         .filter(|(start, end)| !text[..*start].trim().is_empty() && !text[*end..].trim().is_empty())
 }
 
+/// Where the last of several statements starts that follow from each other: `mgh = ½mv² ⟹ v = √(2gh)`; also behind a word
+/// such as `Therefore,`.
+pub(super) fn conclusion(text: &str) -> Option<usize> {
+    const ARROWS: [&str; 11] = [
+        "\\implies",
+        "\\Longrightarrow",
+        "\\Rightarrow",
+        "\\therefore",
+        "\\Leftrightarrow",
+        "\\iff",
+        "⟹",
+        "⇒",
+        "∴",
+        "⟺",
+        "⇔",
+    ];
+    const WORDS: [&str; 9] = [
+        "therefore",
+        "hence",
+        "thus",
+        "so",
+        "then",
+        "finally",
+        "consequently",
+        "answer",
+        "it follows that",
+    ];
+    let arrow = ARROWS
+        .iter()
+        .filter_map(|arrow| text.rfind(arrow).map(|at| at + arrow.len()))
+        .max()
+        .filter(|at| !text[*at..].trim().is_empty());
+    let from = arrow.unwrap_or(0);
+    let rest = text[from..].trim_start();
+    let start = text.len() - rest.len();
+    let lower = rest.to_ascii_lowercase();
+    let word = WORDS.iter().find_map(|word| {
+        let behind = lower.strip_prefix(word)?;
+        let mark = behind.starts_with([',', ':']);
+        let gap = mark || (behind.starts_with(' ') && *word != "so" && *word != "then");
+        (gap && behind.contains('=') || mark).then_some(word.len() + usize::from(mark))
+    });
+    match (arrow, word) {
+        (None, None) => None,
+        (_, Some(length)) => Some(start + length),
+        (Some(_), None) => Some(start),
+    }
+}
+
 /// Start and end of the only formula in a sentence; nothing where there are none or several, or no words around it.
 pub(super) fn formula_in_words(text: &str) -> Option<(usize, usize)> {
     let (from, to, start, end) = [("$$", "$$"), ("$", "$"), ("\\(", "\\)"), ("\\[", "\\]")]

@@ -149,6 +149,8 @@ pub(crate) struct Parts {
     pub base: String,
     pub accent: &'static str,
     pub index: String,
+    /// Whether it was written bold, as vectors are.
+    pub bold: bool,
     /// Primes, and `^` with what stands raised behind.
     pub marks: String,
 }
@@ -296,6 +298,21 @@ pub(crate) fn greek_name(c: char) -> Option<&'static str> {
         'Ψ' => "Psi",
         'Ω' | '\u{2126}' => "Omega",
         'ℓ' => "l",
+        // Capitals that look as their Latin kin do.
+        'Α' => "A",
+        'Β' => "B",
+        'Ε' => "E",
+        'Ζ' => "Z",
+        'Η' => "H",
+        'Ι' => "I",
+        'Κ' => "K",
+        'Μ' => "M",
+        'Ν' => "N",
+        'Ο' => "O",
+        'Ρ' => "P",
+        'Τ' => "T",
+        'Χ' => "X",
+        'ο' => "o",
         c => return mathematical(c),
     })
 }

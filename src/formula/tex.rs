@@ -16,6 +16,18 @@ impl<'a> Lexer<'a> {
             .unwrap_or(rest.len());
         let word = &rest[..length];
         let end = start + 1 + length;
+        if matches!(
+            word,
+            "frac" | "dfrac" | "tfrac" | "mathrm" | "text" | "partial" | "dd" | "differentialD"
+        ) && let Some(derivative) = self.derivative()
+        {
+            return derivative;
+        }
+        if matches!(word, "partial" | "dd" | "differentialD") {
+            let message =
+                format!("`\\{word}` is read in a derivative of one name only, as in dx/dt");
+            return Err(Fault::new(message, start, end));
+        }
         self.pos = end;
         if word.ends_with("frac")
             && (rest[length..].starts_with("{\\text{") || rest[length..].starts_with("{\\mathrm{"))
@@ -87,6 +99,9 @@ impl<'a> Lexer<'a> {
                 }
                 None => return Err(Fault::new("a lone backslash", start, end)),
             },
+            "SI" | "qty" | "num" | "SIrange" if rest[length..].trim_start().starts_with('{') => {
+                return self.measured_number(start, word != "num");
+            }
             "operatorname" => return self.operator(start),
             "begin" | "end" => return self.environment(start, word == "begin"),
             "mathrm" | "text" | "textrm" | "mathsf" | "mathbf" | "mathit" | "textbf" | "textit"
@@ -226,13 +241,48 @@ impl<'a> Lexer<'a> {
         }
     }
 
+    /// `\SI{3}{m/s}`: a number and, in the second group, its unit, which is read next.
+    fn measured_number(&mut self, start: usize, unit: bool) -> Faulty<Tok> {
+        let (number, end) = self.group(start)?;
+        let plain = number.trim();
+        let sign = plain.starts_with(['-', '−']);
+        let digits = plain.trim_start_matches(['-', '+', '−']).replace(',', ".");
+        let (literal, used) =
+            super::number::literal(&digits, 0, super::number::Exponent::Ten, true)?;
+        if used != digits.len() {
+            return Err(Fault::new("a single number is expected here", start, end));
+        }
+        self.pos = end;
+        let tok = match sign {
+            true => Tok::Number(super::written::Literal {
+                value: -literal.value.clone(),
+                ..literal
+            }),
+            false => Tok::Number(literal),
+        };
+        if unit {
+            let (inside, stop) = self.group(start)?;
+            let spelled = super::units::spelled(inside);
+            let read = crate::dimension::unit(&spelled)
+                .map_err(|fault| Fault::new(fault.message, end, stop))?;
+            self.pos = stop;
+            self.pending = Some(Tok::Unit(Box::new(read)));
+        }
+        Ok(tok)
+    }
+
     /// The text of the brace group that starts at the current place, and the byte after it.
     pub(super) fn group(&self, start: usize) -> Faulty<(&'a str, usize)> {
         let blanks = self.text[self.pos..].len()
             - self.text[self.pos..].trim_start_matches([' ', '*']).len();
         let at = self.pos + blanks;
         let inside = self.text[at..].strip_prefix('{');
-        let length = inside.and_then(|inside| inside.find('}'));
+        let mut depth = 0;
+        let closes = |c: char| {
+            depth += i32::from(c == '{') - i32::from(c == '}');
+            depth < 0
+        };
+        let length = inside.and_then(|inside| inside.find(closes));
         match (inside, length) {
             (Some(inside), Some(length)) => Ok((&inside[..length], at + length + 2)),
             _ => Err(Fault::new("a group in braces is expected here", start, at)),

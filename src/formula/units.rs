@@ -10,7 +10,10 @@ const LONGEST_UNIT: usize = 120;
 impl Lexer<'_> {
     /// A unit below a slash behind a number, as in `2.4/s` or `2.4 1/s`.
     pub(super) fn unit_below(&mut self) -> Option<Tok> {
-        if !matches!(self.before, Before::Number { .. }) {
+        let degrees = self.text[..self.pos].trim_end();
+        let turned = ["°", "\\circ", "\\circ}", "deg", "∘", "\\degree", "degrees"];
+        let turned = turned.iter().any(|mark| degrees.ends_with(mark));
+        if !matches!(self.before, Before::Number { .. }) && !turned {
             return None;
         }
         let start = self.pos;
@@ -69,7 +72,14 @@ impl Lexer<'_> {
                     .split(|c: char| !c.is_ascii_alphabetic())
                     .filter(|w| !w.is_empty())
             };
+            let declared = |w: &str| is_symbol_first(w) && self.symbols.find(w).is_some();
+            if words().any(declared) {
+                return None;
+            }
             if !self.units_first {
+                if words().any(is_symbol_first) {
+                    return None;
+                }
                 if !self.symbols.is_open()
                     || words().any(|w| {
                         w.chars()
@@ -98,6 +108,17 @@ impl Lexer<'_> {
                             | "ft"
                             | "J"
                             | "N"
+                            | "kWh"
+                            | "eV"
+                            | "keV"
+                            | "MeV"
+                            | "kV"
+                            | "mA"
+                            | "mV"
+                            | "mL"
+                            | "kcal"
+                            | "bar"
+                            | "hp"
                     )
                 }) || plain.contains("/s")
                     || plain.contains("s^-")
@@ -113,6 +134,87 @@ impl Lexer<'_> {
         self.pos = start + stop;
         Some(Tok::Unit(Box::new(read)))
     }
+}
+
+/// Whether a letter is a symbol rather than a unit where nothing is declared: 2.5 V is two and a half volumes as well.
+pub(super) fn is_symbol_first(word: &str) -> bool {
+    matches!(word, "A" | "C" | "F" | "H" | "K" | "L" | "T" | "V" | "l")
+}
+
+/// The unit of siunitx in plain characters: `\kilo\metre\per\second\squared`, `m.s^{-2}`.
+pub(super) fn spelled(text: &str) -> String {
+    const WORDS: [(&str, &str); 30] = [
+        ("kilogram", "kg"),
+        ("metre", "m"),
+        ("meter", "m"),
+        ("second", "s"),
+        ("gram", "g"),
+        ("newton", "N"),
+        ("joule", "J"),
+        ("watt", "W"),
+        ("pascal", "Pa"),
+        ("hertz", "Hz"),
+        ("radian", "rad"),
+        ("degree", "deg"),
+        ("hour", "h"),
+        ("minute", "min"),
+        ("kilo", "k"),
+        ("mega", "M"),
+        ("giga", "G"),
+        ("centi", "c"),
+        ("milli", "m"),
+        ("micro", "u"),
+        ("nano", "n"),
+        ("deci", "d"),
+        ("squared", "^2"),
+        ("cubed", "^3"),
+        ("ampere", "A"),
+        ("volt", "V"),
+        ("kelvin", "K"),
+        ("celsius", "°C"),
+        ("litre", "L"),
+        ("ohm", "Ω"),
+    ];
+    let mut out = String::new();
+    let mut rest = text;
+    let mut prefix = false;
+    let mut per = false;
+    while let Some(c) = rest.chars().next() {
+        rest = &rest[c.len_utf8()..];
+        if c != '\\' {
+            out.push(if matches!(c, '.' | '~' | '{' | '}') {
+                ' '
+            } else {
+                c
+            });
+            // Braces of an exponent go with it.
+            continue;
+        }
+        let length = rest
+            .find(|c: char| !c.is_ascii_alphabetic())
+            .unwrap_or(rest.len());
+        let word = &rest[..length];
+        rest = &rest[length..];
+        if word == "per" {
+            per = true;
+            continue;
+        }
+        let short = WORDS
+            .iter()
+            .find(|(long, _)| *long == word)
+            .map_or(word, |(_, short)| *short);
+        let raised = short.starts_with('^');
+        if !prefix && !raised && !out.is_empty() {
+            out.push(if per { '/' } else { ' ' });
+            per = false;
+        }
+        out.push_str(short);
+        prefix = matches!(
+            word,
+            "kilo" | "mega" | "giga" | "centi" | "milli" | "micro" | "nano" | "deci"
+        );
+    }
+    out.replace("^ ", "^").trim().to_string()
 }
 
 /// Where a unit ends that does not fill its side: before a sign, a comma, a bracket that it did not open, or a unit vector.
@@ -140,15 +242,10 @@ fn end_of_unit(side: &str) -> Option<usize> {
 
 /// Whether the text starts with a word that is a unit, so that trying is worth it.
 fn starts_like_a_unit(side: &str) -> bool {
-    let micro = side.starts_with(['µ', 'μ']);
-    let length = side
-        .bytes()
-        .skip(if micro { 2 } else { 0 })
-        .take(12)
-        .take_while(u8::is_ascii_alphabetic)
-        .count();
-    let length = length + if micro { 2 } else { 0 };
-    (1..14).contains(&length) && dimension::unit(&side[..length]).is_ok()
+    let letter = |c: &char| c.is_ascii_alphabetic() || matches!(c, 'µ' | 'μ' | 'Ω' | '\u{2126}');
+    let word = side.chars().take(12).take_while(letter);
+    let length = word.map(char::len_utf8).sum();
+    (1..16).contains(&length) && dimension::unit(&side[..length]).is_ok()
 }
 
 /// Stands for `\frac` until its groups are found.

@@ -56,6 +56,20 @@ impl Lexer<'_> {
         if let Some(tok) = self.spelled_out(start) {
             return Ok(tok);
         }
+        if rest.starts_with('d')
+            && !matches!(self.text.as_bytes().get(start + 1), Some(b'_' | b'\''))
+        {
+            if let Some(derivative) = self.derivative() {
+                return derivative;
+            }
+            if self.differentials()
+                && let Some(behind) = rest[1..].chars().next()
+                && (behind.is_alphabetic() || behind == '\\')
+                && let Some(named) = self.differential_alone(start)
+            {
+                return named;
+            }
+        }
         for length in (1..=run.min(self.symbols.longest_word())).rev() {
             let word = &rest[..length];
             let base = length == 1 || self.symbols.has_base(word);
@@ -258,6 +272,9 @@ impl Lexer<'_> {
 
     /// Reads index and marks behind a base and resolves the name.
     pub(super) fn finish(&mut self, start: usize, at: usize, parts: Parts) -> Faulty<Tok> {
+        if let Some(change) = self.change(&parts, start, at) {
+            return change;
+        }
         let mut whole = parts.clone();
         let mut took = false;
         let mut stop = name::tail(self.text, at, &mut whole, self.symbols, false, &mut took);
@@ -269,7 +286,78 @@ impl Lexer<'_> {
             }
             self.note(Remark::Component { one: usual }, start, start, stop);
         }
+        stop = self.raised_first(stop, &mut whole);
+        if let Some(value) = self.of_time(start, stop, &whole) {
+            return value;
+        }
         self.resolve(start, stop, whole)
+    }
+
+    /// `v^2_0` and `v^{\prime\,2}`: an exponent before the rest of the name, which is read behind it.
+    fn raised_first(&mut self, at: usize, parts: &mut Parts) -> usize {
+        let Some(rest) = self.text[at..].strip_prefix('^') else {
+            return at;
+        };
+        let (inside, behind) = match rest.strip_prefix('{') {
+            Some(inside) => match inside.split_once('}') {
+                Some(pair) => pair,
+                None => return at,
+            },
+            None => rest.split_at(
+                rest.bytes()
+                    .next()
+                    .is_some_and(|b| b.is_ascii_digit())
+                    .into(),
+            ),
+        };
+        let prime = inside.trim_start().strip_prefix("\\prime");
+        let digits: String = prime
+            .unwrap_or(inside)
+            .chars()
+            .filter(|c| !matches!(c, ' ' | '\\' | ','))
+            .collect();
+        let Some(power) = digits.parse::<u8>().ok().filter(|k| *k > 0) else {
+            return at;
+        };
+        let mut end = self.text.len() - behind.len();
+        let indexed = behind.trim_start_matches(' ').starts_with('_') && parts.index.is_empty();
+        if prime.is_none() && !indexed {
+            return at;
+        }
+        let mut read = parts.clone();
+        if prime.is_some() {
+            read.marks.push('\'');
+        }
+        if indexed {
+            end = name::tail(self.text, end, &mut read, self.symbols, false, &mut false);
+        }
+        *parts = read;
+        let power = crate::expr::ratio(i64::from(power), 1);
+        self.pending = Some(Tok::Raised(power));
+        end
+    }
+
+    /// `v(t_1)`: the value of v at a time, where neither is declared; no product.
+    fn of_time(&mut self, start: usize, at: usize, parts: &Parts) -> Option<Faulty<Tok>> {
+        if !self.symbols.is_open() || parts.base == "t" {
+            return None;
+        }
+        let inside = self.text[at..].strip_prefix('(')?;
+        let (inside, _) = inside.split_once(')')?;
+        let time = inside.trim();
+        let mut when = Parts::default();
+        let end = name::base(time, 0, &mut when, 0)?;
+        let end = name::tail(time, end, &mut when, self.symbols, false, &mut false);
+        if end != time.len() || when.base != "t" || self.symbols.find(&when.key()).is_some() {
+            return None;
+        }
+        let stop = at + inside.len() + 2;
+        let base = format!("{}({})", parts.key(), when.key());
+        let whole = Parts {
+            base,
+            ..Parts::default()
+        };
+        Some(self.resolve(start, stop, whole))
     }
 
     /// Looks a complete name up.
@@ -278,6 +366,15 @@ impl Lexer<'_> {
         if let Some(found) = name::find(&whole, self.symbols) {
             return Ok(Tok::Name(found.name.clone()));
         }
+        let crossed = || ["\\times", "×"].iter().any(|sign| self.text.contains(sign));
+        let whole =
+            match whole.bold && whole.accent.is_empty() && self.symbols.is_open() && crossed() {
+                true => Parts {
+                    accent: "vec",
+                    ..whole
+                },
+                false => whole,
+            };
         let key = whole.key();
         if let Some(vector) = unit_vector(&key) {
             return Ok(Tok::Name(vector.into()));

@@ -444,6 +444,9 @@ pub(super) fn latex_function(function: Function) -> &'static str {
 }
 
 fn plain_name(name: &str) -> String {
+    if name.contains(['(', '/']) && !name.contains('_') {
+        return name.to_string();
+    }
     let (body, mark) = match name.split_once('^') {
         Some((body, mark)) => (body, format!("^{{{mark}}}")),
         None => (name, String::new()),
@@ -466,6 +469,16 @@ fn plain_name(name: &str) -> String {
 
 /// The LaTeX spelling of a name: `theta` → `\theta`, `omega1` → `\omega_{1}`, `v_G1` → `v_{G1}`, `v1^+` → `v_{1}^{+}`.
 pub fn latex_name(name: &str) -> String {
+    if let Some((of, when)) = name.strip_suffix(')').and_then(|n| n.split_once('(')) {
+        return format!("{}({})", latex_name(of), latex_name(when));
+    }
+    if let Some((above, below)) = derivative(name) {
+        return format!(
+            "\\frac{{d {}}}{{d {}}}",
+            latex_name(above),
+            latex_name(below)
+        );
+    }
     let parts = parts_of(name);
     let base = match parts.base.as_str() {
         "pi" => "\\pi".to_string(),
@@ -475,7 +488,10 @@ pub fn latex_name(name: &str) -> String {
             Some(name) => format!("\\{name}"),
             None => in_math(base),
         },
-        base => format!("\\mathrm{{{}}}", in_math(base)),
+        base => match change(base) {
+            Some((sign, of)) => format!("\\{sign} {}", latex_name(of)),
+            None => format!("\\mathrm{{{}}}", in_math(base)),
+        },
     };
     let mut out = match parts.accent {
         "" => base,
@@ -494,6 +510,19 @@ pub fn latex_name(name: &str) -> String {
     out
 }
 
+/// `dv/dx` as v and x.
+fn derivative(name: &str) -> Option<(&str, &str)> {
+    let (above, below) = name.split_once("/d")?;
+    above.strip_prefix('d').map(|above| (above, below))
+}
+
+/// `Deltap` as Δ and p: a change of something.
+fn change(base: &str) -> Option<(&'static str, &str)> {
+    let split = |sign| base.strip_prefix(sign).map(|of| (sign, of));
+    let found = split("Delta").or_else(|| split("delta"));
+    found.filter(|(_, of)| of.len() == 1 || is_greek(of))
+}
+
 fn latex_index(index: &str) -> String {
     if is_greek(index) {
         format!("\\{index}")
@@ -504,10 +533,22 @@ fn latex_index(index: &str) -> String {
 
 /// The name in Unicode: `theta` → `θ`, `omega1` → `ω₁`, `v_G1` → `v_G1`, `v1^+` → `v₁⁺`.
 pub fn unicode_name(name: &str) -> String {
+    if let Some((of, when)) = name.strip_suffix(')').and_then(|n| n.split_once('(')) {
+        return format!("{}({})", unicode_name(of), unicode_name(when));
+    }
+    if let Some((above, below)) = derivative(name) {
+        return format!("d{}/d{}", unicode_name(above), unicode_name(below));
+    }
     let parts = parts_of(name);
     let mut out = match greek_letter(&parts.base) {
         Some(letter) => letter.to_string(),
-        None => parts.base.clone(),
+        None => match change(&parts.base) {
+            Some((sign, of)) => {
+                let sign = greek_letter(sign).map_or(String::new(), String::from);
+                sign + &unicode_name(of)
+            }
+            None => parts.base.clone(),
+        },
     };
     match parts.accent {
         "" => {}

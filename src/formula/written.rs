@@ -34,6 +34,8 @@ pub enum Link {
     Beside,
     /// With a multiplication sign.
     Times,
+    /// With ×: the cross product of vectors.
+    Cross,
     /// Behind a slash or a division sign.
     Over,
 }
@@ -89,6 +91,68 @@ impl Written {
         Written { shape, start, end }
     }
 
+    /// Whether it is a vector by the way it is written: an arrow, a unit vector, components, or a sum or multiple of such.
+    pub(crate) fn is_vector(&self) -> bool {
+        match &self.shape {
+            Shape::Symbol(name) => {
+                name.ends_with("_hat") || super::symbols::parts_of(name).accent == "vec"
+            }
+            Shape::List(_) => true,
+            Shape::Bracket(inner) | Shape::Fraction(inner, _) | Shape::Measured(inner, _) => {
+                inner.is_vector()
+            }
+            Shape::Sum(terms) => terms.iter().any(|(_, t)| t.is_vector()),
+            Shape::Product(factors) => {
+                // Two vectors give a number with a dot, and a vector with a cross.
+                let mut vector = false;
+                for (link, factor) in factors {
+                    vector = match (vector, factor.is_vector()) {
+                        (true, true) => *link == Link::Cross,
+                        (a, b) => a || b,
+                    };
+                }
+                vector
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether vectors with arrows are multiplied by each other or measured, so that their components matter.
+    pub(crate) fn multiplies_vectors(&self) -> bool {
+        let arrow = |w: &Written| w.is_vector() && w.has_arrow();
+        let inside = |w: &Written| w.multiplies_vectors();
+        match &self.shape {
+            Shape::Product(factors) => {
+                factors.iter().filter(|(_, f)| arrow(f)).count() > 1
+                    || factors.iter().any(|(_, f)| inside(f))
+            }
+            Shape::Abs(inner) => arrow(inner) || inside(inner),
+            Shape::Power(base, exponent) => arrow(base) || inside(base) || inside(exponent),
+            Shape::Sum(terms) => terms.iter().any(|(_, t)| inside(t)),
+            Shape::Fraction(a, b) => inside(a) || inside(b),
+            Shape::Root(_, a)
+            | Shape::Call(_, a)
+            | Shape::Reciprocal(_, a)
+            | Shape::Bracket(a)
+            | Shape::Degrees(a)
+            | Shape::Measured(a, _) => inside(a),
+            Shape::List(parts) => parts.iter().any(inside),
+            Shape::Number(_) | Shape::Symbol(_) => false,
+        }
+    }
+
+    fn has_arrow(&self) -> bool {
+        match &self.shape {
+            Shape::Symbol(name) => super::symbols::parts_of(name).accent == "vec",
+            Shape::Bracket(inner) | Shape::Fraction(inner, _) | Shape::Measured(inner, _) => {
+                inner.has_arrow()
+            }
+            Shape::Sum(terms) => terms.iter().any(|(_, t)| t.has_arrow()),
+            Shape::Product(factors) => factors.iter().any(|(_, f)| f.has_arrow()),
+            _ => false,
+        }
+    }
+
     /// Whether it is made of numbers and π alone, without a sum of several terms.
     pub(crate) fn is_numeric(&self) -> bool {
         match &self.shape {
@@ -122,7 +186,7 @@ impl Written {
                 _ => None,
             },
             Shape::Product(factors) => match factors.as_slice() {
-                [(_, number), (Link::Times | Link::Beside, ten)] => {
+                [(_, number), (Link::Times | Link::Beside | Link::Cross, ten)] => {
                     let found = number.literal()?;
                     let Shape::Power(base, exponent) = &ten.shape else {
                         return None;

@@ -241,6 +241,8 @@ fn lacking(missing: &Dimension) -> String {
         ("mass", &missing.mass),
         ("length", &missing.length),
         ("time", &missing.time),
+        ("current", &missing.current),
+        ("temperature", &missing.temperature),
     ] {
         if !num_traits::Zero::is_zero(k) {
             let times = k.abs();

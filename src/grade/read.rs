@@ -13,12 +13,23 @@ const STRANGERS: [&str; 6] = ["g", "t", "mu", "h", "dt", "F"];
 
 /// Reads an expected formula; numbers in round brackets are components there.
 pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
-    formula::read(text, symbols).or_else(|fault| {
+    let reading = formula::read(text, symbols).or_else(|fault| {
         match formula::read(text, &symbols.clone().with_lists()) {
             Ok(reading) if vector(&reading) => Ok(reading),
             _ => Err(fault),
         }
-    })
+    })?;
+    // Authors say which product they mean.
+    match reading.notes.iter().find(|n| n.remark == Remark::Cross) {
+        None => Ok(reading),
+        Some(note) => Err(Fault {
+            message: "× between symbols could be a cross product".into(),
+            start: note.start,
+            end: note.end,
+            hint: Some("write * for a product of numbers, and arrows over vectors, as in \\vec{r} \\times \\vec{p}".into()),
+            also: Vec::new(),
+        }),
+    }
 }
 
 /// Reads an answer.
@@ -57,6 +68,17 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         && !named_quantity
     {
         return Ok(reading);
+    }
+    // `v = \sqrt{2gh} = 14 m/s`: the number at the end is the answer.
+    if measured && let Some(at) = text.rfind(['=', '≈']) {
+        let sign = text[at..].chars().next().map_or(1, char::len_utf8);
+        let last = format!("{}{}", " ".repeat(at + sign), &text[at + sign..]);
+        if let Ok(reading) = formula::read(&last, &key.readable)
+            && reading.symbols().is_empty()
+            && text[..at].contains(['=', '≈'])
+        {
+            return Ok(reading);
+        }
     }
     // `v = 5 m/s`, where v is not declared and m is the unit.
     let named = left.filter(|name| !declared(key, name)).and_then(|name| {

@@ -231,7 +231,10 @@ impl<'a> Desk<'a> {
             return (Status::Carried(cause), none());
         }
         // The student may have meant the other reading of a slash.
-        for other in formula::other_readings(text, &symbols, true).into_iter().take(4) {
+        for other in formula::other_readings(text, &symbols, true)
+            .into_iter()
+            .take(4)
+        {
             let Some(differences) = self.differences(&other) else {
                 continue;
             };

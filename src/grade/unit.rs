@@ -90,6 +90,15 @@ pub(super) fn quantities(ctx: &Context, expected: &Quantity, answer: &Quantity) 
         return wrong(asked, given, &answer.unit_text, number_right);
     }
     let mut finding = scalars(ctx, &expected.value, &answer.value);
+    let turns = [&expected.unit, &answer.unit].map(|u| (u.cycles, u.angle));
+    if let [(true, false), (false, true)] | [(false, true), (true, false)] = turns {
+        let words = "Hz counts turns in a second, rad/s radians: one is 2π of the other";
+        return Finding::different("DIFF_UNIT", "dimension", words).with(Diagnosis::new(
+            "UNIT_WRONG",
+            words,
+            "is an angular velocity asked for, or a frequency?",
+        ));
+    }
     if finding.verdict == Verdict::Equivalent && expected.unit.value() != answer.unit.value() {
         let words = format!(
             "{} is the same in {}",

@@ -10,7 +10,7 @@ use carom::grade::{Options, judge};
 const SHOWN: usize = 10;
 
 /// Tables in the order of the manual, with what they are about.
-const TABLES: [(&str, &str, &str); 14] = [
+const TABLES: [(&str, &str, &str); 15] = [
     (
         "typing.tsv",
         "Formulas as people type them",
@@ -25,6 +25,11 @@ const TABLES: [(&str, &str, &str); 14] = [
         "signs.tsv",
         "Letters and signs of Unicode, and vectors",
         "A vector is written with brackets, as a column, or with unit vectors.",
+    ),
+    (
+        "names.tsv",
+        "What is no product",
+        "A Δ or d before a name makes another name of it, `dx/dt` is \\dot x, and names with arrows follow the algebra of vectors. × between symbols without arrows is a product in an answer and refused in an expected formula.",
     ),
     (
         "sentences.tsv",

@@ -9,6 +9,7 @@ use crate::dimension;
 use crate::expr::Symbol;
 use crate::formula::name::key_of_latex;
 use crate::formula::symbols::{ACCENTS, is_greek, parts_of};
+use crate::formula::units::is_symbol_first;
 
 /// Most names: a set of names is a word of bits.
 pub(crate) const MOST: usize = 64;
@@ -250,7 +251,10 @@ fn simple(spelling: &str) -> Option<Key> {
 static UNIT_LETTERS: LazyLock<u128> = LazyLock::new(|| {
     let letters = (b'a'..=b'z').chain(b'A'..=b'Z');
     letters
-        .filter(|b| dimension::unit((*b as char).encode_utf8(&mut [0; 4])).is_ok())
+        .filter(|b| {
+            let letter = (*b as char).to_string();
+            dimension::unit(&letter).is_ok() && !is_symbol_first(&letter)
+        })
         .fold(0, |set, b| set | 1 << b)
 });
 
@@ -289,8 +293,8 @@ pub(crate) fn no_unit(rest: &[u8], letters: u128) -> bool {
                     }
                     at += 1;
                 }
-                // µ is a letter of units.
-                let micro = |piece: &[u8]| matches!(piece, [0xc2, 0xb5] | [0xce, 0xbc]);
+                // µ and Ω are letters of units.
+                let micro = |piece: &[u8]| matches!(piece, [0xc2, 0xb5] | [0xce, 0xbc | 0xa9]);
                 let lone = at == start + 1 && !rest.get(at..at + 2).is_some_and(micro);
                 let joined = start > 1 && micro(&rest[start - 2..start]);
                 if lone && !joined && *UNIT_LETTERS >> rest[start] & 1 == 0 {

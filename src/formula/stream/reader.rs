@@ -123,9 +123,13 @@ impl<B: Builder> Reader<'_, B> {
                 let rest = &self.text[self.at + 1..];
                 let length = rest.iter().take_while(|b| b.is_ascii_alphabetic()).count();
                 match &rest[..length] {
-                    b"cdot" | b"times" => {
+                    b"cdot" => {
                         self.width = 1 + length;
                         Peek::Times
+                    }
+                    b"times" => {
+                        self.width = 1 + length;
+                        return self.times();
                     }
                     b"" => return None,
                     _ => Peek::Factor,
@@ -141,7 +145,7 @@ impl<B: Builder> Reader<'_, B> {
             }
             0xc3 if next == 0x97 => {
                 self.width = 2;
-                Peek::Times
+                return self.times();
             }
             0xce | 0xcf => Peek::Factor,
             0xe2 => {
@@ -157,6 +161,14 @@ impl<B: Builder> Reader<'_, B> {
             }
             _ => return None,
         })
+    }
+
+    /// × before a number; between symbols it could be a cross product.
+    fn times(&self) -> Option<Peek> {
+        let behind = self.text[self.at + self.width..].trim_ascii_start().first();
+        behind
+            .is_some_and(u8::is_ascii_digit)
+            .then_some(Peek::Times)
     }
 
     #[inline]

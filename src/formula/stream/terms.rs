@@ -146,6 +146,7 @@ impl<B: Builder> Reader<'_, B> {
             Some(first) => first,
             None => self.factor()?,
         };
+        let mut last = tie;
         while self.goes_on()? && !(tight && self.spaced()) {
             self.echo.push(b'*');
             // `2\frac12` could be a mixed number.
@@ -157,10 +158,25 @@ impl<B: Builder> Reader<'_, B> {
             {
                 return None;
             }
-            let (factor, _) = self.factor()?;
+            if last == Tie::Atom && self.at == self.end && self.is_argument() {
+                return None;
+            }
+            let (factor, next) = self.factor()?;
             total = self.build.product(total, factor)?;
-            tie = Tie::Product;
+            (tie, last) = (Tie::Product, next);
         }
         Some((total, tie))
+    }
+
+    /// Whether a bracket right behind a name could hold a time or an index: `v(t)`, `a[2]`.
+    fn is_argument(&self) -> bool {
+        match self.byte(0) {
+            b'[' => true,
+            b'(' if matches!(self.names, Table::Collect(_)) => {
+                let inside = self.text[self.at + 1..].trim_ascii_start();
+                inside.starts_with(b"t")
+            }
+            _ => false,
+        }
     }
 }

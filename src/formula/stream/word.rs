@@ -70,8 +70,11 @@ fn keywords(first: u8) -> &'static [(&'static [u8], Keyword)] {
         ],
         b'b' => &[(b"beta", Greek)],
         b'c' => &[
+            (b"cosech", Other),
             (b"cosec", const { inverse(Sin) }),
             (b"cosh", Other),
+            (b"csch", Other),
+            (b"coth", Other),
             (b"cbrt", Other),
             (b"cos", const { call(Cos) }),
             (b"csc", const { inverse(Sin) }),
@@ -103,6 +106,7 @@ fn keywords(first: u8) -> &'static [(&'static [u8], Keyword)] {
             (b"sigma", Greek),
             (b"sqrt", Root),
             (b"sinh", Other),
+            (b"sech", Other),
             (b"sin", const { call(Sin) }),
             (b"sec", const { inverse(Cos) }),
         ],
@@ -188,6 +192,9 @@ impl<B: Builder> Reader<'_, B> {
                 let code = u32::from(lead & 0x1f) << 6 | u32::from(low & 0x3f);
                 self.at += 2;
                 let letter = char::from_u32(code)?;
+                if letter == 'Ω' && self.before {
+                    return None;
+                }
                 if letter == 'π' {
                     return Some(Word::Pi);
                 }
@@ -207,7 +214,7 @@ impl<B: Builder> Reader<'_, B> {
             true => (u128::from(letter) | u128::from(next) << 8, 2, after),
             false => (u128::from(letter), 1, next),
         };
-        if self.before || GOES_ON[usize::from(end)] {
+        if self.before || GOES_ON[usize::from(end)] || letter == b'd' {
             return None;
         }
         let word = self.name(key, look)?;
@@ -225,7 +232,14 @@ impl<B: Builder> Reader<'_, B> {
             return None;
         }
         let run = &rest[..count];
+        // `dx` could be a differential.
+        let next = rest.get(1).copied().unwrap_or(0);
+        let before_name = count > 1 || matches!(next, 0xce | 0xcf | b'\\');
+        let differential = run[0] == b'd' && before_name && matches!(self.names, Table::Collect(_));
         if count == 1 {
+            if differential {
+                return None;
+            }
             self.at += 1;
             return self.tail(run, look);
         }
@@ -241,6 +255,7 @@ impl<B: Builder> Reader<'_, B> {
             return self.tail(&rest[..length], look);
         }
         match known {
+            None if differential => None,
             None => {
                 self.at += 1;
                 self.tail(&run[..1], look)
@@ -281,6 +296,10 @@ impl<B: Builder> Reader<'_, B> {
     /// Index and primes behind a base, and the name that comes out.
     #[inline]
     fn tail(&mut self, base: &[u8], look: bool) -> Option<Word> {
+        // Δ before a name is no factor.
+        if matches!(base, b"Delta" | b"delta") && matches!(self.names, Table::Collect(_)) {
+            return None;
+        }
         let next = self.byte(0);
         let ends = !(next.is_ascii_digit() || matches!(next, b'_' | b'\'' | 0xcc | 0xe2));
         // Most names are one letter and end here.
