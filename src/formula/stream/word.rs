@@ -234,7 +234,8 @@ impl<B: Builder> Reader<'_, B> {
         let run = &rest[..count];
         // `dx` could be a differential.
         let next = rest.get(1).copied().unwrap_or(0);
-        let before_name = count > 1 || matches!(next, 0xce | 0xcf | b'\\');
+        let opens = self.at > 0 && self.text[self.at - 1] == b'{';
+        let before_name = count > 1 || opens || matches!(next, 0xce | 0xcf | b'\\');
         let differential = run[0] == b'd' && before_name && matches!(self.names, Table::Collect(_));
         if count == 1 {
             if differential {
