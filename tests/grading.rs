@@ -364,3 +364,73 @@ fn a_slash_without_brackets_is_refused_where_authors_ask_for_brackets() {
         "{told:?}"
     );
 }
+
+/// SplitMix64.
+fn next(state: &mut u64) -> u64 {
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mut z = *state;
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+/// Three-digit numbers of the size of the right one, and the right formula times a fraction of whole numbers up to 40.
+#[test]
+fn random_wrong_answers_are_seldom_explained() {
+    let cases: u64 = std::env::var("CAROM_CASES")
+        .ok()
+        .and_then(|n| n.parse().ok())
+        .unwrap_or(140);
+    let numbers = [
+        ("book/billiard-ball.json", "omega", "-", "rad/s", 10),
+        ("book/ball-hits-bat.json", "v_D_x", "-", "m/s", 1),
+        ("book/flying-dish.json", "P", "", "N s", 1),
+    ];
+    let formulas = [
+        ("book/falling-stick.json", "omega", "3 v cosθ/(2ℓ)"),
+        ("book/pool-balls.json", "P", "m v (1+e) cosθ/2"),
+        ("book/falling-stick.json", "E_lost", "m v²(4 - 3 cos²θ)/8"),
+        ("book/billiard-ball.json", "omega", "-5 d v/(2 r²)"),
+    ];
+    let open = |path: &str| {
+        let text = fs::read_to_string(root().join("derivations").join(path)).expect("a scene");
+        sheet::sheet(scene::read(&text).expect("a sound scene")).expect("a derivation")
+    };
+    let sheets: Vec<_> = numbers
+        .iter()
+        .map(|(path, name, ..)| (open(path), *name))
+        .chain(formulas.iter().map(|(path, name, _)| (open(path), *name)))
+        .collect();
+    let (mut state, mut explained, mut wrong) = (7, 0u64, 0u64);
+    for round in 0..cases {
+        let at = (round % sheets.len() as u64) as usize;
+        let (sheet, name) = &sheets[at];
+        let entry = sheet.entry(name).expect("a question of the scene");
+        let answer = match numbers.get(at) {
+            Some((_, _, sign, unit, size)) => {
+                let digits = 100 + next(&mut state) % 900;
+                format!("{sign}{}.{:02} {unit}", digits / 100, digits % 100)
+                    .replace('.', if *size == 10 { "" } else { "." })
+            }
+            None => {
+                let [p, q] = [1, 2].map(|_| next(&mut state) % 40 + 1);
+                format!("({p}/{q})*({})", formulas[at - numbers.len()].2)
+            }
+        };
+        let grade = sheet.judge(&entry, &answer, &Options::default());
+        if grade.verdict != Verdict::Different {
+            continue;
+        }
+        wrong += 1;
+        let belief = |code: &str| {
+            let known = carom::grade::belief::BELIEFS.iter().any(|b| b.code == code);
+            known || matches!(code, "TWO_BELIEFS" | "OTHER_QUANTITY")
+        };
+        explained += u64::from(grade.diagnosis.iter().any(|d| belief(d.code)));
+    }
+    println!("{explained} of {wrong} random wrong answers were explained");
+    assert!(
+        wrong > cases / 2 && explained * 50 <= wrong,
+        "{explained} of {wrong}"
+    );
+}

@@ -7,6 +7,8 @@ use crate::expr::{Expr, Node, Symbol};
 
 /// Why an expression has no dimension.
 #[derive(Clone, PartialEq, Eq, Debug)]
+// Always behind a box.
+#[allow(clippy::large_enum_variant)]
 pub enum Clash {
     /// A symbol whose dimension nobody told.
     Unknown(Symbol),

@@ -13,7 +13,7 @@ use super::belief::{BELIEFS, Belief, Slip};
 use crate::expr::{Expr, Node, Point, Rational, Symbol};
 use crate::numeric;
 use crate::scene::{Ask, Scene};
-pub use others::other_quantities;
+use others::other_quantities;
 pub(super) use outcome::doubles;
 use outcome::fractions;
 
@@ -47,11 +47,36 @@ struct Trials {
     rounding: Option<f64>,
 }
 
-/// The beliefs that give exactly the written answer, single ones before pairs.
-pub fn beliefs(written: &Written) -> Vec<Diagnosis> {
+/// Highest chance that a wrong answer meets one of the hypotheses by coincidence, for it to be explained at all.
+const COINCIDENCE: f64 = 0.02;
+/// Simple factors a wrong answer may carry: the fractions of whole numbers up to 40, near enough.
+const FACTORS: f64 = 1_000.0;
+
+/// What explains an answer: the belief that gives exactly it; then the quantities it would be right for, and other beliefs. Where a number, or
+/// a factor times the right answer, would meet one of so many hypotheses by coincidence, nothing is said.
+pub fn explain(written: &Written, whole: bool) -> (Vec<Diagnosis>, Vec<Diagnosis>) {
     let Some(trials) = trials(written) else {
-        return Vec::new();
+        return (Vec::new(), Vec::new());
     };
+    let quantities = others::quantities(written);
+    let evidence = trials.evidence(written, &quantities);
+    if evidence.is_some_and(|chance| chance > COINCIDENCE) {
+        return (Vec::new(), Vec::new());
+    }
+    let mut found = if whole {
+        beliefs(written, &trials, evidence.is_none())
+    } else {
+        Vec::new()
+    };
+    // One belief comes first; others that explain the answer as well stand behind.
+    let rest: Vec<Diagnosis> = found.drain(found.len().min(1)..).collect();
+    let mut later = other_quantities(written, &trials, quantities);
+    later.extend(rest);
+    (found, later)
+}
+
+/// The beliefs that give exactly the written answer, single ones before pairs where these are evidence.
+fn beliefs(written: &Written, trials: &Trials, paired: bool) -> Vec<Diagnosis> {
     // What is right, and wrong only in its unit or form, comes from no belief.
     let truth = Slip {
         scene: written.scene.clone(),
@@ -78,11 +103,14 @@ pub fn beliefs(written: &Written) -> Vec<Diagnosis> {
         return Vec::new();
     }
     if found.is_empty() {
-        found = opposite(written, &trials, &slips);
+        found = opposite(written, trials, &slips);
     }
-    if found.is_empty() && written.rounding.is_none() && slips.len() * slips.len() / 2 <= PAIRS * 4
+    if found.is_empty()
+        && paired
+        && written.rounding.is_none()
+        && slips.len() * slips.len() / 2 <= PAIRS * 4
     {
-        found = pairs(written, &trials, &slips);
+        found = pairs(written, trials, &slips);
     }
     found
 }
@@ -211,6 +239,73 @@ impl Trials {
                 .collect(),
             rounding: self.rounding,
         }
+    }
+
+    /// The chance that an answer of this kind meets a hypothesis by coincidence; `None` for a formula that is no multiple
+    /// of the right one: such a thing is not met by chance.
+    fn evidence(&self, written: &Written, quantities: &[(Ask, String)]) -> Option<f64> {
+        let plain = Slip {
+            scene: written.scene.clone(),
+            changes: Vec::new(),
+            place: String::new(),
+        };
+        let slips = BELIEFS.iter().flat_map(|b| (b.slips)(written.scene));
+        let mut outcomes: Vec<Vec<Vec<f64>>> = Vec::new();
+        let at = |written: &Written, slip: &Slip| -> Option<Vec<Vec<f64>>> {
+            let values = self.points.iter().map(|p| doubles(written, slip, p));
+            values.collect()
+        };
+        let truth = at(written, &plain)?;
+        let ratio = |values: &[Vec<f64>]| -> Option<f64> {
+            let mut ratios = values.iter().zip(&truth).flat_map(|(v, t)| {
+                let pairs = v.iter().zip(t);
+                pairs
+                    .filter(|(v, t)| v.abs() + t.abs() > 1e-12)
+                    .map(|(v, t)| v / t)
+                    .collect::<Vec<f64>>()
+            });
+            let first = ratios.next().filter(|r| r.is_finite())?;
+            ratios
+                .all(|r| (r - first).abs() <= 1e-9 * first.abs())
+                .then_some(first)
+        };
+        if self.rounding.is_none() {
+            ratio(&self.targets)?;
+        }
+        outcomes.extend(slips.filter_map(|slip| at(written, &slip)));
+        for (ask, _) in quantities {
+            for component in [None, Some(0), Some(1)] {
+                let other = Written {
+                    scene: written.scene,
+                    ask,
+                    component,
+                    values: written.values.clone(),
+                    rounding: written.rounding,
+                };
+                outcomes.extend(at(&other, &plain));
+            }
+        }
+        let mut distinct: Vec<f64> = Vec::new();
+        let mut note = |value: f64| {
+            let known = |d: &f64| (d - value).abs() <= 1e-6 * value.abs();
+            if !distinct.iter().any(known) {
+                distinct.push(value);
+            }
+        };
+        let Some(room) = self.rounding else {
+            let ratios = outcomes.iter().filter_map(|values| ratio(values));
+            ratios.for_each(|r| note(r.abs()));
+            return Some(distinct.len() as f64 / FACTORS);
+        };
+        // Numbers of as many digits in the same decade.
+        let size = self.targets[0].iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        let decade = 10f64.powf(size.log10().floor());
+        let values = outcomes.iter().flatten().filter_map(|v| v.first());
+        let values = values.map(|v| v.abs());
+        values
+            .filter(|v| (decade..10.0 * decade).contains(v))
+            .for_each(note);
+        Some(distinct.len() as f64 * 2.0 * room / (9.0 * decade))
     }
 
     fn fits(&self, written: &Written, slip: &Slip) -> bool {

@@ -120,7 +120,7 @@ pub(crate) fn numbers(expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
                 format!("off by a factor 10^{k}"),
                 "check powers of ten and prefixes of units",
             ));
-        } else if simple(&q) && q.is_positive() {
+        } else if slip(&q) {
             found.push(Diagnosis::new(
                 "FACTOR",
                 format!("right up to the factor {q}"),
@@ -187,6 +187,13 @@ pub(crate) fn proved(a: &Expr, b: &Expr, domains: &Domains) -> bool {
             how: How::Identity { .. }
         }
     )
+}
+
+/// A factor so common that a number off by it is told: any other would be met by chance too often.
+fn slip(q: &crate::expr::Rational) -> bool {
+    [(2, 1), (1, 2), (4, 1), (1, 4)]
+        .iter()
+        .any(|(n, d)| *q == ratio(*n, *d))
 }
 
 /// A fraction a slip of the pen would produce.

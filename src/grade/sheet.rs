@@ -185,6 +185,12 @@ impl Sheet {
 
     /// Judges an answer for a quantity of the scene; a wrong one is held against the beliefs students have.
     pub fn judge(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
+        let sensed = in_words(&entry.ask, answer);
+        let answer = sensed.as_deref().unwrap_or(answer);
+        let along = super::read::answer(&entry.key, answer)
+            .ok()
+            .and_then(|reading| about_z(&entry.ask, &reading));
+        let answer = along.as_deref().unwrap_or(answer);
         let mut grade = judge_against(&entry.key, answer, options);
         let Ok(reading) = super::read::answer(&entry.key, answer) else {
             return grade;
@@ -206,18 +212,15 @@ impl Sheet {
         if grade.verdict != Verdict::Different || options.strength == Strength::Fast {
             return grade;
         }
-        if reading
-            .symbols()
-            .iter()
-            .any(|s| matches!(&**s, "g" | "t" | "dt"))
-        {
+        let given = |s: &Symbol| self.scene.parameters.iter().any(|p| p.name == *s);
+        let finite = |s: &&Symbol| matches!(&***s, "g" | "t" | "dt") && !given(s);
+        if reading.symbols().iter().any(|s| finite(&s)) {
             grade.note = "DIFF_BELIEF";
             grade.diagnosis.insert(0, Diagnosis::new(
                 "GRAVITY_KEPT",
                 "a finite force, or the time the collision takes, enters: in a collision neither has an impulse",
                 "which forces are large enough to matter in so short a time?",
             ));
-            return grade;
         }
         let values = match reading.content.answer() {
             Content::Scalar(e) => vec![e.clone()],
@@ -246,17 +249,17 @@ impl Sheet {
         } else {
             1
         };
-        let mut found = if written.values.len() == expected {
-            believed::beliefs(&written)
-        } else {
-            Vec::new()
-        };
-        if !found.is_empty() {
+        let (found, mut others) = believed::explain(&written, written.values.len() == expected);
+        // Which direction counts as positive is asked before any belief that only turns the sign.
+        let turned = grade.diagnosis.iter().position(|d| d.code == "SIGN");
+        let sign = turned.map(|at| grade.diagnosis.remove(at));
+        if !found.is_empty() && sign.is_none() {
             grade.note = "DIFF_BELIEF";
         }
-        found.extend(believed::other_quantities(&written));
-        found.append(&mut grade.diagnosis);
-        grade.diagnosis = found;
+        let mut all: Vec<Diagnosis> = sign.into_iter().chain(found).collect();
+        all.append(&mut others);
+        all.append(&mut grade.diagnosis);
+        grade.diagnosis = all;
         grade
     }
 
@@ -309,8 +312,13 @@ impl Sheet {
         {
             return None;
         }
-        let Content::Scalar(closed) = &entry.key.reading.content else {
-            return None;
+        let closed = match &entry.key.reading.content {
+            Content::Scalar(closed) => closed,
+            Content::Vector(closed) => {
+                let exact = closed.each_ref().map(|e| e.substitute(&values));
+                return Some((components(entry, exact, answer, options)?, None));
+            }
+            _ => return None,
         };
         let exact = closed.substitute(&values);
         let mut question = entry.key.question.clone();
@@ -352,6 +360,83 @@ impl Sheet {
         let room = super::number::half_unit(&value, digits.min(12));
         Some((grade, Some(crate::expr::number::to_f64(&room) * 1.000_001)))
     }
+}
+
+/// A vector in numbers, each component to three digits or within the tolerance.
+fn components(entry: &Entry, exact: [Expr; 3], answer: &str, options: &Options) -> Option<Grade> {
+    let mut question = entry.key.question.clone();
+    let dimension = question.dimension.take();
+    let mut key = key_of(Content::Vector(exact), &question);
+    key.reading.unit = dimension
+        .filter(|d| !d.is_none())
+        .map(crate::dimension::Unit::coherent);
+    let tolerance = options.tolerance.clone();
+    let rounded = tolerance.is_none();
+    let options = Options {
+        tolerance: tolerance.or(Some(Tolerance::Significant(3))),
+        ..options.clone()
+    };
+    let mut grade = judge_against(&key, answer, &options);
+    if grade.verdict == Verdict::Equivalent && rounded {
+        grade.note = "EQUIV_ROUNDED";
+        grade.proof.words = "the exact values rounded to 3 significant digits".into();
+    }
+    Some(grade)
+}
+
+/// `9.31 rad/s clockwise` with the sign the question counts by.
+fn in_words(ask: &Ask, answer: &str) -> Option<String> {
+    const SENSES: [(&str, bool); 5] = [
+        ("counterclockwise", false),
+        ("anticlockwise", false),
+        ("clockwise", true),
+        ("ccw", false),
+        ("cw", true),
+    ];
+    let Ask::Spin { clockwise, .. } = ask else {
+        return None;
+    };
+    let text = answer.trim().trim_end_matches(['.', ')']).trim_end();
+    let lower = text.to_ascii_lowercase();
+    let (word, sense) = SENSES.iter().find(|(word, _)| lower.ends_with(word))?;
+    let body = text[..text.len() - word.len()].trim_end_matches([' ', ',', '(', '~']);
+    let (name, value) = match body.rfind('=') {
+        Some(at) => body.split_at(at + 1),
+        None => ("", body),
+    };
+    let value = value.trim();
+    Some(match (sense == clockwise, value.strip_prefix(['-', '−'])) {
+        (true, _) => format!("{name}{value}"),
+        (false, Some(positive)) => format!("{name}{positive}"),
+        (false, None) => format!("{name}-{value}"),
+    })
+}
+
+/// A spin as a vector along k, which points out of the page, in the sense the question counts by.
+fn about_z(ask: &Ask, reading: &Reading) -> Option<String> {
+    let Ask::Spin { clockwise, .. } = ask else {
+        return None;
+    };
+    let Content::Vector([x, y, z]) = reading.content.answer() else {
+        return match &reading.content {
+            // `\vec ω = … k̂` has a name in front that is no answer's.
+            Content::Relations(sides, _) => match sides.last() {
+                Some(last @ Content::Vector(_)) => {
+                    let content = last.clone();
+                    let alone = Reading {
+                        content,
+                        ..reading.clone()
+                    };
+                    about_z(ask, &alone)
+                }
+                _ => None,
+            },
+            _ => None,
+        };
+    };
+    let flat = x.is_zero() && y.is_zero() && reading.unit.is_none();
+    let value = if *clockwise { -z } else { z.clone() };
+    flat.then(|| crate::formula::write_plain(&value))
 }
 
 /// Names of the unknown motion, for equations that hold them.

@@ -10,10 +10,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::behind::{Named, behind};
 use super::relation::{follows, solve_for};
 use super::sheet::Sheet;
-use super::{Diagnosis, Options};
+use super::{Diagnosis, Options, Tolerance};
 use crate::derive::Form;
 use crate::equality::{self, Equality};
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{self, Content, Fault, Reading, Relation, Symbols};
 use crate::laws;
 use crate::scene::{Ask, ContactLaw, Scene};
@@ -160,6 +160,11 @@ impl<'a> Desk<'a> {
             .keys()
             .chain(self.own.keys())
             .for_each(|name| symbols.declare(name));
+        // `ω⁺` is what is asked of the moment just after.
+        for name in self.closed.keys().filter(|name| !name.contains('^')) {
+            let after = format!("{}^{{+}}", formula::latex_name(name));
+            symbols.declare_as(name, Some(&after), None);
+        }
         symbols
     }
 
@@ -198,6 +203,7 @@ impl<'a> Desk<'a> {
 
     fn line(&mut self, number: usize, text: &str, options: &Options) -> (Status, Vec<Diagnosis>) {
         let none = Vec::new;
+        let text = equation(text);
         if !text.contains(['=', '<', '>', '≤', '≥', '≈']) {
             return (Status::Comment, none());
         }
@@ -224,6 +230,9 @@ impl<'a> Desk<'a> {
             }
             None => return (Status::Undecided, none()),
             Some(false) => {}
+        }
+        if self.rounded(&reading) {
+            return (Status::Holds, none());
         }
         if let Some(cause) = self.cause(&differences) {
             self.believe(cause, &differences);
@@ -357,6 +366,40 @@ impl<'a> Desk<'a> {
         Some(Status::Defines)
     }
 
+    /// Whether a line ends in a number that is the value of what stands before it, rounded to its digits: the scene's values
+    /// put in, at least two digits.
+    fn rounded(&self, reading: &Reading) -> bool {
+        let Content::Relations(sides, _) = &reading.content else {
+            return false;
+        };
+        let (Some(literal), [.., before, last]) = (&reading.literal, sides.as_slice()) else {
+            return false;
+        };
+        let (Some(before), Some(number)) = (before.expr(), last.expr()) else {
+            return false;
+        };
+        let values = super::believed::values(&self.sheet.scene);
+        let exact = self.put_in(before, &BTreeMap::new()).substitute(&values);
+        let digits = Tolerance::Significant(literal.digits.clamp(2, 12));
+        let links = &sides[..sides.len() - 1];
+        let linked = links.windows(2).all(|pair| {
+            let gap = pair[0].expr().zip(pair[1].expr()).map(|(a, b)| a - b);
+            gap.is_some_and(|gap| self.all_zero(&[gap], &BTreeMap::new()) == Some(true))
+        });
+        let constant = exact.symbols().is_empty() && number.symbols().is_empty();
+        constant && linked && super::number::within(number, &exact, &digits) == Some(true)
+    }
+
+    /// |v| of a vector that is asked for, as the root of the squares of its components.
+    fn magnitudes(&self, e: &Expr) -> Expr {
+        if let Node::Call(Function::Abs, inner) = e.node()
+            && let Some([x, y, _]) = inner.as_symbol().and_then(|name| self.components(name))
+        {
+            return (x.powi(2) + y.powi(2)).sqrt();
+        }
+        e.map_parts(|part| self.magnitudes(part))
+    }
+
     /// An expression with the student's own names put in.
     fn with_own(&self, e: &Expr) -> Expr {
         // Own names may use one another.
@@ -395,7 +438,7 @@ impl<'a> Desk<'a> {
     }
 
     fn put_in(&self, e: &Expr, instead: &BTreeMap<Symbol, Expr>) -> Expr {
-        self.with_own(e)
+        self.magnitudes(&self.with_own(e))
             .substitute(instead)
             .substitute(&self.closed)
     }
@@ -556,6 +599,54 @@ impl<'a> Desk<'a> {
             _ => return None,
         };
         Some((name, ask, component))
+    }
+}
+
+/// The equation of a line, without the words before it: `AMB about C: …`, `so …`, `=> …`.
+fn equation(text: &str) -> &str {
+    const LEADS: [&str; 18] = [
+        "=>",
+        "⇒",
+        "⟹",
+        "∴",
+        "→",
+        "->",
+        "\\Rightarrow",
+        "\\implies",
+        "\\therefore",
+        "therefore",
+        "hence",
+        "thus",
+        "so",
+        "then",
+        "with",
+        "and",
+        "where",
+        "gives",
+    ];
+    let mut rest = text.trim().trim_start_matches('$').trim_start();
+    // A law or body named before a colon; a definition `a := b` has its sign behind the colon.
+    if let Some((words, behind)) = rest.split_once(':')
+        && !behind.starts_with('=')
+        && behind.contains(['=', '<', '>', '≤', '≥', '≈'])
+        && !words.contains(['=', '<', '>', '^', '*'])
+        && words.chars().any(char::is_alphabetic)
+    {
+        rest = behind.trim_start();
+    }
+    loop {
+        let lower = rest.to_ascii_lowercase();
+        let lead = LEADS.iter().find(|lead| {
+            let word = lead.ends_with(|c: char| c.is_ascii_alphabetic());
+            lower.strip_prefix(**lead).is_some_and(|behind| {
+                let apart = !word || behind.starts_with([' ', ',', '\\', '$']);
+                apart && behind.contains(['=', '<', '>', '≤', '≥', '≈'])
+            })
+        });
+        match lead {
+            Some(lead) => rest = rest[lead.len()..].trim_start_matches([' ', ',', '$', '~']),
+            None => return rest.trim_end_matches('$').trim_end(),
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Units of answers: missing, wrong, compatible, in excess, or standing behind a formula that carries its own.
 
 use super::compare::{Context, Finding, scalars};
-use super::{Diagnosis, Key, Proof, Verdict};
+use super::{Diagnosis, Key, Proof, Tolerance, Verdict};
 use crate::dimension::{self, Dimension, Unit};
 use crate::expr::Expr;
 use crate::formula::{Content, Quantity, Reading, write_plain};
@@ -89,7 +89,14 @@ pub(super) fn quantities(ctx: &Context, expected: &Quantity, answer: &Quantity) 
             scalars(ctx, &expected.value, &answer.value).verdict == Verdict::Equivalent;
         return wrong(asked, given, &answer.unit_text, number_right);
     }
-    let mut finding = scalars(ctx, &expected.value, &answer.value);
+    let mut finding = match &ctx.options.tolerance {
+        // So many of the unit the expected value is written in.
+        Some(Tolerance::Absolute(_)) => {
+            let own = &answer.value * &expected.unit.value().powi(-1);
+            scalars(ctx, &expected.written, &own)
+        }
+        _ => scalars(ctx, &expected.value, &answer.value),
+    };
     let turns = [&expected.unit, &answer.unit].map(|u| (u.cycles, u.angle));
     if let [(true, false), (false, true)] | [(false, true), (true, false)] = turns {
         let words = "Hz counts turns in a second, rad/s radians: one is 2π of the other";
@@ -151,7 +158,12 @@ pub(super) fn without(ctx: &Context, expected: &Quantity, answer: &Expr) -> Find
         return scalars(ctx, &expected.value, answer);
     }
     if answer.is_zero() && expected.value.is_zero() {
-        return scalars(ctx, &expected.value, answer);
+        let words = "zero is zero in any unit; other numbers need theirs";
+        return scalars(ctx, &expected.value, answer).with(Diagnosis::new(
+            "UNIT_MISSING",
+            words,
+            "a unit is missing",
+        ));
     }
     let right = scalars(ctx, &expected.written, answer).verdict == Verdict::Equivalent;
     let words = match right {

@@ -15,6 +15,10 @@ use crate::scene::{Ask, ImpulseAt, Scene};
 pub enum Row {
     /// It is a law.
     Law,
+    /// It is a law, and says nothing that the rows above do not say: the matrix is singular by it.
+    Repeats,
+    /// It is empty.
+    Empty,
     /// The solution fulfils it, and it is no law; with the change of one place that would make it one.
     Masked(Option<Mend>),
     /// The solution does not fulfil it; with the change of one place that would make it a law.
@@ -69,14 +73,43 @@ pub fn judge(
         });
     }
     let stated: Vec<Vec<usize>> = places.iter().map(|p| stated(p, rows)).collect();
+    let square = rows.len() <= unknowns.len();
+    // Whether a row adds to others, told by its entries alone: what a square matrix needs of each.
+    let adds = |row: &PrintedRow, others: &[&PrintedRow]| {
+        places.iter().all(|place| {
+            let entries = |row: &PrintedRow| -> Option<Vec<Rational>> {
+                row.0.iter().map(|e| e.evaluate(&place.point)).collect()
+            };
+            let known: Option<Vec<_>> = others.iter().map(|r| entries(r)).collect();
+            let (Some(mut all), Some(own)) = (known, entries(row)) else {
+                return true;
+            };
+            let before = rank(all.clone());
+            all.push(own);
+            rank(all) > before
+        })
+    };
     Ok(rows
         .iter()
-        .map(|row| {
+        .enumerate()
+        .map(|(i, row)| {
+            if row.0.iter().all(Expr::is_zero) {
+                return Row::Empty;
+            }
             let law = |row: &PrintedRow| places.iter().zip(&stated).all(|(p, s)| is_law(p, s, row));
             if law(row) {
-                return Row::Law;
+                let above: Vec<&PrintedRow> = rows[..i].iter().collect();
+                return match square && !adds(row, &above) {
+                    true => Row::Repeats,
+                    false => Row::Law,
+                };
             }
-            let mend = mend(row, rows, &law);
+            let others: Vec<&PrintedRow> = (0..rows.len())
+                .filter(|j| *j != i && rows[*j].0.iter().any(|e| !e.is_zero()))
+                .map(|j| &rows[j])
+                .collect();
+            let sound = |row: &PrintedRow| law(row) && (!square || adds(row, &others));
+            let mend = mend(row, rows, &sound);
             if places.iter().all(|p| fulfilled(p, row)) {
                 Row::Masked(mend)
             } else {
@@ -120,14 +153,11 @@ fn mend(row: &PrintedRow, rows: &[PrintedRow], law: &dyn Fn(&PrintedRow) -> bool
             exchanged(e),
         ]
     };
-    let simple = tries
-        .iter()
-        .filter(|(_, e)| !e.is_zero())
-        .find_map(|(column, e)| {
-            near(e)
-                .into_iter()
-                .find_map(|value| changed(*column, value))
-        });
+    // A turned sign in any place comes before a missing factor in another.
+    let simple = (0..5).find_map(|kind| {
+        let mut places = tries.iter().filter(|(_, e)| !e.is_zero());
+        places.find_map(|(column, e)| changed(*column, near(e)[kind].clone()))
+    });
     simple.or_else(|| {
         tries.iter().find_map(|(column, _)| {
             let mut others = elsewhere.iter().flat_map(|e| [(*e).clone(), -*e]);

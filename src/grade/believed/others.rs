@@ -4,15 +4,12 @@
 
 use super::super::Diagnosis;
 use super::super::belief::Slip;
-use super::{Written, trials};
+use super::{Trials, Written};
 use crate::expr::Expr;
 use crate::scene::{Ask, EnergyWhen, ImpulseAt};
 
-/// Other quantities of the scene that the answer would be right for, in words.
-pub fn other_quantities(written: &Written) -> Vec<Diagnosis> {
-    let Some(trials) = trials(written) else {
-        return Vec::new();
-    };
+/// Quantities of the scene, with their names in words.
+pub(super) fn quantities(written: &Written) -> Vec<(Ask, String)> {
     let scene = written.scene;
     let mut asks: Vec<(Ask, String)> = Vec::new();
     for (b, body) in scene
@@ -98,6 +95,19 @@ pub fn other_quantities(written: &Written) -> Vec<Diagnosis> {
             format!("impulse at {}", h.name),
         ));
     }
+    // What is asked for is no other quantity.
+    let asked = format!("{:?}", written.ask);
+    asks.retain(|(ask, _)| format!("{ask:?}") != asked);
+    asks
+}
+
+/// Other quantities of the scene that the answer would be right for, in words.
+pub(super) fn other_quantities(
+    written: &Written,
+    trials: &Trials,
+    asks: Vec<(Ask, String)>,
+) -> Vec<Diagnosis> {
+    let scene = written.scene;
     let plain = Slip {
         scene: scene.clone(),
         changes: Vec::new(),

@@ -221,7 +221,7 @@ fn tolerant(
         number::within(answer, expected, tolerance)?
     } else {
         // A formula with rounded coefficients: its ratio to the exact one is a number near 1.
-        let (Tolerance::Relative(_) | Tolerance::Significant(_)) = tolerance else {
+        let Tolerance::Relative(_) = tolerance else {
             return None;
         };
         let ratio = quotient(answer, expected, ctx)?;

@@ -50,6 +50,14 @@ impl Desk<'_> {
         for (i, verdict) in verdicts.iter().enumerate() {
             match verdict {
                 row_space::Row::Law => {}
+                row_space::Row::Empty | row_space::Row::Repeats => {
+                    finding.holds = Some(false);
+                    let why = match verdict {
+                        row_space::Row::Empty => "holds nothing",
+                        _ => "follows from the rows above it",
+                    };
+                    wrong.push(format!("row {} {why}, so the matrix is singular", i + 1));
+                }
                 row_space::Row::Masked(mend) | row_space::Row::Wrong(mend) => {
                     finding.holds = Some(false);
                     let masked = matches!(verdict, row_space::Row::Masked(_));
