@@ -10,7 +10,7 @@ use super::{Failure, Format, files, pretty, print, read_scene};
 use carom::grade::entry;
 use carom::grade::sheet::{Bound, Sheet};
 use carom::grade::{Form, Given, Options, Question, Strength, Verdict};
-use carom::{dimension, formula, grade, render};
+use carom::{dimension, formula, grade, render, verify};
 
 /// Arguments of `carom grade`.
 #[derive(Args)]
@@ -195,6 +195,9 @@ pub(super) fn open(path: &Path) -> Result<Sheet, Failure> {
     if let Some(stages) = &scene.story {
         let told = carom::story::tell(&scene, stages)
             .map_err(|reason| Failure::Input(format!("{}: {reason}", path.display())))?;
+        if !told.holds() {
+            return Err(refuted(path, &told_failures(&told)));
+        }
         let (scene, derivation) = carom::story::sheet(&scene, &told)
             .map_err(|stop| Failure::Input(format!("{}: {stop}", path.display())))?;
         let bounds = bounds(&told.answers);
@@ -204,13 +207,62 @@ pub(super) fn open(path: &Path) -> Result<Sheet, Failure> {
             bounds,
         });
     }
+    prove(path, &scene)?;
     let (scene, derivation, answers) = carom::story::with_special(scene)
         .map_err(|reason| Failure::Input(format!("{}: {reason}", path.display())))?;
+    let failed = answers.iter().flat_map(|a| &a.checks);
+    let failed = failed.filter(|c| c.holds == Some(false));
+    let failed: Vec<String> = failed.map(|c| c.words.clone()).collect();
+    if !failed.is_empty() {
+        return Err(refuted(path, &failed));
+    }
     Ok(Sheet {
         scene,
         derivation,
         bounds: bounds(&answers),
     })
+}
+
+/// Proves the answers of a scene before anything is judged by them; what is not proved is said.
+fn prove(path: &Path, scene: &carom::scene::Scene) -> Result<(), Failure> {
+    let Ok(derivation) = carom::derive::derive(scene) else {
+        // Why it stopped is told where the answers are put together.
+        return Ok(());
+    };
+    let proof = verify::prove(scene, &derivation);
+    match verify::trust(&derivation, &proof) {
+        verify::Trust::Refuted(failed) => return Err(refuted(path, &failed)),
+        verify::Trust::NotProved(names) => {
+            eprintln!("{}: not proved: {}", path.display(), names.join(", "));
+        }
+        verify::Trust::Proved => {}
+    }
+    let possible = verify::possible::judge(scene, &derivation);
+    if let Some(refusal) = render::possible::refusal(&possible) {
+        eprintln!("{}: {refusal}", path.display());
+    }
+    Ok(())
+}
+
+fn refuted(path: &Path, failed: &[String]) -> Failure {
+    Failure::Input(format!(
+        "{}: the derived answers are refuted, and nothing is judged by them: {}",
+        path.display(),
+        failed.join("; ")
+    ))
+}
+
+/// The checks of a story that failed, in words.
+fn told_failures(told: &carom::story::Told) -> Vec<String> {
+    let cases = told.stages.iter().flat_map(|s| &s.cases);
+    let proofs = cases.flat_map(|c| c.proof.scene.iter().chain(c.proof.answers.iter().flatten()));
+    let stages = told.stages.iter().flat_map(|s| &s.checks);
+    let answers = told.answers.iter().flat_map(|a| &a.checks);
+    let failed = proofs
+        .chain(stages)
+        .chain(answers)
+        .filter(|c| c.holds == Some(false));
+    failed.map(|c| c.words.clone()).collect()
 }
 
 /// The answers that are one bound on a parameter.

@@ -62,6 +62,54 @@ impl Proof {
     }
 }
 
+/// How far answers can be used to judge others.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Trust {
+    /// Each one satisfies every equation identically, or equals the independent solution at exact points.
+    Proved,
+    /// Nothing contradicts these answers, and nothing proves them.
+    NotProved(Vec<String>),
+    /// These checks failed, in words.
+    Refuted(Vec<String>),
+}
+
+/// How far the answers of a derivation can be trusted.
+pub fn trust(derivation: &Derivation, proof: &Proof) -> Trust {
+    let all = proof.scene.iter().chain(proof.answers.iter().flatten());
+    let failed: Vec<String> = all
+        .filter(|c| c.holds == Some(false))
+        .map(|c| c.words.clone())
+        .collect();
+    if !failed.is_empty() {
+        return Trust::Refuted(failed);
+    }
+    let held = |checks: &[Check], kind| {
+        let of_kind = |c: &Check| c.kind == kind && c.holds == Some(true);
+        checks.iter().any(of_kind)
+    };
+    if held(&proof.scene, "identity") {
+        return Trust::Proved;
+    }
+    let open: Vec<String> = derivation
+        .answers
+        .iter()
+        .enumerate()
+        .filter(|(_, a)| matches!(a.form, Form::Value { .. }))
+        .filter(|(i, _)| {
+            !proof
+                .answers
+                .get(*i)
+                .is_some_and(|c| held(c, "exact points"))
+        })
+        .map(|(_, a)| a.name.clone())
+        .collect();
+    if open.is_empty() {
+        Trust::Proved
+    } else {
+        Trust::NotProved(open)
+    }
+}
+
 /// Checks a derivation against its scene.
 pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
     let mut proof = Proof::default();

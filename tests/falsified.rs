@@ -1,0 +1,372 @@
+//! Checks that can fail: each kind of check is given inputs that are wrong, and must refuse every one.
+//!
+//! The tables in `tests/falsified/` say what is falsified and how; scenes that are not possible stand in `tests/possible/`, wrong
+//! printed answers in `tests/printed/`.
+
+#[path = "equality/reader.rs"]
+mod reader;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use carom::algebra::{Field, Sign};
+use carom::derive::{Derivation, Form, derive};
+use carom::equality::{Equality, decide};
+use carom::expr::{Expr, Point, Rational, ratio};
+use carom::grade::{Options, sheet};
+use carom::interval::{Interval, Outcome, evaluate};
+use carom::numeric::{self, Motion};
+use carom::scene::{self, Scene};
+use carom::verify::{Trust, prove, trust};
+use carom::{check, render, solution, story};
+
+/// The rows of a table, cell by cell.
+fn rows(name: &str) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(format!("tests/falsified/{name}.tsv")).expect("a table");
+    let lines = text
+        .lines()
+        .filter(|l| !l.starts_with('#') && !l.is_empty());
+    lines
+        .map(|l| l.split('\t').map(str::to_owned).collect())
+        .collect()
+}
+
+/// The shipped scenes with their text, refused ones aside.
+fn shipped() -> Vec<(String, String, Scene)> {
+    fn collect(folder: &Path, out: &mut Vec<PathBuf>) {
+        for entry in fs::read_dir(folder).expect("a readable folder") {
+            let path = entry.expect("a readable entry").path();
+            if path.is_dir() && path.file_name().is_some_and(|n| n != "refused") {
+                collect(&path, out);
+            } else if path.extension().is_some_and(|e| e == "json") {
+                out.push(path);
+            }
+        }
+    }
+    let mut files = Vec::new();
+    collect(Path::new("derivations"), &mut files);
+    files.sort();
+    let read = |path: PathBuf| {
+        let text = fs::read_to_string(&path).expect("a scene file");
+        let scene = scene::read(&text).expect("a sound scene");
+        (path.display().to_string(), text, scene)
+    };
+    files.into_iter().map(read).collect()
+}
+
+/// The value that a change makes of `x`.
+fn changed(change: &str, x: &Expr) -> Expr {
+    reader::formula(change).substitute(&BTreeMap::from([("x".into(), x.clone())]))
+}
+
+/// The derivation with one thing falsified, for every thing of that part in which the change shows.
+fn falsified(derivation: &Derivation, part: &str, change: &str) -> Vec<(String, Derivation)> {
+    let mut all = Vec::new();
+    if part == "motion" {
+        for (unknown, value) in &derivation.motion {
+            let wrong = changed(change, value);
+            let mut other = derivation.clone();
+            other.motion.insert(*unknown, wrong.clone());
+            if wrong != *value {
+                all.push((format!("{unknown:?}"), other));
+            }
+        }
+        return all;
+    }
+    for (i, answer) in derivation.answers.iter().enumerate() {
+        let Form::Value { closed, short } = &answer.form else {
+            continue;
+        };
+        let mut other = derivation.clone();
+        let (right, wrong, form) = if part == "closed" {
+            let wrong = changed(change, closed);
+            let short = if closed == short {
+                wrong.clone()
+            } else {
+                short.clone()
+            };
+            (
+                closed,
+                wrong.clone(),
+                Form::Value {
+                    closed: wrong,
+                    short,
+                },
+            )
+        } else {
+            let wrong = changed(change, short);
+            let closed = closed.clone();
+            (
+                short,
+                wrong.clone(),
+                Form::Value {
+                    closed,
+                    short: wrong,
+                },
+            )
+        };
+        other.answers[i].form = form;
+        if wrong != *right {
+            all.push((answer.name.clone(), other));
+        }
+    }
+    all
+}
+
+#[test]
+fn a_falsified_derivation_is_refused_by_the_check_that_is_for_it() {
+    let mut refused: BTreeMap<String, usize> = BTreeMap::new();
+    for (path, _, scene) in shipped() {
+        if scene.story.is_some() {
+            continue;
+        }
+        let derivation = derive(&scene).expect("a derivation");
+        assert_eq!(
+            trust(&derivation, &prove(&scene, &derivation)),
+            Trust::Proved,
+            "{path}"
+        );
+        for row in rows("derivations") {
+            let [part, change, kind, reason] = [0, 1, 2, 3].map(|i| row[i].as_str());
+            // One of the first answers and one of the last: each scene's answers go through the same checks.
+            let mut all = falsified(&derivation, part, change);
+            if all.len() > 2 {
+                all = vec![all.swap_remove(0), all.swap_remove(all.len() - 1)];
+            }
+            for (name, wrong) in all {
+                let proof = prove(&scene, &wrong);
+                let checks = proof.scene.iter().chain(proof.answers.iter().flatten());
+                let caught = checks
+                    .filter(|c| c.kind == kind)
+                    .any(|c| c.holds == Some(false));
+                assert!(
+                    caught && !proof.holds() && matches!(trust(&wrong, &proof), Trust::Refuted(_)),
+                    "{path}, {part} {name}, {reason}: {proof:?}"
+                );
+                *refused.entry(format!("{part} {change}")).or_default() += 1;
+            }
+        }
+    }
+    assert!(refused.values().all(|n| *n >= 10), "{refused:?}");
+    assert_eq!(refused.len(), rows("derivations").len(), "{refused:?}");
+}
+
+/// A scene's exact values, or a random exact point, with the motion there.
+fn exact(scene: &Scene) -> Option<(numeric::Given<Rational>, Motion<Rational>)> {
+    let needed = numeric::needed(scene);
+    (1..20).find_map(|seed| {
+        let point = numeric::random_point(&needed, &scene.domains, seed);
+        let given = numeric::given(scene, &point).ok()?;
+        let system = numeric::assemble(&given);
+        let solution = numeric::solve_exact(&system).ok()?;
+        let motion = numeric::motion(&given, &system, &solution);
+        motion.loose.is_empty().then_some((given, motion))
+    })
+}
+
+#[test]
+fn a_falsified_motion_violates_a_balance_or_a_law() {
+    let mut refused = 0;
+    for (path, _, scene) in shipped() {
+        let Some((given, motion)) = exact(&scene) else {
+            continue;
+        };
+        let held = numeric::identities(&given, &motion);
+        assert!(held.iter().all(|i| i.holds(0.0)), "{path}");
+        for row in rows("motions") {
+            let by: Rational = match row[1].split_once('/') {
+                Some((n, d)) => ratio(n.parse().expect("a number"), d.parse().expect("a number")),
+                None => unreachable!("a fraction"),
+            };
+            for b in 0..scene
+                .bodies
+                .len()
+                .max(motion.contact.len())
+                .max(motion.hinge.len())
+            {
+                let mut wrong = motion.clone();
+                let free = scene.bodies.get(b).is_some_and(|b| !b.is_fixed());
+                let turns = free && !scene.bodies[b].is_particle();
+                let target = match row[0].as_str() {
+                    "velocity x" if free => Some(&mut wrong.velocity[b][0]),
+                    "velocity y" if free => Some(&mut wrong.velocity[b][1]),
+                    "spin" if turns => Some(&mut wrong.spin[b]),
+                    "contact" => wrong.contact.get_mut(b).map(|p| &mut p[0]),
+                    "hinge" => wrong.hinge.get_mut(b).map(|p| &mut p[1]),
+                    _ => None,
+                };
+                let Some(target) = target else { continue };
+                *target = &*target + &by;
+                let all = numeric::identities(&given, &wrong);
+                assert!(
+                    !all.iter().all(|i| i.holds(0.0)),
+                    "{path}, {} of {b}",
+                    row[0]
+                );
+                refused += 1;
+            }
+        }
+    }
+    assert!(refused > 100, "{refused}");
+}
+
+/// The written solution of a scene, as data.
+fn written(text: &str, scene: &Scene) -> serde_json::Value {
+    let detail = solution::Detail::Normal;
+    let solution = match &scene.story {
+        Some(stages) => {
+            let told = story::tell(scene, stages).expect("a story that fits");
+            solution::tell(scene, stages, &told, detail)
+        }
+        None => {
+            let derivation = derive(scene).expect("a derivation");
+            let proof = prove(scene, &derivation);
+            let special = story::special(scene, &derivation, &proof).expect("answers");
+            solution::write(scene, &derivation, &proof, &special, detail)
+        }
+    };
+    render::steps::solution(&solution, text, &[])
+}
+
+#[test]
+fn a_falsified_step_threshold_limit_or_motion_handed_on_is_refused() {
+    let mut refused: BTreeMap<String, usize> = BTreeMap::new();
+    let mut passed = Vec::new();
+    for (path, text, scene) in shipped() {
+        let json = written(&text, &scene);
+        let caught = |tampered: &serde_json::Value| {
+            let report = check::check(&tampered.to_string()).expect("a usable solution");
+            !report.failed.is_empty()
+        };
+        let open = check::check(&json.to_string())
+            .expect("a usable solution")
+            .open;
+        let steps = json["steps"].as_array().map_or(0, Vec::len);
+        // Every third step: over all scenes each kind comes often enough.
+        for i in (0..steps).step_by(3) {
+            let id = json["steps"][i]["id"].as_str().unwrap_or_default();
+            let kind = json["steps"][i]["kind"]
+                .as_str()
+                .unwrap_or("step")
+                .to_owned();
+            if json["steps"][i]["defines"].is_string() || open.iter().any(|o| o == id) {
+                continue;
+            }
+            for row in rows("steps") {
+                let mut tampered = json.clone();
+                let Some(side) = tampered["steps"][i]["after"][0].get_mut("right") else {
+                    continue;
+                };
+                let Some(right) = side.as_str() else { continue };
+                *side = row[0].replace('x', right).into();
+                if caught(&tampered) {
+                    *refused.entry(kind.clone()).or_default() += 1;
+                } else {
+                    passed.push(format!("{path}, step {id}, {}", row[1]));
+                }
+            }
+        }
+        for (i, impact) in json["impacts"].as_array().into_iter().flatten().enumerate() {
+            let symbols = impact["handed"].as_object().into_iter().flatten();
+            for (symbol, value) in symbols {
+                let mut tampered = json.clone();
+                let value = value.as_str().expect("a formula");
+                tampered["impacts"][i]["handed"][symbol] = format!("1 + 2*({value})").into();
+                if caught(&tampered) {
+                    *refused.entry(String::from("handed on")).or_default() += 1;
+                } else {
+                    passed.push(format!("{path}, {symbol} handed on"));
+                }
+            }
+        }
+    }
+    assert!(passed.is_empty(), "accepted:\n{}", passed.join("\n"));
+    assert!(refused.values().sum::<usize>() > 150, "{refused:?}");
+    assert!(refused.contains_key("handed on"), "{refused:?}");
+}
+
+#[test]
+fn a_sign_is_not_told_where_a_point_of_the_domain_has_another() {
+    for row in rows("signs") {
+        let [e, domains, wrong, reason] = [0, 1, 2, 3].map(|i| row[i].as_str());
+        let (e, domains) = (reader::formula(e), reader::domains(domains));
+        let mut field = Field::new(&domains);
+        field.prepare([&e]);
+        let element = field.element(&e).expect("an element");
+        let told = field.sign(&element).map(|sign| match sign {
+            Sign::Positive => "positive",
+            Sign::NotNegative => "nonnegative",
+            Sign::Zero => "zero",
+            Sign::NotPositive => "nonpositive",
+            Sign::Negative => "negative",
+        });
+        assert!(
+            !told.is_some_and(|t| wrong.split(' ').any(|w| w == t)),
+            "{} is told to be {told:?}: {reason}",
+            row[0]
+        );
+    }
+}
+
+#[test]
+fn an_enclosure_holds_the_value_and_a_value_that_is_off_is_told_from_it() {
+    let domains = carom::domain::Domains::default();
+    for row in rows("enclosures") {
+        let (e, value, off) = (
+            reader::formula(&row[0]),
+            reader::formula(&row[1]),
+            reader::formula(&row[2]),
+        );
+        let exact = |e: &Expr| {
+            e.evaluate(&Point::<Rational>::default())
+                .expect("a fraction")
+        };
+        let (value, off) = (exact(&value), exact(&off));
+        let Outcome::Value(found) = evaluate::<Interval>(&e, &Point::default()) else {
+            panic!("{} has a value", row[0])
+        };
+        let end = |x: f64| carom::expr::number::from_f64(x).expect("a double");
+        let (low, high) = (end(found.low), end(found.high));
+        assert!(
+            low <= &value + &off && high >= &value - &off,
+            "{} {found:?}",
+            row[0]
+        );
+        // A bound of its width: a double or two to either side for every operation.
+        assert!(
+            found.high - found.low <= 1e-14 * found.high.abs().max(1.0),
+            "{}",
+            row[0]
+        );
+        if let Some(fraction) = e.evaluate(&Point::<Rational>::default()) {
+            assert!(low <= fraction && fraction <= high, "{} {found:?}", row[0]);
+        }
+        for sign in [1, -1] {
+            let wrong = Expr::from(&value + &off * ratio(2 * sign, 1));
+            let decision = decide(&e, &wrong, &domains).equality;
+            assert!(
+                matches!(decision, Equality::Different(_)),
+                "{}: {decision:?}",
+                row[0]
+            );
+        }
+    }
+}
+
+#[test]
+fn a_belief_is_told_where_it_led_to_the_answer_and_nowhere_else() {
+    for row in rows("beliefs") {
+        let [path, quantity, answer, verdict, codes] = [0, 1, 2, 3, 4].map(|i| row[i].as_str());
+        let text = fs::read_to_string(format!("derivations/{path}")).expect("a scene");
+        let sheet = sheet::sheet(scene::read(&text).expect("a sound scene")).expect("answers");
+        let entry = sheet.entry(quantity).expect("a quantity");
+        let grade = sheet.judge(&entry, answer, &Options::default());
+        let told: Vec<&str> = grade.diagnosis.iter().map(|d| d.code).collect();
+        assert_eq!(
+            (grade.verdict.word(), told.join(" ").as_str()),
+            (verdict, codes),
+            "{path} {quantity} = {answer}"
+        );
+    }
+}
