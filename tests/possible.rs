@@ -207,3 +207,36 @@ fn the_verdict_is_the_same_in_a_mirror_turned_and_with_the_bodies_exchanged() {
         }
     }
 }
+
+#[test]
+fn what_is_not_possible_is_told_first_and_with_status_1() {
+    let scene = r#"{"parameters": {"m": {"unit": "kg"}, "v": {"unit": "m/s"}},
+        "bodies": {"floor": {"shape": "fixed"}, "ball": {"shape": "particle", "mass": "m", "center": ["0", "0"], "velocity": ["0", "-v"]}},
+        "contacts": {"C": {"bodies": ["floor", "ball"], "at": ["0", "0"], "normal": "y"}},
+        "after": [{"velocity": "ball", "along": "y", "is": "-v/2"}, {"velocity": "ball", "along": "x", "is": "0"}],
+        "questions": {"P": {"impulse": "C", "on": "ball"}}}"#;
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("through-the-floor.json");
+    fs::write(&path, scene).expect("a writable folder");
+    let run = |arguments: &[&str]| {
+        let run = std::process::Command::new(env!("CARGO_BIN_EXE_carom"))
+            .args(arguments)
+            .arg(&path)
+            .output()
+            .expect("carom runs");
+        let text = String::from_utf8_lossy(&run.stdout).into_owned();
+        (run.status.code(), text)
+    };
+    let refusal =
+        "not possible: the bodies pass through each other at `C`, whatever the parameters";
+    let (status, text) = run(&["derive"]);
+    assert_eq!((status, text.lines().next()), (Some(1), Some(refusal)));
+    let (status, text) = run(&["derive", "--format", "json"]);
+    let data: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(
+        (status, &data["admissible"]["holds"]),
+        (Some(1), &false.into())
+    );
+    assert_eq!(data["admissible"]["verdict"], "nowhere");
+    let (status, text) = run(&["solution"]);
+    assert!(status == Some(1) && text.contains(refusal), "{text}");
+}

@@ -238,7 +238,7 @@ fn prove(path: &Path, scene: &carom::scene::Scene) -> Result<(), Failure> {
         verify::Trust::Proved => {}
     }
     let possible = verify::possible::judge(scene, &derivation);
-    if let Some(refusal) = render::possible::refusal(&possible) {
+    if let Some(refusal) = possible.refusal() {
         eprintln!("{}: {refusal}", path.display());
     }
     Ok(())

@@ -77,8 +77,13 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         let proof = verify::prove(&scene, &derivation);
         let special =
             story::special(&scene, &derivation, &proof).map_err(|r| refused(r.to_string()))?;
-        let solution = solution::write(&scene, &derivation, &proof, &special, detail);
+        let possible = verify::possible::judge(&scene, &derivation);
+        let mut solution = solution::write(&scene, &derivation, &proof, &special, detail);
+        if let Some(refusal) = possible.refusal() {
+            solution.begin_with(&format!("{refusal}."));
+        }
         let holds = proof.holds()
+            && possible.holds()
             && special.iter().all(story::Answer::holds)
             && !derivation.counting.contradictory;
         let graphs = story::graphs(&scene, &story::known(&derivation), &special);

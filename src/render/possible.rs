@@ -8,20 +8,6 @@ use crate::scene::Scene;
 use crate::verify::Check;
 use crate::verify::possible::{Condition, Possible, Verdict, inequality};
 
-/// The sentence that stands first where a result is not possible.
-pub fn refusal(possible: &Possible) -> Option<String> {
-    if possible.holds() {
-        return None;
-    }
-    let whatever = if possible.verdict == Verdict::Nowhere {
-        "whatever the parameters"
-    } else {
-        "at the given values"
-    };
-    let reasons = possible.reasons().join("; ");
-    Some(format!("not possible: {reasons}, {whatever}"))
-}
-
 /// The conditions under which it is possible, such as `2 l ≥ d`.
 pub fn conditions(scene: &Scene, possible: &Possible) -> Vec<String> {
     let written = |e: &_| unicode(scene, e);

@@ -19,7 +19,7 @@ pub fn derivation(
     special: &[Special],
 ) -> String {
     let mut out = String::new();
-    if let Some(refusal) = super::possible::refusal(possible) {
+    if let Some(refusal) = possible.refusal() {
         line(&mut out, "", &refusal);
     }
     line(&mut out, "", &super::heading(&scene.title, &scene.source));

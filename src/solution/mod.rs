@@ -65,6 +65,18 @@ pub struct Solution {
     pub assumptions: Vec<String>,
 }
 
+impl Solution {
+    /// Lets the text begin with why its result cannot happen.
+    pub fn begin_with(&mut self, refusal: &str) {
+        let first = Section {
+            depth: 0,
+            heading: Vec::new(),
+            parts: vec![Part::Text(vec![Inline::Text(refusal.to_owned())])],
+        };
+        self.sections.insert(0, first);
+    }
+}
+
 /// What a symbol stands for, in terms of the scene, so that another program can find its value on its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Meaning {

@@ -119,6 +119,19 @@ impl Possible {
         self.verdict != Verdict::Nowhere && self.at_values != Some(false)
     }
 
+    /// The sentence that stands first where the result is not possible.
+    pub fn refusal(&self) -> Option<String> {
+        if self.holds() {
+            return None;
+        }
+        let whatever = match self.verdict {
+            Verdict::Nowhere => "whatever the parameters",
+            _ => "at the given values",
+        };
+        let reasons = self.reasons().join("; ");
+        Some(format!("not possible: {reasons}, {whatever}"))
+    }
+
     /// Why it cannot happen; empty where it can.
     pub fn reasons(&self) -> Vec<&str> {
         let mut reasons: Vec<&str> = Vec::new();
