@@ -173,11 +173,75 @@ fn a_tampered_step_is_caught_and_named() {
                     assert!(!report.failed.is_empty(), "step {id}, {list} {k}");
                     continue;
                 }
-                assert_eq!(report.failed.len(), 1, "step {id}, {list} {k}");
-                assert_eq!(report.failed[0].step, id);
+                assert!(!report.failed.is_empty(), "step {id}, {list} {k}");
+                assert!(report.failed.iter().all(|f| f.step == id));
             }
         }
     }
+}
+
+/// The claims of a list of steps and of their substeps, each with the id of its step.
+fn claims<'a>(
+    steps: &'a mut serde_json::Value,
+    out: &mut Vec<(String, &'a mut serde_json::Value)>,
+) {
+    for step in steps.as_array_mut().into_iter().flatten() {
+        let id = step["id"].as_str().expect("an id").to_string();
+        for (key, value) in step.as_object_mut().expect("a step") {
+            match key.as_str() {
+                "before" | "after" => {
+                    let list = value.as_array_mut().into_iter().flatten();
+                    out.extend(list.map(|claim| (id.clone(), claim)));
+                }
+                "substeps" => claims(value, out),
+                _ => {}
+            }
+        }
+    }
+}
+
+#[test]
+fn a_claim_typeset_as_another_is_caught_and_named() {
+    let mut caught = 0;
+    for case in cases().iter().step_by(6) {
+        let json = render::steps::solution(&case.solution(Detail::Normal), &case.text, &[]);
+        let mut all = json.clone();
+        let mut found = Vec::new();
+        claims(&mut all["steps"], &mut found);
+        let originals: Vec<String> = found
+            .iter()
+            .map(|(_, claim)| claim["latex"].as_str().expect("LaTeX").to_string())
+            .collect();
+        for (i, (id, _)) in found.iter().enumerate().step_by(9) {
+            let own = &originals[i];
+            let other = originals.iter().find(|l| *l != own).expect("another claim");
+            let turned = match own.split_once(" = ") {
+                Some((left, right)) => format!("{left} = -({right}) + 1"),
+                None => unreachable!("a claim is an equation"),
+            };
+            for latex in [
+                turned,
+                other.clone(),
+                own.replacen("= ", "= 2 ", 1) + " + 1",
+                "x".into(),
+                String::new(),
+            ] {
+                let mut tampered = json.clone();
+                let mut all = Vec::new();
+                claims(&mut tampered["steps"], &mut all);
+                all[i].1["latex"] = latex.clone().into();
+                let report = check::check(&tampered.to_string()).expect("a usable solution");
+                let named = report.failed.iter().any(|f| f.step == *id);
+                assert!(
+                    named,
+                    "{:?}, step {id}: {latex} in place of {own}",
+                    case.path
+                );
+                caught += 1;
+            }
+        }
+    }
+    assert!(caught > 60, "{caught} tampered claims");
 }
 
 #[test]
@@ -189,11 +253,9 @@ fn a_tampered_step_of_a_story_is_caught_and_so_is_another_motion_handed_on() {
         let json = render::steps::solution(&solved(&scene, Detail::Normal), &text, &[]);
         let failed = |json: &serde_json::Value| {
             let report = check::check(&json.to_string()).expect("a usable solution");
-            report
-                .failed
-                .into_iter()
-                .map(|f| f.step)
-                .collect::<Vec<_>>()
+            let mut steps: Vec<String> = report.failed.into_iter().map(|f| f.step).collect();
+            steps.dedup();
+            steps
         };
         for i in 0..json["steps"].as_array().map_or(0, Vec::len) {
             let mut tampered = json.clone();

@@ -6,6 +6,7 @@
 
 mod near;
 mod story;
+mod typeset;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,6 +16,7 @@ use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::formula::{self, Symbols};
 use crate::numeric::{self, Answer, Number};
 use crate::scene::{self, Ask, BlowImpulse, ImpulseAt, Scene};
+use typeset::Known;
 
 /// Points tried; a wrong claim about rational functions is equal at a random point only by a rare chance, at three hardly ever.
 const POINTS: u64 = 3;
@@ -100,9 +102,10 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
     }
     let impacts = story::impacts(&scene, &root["impacts"])?;
     let meanings = meanings(&scene, &root["symbols"])?;
-    let mut symbols = BTreeMap::from([(None, declared(&scene, &meanings))]);
+    let known = Known::of(&scene, &meanings, &root["spelled"]);
+    let mut symbols = BTreeMap::from([(None, known)]);
     for impact in &impacts {
-        let of = declared(&impact.scene, &impact.meanings);
+        let of = Known::of(&impact.scene, &impact.meanings, &root["spelled"]);
         symbols.insert(Some(impact.name.clone()), of);
     }
     let mut report = Report::default();
@@ -127,17 +130,6 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
         near::replay(&scene, near, &mut report);
     }
     Ok(report)
-}
-
-fn declared(scene: &Scene, meanings: &BTreeMap<Symbol, Meaning>) -> Symbols {
-    let mut symbols = Symbols::strict();
-    for parameter in &scene.parameters {
-        symbols.declare(&parameter.name);
-    }
-    for name in meanings.keys() {
-        symbols.declare(name);
-    }
-    symbols
 }
 
 fn unusable<T>(message: impl Into<String>) -> Result<T, Unusable> {
@@ -233,7 +225,7 @@ fn meaning(scene: &Scene, value: &Value) -> Option<Meaning> {
 
 fn collect(
     steps: &[Value],
-    symbols: &BTreeMap<Option<String>, Symbols>,
+    symbols: &BTreeMap<Option<String>, Known>,
     within: Option<&str>,
     claims: &mut Claims,
     report: &mut Report,
@@ -252,12 +244,19 @@ fn collect(
         let defines = step["defines"].as_str().map(Symbol::from);
         for list in ["before", "after"] {
             for claim in step[list].as_array().into_iter().flatten() {
-                let side = |name: &str| read(&claim[name], known, &id);
+                let side = |name: &str| read(&claim[name], &known.symbols, &id);
                 let (left, right) = (side("left")?, side("right")?);
                 let defines = match (&defines, list) {
                     (Some(name), "after") if left.as_symbol() == Some(name) => Some(name.clone()),
                     _ => None,
                 };
+                if let Some(why) = typeset::differs(claim, &left, &right, known) {
+                    report.failed.push(Failure {
+                        step: id.clone(),
+                        claim: claim["latex"].to_string(),
+                        why,
+                    });
+                }
                 claims.equal.push(Claim {
                     step: id.clone(),
                     impact: impact.map(String::from),
@@ -279,7 +278,12 @@ fn collect(
             if claims.near.len() >= MOST {
                 return unusable(format!("more than {MOST} claims"));
             }
-            let near = near::read(claim, defines.is_some().then_some(step), known, &id)?;
+            let near = near::read(
+                claim,
+                defines.is_some().then_some(step),
+                &known.symbols,
+                &id,
+            )?;
             claims.near.push(near);
         }
         if let Some(inner) = step["substeps"].as_array() {

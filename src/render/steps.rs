@@ -20,6 +20,7 @@ pub fn solution(s: &Solution, scene: &str, set: &[String]) -> Value {
         "scene": scene,
         "set": set,
         "symbols": symbols(&s.meanings),
+        "spelled": spelled(s),
         "assumptions": s.assumptions,
         "steps": s.steps.iter().map(|x| step(s, x)).collect::<Vec<_>>(),
     });
@@ -27,6 +28,13 @@ pub fn solution(s: &Solution, scene: &str, set: &[String]) -> Value {
         out["impacts"] = s.scopes.iter().map(scope).collect();
     }
     out
+}
+
+/// Spellings of symbols in LaTeX, where they have one of their own.
+fn spelled(s: &Solution) -> Map<String, Value> {
+    let each = s.names.iter();
+    each.map(|(name, latex)| (name.to_string(), json!(latex)))
+        .collect()
 }
 
 fn symbols(meanings: &BTreeMap<Symbol, Meaning>) -> Map<String, Value> {
