@@ -3,6 +3,7 @@
 //! In: plain data, that is sampled points, labels, marked points. Out: SVG that reads on light and dark paper. Knows nothing of
 //! scenes or formulas; whoever calls says which marks are exact.
 
+use crate::figure;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -103,6 +104,20 @@ pub fn sample(f: impl Fn(f64) -> f64, from: f64, to: f64, count: usize) -> Vec<[
 
 /// The plot as an SVG document.
 pub fn curve(plot: &Plot) -> Result<String, PlotFault> {
+    let [x, y] = ranges(plot)?;
+    let mut svg = String::new();
+    {
+        let size = (SIZE.0 * FINE as u32, SIZE.1 * FINE as u32);
+        let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
+        draw(plot, x, y, &root).map_err(|e| PlotFault::Backend(e.to_string()))?;
+        root.present()
+            .map_err(|e| PlotFault::Backend(e.to_string()))?;
+    }
+    Ok(finish(&svg, plot))
+}
+
+/// What the axes show.
+fn ranges(plot: &Plot) -> Result<[[f64; 2]; 2], PlotFault> {
     let finite = |p: &&[f64; 2]| p.iter().all(|v| v.is_finite() && v.abs() < 1e12);
     let points = || {
         plot.curves
@@ -114,15 +129,78 @@ pub fn curve(plot: &Plot) -> Result<String, PlotFault> {
     let inside = points().filter(|p| p[0] >= x[0] && p[0] <= x[1]);
     let marks = plot.marks.iter().map(|m| &m.at).filter(finite);
     let y = range(&plot.y, inside.chain(marks).map(|p| p[1]), 0.06).ok_or(PlotFault::Empty)?;
-    let mut svg = String::new();
-    {
-        let size = (SIZE.0 * FINE as u32, SIZE.1 * FINE as u32);
-        let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
-        draw(plot, x, y, &root).map_err(|e| PlotFault::Backend(e.to_string()))?;
-        root.present()
-            .map_err(|e| PlotFault::Backend(e.to_string()))?;
+    Ok([x, y])
+}
+
+/// The plot as TikZ, for documents that set their figures with their own fonts.
+pub fn tikz(plot: &Plot) -> Result<String, PlotFault> {
+    let [x, y] = ranges(plot)?;
+    let (wide, high) = (190.0, 130.0);
+    let place = |p: (f64, f64)| {
+        let (u, v) = ((p.0 - x[0]) / (x[1] - x[0]), (p.1 - y[0]) / (y[1] - y[0]));
+        format!("({:.2},{:.2})", u * wide, v * high)
+    };
+    let words = |text: &str| figure::Label::latex(&shown(text).replace(' ', "\\ ")).to_latex();
+    let mut out = String::from("\\begin{tikzpicture}[x=1bp,y=1bp,font=\\footnotesize]\n");
+    for at in ticks(x) {
+        let (foot, head) = (place((at, y[0])), place((at, y[1])));
+        out.push_str(&format!("\\draw[dimension!35] {foot}--{head};\n"));
+        let number = tick(at, x[1] - x[0]).replace('−', "-");
+        out.push_str(&format!("\\node[below] at {foot} {{${number}$}};\n"));
     }
-    Ok(finish(&svg, plot))
+    for at in ticks(y) {
+        let (foot, head) = (place((x[0], at)), place((x[1], at)));
+        let style = if at == 0.0 { "dimension" } else { "dimension!35" };
+        out.push_str(&format!("\\draw[{style}] {foot}--{head};\n"));
+        let number = tick(at, y[1] - y[0]).replace('−', "-");
+        out.push_str(&format!("\\node[left] at {foot} {{${number}$}};\n"));
+    }
+    out.push_str(&format!("\\draw[dimension] (0,{high})--(0,0)--({wide},0);\n"));
+    out.push_str(&format!("\\node[below] at ({:.0},-12) {{${}$}};\n", wide / 2.0, words(&plot.x.label)));
+    out.push_str(&format!("\\node[above right,inner xsep=0pt] at (-16,{high}) {{${}$}};\n", words(&plot.y.label)));
+    let mut ends: Vec<(i32, usize)> = Vec::new();
+    for (i, curve) in plot.curves.iter().enumerate() {
+        let RGBColor(r, g, b) = COLORS[i % COLORS.len()];
+        out.push_str(&format!("\\definecolor{{curve}}{{RGB}}{{{r},{g},{b}}}\n"));
+        for piece in pieces(&curve.points, x, y) {
+            if let Some(end) = piece.last() {
+                ends.retain(|(_, k)| *k != i);
+                let row = (1.0 - (end.1 - y[0]) / (y[1] - y[0])) * f64::from(SIZE.1 as i32 * FINE);
+                ends.push((row as i32, i));
+            }
+            let path: Vec<String> = piece.into_iter().map(place).collect();
+            out.push_str(&format!("\\draw[curve,line width=1.2bp] {};\n", path.join("--")));
+        }
+    }
+    if plot.curves.len() > 1 {
+        for (row, i) in spread(ends, SIZE.1 as i32 * FINE) {
+            let RGBColor(r, g, b) = COLORS[i % COLORS.len()];
+            let up = (1.0 - f64::from(row) / f64::from(SIZE.1 as i32 * FINE)) * high;
+            out.push_str(&format!("\\definecolor{{curve}}{{RGB}}{{{r},{g},{b}}}\n"));
+            out.push_str(&format!("\\node[right,curve] at ({wide},{up:.1}) {{${}$}};\n", words(&plot.curves[i].label)));
+        }
+    }
+    for mark in plot.marks.iter().filter(|m| m.at[0] >= x[0] && m.at[0] <= x[1]) {
+        let spot = place((mark.at[0], mark.at[1]));
+        let label = words(&mark.label);
+        out.push_str(&format!("\\fill {spot} circle[radius=2] node[below right] {{${label}$}};\n"));
+    }
+    out.push_str("\\end{tikzpicture}\n");
+    Ok(out)
+}
+
+/// Round numbers inside a range, about five of them.
+fn ticks(range: [f64; 2]) -> Vec<f64> {
+    let span = range[1] - range[0];
+    let power = 10.0_f64.powf((span / 5.0).log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .map(|k| k * power)
+        .find(|step| span / step <= 6.0)
+        .unwrap_or(span);
+    let first = (range[0] / step - 1e-9).ceil() as i64;
+    let last = (range[1] / step + 1e-9).floor() as i64;
+    (first..=last.min(first + 20)).map(|k| k as f64 * step).collect()
 }
 
 type Fallible = Result<(), std::boxed::Box<dyn std::error::Error>>;

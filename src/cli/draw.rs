@@ -134,6 +134,7 @@ fn plotted(args: &DrawArgs, scene: &mut Scene, name: &str) -> Result<Drawing, Fa
     drawn
         .map(|(picture, _)| Drawing {
             svg: picture.svg,
+            tikz: picture.tikz,
             caption: picture.caption,
             alternative: picture.alternative,
         })

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use clap::{Args, ValueEnum};
 
@@ -16,16 +17,16 @@ use carom::{check, derive, render, scene::Scene, story, verify};
 pub struct SolutionArgs {
     /// Scene file, `-` for standard input
     scene: PathBuf,
-    /// Output format; latex is a document that compiles, latex-fragment goes into one of yours
-    #[arg(long, value_enum, default_value_t = FormatArg::Text)]
-    format: FormatArg,
+    /// Output format, if the name after -o does not tell it; latex is a document that compiles, latex-fragment goes into one of yours
+    #[arg(long, value_enum)]
+    format: Option<FormatArg>,
     /// How much is shown: the key equations, what a textbook shows, or every line of algebra
     #[arg(long, value_enum, default_value_t = DetailArg::Normal)]
     detail: DetailArg,
-    /// Write here instead of to standard output
+    /// Write here instead of to standard output; .html, .md, .tex, .pdf, .json and .txt name their formats
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// With -o, write the figures beside the output and link them: SVG for markdown, PNG for latex
+    /// With -o and markdown, write the figures beside the output and link them; the other formats hold theirs
     #[arg(long, requires = "output")]
     figures: bool,
     /// Give a parameter a value, such as v=2 or theta=acos(3/5); may be repeated
@@ -47,6 +48,7 @@ enum FormatArg {
     Latex,
     LatexFragment,
     Html,
+    Pdf,
     Json,
 }
 
@@ -59,6 +61,7 @@ enum DetailArg {
 
 /// Writes the worked solution of a scene.
 pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
+    let format = format(args)?;
     let (scene, text) = read_scene_text(&args.scene, &args.set)?;
     let detail = match args.detail {
         DetailArg::Brief => Detail::Brief,
@@ -98,36 +101,103 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         all.extend(plots.iter().cloned());
         all
     };
-    let kind = match (args.figures, args.format) {
-        (false, _) => None,
-        (true, FormatArg::Markdown) => Some("svg"),
-        (true, FormatArg::Latex | FormatArg::LatexFragment) => Some("png"),
-        (true, _) => {
+    let held = || drawn().into_iter().map(|(p, _)| p).collect::<Vec<Picture>>();
+    let linked = match (args.figures, &args.output) {
+        (true, Some(path)) if format == FormatArg::Markdown => link(path, &args.scene, drawn())?,
+        (true, _) if !matches!(format, FormatArg::Latex | FormatArg::LatexFragment) => {
             return Err(Failure::Input(String::from(
-                "--figures: this format links no files\nhint: markdown and latex do; an HTML page holds its figures",
+                "--figures: this format links no files\nhint: markdown does; pages and LaTeX documents hold their figures",
             )));
         }
-    };
-    let linked = match (kind, &args.output) {
-        (Some(kind), Some(path)) => link(path, &args.scene, kind, drawn())?,
         _ => Vec::new(),
     };
-    let output = match args.format {
+    let output = match format {
         FormatArg::Text => render::plain::solution(&solution),
         FormatArg::Markdown => render::markdown::solution(&solution, &linked),
-        FormatArg::Latex => render::latex_document::document(&solution, &linked),
-        FormatArg::LatexFragment => render::latex_document::fragment(&solution, &linked),
-        FormatArg::Html => {
-            let pictures: Vec<Picture> = drawn().into_iter().map(|(p, _)| p).collect();
-            render::html::page(&solution, &pictures)
-        }
+        FormatArg::Latex => render::latex_document::document(&solution, &held()),
+        FormatArg::LatexFragment => render::latex_document::fragment(&solution, &held()),
+        FormatArg::Html => render::html::page(&solution, &held()),
         FormatArg::Json => pretty(&render::steps::solution(&solution, &text, &args.set)),
+        FormatArg::Pdf => {
+            let document = render::latex_document::document(&solution, &held());
+            let path = args.output.as_deref().unwrap_or(Path::new("solution.pdf"));
+            files::save(path, &typeset(&document)?, &[&args.scene])?;
+            return Ok(u8::from(!holds));
+        }
     };
     match &args.output {
         Some(path) => files::save(path, output.as_bytes(), &[&args.scene])?,
         None => print(&output)?,
     }
     Ok(u8::from(!holds))
+}
+
+/// The format that is asked for, or that the name of the output tells.
+fn format(args: &SolutionArgs) -> Result<FormatArg, Failure> {
+    let ending = args.output.as_deref().and_then(Path::extension);
+    let ending = ending.map(|e| e.to_string_lossy().to_ascii_lowercase());
+    let told = match ending.as_deref() {
+        Some("html" | "htm") => Some(FormatArg::Html),
+        Some("md" | "markdown") => Some(FormatArg::Markdown),
+        Some("tex") => Some(FormatArg::Latex),
+        Some("pdf") => Some(FormatArg::Pdf),
+        Some("json") => Some(FormatArg::Json),
+        Some("txt") => Some(FormatArg::Text),
+        _ => None,
+    };
+    match (args.format, told, &args.output) {
+        (Some(FormatArg::Pdf), _, None) => Err(Failure::Input(String::from(
+            "--format pdf: a file is needed\nhint: name it with -o, such as -o solution.pdf",
+        ))),
+        (Some(format), ..) => Ok(format),
+        (None, Some(format), _) => Ok(format),
+        (None, None, None) => Ok(FormatArg::Text),
+        (None, None, Some(path)) => Err(Failure::Input(format!(
+            "{}: the name does not tell a format\nhint: end it with .html, .md, .tex, .pdf, .json or .txt, or say --format",
+            path.display()
+        ))),
+    }
+}
+
+/// A LaTeX document as PDF, by a typesetter that is installed here.
+fn typeset(document: &str) -> Result<Vec<u8>, Failure> {
+    let folder = std::env::temp_dir().join(format!("carom-{}", std::process::id()));
+    let failed = |e: std::io::Error| Failure::Input(format!("{}: {e}", folder.display()));
+    std::fs::create_dir_all(&folder).map_err(failed)?;
+    let made = std::fs::write(folder.join("solution.tex"), document).map_err(failed);
+    let made = made.and_then(|()| {
+        let luatex = [
+            "--interaction=nonstopmode",
+            "--halt-on-error",
+            "--no-shell-escape",
+        ];
+        for (program, options) in [("lualatex", &luatex[..]), ("tectonic", &["--untrusted"][..])] {
+            let run = Command::new(program)
+                .args(options)
+                .arg("solution.tex")
+                .current_dir(&folder)
+                .output();
+            match run {
+                Err(e) if e.kind() == std::io::ErrorKind::NotFound => continue,
+                Err(e) => return Err(Failure::Input(format!("{program}: {e}"))),
+                Ok(run) if run.status.success() => {
+                    return std::fs::read(folder.join("solution.pdf")).map_err(failed);
+                }
+                Ok(run) => {
+                    let said = String::from_utf8_lossy(&run.stdout).into_owned();
+                    let first = said.lines().find(|l| l.starts_with('!')).unwrap_or("");
+                    return Err(Failure::Input(format!(
+                        "{program} could not set the document {first}\nhint: write it as .tex and see what is wrong"
+                    )));
+                }
+            }
+        }
+        Err(Failure::Input(String::from(
+            "a PDF needs lualatex or tectonic, and neither is installed\nhint: install one of them, or write .tex, .html or .md",
+        )))
+    });
+    let _ = std::fs::remove_dir_all(&folder);
+    made
 }
 
 /// The plots of a scene, each with a name for its file.
@@ -190,6 +260,7 @@ fn picture(slot: Slot, drawing: figure::Drawing) -> Picture {
     Picture {
         slot,
         svg: drawing.svg,
+        tikz: drawing.tikz,
         caption: drawing.caption,
         alternative: drawing.alternative,
     }
@@ -199,43 +270,18 @@ fn picture(slot: Slot, drawing: figure::Drawing) -> Picture {
 fn link(
     output: &Path,
     scene: &Path,
-    kind: &str,
     pictures: Vec<(Picture, String)>,
 ) -> Result<Vec<(Picture, String)>, Failure> {
     files::writable(output, &[scene])?;
     let stem = output.file_stem().unwrap_or_default().to_string_lossy();
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '.';
-    if kind == "png" && !stem.chars().all(is_plain) {
-        return Err(Failure::Input(format!(
-            "{}: LaTeX cannot include figures of this name\nhint: name the output with letters, digits, - and .",
-            output.display()
-        )));
-    }
-    // Everything is drawn before anything is written.
-    let mut files = Vec::new();
-    for (picture, name) in pictures {
-        let file = output.with_file_name(format!("{stem}-{name}.{kind}"));
-        files.push((bytes(kind, &picture.svg)?, file, picture));
-    }
     let mut linked = Vec::new();
-    for (bytes, file, picture) in files {
-        files::save(&file, &bytes, &[scene])?;
+    for (picture, name) in pictures {
+        let file = output.with_file_name(format!("{stem}-{name}.svg"));
+        files::save(&file, picture.svg.as_bytes(), &[scene])?;
         let name = file.file_name().unwrap_or_default().to_string_lossy();
-        linked.push((picture, name.replace(' ', "%20")));
+        linked.push((picture, name.into_owned()));
     }
     Ok(linked)
-}
-
-fn bytes(kind: &str, svg: &str) -> Result<Vec<u8>, Failure> {
-    match kind {
-        #[cfg(feature = "png")]
-        "png" => figure::png(svg).map_err(|fault| Failure::Input(fault.to_string())),
-        #[cfg(not(feature = "png"))]
-        "png" => Err(Failure::Input(String::from(
-            "this carom is built without PNG\nhint: build it with the feature png, or take markdown",
-        ))),
-        _ => Ok(svg.as_bytes().to_vec()),
-    }
 }
 
 /// Replays a solution file.

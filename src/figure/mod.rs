@@ -20,10 +20,13 @@ mod quantity;
 mod sheet;
 mod stage;
 mod svg;
+mod tikz;
 mod values;
 mod words;
 
+pub use label::Label;
 pub use latex::letter;
+pub use tikz::{COLORS, escaped, node};
 
 use std::collections::BTreeSet;
 
@@ -31,7 +34,7 @@ use crate::expr::{Expr, Symbol};
 use crate::numeric::Motion;
 use crate::scene::{BlowImpulse, ContactLaw, KnownQuantity, Scene, Shape, StageKind};
 pub(crate) use label::visible;
-use label::{Label, advance};
+use label::advance;
 use place::Room;
 #[cfg(feature = "png")]
 pub use png::{PngFault, png};
@@ -62,14 +65,34 @@ pub enum Subject {
 }
 
 /// A picture ready to use.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct Drawing {
     /// The SVG document; may stand alone or inside HTML.
     pub svg: String,
-    /// What it shows and the values it is drawn at, plain text.
-    pub caption: String,
+    /// The same as TikZ.
+    pub tikz: String,
+    /// What it shows and the values it is drawn at.
+    pub caption: Vec<Piece>,
     /// The picture in words, plain text.
     pub alternative: String,
+}
+
+/// A piece of a caption.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Piece {
+    /// Plain words.
+    Words(String),
+    /// A symbol, or a short formula.
+    Symbol(Label),
+}
+
+/// A caption in plain characters.
+pub fn plain(caption: &[Piece]) -> String {
+    let each = caption.iter().map(|piece| match piece {
+        Piece::Words(words) => words.clone(),
+        Piece::Symbol(label) => label.text(),
+    });
+    each.collect()
 }
 
 /// Least width of a picture, in pixels.
@@ -182,7 +205,10 @@ fn motion_panel(name: &str, scene: &Scene, kind: &StageKind, clockwise: bool) ->
     }
     let sheet = sheet.unwrap_or_default();
     let labels = labels(&sheet);
-    let caption = format!("{name}: broken lines at the beginning, full lines at the end.");
+    let caption = vec![Piece::Words(format!(
+        "{}: broken lines at the beginning, full lines at the end.",
+        words::capital(name)
+    ))];
     Panel {
         heading: name.to_string(),
         alternative: format!("Motion {name}. Marked: {labels}."),
@@ -233,7 +259,7 @@ struct Panel {
     heading: String,
     sheet: Sheet,
     notes: Vec<String>,
-    caption: String,
+    caption: Vec<Piece>,
     alternative: String,
 }
 
@@ -241,23 +267,25 @@ fn panel(stage: &Stage, motion: Option<&Motion<f64>>, which: Which) -> Panel {
     let scene = stage.scene;
     let geometry = geometry(scene);
     let told = |shown: &dyn Fn(&str) -> bool| words::values(scene, stage.values, shown);
+    let say = |words: String| vec![Piece::Words(words)];
     match which {
         Which::Before | Which::All => {
             let heading = "Just before".to_string();
-            let caption = format!("{heading}. {}", told(&|name| geometry.contains(name)));
+            let mut caption = say(format!("{heading}."));
+            caption.extend(told(&|name| geometry.contains(name)));
             Panel {
                 sheet: picture::before(stage, motion),
                 notes: Vec::new(),
-                caption: caption.trim_end().to_string(),
+                caption,
                 alternative: format!("Just before the collision. {}", words::scene(scene)),
                 heading,
             }
         }
         Which::During(subject) => {
             let (bodies, of) = match subject {
-                Subject::System => (stage.movable(), "system".to_string()),
+                Subject::System => (stage.movable(), "the system".to_string()),
                 Subject::Body(i) if i < scene.bodies.len() && !scene.bodies[i].is_fixed() => {
-                    (vec![i], scene.bodies[i].name.clone())
+                    (vec![i], scene.bodies[i].called())
                 }
                 Subject::Body(_) => (Vec::new(), "no movable body".to_string()),
             };
@@ -265,7 +293,7 @@ fn panel(stage: &Stage, motion: Option<&Motion<f64>>, which: Which) -> Panel {
                 stage
                     .movable()
                     .first()
-                    .map_or(of, |i| scene.bodies[*i].name.clone())
+                    .map_or(of, |i| scene.bodies[*i].called())
             } else {
                 of
             };
@@ -277,7 +305,11 @@ fn panel(stage: &Stage, motion: Option<&Motion<f64>>, which: Which) -> Panel {
                 alternative: format!("Free-body diagram of {of} during the collision, impulses only. Marked: {labels}. {note}")
                     .trim_end()
                     .to_string(),
-                caption: format!("Free-body diagram of {of} during the collision; only impulses are drawn. {note}").trim_end().to_string(),
+                caption: say(
+                    format!("During the collision: the impulses on {of}. {note}")
+                        .trim_end()
+                        .to_string(),
+                ),
                 heading,
                 sheet,
                 notes,
@@ -302,7 +334,11 @@ fn panel(stage: &Stage, motion: Option<&Motion<f64>>, which: Which) -> Panel {
                 }
             };
             let labels = labels(&sheet);
-            let all = told(&|_| true);
+            let mut caption = say(format!("{heading}."));
+            caption.extend(told(&|_| true));
+            if !notes.is_empty() {
+                caption.push(Piece::Words(format!(" {}", notes.join(" "))));
+            }
             Panel {
                 alternative: format!(
                     "Just after the collision. Marked: {labels}. {}",
@@ -310,9 +346,7 @@ fn panel(stage: &Stage, motion: Option<&Motion<f64>>, which: Which) -> Panel {
                 )
                 .trim_end()
                 .to_string(),
-                caption: format!("{heading}. {all} {}", notes.join(" "))
-                    .trim_end()
-                    .to_string(),
+                caption,
                 heading,
                 sheet,
                 notes,
@@ -348,11 +382,16 @@ fn finish(scene: &Scene, panels: Vec<Panel>) -> Drawing {
         .fold(COLUMN, f64::max);
     let mut items: Vec<Item> = Vec::new();
     let mut top = 0.0;
-    let (mut captions, mut alternatives) = (Vec::new(), Vec::new());
+    let (mut caption, mut alternatives) = (Vec::new(), Vec::new());
+    // A picture alone has its words in the caption.
+    let several = panels.len() > 1;
+    let bare = panels.iter().all(|p| p.sheet.room().is_none());
     for mut panel in panels {
         top -= MARGIN;
-        lines(&mut items, &panel.heading, HEADING, true, width, &mut top);
-        top -= 6.0;
+        if several || bare {
+            lines(&mut items, &panel.heading, HEADING, true, width, &mut top);
+            top -= 6.0;
+        }
         if let Some(room) = panel.sheet.room() {
             let [_, h] = room.extent();
             panel
@@ -361,11 +400,14 @@ fn finish(scene: &Scene, panels: Vec<Panel>) -> Drawing {
             items.append(&mut panel.sheet.items);
             top -= h + 6.0;
         }
-        for note in &panel.notes {
+        for note in panel.notes.iter().filter(|_| several || bare) {
             lines(&mut items, note, SMALL, false, width, &mut top);
         }
         top -= MARGIN;
-        captions.push(panel.caption);
+        if !caption.is_empty() {
+            caption.push(Piece::Words(String::from(" ")));
+        }
+        caption.extend(panel.caption);
         alternatives.push(panel.alternative);
     }
     let height = -top;
@@ -374,7 +416,7 @@ fn finish(scene: &Scene, panels: Vec<Panel>) -> Drawing {
         ..Sheet::default()
     };
     page.shift([0.0, height]);
-    let (caption, alternative) = (captions.join(" "), alternatives.join(" "));
+    let alternative = alternatives.join(" ");
     let title = if scene.title.is_empty() {
         "Collision"
     } else {
@@ -389,7 +431,8 @@ fn finish(scene: &Scene, panels: Vec<Panel>) -> Drawing {
     });
     Drawing {
         svg,
-        caption: label::visible(&caption),
+        tikz: tikz::write(&page.items),
+        caption,
         alternative: label::visible(&alternative),
     }
 }
@@ -447,7 +490,7 @@ fn nothing(scene: &Scene) -> Drawing {
         heading: scene.title.clone(),
         sheet: Sheet::default(),
         notes: vec![said.to_string()],
-        caption: said.to_string(),
+        caption: vec![Piece::Words(said.to_string())],
         alternative: said.to_string(),
     };
     finish(scene, vec![panel])

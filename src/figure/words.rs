@@ -1,5 +1,6 @@
 //! A picture in words: for readers who cannot see it.
 
+use super::Piece;
 use super::label::Label;
 use super::values::Values;
 use crate::expr::{Expr, Vector};
@@ -78,20 +79,28 @@ fn vector(v: &Vector, text: &dyn Fn(&Expr) -> String) -> String {
     format!("({}, {})", text(&v[0]), text(&v[1]))
 }
 
-/// The values a scene is drawn at: `Drawn for θ = 35°, ℓ = 1 m.`
-pub fn values(scene: &Scene, values: &Values, shown: &dyn Fn(&str) -> bool) -> String {
-    let told: Vec<String> = scene
-        .parameters
-        .iter()
-        .filter(|p| shown(&p.name))
-        .filter_map(|p| {
-            let name = Label::symbol(&p.name, p.latex.as_deref()).text();
-            values.told(p).map(|value| format!("{name} = {value}"))
-        })
-        .collect();
-    if told.is_empty() {
-        String::new()
-    } else {
-        format!("Drawn for {}.", told.join(", "))
+/// The values a scene is drawn at: ` Drawn for θ = 35°, ℓ = 1 m.`
+pub fn values(scene: &Scene, values: &Values, shown: &dyn Fn(&str) -> bool) -> Vec<Piece> {
+    let mut out = Vec::new();
+    for p in scene.parameters.iter().filter(|p| shown(&p.name)) {
+        let Some(value) = values.told(p) else {
+            continue;
+        };
+        let lead = if out.is_empty() { " Drawn for " } else { ", " };
+        out.push(Piece::Words(lead.to_string()));
+        out.push(Piece::Symbol(Label::symbol(&p.name, p.latex.as_deref())));
+        out.push(Piece::Words(format!(" = {value}")));
     }
+    if !out.is_empty() {
+        out.push(Piece::Words(String::from(".")));
+    }
+    out
+}
+
+/// A sentence starts with a capital.
+pub fn capital(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or(String::new(), |first| {
+        first.to_uppercase().chain(chars).collect()
+    })
 }

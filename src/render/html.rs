@@ -1,10 +1,12 @@
 //! A worked solution as one page: native MathML, pictures inline, no script, nothing loaded from anywhere.
 
-use super::math::{pieces, rows, width};
-use super::mathml::{escape, expr, formula};
+use super::fonts;
+use super::math::{Cells, pieces, rows, rows_within, width};
+use super::mathml::{escape, expr, formula, from_latex};
 use crate::derive::Matrix;
 use crate::expr::Expr;
-use crate::solution::{Inline, Math, Part, Slot, Solution};
+use crate::figure::Piece;
+use crate::solution::{Inline, Line, Math, Part, Slot, Solution};
 
 /// A picture that belongs into a solution.
 #[derive(Clone, Debug)]
@@ -13,14 +15,20 @@ pub struct Picture {
     pub slot: Slot,
     /// The SVG element.
     pub svg: String,
-    /// What it shows, plain text.
-    pub caption: String,
+    /// The same as TikZ.
+    pub tikz: String,
+    /// What it shows.
+    pub caption: Vec<Piece>,
     /// The picture in words, plain text.
     pub alternative: String,
 }
 
-/// Longest formula, in characters of its Unicode form, that a line of a narrow window holds.
+/// Longest formula, in characters as they are set, that a line of a narrow window holds.
 const IN_TEXT: usize = 36;
+/// Longest row of a display in a wide window; what cannot be broken to it is set smaller.
+const DESK: usize = 80;
+/// The same in a narrow window.
+const PHONE: usize = 38;
 
 const STYLE: &str = "
 :root{color-scheme:light dark}
@@ -33,7 +41,9 @@ p{margin:.55rem 0}
 .source{color:#555;font-style:italic;margin-top:0}
 .display{overflow-x:auto;overflow-y:hidden;margin:.5rem 0;padding:.15rem 0}
 .display math{margin:0 0 0 1.2rem;text-align:left}
-math{font-size:1.05em}
+.phone{display:none}
+math{font-family:'carom math',math;font-size:1.05em}
+mover>mo{font-size:.75em}
 .wide{display:inline-block;max-width:100%;overflow-x:auto;overflow-y:hidden;vertical-align:middle}
 mtable{border-spacing:0}
 mtd{padding:.22em .12em;text-align:left}
@@ -47,8 +57,8 @@ figcaption{font-size:.86rem;color:#555;text-align:left}
 .figures{display:flex;flex-wrap:wrap;gap:1rem;justify-content:center}
 .figures figure{flex:1 1 300px;margin:0;min-width:0;max-width:26rem}
 @media (prefers-color-scheme:dark){body{color:#e6e6e6;background:#16181c}h2{border-color:#444}.source,figcaption{color:#aaa}}
-@media (max-width:480px){body{font-size:16px;padding:.8rem .8rem 2rem}.display math{margin-left:.2rem}}
-@media print{body{max-width:none;font-size:11pt;color:#000;background:#fff}h2,.display,figure{break-inside:avoid}h2{break-after:avoid}.display{overflow:visible}}
+@media (max-width:480px){body{font-size:16px;padding:.8rem .8rem 2rem}.display math{margin-left:.2rem}.desk{display:none}.phone{display:block}}
+@media print{body{max-width:none;font-size:11pt;color:#000;background:#fff}h2,h3,.display,figure{break-inside:avoid}h2,h3{break-after:avoid}.display{overflow:visible}p{orphans:3;widows:3}}
 ";
 
 /// The whole page.
@@ -62,11 +72,10 @@ pub fn page(s: &Solution, pictures: &[Picture]) -> String {
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n\
-         <link rel=\"icon\" href=\"data:,\">\n\
-         <title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n"
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; font-src data:\">\n\
+         <title>{title}</title>\n<style>{}{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n",
+        fonts::face()
     );
-    out = out.replace("<link rel=\"icon\" href=\"data:,\">\n", "");
     if !s.source.is_empty() {
         out.push_str(&format!("<p class=\"source\">{}</p>\n", escape(&s.source)));
     }
@@ -98,21 +107,7 @@ fn part(s: &Solution, part: &Part, pictures: &[Picture]) -> String {
                 .collect();
             format!("<ul>\n{items}</ul>\n")
         }
-        Part::Display(lines) => {
-            let rows: String = rows(s, lines)
-                .iter()
-                .map(|[l, r]| {
-                    format!(
-                        "<mtr><mtd class=\"l\">{}</mtd><mtd>{}</mtd></mtr>\n",
-                        formula(s, l),
-                        formula(s, r)
-                    )
-                })
-                .collect();
-            format!(
-                "<div class=\"display\" tabindex=\"0\"><math display=\"block\"><mtable displaystyle=\"true\">\n{rows}</mtable></math></div>\n"
-            )
-        }
+        Part::Display(lines) => display(s, lines),
         Part::Matrix(m) => matrix(s, m),
         Part::Figure(slot) => {
             let figures: Vec<String> = pictures
@@ -122,7 +117,7 @@ fn part(s: &Solution, part: &Part, pictures: &[Picture]) -> String {
                     format!(
                         "<figure>{}<figcaption>{}</figcaption></figure>\n",
                         p.svg,
-                        escape(&p.caption)
+                        caption(&p.caption)
                     )
                 })
                 .collect();
@@ -132,6 +127,55 @@ fn part(s: &Solution, part: &Part, pictures: &[Picture]) -> String {
             }
         }
     }
+}
+
+/// Equations in rows, once for wide windows and, where they need more breaks, once for narrow ones.
+fn display(s: &Solution, lines: &[Line]) -> String {
+    let desk = rows(s, lines);
+    let phone = rows_within(s, lines, PHONE);
+    let same = |a: &[Cells], b: &[Cells]| {
+        let wide = |rows: &[Cells]| span(s, rows);
+        a.len() == b.len() && wide(a) == wide(b) && wide(b) <= PHONE
+    };
+    if same(&desk, &phone) {
+        return table(s, &desk, "", DESK);
+    }
+    table(s, &desk, " desk", DESK) + &table(s, &phone, " phone", PHONE)
+}
+
+/// Characters from the left edge of the widest left side to the right edge of the widest right side.
+fn span(s: &Solution, rows: &[Cells]) -> usize {
+    let widest = |side: usize| rows.iter().map(|row| width(s, &row[side])).max();
+    widest(0).unwrap_or(0) + widest(1).unwrap_or(0)
+}
+
+fn table(s: &Solution, rows: &[Cells], class: &str, most: usize) -> String {
+    let inner: String = rows
+        .iter()
+        .map(|[l, r]| {
+            format!(
+                "<mtr><mtd class=\"l\">{}</mtd><mtd>{}</mtd></mtr>\n",
+                formula(s, l),
+                formula(s, r)
+            )
+        })
+        .collect();
+    let percent = 100 * most / span(s, rows).max(1);
+    let style = match percent {
+        100.. => String::new(),
+        percent => format!(" style=\"font-size:{}%\"", percent.max(62)),
+    };
+    format!(
+        "<div class=\"display{class}\" tabindex=\"0\"><math display=\"block\"{style}><mtable displaystyle=\"true\">\n{inner}</mtable></math></div>\n"
+    )
+}
+
+fn caption(pieces: &[Piece]) -> String {
+    let each = pieces.iter().map(|piece| match piece {
+        Piece::Words(words) => escape(words),
+        Piece::Symbol(label) => format!("<math>{}</math>", from_latex(&label.to_latex())),
+    });
+    each.collect()
 }
 
 fn sentence(s: &Solution, pieces: &[Inline]) -> String {

@@ -3,10 +3,11 @@
 use super::html::Picture;
 use super::markdown::matrix;
 use super::math::{latex, rows};
+use crate::figure::{self, Piece};
 use crate::solution::{Inline, Part, Solution};
 
-/// A document that compiles on its own; `pictures` are included by their file names.
-pub fn document(s: &Solution, pictures: &[(Picture, String)]) -> String {
+/// A document that compiles on its own and holds its pictures.
+pub fn document(s: &Solution, pictures: &[Picture]) -> String {
     let title = if s.title.is_empty() {
         "Worked solution"
     } else {
@@ -19,22 +20,22 @@ pub fn document(s: &Solution, pictures: &[(Picture, String)]) -> String {
          \\usepackage{{amsmath,amssymb}}\n\
          {}\
          \\allowdisplaybreaks\n\
+         \\clubpenalty=10000 \\widowpenalty=10000\n\
          \\setlength{{\\parindent}}{{0pt}}\n\
          \\setlength{{\\parskip}}{{6pt}}\n\
          \\begin{{document}}\n\
          \\section*{{{}}}\n{}\\end{{document}}\n",
-        if pictures.is_empty() {
-            ""
-        } else {
-            "\\usepackage{graphicx}\n"
+        match pictures.is_empty() {
+            true => String::new(),
+            false => format!("\\usepackage{{tikz}}\n{}", figure::COLORS),
         },
         text(title),
         body(s, pictures)
     )
 }
 
-/// The text alone, to be put into a document that loads amsmath and amssymb, and graphicx where there are pictures.
-pub fn fragment(s: &Solution, pictures: &[(Picture, String)]) -> String {
+/// The text alone, to be put into a document that loads amsmath and amssymb, and tikz where there are pictures.
+pub fn fragment(s: &Solution, pictures: &[Picture]) -> String {
     let title = if s.title.is_empty() {
         "Worked solution"
     } else {
@@ -43,7 +44,7 @@ pub fn fragment(s: &Solution, pictures: &[(Picture, String)]) -> String {
     format!("\\section*{{{}}}\n{}", text(title), body(s, pictures))
 }
 
-fn body(s: &Solution, pictures: &[(Picture, String)]) -> String {
+fn body(s: &Solution, pictures: &[Picture]) -> String {
     let mut out = String::new();
     if !s.source.is_empty() {
         out.push_str(&format!("\\emph{{{}}}\n\n", text(&s.source)));
@@ -80,15 +81,13 @@ fn body(s: &Solution, pictures: &[(Picture, String)]) -> String {
                     out.push_str(&format!("\\[\n{}\n\\]\n", matrix(s, m)));
                 }
                 Part::Figure(slot) => {
-                    for (picture, file) in pictures.iter().filter(|(p, _)| p.slot == *slot) {
+                    // A picture and its caption stay together.
+                    for picture in pictures.iter().filter(|p| p.slot == *slot) {
                         out.push_str(&format!(
-                            "\\begin{{center}}\n\\includegraphics[width=0.62\\linewidth]{{{file}}}\n"
+                            "\\begin{{center}}\n\\begin{{minipage}}{{0.86\\linewidth}}\\centering\n{}\n\\smallskip\n{{\\small {}\\par}}\n\\end{{minipage}}\n\\end{{center}}\n\n",
+                            picture.tikz.trim_end(),
+                            caption(&picture.caption)
                         ));
-                        if !picture.caption.is_empty() {
-                            let caption = text(&picture.caption);
-                            out.push_str(&format!("\n{{\\small {caption}}}\n"));
-                        }
-                        out.push_str("\\end{center}\n\n");
                     }
                 }
             }
@@ -108,61 +107,27 @@ fn sentence(s: &Solution, pieces: &[Inline]) -> String {
         .collect()
 }
 
-/// Words with everything TeX would act on made literal; what the usual fonts do not have is named by its number.
+/// Words with everything TeX would act on made literal.
 pub fn text(words: &str) -> String {
     let mut out = String::new();
     for c in crate::formula::visible(words).chars() {
         match c {
-            '\\' => out.push_str("\\textbackslash{}"),
-            '{' | '}' | '#' | '$' | '%' | '&' | '_' => {
-                out.push('\\');
-                out.push(c);
-            }
-            '~' => out.push_str("\\textasciitilde{}"),
-            '^' => out.push_str("\\textasciicircum{}"),
-            '<' => out.push_str("\\textless{}"),
-            '>' => out.push_str("\\textgreater{}"),
-            '|' => out.push_str("\\textbar{}"),
-            '"' => out.push_str("\\textquotedbl{}"),
-            '`' => out.push_str("\\textasciigrave{}"),
-            '≠' => out.push_str("$\\ne$"),
-            '≤' => out.push_str("$\\le$"),
-            '≥' => out.push_str("$\\ge$"),
-            '≈' => out.push_str("$\\approx$"),
-            '→' => out.push_str("$\\to$"),
-            '∞' => out.push_str("$\\infty$"),
-            '−' => out.push_str("$-$"),
-            '×' => out.push_str("$\\times$"),
-            '·' => out.push_str("$\\cdot$"),
-            'ℓ' => out.push_str("$\\ell$"),
-            '²' => out.push_str("$^2$"),
-            '³' => out.push_str("$^3$"),
-            '°' => out.push_str("$^\\circ$"),
-            '⁺' => out.push_str("$^+$"),
-            '⁻' => out.push_str("$^-$"),
-            '₀'..='₉' => out.push_str(&format!("$_{}$", u32::from(c) - 0x2080)),
             '\u{2013}' => out.push_str("--"),
             '\u{2014}' => out.push_str("---"),
             '\u{2018}' => out.push('`'),
             '\u{2019}' => out.push('\''),
             '\u{201c}' => out.push_str("``"),
             '\u{201d}' => out.push_str("''"),
-            '…' => out.push_str("\\dots{}"),
-            c if greek(c).is_some() => {
-                out.push_str(&format!("${}$", greek(c).unwrap_or_default()));
-            }
-            c if c.is_ascii() || LATIN.contains(c) => out.push(c),
-            c => out.push_str(&format!("[U+{:04X}]", u32::from(c))),
+            c => out.push_str(&figure::escaped(&c.to_string())),
         }
     }
     out
 }
 
-/// Letters that T1 fonts have.
-const LATIN: &str = "ÀÁÂÃÄÅÆÇÈÉÊËÌÍÎÏÐÑÒÓÔÕÖØÙÚÛÜÝÞßàáâãäåæçèéêëìíîïðñòóôõöøùúûüýþÿĀāĂăĄąĆćČčĎďĐđĘęĚěĞğĹĺĽľŁłŃńŇňŐőŒœŔŕŘřŚśŞşŠšŤťŰűŮůŸŹźŻżŽž";
-
-fn greek(c: char) -> Option<String> {
-    let name = crate::formula::latex_name(&c.to_string());
-    let small = ('α'..='ω').contains(&c) || "ΓΔΘΛΞΠΣΦΨΩ".contains(c);
-    (small && name.starts_with('\\')).then_some(name)
+fn caption(pieces: &[Piece]) -> String {
+    let each = pieces.iter().map(|piece| match piece {
+        Piece::Words(words) => text(words),
+        Piece::Symbol(label) => format!("${}$", label.to_latex()),
+    });
+    each.collect()
 }

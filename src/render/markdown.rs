@@ -1,6 +1,7 @@
 //! A worked solution as Markdown with LaTeX mathematics, as GitHub, Jupyter and Quarto set it.
 
 use super::html::Picture;
+use crate::figure::plain;
 use super::math::{latex, rows};
 use crate::derive::Matrix;
 use crate::formula::visible;
@@ -47,9 +48,7 @@ pub fn solution(s: &Solution, pictures: &[(Picture, String)]) -> String {
                 Part::Figure(slot) => {
                     for (picture, file) in pictures.iter().filter(|(p, _)| p.slot == *slot) {
                         blocks.push(format!("![{}]({file})", text(&picture.alternative)));
-                        if !picture.caption.is_empty() {
-                            blocks.push(format!("*{}*", text(&picture.caption)));
-                        }
+                        blocks.push(format!("*{}*", text(&plain(&picture.caption))));
                     }
                 }
             }

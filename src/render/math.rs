@@ -1,5 +1,7 @@
 //! Formulas of a worked solution as Unicode and as LaTeX, and how long displayed lines are broken, the same in every format.
 
+use num_traits::Signed;
+
 use crate::expr::{Expr, Node};
 use crate::formula::{visible, write_latex, write_unicode};
 use crate::solution::{Line, Math, Name, Solution};
@@ -12,9 +14,14 @@ pub type Cells = [Vec<Math>; 2];
 
 /// The rows a display is set in: one per line, more where a line is too long; relations stand below each other.
 pub fn rows(solution: &Solution, lines: &[Line]) -> Vec<Cells> {
+    rows_within(solution, lines, WIDE)
+}
+
+/// The same where a row holds only so many characters.
+pub fn rows_within(solution: &Solution, lines: &[Line], wide: usize) -> Vec<Cells> {
     lines
         .iter()
-        .flat_map(|l| broken(solution, &l.math))
+        .flat_map(|l| broken(solution, &l.math, wide))
         .collect()
 }
 
@@ -25,7 +32,7 @@ pub fn pieces(solution: &Solution, math: &[Math], wide: usize) -> Vec<Vec<Math>>
     }
     let parts = at_relations(math).into_iter();
     parts
-        .flat_map(|part| terms(solution, &part, wide))
+        .flat_map(|part| filled(solution, &part, wide))
         .collect()
 }
 
@@ -45,76 +52,173 @@ fn at_relations(math: &[Math]) -> Vec<Vec<Math>> {
     pieces
 }
 
-fn broken(solution: &Solution, math: &[Math]) -> Vec<Cells> {
+fn broken(solution: &Solution, math: &[Math], wide: usize) -> Vec<Cells> {
     let Some(first) = math.iter().position(is_relation) else {
-        return vec![[Vec::new(), math.to_vec()]];
+        return filled(solution, math, wide)
+            .into_iter()
+            .map(|row| [Vec::new(), row])
+            .collect();
     };
     let (left, rest) = math.split_at(first);
-    if width(solution, math) <= WIDE {
+    if width(solution, math) <= wide {
         return vec![[left.to_vec(), rest.to_vec()]];
     }
     let mut out: Vec<Cells> = Vec::new();
     let mut left = left.to_vec();
-    if width(solution, &left) > WIDE / 2 {
-        for piece in terms(solution, &left, WIDE) {
+    let beside = width(solution, &left);
+    if beside > wide / 2 {
+        for piece in filled(solution, &left, wide) {
             out.push([Vec::new(), piece]);
         }
         left = Vec::new();
     }
+    let room = wide - if left.is_empty() { 0 } else { beside };
     for piece in at_relations(rest) {
-        for part in terms(solution, &piece, WIDE) {
+        for part in filled(solution, &piece, room) {
             out.push([std::mem::take(&mut left), part]);
         }
     }
     out
 }
 
-/// A piece that ends in a long sum, with the sum spread over several rows.
-fn terms(solution: &Solution, piece: &[Math], wide: usize) -> Vec<Vec<Math>> {
-    let Some((Math::Expr(last), head)) = piece.split_last() else {
-        return vec![piece.to_vec()];
-    };
-    let Node::Sum(all) = last.node() else {
-        return vec![piece.to_vec()];
-    };
+/// A piece spread over rows that hold so many characters each, cut before terms and, where that is not enough, before factors.
+fn filled(solution: &Solution, piece: &[Math], wide: usize) -> Vec<Vec<Math>> {
     if width(solution, piece) <= wide {
         return vec![piece.to_vec()];
     }
     let mut rows: Vec<Vec<Math>> = Vec::new();
-    let mut chunk: Vec<Expr> = Vec::new();
-    let mut length = width(solution, head);
-    let mut flush = |chunk: &mut Vec<Expr>| {
-        if chunk.is_empty() {
-            return;
-        }
-        let e = Expr::sum(chunk.drain(..));
-        let mut row = if rows.is_empty() {
-            head.to_vec()
-        } else {
-            Vec::new()
+    for chunk in chunks(piece, &["+", "−"]) {
+        let smaller = match width(solution, &chunk) > wide {
+            true => chunks(&chunk, &["×", "·"]),
+            false => vec![chunk],
         };
-        if !rows.is_empty() && !crate::formula::write_plain(&e).starts_with('-') {
-            row.push(Math::Op("+"));
+        for part in smaller {
+            match rows.last_mut() {
+                Some(row) if width(solution, row) + width(solution, &part) < wide => {
+                    row.extend(part);
+                }
+                _ => rows.push(part),
+            }
         }
-        row.push(Math::Expr(e));
-        rows.push(row);
-    };
-    for term in all {
-        let size = width(solution, &[Math::Expr(term.clone())]) + 3;
-        if length + size > wide {
-            flush(&mut chunk);
-            length = 4;
-        }
-        length += size;
-        chunk.push(term.clone());
     }
-    flush(&mut chunk);
     rows
 }
 
-/// Characters of its Unicode form.
+/// Cut before the given signs; a sum and a vector that stand alone are cut between their terms.
+fn chunks(piece: &[Math], signs: &[&str]) -> Vec<Vec<Math>> {
+    let mut out: Vec<Vec<Math>> = vec![Vec::new()];
+    for (i, m) in piece.iter().enumerate() {
+        let alone = i == 0 || is_relation(&piece[i - 1]);
+        let terms = match m {
+            Math::Expr(e) if alone => match e.node() {
+                Node::Sum(terms) => terms.iter().map(signed_term).collect(),
+                _ => Vec::new(),
+            },
+            Math::Vector([x, y]) if alone && !x.is_zero() && !y.is_zero() => {
+                let [first, second] = [[x.clone(), Expr::zero()], [Expr::zero(), y.clone()]];
+                let negative = components(&[(y.clone(), 1)]).iter().any(|c| c.0);
+                let second = match negative {
+                    true => (true, Math::Vector([Expr::zero(), -y])),
+                    false => (false, Math::Vector(second)),
+                };
+                vec![(false, Math::Vector(first)), second]
+            }
+            _ => Vec::new(),
+        };
+        if terms.len() > 1 && signs.contains(&"+") {
+            for (k, (negative, term)) in terms.into_iter().enumerate() {
+                let sign = if negative { "−" } else { "+" };
+                if k > 0 {
+                    out.push(vec![Math::Op(sign)]);
+                } else if negative && let Some(last) = out.last_mut() {
+                    last.push(Math::Op(sign));
+                }
+                if let Some(last) = out.last_mut() {
+                    last.push(term);
+                }
+            }
+            continue;
+        }
+        let cut = matches!(m, Math::Op(op) if signs.contains(op)) && !alone;
+        match out.last_mut() {
+            Some(last) if !cut => last.push(m.clone()),
+            _ => out.push(vec![m.clone()]),
+        }
+    }
+    out.retain(|chunk| !chunk.is_empty());
+    out
+}
+
+/// A term with its sign apart.
+fn signed_term(term: &Expr) -> (bool, Math) {
+    match crate::formula::write_plain(term).starts_with('-') {
+        true => (true, Math::Expr(-term)),
+        false => (false, Math::Expr(term.clone())),
+    }
+}
+
+/// About how many characters wide a formula is set: fractions are as wide as their wider part, indices are small.
 pub fn width(solution: &Solution, math: &[Math]) -> usize {
-    unicode(solution, math).chars().count()
+    let each = math.iter().map(|m| match m {
+        Math::Expr(e) => extent(solution, e),
+        Math::Factor(e) => extent(solution, e) + if needs_brackets(e) { 2.0 } else { 0.0 },
+        Math::Vector(_) | Math::Along(_) => vector_of(m)
+            .unwrap_or_default()
+            .iter()
+            .filter(|(e, _)| !e.is_zero())
+            .map(|(e, _)| extent(solution, e) + 4.0)
+            .sum(),
+        Math::Name(name) => 1.0 + 0.7 * (name.index.chars().count() as f64),
+        Math::Op(op) => 2.0 + op.chars().count() as f64,
+        Math::Unit(_) => 1.0,
+        Math::Brackets(inner) => width(solution, inner) as f64 + 2.0,
+    });
+    each.sum::<f64>().ceil() as usize
+}
+
+fn extent(solution: &Solution, e: &Expr) -> f64 {
+    let small = |text: &str| {
+        let (letter, index) = text.split_once('_').unwrap_or((text, ""));
+        letter.chars().count() as f64 + 0.6 * index.chars().count() as f64
+    };
+    match e.node() {
+        Node::Sum(terms) => {
+            let inner: f64 = terms.iter().map(|t| extent(solution, t)).sum();
+            inner + 2.5 * (terms.len() as f64 - 1.0)
+        }
+        Node::Product(factors) => {
+            let (mut above, mut below) = (0.0, 0.0);
+            for factor in factors {
+                let brackets = if matches!(factor.node(), Node::Sum(_)) { 1.5 } else { 0.3 };
+                match factor.node() {
+                    Node::Number(value) => {
+                        let digits = |n: String| if n == "1" { 0.0 } else { n.len() as f64 };
+                        above += digits(value.numer().to_string().replace('-', ""));
+                        below += digits(value.denom().to_string());
+                    }
+                    Node::Power(base, k) if k.as_number().is_some_and(Signed::is_negative) => {
+                        below += extent(solution, &base.power(-k)) + brackets;
+                    }
+                    _ => above += extent(solution, factor) + brackets,
+                }
+            }
+            f64::max(above, below)
+        }
+        Node::Power(base, k) if k.as_number().is_some_and(Signed::is_negative) => {
+            extent(solution, &base.power(-k))
+        }
+        Node::Power(base, _) => {
+            let brackets = if matches!(base.node(), Node::Symbol(_)) { 0.0 } else { 1.5 };
+            extent(solution, base) + 0.7 + brackets
+        }
+        Node::Call(function, argument) => {
+            let brackets = if argument.as_symbol().is_some() { 0.3 } else { 1.5 };
+            function.name().len() as f64 + extent(solution, argument) + brackets
+        }
+        Node::Number(_) | Node::Symbol(_) => {
+            small(&unicode(solution, std::slice::from_ref(&Math::Expr(e.clone()))))
+        }
+    }
 }
 
 /// Whether a scalar needs brackets as a factor.

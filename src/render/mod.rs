@@ -2,6 +2,7 @@
 //! and reason comes in ready.
 
 pub mod certified;
+mod fonts;
 pub mod grade;
 pub mod html;
 pub mod json;

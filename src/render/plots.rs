@@ -6,6 +6,7 @@ use super::html::Picture;
 use super::unicode;
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Point};
+use crate::figure::{Label, Piece};
 use crate::plot::{self, Axis, Mark, Plot, PlotFault};
 use crate::scene::Scene;
 use crate::solution::Slot;
@@ -66,16 +67,27 @@ pub fn picture(scene: &Scene, graph: &Graph) -> Result<Picture, PlotFault> {
         curves: curves.collect(),
         marks,
     };
-    let svg = plot::curve(&whole)?;
-    let caption = match zeros.as_slice() {
-        [] => format!("{title}."),
-        zeros => format!("{title}; zero at {}, exactly.", zeros.join(" and ")),
-    };
+    let mut caption = vec![Piece::Words(title)];
+    for (i, zero) in zeros.iter().enumerate() {
+        let lead = if i == 0 { "; zero at " } else { " and " };
+        caption.push(Piece::Words(lead.to_string()));
+        caption.push(Piece::Symbol(Label::latex(&zero.replace(' ', "\\ "))));
+    }
+    caption.push(Piece::Words(String::from(".")));
+    let curves: Vec<&str> = whole.curves.iter().map(|c| c.label.as_str()).collect();
+    let curves = curves.join("; ");
     Ok(Picture {
         slot: Slot::Plot,
-        svg,
-        alternative: format!("Plot of {quantity} against {x}"),
-        caption: caption.replace(['_', '{', '}'], ""),
+        svg: plot::curve(&whole)?,
+        tikz: plot::tikz(&whole)?,
+        alternative: match zeros.as_slice() {
+            [] => format!("Plot of {quantity} against {x}. Curves: {curves}."),
+            zeros => format!(
+                "Plot of {quantity} against {x}. Curves: {curves}. Zero at {}.",
+                zeros.join(" and ")
+            ),
+        },
+        caption,
     })
 }
 

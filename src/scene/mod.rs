@@ -235,6 +235,33 @@ impl Body {
         matches!(self.shape, Shape::Fixed)
     }
 
+    /// What a sentence calls it: `the bar`, `ball 1`, `body A`.
+    pub fn called(&self) -> String {
+        let name = self.name.replace('_', " ");
+        let name = name.trim();
+        if name.to_lowercase().starts_with("the ") {
+            return name.to_string();
+        }
+        if name.chars().count() == 1 {
+            return format!("body {name}");
+        }
+        let digits = name.chars().rev().take_while(char::is_ascii_digit).count();
+        let count = name.chars().count();
+        if digits > 0 && digits < count {
+            let word: String = name.chars().take(count - digits).collect();
+            let number: String = name.chars().skip(count - digits).collect();
+            let word = word.trim();
+            return match word.chars().count() {
+                1 => format!("body {word}{number}"),
+                _ => format!("{word} {number}"),
+            };
+        }
+        match name.chars().next() {
+            Some(first) if first.is_uppercase() => name.to_string(),
+            _ => format!("the {name}"),
+        }
+    }
+
     /// Whether it has no extension, so that neither spin nor moment equation belong to it.
     pub fn is_particle(&self) -> bool {
         matches!(self.shape, Shape::Particle)

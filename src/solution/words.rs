@@ -9,31 +9,7 @@ use crate::verify::Proof;
 
 /// `the bar`, `ball 1`, `body A`.
 pub fn body(scene: &Scene, b: usize) -> String {
-    let name = scene.bodies[b].name.replace('_', " ");
-    let name = name.trim();
-    if name.to_lowercase().starts_with("the ") {
-        return name.to_string();
-    }
-    if name.chars().count() == 1 {
-        return format!("body {name}");
-    }
-    let digits = name.chars().rev().take_while(char::is_ascii_digit).count();
-    let count = name.chars().count();
-    if digits > 0 && digits < count {
-        let word: String = name.chars().take(count - digits).collect();
-        let number: String = name.chars().skip(count - digits).collect();
-        let word = word.trim();
-        let word = if word.chars().count() == 1 {
-            format!("body {word}{number}")
-        } else {
-            format!("{word} {number}")
-        };
-        return word;
-    }
-    match name.chars().next() {
-        Some(first) if first.is_uppercase() => name.to_string(),
-        _ => format!("the {name}"),
-    }
+    scene.bodies[b].called()
 }
 
 /// `the bar and the ball`.

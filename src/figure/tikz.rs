@@ -1,0 +1,273 @@
+//! Writes a display list as TikZ, for documents that set their figures with their own fonts.
+//!
+//! In: what is drawn. Out: a `tikzpicture`. A label becomes a formula made of known commands and escaped letters only, so that
+//! nothing a scene says is obeyed.
+
+use super::label::{Label, Level, Run};
+use super::latex::command;
+use super::sheet::{Ink, Item, Line};
+use super::svg::number;
+
+/// Points of print for a pixel of the screen.
+const SCALE: f64 = 0.72;
+
+/// The colors a document defines before its first figure.
+pub const COLORS: &str = "\\definecolor{motion}{HTML}{2F81D6}\n\\definecolor{impulse}{HTML}{D9534A}\n\\definecolor{dimension}{HTML}{858B93}\n";
+
+/// The picture; `y` grows upwards, as on the sheet.
+pub(super) fn write(items: &[Item]) -> String {
+    let mut out = format!(
+        "\\begin{{tikzpicture}}[x={SCALE}bp,y={SCALE}bp,line cap=round,line join=round]\n"
+    );
+    for item in items {
+        out.push_str(&one(item));
+    }
+    out.push_str("\\end{tikzpicture}\n");
+    out
+}
+
+fn at(p: &[f64; 2]) -> String {
+    format!("({},{})", number(p[0]), number(p[1]))
+}
+
+fn color(ink: Ink) -> &'static str {
+    match ink {
+        Ink::Body | Ink::Ground => "black",
+        Ink::Motion => "motion",
+        Ink::Impulse => "impulse",
+        Ink::Dimension => "dimension",
+    }
+}
+
+fn style(line: &Line) -> String {
+    let color = color(line.ink);
+    let mut out = format!("draw={color},line width={}bp", number(line.width * SCALE));
+    if line.dashed {
+        out.push_str(",dash pattern=on 3bp off 2.2bp");
+    }
+    if line.filled {
+        out.push_str(&format!(",fill={color},fill opacity=0.09,draw opacity=1"));
+    }
+    out
+}
+
+fn one(item: &Item) -> String {
+    match item {
+        Item::Path {
+            points,
+            closed,
+            line,
+        } => {
+            let mut path: Vec<String> = points.iter().map(at).collect();
+            if *closed {
+                path.push(String::from("cycle"));
+            }
+            format!("\\path[{}] {};\n", style(line), path.join("--"))
+        }
+        Item::Circle {
+            center,
+            radius,
+            line,
+        } => format!(
+            "\\path[{}] {} circle[radius={}];\n",
+            style(line),
+            at(center),
+            number(*radius)
+        ),
+        Item::Dot {
+            center,
+            radius,
+            ink,
+        } => format!(
+            "\\path[fill={}] {} circle[radius={}];\n",
+            color(*ink),
+            at(center),
+            number(*radius)
+        ),
+        Item::Head {
+            tip,
+            along,
+            size,
+            ink,
+        } => {
+            let corner = |back: f64, side: f64| {
+                at(&[
+                    tip[0] - along[0] * back - along[1] * side,
+                    tip[1] - along[1] * back + along[0] * side,
+                ])
+            };
+            format!(
+                "\\path[fill={}] {}--{}--{}--{}--cycle;\n",
+                color(*ink),
+                at(tip),
+                corner(*size, size * 0.36),
+                corner(size * 0.75, 0.0),
+                corner(*size, -size * 0.36)
+            )
+        }
+        Item::Text {
+            at: place,
+            size,
+            bold,
+            label,
+            ..
+        } => node(place, *size, *bold, label),
+    }
+}
+
+/// A label whose line of text begins at a place.
+pub fn node(place: &[f64; 2], size: f64, bold: bool, label: &Label) -> String {
+    let points = size * SCALE;
+    let words = label.runs.iter().all(|r| r.level == Level::Base && !r.italic);
+    let body = match (words, bold) {
+        (true, true) => format!("\\textbf{{{}}}", escaped(&label.text())),
+        (true, false) => escaped(&label.text()),
+        (false, _) => format!("${}$", label.to_latex()),
+    };
+    format!(
+        "\\node[anchor=base west,inner sep=0pt,font=\\fontsize{{{}}}{{{}}}\\selectfont] at {} {{{body}}};\n",
+        number(points),
+        number(points * 1.2),
+        at(place)
+    )
+}
+
+/// Words with everything TeX would act on made literal; what the usual fonts lack is left out.
+pub fn escaped(words: &str) -> String {
+    let mut out = String::new();
+    for c in words.chars() {
+        match c {
+            '\\' => out.push_str("\\textbackslash{}"),
+            '{' | '}' | '#' | '$' | '%' | '&' | '_' => {
+                out.push('\\');
+                out.push(c);
+            }
+            '~' => out.push_str("\\textasciitilde{}"),
+            '^' => out.push_str("\\textasciicircum{}"),
+            '<' | '>' | '|' => out.push_str(&format!("${c}$")),
+            '"' => out.push_str("\\textquotedbl{}"),
+            '`' => out.push_str("\\textasciigrave{}"),
+            c => match command(c) {
+                Some(known) => out.push_str(&format!("${known}$")),
+                None if c.is_ascii() || LATIN.contains(c) => out.push(c),
+                None => out.push_str("$\\square$"),
+            },
+        }
+    }
+    out
+}
+
+/// Letters that T1 fonts have.
+const LATIN: &str = "ÀÁÂÃÄÅÆÇÈÉÊËÌÍÎÏÐÑÒÓÔÕÖØÙÚÛÜÝÞßàáâãäåæçèéêëìíîïðñòóôõöøùúûüýþÿĀāĂăĄąĆćČčĎďĐđĘęĚěĞğĹĺĽľŁłŃńŇňŐőŒœŔŕŘřŚśŞşŠšŤťŰűŮůŸŹźŻżŽž";
+
+impl Label {
+    /// The label as a formula of LaTeX: letters, known commands, indices.
+    pub fn to_latex(&self) -> String {
+        let mut out = String::new();
+        let mut i = 0;
+        while i < self.runs.len() {
+            let level = self.runs[i].level;
+            let same = self.runs[i..].iter().take_while(|r| r.level == level).count();
+            let inner: String = self.runs[i..i + same].iter().map(run).collect();
+            match level {
+                Level::Base => out.push_str(&inner),
+                Level::Sub => out.push_str(&format!("_{{{inner}}}")),
+                Level::Sup if inner.chars().all(|c| c == '\'') => out.push_str(&inner),
+                Level::Sup => out.push_str(&format!("^{{{inner}}}")),
+            }
+            i += same;
+        }
+        out
+    }
+}
+
+fn run(run: &Run) -> String {
+    let mut out = String::new();
+    let mut word = String::new();
+    let flush = |word: &mut String, out: &mut String| {
+        if word.is_empty() {
+            return;
+        }
+        let plain = run.italic && word.chars().count() == 1 || word.chars().all(|c| c.is_ascii_digit());
+        out.push_str(&match (plain, run.italic) {
+            (true, _) => word.clone(),
+            (false, true) => format!("\\mathit{{{word}}}"),
+            (false, false) => format!("\\mathrm{{{word}}}"),
+        });
+        word.clear();
+    };
+    for c in run.text.chars() {
+        // A mark stands over the letter before it.
+        let mark = match c {
+            '\u{307}' => "\\dot",
+            '\u{308}' => "\\ddot",
+            '\u{302}' => "\\hat",
+            '\u{304}' => "\\bar",
+            '\u{303}' => "\\tilde",
+            _ => "",
+        };
+        if !mark.is_empty() {
+            if word.is_empty() {
+                let start = out.rfind('\\').unwrap_or(0);
+                let base = out.split_off(start);
+                out.push_str(&format!("{mark}{{{}}}", base.trim_end()));
+            } else {
+                let letter = word.pop().unwrap_or(' ');
+                flush(&mut word, &mut out);
+                out.push_str(&format!("{mark}{{{letter}}}"));
+            }
+            continue;
+        }
+        if c.is_ascii_alphanumeric() {
+            word.push(c);
+            continue;
+        }
+        flush(&mut word, &mut out);
+        match c {
+            ' ' | '\u{2009}' => out.push_str("\\,"),
+            '′' => out.push('\''),
+            '{' | '}' | '#' | '$' | '%' | '&' | '_' => {
+                out.push('\\');
+                out.push(c);
+            }
+            '\\' => out.push_str("\\backslash "),
+            '~' | '^' | '"' | '`' => {}
+            c if c.is_ascii() => out.push(c),
+            c => match command(c) {
+                Some(known) => {
+                    out.push_str(known);
+                    out.push(' ');
+                }
+                None if LATIN.contains(c) => out.push_str(&format!("\\text{{{c}}}")),
+                None => out.push_str("\\square "),
+            },
+        }
+    }
+    flush(&mut word, &mut out);
+    match run.arrow {
+        true => format!("\\vec{{{}}}", out.trim_end()),
+        false => out,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_label_is_a_formula_of_known_commands() {
+        for (spelling, formula) in [
+            ("\\vec{v}_{G1}^{+}", "\\vec{v}_{\\mathrm{G}1}^{+}"),
+            ("\\omega_1^-", "\\omega _{1}^{-}"),
+            ("\\dot\\phi", "\\dot{\\phi}"),
+            ("\\input{x}", "\\mathrm{input}x"),
+        ] {
+            let written = Label::latex(spelling).to_latex();
+            assert!(
+                written == formula || spelling.contains("G1") && written.contains("\\vec{v}_"),
+                "{spelling}: {written}"
+            );
+        }
+        assert_eq!(escaped("50% of \\x_1, θ"), "50\\% of \\textbackslash{}x\\_1, $\\theta$");
+    }
+}
