@@ -150,14 +150,27 @@ pub fn tikz(plot: &Plot) -> Result<String, PlotFault> {
     }
     for at in ticks(y) {
         let (foot, head) = (place((x[0], at)), place((x[1], at)));
-        let style = if at == 0.0 { "dimension" } else { "dimension!35" };
+        let style = if at == 0.0 {
+            "dimension"
+        } else {
+            "dimension!35"
+        };
         out.push_str(&format!("\\draw[{style}] {foot}--{head};\n"));
         let number = tick(at, y[1] - y[0]).replace('−', "-");
         out.push_str(&format!("\\node[left] at {foot} {{${number}$}};\n"));
     }
-    out.push_str(&format!("\\draw[dimension] (0,{high})--(0,0)--({wide},0);\n"));
-    out.push_str(&format!("\\node[below] at ({:.0},-12) {{${}$}};\n", wide / 2.0, words(&plot.x.label)));
-    out.push_str(&format!("\\node[above right,inner xsep=0pt] at (-16,{high}) {{${}$}};\n", words(&plot.y.label)));
+    out.push_str(&format!(
+        "\\draw[dimension] (0,{high})--(0,0)--({wide},0);\n"
+    ));
+    out.push_str(&format!(
+        "\\node[below] at ({:.0},-12) {{${}$}};\n",
+        wide / 2.0,
+        words(&plot.x.label)
+    ));
+    out.push_str(&format!(
+        "\\node[above right,inner xsep=0pt] at (-16,{high}) {{${}$}};\n",
+        words(&plot.y.label)
+    ));
     let mut ends: Vec<(i32, usize)> = Vec::new();
     for (i, curve) in plot.curves.iter().enumerate() {
         let RGBColor(r, g, b) = COLORS[i % COLORS.len()];
@@ -169,7 +182,10 @@ pub fn tikz(plot: &Plot) -> Result<String, PlotFault> {
                 ends.push((row as i32, i));
             }
             let path: Vec<String> = piece.into_iter().map(place).collect();
-            out.push_str(&format!("\\draw[curve,line width=1.2bp] {};\n", path.join("--")));
+            out.push_str(&format!(
+                "\\draw[curve,line width=1.2bp] {};\n",
+                path.join("--")
+            ));
         }
     }
     if plot.curves.len() > 1 {
@@ -177,13 +193,22 @@ pub fn tikz(plot: &Plot) -> Result<String, PlotFault> {
             let RGBColor(r, g, b) = COLORS[i % COLORS.len()];
             let up = (1.0 - f64::from(row) / f64::from(SIZE.1 as i32 * FINE)) * high;
             out.push_str(&format!("\\definecolor{{curve}}{{RGB}}{{{r},{g},{b}}}\n"));
-            out.push_str(&format!("\\node[right,curve] at ({wide},{up:.1}) {{${}$}};\n", words(&plot.curves[i].label)));
+            out.push_str(&format!(
+                "\\node[right,curve] at ({wide},{up:.1}) {{${}$}};\n",
+                words(&plot.curves[i].label)
+            ));
         }
     }
-    for mark in plot.marks.iter().filter(|m| m.at[0] >= x[0] && m.at[0] <= x[1]) {
+    for mark in plot
+        .marks
+        .iter()
+        .filter(|m| m.at[0] >= x[0] && m.at[0] <= x[1])
+    {
         let spot = place((mark.at[0], mark.at[1]));
         let label = words(&mark.label);
-        out.push_str(&format!("\\fill {spot} circle[radius=2] node[below right] {{${label}$}};\n"));
+        out.push_str(&format!(
+            "\\fill {spot} circle[radius=2] node[below right] {{${label}$}};\n"
+        ));
     }
     out.push_str("\\end{tikzpicture}\n");
     Ok(out)
@@ -200,7 +225,9 @@ fn ticks(range: [f64; 2]) -> Vec<f64> {
         .unwrap_or(span);
     let first = (range[0] / step - 1e-9).ceil() as i64;
     let last = (range[1] / step + 1e-9).floor() as i64;
-    (first..=last.min(first + 20)).map(|k| k as f64 * step).collect()
+    (first..=last.min(first + 20))
+        .map(|k| k as f64 * step)
+        .collect()
 }
 
 type Fallible = Result<(), std::boxed::Box<dyn std::error::Error>>;

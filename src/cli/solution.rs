@@ -101,7 +101,12 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         all.extend(plots.iter().cloned());
         all
     };
-    let held = || drawn().into_iter().map(|(p, _)| p).collect::<Vec<Picture>>();
+    let held = || {
+        drawn()
+            .into_iter()
+            .map(|(p, _)| p)
+            .collect::<Vec<Picture>>()
+    };
     let linked = match (args.figures, &args.output) {
         (true, Some(path)) if format == FormatArg::Markdown => link(path, &args.scene, drawn())?,
         (true, _) if !matches!(format, FormatArg::Latex | FormatArg::LatexFragment) => {

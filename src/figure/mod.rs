@@ -33,8 +33,8 @@ use std::collections::BTreeSet;
 use crate::expr::{Expr, Symbol};
 use crate::numeric::Motion;
 use crate::scene::{BlowImpulse, ContactLaw, KnownQuantity, Scene, Shape, StageKind};
-pub(crate) use label::visible;
 use label::advance;
+pub(crate) use label::visible;
 use place::Room;
 #[cfg(feature = "png")]
 pub use png::{PngFault, png};

@@ -22,7 +22,11 @@ fn base64(bytes: &[u8]) -> String {
         let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
         for k in 0..4 {
             let letter = LETTERS[(bits >> (18 - 6 * k)) as usize & 63];
-            out.push(if k > three.len() { '=' } else { char::from(letter) });
+            out.push(if k > three.len() {
+                '='
+            } else {
+                char::from(letter)
+            });
         }
     }
     out
@@ -34,7 +38,13 @@ mod tests {
 
     #[test]
     fn the_examples_of_the_standard() {
-        for (bytes, text) in [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")] {
+        for (bytes, text) in [
+            ("", ""),
+            ("f", "Zg=="),
+            ("fo", "Zm8="),
+            ("foo", "Zm9v"),
+            ("foobar", "Zm9vYmFy"),
+        ] {
             assert_eq!(base64(bytes.as_bytes()), text);
         }
     }

@@ -84,7 +84,7 @@ fn body(s: &Solution, pictures: &[Picture]) -> String {
                     // A picture and its caption stay together.
                     for picture in pictures.iter().filter(|p| p.slot == *slot) {
                         out.push_str(&format!(
-                            "\\begin{{center}}\n\\begin{{minipage}}{{0.86\\linewidth}}\\centering\n{}\n\\smallskip\n{{\\small {}\\par}}\n\\end{{minipage}}\n\\end{{center}}\n\n",
+                            "\\begin{{center}}\n\\begin{{minipage}}{{0.86\\linewidth}}\\centering\n{}\\par\\smallskip\n{{\\small {}\\par}}\n\\end{{minipage}}\n\\end{{center}}\n\n",
                             picture.tikz.trim_end(),
                             caption(&picture.caption)
                         ));
@@ -109,19 +109,7 @@ fn sentence(s: &Solution, pieces: &[Inline]) -> String {
 
 /// Words with everything TeX would act on made literal.
 pub fn text(words: &str) -> String {
-    let mut out = String::new();
-    for c in crate::formula::visible(words).chars() {
-        match c {
-            '\u{2013}' => out.push_str("--"),
-            '\u{2014}' => out.push_str("---"),
-            '\u{2018}' => out.push('`'),
-            '\u{2019}' => out.push('\''),
-            '\u{201c}' => out.push_str("``"),
-            '\u{201d}' => out.push_str("''"),
-            c => out.push_str(&figure::escaped(&c.to_string())),
-        }
-    }
-    out
+    figure::escaped(&crate::formula::visible(words))
 }
 
 fn caption(pieces: &[Piece]) -> String {

@@ -1,9 +1,9 @@
 //! A worked solution as Markdown with LaTeX mathematics, as GitHub, Jupyter and Quarto set it.
 
 use super::html::Picture;
-use crate::figure::plain;
 use super::math::{latex, rows};
 use crate::derive::Matrix;
+use crate::figure::plain;
 use crate::formula::visible;
 use crate::solution::{Inline, Part, Solution};
 

@@ -6,8 +6,8 @@ use crate::expr::{Expr, Node};
 use crate::formula::{visible, write_latex, write_unicode};
 use crate::solution::{Line, Math, Name, Solution};
 
-/// Longest displayed line, in characters of its Unicode form.
-const WIDE: usize = 76;
+/// Longest displayed line, in characters as they are set.
+const WIDE: usize = 58;
 
 /// A displayed row: what stands left of the relation, and the relation with what follows.
 pub type Cells = [Vec<Math>; 2];
@@ -189,7 +189,11 @@ fn extent(solution: &Solution, e: &Expr) -> f64 {
         Node::Product(factors) => {
             let (mut above, mut below) = (0.0, 0.0);
             for factor in factors {
-                let brackets = if matches!(factor.node(), Node::Sum(_)) { 1.5 } else { 0.3 };
+                let brackets = if matches!(factor.node(), Node::Sum(_)) {
+                    1.5
+                } else {
+                    0.3
+                };
                 match factor.node() {
                     Node::Number(value) => {
                         let digits = |n: String| if n == "1" { 0.0 } else { n.len() as f64 };
@@ -208,16 +212,25 @@ fn extent(solution: &Solution, e: &Expr) -> f64 {
             extent(solution, &base.power(-k))
         }
         Node::Power(base, _) => {
-            let brackets = if matches!(base.node(), Node::Symbol(_)) { 0.0 } else { 1.5 };
+            let brackets = if matches!(base.node(), Node::Symbol(_)) {
+                0.0
+            } else {
+                1.5
+            };
             extent(solution, base) + 0.7 + brackets
         }
         Node::Call(function, argument) => {
-            let brackets = if argument.as_symbol().is_some() { 0.3 } else { 1.5 };
+            let brackets = if argument.as_symbol().is_some() {
+                0.3
+            } else {
+                1.5
+            };
             function.name().len() as f64 + extent(solution, argument) + brackets
         }
-        Node::Number(_) | Node::Symbol(_) => {
-            small(&unicode(solution, std::slice::from_ref(&Math::Expr(e.clone()))))
-        }
+        Node::Number(_) | Node::Symbol(_) => small(&unicode(
+            solution,
+            std::slice::from_ref(&Math::Expr(e.clone())),
+        )),
     }
 }
 
