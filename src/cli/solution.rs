@@ -284,7 +284,7 @@ fn link(
         let file = output.with_file_name(format!("{stem}-{name}.svg"));
         files::save(&file, picture.svg.as_bytes(), &[scene])?;
         let name = file.file_name().unwrap_or_default().to_string_lossy();
-        linked.push((picture, name.into_owned()));
+        linked.push((picture, name.replace(' ', "%20")));
     }
     Ok(linked)
 }
