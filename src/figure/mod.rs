@@ -90,7 +90,7 @@ pub enum Piece {
 pub fn plain(caption: &[Piece]) -> String {
     let each = caption.iter().map(|piece| match piece {
         Piece::Words(words) => words.clone(),
-        Piece::Symbol(label) => label.text(),
+        Piece::Symbol(label) => label.text().replace('\u{2009}', " "),
     });
     each.collect()
 }

@@ -73,7 +73,8 @@ pub fn picture(scene: &Scene, graph: &Graph) -> Result<Picture, PlotFault> {
         caption.push(Piece::Words(lead.to_string()));
         caption.push(Piece::Symbol(Label::latex(&zero.replace(' ', "\\ "))));
     }
-    caption.push(Piece::Words(String::from(".")));
+    let end = if zeros.is_empty() { "." } else { ", exactly." };
+    caption.push(Piece::Words(end.to_string()));
     let curves: Vec<&str> = whole.curves.iter().map(|c| c.label.as_str()).collect();
     let curves = curves.join("; ");
     Ok(Picture {
