@@ -149,6 +149,7 @@ fn formats(text: &str) -> Option<Formats> {
     let picture = Picture {
         slot: Slot::Before,
         svg: drawn.svg.clone(),
+        tikz: drawn.tikz,
         caption: drawn.caption,
         alternative: drawn.alternative,
     };
@@ -160,7 +161,7 @@ fn formats(text: &str) -> Option<Formats> {
     };
     let (found, _) = functions(&scene, &derivation);
     Some(Formats {
-        latex: render::latex_document::document(&solution, &pictures),
+        latex: render::latex_document::document(&solution, &[picture.clone()]),
         markdown: render::markdown::solution(&solution, &pictures),
         html: render::html::page(&solution, &[picture]),
         svg: vec![drawn.svg],
@@ -187,7 +188,7 @@ fn commands(latex: &str) -> BTreeSet<String> {
 
 /// Commands that words and names of strangers may be set with.
 const SETTING: &str = "textbackslash textasciitilde textasciicircum textless textgreater textbar textquotedbl textasciigrave theta dots \
-    mathrm text { } # $ % & _ ,";
+    mathrm mathit text square backslash surd { } # $ % & _ ,";
 
 /// Whether braces close in order, and dollars come in pairs.
 fn is_balanced(latex: &str) -> bool {

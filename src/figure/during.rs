@@ -7,6 +7,7 @@ use super::label::{Label, Level};
 use super::marks::{centers, names};
 use super::picture::arrow_length;
 use super::place::{Spot, Wish};
+use super::pose::Look;
 use super::quantity::{magnitude, vector_name};
 use super::sheet::{Ink, SIZE, Sheet};
 use super::stage::{DOT, Moment, Stage};
@@ -106,7 +107,19 @@ impl Push {
             self.vector[0] / size(self.vector),
             self.vector[1] / size(self.vector),
         ];
-        let pushing = dot(d, inward) > 0.25 * size(inward) && size(inward) > 1.0;
+        // What presses on a body acts on its outline.
+        let pose = &stage.poses[self.body];
+        let solid = matches!(
+            pose.look,
+            Look::Plate(..) | Look::Blob(_) | Look::Round { .. }
+        );
+        let deep = stage.long(pose.reach(self.at, [-d[0], -d[1]]));
+        let at = match solid && self.presses {
+            true => [at[0] - d[0] * deep, at[1] - d[1] * deep],
+            false => at,
+        };
+        let moved = solid && self.presses && (self.is_blow || deep > 1.0);
+        let pushing = moved || dot(d, inward) > 0.25 * size(inward) && size(inward) > 1.0;
         let free = if stage.scene.bodies[self.body].is_particle() {
             DOT + 2.0
         } else {

@@ -19,6 +19,7 @@ mod pose;
 mod quantity;
 mod sheet;
 mod stage;
+mod support;
 mod svg;
 mod tikz;
 mod values;

@@ -60,7 +60,7 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
         .map_or_else(|| from.clone(), |(pose, _)| pose.clone());
     let poses: Vec<Pose> = path.iter().map(|(pose, _)| pose.clone()).collect();
     let stage = spanning(scene, values, begin.clone(), &poses)?;
-    stage.fixed(&mut sheet);
+    stage.fixed(&mut sheet, &[]);
     for (i, pose) in begin.iter().enumerate() {
         if i != body && !with.contains(&i) {
             stage.body(&mut sheet, pose, [0.0, 0.0]);
@@ -70,7 +70,19 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
     let outline: Vec<Pair> = from.outline().into_iter().map(|p| stage.px(p)).collect();
     match from.look {
         Look::Dot => sheet.circle(stage.px(from.center), 6.0, Line::dashed(Ink::Body)),
+        _ if !from.skin.is_empty() => {
+            for line in from.drawn() {
+                let line = line.into_iter().map(|p| stage.px(p)).collect();
+                sheet.path(line, true, Line::dashed(Ink::Body), 1.0);
+            }
+        }
         _ => sheet.path(outline, true, Line::dashed(Ink::Body), 1.0),
+    }
+    if let (StageKind::Turn(turn), Look::Dot) = (kind, &from.look)
+        && let Some(about) = stage.spot(&turn.about)
+    {
+        sheet.segment(about, stage.px(from.center), Line::dashed(Ink::Body), 1.0);
+        sheet.segment(about, stage.px(end.center), Line::thin(Ink::Body), 1.0);
     }
     stage.body(&mut sheet, &end, [0.0, 0.0]);
     if let (StageKind::Turn(turn), Some((_, by))) = (kind, path.last())
@@ -221,6 +233,7 @@ fn moved(pose: &Pose, about: Pair, by: f64, shift: Pair) -> Pose {
         angle: pose.angle + by,
         look,
         massless: pose.massless,
+        skin: pose.skin.clone(),
     }
 }
 

@@ -7,7 +7,7 @@ use super::inline::is_negative;
 use super::label::Label;
 use super::marks::{axes, centers, masses, names, turning, velocity, wall_point};
 use super::measure;
-use super::quantity::{speed, spin_name, vector_name, velocity_name};
+use super::quantity::{LEGIBLE, speed, spin_before, spin_name, vector_name, velocity_name};
 use super::sheet::Sheet;
 use super::stage::{Moment, Stage};
 use super::values::{Pair, size};
@@ -55,12 +55,12 @@ fn fastest(stage: &Stage, after: Option<&Motion<f64>>) -> f64 {
 }
 
 fn all_bodies(stage: &Stage, sheet: &mut Sheet, moment: Moment, velocity: &[Pair]) -> Vec<Pair> {
-    stage.fixed(sheet);
-    let mut asides = Vec::new();
-    for (i, pose) in stage.poses.iter().enumerate() {
-        let aside = stage.aside(i, moment, velocity);
-        stage.body(sheet, pose, aside);
-        asides.push(aside);
+    let asides: Vec<Pair> = (0..stage.poses.len())
+        .map(|i| stage.aside(i, moment, velocity))
+        .collect();
+    stage.fixed(sheet, &asides);
+    for (pose, aside) in stage.poses.iter().zip(&asides) {
+        stage.body(sheet, pose, *aside);
     }
     stage.hinges(sheet, &|_| true);
     asides
@@ -108,6 +108,9 @@ pub fn before(stage: &Stage, after: Option<&Motion<f64>>) -> Sheet {
             };
             let e = if is_negative(&e) { -&e } else { e };
             let mut label = Label::formula(&e, scene);
+            if label.text().chars().count() > LEGIBLE {
+                label = spin_before(stage, i);
+            }
             if stage.values.of(&e).is_some_and(|value| value < 0.0) {
                 label = label.negated();
             }

@@ -117,7 +117,7 @@ impl Room {
     }
 
     /// Length of a segment inside.
-    fn crossed(&self, a: Pair, b: Pair) -> f64 {
+    pub(super) fn crossed(&self, a: Pair, b: Pair) -> f64 {
         let (mut start, mut end) = (0.0f64, 1.0f64);
         for i in 0..2 {
             let d = b[i] - a[i];
@@ -139,6 +139,8 @@ impl Room {
     }
 }
 
+/// What a line through the letters of a label costs.
+const THROUGH: f64 = 40.0;
 /// Rounds in which every label may move again.
 const ROUNDS: usize = 3;
 
@@ -236,7 +238,9 @@ fn covered(room: &Room, walls: &[(Pair, Pair, f64)], kept: &[Room]) -> f64 {
         .map(|(a, b, weight)| {
             let length = wide.crossed(*a, *b);
             if length > 0.0 {
-                weight * (6.0 + length)
+                // A line through the letters is worse than one beside them.
+                let through = room.crossed(*a, *b) > 2.0;
+                weight * (6.0 + length) + if through { THROUGH } else { 0.0 }
             } else {
                 0.0
             }

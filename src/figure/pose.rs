@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::sheet::arc;
 use super::values::{Pair, Values, size};
-use crate::scene::{Body, Scene, Shape};
+use crate::scene::{Body, Outline, Scene, Shape};
 
 /// Outline of a body around its center, in meters.
 #[derive(Clone, Debug)]
@@ -43,6 +43,8 @@ pub struct Pose {
     pub look: Look,
     /// Whether it has no mass.
     pub massless: bool,
+    /// What is drawn in place of the plain outline: closed lines along and across the body's axis, in meters.
+    pub skin: Vec<Vec<Pair>>,
 }
 
 /// Every body in its place; `None` where one has no finite place.
@@ -56,7 +58,19 @@ pub fn posed(scene: &Scene, values: &Values) -> Option<Vec<Pose>> {
 fn pose(scene: &Scene, values: &Values, body: &Body, index: Option<usize>) -> Option<Pose> {
     let center = values.pair(&body.center)?;
     let length = |e| values.of(e).map(f64::abs);
+    let hint = index.and_then(|i| scene.figure.outline(i));
+    let skin = match hint {
+        Some(Outline::Person(long)) => person(length(long)?),
+        Some(Outline::Bat(long)) => vec![bat(length(long)?)],
+        _ => Vec::new(),
+    };
     let look = match &body.shape {
+        Shape::Other if let Some(hint) = hint => match hint {
+            Outline::Person(long) | Outline::Bat(long) => Look::Bar(length(long)? / 2.0),
+            Outline::Box([width, height]) => {
+                Look::Plate(length(width)? / 2.0, length(height)? / 2.0)
+            }
+        },
         Shape::Fixed => Look::Fixed,
         Shape::Particle => Look::Dot,
         Shape::Rod { length: l } => Look::Bar(length(l)? / 2.0),
@@ -85,7 +99,51 @@ fn pose(scene: &Scene, values: &Values, body: &Body, index: Option<usize>) -> Op
         angle: values.of(&body.angle)?,
         look,
         massless: body.mass.is_zero(),
+        skin,
     })
+}
+
+/// A person seen from the side, arms stretched beyond the head, as long as given: outlines of the body and of the head.
+fn person(long: f64) -> Vec<Vec<Pair>> {
+    let half: [(f64, f64); 12] = [
+        (-0.5, 0.010),
+        (-0.46, 0.014),
+        (-0.36, 0.016),
+        (-0.26, 0.022),
+        (-0.235, 0.042),
+        (-0.16, 0.050),
+        (-0.05, 0.040),
+        (0.03, 0.046),
+        (0.12, 0.040),
+        (0.26, 0.026),
+        (0.36, 0.026),
+        (0.48, 0.014),
+    ];
+    let mut body: Vec<Pair> = half.iter().map(|(u, v)| [u * long, v * long]).collect();
+    // The feet.
+    body.extend([[0.5 * long, 0.014 * long], [0.5 * long, -0.045 * long]]);
+    body.extend([[0.485 * long, -0.045 * long]]);
+    body.extend(half.iter().rev().map(|(u, v)| [u * long, -v * long]));
+    let head = arc([-0.29 * long, -0.048 * long], 0.04 * long, 0.0, TAU);
+    vec![body, head]
+}
+
+/// A bat as long as given, the handle first.
+fn bat(long: f64) -> Vec<Pair> {
+    let half: [(f64, f64); 9] = [
+        (-0.5, 0.022),
+        (-0.485, 0.022),
+        (-0.475, 0.012),
+        (-0.15, 0.014),
+        (0.1, 0.024),
+        (0.3, 0.034),
+        (0.44, 0.036),
+        (0.485, 0.03),
+        (0.5, 0.014),
+    ];
+    let upper = half.iter().map(|(u, v)| [u * long, v * long]);
+    let lower = half.iter().rev().map(|(u, v)| [u * long, -v * long]);
+    upper.chain(lower).collect()
 }
 
 /// Where others touch a body, as seen from its center.
@@ -153,6 +211,38 @@ impl Pose {
             self.center[0] + along * c - across * s,
             self.center[1] + along * s + across * c,
         ]
+    }
+
+    /// The closed lines that are drawn in place of the plain outline.
+    pub fn drawn(&self) -> Vec<Vec<Pair>> {
+        let each = self.skin.iter();
+        each.map(|line| line.iter().map(|p| self.at(p[0], p[1])).collect())
+            .collect()
+    }
+
+    /// How far the body reaches from a point in a direction, in meters; a thin body reaches nowhere across itself.
+    pub fn reach(&self, from: Pair, direction: Pair) -> f64 {
+        let lines = match self.skin.is_empty() {
+            true => vec![self.outline()],
+            false => self.drawn(),
+        };
+        let mut far = 0.0_f64;
+        for points in &lines {
+            for (i, a) in points.iter().enumerate() {
+                let b = points[(i + 1) % points.len()];
+                let (u, w) = ([b[0] - a[0], b[1] - a[1]], [a[0] - from[0], a[1] - from[1]]);
+                let det = direction[1] * u[0] - direction[0] * u[1];
+                if det.abs() < 1e-12 * (size(u) * size(direction)).max(1e-300) {
+                    continue;
+                }
+                let t = (w[1] * u[0] - w[0] * u[1]) / det;
+                let s = (direction[0] * w[1] - direction[1] * w[0]) / det;
+                if (-1e-9..=1.0 + 1e-9).contains(&s) {
+                    far = far.max(t);
+                }
+            }
+        }
+        far * size(direction)
     }
 
     /// Points that span the body, in meters.

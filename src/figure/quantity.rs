@@ -88,9 +88,24 @@ pub(super) fn spin_name(stage: &Stage, body: usize, spin: f64) -> Label {
     if spin < 0.0 { label.negated() } else { label }
 }
 
+/// Longest formula at an arrow, in characters; what is longer is named.
+pub(super) const LEGIBLE: usize = 11;
+
+/// The name of a spin before.
+pub(super) fn spin_before(stage: &Stage, body: usize) -> Label {
+    match index(stage, body) {
+        none if none.is_empty() => Label::latex("\\omega^{-}"),
+        index => Label::latex(&format!(
+            "\\omega_{{\\mathrm{{{}}}}}^{{-}}",
+            index.replace(['{', '}', '\\'], "")
+        )),
+    }
+}
+
 /// The label of a velocity arrow before.
 pub(super) fn speed(stage: &Stage, body: usize, v: &Vector, value: Pair) -> Label {
-    magnitude(stage, v, value).unwrap_or_else(|| {
+    let short = magnitude(stage, v, value).filter(|l| l.text().chars().count() <= LEGIBLE);
+    short.unwrap_or_else(|| {
         let scene = stage.scene;
         let pair = Label::words("(")
             .then(Label::formula(&v[0], scene))

@@ -109,6 +109,8 @@ pub struct Sheet {
     pub wishes: Vec<Wish>,
     /// Room that labels must leave free.
     pub kept: Vec<Room>,
+    /// Edges of ground, walls and supports, each with the direction into it.
+    pub grounds: Vec<(Pair, Pair, Pair)>,
 }
 
 impl Line {
@@ -263,8 +265,13 @@ impl Sheet {
     pub fn settle(&mut self) {
         let wishes = std::mem::take(&mut self.wishes);
         let boxes = place::place(&wishes, &self.walls, &self.kept);
-        for (wish, room) in wishes.into_iter().zip(boxes) {
-            if let Some(leader) = place::leader(&wish, &room) {
+        for (i, (wish, room)) in wishes.into_iter().zip(boxes.clone()).enumerate() {
+            // A leader through another label would be worse than none.
+            let crosses = |[a, b]: [Pair; 2]| {
+                let others = boxes.iter().enumerate().filter(|(j, _)| *j != i);
+                others.map(|(_, room)| room).any(|r| r.crossed(a, b) > 0.0)
+            };
+            if let Some(leader) = place::leader(&wish, &room).filter(|l| !crosses(*l)) {
                 self.items.push(Item::Path {
                     points: leader.to_vec(),
                     closed: false,

@@ -1,7 +1,7 @@
 //! The scene as geometry: where each body lies on the sheet and what its outline is.
 //!
-//! In: poses of bodies and values. Out: places in pixels, y up, and how to draw bodies, ground, pegs and hinges. Knows nothing
-//! of velocities' labels or of impulses.
+//! In: poses of bodies and values. Out: places in pixels, y up, and how to draw bodies and hinges; what does not move is drawn
+//! by `support`. Knows nothing of velocities' labels or of impulses.
 
 use std::f64::consts::PI;
 
@@ -10,7 +10,7 @@ use super::place::Room;
 use super::pose::{Look, Pose, posed};
 use super::sheet::{Ink, Item, Line, Sheet, arc};
 use super::values::{Pair, Values, dot, size};
-use crate::scene::{Body, Scene};
+use crate::scene::Scene;
 
 /// A moment of the collision.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -41,7 +41,7 @@ const CORE: Pair = [225.0, 160.0];
 /// Radius of a particle in pixels.
 pub const DOT: f64 = 6.0;
 /// Radius of a peg in pixels.
-const PEG: f64 = 7.0;
+pub(super) const PEG: f64 = 7.0;
 /// Half thickness of a rod in pixels.
 pub const THICK: f64 = 3.5;
 
@@ -124,7 +124,7 @@ impl Stage<'_> {
             .scene
             .contacts
             .iter()
-            .find(|c| c.bodies.contains(&body));
+            .find(|c| c.bodies.contains(&body) && self.scene.figure.string(&c.name).is_none());
         let Some(contact) = contact else {
             return nothing;
         };
@@ -199,6 +199,13 @@ impl Stage<'_> {
             let q = self.px(p);
             [q[0] + aside[0], q[1] + aside[1]]
         };
+        if !pose.skin.is_empty() {
+            for line in pose.drawn() {
+                let line = line.into_iter().map(put).collect();
+                sheet.path(line, true, Line::solid(), 1.0);
+            }
+            return;
+        }
         let outline: Vec<Pair> = pose.outline().into_iter().map(put).collect();
         match &pose.look {
             Look::Fixed => {}
@@ -247,63 +254,6 @@ impl Stage<'_> {
         }
     }
 
-    /// Draws what does not move: ground and walls at contacts, supports at hinges.
-    pub fn fixed(&self, sheet: &mut Sheet) {
-        for contact in &self.scene.contacts {
-            let [a, b] = contact.bodies;
-            let (fixed, other) = match (self.scene.bodies.get(a), self.scene.bodies.get(b)) {
-                (Some(x), Some(_)) if x.is_fixed() => (a, b),
-                (Some(_), Some(y)) if y.is_fixed() => (b, a),
-                _ => continue,
-            };
-            let Some(at) = self.values.pair(&contact.at) else {
-                continue;
-            };
-            let given = contact.normal.as_ref().and_then(|n| self.values.pair(n));
-            let sign = if fixed == a { 1.0 } else { -1.0 };
-            match given
-                .map(|n| [n[0] * sign, n[1] * sign])
-                .or_else(|| self.upright(other, at))
-            {
-                Some(n) => self.wall(sheet, at, n, other),
-                None => {
-                    // The peg touches the body from the side the body comes from.
-                    let hit = self
-                        .hit(other, at)
-                        .filter(|v| size(*v) > 1e-9)
-                        .unwrap_or([0.0, 0.0]);
-                    let off = match self.poses[other].look {
-                        Look::Bar(_) => PEG + THICK,
-                        _ => PEG,
-                    } / size(hit).max(1e-12);
-                    let at = self.px(at);
-                    peg(sheet, [at[0] + hit[0] * off, at[1] + hit[1] * off]);
-                }
-            }
-        }
-        for hinge in &self.scene.hinges {
-            let [a, b] = hinge.bodies;
-            let is_fixed = |i: usize| self.scene.bodies.get(i).is_some_and(Body::is_fixed);
-            let other = if is_fixed(a) { b } else { a };
-            if !is_fixed(a) && !is_fixed(b) {
-                continue;
-            }
-            let (Some(at), Some(pose)) = (self.values.pair(&hinge.at), self.poses.get(other))
-            else {
-                continue;
-            };
-            let d = [at[0] - pose.center[0], at[1] - pose.center[1]];
-            let away = if size(d) < 1e-9 {
-                [0.0, -1.0]
-            } else if d[0].abs() > d[1].abs() {
-                [d[0].signum(), 0.0]
-            } else {
-                [0.0, d[1].signum()]
-            };
-            support(sheet, self.px(at), away);
-        }
-    }
-
     /// Draws the hinges' circles.
     pub fn hinges(&self, sheet: &mut Sheet, shown: &dyn Fn([usize; 2]) -> bool) {
         for hinge in self.scene.hinges.iter().filter(|h| shown(h.bodies)) {
@@ -317,144 +267,6 @@ impl Stage<'_> {
             }
         }
     }
-
-    /// Velocity just before of a body's point.
-    fn hit(&self, body: usize, at: Pair) -> Option<Pair> {
-        let center = self.poses.get(body)?.center;
-        let r = [at[0] - center[0], at[1] - center[1]];
-        let v = self.values.pair(&self.scene.bodies[body].velocity)?;
-        let spin = self.values.of(&self.scene.bodies[body].spin)?;
-        Some([v[0] - spin * r[1], v[1] + spin * r[0]])
-    }
-
-    /// Which way a wall faces that a body hits without a stated normal; `None` for a peg.
-    fn upright(&self, other: usize, at: Pair) -> Option<Pair> {
-        let pose = self.poses.get(other)?;
-        let r = [pose.center[0] - at[0], pose.center[1] - at[1]];
-        let hit = self.hit(other, at)?;
-        if let Look::Blob(_) = pose.look {
-            return (size(r) > 1e-9).then(|| [r[0] / size(r), r[1] / size(r)]);
-        }
-        if let Look::Dot = pose.look {
-            return (size(hit) > 1e-9).then(|| [-hit[0] / size(hit), -hit[1] / size(hit)]);
-        }
-        let points = pose.outline();
-        let span = points
-            .iter()
-            .map(|p| size([p[0] - at[0], p[1] - at[1]]))
-            .fold(0.0, f64::max);
-        [[0.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [0.0, -1.0]]
-            .into_iter()
-            .filter(|n| {
-                let heights = || points.iter().map(|p| dot([p[0] - at[0], p[1] - at[1]], *n));
-                heights().all(|h| h > -1e-6 * span)
-                    && heights().fold(0.0, f64::max) > 0.15 * span
-                    && dot(hit, *n) < -1e-9
-            })
-            .min_by(|a, b| dot(hit, *a).total_cmp(&dot(hit, *b)))
-    }
-
-    fn wall(&self, sheet: &mut Sheet, at: Pair, n: Pair, other: usize) {
-        let along = [n[1], -n[0]];
-        let at = self.px(at);
-        let (mut low, mut high) = (-42.0f64, 42.0f64);
-        for p in self.poses.get(other).map(Pose::outline).unwrap_or_default() {
-            let q = self.px(p);
-            let t = dot([q[0] - at[0], q[1] - at[1]], along);
-            low = low.min(t - 14.0);
-            high = high.max(t + 14.0);
-        }
-        let spot = |t: f64, depth: f64| {
-            [
-                at[0] + along[0] * t - n[0] * depth,
-                at[1] + along[1] * t - n[1] * depth,
-            ]
-        };
-        let gap = if let Look::Bar(_) = self.poses[other].look {
-            0.0
-        } else {
-            0.8
-        };
-        hatched(sheet, spot(low, gap), spot(high, gap), [-n[0], -n[1]]);
-    }
-}
-
-/// A line with strokes on its far side.
-fn hatched(sheet: &mut Sheet, from: Pair, to: Pair, back: Pair) {
-    let d = [to[0] - from[0], to[1] - from[1]];
-    let length = size(d).max(1e-9);
-    let unit = [d[0] / length, d[1] / length];
-    sheet.segment(
-        from,
-        to,
-        Line {
-            width: 1.9,
-            ..Line::of(Ink::Ground)
-        },
-        2.0,
-    );
-    let count = (length / 7.0).floor() as usize;
-    for k in 0..count.min(100) {
-        let t = (k as f64 + 0.85) * length / count as f64;
-        let foot = [from[0] + unit[0] * t, from[1] + unit[1] * t];
-        let end = [
-            foot[0] + back[0] * 7.0 - unit[0] * 5.5,
-            foot[1] + back[1] * 7.0 - unit[1] * 5.5,
-        ];
-        sheet.items.push(Item::Path {
-            points: vec![foot, end],
-            closed: false,
-            line: Line::thin(Ink::Ground),
-        });
-    }
-    for depth in [3.5, 7.5] {
-        let behind = |p: Pair| [p[0] + back[0] * depth, p[1] + back[1] * depth];
-        sheet.walls.push((behind(from), behind(to), 3.0));
-    }
-}
-
-fn peg(sheet: &mut Sheet, at: Pair) {
-    sheet.circle(
-        at,
-        PEG,
-        Line {
-            filled: true,
-            ..Line::of(Ink::Ground)
-        },
-    );
-    for k in [-3.0, 0.0, 3.0] {
-        let half = f64::sqrt(PEG * PEG - k * k) * 0.75;
-        let points = vec![
-            [at[0] + k - half * 0.6, at[1] - half * 0.8],
-            [at[0] + k + half * 0.6, at[1] + half * 0.8],
-        ];
-        sheet.items.push(Item::Path {
-            points,
-            closed: false,
-            line: Line::thin(Ink::Ground),
-        });
-    }
-    sheet.kept.push(Room::around(at, PEG));
-}
-
-fn support(sheet: &mut Sheet, at: Pair, away: Pair) {
-    let across = [-away[1], away[0]];
-    let spot = |out: f64, side: f64| {
-        [
-            at[0] + away[0] * out + across[0] * side,
-            at[1] + away[1] * out + across[1] * side,
-        ]
-    };
-    sheet.path(
-        vec![at, spot(15.0, 10.0), spot(15.0, -10.0)],
-        true,
-        Line {
-            filled: true,
-            ..Line::thin(Ink::Ground)
-        },
-        1.0,
-    );
-    hatched(sheet, spot(15.0, 18.0), spot(15.0, -18.0), away);
 }
 
 fn capsule(a: Pair, b: Pair) -> Vec<Pair> {

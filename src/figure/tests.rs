@@ -1,5 +1,6 @@
 //! Every shipped scene is drawn; a folder given in `CAROM_GALLERY` gets the pictures, for looking at.
 
+use super::values::Pair;
 use super::*;
 
 fn scenes() -> Vec<(String, Scene)> {
@@ -141,6 +142,112 @@ fn no_label_covers_another() {
             }
         }
     }
+}
+
+/// The stages of every scene that are one impact by themselves, drawn as they are.
+fn impacts() -> Vec<(String, Scene)> {
+    let mut out = Vec::new();
+    for (name, scene) in scenes() {
+        let stages = scene.story.iter().flat_map(|s| &s.stages);
+        for stage in stages.filter(|s| matches!(s.kind, StageKind::Impact { .. })) {
+            out.push((format!("{name}, {}", stage.name), stage.scene.clone()));
+        }
+        if scene.story.is_none() {
+            out.push((name, scene));
+        }
+    }
+    out
+}
+
+#[test]
+fn no_body_crosses_a_support() {
+    let mut seen = 0;
+    for (name, scene) in impacts() {
+        let values = values::representative(&scene);
+        let Some(stage) = stage::stage(&scene, &values) else {
+            continue;
+        };
+        let mut sheet = Sheet::default();
+        stage.fixed(&mut sheet, &[]);
+        for (from, to, back) in &sheet.grounds {
+            let d = [to[0] - from[0], to[1] - from[1]];
+            for p in stage.poses.iter().flat_map(|p| {
+                let drawn = p.drawn().concat();
+                if drawn.is_empty() { p.outline() } else { drawn }
+            }) {
+                let p = stage.px(p);
+                let r = [p[0] - from[0], p[1] - from[1]];
+                let along = values::dot(r, d) / values::dot(d, d);
+                let deep = values::dot(r, *back);
+                seen += 1;
+                assert!(
+                    !(0.0..=1.0).contains(&along) || !(2.0..40.0).contains(&deep),
+                    "{name}: {deep} px inside what stands there"
+                );
+            }
+        }
+    }
+    assert!(seen > 100, "{seen} points");
+}
+
+#[test]
+fn no_label_lies_on_a_line() {
+    let mut labels = 0;
+    let mut faults = Vec::new();
+    let drawn = impacts();
+    for (name, scene) in drawn.iter().chain(&scenes()) {
+        if stage::stage(scene, &values::representative(scene)).is_none() {
+            continue;
+        }
+        for (k, sheet) in sheets(scene).iter().enumerate() {
+            let lines = sheet.items.iter().filter_map(|item| match item {
+                Item::Path {
+                    points,
+                    closed,
+                    line,
+                } => Some((points, *closed, line)),
+                _ => None,
+            });
+            let lines: Vec<_> = lines.collect();
+            for item in &sheet.items {
+                let Item::Text { label, room, .. } = item else {
+                    continue;
+                };
+                labels += 1;
+                // A line box is taller than its letters.
+                let [w, h] = room.extent();
+                let core = Room {
+                    low: [room.low[0] + 0.12 * w, room.low[1] + 0.25 * h],
+                    high: [room.high[0] - 0.12 * w, room.high[1] - 0.25 * h],
+                };
+                let crossed = |a: &Pair, b: &Pair| {
+                    (0..=40).any(|k| {
+                        let t = f64::from(k) / 40.0;
+                        let p = [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t];
+                        Room::around(p, 0.01).overlap(&core) > 0.0
+                    })
+                };
+                for (points, closed, line) in &lines {
+                    let last = if *closed {
+                        points.first().zip(points.last())
+                    } else {
+                        None
+                    };
+                    let hit = points.windows(2).any(|w| crossed(&w[0], &w[1]))
+                        || last.is_some_and(|(a, b)| crossed(a, b));
+                    if hit {
+                        faults.push(format!(
+                            "{name} {k}: {} on a line of {:?}",
+                            label.text(),
+                            line.ink
+                        ));
+                    }
+                }
+            }
+        }
+    }
+    assert!(labels > 300, "{labels} labels");
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
 #[test]

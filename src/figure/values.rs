@@ -41,9 +41,10 @@ pub fn representative(scene: &Scene) -> Values {
         if in_pair(name) {
             continue;
         }
-        let given = parameter
-            .value
-            .as_ref()
+        let hinted = scene.figure.values.iter().find(|(n, _)| n == name);
+        let given = hinted
+            .map(|(_, value)| value)
+            .or(parameter.value.as_ref())
             .and_then(|v| v.evaluate(&Point::default()));
         let value = match given {
             Some(value) => value,

@@ -51,8 +51,72 @@ record! {
         questions: Option<Map<QuestionFile>>,
         /// Curves to be drawn, by name.
         plots: Option<Map<PlotFile>>,
+        /// How the scene wants to be drawn; nothing here changes mechanics.
+        figure: Option<FigureFile>,
         /// What a book prints about the scene, for `carom verify`.
         printed: Option<Vec<PrintedFile>>,
+    }
+}
+
+record! {
+    /// Hints for the figures. What is missing is chosen so that bodies touch where they should.
+    FigureFile {
+        /// Values of parameters to draw at, in their units.
+        values: Option<Map<Formula>>,
+        /// What bodies look like, by name.
+        bodies: Option<Map<OutlineFile>>,
+        /// What stands at a contact, support, hinge or point, by its name.
+        supports: Option<Map<SupportName>>,
+        /// Where strings are fastened: by the name of a string, or of a body that hangs on one.
+        strings: Option<Map<PositionFile>>,
+        /// Height of the level ground.
+        ground: Option<Formula>,
+    }
+}
+
+record! {
+    /// A simple outline.
+    OutlineFile {
+        /// Which one.
+        looks: LooksName,
+        /// Length of a person from hands to feet, or of a bat.
+        length: Option<Formula>,
+        /// Width of a box.
+        width: Option<Formula>,
+        /// Height of a box.
+        height: Option<Formula>,
+    }
+}
+
+choice! {
+    /// What a body looks like.
+    LooksName {
+        /// A person stretched out along the body's angle, the hands first.
+        Person = "person",
+        /// A bat along the body's angle, the handle first.
+        Bat = "bat",
+        /// A box.
+        Box = "box",
+    }
+}
+
+choice! {
+    /// What stands at a point.
+    SupportName {
+        /// A level floor.
+        Floor = "floor",
+        /// A wall across the normal.
+        Wall = "wall",
+        /// A low stop on the ground.
+        Stop = "stop",
+        /// The edge of a table.
+        Edge = "edge",
+        /// A post with a point.
+        Post = "post",
+        /// A wheel on the ground.
+        Wheel = "wheel",
+        /// A round bar or peg, seen from its end.
+        Bar = "bar",
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod body;
 mod check;
+mod drawing;
 mod fault;
 mod file;
 mod formulas;
@@ -28,6 +29,7 @@ use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector};
 
+pub use drawing::{Drawn, Outline, Support};
 pub use fault::{Fault, Faults, Span};
 pub use geometry::direction;
 pub use printed::{Print, Printed};
@@ -162,6 +164,8 @@ pub struct Scene {
     pub special: Vec<StoryQuestion>,
     /// Curves to be drawn.
     pub plots: Vec<PlotAsk>,
+    /// How it wants to be drawn.
+    pub figure: Drawn,
     /// What a book prints about the scene.
     pub printed: Vec<Printed>,
     /// Stages before and after collisions, where the scene tells them; hinges, contacts, blows and questions then stand

@@ -72,6 +72,9 @@ pub(super) fn resolve(file: &SceneFile, mut faults: Vec<Fault>) -> (Scene, Vec<F
     if resolver.faults.len() <= TOLD {
         resolver.fill(&mut scene);
     }
+    if resolver.faults.is_empty() {
+        scene.figure = super::drawing::hints(&mut resolver, &scene.domains);
+    }
     if resolver.faults.is_empty() && file.stages.is_some() {
         super::stages::resolve(&mut resolver, &mut scene);
     } else if resolver.faults.is_empty() {

@@ -292,11 +292,19 @@ fn one(
     }
     r.point_places.fill(Place::Untouched);
     r.fill(&mut scene);
+    scene.figure = whole.figure.clone();
     for (body, [_, _, angle]) in scene.bodies.iter_mut().zip(&places) {
         body.angle = Expr::symbol(angle);
     }
     let starts = starts(&mut r, &scene, stage, from);
     let kind = kind::kind(&mut r, &mut scene, stage);
+    if let Some(crate::scene::stage::StageKind::Impact { one_sided, .. }) = &kind {
+        for string in one_sided.iter().filter(|o| o.is_string) {
+            if scene.figure.string(&string.name).is_none() {
+                scene.figure.strings.push((string.name.clone(), None));
+            }
+        }
+    }
     // Motion before an impact, and places after another stage, are known only when the stages before it are worked out;
     // they are checked then.
     r.claims.retain(|c| match &c.claim {

@@ -1,0 +1,392 @@
+//! What does not move: ground, walls, stops, edges, posts, wheels, bars, the supports of hinges, and strings.
+//!
+//! In: a scene on stage. Out: lines on the sheet. What stands at a point is the author's word; without it, it follows from the
+//! normal, from where the body lies and from where it comes.
+
+use super::place::Room;
+use super::pose::{Look, Pose};
+use super::sheet::{Ink, Item, Line, Sheet};
+use super::stage::{DOT, PEG, Stage, THICK};
+use super::values::{Pair, dot, size};
+use crate::expr::Vector;
+use crate::scene::{Body, Support};
+
+/// Length of a string that is fastened nobody knows where, in pixels.
+const STRING: f64 = 66.0;
+
+impl Stage<'_> {
+    /// Draws what does not move; `asides` tells how far each body is drawn from its place.
+    pub fn fixed(&self, sheet: &mut Sheet, asides: &[Pair]) {
+        let hints = &self.scene.figure;
+        let aside = |b: usize| asides.get(b).copied().unwrap_or([0.0, 0.0]);
+        for contact in &self.scene.contacts {
+            let [a, b] = contact.bodies;
+            let (fixed, other) = match (self.scene.bodies.get(a), self.scene.bodies.get(b)) {
+                (Some(x), Some(_)) if x.is_fixed() => (a, b),
+                (Some(_), Some(y)) if y.is_fixed() => (b, a),
+                _ => continue,
+            };
+            let Some(at) = self.values.pair(&contact.at) else {
+                continue;
+            };
+            let given = contact.normal.as_ref().and_then(|n| self.values.pair(n));
+            let sign = if fixed == a { 1.0 } else { -1.0 };
+            let normal = given.map(|n| [n[0] * sign, n[1] * sign]);
+            match hints.string(&contact.name) {
+                Some(end) => self.string(sheet, at, aside(other), end.as_ref(), normal),
+                None => self.standing(sheet, &contact.name, at, normal, other),
+            }
+        }
+        for (i, body) in self.scene.bodies.iter().enumerate() {
+            if let (Some(end), Some(pose)) = (hints.string(&body.name), self.poses.get(i)) {
+                self.string(sheet, pose.center, aside(i), end.as_ref(), None);
+            }
+        }
+        for hinge in &self.scene.hinges {
+            let [a, b] = hinge.bodies;
+            let is_fixed = |i: usize| self.scene.bodies.get(i).is_some_and(Body::is_fixed);
+            let other = if is_fixed(a) { b } else { a };
+            if !is_fixed(a) && !is_fixed(b) {
+                continue;
+            }
+            let (Some(at), Some(pose)) = (self.values.pair(&hinge.at), self.poses.get(other))
+            else {
+                continue;
+            };
+            if hints.support(&hinge.name).is_some() {
+                self.standing(sheet, &hinge.name, at, None, other);
+                continue;
+            }
+            let d = [at[0] - pose.center[0], at[1] - pose.center[1]];
+            let away = if size(d) < 1e-9 {
+                [0.0, -1.0]
+            } else if d[0].abs() > d[1].abs() {
+                [d[0].signum(), 0.0]
+            } else {
+                [0.0, d[1].signum()]
+            };
+            support(sheet, self.px(at), away);
+        }
+        self.ground(sheet);
+    }
+
+    /// The level ground, where the author gives its height.
+    fn ground(&self, sheet: &mut Sheet) {
+        let height = self.scene.figure.ground.as_ref();
+        let Some(height) = height.and_then(|h| self.values.of(h)) else {
+            return;
+        };
+        let points: Vec<Pair> = self.poses.iter().flat_map(Pose::outline).collect();
+        let points: Vec<Pair> = points.into_iter().map(|p| self.px(p)).collect();
+        if let Some(room) = Room::of(&points) {
+            let y = self.px([0.0, height])[1] - 0.8;
+            let (low, high) = (room.low[0] - 26.0, room.high[0] + 40.0);
+            hatched(sheet, [low, y], [high, y], [0.0, -1.0]);
+        }
+    }
+
+    /// A taut string and what it is fastened to.
+    fn string(
+        &self,
+        sheet: &mut Sheet,
+        at: Pair,
+        aside: Pair,
+        end: Option<&Vector>,
+        normal: Option<Pair>,
+    ) {
+        let from = self.px(at);
+        let from = [from[0] + aside[0], from[1] + aside[1]];
+        let n = normal.unwrap_or([0.0, 1.0]);
+        let to = end
+            .and_then(|v| self.spot(v))
+            .unwrap_or([from[0] + n[0] * STRING, from[1] + n[1] * STRING]);
+        let line = Line {
+            width: 1.1,
+            ..Line::of(Ink::Body)
+        };
+        sheet.segment(from, to, line, 2.0);
+        let up = to[1] >= from[1];
+        let back = [0.0, if up { 1.0 } else { -1.0 }];
+        let half = if up { 18.0 } else { -18.0 };
+        hatched(sheet, [to[0] + half, to[1]], [to[0] - half, to[1]], back);
+    }
+
+    /// What stands where a body is touched, and which way it faces.
+    fn standing(
+        &self,
+        sheet: &mut Sheet,
+        name: &str,
+        at: Pair,
+        normal: Option<Pair>,
+        other: usize,
+    ) {
+        let faces = normal.or_else(|| self.upright(other, at));
+        let hint = self.scene.figure.support(name);
+        let kind = hint.unwrap_or_else(|| match faces {
+            Some(n) => self.usual(other, at, n),
+            None => Support::Bar,
+        });
+        let hit = self.hit(other, at).filter(|v| size(*v) > 1e-9);
+        let hit = hit.map(|v| [v[0] / size(v), v[1] / size(v)]);
+        match kind {
+            Support::Wall => self.wall(sheet, at, faces.unwrap_or([-1.0, 0.0]), other),
+            Support::Floor => self.wall(sheet, at, [0.0, 1.0], other),
+            Support::Stop => {
+                let way = hit.map_or(1.0, |v| if v[0] < 0.0 { -1.0 } else { 1.0 });
+                stop(sheet, self.px(at), way);
+            }
+            Support::Edge => {
+                let n = faces.unwrap_or([0.0, 1.0]);
+                let center = self.poses[other].center;
+                let along = [n[1], -n[0]];
+                let out = dot([at[0] - center[0], at[1] - center[1]], along);
+                edge(sheet, self.touch(other, at, n), n, out.signum());
+            }
+            Support::Post => {
+                let n = faces.unwrap_or([0.0, 1.0]);
+                support(sheet, self.touch(other, at, n), [-n[0], -n[1]]);
+            }
+            Support::Wheel => {
+                let n = faces.unwrap_or([0.0, 1.0]);
+                wheel(sheet, self.touch(other, at, n), n);
+            }
+            Support::Bar => {
+                // A bar touches the body from the side the body comes from.
+                let n = normal.or(hit.map(|v| [-v[0], -v[1]])).unwrap_or([0.0, 0.0]);
+                let foot = self.touch(other, at, n);
+                peg(sheet, [foot[0] - n[0] * PEG, foot[1] - n[1] * PEG]);
+            }
+        }
+    }
+
+    /// What usually stands where a body is touched: under a body that lies along it a post, or an edge at its end.
+    fn usual(&self, other: usize, at: Pair, n: Pair) -> Support {
+        let points = self.poses[other].outline();
+        let part = |axis: Pair| {
+            let each = points
+                .iter()
+                .map(move |p| dot([p[0] - at[0], p[1] - at[1]], axis));
+            let low = each.clone().fold(0.0, f64::min);
+            (low, each.fold(0.0, f64::max))
+        };
+        let (low, high) = part([n[1], -n[0]]);
+        let (below, above) = part(n);
+        let long = high - low;
+        if long < 1e-9 || above.max(-below) > 0.1 * long {
+            return Support::Wall;
+        }
+        match high.min(-low) < 0.05 * long {
+            true => Support::Edge,
+            false => Support::Post,
+        }
+    }
+
+    /// The place on a body's outline next to what faces it with the normal `n`.
+    fn touch(&self, other: usize, at: Pair, n: Pair) -> Pair {
+        let pose = &self.poses[other];
+        let thick = match &pose.look {
+            Look::Bar(_) if pose.skin.is_empty() => THICK + 0.8,
+            Look::Dot | Look::Parts(_) => DOT + 0.8,
+            _ => 0.8,
+        };
+        let far = self.long(pose.reach(at, [-n[0], -n[1]])) + thick;
+        let at = self.px(at);
+        [at[0] - n[0] * far, at[1] - n[1] * far]
+    }
+
+    /// Velocity just before of a body's point.
+    fn hit(&self, body: usize, at: Pair) -> Option<Pair> {
+        let center = self.poses.get(body)?.center;
+        let r = [at[0] - center[0], at[1] - center[1]];
+        let v = self.values.pair(&self.scene.bodies[body].velocity)?;
+        let spin = self.values.of(&self.scene.bodies[body].spin)?;
+        Some([v[0] - spin * r[1], v[1] + spin * r[0]])
+    }
+
+    /// Which way a wall faces that a body hits without a stated normal; `None` for a peg.
+    fn upright(&self, other: usize, at: Pair) -> Option<Pair> {
+        let pose = self.poses.get(other)?;
+        let r = [pose.center[0] - at[0], pose.center[1] - at[1]];
+        let hit = self.hit(other, at)?;
+        if let Look::Blob(_) = pose.look {
+            return (size(r) > 1e-9).then(|| [r[0] / size(r), r[1] / size(r)]);
+        }
+        if let Look::Dot = pose.look {
+            return (size(hit) > 1e-9).then(|| [-hit[0] / size(hit), -hit[1] / size(hit)]);
+        }
+        let points = pose.outline();
+        let span = points
+            .iter()
+            .map(|p| size([p[0] - at[0], p[1] - at[1]]))
+            .fold(0.0, f64::max);
+        [[0.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [0.0, -1.0]]
+            .into_iter()
+            .filter(|n| {
+                let heights = || points.iter().map(|p| dot([p[0] - at[0], p[1] - at[1]], *n));
+                heights().all(|h| h > -1e-6 * span)
+                    && heights().fold(0.0, f64::max) > 0.15 * span
+                    && dot(hit, *n) < -1e-9
+            })
+            .min_by(|a, b| dot(hit, *a).total_cmp(&dot(hit, *b)))
+    }
+
+    fn wall(&self, sheet: &mut Sheet, at: Pair, n: Pair, other: usize) {
+        let along = [n[1], -n[0]];
+        let at = match self.poses[other].look {
+            Look::Bar(_) | Look::Dot | Look::Parts(_) => self.px(at),
+            _ => self.touch(other, at, n),
+        };
+        let (mut low, mut high) = (-42.0f64, 42.0f64);
+        for p in self.poses.get(other).map(Pose::outline).unwrap_or_default() {
+            let q = self.px(p);
+            let t = dot([q[0] - at[0], q[1] - at[1]], along);
+            low = low.min(t - 14.0);
+            high = high.max(t + 14.0);
+        }
+        let spot = |t: f64| [at[0] + along[0] * t, at[1] + along[1] * t];
+        hatched(sheet, spot(low), spot(high), [-n[0], -n[1]]);
+    }
+}
+
+/// A line with strokes on its far side.
+fn hatched(sheet: &mut Sheet, from: Pair, to: Pair, back: Pair) {
+    let d = [to[0] - from[0], to[1] - from[1]];
+    let length = size(d).max(1e-9);
+    let unit = [d[0] / length, d[1] / length];
+    sheet.segment(
+        from,
+        to,
+        Line {
+            width: 1.9,
+            ..Line::of(Ink::Ground)
+        },
+        2.0,
+    );
+    sheet.grounds.push((from, to, back));
+    let count = (length / 7.0).floor() as usize;
+    for k in 0..count.min(100) {
+        let t = (k as f64 + 0.85) * length / count as f64;
+        let foot = [from[0] + unit[0] * t, from[1] + unit[1] * t];
+        let end = [
+            foot[0] + back[0] * 7.0 - unit[0] * 5.5,
+            foot[1] + back[1] * 7.0 - unit[1] * 5.5,
+        ];
+        sheet.items.push(Item::Path {
+            points: vec![foot, end],
+            closed: false,
+            line: Line::thin(Ink::Ground),
+        });
+    }
+    for depth in [3.5, 7.5] {
+        let behind = |p: Pair| [p[0] + back[0] * depth, p[1] + back[1] * depth];
+        sheet.walls.push((behind(from), behind(to), 3.0));
+    }
+}
+
+fn peg(sheet: &mut Sheet, at: Pair) {
+    sheet.circle(
+        at,
+        PEG,
+        Line {
+            filled: true,
+            ..Line::of(Ink::Ground)
+        },
+    );
+    for k in [-3.0, 0.0, 3.0] {
+        let half = f64::sqrt(PEG * PEG - k * k) * 0.75;
+        let points = vec![
+            [at[0] + k - half * 0.6, at[1] - half * 0.8],
+            [at[0] + k + half * 0.6, at[1] + half * 0.8],
+        ];
+        sheet.items.push(Item::Path {
+            points,
+            closed: false,
+            line: Line::thin(Ink::Ground),
+        });
+    }
+    sheet.kept.push(Room::around(at, PEG));
+}
+
+fn support(sheet: &mut Sheet, at: Pair, away: Pair) {
+    let across = [-away[1], away[0]];
+    let spot = |out: f64, side: f64| {
+        [
+            at[0] + away[0] * out + across[0] * side,
+            at[1] + away[1] * out + across[1] * side,
+        ]
+    };
+    sheet.path(
+        vec![at, spot(15.0, 10.0), spot(15.0, -10.0)],
+        true,
+        Line {
+            filled: true,
+            ..Line::thin(Ink::Ground)
+        },
+        1.0,
+    );
+    hatched(sheet, spot(15.0, 18.0), spot(15.0, -18.0), away);
+}
+
+/// A low block on the ground whose lower corner is at a point; it stands in the way of what comes.
+fn stop(sheet: &mut Sheet, at: Pair, way: f64) {
+    let at = [at[0] + way * 0.8, at[1]];
+    let far = at[0] + way * 11.0;
+    let block = vec![at, [far, at[1]], [far, at[1] + 13.0], [at[0], at[1] + 13.0]];
+    let line = Line {
+        filled: true,
+        ..Line::of(Ink::Ground)
+    };
+    sheet.path(block, true, line, 2.0);
+    sheet.kept.push(Room {
+        low: [at[0].min(far), at[1]],
+        high: [at[0].max(far), at[1] + 13.0],
+    });
+    for k in [3.0, 6.0, 9.0] {
+        sheet.items.push(Item::Path {
+            points: vec![
+                [at[0] + way * k, at[1] + 2.0],
+                [at[0] + way * k, at[1] + 11.0],
+            ],
+            closed: false,
+            line: Line::thin(Ink::Ground),
+        });
+    }
+}
+
+/// The corner of a table: its top leads away from the body, its side goes down.
+fn edge(sheet: &mut Sheet, at: Pair, n: Pair, out: f64) {
+    let along = [n[1] * out, -n[0] * out];
+    let back = [-n[0], -n[1]];
+    let inner = [at[0] - along[0] * 4.0, at[1] - along[1] * 4.0];
+    let far = [at[0] + along[0] * 58.0, at[1] + along[1] * 58.0];
+    let foot = [inner[0] + back[0] * 40.0, inner[1] + back[1] * 40.0];
+    match out > 0.0 {
+        true => hatched(sheet, inner, far, back),
+        false => hatched(sheet, far, inner, back),
+    }
+    let line = Line {
+        width: 1.9,
+        ..Line::of(Ink::Ground)
+    };
+    sheet.segment(inner, foot, line, 2.0);
+}
+
+/// A wheel between the body and the ground.
+fn wheel(sheet: &mut Sheet, at: Pair, n: Pair) {
+    const RADIUS: f64 = 9.0;
+    let spot = |down: f64, side: f64| {
+        [
+            at[0] - n[0] * down + n[1] * side,
+            at[1] - n[1] * down - n[0] * side,
+        ]
+    };
+    sheet.circle(spot(RADIUS, 0.0), RADIUS, Line::of(Ink::Ground));
+    sheet.dot(spot(RADIUS, 0.0), 1.6, Ink::Ground);
+    let back = [-n[0], -n[1]];
+    hatched(
+        sheet,
+        spot(2.0 * RADIUS + 0.8, -24.0),
+        spot(2.0 * RADIUS + 0.8, 24.0),
+        back,
+    );
+}
