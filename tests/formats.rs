@@ -161,7 +161,7 @@ fn formats(text: &str) -> Option<Formats> {
     };
     let (found, _) = functions(&scene, &derivation);
     Some(Formats {
-        latex: render::latex_document::document(&solution, &[picture.clone()]),
+        latex: render::latex_document::document(&solution, std::slice::from_ref(&picture)),
         markdown: render::markdown::solution(&solution, &pictures),
         html: render::html::page(&solution, &[picture]),
         svg: vec![drawn.svg],

@@ -557,3 +557,179 @@ fn every_picture_says_in_words_what_it_shows() {
         }
     }
 }
+
+/// Words of the running text, each formula in it a word, and displayed lines.
+fn length(solution: &Solution) -> (usize, usize) {
+    let (mut words, mut lines) = (0, 0);
+    let mut count = |text: &[solution::Inline]| {
+        for piece in text {
+            words += match piece {
+                solution::Inline::Text(text) => text
+                    .split_whitespace()
+                    .filter(|w| w.contains(char::is_alphanumeric))
+                    .count(),
+                solution::Inline::Math(_) => 1,
+            };
+        }
+    };
+    for section in &solution.sections {
+        count(&section.heading);
+        for part in &section.parts {
+            match part {
+                solution::Part::Text(text) => count(text),
+                solution::Part::List(items) => items.iter().for_each(|i| count(i)),
+                solution::Part::Display(all) | solution::Part::Result(all) => lines += all.len(),
+                solution::Part::Matrix(_) => lines += 1,
+                solution::Part::Figure(_) => {}
+            }
+        }
+    }
+    (words, lines)
+}
+
+#[test]
+fn no_solution_is_much_longer_than_the_books() {
+    let table = fs::read_to_string("tests/solutions/length.tsv").expect("a table");
+    let mut rows = 0;
+    let mut faults = Vec::new();
+    for row in table.lines().filter(|l| !l.starts_with('#')) {
+        let cells: Vec<&str> = row.split('\t').collect();
+        let [scene, words, lines, beyond, _] = cells.as_slice() else {
+            panic!("{row}");
+        };
+        let number = |text: &str| text.parse::<usize>().expect("a count");
+        let case = cases()
+            .iter()
+            .find(|c| c.path.ends_with(format!("book/{scene}.json")));
+        // What the scene asks beyond the sample is not compared.
+        let mut asked = case.expect("shipped").scene.clone();
+        let beyond: Vec<&str> = beyond.split(' ').collect();
+        asked
+            .questions
+            .retain(|q| !beyond.contains(&q.name.as_str()));
+        asked.special.retain(|q| !beyond.contains(&q.name.as_str()));
+        let found = length(&solved(&asked, Detail::Normal));
+        let most = (number(words) * 3 / 2, number(lines) * 3 / 2);
+        println!("{scene}: {found:?} of {most:?}");
+        if found.0 > most.0 || found.1 > most.1 {
+            faults.push(format!("{scene}: {found:?}, at most {most:?}"));
+        }
+        rows += 1;
+    }
+    assert_eq!(rows, 4);
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// Scenes of one impact: their solutions are written by one writer.
+fn single() -> impl Iterator<Item = &'static Case> {
+    cases().iter().filter(|c| c.scene.story.is_none())
+}
+
+#[test]
+fn no_equation_stands_twice() {
+    let mut faults = Vec::new();
+    for case in single() {
+        let solution = case.solution(Detail::Normal);
+        let mut seen = Vec::new();
+        // What is to be shown states its equation again, and an approximation may be that of a lower order.
+        let shows = |s: &&solution::Section| !matches!(s.heading.first(), Some(solution::Inline::Text(t)) if t.starts_with("To show"));
+        for part in solution
+            .sections
+            .iter()
+            .filter(shows)
+            .flat_map(|s| &s.parts)
+        {
+            let (solution::Part::Display(lines) | solution::Part::Result(lines)) = part else {
+                continue;
+            };
+            for line in lines {
+                let text = render::math::latex(&solution, &line.math);
+                if text.contains("\\approx") {
+                    continue;
+                }
+                let text = text.replace("\\Rightarrow\\quad ", "");
+                if seen.contains(&text) {
+                    faults.push(format!("{}: {text}", case.path.display()));
+                }
+                seen.push(text);
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn no_abbreviation_is_used_before_it_is_told() {
+    fn symbols(math: &[solution::Math], out: &mut Vec<String>) {
+        for m in math {
+            match m {
+                solution::Math::Expr(e) | solution::Math::Factor(e) | solution::Math::Along(e) => {
+                    out.extend(e.symbols().iter().map(ToString::to_string));
+                }
+                solution::Math::Vector(v) => {
+                    let all = v.iter().flat_map(carom::expr::Expr::symbols);
+                    out.extend(all.map(|s| s.to_string()));
+                }
+                solution::Math::Brackets(inner) => symbols(inner, out),
+                _ => {}
+            }
+        }
+    }
+    for case in single() {
+        let solution = case.solution(Detail::Normal);
+        let mut told: Vec<String> = Vec::new();
+        for part in solution.sections.iter().flat_map(|s| &s.parts) {
+            let (solution::Part::Display(lines) | solution::Part::Result(lines)) = part else {
+                continue;
+            };
+            for line in lines {
+                let mut used = Vec::new();
+                symbols(&line.math, &mut used);
+                if let Some(solution::Math::Expr(e)) = line.math.first()
+                    && let Some(name) = e.as_symbol()
+                {
+                    told.push(name.to_string());
+                }
+                for name in used {
+                    let meaning = solution.meanings.get(name.as_str());
+                    assert!(
+                        meaning != Some(&solution::Meaning::Defined) || told.contains(&name),
+                        "{}: {name} is used before it is told",
+                        case.path.display()
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn no_phrase_that_an_editor_would_strike() {
+    const STRUCK: [&str; 16] = [
+        "in the normal form",
+        "hangs on the values",
+        "handed on",
+        "put into the laws",
+        "with the values found",
+        "at that very point",
+        "just before, everything is at rest",
+        "points separate as fast",
+        "the units agree",
+        "angles and spins count",
+        "is left out",
+        "what is left out begins",
+        "is the gravity",
+        "as the values decide",
+        "nothing is lost at the contact",
+        "over the vanishing time",
+    ];
+    for case in single() {
+        for detail in [Detail::Brief, Detail::Normal] {
+            let text = render::plain::solution(&case.solution(detail)).to_lowercase();
+            let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+            for phrase in STRUCK {
+                assert!(!text.contains(phrase), "{}: {phrase}", case.path.display());
+            }
+        }
+    }
+}

@@ -41,6 +41,7 @@ p{margin:.55rem 0}
 .source{color:#555;font-style:italic;margin-top:0}
 .display{overflow-x:auto;overflow-y:hidden;margin:.5rem 0;padding:.15rem 0}
 .display math{margin:0 0 0 1.2rem;text-align:left}
+.result math{border:1px solid #888;padding:.25em .7em;width:fit-content;margin-left:auto;margin-right:auto}
 .phone{display:none}
 math{font-family:'carom math',math;font-size:1.05em}
 mover>mo{font-size:.75em}
@@ -107,7 +108,8 @@ fn part(s: &Solution, part: &Part, pictures: &[Picture]) -> String {
                 .collect();
             format!("<ul>\n{items}</ul>\n")
         }
-        Part::Display(lines) => display(s, lines),
+        Part::Display(lines) => display(s, lines, ""),
+        Part::Result(lines) => display(s, lines, " result"),
         Part::Matrix(m) => matrix(s, m),
         Part::Figure(slot) => {
             let figures: Vec<String> = pictures
@@ -130,7 +132,7 @@ fn part(s: &Solution, part: &Part, pictures: &[Picture]) -> String {
 }
 
 /// Equations in rows, once for wide windows and, where they need more breaks, once for narrow ones.
-fn display(s: &Solution, lines: &[Line]) -> String {
+fn display(s: &Solution, lines: &[Line], class: &str) -> String {
     let desk = rows(s, lines);
     let phone = rows_within(s, lines, PHONE);
     let same = |a: &[Cells], b: &[Cells]| {
@@ -138,9 +140,10 @@ fn display(s: &Solution, lines: &[Line]) -> String {
         a.len() == b.len() && wide(a) == wide(b) && wide(b) <= PHONE
     };
     if same(&desk, &phone) {
-        return table(s, &desk, "", DESK);
+        return table(s, &desk, class, DESK);
     }
-    table(s, &desk, " desk", DESK) + &table(s, &phone, " phone", PHONE)
+    table(s, &desk, &format!("{class} desk"), DESK)
+        + &table(s, &phone, &format!("{class} phone"), PHONE)
 }
 
 /// Characters from the left edge of the widest left side to the right edge of the widest right side.

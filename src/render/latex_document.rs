@@ -1,7 +1,7 @@
 //! A worked solution in LaTeX: a fragment for a handout, or a document that compiles on its own with pdfLaTeX.
 
 use super::html::Picture;
-use super::markdown::matrix;
+use super::markdown::{aligned, matrix};
 use super::math::{latex, rows};
 use crate::figure::{self, Piece};
 use crate::solution::{Inline, Part, Solution};
@@ -76,6 +76,9 @@ fn body(s: &Solution, pictures: &[Picture]) -> String {
                         "\\begin{{align*}}\n{}\n\\end{{align*}}\n",
                         rows.join(" \\\\\n")
                     ));
+                }
+                Part::Result(lines) => {
+                    out.push_str(&format!("\\[\n\\boxed{{{}}}\n\\]\n", aligned(s, lines)));
                 }
                 Part::Matrix(m) => {
                     out.push_str(&format!("\\[\n{}\n\\]\n", matrix(s, m)));

@@ -5,7 +5,7 @@ use super::math::{latex, rows};
 use crate::derive::Matrix;
 use crate::figure::plain;
 use crate::formula::visible;
-use crate::solution::{Inline, Part, Solution};
+use crate::solution::{Inline, Line, Part, Solution};
 
 /// The whole solution; `pictures` are linked by their file names.
 pub fn solution(s: &Solution, pictures: &[(Picture, String)]) -> String {
@@ -34,15 +34,9 @@ pub fn solution(s: &Solution, pictures: &[(Picture, String)]) -> String {
                         .collect();
                     blocks.push(items.join("\n"));
                 }
-                Part::Display(lines) => {
-                    let rows: Vec<String> = rows(s, lines)
-                        .iter()
-                        .map(|[l, r]| format!("{} & {}", latex(s, l), latex(s, r)))
-                        .collect();
-                    blocks.push(format!(
-                        "$$\n\\begin{{aligned}}\n{}\n\\end{{aligned}}\n$$",
-                        rows.join(" \\\\\n").replace("\n &", "\n&")
-                    ));
+                Part::Display(lines) => blocks.push(format!("$$\n{}\n$$", aligned(s, lines))),
+                Part::Result(lines) => {
+                    blocks.push(format!("$$\n\\boxed{{{}}}\n$$", aligned(s, lines)));
                 }
                 Part::Matrix(m) => blocks.push(format!("$$\n{}\n$$", matrix(s, m))),
                 Part::Figure(slot) => {
@@ -67,6 +61,16 @@ fn paragraph(s: &Solution, pieces: &[Inline]) -> String {
         out.insert(digits, '\\');
     }
     out
+}
+
+/// Equations below each other.
+pub fn aligned(s: &Solution, lines: &[Line]) -> String {
+    let rows: Vec<String> = rows(s, lines)
+        .iter()
+        .map(|[l, r]| format!("{} & {}", latex(s, l), latex(s, r)))
+        .collect();
+    let rows = rows.join(" \\\\\n").replace("\n &", "\n&");
+    format!("\\begin{{aligned}}\n{rows}\n\\end{{aligned}}")
 }
 
 fn sentence(s: &Solution, pieces: &[Inline]) -> String {

@@ -87,9 +87,9 @@ fn filled(solution: &Solution, piece: &[Math], wide: usize) -> Vec<Vec<Math>> {
         return vec![piece.to_vec()];
     }
     let mut rows: Vec<Vec<Math>> = Vec::new();
-    for chunk in chunks(piece, &["+", "−"]) {
+    for chunk in chunks(solution, piece, &["+", "−"], wide) {
         let smaller = match width(solution, &chunk) > wide {
-            true => chunks(&chunk, &["×", "·"]),
+            true => chunks(solution, &chunk, &["×", "·"], wide),
             false => vec![chunk],
         };
         for part in smaller {
@@ -105,11 +105,20 @@ fn filled(solution: &Solution, piece: &[Math], wide: usize) -> Vec<Vec<Math>> {
 }
 
 /// Cut before the given signs; a sum and a vector that stand alone are cut between their terms.
-fn chunks(piece: &[Math], signs: &[&str]) -> Vec<Vec<Math>> {
+fn chunks(solution: &Solution, piece: &[Math], signs: &[&str], wide: usize) -> Vec<Vec<Math>> {
     let mut out: Vec<Vec<Math>> = vec![Vec::new()];
     for (i, m) in piece.iter().enumerate() {
         let alone = i == 0 || is_relation(&piece[i - 1]);
+        let long = |e: &Expr| extent(solution, e) > wide as f64;
+        let apart = match m {
+            Math::Expr(e) if alone && long(e) => numerator(solution, e),
+            _ => None,
+        };
         let terms = match m {
+            Math::Expr(_) if apart.is_some() => apart
+                .as_ref()
+                .map(|(_, sum)| sum.iter().map(signed_term).collect())
+                .unwrap_or_default(),
             Math::Expr(e) if alone => match e.node() {
                 Node::Sum(terms) => terms.iter().map(signed_term).collect(),
                 _ => Vec::new(),
@@ -126,6 +135,9 @@ fn chunks(piece: &[Math], signs: &[&str]) -> Vec<Vec<Math>> {
             _ => Vec::new(),
         };
         if terms.len() > 1 && signs.contains(&"+") {
+            if let (Some((rest, _)), Some(last)) = (&apart, out.last_mut()) {
+                last.extend([Math::Expr(rest.clone()), Math::Op("(")]);
+            }
             for (k, (negative, term)) in terms.into_iter().enumerate() {
                 let sign = if negative { "−" } else { "+" };
                 if k > 0 {
@@ -137,6 +149,9 @@ fn chunks(piece: &[Math], signs: &[&str]) -> Vec<Vec<Math>> {
                     last.push(term);
                 }
             }
+            if let (Some(_), Some(last)) = (&apart, out.last_mut()) {
+                last.push(Math::Op(")"));
+            }
             continue;
         }
         let cut = matches!(m, Math::Op(op) if signs.contains(op)) && !alone;
@@ -147,6 +162,23 @@ fn chunks(piece: &[Math], signs: &[&str]) -> Vec<Vec<Math>> {
     }
     out.retain(|chunk| !chunk.is_empty());
     out
+}
+
+/// A long product taken apart: what stands before its longest sum, and the terms of that sum.
+fn numerator(solution: &Solution, e: &Expr) -> Option<(Expr, Vec<Expr>)> {
+    let Node::Product(factors) = e.node() else {
+        return None;
+    };
+    let sums = factors
+        .iter()
+        .enumerate()
+        .filter_map(|(i, f)| match f.node() {
+            Node::Sum(terms) => Some((i, terms, extent(solution, f))),
+            _ => None,
+        });
+    let (at, terms, _) = sums.max_by(|a, b| a.2.total_cmp(&b.2))?;
+    let rest = factors.iter().enumerate().filter(|(i, _)| *i != at);
+    Some((Expr::product(rest.map(|(_, f)| f.clone())), terms.clone()))
 }
 
 /// A term with its sign apart.

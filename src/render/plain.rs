@@ -40,7 +40,7 @@ pub fn solution(s: &Solution) -> String {
                         wrapped(&mut out, "• ", "  ", &sentence(s, item));
                     }
                 }
-                Part::Display(lines) => {
+                Part::Display(lines) | Part::Result(lines) => {
                     let cells: Vec<[String; 2]> = rows(s, lines)
                         .iter()
                         .map(|[l, r]| [unicode(s, l), unicode(s, r)])

@@ -183,7 +183,7 @@ fn parameters<'f>(r: &Resolver<'f>) -> Vec<&'f str> {
 
 /// Names of everything that holds or is hit, in the scene and in its stages.
 fn places<'f>(r: &Resolver<'f>) -> Vec<&'f str> {
-    fn keys<'f, T>(map: &'f Option<super::record::Map<T>>) -> impl Iterator<Item = &'f str> {
+    fn keys<T>(map: &Option<super::record::Map<T>>) -> impl Iterator<Item = &str> {
         entries(map.as_ref()).map(|(name, _)| name.text.as_str())
     }
     let file = r.file;

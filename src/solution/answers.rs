@@ -3,7 +3,7 @@
 use super::words::{self, name, say};
 use super::{Claim, Detail, Line, Math, Part, Writer};
 use crate::derive::{Answer, Form};
-use crate::expr::{Expr, Vector};
+use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Place};
 use crate::scene::{Ask, EnergyWhen, ImpulseAt, Question};
 
@@ -306,7 +306,7 @@ impl Writer<'_> {
                 }],
                 "kinetic energy just before",
             );
-            self.say("Kinetic energy of translation and rotation:");
+            self.say("The kinetic energies before and after are");
             let mut math = vec![t("-"), Math::Op("=")];
             if self.detail() == Detail::Full && before != tidy_before && before.size() < 80 {
                 math.extend([Math::Expr(before.clone()), Math::Op("=")]);
@@ -324,7 +324,7 @@ impl Writer<'_> {
                 "kinetic energy just after",
             );
             let mut math = vec![t("+"), Math::Op("=")];
-            if after != tidy_after && after.size() < 80 && self.detail() >= Detail::Normal {
+            if after != tidy_after && after.size() < 80 && self.detail() == Detail::Full {
                 math.extend([Math::Expr(after.clone()), Math::Op("=")]);
             }
             if tidy_after.size() < 200 {
@@ -378,10 +378,39 @@ impl Writer<'_> {
             });
         }
         if !lines.is_empty() {
-            if !raw.iter().all(|e| e.symbols().is_empty()) {
-                self.say("and with the values found,");
+            let shorts: Vec<Expr> = answers
+                .iter()
+                .filter_map(|a| match &a.form {
+                    Form::Value { short, .. } => Some(short.clone()),
+                    _ => None,
+                })
+                .collect();
+            self.abbreviations(&shorts);
+            let mut found: Vec<Expr> = Vec::new();
+            for e in raw.iter().flat_map(Expr::symbols) {
+                let solved = self.d.blocks.iter().flat_map(|b| &b.unknowns);
+                let mut solved = solved.map(|u| self.d.names.plain(*u));
+                if solved.any(|name| *name == *e) && !found.contains(&Expr::symbol(&e)) {
+                    found.push(Expr::symbol(&e));
+                }
             }
-            self.push(Part::Display(lines));
+            if !found.is_empty() && found.len() <= 4 {
+                let mut text = vec![say("With ")];
+                for (i, symbol) in found.iter().enumerate() {
+                    if i > 0 {
+                        let last = i + 1 == found.len();
+                        text.push(say(if last { " and " } else { ", " }));
+                    }
+                    text.push(words::formula(symbol));
+                }
+                text.push(say(" from above,"));
+                self.text(text);
+            } else if !found.is_empty() {
+                self.say("With the motion found above,");
+            }
+            self.told
+                .extend(answers.iter().map(|a| Symbol::from(a.name.as_str())));
+            self.push(Part::Result(lines));
         }
     }
 

@@ -378,7 +378,15 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer,
         text.push(say("."));
         solution.text(text);
     }
-    if let Some(words) = known(&answer.checks).filter(|_| !told) {
+    // That a check holds is told once, at the end; each by itself only at full length.
+    let full = solution.detail == Detail::Full;
+    let untold: Vec<Check> = answer
+        .checks
+        .iter()
+        .filter(|c| full || c.holds != Some(true))
+        .cloned()
+        .collect();
+    if let Some(words) = known(&untold).filter(|_| !told) {
         solution.text(vec![say(called(scene, &words))]);
     }
 }

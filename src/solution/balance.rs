@@ -4,7 +4,7 @@ use super::block::AXES;
 use super::words::{self, name, say};
 use super::{Claim, Detail, Inline, Math, Writer};
 use crate::derive::Equation;
-use crate::expr::{Expr, Vector};
+use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Direction, Law, Place};
 use crate::scene::ContactLaw;
 
@@ -27,7 +27,6 @@ impl Writer<'_> {
                 self.angular_reason(system, *about);
                 if vectors {
                     self.angular_momentum(system, *about);
-                    self.say("Equating the two,");
                 }
             }
             Law::LinearMomentum { system, along } => {
@@ -181,21 +180,21 @@ impl Writer<'_> {
         }
         if let [one] = silent.as_slice() {
             text.push_str(&format!(
-                " The impulse at {one} acts at that very point and has no moment about it."
+                " The impulse at {one} acts at this point and has no moment about it."
             ));
         } else if !silent.is_empty() {
             text.push_str(&format!(
-                " The impulses at {} act at that very point and have no moment about it.",
+                " The impulses at {} act at this point and have no moment about it.",
                 words::list(&silent)
             ));
         }
         if let [one] = through.as_slice() {
             text.push_str(&format!(
-                " The impulse at {one} points through it and has no moment about it."
+                " The impulse at {one} passes through it and has no moment about it."
             ));
         } else if !through.is_empty() {
             text.push_str(&format!(
-                " The impulses at {} point through it and have no moment about it.",
+                " The impulses at {} pass through it and have no moment about it.",
                 words::list(&through)
             ));
         }
@@ -221,6 +220,26 @@ impl Writer<'_> {
             .filter(|x| !x.moment.is_zero())
             .collect();
         let h = |mark| name("H", &index, mark, true);
+        let before: Vec<(Vector, Expr)> = system
+            .iter()
+            .map(|&b| {
+                let (v, w) = self.g.before(b);
+                (v.clone(), w.clone())
+            })
+            .collect();
+        let at_rest = before
+            .iter()
+            .all(|(v, w)| v.iter().all(Expr::is_zero) && w.is_zero());
+        if at_rest {
+            let whom = words::capital(&words::bodies(self.scene, system));
+            let is = if system.len() == 1 { "is" } else { "are" };
+            self.text(vec![
+                say(format!("{whom} {is} at rest before, so ")),
+                Inline::Math(vec![h("-"), Math::Op("="), Math::Expr(Expr::zero())]),
+                say("."),
+            ]);
+        }
+        self.motion_words(system);
         let mut law = vec![h("-")];
         for x in &outside {
             let q = words::point(self.scene, x.place);
@@ -263,25 +282,7 @@ impl Writer<'_> {
         if any {
             self.show(definition, None);
         }
-        // Just before.
-        let before: Vec<(Vector, Expr)> = system
-            .iter()
-            .map(|&b| {
-                let (v, w) = self.g.before(b);
-                (v.clone(), w.clone())
-            })
-            .collect();
-        let at_rest = before
-            .iter()
-            .all(|(v, w)| v.iter().all(Expr::is_zero) && w.is_zero());
-        if at_rest {
-            self.text(vec![
-                say("Just before, everything is at rest: "),
-                Inline::Math(vec![h("-"), Math::Op("="), Math::Expr(Expr::zero())]),
-                say("."),
-            ]);
-        } else {
-            self.say("Just before,");
+        if !at_rest {
             self.momentum_line(
                 system,
                 about,
@@ -290,12 +291,10 @@ impl Writer<'_> {
                 "angular momentum just before",
             );
         }
-        // Just after.
         let after: Vec<(Vector, Expr)> = system
             .iter()
             .map(|&b| (self.velocity_after(b), self.spin_after(b)))
             .collect();
-        self.motion_words(system, about);
         self.momentum_line(system, about, &after, h("+"), "angular momentum just after");
         for x in &outside {
             let arm = self.arm(&self.g.place(x.place).clone(), about);
@@ -340,12 +339,15 @@ impl Writer<'_> {
     }
 
     /// How the bodies move just after, in vectors, where joints leave only their spins free.
-    fn motion_words(&mut self, system: &[usize], about: Place) {
-        let mut said = false;
+    fn motion_words(&mut self, system: &[usize]) {
         for &b in system {
             let Some(link) = self.reduction.tree.iter().find(|l| l.body == b).copied() else {
                 continue;
             };
+            // How a body moves is told once.
+            if !self.told.insert(Symbol::from(format!("motion of {b}"))) {
+                continue;
+            }
             let at = words::point(self.scene, link.at);
             let c = words::center(self.scene, b);
             let arm = self.arm(&self.g.place(Place::Center(b)).clone(), link.at);
@@ -359,10 +361,10 @@ impl Writer<'_> {
             };
             let mut math = vec![name("v", &c, "+", true), Math::Op("=")];
             let lead = if still {
-                format!("Just after, {whom} turns about {at}, so")
+                format!("Just after, {whom} turns about {at}:")
             } else {
                 format!(
-                    "Just after, {whom} moves with {} at {at}, so",
+                    "Just after, {whom} moves with {} at {at}:",
                     words::body(self.scene, link.to)
                 )
             };
@@ -387,11 +389,11 @@ impl Writer<'_> {
             let spin = laws::Unknown::Spin(b);
             if self.d.names.is_reversed(spin) {
                 let symbol = Expr::symbol(self.d.names.plain(spin));
-                let lead = lead.strip_suffix(", so").unwrap_or(&lead).to_string();
+                let lead = lead.strip_suffix(':').unwrap_or(&lead).to_string();
                 self.text(vec![
-                    say(format!("{lead}, so with ")),
+                    say(format!("{lead}; with ")),
                     words::formula(&symbol),
-                    say(" counted clockwise"),
+                    say(" counted clockwise,"),
                 ]);
             } else {
                 self.say(&lead);
@@ -413,10 +415,7 @@ impl Writer<'_> {
                 self.show(math, None);
             }
             self.show(math, Some(id));
-            said = true;
         }
-        let _ = about;
-        self.say(if said { "and" } else { "Just after," });
     }
 
     /// Σ r × m v + I ω = value, written out and evaluated.
@@ -601,7 +600,12 @@ impl Writer<'_> {
             self.say("In components,");
             let along = |axis: usize| format!("linear momentum along {}", AXES[axis]);
             for (axis, (left, right)) in sides.into_iter().enumerate() {
-                self.claim(left, right, &along(axis));
+                if right.is_zero() && left.size() < 6 {
+                    // What is zero by inspection is told by the result.
+                    self.step(Vec::new(), vec![Claim { left, right }], &along(axis));
+                } else {
+                    self.claim(left, right, &along(axis));
+                }
             }
         } else {
             for e in [x, y] {
@@ -634,20 +638,20 @@ impl Writer<'_> {
         };
         let (first, second) = (words::body(self.scene, one), words::body(self.scene, two));
         let rule = if restitution.is_one() {
-            "Nothing is lost at the contact (e = 1): along the normal the points separate as fast as they approached"
+            "Restitution with e = 1: the points in contact separate along the normal as fast as they approached"
         } else if restitution.is_zero() {
-            "The contact does not rebound (e = 0): along the normal the points do not separate"
+            "Restitution with e = 0: the points in contact do not separate along the normal"
         } else {
-            "Restitution: along the normal the points separate at e times the speed at which they approached"
+            "Restitution: the points in contact separate along the normal at e times their speed of approach"
         };
         let rule = match restitution.as_symbol() {
             Some(symbol) => rule.replace(" e times", &format!(" {symbol} times")),
             None => rule.to_string(),
         };
         self.text(vec![
-            say(format!("{rule}. With ")),
+            say(format!("{rule}. With the normal ")),
             Inline::Math(vec![name("n", "", "", true)]),
-            say(format!(" from {first} to {second} at {at},")),
+            say(format!(" at {at} from {first} to {second},")),
         ]);
         let first = words::center(self.scene, one);
         let second = words::center(self.scene, two);

@@ -3,7 +3,7 @@
 use super::words::{self, say};
 use super::{Claim, Detail, Inline, Line, Math, Part, Writer};
 use crate::derive::{Block, Equation};
-use crate::expr::Expr;
+use crate::expr::{Expr, Symbol};
 use crate::laws::{Direction, Law, Unknown};
 use crate::scene::{Ask, EnergyWhen, ImpulseAt, KnownQuantity, Question};
 
@@ -26,22 +26,15 @@ impl Writer<'_> {
         }
         self.push(Part::Figure(super::Slot::Before));
         self.push(Part::Figure(super::Slot::During));
-        let mut text = String::from(
-            "Take x to the right and y up; angles and spins count counterclockwise unless said otherwise.",
-        );
+        let mut text = String::from("Let x point right and y up; counterclockwise is positive.");
         let forces: Vec<String> = self.forces();
         if !forces.is_empty() {
             let one = forces.len() == 1 && !forces[0].starts_with("the weights ");
             text.push_str(&format!(
-                " {} {}: over the vanishing time of the collision {} no impulse, so {} left out.",
+                " {} {} finite and {} no impulse during the short collision.",
                 words::capital(&words::list(&forces)),
-                if one {
-                    "is a finite force"
-                } else {
-                    "are finite forces"
-                },
-                if one { "it has" } else { "they have" },
-                if one { "it is" } else { "they are" },
+                if one { "is" } else { "are" },
+                if one { "has" } else { "have" },
             ));
         }
         self.say(&text);
@@ -275,9 +268,12 @@ impl Writer<'_> {
         if let ([claim], [(u, value)]) = (before.as_slice(), pairs.as_slice()) {
             let symbol = Expr::symbol(self.d.names.plain(*u));
             if claim.left == symbol && claim.right == *value {
+                self.told.insert(Symbol::from(self.d.names.plain(*u)));
                 return;
             }
         }
+        let shown: Vec<Expr> = pairs.iter().map(|(u, v)| self.short(*u, v)).collect();
+        self.abbreviations(&shown);
         let mut substeps = Vec::new();
         if self.detail() == Detail::Full {
             substeps = self.substeps(|writer| {
@@ -326,22 +322,35 @@ impl Writer<'_> {
             self.say(
                 "Their closed forms are long; the results below give them with abbreviations.",
             );
-        } else if let Some(Part::Display(_)) = self.last_part() {
-            for (i, mut math) in lines.into_iter().enumerate() {
-                if i == 0 {
-                    math.insert(0, Math::Op("⇒"));
-                }
-                self.show(math, Some(id.clone()));
-            }
         } else {
-            let lines = lines
-                .into_iter()
-                .map(|math| Line {
-                    math,
-                    step: Some(id.clone()),
+            let lines: Vec<(Unknown, Line)> = pairs
+                .iter()
+                .zip(lines)
+                .map(|((u, _), math)| {
+                    let step = Some(id.clone());
+                    (*u, Line { math, step })
                 })
                 .collect();
-            self.push(Part::Display(lines));
+            let asked = |u: &Unknown| {
+                let name = self.d.names.plain(*u);
+                self.d.answers.iter().any(|a| a.name == name)
+            };
+            let (answers, others): (Vec<_>, Vec<_>) =
+                lines.into_iter().partition(|(u, _)| asked(u));
+            for (i, (_, line)) in others.into_iter().enumerate() {
+                let mut math = line.math;
+                if i == 0 && matches!(self.last_part(), Some(Part::Display(_))) {
+                    math.insert(0, Math::Op("⇒"));
+                }
+                self.show(math, line.step);
+            }
+            if !answers.is_empty() {
+                for (u, _) in &answers {
+                    let name = Symbol::from(self.d.names.plain(*u));
+                    self.told.insert(name);
+                }
+                self.push(Part::Result(answers.into_iter().map(|(_, l)| l).collect()));
+            }
         }
         for divisor in &divisors {
             self.text(vec![

@@ -15,7 +15,7 @@ mod results;
 mod story;
 mod words;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 pub use asked::{answered, full_sentence, known, sentence};
 pub use story::tell;
@@ -145,6 +145,8 @@ pub enum Part {
     Text(Vec<Inline>),
     /// Equations, one a line.
     Display(Vec<Line>),
+    /// Results, in a box.
+    Result(Vec<Line>),
     /// Items.
     List(Vec<Vec<Inline>>),
     /// A system in matrix form.
@@ -296,6 +298,8 @@ struct Writer<'a> {
     nested: bool,
     /// What the ids of its steps begin with: that of the step they are parts of, and a point.
     within: String,
+    /// Answers and abbreviations that stand on the page already.
+    told: BTreeSet<Symbol>,
 }
 
 impl<'a> Writer<'a> {
@@ -387,6 +391,7 @@ impl<'a> Writer<'a> {
             },
             nested: false,
             within: String::new(),
+            told: BTreeSet::new(),
         }
     }
 

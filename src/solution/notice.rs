@@ -7,7 +7,6 @@ use super::words::{self, say};
 use super::{Claim, Inline, Math, Part, Writer};
 use crate::algebra::{Field, Sign};
 use crate::derive::{Answer, Form};
-use crate::dimension;
 use crate::expr::{Expr, Symbol};
 use crate::laws::Unknown;
 use crate::scene::{Ask, EnergyWhen};
@@ -16,7 +15,7 @@ use crate::scene::{Ask, EnergyWhen};
 const NOTICED: usize = 30;
 
 /// Remarks about limits that a reader is glad to have; more would bury them.
-const LIMITS: usize = 4;
+const LIMITS: usize = 2;
 /// Largest loss of energy, in nodes, that is worked out for a remark alone.
 const LONGEST: usize = 1_000;
 
@@ -28,11 +27,10 @@ impl Writer<'_> {
         items.extend(self.signs());
         items.extend(self.independent());
         items.extend(self.limits());
-        items.extend(self.units());
         if items.is_empty() {
             return;
         }
-        self.section(vec![say("What to notice")]);
+        self.section(vec![say("What the results say")]);
         self.push(Part::List(items));
     }
 
@@ -124,9 +122,7 @@ impl Writer<'_> {
             return None;
         }
         if lost.is_zero() {
-            return Some(vec![say(
-                "No kinetic energy is lost: before and after it is the same.",
-            )]);
+            return Some(vec![say("No kinetic energy is lost.")]);
         }
         let places: Vec<String> = self.scene.contacts.iter().map(|c| c.name.clone()).collect();
         let sign = self.sign(&lost)?;
@@ -394,36 +390,6 @@ impl Writer<'_> {
         field.prepare([&at]);
         let element = field.element(&at).ok()?;
         Some(field.expr(&element))
-    }
-
-    /// Whether all answers have the dimension of what they answer.
-    fn units(&mut self) -> Option<Vec<Inline>> {
-        let answers = self.closed();
-        let symbols = |name: &str| {
-            let parameter = self.scene.parameters.iter().find(|p| *p.name == *name);
-            parameter.map(|p| p.dimension.clone())
-        };
-        let mut count = 0;
-        for (answer, closed) in &answers {
-            match dimension::of(closed, &symbols) {
-                Ok(Some(found)) if found == answer.dimension => count += 1,
-                Ok(None) => {}
-                _ => return None,
-            }
-        }
-        (count > 1).then(|| {
-            let mut seen: Vec<String> = Vec::new();
-            for (answer, closed) in &answers {
-                let unit = answer.dimension.spoken();
-                if !closed.is_zero() && !seen.contains(&unit) {
-                    seen.push(unit);
-                }
-            }
-            vec![say(format!(
-                "The units agree in every term: the results are in {}.",
-                words::list(&seen)
-            ))]
-        })
     }
 }
 

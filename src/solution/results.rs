@@ -3,12 +3,30 @@
 use super::words::{self, say};
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Writer};
 use crate::derive::Form;
-use crate::expr::Expr;
+use crate::expr::{Expr, Symbol};
 
 impl Writer<'_> {
     /// All answers, with abbreviations below.
     pub(super) fn results(&mut self) {
-        self.section(vec![say("Results")]);
+        let shorts: Vec<Expr> = self
+            .d
+            .answers
+            .iter()
+            .filter(|a| !self.told.contains(a.name.as_str()))
+            .filter_map(|a| match &a.form {
+                Form::Value { short, .. } => Some(short.clone()),
+                _ => None,
+            })
+            .collect();
+        let open = self
+            .d
+            .answers
+            .iter()
+            .any(|a| matches!(a.form, Form::Open(_)));
+        if !shorts.is_empty() || open {
+            self.section(vec![say("Results")]);
+        }
+        self.abbreviations(&shorts);
         let mut lines = Vec::new();
         let mut open = Vec::new();
         for answer in &self.d.answers {
@@ -31,6 +49,9 @@ impl Writer<'_> {
                         }],
                         "result",
                     );
+                    if self.told.contains(answer.name.as_str()) {
+                        continue;
+                    }
                     lines.push(Line {
                         math,
                         step: Some(id),
@@ -41,7 +62,7 @@ impl Writer<'_> {
             }
         }
         if !lines.is_empty() {
-            self.push(Part::Display(lines));
+            self.push(Part::Result(lines));
         }
         if !open.is_empty() {
             let mut text = vec![say("Momentum balance and the given laws do not determine ")];
@@ -64,52 +85,86 @@ impl Writer<'_> {
                 self.push(Part::List(items));
             }
         }
-        if !self.d.definitions.is_empty() {
-            self.say("where");
-            let mut lines = Vec::new();
-            let mut meanings = Vec::new();
-            for definition in &self.d.definitions {
-                let symbol = Expr::symbol(&definition.name);
-                self.solution
-                    .meanings
-                    .entry(definition.name.clone())
-                    .or_insert(Meaning::Defined);
-                let id = self.step(
-                    Vec::new(),
-                    vec![Claim {
-                        left: symbol.clone(),
-                        right: definition.value.clone(),
-                    }],
-                    &words::named(self.scene, &definition.meaning),
-                );
-                let fresh = self.solution.meanings.get(&definition.name) == Some(&Meaning::Defined);
-                if let Some(step) = self.last_step() {
-                    step.defines = fresh.then(|| definition.name.clone());
-                }
-                lines.push(Line {
-                    math: vec![
-                        Math::Expr(symbol.clone()),
-                        Math::Op("="),
-                        Math::Expr(definition.value.clone()),
-                    ],
-                    step: Some(id),
-                });
-                meanings.push(vec![
-                    words::formula(&symbol),
-                    say(format!(
-                        ": {}",
-                        words::named(self.scene, &definition.meaning)
-                    )),
-                ]);
-            }
-            self.push(Part::Display(lines));
-            if self.detail() != Detail::Brief {
-                self.push(Part::List(meanings));
-            }
-            self.short_forms();
-        }
+        self.short_forms();
         self.numbers();
         self.push(Part::Figure(super::Slot::After));
+    }
+
+    /// The abbreviations that formulas use and that do not stand on the page yet, each before it is used.
+    pub(super) fn abbreviations(&mut self, used: &[Expr]) {
+        let mut needed: Vec<Expr> = used.to_vec();
+        let mut wanted = Vec::new();
+        for definition in self.d.definitions.iter().rev() {
+            let uses = |e: &Expr| e.symbols().contains(&definition.name);
+            if needed.iter().any(uses) && !self.told.contains(&definition.name) {
+                needed.push(definition.value.clone());
+                wanted.push(definition.clone());
+            }
+        }
+        let unknown = |name: &Symbol| {
+            let all = self.d.blocks.iter().flat_map(|b| &b.unknowns);
+            all.into_iter().any(|u| *self.d.names.plain(*u) == **name)
+        };
+        // An unknown that a block solves for is told there.
+        wanted.retain(|d| !unknown(&d.name) || self.detail() == Detail::Brief);
+        wanted.reverse();
+        if wanted.is_empty() {
+            return;
+        }
+        self.say("With the abbreviations");
+        let mut lines = Vec::new();
+        let mut meanings = Vec::new();
+        for definition in wanted {
+            self.told.insert(definition.name.clone());
+            let symbol = Expr::symbol(&definition.name);
+            self.solution
+                .meanings
+                .entry(definition.name.clone())
+                .or_insert(Meaning::Defined);
+            let words = words::named(self.scene, &definition.meaning);
+            let claim = Claim {
+                left: symbol.clone(),
+                right: definition.value.clone(),
+            };
+            let id = self.step(Vec::new(), vec![claim], &words);
+            let fresh = self.solution.meanings.get(&definition.name) == Some(&Meaning::Defined);
+            if let Some(step) = self.last_step() {
+                step.defines = fresh.then(|| definition.name.clone());
+            }
+            lines.push(Line {
+                math: vec![
+                    Math::Expr(symbol.clone()),
+                    Math::Op("="),
+                    Math::Expr(definition.value.clone()),
+                ],
+                step: Some(id),
+            });
+            let again = meanings
+                .last_mut()
+                .filter(|(_, said): &&mut (Vec<Expr>, String)| *said == words);
+            match again {
+                Some((symbols, _)) => symbols.push(symbol),
+                None => meanings.push((vec![symbol], words)),
+            }
+        }
+        self.push(Part::Display(lines));
+        if self.detail() != Detail::Brief {
+            let mut text = vec![say("that is, ")];
+            for (i, (symbols, words)) in meanings.into_iter().enumerate() {
+                if i > 0 {
+                    text.push(say("; "));
+                }
+                for (k, symbol) in symbols.iter().enumerate() {
+                    if k > 0 {
+                        text.push(say(", "));
+                    }
+                    text.push(words::formula(symbol));
+                }
+                text.push(say(format!(": {words}")));
+            }
+            text.push(say("."));
+            self.text(text);
+        }
     }
 
     /// Answers written with abbreviations are claims of their own.
@@ -181,12 +236,10 @@ impl Writer<'_> {
                 "every equation that is determined"
             };
             text.push(say(format!(
-                "Checked: put into the laws of all bodies, joints and contacts, the results satisfy {which} identically"
+                "Check: the results satisfy {which} of momentum, joints and contacts"
             )));
             if points > 0 {
-                text.push(say(
-                    ", and an exact numerical solution found independently gives the same values",
-                ));
+                text.push(say(", and an independent numerical solution agrees"));
             }
             text.push(say("."));
         }

@@ -165,10 +165,7 @@ pub(super) fn approximate(
     let polynomial = tidy(&polynomial, domains).unwrap_or(polynomial);
     let mut later = terms.skip(wanted + 1).filter(|(_, c)| !c.is_zero());
     out.text.push(match later.next() {
-        Some((k, c)) => sentence![
-            "what is left out begins with ",
-            &(c * &distance.powi(k as i64))
-        ],
+        Some((k, c)) => sentence!["the next term is ", &(c * &distance.powi(k as i64))],
         None if is_zero(&(of - &polynomial), domains) == Some(true) => {
             Sentence::words("nothing is left out: it is this polynomial")
         }
