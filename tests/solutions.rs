@@ -470,23 +470,20 @@ fn the_name_of_the_output_tells_the_format() {
 
 /// Every picture of a case, as its page and its document hold it.
 fn pictures(case: &Case) -> Vec<figure::Drawing> {
-    let Some(stages) = &case.scene.story else {
+    let Found::Told(told) = &case.found else {
         return figure::all(&case.scene);
     };
-    let Found::Told(told) = &case.found else {
-        return Vec::new();
-    };
-    let each = stages.stages.iter().zip(&told.stages);
-    each.flat_map(|(stage, told_stage)| {
-        let chapter = match story::impact(&case.scene, told, Some(&stage.name)) {
+    let each = told.stages.iter();
+    each.flat_map(|t| {
+        let chapter = match story::impact(&case.scene, told, Some(&t.placed.name)) {
             Some(impact) => figure::Chapter::Impact(impact),
             None => figure::Chapter::Motion(
-                stage.scene.clone(),
-                stage.kind.clone(),
-                story::is_clockwise(stage, told_stage),
+                t.placed.scene.clone(),
+                t.placed.kind.clone(),
+                story::is_clockwise(t),
             ),
         };
-        figure::chapter(&stage.name, &chapter)
+        figure::chapter(&t.placed.name, &chapter)
             .into_iter()
             .map(|d| d.0)
     })
