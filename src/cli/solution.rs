@@ -71,7 +71,16 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
     let refused = |reason: String| Failure::Input(format!("{}: {reason}", args.scene.display()));
     let (solution, holds, told, plots) = if let Some(stages) = &scene.story {
         let told = story::tell(&scene, stages).map_err(|r| refused(r.to_string()))?;
-        let solution = solution::tell(&scene, stages, &told, detail);
+        let mut solution = solution::tell(&scene, stages, &told, detail);
+        let cases = told
+            .stages
+            .iter()
+            .flat_map(|s| s.cases.iter().map(move |c| (s, c)));
+        let refusals = cases.filter_map(|(s, c)| Some((s, c.possible.refusal()?)));
+        let refusals = refusals.map(|(s, why)| format!("{}: {why}.", s.name));
+        for refusal in refusals.chain(told.ended.iter().map(|why| format!("{why}."))) {
+            solution.begin_with(&refusal);
+        }
         let graphs = story::graphs(&scene, &BTreeMap::new(), &told.answers);
         let graphs = graphs.map_err(|r| refused(r.to_string()))?;
         (solution, told.holds(), Some(told), plots(&scene, &graphs)?)

@@ -158,7 +158,7 @@ pub fn text(scene: &Scene, told: &Told) -> String {
             if s.cases.len() > 1 {
                 line(format!("   case {}:", k + 1));
             }
-            if let Some(refusal) = super::possible::refusal(&case.possible) {
+            if let Some(refusal) = case.possible.refusal() {
                 line(format!("   ✗ {refusal}"));
             }
             impact(case).lines().for_each(|l| line(format!("   {l}")));
