@@ -132,7 +132,10 @@ fn impulses(scene: &Scene) -> Vec<(String, Vec<Unknown>)> {
     for (c, contact) in scene.contacts.iter().enumerate() {
         let unknowns = match contact.law {
             ContactLaw::Frictionless { .. } => vec![Unknown::Normal(c)],
-            ContactLaw::Sticking | ContactLaw::None => {
+            ContactLaw::Sticking
+            | ContactLaw::None
+            | ContactLaw::Friction(_)
+            | ContactLaw::Conditions(_) => {
                 vec![Unknown::Contact(c, 0), Unknown::Contact(c, 1)]
             }
         };

@@ -63,8 +63,12 @@ pub(super) fn candidate_laws(
         }
     }
     for (c, contact) in scene.contacts.iter().enumerate() {
-        if let ContactLaw::Frictionless { .. } = contact.law {
-            laws.push((Law::Restitution(c), 0));
+        match contact.law {
+            ContactLaw::Frictionless { .. } => laws.push((Law::Restitution(c), 0)),
+            ContactLaw::Conditions(_) => {
+                laws.extend([0, 1].map(|i| (Law::Condition(c, i), 0)));
+            }
+            ContactLaw::None | ContactLaw::Sticking | ContactLaw::Friction(_) => {}
         }
     }
     laws.extend(reduction.loops.iter().map(|law| (law.clone(), 0)));

@@ -11,6 +11,7 @@
 //! Every equation is written over any [`Quantity`]: symbolically for the derivation, in doubles for planning it. This
 //! module solves nothing and chooses nothing.
 
+pub mod friction;
 mod quantity;
 mod words;
 
@@ -18,7 +19,7 @@ pub use quantity::{Affine, Linear, Quantity};
 pub use words::{body_list, describe, place as place_name};
 
 use crate::expr::{Expr, Vector};
-use crate::scene::{BlowImpulse, ContactLaw, KnownQuantity, Scene};
+use crate::scene::{BlowImpulse, Condition, ContactLaw, KnownQuantity, Scene};
 
 /// One scalar that is not known before the equations are solved.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -67,6 +68,8 @@ pub enum Law {
     Sticking(usize, usize),
     /// Equal velocities after of the two points joined by a hinge, component 0 or 1.
     Hinged(usize, usize),
+    /// Condition 0 or 1 of a decided mode of friction at a contact.
+    Condition(usize, usize),
     /// Something known of the motion after, by its index in the scene.
     Given(usize),
 }
@@ -117,6 +120,7 @@ pub struct Geometry<T> {
     contact: Vec<[T; 2]>,
     normal: Vec<Option<[T; 2]>>,
     restitution: Vec<Option<T>>,
+    conditions: Vec<Option<[Condition<T>; 2]>>,
     hinge: Vec<[T; 2]>,
     blow: Vec<[T; 2]>,
     blow_impulse: Vec<[T; 2]>,
@@ -156,6 +160,10 @@ impl<T: Quantity> Geometry<T> {
             ContactLaw::Frictionless { restitution } => value(restitution).map(Some),
             _ => Ok(None),
         })?;
+        let conditions = each(&scene.contacts, |c| match c.law.conditions() {
+            Some([one, two]) => Ok(Some([one.try_map(&mut value)?, two.try_map(&mut value)?])),
+            None => Ok(None),
+        })?;
         let known = known_at
             .into_iter()
             .zip(&scene.after)
@@ -170,6 +178,7 @@ impl<T: Quantity> Geometry<T> {
             contact,
             normal,
             restitution,
+            conditions,
             hinge,
             blow,
             blow_impulse,
@@ -292,7 +301,10 @@ pub fn unknowns(scene: &Scene) -> Vec<Unknown> {
     for (c, contact) in scene.contacts.iter().enumerate() {
         match contact.law {
             ContactLaw::Frictionless { .. } => all.push(Unknown::Normal(c)),
-            ContactLaw::Sticking | ContactLaw::None => {
+            ContactLaw::Sticking
+            | ContactLaw::None
+            | ContactLaw::Friction(_)
+            | ContactLaw::Conditions(_) => {
                 all.extend([Unknown::Contact(c, 0), Unknown::Contact(c, 1)])
             }
         }
@@ -330,7 +342,8 @@ pub fn of(scene: &Scene) -> Vec<Law> {
     laws.extend((0..scene.hinges.len()).flat_map(|h| [Law::Hinged(h, 0), Law::Hinged(h, 1)]));
     for (c, contact) in scene.contacts.iter().enumerate() {
         match contact.law {
-            ContactLaw::None => {}
+            ContactLaw::None | ContactLaw::Friction(_) => {}
+            ContactLaw::Conditions(_) => laws.extend([Law::Condition(c, 0), Law::Condition(c, 1)]),
             ContactLaw::Sticking => laws.extend([Law::Sticking(c, 0), Law::Sticking(c, 1)]),
             ContactLaw::Frictionless { .. } => laws.push(Law::Restitution(c)),
         }
@@ -408,6 +421,18 @@ pub fn equation<T: Quantity, E>(
         Law::Hinged(h, axis) => {
             let after = after(scene.hinges[*h].bodies, &g.hinge[*h]);
             after[*axis].clone().equals_zero()
+        }
+        Law::Condition(c, i) => {
+            let Some(both) = &g.conditions[*c] else {
+                return Ok(Affine::constant(T::zero()).equals_zero());
+            };
+            let condition = &both[*i];
+            let after = after(scene.contacts[*c].bodies, &g.contact[*c]);
+            let impulse = impulse_at(scene, g, Place::Contact(*c));
+            along_direction(&impulse, &condition.impulse)
+                .plus(&along_direction(&after, &condition.velocity))
+                .plus(&Affine::constant(condition.right.neg()))
+                .equals_zero()
         }
         Law::Given(k) => {
             let (place, value) = &g.known[*k];

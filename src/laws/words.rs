@@ -26,6 +26,14 @@ pub fn describe(scene: &Scene, law: &Law) -> String {
             scene.contacts[*c].name, AXES[*axis]
         ),
         Law::Hinged(h, axis) => format!("hinge {} along {}", scene.hinges[*h].name, AXES[*axis]),
+        Law::Condition(c, i) => {
+            let contact = &scene.contacts[*c];
+            let words = contact
+                .law
+                .conditions()
+                .map_or("friction", |both| both[*i].words);
+            format!("{words} at {}", contact.name)
+        }
         Law::Given(k) => {
             let known = &scene.after[*k];
             let body = &scene.bodies[known.body].name;

@@ -6,8 +6,10 @@
 use super::energy::{energy_after, energy_before, energy_lost, velocity_after};
 use std::fmt;
 
+use super::friction::settle;
 use super::given::{Given, GivenImpulse, GivenLaw, Reason, Undefined, given, vector};
 use super::number::{Number, dot};
+use super::path::NoPath;
 use super::solution::{Contradiction, Motion, Solution, motion};
 use super::system::{Law, System, Unknown, assemble};
 use crate::expr::{Point, Vector};
@@ -33,6 +35,8 @@ pub enum NoAnswer {
     NotANumber,
     /// These laws contradict each other, so there is no motion at all.
     Contradiction(Vec<Law>),
+    /// The impact with friction has no end.
+    NoPath(NoPath),
 }
 
 impl fmt::Display for NoAnswer {
@@ -42,6 +46,7 @@ impl fmt::Display for NoAnswer {
             NoAnswer::Undefined(undefined) => write!(f, "{undefined}"),
             NoAnswer::NotANumber => f.write_str("asks for an equation, not for a number"),
             NoAnswer::Contradiction(_) => f.write_str("the laws contradict each other"),
+            NoAnswer::NoPath(why) => write!(f, "{why}"),
         }
     }
 }
@@ -52,12 +57,16 @@ impl std::error::Error for NoAnswer {}
 pub type Answered<T> = Vec<(String, Result<Answer<T>, NoAnswer>)>;
 
 /// Solves a scene at a point with the given solver and answers every question that asks for a number.
-pub fn answers<T: Number>(
+pub fn answers<T: Number + PartialOrd>(
     scene: &Scene,
     at: &Point<T>,
     solve: impl Fn(&System<T>) -> Result<Solution<T>, Contradiction>,
 ) -> Result<Answered<T>, NoAnswer> {
     let given = given(scene, at).map_err(NoAnswer::Undefined)?;
+    let given = match settle(&given, &solve)? {
+        Some((settled, _)) => settled,
+        None => given,
+    };
     let system = assemble(&given);
     let solution = solve(&system).map_err(|c| NoAnswer::Contradiction(c.laws(&system)))?;
     let motion = motion(&given, &system, &solution);

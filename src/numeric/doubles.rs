@@ -7,8 +7,11 @@
 
 use super::answer::{Answer, Answered, NoAnswer, answers};
 use super::correct::{Correct, NoCorrect, correct};
+use super::exact::solve_exact;
 use super::float::solve_f64;
-use super::values::{NoPoint, values};
+use super::values::{NoPoint, exact_values, values};
+use crate::expr::Rational;
+use crate::expr::number::to_f64;
 use crate::scene::Scene;
 
 /// Why there are none.
@@ -22,6 +25,9 @@ pub enum NoDoubles {
 
 /// A double for every question that asks for numbers.
 pub fn doubles(scene: &Scene) -> Result<Answered<f64>, NoDoubles> {
+    if scene.friction().is_some() {
+        return with_friction(scene);
+    }
     let found = match correct(scene) {
         Ok(found) => found,
         Err(NoCorrect::NoPoint(why)) => return Err(NoDoubles::NoPoint(why)),
@@ -43,6 +49,22 @@ pub fn doubles(scene: &Scene) -> Result<Answered<f64>, NoDoubles> {
     };
     let named = found.answers.into_iter();
     Ok(named.map(|(name, a)| (name, a.and_then(answer))).collect())
+}
+
+/// With friction the impact is followed in fractions where there are any, so that its mode is decided exactly.
+fn with_friction(scene: &Scene) -> Result<Answered<f64>, NoDoubles> {
+    if let Ok(point) = exact_values(scene)
+        && let Ok(found) = answers(scene, &point, solve_exact)
+    {
+        let answer = |a: Answer<Rational>| match a {
+            Answer::Scalar(x) => Answer::Scalar(to_f64(&x)),
+            Answer::Vector(v) => Answer::Vector(v.map(|x| to_f64(&x))),
+        };
+        let named = found.into_iter();
+        return Ok(named.map(|(name, a)| (name, a.map(answer))).collect());
+    }
+    let point = values(scene).map_err(NoDoubles::NoPoint)?;
+    answers(scene, &point, solve_f64).map_err(NoDoubles::NoAnswer)
 }
 
 fn double(c: &Correct) -> Option<f64> {

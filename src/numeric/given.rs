@@ -6,7 +6,7 @@ use std::fmt;
 
 use super::number::{Number, difference, velocity_at};
 use crate::expr::{Expr, Point, Symbol, Vector};
-use crate::scene::{BlowImpulse, ContactLaw, KnownQuantity, Scene};
+use crate::scene::{BlowImpulse, Condition, ContactLaw, Friction, KnownQuantity, Scene};
 
 /// A scene in numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +35,10 @@ impl<T> Given<T> {
                 at: pair(f, &joint.at),
             }
         }
+        fn sure<X>(value: Result<X, std::convert::Infallible>) -> X {
+            let Ok(value) = value;
+            value
+        }
         let f = &mut f;
         Given {
             bodies: self
@@ -60,6 +64,12 @@ impl<T> Given<T> {
                         GivenLaw::None => GivenLaw::None,
                         GivenLaw::Sticking => GivenLaw::Sticking,
                         GivenLaw::Frictionless(e) => GivenLaw::Frictionless(f(e)),
+                        GivenLaw::Friction(law) => {
+                            GivenLaw::Friction(sure(law.try_map(|x| Ok(f(x)))))
+                        }
+                        GivenLaw::Conditions([a, b]) => {
+                            GivenLaw::Conditions([a, b].map(|c| sure(c.try_map(|x| Ok(f(x))))))
+                        }
                     },
                 })
                 .collect(),
@@ -160,6 +170,10 @@ pub enum GivenLaw<T> {
     Sticking,
     /// Impulse along the normal; coefficient of restitution e.
     Frictionless(T),
+    /// Both impulse components unknown; Coulomb friction, which has no equation until its path has been followed.
+    Friction(Friction<T>),
+    /// Both impulse components unknown, two linear conditions.
+    Conditions([Condition<T>; 2]),
 }
 
 /// A blow in numbers.
@@ -291,6 +305,15 @@ pub(super) fn around<T: Number>(
         let law = match &contact.law {
             ContactLaw::None => GivenLaw::None,
             ContactLaw::Sticking => GivenLaw::Sticking,
+            ContactLaw::Conditions(both) => {
+                let read = |c: &Condition| {
+                    c.try_map(|e| value(e, at, || format!("condition at contact {name}")))
+                };
+                GivenLaw::Conditions([read(&both[0])?, read(&both[1])?])
+            }
+            ContactLaw::Friction(law) => GivenLaw::Friction(
+                law.try_map(|e| value(e, at, || format!("friction of contact {name}")))?,
+            ),
             ContactLaw::Frictionless { restitution } => {
                 if normal.is_none() {
                     return Err(Undefined {

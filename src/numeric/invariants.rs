@@ -306,7 +306,7 @@ fn one_restitution<T: Number>(given: &Given<T>, motion: &Motion<T>) -> Option<T>
     let mut one: Option<T> = None;
     for contact in &given.contacts {
         let e = match &contact.law {
-            GivenLaw::None => return None,
+            GivenLaw::None | GivenLaw::Friction(_) | GivenLaw::Conditions(_) => return None,
             GivenLaw::Sticking => T::zero(),
             GivenLaw::Frictionless(e) => e.clone(),
         };

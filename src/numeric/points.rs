@@ -75,8 +75,14 @@ pub fn needed(scene: &Scene) -> Needed {
     for contact in &scene.contacts {
         vectors.push(&contact.at);
         vectors.extend(&contact.normal);
-        if let ContactLaw::Frictionless { restitution } = &contact.law {
-            needed.add(restitution);
+        match &contact.law {
+            ContactLaw::Frictionless { restitution } => needed.add(restitution),
+            ContactLaw::Friction(law) => law.numbers().into_iter().for_each(|e| needed.add(e)),
+            ContactLaw::Conditions(both) => {
+                let numbers = both.iter().flat_map(|c| c.numbers());
+                numbers.for_each(|e| needed.add(e));
+            }
+            ContactLaw::None | ContactLaw::Sticking => {}
         }
     }
     for blow in &scene.blows {

@@ -30,6 +30,16 @@ pub enum Unknown {
     Blow(usize),
 }
 
+impl Unknown {
+    /// Whether it is a velocity or the spin of this body.
+    pub fn is_motion_of(self, body: usize) -> bool {
+        match self {
+            Unknown::VelocityX(b) | Unknown::VelocityY(b) | Unknown::Spin(b) => b == body,
+            _ => false,
+        }
+    }
+}
+
 /// The law a row states. The indices are those of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Law {
@@ -49,6 +59,8 @@ pub enum Law {
     StickingY(usize),
     /// Normal relative velocity after = −e × before, at a contact.
     Restitution(usize),
+    /// Condition 0 or 1 of a contact, on its impulse and the relative velocity after.
+    Condition(usize, usize),
     /// A value known just after.
     Known(usize),
 }
@@ -141,7 +153,10 @@ pub fn unknowns<T>(given: &Given<T>, into: &mut Vec<Unknown>) {
     for (i, contact) in given.contacts.iter().enumerate() {
         match contact.law {
             GivenLaw::Frictionless(_) => into.push(Unknown::ContactNormal(i)),
-            GivenLaw::None | GivenLaw::Sticking => {
+            GivenLaw::None
+            | GivenLaw::Sticking
+            | GivenLaw::Friction(_)
+            | GivenLaw::Conditions(_) => {
                 into.extend([Unknown::ContactX(i), Unknown::ContactY(i)]);
             }
         }
@@ -266,6 +281,16 @@ fn joints<T: Number>(given: &Given<T>, columns: &Columns, rows: &mut Rows<T>) {
                 let before = dot(n, &two).minus(&dot(n, &one));
                 rows.right[row] = rows.right[row].minus(&e.times(&before));
             }
+            (GivenLaw::Conditions(both), _) => {
+                for (k, condition) in both.iter().enumerate() {
+                    let law = Law::Condition(i, k);
+                    let row = relative(rows, law, bodies, at, &condition.velocity);
+                    for (axis, factor) in condition.impulse.iter().enumerate() {
+                        rows.add(row, columns.contact[i] + axis, factor);
+                    }
+                    rows.right[row] = rows.right[row].plus(&condition.right);
+                }
+            }
             _ => {}
         }
     }
@@ -298,7 +323,10 @@ impl Columns {
         let hinge = given.hinges.iter().map(|_| take(2)).collect();
         let contact = given.contacts.iter().map(|contact| match contact.law {
             GivenLaw::Frictionless(_) => take(1),
-            GivenLaw::None | GivenLaw::Sticking => take(2),
+            GivenLaw::None
+            | GivenLaw::Sticking
+            | GivenLaw::Friction(_)
+            | GivenLaw::Conditions(_) => take(2),
         });
         let contact = contact.collect();
         let blow = given.blows.iter().map(|blow| match blow.impulse {

@@ -68,6 +68,7 @@ fn law(scene: &Scene, law: Law) -> String {
         Law::StickingX(c) => format!("sticking at {} along x", contact(c)),
         Law::StickingY(c) => format!("sticking at {} along y", contact(c)),
         Law::Restitution(c) => format!("restitution at {}", contact(c)),
+        Law::Condition(c, _) => format!("friction at {}", contact(c)),
         Law::Known(k) => format!("known value {}", k + 1),
     }
 }

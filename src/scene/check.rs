@@ -17,6 +17,10 @@ pub(super) enum Claim {
     Unit(Vector),
     /// A number from 0 to 1.
     Fraction(Expr),
+    /// A coefficient of friction: 0 or greater.
+    Friction(Expr),
+    /// A tangential restitution: from -1 to 1.
+    Tangential(Expr),
     /// A mass, length or inertia is positive.
     Size {
         size: Expr,
@@ -115,6 +119,32 @@ fn try_claim(scene: &Scene, claimed: &Claimed, given: &Given) -> (Option<Fault>,
             );
             let hint =
                 "0: no rebound, 1: no loss; for a symbol give \"domain\": {\"min\": 0, \"max\": 1}";
+            (Some(fault(message).hint(hint)), None)
+        }
+        Claim::Friction(mu) => {
+            let found = violation(mu, scene, given, |v| v.high < 0.0);
+            let Some((value, point)) = found else {
+                return (None, None);
+            };
+            let message = format!(
+                "a coefficient of friction is not negative, and this is {}{}",
+                number_words(value),
+                at(&point)
+            );
+            let hint = "friction opposes the slip by itself, whichever way it goes; change the value, or the `domain` of its parameters";
+            (Some(fault(message).hint(hint)), None)
+        }
+        Claim::Tangential(e) => {
+            let found = violation(e, scene, given, |v| v.high < -1.0 || v.low > 1.0);
+            let Some((value, point)) = found else {
+                return (None, None);
+            };
+            let message = format!(
+                "a tangential restitution is from -1 to 1, and this is {}{}",
+                number_words(value),
+                at(&point)
+            );
+            let hint = "-1: no friction, 0: no slip after, 1: the slip is turned round";
             (Some(fault(message).hint(hint)), None)
         }
         Claim::Size {

@@ -9,6 +9,7 @@ mod drawing;
 mod fault;
 mod file;
 mod formulas;
+mod friction;
 mod geometry;
 mod json;
 pub mod outline;
@@ -32,6 +33,7 @@ use crate::expr::{Expr, Symbol, Vector};
 pub use drawing::{Drawn, Outline, Support};
 pub use fault::{Fault, Faults, Span};
 pub use geometry::direction;
+pub use friction::{Condition, ContactSpace, Friction, Hypothesis, Mode};
 pub use printed::{Print, Printed};
 pub use stage::{
     Fall, FallEnd, Lump, OneSided, PlotAsk, Relation, Slide, Stage, StageKind, Story, StoryAsk,
@@ -175,6 +177,17 @@ pub struct Scene {
     pub gains_energy: bool,
     /// What the reader noticed that is no fault, such as a parameter that nothing uses.
     pub remarks: Vec<String>,
+}
+
+impl Scene {
+    /// The contact with friction, by index, and its law.
+    pub fn friction(&self) -> Option<(usize, &Friction)> {
+        let mut contacts = self.contacts.iter().enumerate();
+        contacts.find_map(|(c, contact)| match &contact.law {
+            ContactLaw::Friction(law) => Some((c, &**law)),
+            _ => None,
+        })
+    }
 }
 
 /// A given quantity.
@@ -353,6 +366,20 @@ pub enum ContactLaw {
         /// Coefficient of restitution, 0 ≤ e ≤ 1.
         restitution: Expr,
     },
+    /// Coulomb friction. It closes the equations only once its mode is known; until then it counts as no law.
+    Friction(Box<Friction>),
+    /// Two linear conditions: what friction says in one of its modes. No scene file states them.
+    Conditions(Box<[Condition; 2]>),
+}
+
+impl ContactLaw {
+    /// The conditions of a decided mode of friction.
+    pub fn conditions(&self) -> Option<&[Condition; 2]> {
+        match self {
+            ContactLaw::Conditions(both) => Some(both),
+            _ => None,
+        }
+    }
 }
 
 /// An impulse from outside the scene.

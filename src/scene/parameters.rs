@@ -73,7 +73,7 @@ pub(super) fn resolve(
             None if is_restitution(file, &name.text) => {
                 Some(Domain::between(ratio(0, 1), ratio(1, 1)))
             }
-            None if is_component(file, &name.text) => {
+            None if is_tangential(file, &name.text) || is_component(file, &name.text) => {
                 Some(Domain::between(ratio(-1, 1), ratio(1, 1)))
             }
             None if unit.angle && unit.dimension.is_none() => Some(Domain::real()),
@@ -284,6 +284,13 @@ fn is_restitution(file: &SceneFile, name: &str) -> bool {
             .as_ref()
             .is_some_and(|e| e.text.trim() == name)
     })
+}
+
+/// Whether a contact uses this name, as it is, for its tangential restitution.
+fn is_tangential(file: &SceneFile, name: &str) -> bool {
+    let contacts = file.contacts.iter().flat_map(|m| &m.0);
+    let mut given = contacts.filter_map(|(_, c)| c.as_ref()?.tangential_restitution.as_ref());
+    given.any(|e| e.text.trim() == name)
 }
 
 fn is_component(file: &SceneFile, name: &str) -> bool {

@@ -255,10 +255,16 @@ pub(super) fn fields<'n, 't>(
         let is_known = known.contains(&&*entry.key);
         if !is_known {
             let fault = Fault::new(entry.key_span, format!("unknown field `{}`", entry.key));
-            faults.push(match nearest(&entry.key, known.iter().copied()) {
-                Some(name) => fault.hint(format!("did you mean `{name}`?")),
-                None => fault.hint(format!("the fields here are {}", known.join(", "))),
-            });
+            let near = nearest(&entry.key, known.iter().copied());
+            faults.push(
+                match meant(&entry.key)
+                    .map(str::to_owned)
+                    .or_else(|| near.map(|n| format!("did you mean `{n}`?")))
+                {
+                    Some(hint) => fault.hint(hint),
+                    None => fault.hint(format!("the fields here are {}", known.join(", "))),
+                },
+            );
         }
         is_known
     });
@@ -268,6 +274,26 @@ pub(super) fn fields<'n, 't>(
 /// Whether nothing inside this place has been reported. Among very many faults the question is not worth its time.
 pub(super) fn is_sound(span: Span, faults: &[Fault]) -> bool {
     faults.len() < 1000 && !faults.iter().any(|f| span.contains(f.span))
+}
+
+/// What there is for a word of mechanics that is no word of scene files.
+fn meant(word: &str) -> Option<&'static str> {
+    Some(match word.to_lowercase().as_str() {
+        "elastic" => {
+            "an elastic collision is \"law\": \"frictionless\" with \"restitution\": \"1\""
+        }
+        "inelastic" | "plastic" => {
+            "\"law\": \"sticking\", or \"frictionless\" with \"restitution\": \"0\""
+        }
+        "smooth" => "a smooth contact is \"law\": \"frictionless\" with a `restitution`",
+        "friction" | "rough" | "coulomb" | "slipping" | "sliding" => {
+            "a contact with friction has \"law\": \"friction\" with `mu`, `restitution` and `hypothesis`"
+        }
+        "newton" | "poisson" | "stronge" | "brach" | "routh" => {
+            "\"law\": \"friction\", and this word as its `hypothesis`: newton, poisson, stronge, chatterjee-ruina or brach"
+        }
+        _ => return None,
+    })
 }
 
 /// One field of an object.
@@ -363,10 +389,16 @@ pub(super) fn word<T: Copy>(
         .map(|(_, value)| *value);
     if found.is_none() {
         let fault = Fault::new(node.span, format!("`{text}` is none of {}", all()));
-        faults.push(match nearest(text, words.iter().map(|(w, _)| *w)) {
-            Some(name) => fault.hint(format!("did you mean `{name}`?")),
-            None => fault,
-        });
+        let near = nearest(text, words.iter().map(|(w, _)| *w));
+        faults.push(
+            match meant(text)
+                .map(str::to_owned)
+                .or_else(|| near.map(|n| format!("did you mean `{n}`?")))
+            {
+                Some(hint) => fault.hint(hint),
+                None => fault,
+            },
+        );
     }
     found
 }

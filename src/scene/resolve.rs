@@ -8,14 +8,17 @@ use std::collections::HashMap;
 use super::body::{Solid, SolidReader};
 use super::check::{Claim, Claimed, check, unused};
 use super::fault::{Fault, Span, TOLD, nearest};
-use super::file::{ContactFile, KnownFile, LawName, SceneFile, ShapeName, VelocityFile};
+use super::file::{
+    ContactFile, HypothesisName, KnownFile, LawName, SceneFile, ShapeName, SupposedName,
+    VelocityFile,
+};
 use super::formulas::{Quantity, Symbols};
 use super::geometry;
 use super::place::Place;
-use super::record::{Map, Text, is_sound};
+use super::record::{Formula, Map, Text, is_sound};
 use super::{
-    Blow, BlowImpulse, Body, Contact, ContactLaw, Force, Hinge, Known, KnownQuantity, NamedPoint,
-    Scene, Shape, parameters, question, special,
+    Blow, BlowImpulse, Body, Contact, ContactLaw, Force, Friction, Hinge, Hypothesis, Known,
+    KnownQuantity, Mode, NamedPoint, Scene, Shape, parameters, question, special,
 };
 use crate::expr::{Expr, Vector, minus};
 
@@ -323,7 +326,11 @@ impl<'f> Resolver<'f> {
             }
             value
         });
+        self.belongs_to_friction(contact);
         let law = match contact.law {
+            Some(LawName::Friction) => {
+                self.friction(name, contact, restitution.flatten(), normal.is_some())
+            }
             Some(LawName::Frictionless) => {
                 for (missing, field, hint) in [
                     (
@@ -394,6 +401,124 @@ impl<'f> Resolver<'f> {
                 law,
             });
         }
+    }
+
+    /// Reports what only a contact with friction has, where the law is another one.
+    fn belongs_to_friction(&mut self, contact: &ContactFile) {
+        if contact.law == Some(LawName::Friction) || !is_sound(contact.span, &self.faults) {
+            return;
+        }
+        let given = [
+            ("mu", contact.mu.as_ref().map(|f| f.span)),
+            ("hypothesis", contact.hypothesis.map(|_| contact.span)),
+            (
+                "tangential_restitution",
+                contact.tangential_restitution.as_ref().map(|f| f.span),
+            ),
+            (
+                "impulse_ratio",
+                contact.impulse_ratio.as_ref().map(|f| f.span),
+            ),
+            ("supposing", contact.supposing.map(|_| contact.span)),
+        ];
+        for (field, span) in given {
+            if let Some(span) = span {
+                let message = format!("`{field}` belongs to a contact with friction");
+                let fault = Fault::new(span, message);
+                self.faults.push(fault.hint("add \"law\": \"friction\""));
+            }
+        }
+    }
+
+    /// The law of a contact with friction.
+    fn friction(
+        &mut self,
+        name: &Text,
+        contact: &ContactFile,
+        restitution: Option<Expr>,
+        has_normal: bool,
+    ) -> Option<ContactLaw> {
+        let brach = contact.hypothesis == Some(HypothesisName::Brach);
+        let no_mu = contact.mu.is_none() && !(brach && contact.impulse_ratio.is_some());
+        for (missing, field, hint) in [
+            (
+                !has_normal,
+                "normal",
+                "the unit normal out of the first body into the second",
+            ),
+            (
+                contact.restitution.is_none(),
+                "restitution",
+                "a number or a symbol from 0 to 1",
+            ),
+            (no_mu, "mu", "the coefficient of friction, 0 or greater"),
+        ] {
+            if missing && is_sound(contact.span, &self.faults) {
+                let message = format!("a contact with friction needs `{field}`");
+                let fault = Fault::new(contact.span, message).shown_at(name.span);
+                self.faults.push(fault.hint(hint));
+            }
+        }
+        let number = |this: &mut Self, f: &Option<Formula>, claim: fn(Expr) -> Claim| {
+            let f = f.as_ref()?;
+            let value = this.symbols.read(f, Quantity::NUMBER, &mut this.faults)?;
+            this.claims.push(Claimed {
+                span: f.span,
+                claim: claim(value.clone()),
+            });
+            Some(value)
+        };
+        let mu = number(self, &contact.mu, Claim::Friction);
+        let tangential = number(self, &contact.tangential_restitution, Claim::Tangential);
+        let ratio = contact.impulse_ratio.as_ref();
+        let ratio = ratio.and_then(|f| self.symbols.read(f, Quantity::NUMBER, &mut self.faults));
+        let own = [
+            (
+                "tangential_restitution",
+                contact.tangential_restitution.as_ref(),
+                HypothesisName::ChatterjeeRuina,
+                "chatterjee-ruina",
+            ),
+            (
+                "impulse_ratio",
+                contact.impulse_ratio.as_ref(),
+                HypothesisName::Brach,
+                "brach",
+            ),
+        ];
+        for (field, given, owner, word) in own {
+            if let Some(f) = given.filter(|_| contact.hypothesis != Some(owner)) {
+                let message = format!("`{field}` belongs to the hypothesis {word}");
+                let fault = Fault::new(f.span, message);
+                self.faults
+                    .push(fault.hint(format!("add \"hypothesis\": \"{word}\"")));
+            }
+        }
+        let hypothesis = match contact.hypothesis {
+            Some(HypothesisName::Newton) => Hypothesis::Newton,
+            None | Some(HypothesisName::Poisson) => Hypothesis::Poisson,
+            Some(HypothesisName::Stronge) => Hypothesis::Stronge,
+            Some(HypothesisName::ChatterjeeRuina) => Hypothesis::ChatterjeeRuina {
+                tangential: tangential.unwrap_or_else(Expr::zero),
+            },
+            Some(HypothesisName::Brach) => Hypothesis::Brach { ratio },
+        };
+        let supposing = contact.supposing.map(|supposed| match supposed {
+            SupposedName::Slides => Mode::Slides,
+            SupposedName::Sticks => Mode::Sticks,
+            SupposedName::SticksInCompression => Mode::SticksInCompression,
+            SupposedName::SticksInRestitution => Mode::SticksInRestitution,
+            SupposedName::ReversesInCompression => Mode::ReversesInCompression,
+            SupposedName::ReversesInRestitution => Mode::ReversesInRestitution,
+            SupposedName::InsideCone => Mode::InsideCone,
+            SupposedName::OnCone => Mode::OnCone,
+        });
+        Some(ContactLaw::Friction(Box::new(Friction {
+            mu: mu.or_else(|| brach.then(Expr::zero))?,
+            restitution: restitution?,
+            hypothesis,
+            supposing,
+        })))
     }
 
     fn known(&mut self, known: &KnownFile) -> Option<Known> {

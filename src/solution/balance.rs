@@ -50,7 +50,9 @@ impl Writer<'_> {
                     AXES[*axis]
                 ));
             }
-            Law::Given(_) => self.say(&format!("{}:", words::capital(&reason))),
+            Law::Condition(..) | Law::Given(_) => {
+                self.say(&format!("{}:", words::capital(&reason)));
+            }
         }
         let shown = matches!(self.last_line(), Some((l, r)) if l == left && r == right);
         if !shown {

@@ -239,6 +239,7 @@ impl Writer<'_> {
                     self.scene.hinges[*h].name, AXES[*axis]
                 )
             }
+            Law::Condition(..) => crate::laws::describe(self.scene, law),
             Law::Given(k) => {
                 let known = &self.scene.after[*k];
                 let body = words::body(self.scene, known.body);

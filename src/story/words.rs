@@ -399,7 +399,9 @@ pub(super) fn missing(told: &StageTold) -> Vec<Sentence> {
                 "` there is no friction, the normal is the one given, and e = ",
                 restitution
             ],
-            ContactLaw::None => sentence!["nothing is supposed at `", &c.name, "`"],
+            ContactLaw::None | ContactLaw::Friction(_) | ContactLaw::Conditions(_) => {
+                sentence!["nothing is supposed at `", &c.name, "`"]
+            }
         });
         c.law = ContactLaw::None;
         c.normal = None;

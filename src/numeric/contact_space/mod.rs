@@ -50,13 +50,13 @@ impl Joint {
     }
 }
 
-/// Every joint, in the order of the unknowns. Contacts without a law are left out; see [`lines`].
+/// Every joint, in the order of the unknowns. Contacts without a law, or with friction, are left out; see [`lines`].
 fn joints<T>(given: &Given<T>) -> impl Iterator<Item = Joint> {
     let contacts = given.contacts.iter().enumerate();
     (0..given.hinges.len())
         .map(Joint::Hinge)
         .chain(contacts.filter_map(|(i, c)| match c.law {
-            GivenLaw::None => None,
+            GivenLaw::None | GivenLaw::Friction(_) | GivenLaw::Conditions(_) => None,
             GivenLaw::Sticking => Some(Joint::Sticking(i)),
             GivenLaw::Frictionless(_) => Some(Joint::Frictionless(i)),
         }))

@@ -217,6 +217,11 @@ fn composed(
             normal: Some(e.normal.clone()),
             law: None,
             restitution: None,
+            mu: None,
+            hypothesis: None,
+            tangential_restitution: None,
+            impulse_ratio: None,
+            supposing: None,
         });
         (name.clone(), entry)
     });

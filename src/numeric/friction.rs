@@ -1,0 +1,121 @@
+//! A scene with friction in numbers: what its contact feels is found by the full system, the impact is followed along its
+//! path, and the impulse at its end takes the place of the law.
+//!
+//! In: the numbers of a scene and a solver. Out: the same numbers with the impulse known, and the path.
+
+use super::answer::NoAnswer;
+use super::energy::relative_velocities;
+use super::given::{Given, GivenLaw};
+use super::number::{Number, dot, stretched, total};
+use super::path::{NoPath, Path, follow};
+use super::solution::{Contradiction, Solution, motion};
+use super::system::{System, Unknown, assemble};
+use crate::scene::{Condition, ContactSpace};
+
+/// How an impact with friction went.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Followed<T> {
+    /// Index of the contact.
+    pub contact: usize,
+    /// What the contact feels.
+    pub space: ContactSpace<T>,
+    /// The path of its impulse.
+    pub path: Path<T>,
+}
+
+/// The tangent of a contact: its normal turned clockwise by 90°.
+pub fn tangent<T: Number>(normal: &[T; 2]) -> [T; 2] {
+    [normal[1].clone(), normal[0].negated()]
+}
+
+/// The scene with the impulse of its contact with friction known, and the path that led there; `None` where no contact has
+/// friction.
+pub fn settle<T: Number + PartialOrd>(
+    given: &Given<T>,
+    solve: impl Fn(&System<T>) -> Result<Solution<T>, Contradiction>,
+) -> Result<Option<(Given<T>, Followed<T>)>, NoAnswer> {
+    let mut contacts = given.contacts.iter().enumerate();
+    let found = contacts.find_map(|(i, contact)| match (&contact.law, &contact.normal) {
+        (GivenLaw::Friction(law), Some(normal)) => Some((i, law, normal)),
+        _ => None,
+    });
+    let Some((contact, law, normal)) = found else {
+        return Ok(None);
+    };
+    let space = contact_space(given, contact, normal, solve)?;
+    let path = follow(&space, law).map_err(NoAnswer::NoPath)?;
+    let [p_t, p_n] = &path.end().impulse;
+    let impulse = total(&stretched(&tangent(normal), p_t), &stretched(normal, p_n));
+    let mut settled = given.clone();
+    settled.contacts[contact].law = known_impulse(&impulse);
+    let followed = Followed {
+        contact,
+        space,
+        path,
+    };
+    Ok(Some((settled, followed)))
+}
+
+/// What a contact feels: its relative velocity before, and how that changes with one unit of impulse along t and n.
+pub fn contact_space<T: Number>(
+    given: &Given<T>,
+    contact: usize,
+    normal: &[T; 2],
+    solve: impl Fn(&System<T>) -> Result<Solution<T>, Contradiction>,
+) -> Result<ContactSpace<T>, NoAnswer> {
+    let directions = [tangent(normal), normal.clone()];
+    let joint = given.contacts[contact].joint.clone();
+    let [one, two] = joint
+        .bodies
+        .map(|b| given.bodies[b].velocity_before(&joint.at));
+    let before = super::number::difference(&two, &one);
+    // Everything at rest, and one unit of impulse: the velocity after is a column of W.
+    let mut probe = given.clone();
+    for body in &mut probe.bodies {
+        body.velocity = [T::zero(), T::zero()];
+        body.spin = T::zero();
+    }
+    let mut columns = Vec::with_capacity(2);
+    for direction in &directions {
+        probe.contacts[contact].law = known_impulse(direction);
+        let system = assemble(&probe);
+        let solution = solve(&system).map_err(|c| NoAnswer::Contradiction(c.laws(&system)))?;
+        let moved = motion(&probe, &system, &solution);
+        let open = |u: &Unknown| joint.bodies.iter().any(|b| u.is_motion_of(*b));
+        let open: Vec<Unknown> = moved.loose.iter().copied().filter(open).collect();
+        if !open.is_empty() {
+            return Err(NoAnswer::NotDetermined(open));
+        }
+        let [_, after] = relative_velocities(&probe, &moved, joint.bodies, &joint.at);
+        columns.push(after);
+    }
+    let [t, n] = &directions;
+    Ok(ContactSpace {
+        a: dot(&columns[0], t),
+        b: dot(&columns[0], n),
+        c: dot(&columns[1], n),
+        tangential: dot(&before, t),
+        normal: dot(&before, n),
+    })
+}
+
+/// The law that states an impulse outright.
+fn known_impulse<T: Number>([x, y]: &[T; 2]) -> GivenLaw<T> {
+    let condition = |impulse: [T; 2], right: &T| Condition {
+        impulse,
+        velocity: [T::zero(), T::zero()],
+        right: right.clone(),
+        words: "the impulse",
+    };
+    GivenLaw::Conditions([
+        condition([T::one(), T::zero()], x),
+        condition([T::zero(), T::one()], y),
+    ])
+}
+
+impl NoPath {
+    /// Whether the impact fails for reasons of mechanics rather than of arithmetic.
+    pub fn is_physical(self) -> bool {
+        self != NoPath::Irrational
+    }
+}

@@ -1,0 +1,187 @@
+//! Coulomb friction at a contact, as a scene states it: the coefficient, the restitution, and the hypothesis that ends the
+//! impact. Over any number type, so that formulas and numbers share one description. Nothing is solved here.
+
+use crate::expr::Expr;
+
+/// Coulomb friction with restitution at one contact.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Friction<T = Expr> {
+    /// Coefficient of friction μ ≥ 0.
+    pub mu: T,
+    /// Coefficient of restitution e, 0 ≤ e ≤ 1.
+    pub restitution: T,
+    /// What e means, and what ends the impact.
+    pub hypothesis: Hypothesis<T>,
+    /// The mode the scene supposes, to be held against its condition.
+    pub supposing: Option<Mode>,
+}
+
+/// What the coefficient of restitution means.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Hypothesis<T = Expr> {
+    /// Kinematic: u_n⁺ = −e u_n⁻ (Newton), reached along Routh's path.
+    Newton,
+    /// Kinetic: the normal impulse of restitution is e times that of compression (Poisson).
+    Poisson,
+    /// Energetic: the normal work of restitution is −e² times that of compression (Stronge).
+    Stronge,
+    /// P = (1+e) P_I + (1+e_t) (P_II − P_I), kept inside the friction cone (Chatterjee and Ruina 1998).
+    ChatterjeeRuina {
+        /// Tangential restitution e_t, −1 ≤ e_t ≤ 1.
+        tangential: T,
+    },
+    /// u_n⁺ = −e u_n⁻ and P_t = r P_n with an impulse ratio r (Brach).
+    Brach {
+        /// The ratio r; where it is missing, the one that ends the slip, at most μ in size.
+        ratio: Option<T>,
+    },
+}
+
+impl<T> Hypothesis<T> {
+    /// Whose it is.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Hypothesis::Newton => "Newton",
+            Hypothesis::Poisson => "Poisson",
+            Hypothesis::Stronge => "Stronge",
+            Hypothesis::ChatterjeeRuina { .. } => "Chatterjee and Ruina",
+            Hypothesis::Brach { .. } => "Brach",
+        }
+    }
+}
+
+impl<T> Friction<T> {
+    /// The same law with every number converted; the first failure is returned.
+    pub fn try_map<U, E>(&self, mut f: impl FnMut(&T) -> Result<U, E>) -> Result<Friction<U>, E> {
+        Ok(Friction {
+            mu: f(&self.mu)?,
+            restitution: f(&self.restitution)?,
+            hypothesis: match &self.hypothesis {
+                Hypothesis::Newton => Hypothesis::Newton,
+                Hypothesis::Poisson => Hypothesis::Poisson,
+                Hypothesis::Stronge => Hypothesis::Stronge,
+                Hypothesis::ChatterjeeRuina { tangential } => Hypothesis::ChatterjeeRuina {
+                    tangential: f(tangential)?,
+                },
+                Hypothesis::Brach { ratio } => Hypothesis::Brach {
+                    ratio: ratio.as_ref().map(f).transpose()?,
+                },
+            },
+            supposing: self.supposing,
+        })
+    }
+
+    /// Every number of the law.
+    pub fn numbers(&self) -> Vec<&T> {
+        let mut all = vec![&self.mu, &self.restitution];
+        match &self.hypothesis {
+            Hypothesis::ChatterjeeRuina { tangential } => all.push(tangential),
+            Hypothesis::Brach { ratio: Some(ratio) } => all.push(ratio),
+            _ => {}
+        }
+        all
+    }
+}
+
+/// What the contact does during the impact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Mode {
+    /// It slips in one direction throughout.
+    Slides,
+    /// Slip ends during compression, and the contact sticks.
+    SticksInCompression,
+    /// Slip ends during restitution, and the contact sticks.
+    SticksInRestitution,
+    /// Slip ends during compression and goes on in the other direction.
+    ReversesInCompression,
+    /// Slip ends during restitution and goes on in the other direction.
+    ReversesInRestitution,
+    /// There is no slip just after; when it ended is not said.
+    Sticks,
+    /// The impulse lies inside the friction cone.
+    InsideCone,
+    /// The impulse lies on the friction cone.
+    OnCone,
+    /// The impulse ratio is the given one.
+    GivenRatio,
+}
+
+impl Mode {
+    /// The mode in words, as the predicate of a contact.
+    pub fn words(self) -> &'static str {
+        match self {
+            Mode::Slides => "slides",
+            Mode::SticksInCompression => "sticks in compression",
+            Mode::SticksInRestitution => "sticks in restitution",
+            Mode::ReversesInCompression => "reverses in compression",
+            Mode::ReversesInRestitution => "reverses in restitution",
+            Mode::Sticks => "sticks",
+            Mode::InsideCone => "inside the cone",
+            Mode::OnCone => "on the cone",
+            Mode::GivenRatio => "given ratio",
+        }
+    }
+
+    /// Whether the contact does not slip just after.
+    pub fn sticks(self) -> bool {
+        matches!(
+            self,
+            Mode::Sticks | Mode::SticksInCompression | Mode::SticksInRestitution
+        )
+    }
+
+    /// Whether it is what a scene supposes: `sticks` means sticking at any time.
+    pub fn is(self, supposed: Mode) -> bool {
+        self == supposed || supposed == Mode::Sticks && self.sticks()
+    }
+}
+
+/// One linear condition on the impulse P of a contact and the relative velocity just after, u⁺ = v₂⁺ − v₁⁺:
+/// impulse · P + velocity · u⁺ = right. Two of them are what a mode of friction says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Condition<T = Expr> {
+    /// Coefficients of P_x and P_y.
+    pub impulse: [T; 2],
+    /// Coefficients of u_x⁺ and u_y⁺.
+    pub velocity: [T; 2],
+    /// Right side.
+    pub right: T,
+    /// What it states, in a few words.
+    pub words: &'static str,
+}
+
+impl<T> Condition<T> {
+    /// The same condition with every number converted; the first failure is returned.
+    pub fn try_map<U, E>(&self, mut f: impl FnMut(&T) -> Result<U, E>) -> Result<Condition<U>, E> {
+        Ok(Condition {
+            impulse: [f(&self.impulse[0])?, f(&self.impulse[1])?],
+            velocity: [f(&self.velocity[0])?, f(&self.velocity[1])?],
+            right: f(&self.right)?,
+            words: self.words,
+        })
+    }
+
+    /// Every number of the condition.
+    pub fn numbers(&self) -> impl Iterator<Item = &T> {
+        self.impulse
+            .iter()
+            .chain(&self.velocity)
+            .chain(std::iter::once(&self.right))
+    }
+}
+
+/// What a contact feels of its bodies, in tangential and normal components: u⁺ = u⁻ + W P with W = [[a, b], [b, c]].
+/// The tangent is the normal turned clockwise by 90°.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactSpace<T = Expr> {
+    /// Tangential velocity that a tangential impulse of one unit gives, a [1/kg].
+    pub a: T,
+    /// Normal velocity that a tangential impulse of one unit gives, and the reverse, b [1/kg].
+    pub b: T,
+    /// Normal velocity that a normal impulse of one unit gives, c [1/kg].
+    pub c: T,
+    /// Tangential relative velocity just before, u_t⁻ [m/s].
+    pub tangential: T,
+    /// Normal relative velocity just before, u_n⁻ [m/s]; negative when approaching.
+    pub normal: T,
+}
