@@ -86,6 +86,15 @@ impl Work<'_> {
                 "all contacts act at the same instant, each with its own restitution (Newton); one after the other they could give another motion",
             ));
         }
+        for contact in &self.scene.contacts {
+            if let ContactLaw::Decided(decided) = &contact.law {
+                let holds = decided.when.iter().map(|(left, relation, right)| {
+                    let [left, right] = [left, right].map(crate::formula::write_plain);
+                    format!("{left} {} {right}", relation.sign())
+                });
+                all.extend(holds);
+            }
+        }
         for divisor in self.blocks.iter().flat_map(|b| &b.divided_by) {
             let condition = format!("{} ≠ 0", crate::formula::write_plain(divisor));
             if !all.contains(&condition) {

@@ -135,7 +135,7 @@ fn impulses(scene: &Scene) -> Vec<(String, Vec<Unknown>)> {
             ContactLaw::Sticking
             | ContactLaw::None
             | ContactLaw::Friction(_)
-            | ContactLaw::Conditions(_) => {
+            | ContactLaw::Decided(_) => {
                 vec![Unknown::Contact(c, 0), Unknown::Contact(c, 1)]
             }
         };

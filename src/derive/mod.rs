@@ -9,6 +9,7 @@ mod answer;
 mod compact;
 mod conditions;
 mod count;
+pub mod friction;
 mod generic;
 mod left_out;
 mod names;
@@ -104,12 +105,15 @@ pub enum Stop {
     Limit(String),
     /// Laws and givens contradict each other; the words name the law at which it shows.
     Contradiction(String),
+    /// A coefficient of friction was asked that does not exist; the words say why.
+    NoThreshold(String),
 }
 
 impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Stop::Limit(what) => write!(f, "stopped at a limit: {what}"),
+            Stop::NoThreshold(why) => f.write_str(why),
             Stop::Contradiction(law) => write!(
                 f,
                 "the laws contradict each other: {law} cannot hold together with the others"

@@ -65,7 +65,7 @@ pub(super) fn candidate_laws(
     for (c, contact) in scene.contacts.iter().enumerate() {
         match contact.law {
             ContactLaw::Frictionless { .. } => laws.push((Law::Restitution(c), 0)),
-            ContactLaw::Conditions(_) => {
+            ContactLaw::Decided(_) => {
                 laws.extend([0, 1].map(|i| (Law::Condition(c, i), 0)));
             }
             ContactLaw::None | ContactLaw::Sticking | ContactLaw::Friction(_) => {}

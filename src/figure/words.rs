@@ -41,7 +41,7 @@ pub fn scene(scene: &Scene) -> String {
     for contact in &scene.contacts {
         let law = match contact.law {
             ContactLaw::None => "collide",
-            ContactLaw::Friction(_) | ContactLaw::Conditions(_) => "collide with friction",
+            ContactLaw::Friction(_) | ContactLaw::Decided(_) => "collide with friction",
             ContactLaw::Sticking => "collide and stick",
             ContactLaw::Frictionless { .. } => "collide without friction",
         };

@@ -304,7 +304,7 @@ pub fn unknowns(scene: &Scene) -> Vec<Unknown> {
             ContactLaw::Sticking
             | ContactLaw::None
             | ContactLaw::Friction(_)
-            | ContactLaw::Conditions(_) => {
+            | ContactLaw::Decided(_) => {
                 all.extend([Unknown::Contact(c, 0), Unknown::Contact(c, 1)])
             }
         }
@@ -343,7 +343,7 @@ pub fn of(scene: &Scene) -> Vec<Law> {
     for (c, contact) in scene.contacts.iter().enumerate() {
         match contact.law {
             ContactLaw::None | ContactLaw::Friction(_) => {}
-            ContactLaw::Conditions(_) => laws.extend([Law::Condition(c, 0), Law::Condition(c, 1)]),
+            ContactLaw::Decided(_) => laws.extend([Law::Condition(c, 0), Law::Condition(c, 1)]),
             ContactLaw::Sticking => laws.extend([Law::Sticking(c, 0), Law::Sticking(c, 1)]),
             ContactLaw::Frictionless { .. } => laws.push(Law::Restitution(c)),
         }

@@ -305,11 +305,12 @@ pub(super) fn around<T: Number>(
         let law = match &contact.law {
             ContactLaw::None => GivenLaw::None,
             ContactLaw::Sticking => GivenLaw::Sticking,
-            ContactLaw::Conditions(both) => {
+            ContactLaw::Decided(decided) => {
                 let read = |c: &Condition| {
                     c.try_map(|e| value(e, at, || format!("condition at contact {name}")))
                 };
-                GivenLaw::Conditions([read(&both[0])?, read(&both[1])?])
+                let [one, two] = &decided.conditions;
+                GivenLaw::Conditions([read(one)?, read(two)?])
             }
             ContactLaw::Friction(law) => GivenLaw::Friction(
                 law.try_map(|e| value(e, at, || format!("friction of contact {name}")))?,

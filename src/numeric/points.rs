@@ -78,8 +78,8 @@ pub fn needed(scene: &Scene) -> Needed {
         match &contact.law {
             ContactLaw::Frictionless { restitution } => needed.add(restitution),
             ContactLaw::Friction(law) => law.numbers().into_iter().for_each(|e| needed.add(e)),
-            ContactLaw::Conditions(both) => {
-                let numbers = both.iter().flat_map(|c| c.numbers());
+            ContactLaw::Decided(decided) => {
+                let numbers = decided.conditions.iter().flat_map(|c| c.numbers());
                 numbers.for_each(|e| needed.add(e));
             }
             ContactLaw::None | ContactLaw::Sticking => {}

@@ -2,6 +2,7 @@
 //! impact. Over any number type, so that formulas and numbers share one description. Nothing is solved here.
 
 use crate::expr::Expr;
+use crate::formula::Relation;
 
 /// Coulomb friction with restitution at one contact.
 #[derive(Clone, Debug, PartialEq)]
@@ -170,6 +171,17 @@ impl<T> Condition<T> {
     }
 }
 
+/// Friction in one of its modes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decided {
+    /// The mode.
+    pub mode: Mode,
+    /// What must hold for it, as left, relation, right.
+    pub when: Vec<(Expr, Relation, Expr)>,
+    /// What it says of the impulse and of the velocity just after.
+    pub conditions: [Condition; 2],
+}
+
 /// What a contact feels of its bodies, in tangential and normal components: u⁺ = u⁻ + W P with W = [[a, b], [b, c]].
 /// The tangent is the normal turned clockwise by 90°.
 #[derive(Clone, Debug, PartialEq)]
@@ -184,4 +196,15 @@ pub struct ContactSpace<T = Expr> {
     pub tangential: T,
     /// Normal relative velocity just before, u_n⁻ [m/s]; negative when approaching.
     pub normal: T,
+}
+
+/// What a threshold of the coefficient of friction may be asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrictionEvent {
+    /// The contact does not slip just after: with at least this coefficient.
+    Sticks,
+    /// It slips in one direction throughout: with at most this coefficient.
+    Slides,
+    /// The normal velocity does not grow while it slips (Painlevé): with at least this coefficient.
+    Jams,
 }

@@ -34,6 +34,7 @@ pub use drawing::{Drawn, Outline, Support};
 pub use fault::{Fault, Faults, Span};
 pub use geometry::direction;
 pub use friction::{Condition, ContactSpace, Friction, Hypothesis, Mode};
+pub use friction::{Condition, ContactSpace, Decided, Friction, FrictionEvent, Hypothesis, Mode};
 pub use printed::{Print, Printed};
 pub use stage::{
     Fall, FallEnd, Lump, OneSided, PlotAsk, Relation, Slide, Stage, StageKind, Story, StoryAsk,
@@ -368,15 +369,15 @@ pub enum ContactLaw {
     },
     /// Coulomb friction. It closes the equations only once its mode is known; until then it counts as no law.
     Friction(Box<Friction>),
-    /// Two linear conditions: what friction says in one of its modes. No scene file states them.
-    Conditions(Box<[Condition; 2]>),
+    /// Friction in one of its modes. No scene file states it.
+    Decided(Box<Decided>),
 }
 
 impl ContactLaw {
     /// The conditions of a decided mode of friction.
     pub fn conditions(&self) -> Option<&[Condition; 2]> {
         match self {
-            ContactLaw::Conditions(both) => Some(both),
+            ContactLaw::Decided(decided) => Some(&decided.conditions),
             _ => None,
         }
     }

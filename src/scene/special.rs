@@ -4,13 +4,13 @@
 //! limits, forms for a small parameter, identities. Nothing is worked out here.
 
 use super::fault::Fault;
-use super::file::{PlotFile, QuestionFile, SceneFile};
+use super::file::{ContactFile, LawName, PlotFile, QuestionFile, SceneFile};
 use super::formulas::Symbols;
 use super::question::is_motion;
 use super::record::{Formula, Map, Text};
 use super::resolve::{Resolver, entries};
 use super::stage::{PlotAsk, StoryAsk, StoryQuestion};
-use super::{Ask, Scene};
+use super::{Ask, FrictionEvent, Scene};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Relation, read};
 
@@ -236,6 +236,9 @@ pub(super) fn ask(
             .push(fault.hint("\"threshold\": \"v\", \"holds\": \"K_top <= 0\""));
         return None;
     };
+    if let (Some(parameter), Some(asked)) = (&q.threshold, of_friction(base, holds)) {
+        return friction_threshold(base, parameter, asked);
+    }
     let (left, relation, right) = relation(base, symbols, holds)?;
     if q.solve.is_some() != (relation == Relation::Equal) {
         let message = "a threshold holds an inequality, and what is to be solved an equation";
@@ -249,6 +252,55 @@ pub(super) fn ask(
         right,
         with: with(base, symbols, q.with.as_ref())?,
     })
+}
+
+/// The contact and the event of a relation such as `C sticks`; `None` for a relation between formulas.
+fn of_friction<'f>(
+    base: &Resolver<'f>,
+    holds: &Text,
+) -> Option<(usize, &'f ContactFile, FrictionEvent)> {
+    let (name, event) = holds.text.trim().rsplit_once(' ')?;
+    let event = match event {
+        "sticks" => FrictionEvent::Sticks,
+        "slides" => FrictionEvent::Slides,
+        "jams" => FrictionEvent::Jams,
+        _ => return None,
+    };
+    let contacts = base.file.contacts.iter().flat_map(|m| &m.0);
+    let found = contacts
+        .enumerate()
+        .find(|(_, (n, _))| n.text == name.trim());
+    found.and_then(|(i, (_, contact))| Some((i, contact.as_ref()?, event)))
+}
+
+/// A threshold of the coefficient of friction.
+fn friction_threshold(
+    base: &mut Resolver<'_>,
+    parameter: &Text,
+    (contact, file, event): (usize, &ContactFile, FrictionEvent),
+) -> Option<StoryAsk> {
+    let Some(mu) = file
+        .mu
+        .as_ref()
+        .filter(|_| file.law == Some(LawName::Friction))
+    else {
+        let message = "only a contact with friction has a threshold of it";
+        let fault = Fault::new(parameter.span, message);
+        base.faults
+            .push(fault.hint("give the contact \"law\": \"friction\" with `mu` and `restitution`"));
+        return None;
+    };
+    if mu.text.trim() != parameter.text {
+        let message = format!(
+            "the threshold of a contact with friction is one of its `mu`, which is {}",
+            mu.text
+        );
+        let fault = Fault::new(parameter.span, message);
+        base.faults
+            .push(fault.hint("let `mu` be a parameter, and ask for the threshold of that"));
+        return None;
+    }
+    Some(StoryAsk::Friction { contact, event })
 }
 
 fn approximate(

@@ -414,6 +414,13 @@ pub enum StoryAsk {
         /// Parameters and what stands for them.
         with: Vec<(Symbol, Expr)>,
     },
+    /// The coefficient of friction from which a contact sticks or jams, or up to which it slides.
+    Friction {
+        /// Index of the contact.
+        contact: usize,
+        /// What happens there.
+        event: super::FrictionEvent,
+    },
     /// Where an inequality holds, or an equation: the value of a parameter at which its sides meet.
     Condition {
         /// The parameter.

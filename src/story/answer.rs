@@ -164,6 +164,7 @@ fn one(
         // Those about formulas have been answered above.
         StoryAsk::Value { .. }
         | StoryAsk::Condition { .. }
+        | StoryAsk::Friction { .. }
         | StoryAsk::Maximum { .. }
         | StoryAsk::Limit { .. }
         | StoryAsk::Approximate { .. }

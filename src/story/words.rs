@@ -399,7 +399,7 @@ pub(super) fn missing(told: &StageTold) -> Vec<Sentence> {
                 "` there is no friction, the normal is the one given, and e = ",
                 restitution
             ],
-            ContactLaw::None | ContactLaw::Friction(_) | ContactLaw::Conditions(_) => {
+            ContactLaw::None | ContactLaw::Friction(_) | ContactLaw::Decided(_) => {
                 sentence!["nothing is supposed at `", &c.name, "`"]
             }
         });

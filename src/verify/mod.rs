@@ -6,6 +6,7 @@
 //! writes its equations from the geometry alone; doubles tell how the formula behaves when used.
 
 pub mod possible;
+pub mod friction;
 pub mod printed;
 pub mod rounding;
 mod row_space;
@@ -357,12 +358,15 @@ fn admissible(runs: &[Run], proof: &mut Proof) {
     let mut separating = 0;
     let mut friction: Option<Rational> = None;
     for run in runs.iter().filter(|r| r.motion.loose.is_empty()) {
-        for report in numeric::contact_reports(&run.given, &run.motion)
-            .into_iter()
-            .flatten()
-        {
+        let reports = numeric::contact_reports(&run.given, &run.motion).into_iter();
+        for (contact, report) in run.given.contacts.iter().zip(reports) {
+            let Some(report) = report else { continue };
             separating += usize::from(report.approach == Approach::Separating);
-            if let Some(mu) = report.required_friction.filter(|mu| !mu.is_zero()) {
+            let sticks = matches!(contact.law, numeric::given::GivenLaw::Sticking);
+            let needed = report
+                .required_friction
+                .filter(|mu| sticks && !mu.is_zero());
+            if let Some(mu) = needed {
                 friction = Some(friction.map_or(mu.clone(), |f| if f < mu { mu } else { f }));
             }
         }

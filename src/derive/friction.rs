@@ -1,0 +1,561 @@
+//! A scene with friction becomes a table of cases: for every mode that its domain allows, the conditions under which it
+//! holds, and the scene with the two linear conditions of that mode in place of the law.
+//!
+//! In: a scene with one contact with friction. Out: the cases, and thresholds of the coefficient of friction. A condition
+//! that holds on the whole domain is not listed, a mode with one that never holds is left out; which case given values pick
+//! is told by `verify`.
+
+use super::Stop;
+use super::work::Work;
+use crate::algebra::{Field, Sign};
+use crate::expr::{Expr, Function, Vector, cross, dot, minus};
+use crate::formula::Relation;
+use crate::laws::Affine;
+use crate::laws::friction::{ModeLaw, Side, When, modes, side, stopping_ratio};
+use crate::scene::{
+    Body, Condition, ContactLaw, ContactSpace, Decided, Friction, FrictionEvent, Mode, Scene,
+    StoryAsk,
+};
+
+/// Everything known of a contact with friction before values are given.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// Index of the contact.
+    pub contact: usize,
+    /// Its law.
+    pub law: Friction,
+    /// The normal n out of the first body, and the tangent t: n turned clockwise by 90°.
+    pub normal: Vector,
+    /// The tangent t.
+    pub tangent: Vector,
+    /// What the contact feels.
+    pub space: ContactSpace,
+    /// What the direction of friction depends on.
+    pub side: Side,
+    /// The cases that the domain allows.
+    pub cases: Vec<Case>,
+    /// Number of modes that the domain rules out.
+    pub ruled_out: usize,
+    /// The least |P_t|/P_n of an impulse that stops the contact, with the sign of −P_t: what sticking without rebound needs,
+    /// whatever the law.
+    pub stopping_ratio: Expr,
+    /// |b|/a: with less friction a contact whose slip has ended does not hold; `None` where its sign is not known.
+    pub holding: Option<Expr>,
+    /// The coefficient of friction from which the contact jams while it slips (Painlevé), c/(s b); `None` where it never
+    /// does.
+    pub jamming: Option<Expr>,
+}
+
+/// A mode that may happen.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// The mode.
+    pub mode: Mode,
+    /// The direction s of friction: −μ s P_n is the tangential impulse of a sliding contact.
+    pub direction: i64,
+    /// Whether s is known from the domain, so that no case has the other direction.
+    pub known_direction: bool,
+    /// What must hold besides.
+    pub conditions: Vec<Bound>,
+    /// The closed forms of the impulse (P_t, P_n) in a, b, c, u_t⁻, u_n⁻ put in.
+    pub impulse: [Expr; 2],
+    /// The scene with the mode's two conditions in place of the law.
+    pub scene: Scene,
+}
+
+/// A condition of a case.
+#[derive(Clone, Debug)]
+pub struct Bound {
+    /// Not negative, or positive, where the condition holds.
+    pub when: When,
+    /// The same as `left relation right`, solved for the coefficient of friction where that is possible.
+    pub left: Expr,
+    /// How the sides compare.
+    pub relation: Relation,
+    /// The other side.
+    pub right: Expr,
+}
+
+/// The cases of a scene; `None` where no contact has friction.
+pub fn table(scene: &Scene) -> Result<Option<Table>, Stop> {
+    let Some((contact, law)) = scene.friction() else {
+        return Ok(None);
+    };
+    let law = law.clone();
+    let Some(normal) = scene.contacts[contact].normal.clone() else {
+        return Ok(None);
+    };
+    let tangent = [normal[1].clone(), -&normal[0]];
+    let raw = contact_space(scene, contact, [&tangent, &normal])?;
+    let mut forms = Forms::new(scene, &law, &raw);
+    let ContactSpace {
+        a,
+        b,
+        c,
+        tangential,
+        normal: u_n,
+    } = &raw;
+    let space = ContactSpace {
+        a: forms.tidy(a)?,
+        b: forms.tidy(b)?,
+        c: forms.tidy(c)?,
+        tangential: forms.tidy(tangential)?,
+        normal: forms.tidy(u_n)?,
+    };
+    let side = side(&space, &law);
+    let directions = forms.directions(&side)?;
+    let mut table = Table {
+        contact,
+        stopping_ratio: forms.ratio(&space)?,
+        holding: forms.holding(&space)?,
+        jamming: None,
+        law,
+        normal,
+        tangent,
+        side,
+        cases: Vec::new(),
+        ruled_out: 0,
+        space,
+    };
+    for s in &directions {
+        for mode in modes(&table.space, &table.law, *s) {
+            match forms.conditions(&mode, &table.law)? {
+                Some(conditions) => {
+                    let case =
+                        forms.case(scene, &table, mode, *s, directions.len() == 1, conditions)?;
+                    table.cases.push(case);
+                }
+                None => table.ruled_out += 1,
+            }
+        }
+        if table.jamming.is_none() {
+            table.jamming = forms.jamming(&table.space, *s)?;
+        }
+    }
+    let thresholds = thresholds(scene, &table, &mut forms)?;
+    for case in &mut table.cases {
+        case.scene.special.clone_from(&thresholds);
+    }
+    Ok(Some(table))
+}
+
+/// Writing and signs on the domain of a scene.
+struct Forms {
+    field: Field,
+}
+
+impl Forms {
+    fn new(scene: &Scene, law: &Friction, space: &ContactSpace) -> Forms {
+        let mut field = Field::new(&scene.domains);
+        let mut all = super::work::formulas(scene);
+        all.extend(law.numbers().into_iter().cloned());
+        let ContactSpace {
+            a,
+            b,
+            c,
+            tangential,
+            normal,
+        } = space;
+        all.extend([a, b, c, tangential, normal].map(Clone::clone));
+        field.prepare(all.iter());
+        Forms { field }
+    }
+
+    fn tidy(&mut self, e: &Expr) -> Result<Expr, Stop> {
+        let element = self.field.element(e)?;
+        Ok(self.field.expr(&element))
+    }
+
+    fn sign(&mut self, e: &Expr) -> Result<Option<Sign>, Stop> {
+        let element = self.field.element(e)?;
+        Ok(self.field.sign(&element))
+    }
+
+    /// The directions of friction that the domain allows.
+    fn directions(&mut self, side: &Side) -> Result<Vec<i64>, Stop> {
+        let by = |sign: Option<Sign>| match sign {
+            Some(Sign::Positive) => Some(vec![1]),
+            Some(Sign::Negative) => Some(vec![-1]),
+            Some(Sign::Zero) => Some(Vec::new()),
+            _ => None,
+        };
+        Ok(match by(self.sign(&side.of)?) {
+            Some(known) if !known.is_empty() => known,
+            Some(_) => match by(self.sign(&side.tie)?) {
+                Some(known) if !known.is_empty() => known,
+                // Neither slip nor a drive along the tangent: either direction gives no friction.
+                Some(_) => vec![1],
+                None => vec![1, -1],
+            },
+            None => vec![1, -1],
+        })
+    }
+
+    /// What remains to be asked of a mode; `None` where it cannot happen.
+    fn conditions(&mut self, mode: &ModeLaw, law: &Friction) -> Result<Option<Vec<Bound>>, Stop> {
+        let mut open = Vec::new();
+        let impossible = |sign: Sign, strict: bool| match sign {
+            Sign::Negative => true,
+            Sign::Zero | Sign::NotPositive => strict,
+            Sign::NotNegative | Sign::Positive => false,
+        };
+        for when in &mode.when {
+            let of = self.tidy(&when.of)?;
+            match self.sign(&of)? {
+                Some(sign) if impossible(sign, when.strict) => return Ok(None),
+                Some(Sign::Positive) => {}
+                Some(sign) if sign.is_not_negative() && !when.strict => {}
+                // Nowhere above zero: it holds where it vanishes, an edge that the neighboring mode covers as well.
+                _ => open.push(When {
+                    of,
+                    strict: when.strict,
+                }),
+            }
+        }
+        // Two conditions exclude each other where their sum cannot be positive.
+        for (i, one) in open.iter().enumerate() {
+            for other in &open[..i] {
+                if let Some(sign) = self.sign(&(&one.of + &other.of))?
+                    && impossible(sign, one.strict || other.strict)
+                {
+                    return Ok(None);
+                }
+            }
+        }
+        let bounds = open.into_iter().map(|when| self.bound(when, law));
+        bounds.collect::<Result<Vec<_>, _>>().map(Some)
+    }
+
+    /// A condition solved for μ where it is linear in μ with a factor of known sign.
+    fn bound(&mut self, when: When, law: &Friction) -> Result<Bound, Stop> {
+        let relation = |up: bool| match (up, when.strict) {
+            (true, true) => Relation::Greater,
+            (true, false) => Relation::GreaterEqual,
+            (false, true) => Relation::Less,
+            (false, false) => Relation::LessEqual,
+        };
+        if let Some(mu) = law.mu.as_symbol() {
+            let factor = self.tidy(&when.of.derivative(mu))?;
+            let free = !factor.is_zero() && !factor.symbols().contains(mu);
+            let up = match self.sign(&factor)? {
+                Some(Sign::Positive) => Some(true),
+                Some(Sign::Negative) => Some(false),
+                _ => None,
+            };
+            if let (true, Some(up)) = (free, up) {
+                let rest = &when.of - &factor * &law.mu;
+                let right = self.tidy(&(-rest / factor))?;
+                let relation = relation(up);
+                return Ok(Bound {
+                    when,
+                    left: law.mu.clone(),
+                    relation,
+                    right,
+                });
+            }
+        }
+        Ok(Bound {
+            left: when.of.clone(),
+            relation: relation(true),
+            right: Expr::zero(),
+            when,
+        })
+    }
+
+    /// The scene of one case.
+    fn case(
+        &mut self,
+        scene: &Scene,
+        table: &Table,
+        mode: ModeLaw,
+        direction: i64,
+        known_direction: bool,
+        conditions: Vec<Bound>,
+    ) -> Result<Case, Stop> {
+        let [t, n] = [&table.tangent, &table.normal];
+        let turned =
+            |[along, across]: &[Expr; 2]| [0, 1].map(|axis| along * &t[axis] + across * &n[axis]);
+        let mut closing = Vec::with_capacity(2);
+        for part in &mode.closing {
+            // A root stays as it is until the derivation takes it into its field.
+            let right = match has_root(&part.right) {
+                true => part.right.clone(),
+                false => self.tidy(&part.right)?,
+            };
+            closing.push(Condition {
+                impulse: turned(&part.impulse),
+                velocity: turned(&part.velocity),
+                right,
+                words: part.words,
+            });
+        }
+        let mut settled = scene.clone();
+        if let [one, two] = closing.as_slice() {
+            let holds = |b: &Bound| (b.left.clone(), b.relation, b.right.clone());
+            settled.contacts[table.contact].law = ContactLaw::Decided(Box::new(Decided {
+                mode: mode.mode,
+                when: conditions.iter().map(holds).collect(),
+                conditions: [one.clone(), two.clone()],
+            }));
+        }
+        Ok(Case {
+            mode: mode.mode,
+            direction,
+            known_direction,
+            conditions,
+            impulse: mode.impulse,
+            scene: settled,
+        })
+    }
+
+    /// The ratio |P_t|/P_n of stopping, without its sign where that is known.
+    fn ratio(&mut self, space: &ContactSpace) -> Result<Expr, Stop> {
+        let ratio = stopping_ratio(space);
+        self.size(&ratio)
+    }
+
+    /// |x|, without the bars where the sign is known.
+    fn size(&mut self, x: &Expr) -> Result<Expr, Stop> {
+        let x = self.tidy(x)?;
+        Ok(match self.sign(&x)? {
+            Some(sign) if sign.is_not_negative() => x,
+            Some(_) => self.tidy(&-x)?,
+            None => Expr::call(Function::Abs, x),
+        })
+    }
+
+    fn holding(&mut self, space: &ContactSpace) -> Result<Option<Expr>, Stop> {
+        let drive = &space.b / &space.a;
+        self.size(&drive).map(Some)
+    }
+
+    /// c/(s b), where s b can be positive.
+    fn jamming(&mut self, space: &ContactSpace, s: i64) -> Result<Option<Expr>, Stop> {
+        let drive = Expr::from(s) * &space.b;
+        match self.sign(&drive)? {
+            Some(Sign::Positive | Sign::NotNegative) | None => {
+                self.tidy(&(&space.c / drive)).map(Some)
+            }
+            Some(_) => Ok(None),
+        }
+    }
+
+    /// The larger of two numbers.
+    fn larger(&mut self, one: &Expr, other: &Expr) -> Result<Expr, Stop> {
+        let gap = self.tidy(&(one - other))?;
+        Ok(match self.sign(&gap)? {
+            Some(sign) if sign.is_not_negative() => one.clone(),
+            Some(_) => other.clone(),
+            None => {
+                let half = Expr::ratio(1, 2);
+                half * (one + other + Expr::call(Function::Abs, gap))
+            }
+        })
+    }
+}
+
+/// The questions about answers, with thresholds of friction as formulas.
+fn thresholds(
+    scene: &Scene,
+    table: &Table,
+    forms: &mut Forms,
+) -> Result<Vec<crate::scene::StoryQuestion>, Stop> {
+    let mut out = scene.special.clone();
+    for question in &mut out {
+        if let StoryAsk::Friction { event, .. } = question.ask {
+            let formula = threshold(table, forms, event)?;
+            question.ask = StoryAsk::Value {
+                formula,
+                with: Vec::new(),
+            };
+        }
+    }
+    Ok(out)
+}
+
+/// The coefficient of friction from which, or up to which, something happens.
+fn threshold(table: &Table, forms: &mut Forms, event: FrictionEvent) -> Result<Expr, Stop> {
+    let none = |what: &str| {
+        Stop::NoThreshold(format!(
+            "no coefficient of friction separates where the contact {what} on the whole domain: give values, or narrow the domain"
+        ))
+    };
+    let at_end = |case: &&Case| match event {
+        FrictionEvent::Sticks => case.mode.sticks() || case.mode == Mode::InsideCone,
+        FrictionEvent::Slides => case.mode == Mode::Slides || case.mode == Mode::OnCone,
+        FrictionEvent::Jams => false,
+    };
+    if event == FrictionEvent::Jams {
+        return table.jamming.clone().ok_or_else(|| none("jams"));
+    }
+    let what = match event {
+        FrictionEvent::Slides => "slides",
+        _ => "sticks",
+    };
+    let down = event == FrictionEvent::Slides;
+    let mut bound: Option<Expr> = None;
+    for case in table.cases.iter().filter(at_end) {
+        // The earliest way to stick is the one whose slip ends with the impact.
+        let mut own: Option<Expr> = None;
+        if !case.known_direction {
+            return Err(none(what));
+        }
+        for condition in &case.conditions {
+            let is_upper = matches!(condition.relation, Relation::Less | Relation::LessEqual);
+            if condition.left != table.law.mu {
+                return Err(none(what));
+            }
+            if is_upper == down {
+                own = Some(match own {
+                    None => condition.right.clone(),
+                    Some(other) => forms.larger(&other, &condition.right)?,
+                });
+            }
+        }
+        let Some(own) = own else {
+            return Err(none(what));
+        };
+        bound = Some(match bound {
+            None => own,
+            // Of two ways to stick the one with less friction comes first.
+            Some(other) => {
+                let larger = forms.larger(&other, &own)?;
+                forms.tidy_loosely(&(other + own - larger))
+            }
+        });
+    }
+    bound.ok_or_else(|| none(what))
+}
+
+impl Forms {
+    fn tidy_loosely(&mut self, e: &Expr) -> Expr {
+        self.tidy(e).unwrap_or_else(|_| e.clone())
+    }
+}
+
+fn has_root(e: &Expr) -> bool {
+    let mut found = false;
+    e.walk(&mut |part| {
+        if let crate::expr::Node::Power(_, exponent) = part.node() {
+            found |= exponent.as_number().is_some_and(|k| !k.is_integer());
+        }
+    });
+    found
+}
+
+/// What a contact feels of its bodies: a, b, c and the relative velocity before, along t and n.
+fn contact_space(
+    scene: &Scene,
+    contact: usize,
+    [t, n]: [&Vector; 2],
+) -> Result<ContactSpace, Stop> {
+    let at = &scene.contacts[contact].at;
+    let bodies = scene.contacts[contact].bodies;
+    let [one, two] = bodies.map(|b| velocity_before(&scene.bodies[b], at));
+    let before = minus(&two, &one);
+    let [a, b, c] = match is_free(scene, bodies) {
+        true => [(t, t), (t, n), (n, n)].map(|(d, e)| inverse_mass(scene, contact, d, e)),
+        false => eliminated(scene, contact, [t, n])?,
+    };
+    Ok(ContactSpace {
+        a,
+        b,
+        c,
+        tangential: dot(&before, t),
+        normal: dot(&before, n),
+    })
+}
+
+/// Whether both bodies answer the impulse by themselves.
+fn is_free(scene: &Scene, bodies: [usize; 2]) -> bool {
+    let hinged = |b: usize| scene.hinges.iter().any(|h| h.bodies.contains(&b));
+    let massive =
+        |b: &Body| b.is_fixed() || !b.mass.is_zero() && (b.is_particle() || !b.inertia.is_zero());
+    bodies
+        .iter()
+        .all(|&b| !hinged(b) && massive(&scene.bodies[b]))
+}
+
+/// Σ d·e/m + (r × d)(r × e)/I over both bodies.
+fn inverse_mass(scene: &Scene, contact: usize, d: &Vector, e: &Vector) -> Expr {
+    let contact = &scene.contacts[contact];
+    let mut terms = Vec::new();
+    for body in contact.bodies.map(|b| &scene.bodies[b]) {
+        if body.is_fixed() {
+            continue;
+        }
+        terms.push(dot(d, e) / &body.mass);
+        if !body.is_particle() {
+            let r = minus(&contact.at, &body.center);
+            terms.push(cross(&r, d) * cross(&r, e) / &body.inertia);
+        }
+    }
+    Expr::sum(terms)
+}
+
+fn velocity_before(body: &Body, at: &Vector) -> Vector {
+    if body.is_particle() || body.spin.is_zero() {
+        return body.velocity.clone();
+    }
+    let r = minus(at, &body.center);
+    [
+        &body.velocity[0] - &body.spin * &r[1],
+        &body.velocity[1] + &body.spin * &r[0],
+    ]
+}
+
+/// The same by exact elimination, for bodies with hinges: everything at rest, one unit of impulse along t, then along n.
+fn eliminated(scene: &Scene, contact: usize, [t, n]: [&Vector; 2]) -> Result<[Expr; 3], Stop> {
+    let mut probe = scene.clone();
+    for body in &mut probe.bodies {
+        body.velocity = [Expr::zero(), Expr::zero()];
+        body.spin = Expr::zero();
+    }
+    probe.questions.clear();
+    probe.special.clear();
+    let mut found = Vec::with_capacity(3);
+    for (unit, seen) in [(t, vec![t, n]), (n, vec![n])] {
+        let outright = |axis: usize| {
+            let mut impulse = [Expr::zero(), Expr::zero()];
+            impulse[axis] = Expr::one();
+            Condition {
+                impulse,
+                velocity: [Expr::zero(), Expr::zero()],
+                right: unit[axis].clone(),
+                words: "one unit of impulse",
+            }
+        };
+        probe.contacts[contact].law = ContactLaw::Decided(Box::new(Decided {
+            mode: Mode::GivenRatio,
+            when: Vec::new(),
+            conditions: [outright(0), outright(1)],
+        }));
+        let mut work = Work::new(&probe)?;
+        let at = &probe.contacts[contact].at;
+        let [one, two] = probe.contacts[contact]
+            .bodies
+            .map(|b| work.reduced.velocity_of(&work.g, b, at));
+        let minus_one = Expr::from(-1);
+        for along in seen {
+            let relative = [0, 1].map(|axis| {
+                let apart = two[axis].plus(&one[axis].times(&minus_one));
+                apart.times(&along[axis])
+            });
+            let form = relative[0].plus(&relative[1]);
+            found.push(value(&mut work, &form)?);
+        }
+    }
+    let [a, b, c] = [0, 1, 2].map(|i| found[i].clone());
+    Ok([a, b, c])
+}
+
+fn value(work: &mut Work<'_>, form: &Affine<Expr>) -> Result<Expr, Stop> {
+    let needed = work.unknowns_in(form)?;
+    work.determine(&needed, None)?;
+    match work.element_of(form)? {
+        Some(value) => Ok(work.field.expr(&value)),
+        None => Err(Stop::Limit(String::from(
+            "how the contact yields, which its joints leave open",
+        ))),
+    }
+}

@@ -1,0 +1,391 @@
+//! A table of friction held against the path that knows no modes, and the case that given values pick.
+//!
+//! In: a scene with friction and the table derived from it. Out: which case the values of the scene pick; at random exact
+//! points of the domain, whether exactly one case holds there and gives the impulse at the end of the path; whether energy
+//! is gained.
+
+use std::collections::BTreeMap;
+
+use super::Check;
+use crate::algebra::{Field, Sign};
+use crate::derive::friction::{Case, Table};
+use crate::domain::Domains;
+use crate::expr::number::to_f64;
+use crate::expr::{Expr, Point, Rational, Symbol};
+use crate::laws::friction::{Side, When};
+use crate::numeric::friction::Followed;
+use crate::numeric::{self, Number};
+use crate::scene::{Friction, Hypothesis, Mode, Scene};
+
+/// Exact points tried; about half of them have other modes than the one wanted.
+const POINTS: u64 = 40;
+
+/// What is known of a table beyond its derivation.
+#[derive(Clone, Debug)]
+pub struct Judged {
+    /// Which cases are to be shown.
+    pub pick: Pick,
+    /// Whether the mode that the scene supposes is the one that its values pick; `None` where nothing is supposed or the
+    /// values do not decide.
+    pub supposed_holds: Option<bool>,
+    /// The outcome of the checks.
+    pub checks: Vec<Check>,
+    /// The impact at the values of the scene, where there are any.
+    pub at_values: Option<AtValues>,
+}
+
+/// Which cases a scene is about.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pick {
+    /// The values of the scene pick this one.
+    Values(usize),
+    /// The scene supposes these.
+    Supposed(Vec<usize>),
+    /// Nothing decides: all of them.
+    All,
+}
+
+impl Pick {
+    /// Indices of the cases.
+    pub fn cases(&self, table: &Table) -> Vec<usize> {
+        match self {
+            Pick::Values(one) => vec![*one],
+            Pick::Supposed(some) => some.clone(),
+            Pick::All => (0..table.cases.len()).collect(),
+        }
+    }
+}
+
+/// An impact in numbers.
+#[derive(Clone, Debug)]
+pub struct AtValues {
+    /// Kinetic energy before \[J\].
+    pub energy_before: f64,
+    /// Kinetic energy gained \[J\]; negative for a loss.
+    pub gain: f64,
+    /// Whether the contact jams.
+    pub jams: bool,
+}
+
+impl AtValues {
+    /// What the energy says of the law, in words.
+    pub fn energy_words(&self, law: &str) -> String {
+        let share = 100.0 * self.gain / self.energy_before;
+        // A share of rounding is no gain.
+        if self.energy_before <= 0.0 {
+            return String::from("nothing moves");
+        }
+        if share > 1e-9 {
+            format!(
+                "gains {share:.1} % of the energy: {law}'s hypothesis does not fit friction here"
+            )
+        } else if share < -1e-9 {
+            format!("loses {:.1} % of the energy", -share)
+        } else {
+            String::from("keeps the energy")
+        }
+    }
+}
+
+/// Judges a table.
+pub fn judge(scene: &Scene, table: &Table) -> Judged {
+    let by_values = picked(scene, table);
+    let supposed = table.law.supposing.map(|mode| {
+        let all = table.cases.iter().enumerate();
+        all.filter(|(_, case)| case.mode.is(mode))
+            .map(|(i, _)| i)
+            .collect::<Vec<_>>()
+    });
+    let supposed_holds = match (&supposed, by_values) {
+        (Some(cases), Some(case)) => Some(cases.contains(&case)),
+        _ => None,
+    };
+    let pick = match (supposed, by_values) {
+        (Some(cases), Some(case)) if cases.contains(&case) => Pick::Values(case),
+        (Some(cases), _) => Pick::Supposed(cases),
+        (None, Some(case)) => Pick::Values(case),
+        (None, None) => Pick::All,
+    };
+    let mut checks = Vec::new();
+    against_path(scene, table, &mut checks);
+    Judged {
+        pick,
+        supposed_holds,
+        checks,
+        at_values: at_values(scene),
+    }
+}
+
+/// The scene in the one case that its values pick or that it supposes; the words say why there is none. A scene without
+/// friction has none to be settled.
+pub fn settled(scene: &Scene) -> Result<Option<Scene>, String> {
+    let table = match crate::derive::friction::table(scene) {
+        Ok(Some(table)) => table,
+        Ok(None) => return Ok(None),
+        Err(stop) => return Err(stop.to_string()),
+    };
+    let judged = judge(scene, &table);
+    if let Some(failed) = judged.checks.iter().find(|c| c.holds == Some(false)) {
+        return Err(failed.words.clone());
+    }
+    match judged.pick.cases(&table).as_slice() {
+        [one] => Ok(Some(table.cases[*one].scene.clone())),
+        [] => Err(String::from(
+            "what the scene supposes of its contact never happens",
+        )),
+        several => Err(format!(
+            "friction leaves {} cases\nhint: give the parameters values, with --set or in the scene, or choose a case with `supposing`; `carom derive` lists them",
+            several.len()
+        )),
+    }
+}
+
+/// The case that the values of the scene pick.
+fn picked(scene: &Scene, table: &Table) -> Option<usize> {
+    let sign = Signs::of(scene);
+    table
+        .cases
+        .iter()
+        .position(|case| sign.holds(&table.side, case) == Some(true))
+}
+
+/// Signs at the values of a scene: in fractions, and where these do not do by the signs of algebraic numbers.
+struct Signs {
+    exact: Option<Point<Rational>>,
+    values: BTreeMap<Symbol, Expr>,
+}
+
+impl Signs {
+    fn of(scene: &Scene) -> Signs {
+        let given = scene.parameters.iter();
+        Signs {
+            exact: numeric::exact_values(scene).ok(),
+            values: given
+                .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
+                .collect(),
+        }
+    }
+
+    fn sign(&self, e: &Expr) -> Option<std::cmp::Ordering> {
+        if let Some(value) = self.exact.as_ref().and_then(|p| e.evaluate(p)) {
+            return Some(value.cmp(&Number::zero()));
+        }
+        let e = e.substitute(&self.values);
+        if e.symbols().iter().any(|s| &**s != "pi") {
+            return None;
+        }
+        let mut field = Field::new(&Domains::default());
+        field.prepare([&e]);
+        let element = field.element(&e).ok()?;
+        match field.sign(&element)? {
+            Sign::Positive => Some(std::cmp::Ordering::Greater),
+            Sign::Zero => Some(std::cmp::Ordering::Equal),
+            Sign::Negative => Some(std::cmp::Ordering::Less),
+            Sign::NotPositive | Sign::NotNegative => None,
+        }
+    }
+
+    /// Whether a case holds; `None` where a sign is not known.
+    fn holds(&self, side: &Side, case: &Case) -> Option<bool> {
+        if !case.known_direction
+            && !direction_holds(self.sign(&side.of)?, || self.sign(&side.tie), case)?
+        {
+            return Some(false);
+        }
+        let mut all = true;
+        for bound in &case.conditions {
+            all &= satisfied(self.sign(&bound.when.of)?, &bound.when);
+        }
+        Some(all)
+    }
+}
+
+fn direction_holds(
+    of: std::cmp::Ordering,
+    tie: impl Fn() -> Option<std::cmp::Ordering>,
+    case: &Case,
+) -> Option<bool> {
+    use std::cmp::Ordering::{Equal, Greater, Less};
+    Some(match (of, case.direction) {
+        (Greater, s) => s > 0,
+        (Less, s) => s < 0,
+        (Equal, s) => match tie()? {
+            Greater => s > 0,
+            Less => s < 0,
+            Equal => s > 0,
+        },
+    })
+}
+
+fn satisfied(sign: std::cmp::Ordering, when: &When) -> bool {
+    sign.is_gt() || !when.strict && sign.is_eq()
+}
+
+/// The impact at the values of the scene.
+fn at_values(scene: &Scene) -> Option<AtValues> {
+    if let Ok(point) = numeric::exact_values(scene)
+        && let Some((given, followed)) = follow(scene, &point, numeric::solve_exact)
+    {
+        return Some(AtValues {
+            energy_before: to_f64(&numeric::energy_before(&given, None)),
+            gain: to_f64(&followed.path.gain()),
+            jams: followed.path.jams,
+        });
+    }
+    let point = numeric::values(scene).ok()?;
+    let (given, followed) = follow(scene, &point, numeric::solve_f64)?;
+    Some(AtValues {
+        energy_before: numeric::energy_before(&given, None),
+        gain: followed.path.gain(),
+        jams: followed.path.jams,
+    })
+}
+
+fn follow<T: Number + PartialOrd>(
+    scene: &Scene,
+    point: &Point<T>,
+    solve: impl Fn(&numeric::System<T>) -> Result<numeric::Solution<T>, numeric::Contradiction>,
+) -> Option<(numeric::Given<T>, Followed<T>)> {
+    let given = numeric::given(scene, point).ok()?;
+    numeric::settle(&given, solve).ok()?
+}
+
+/// At exact points: one case holds, and its impulse is that of the path. Energy is watched on the way.
+fn against_path(scene: &Scene, table: &Table, checks: &mut Vec<Check>) {
+    let needed = numeric::needed(scene);
+    let mut seen: BTreeMap<Mode, usize> = BTreeMap::new();
+    let mut compared = 0;
+    let mut gains = 0;
+    let mut wrong: Option<String> = None;
+    for seed in 1..=POINTS {
+        let exact = numeric::random_point(&needed, &scene.domains, seed);
+        let outcome = match follow(scene, &exact, numeric::solve_exact) {
+            Some((_, followed)) => {
+                gains += usize::from(followed.path.gain() > Number::zero());
+                same(table, &exact, &exact, &followed.path.end().impulse, 0.0)
+            }
+            // Stronge's root is no fraction at most points: the mode is decided in fractions, the impulse in doubles.
+            None => {
+                let rounded = numeric::rounded(&exact);
+                let Some((_, followed)) = follow(scene, &rounded, numeric::solve_f64) else {
+                    continue;
+                };
+                let impulse = &followed.path.end().impulse;
+                let energy =
+                    numeric::given(scene, &rounded).map(|g| numeric::energy_before(&g, None));
+                let large = energy.unwrap_or(0.0) * 1e-12;
+                gains += usize::from(followed.path.gain() > large);
+                same(table, &exact, &rounded, impulse, 1e-9)
+            }
+        };
+        match outcome {
+            Ok(Some(mode)) => {
+                compared += 1;
+                *seen.entry(mode).or_default() += 1;
+            }
+            Ok(None) => {}
+            Err(words) => wrong = Some(words),
+        }
+    }
+    let modes: Vec<String> = seen
+        .iter()
+        .map(|(mode, n)| format!("{} {n}", mode.words()))
+        .collect();
+    checks.push(match (wrong, compared) {
+        (Some(words), _) => check("path", words, Some(false)),
+        (None, 0) => check(
+            "path",
+            String::from("at none of the points tried are all values rational"),
+            None,
+        ),
+        (None, n) => check(
+            "path",
+            format!(
+                "at {n} exact points one case holds and ends where Routh's path ends ({})",
+                modes.join(", ")
+            ),
+            Some(true),
+        ),
+    });
+    checks.push(energy(&table.law, gains, compared));
+}
+
+fn check(kind: &'static str, words: String, holds: Option<bool>) -> Check {
+    Check { kind, words, holds }
+}
+
+/// Poisson, Stronge, and Chatterjee and Ruina never gain energy at one contact; Newton and Brach may, and are told so.
+fn energy(law: &Friction, gains: usize, points: usize) -> Check {
+    let name = law.hypothesis.name();
+    let calm = !matches!(
+        law.hypothesis,
+        Hypothesis::Newton | Hypothesis::Brach { .. }
+    );
+    match (gains, calm) {
+        (0, _) => check(
+            "energy",
+            format!("no energy is gained at {points} points"),
+            (points > 0).then_some(true),
+        ),
+        (n, true) => check(
+            "energy",
+            format!(
+                "energy is gained at {n} of {points} points, which {name}'s hypothesis excludes"
+            ),
+            Some(false),
+        ),
+        (n, false) => check(
+            "energy",
+            format!(
+                "energy is gained at {n} of {points} points of the domain: {name}'s hypothesis does not fit friction there"
+            ),
+            None,
+        ),
+    }
+}
+
+/// The mode of the one case that holds at a point, if its impulse is the one given; `None` where it has no value there.
+fn same<T: Number>(
+    table: &Table,
+    exact: &Point<Rational>,
+    at: &Point<T>,
+    impulse: &[T; 2],
+    tolerance: f64,
+) -> Result<Option<Mode>, String> {
+    let sign = |e: &Expr| e.evaluate(exact).map(|x| x.cmp(&Number::zero()));
+    let mut holding = Vec::new();
+    for case in &table.cases {
+        let Some(of) = sign(&table.side.of) else {
+            return Ok(None);
+        };
+        let right_way = case.known_direction
+            || direction_holds(of, || sign(&table.side.tie), case).unwrap_or(false);
+        let mut all = right_way;
+        for bound in &case.conditions {
+            let Some(sign) = sign(&bound.when.of) else {
+                return Ok(None);
+            };
+            all &= satisfied(sign, &bound.when);
+        }
+        if all {
+            holding.push(case);
+        }
+    }
+    let [case] = holding.as_slice() else {
+        return Err(format!("{} cases hold at one point", holding.len()));
+    };
+    let [Some(p_t), Some(p_n)] = [0, 1].map(|i| case.impulse[i].evaluate(at)) else {
+        return Ok(None);
+    };
+    let length = impulse[0].size() + impulse[1].size();
+    for (derived, followed) in [p_t, p_n].iter().zip(impulse) {
+        let gap = derived.minus(followed);
+        if !gap.is_zero() && gap.size() > tolerance * length {
+            return Err(format!(
+                "`{}` gives another impulse than the path at one point",
+                case.mode.words()
+            ));
+        }
+    }
+    Ok(Some(case.mode))
+}
