@@ -7,6 +7,7 @@ mod batch;
 mod draw;
 mod emit;
 mod files;
+mod friction;
 mod grade;
 #[cfg(feature = "report")]
 mod report;
@@ -65,6 +66,8 @@ enum Command {
         #[arg(long, conflicts_with = "exact")]
         certify: bool,
     },
+    /// Lay the laws of contact side by side at the values of a scene with friction
+    Compare(friction::CompareArgs),
     /// Draw a scene: before, the free-body diagram during, and after the collision
     Draw(draw::DrawArgs),
     /// Write the worked solution of a scene: text, Markdown, LaTeX, HTML or JSON
@@ -124,6 +127,7 @@ pub fn run() -> ExitCode {
             exact,
             certify,
         } => solve_command(&scene, format, &set, exact, certify),
+        Command::Compare(args) => friction::run(&args),
         Command::Draw(args) => draw::run(&args),
         Command::Emit(args) => emit::run(&args),
         #[cfg(feature = "report")]
@@ -168,6 +172,10 @@ fn derive_command(
         })?;
         return Ok(u8::from(!told.holds()));
     }
+    if scene.friction().is_some() && !matrix {
+        return friction::derive_cases(path, &scene, format);
+    }
+    let scene = friction::settled(path, scene)?;
     let stopped = |stop: derive::Stop| Failure::Input(format!("{}: {stop}", path.display()));
     if matrix {
         let names = derive::Names::of(&scene);
@@ -232,6 +240,11 @@ fn solve_command(
     };
     let no_answer = |reason: numeric::NoAnswer| Failure::Input(format!("{name}: {reason}"));
     if certify {
+        if scene.friction().is_some() {
+            return Err(Failure::Input(format!(
+                "{name}: an impact with friction is not rounded for sure\nhint: take --exact, which decides its mode in fractions"
+            )));
+        }
         let answers = numeric::correct(&scene).map_err(|reason| match reason {
             numeric::NoCorrect::NoPoint(reason) => no_point(reason),
             numeric::NoCorrect::Contradiction(laws) => no_answer(numeric::NoAnswer::Contradiction(laws)),

@@ -63,6 +63,7 @@ enum DetailArg {
 pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
     let format = format(args)?;
     let (scene, text) = read_scene_text(&args.scene, &args.set)?;
+    let scene = super::friction::settled(&args.scene, scene)?;
     let detail = match args.detail {
         DetailArg::Brief => Detail::Brief,
         DetailArg::Normal => Detail::Normal,

@@ -5,16 +5,18 @@
 //! that holds on the whole domain is not listed, a mode with one that never holds is left out; which case given values pick
 //! is told by `verify`.
 
+use std::collections::BTreeSet;
+
 use super::Stop;
 use super::work::Work;
 use crate::algebra::{Field, Sign};
-use crate::expr::{Expr, Function, Vector, cross, dot, minus};
+use crate::expr::{Expr, Function, Node, Symbol, Vector, cross, dot, minus};
 use crate::formula::Relation;
 use crate::laws::Affine;
 use crate::laws::friction::{ModeLaw, Side, When, modes, side, stopping_ratio};
 use crate::scene::{
-    Body, Condition, ContactLaw, ContactSpace, Decided, Friction, FrictionEvent, Mode, Scene,
-    StoryAsk,
+    Body, Condition, ContactLaw, ContactSpace, Decided, Friction, FrictionEvent, Hypothesis, Mode,
+    Scene, StoryAsk, StoryQuestion,
 };
 
 /// Everything known of a contact with friction before values are given.
@@ -44,6 +46,10 @@ pub struct Table {
     /// The coefficient of friction from which the contact jams while it slips (Painlevé), c/(s b); `None` where it never
     /// does.
     pub jamming: Option<Expr>,
+    /// Questions whose answers are the same in every case: thresholds, and what is asked about these.
+    pub about: Vec<StoryQuestion>,
+    /// What P_n tends to where it jams, as u_n⁻ → 0 from below: the normal impulse of a tangential impact, which is not 0.
+    pub jump: Option<Expr>,
 }
 
 /// A mode that may happen.
@@ -51,7 +57,7 @@ pub struct Table {
 pub struct Case {
     /// The mode.
     pub mode: Mode,
-    /// The direction s of friction: −μ s P_n is the tangential impulse of a sliding contact.
+    /// The direction s: that of slip before for a law with a path, that of the impulse along t for the others.
     pub direction: i64,
     /// Whether s is known from the domain, so that no case has the other direction.
     pub known_direction: bool,
@@ -109,6 +115,8 @@ pub fn table(scene: &Scene) -> Result<Option<Table>, Stop> {
         stopping_ratio: forms.ratio(&space)?,
         holding: forms.holding(&space)?,
         jamming: None,
+        jump: None,
+        about: Vec::new(),
         law,
         normal,
         tangent,
@@ -128,14 +136,18 @@ pub fn table(scene: &Scene) -> Result<Option<Table>, Stop> {
                 None => table.ruled_out += 1,
             }
         }
-        if table.jamming.is_none() {
+        if table.jamming.is_none() && !table.space.tangential.is_zero() {
             table.jamming = forms.jamming(&table.space, *s)?;
+            if table.jamming.is_some() {
+                table.jump = forms.jump(&table.space, &table.law, *s)?;
+            }
         }
     }
-    let thresholds = thresholds(scene, &table, &mut forms)?;
+    let special = thresholds(scene, &table, &mut forms)?;
     for case in &mut table.cases {
-        case.scene.special.clone_from(&thresholds);
+        case.scene.special.clone_from(&special);
     }
+    table.about = of_parameters(scene, special);
     Ok(Some(table))
 }
 
@@ -255,11 +267,25 @@ impl Forms {
             }
         }
         Ok(Bound {
-            left: when.of.clone(),
+            left: self.without_positive_factors(&when.of)?,
             relation: relation(true),
             right: Expr::zero(),
             when,
         })
+    }
+
+    /// An expression of the same sign, as short as its factors allow.
+    fn without_positive_factors(&mut self, e: &Expr) -> Result<Expr, Stop> {
+        let Node::Product(factors) = e.node() else {
+            return Ok(e.clone());
+        };
+        let mut kept = Vec::new();
+        for factor in factors {
+            if self.sign(factor)? != Some(Sign::Positive) {
+                kept.push(factor.clone());
+            }
+        }
+        Ok(Expr::product(kept))
     }
 
     /// The scene of one case.
@@ -340,6 +366,30 @@ impl Forms {
         }
     }
 
+    /// f b u_t⁻/(ac − b²), with f = 1 + e (Poisson), 1 (Newton), 1 + e √(−k₁/(k₂ − k₁)) (Stronge).
+    fn jump(&mut self, space: &ContactSpace, law: &Friction, s: i64) -> Result<Option<Expr>, Stop> {
+        let ContactSpace {
+            a,
+            b,
+            c,
+            tangential,
+            ..
+        } = space;
+        let stopping = self.tidy(&(b * tangential / (a * c - b * b)))?;
+        let e = &law.restitution;
+        Ok(match law.hypothesis {
+            Hypothesis::Poisson => Some(self.tidy(&((Expr::one() + e) * stopping))?),
+            Hypothesis::Newton => Some(stopping),
+            Hypothesis::Stronge => {
+                let k_1 = c - &law.mu * Expr::from(s) * b;
+                let k_2 = c - b * b / a;
+                let share = self.tidy(&(-&k_1 / (k_2 - &k_1)))?;
+                Some((Expr::one() + e * share.sqrt()) * stopping)
+            }
+            Hypothesis::ChatterjeeRuina { .. } | Hypothesis::Brach { .. } => None,
+        })
+    }
+
     /// The larger of two numbers.
     fn larger(&mut self, one: &Expr, other: &Expr) -> Result<Expr, Stop> {
         let gap = self.tidy(&(one - other))?;
@@ -354,12 +404,31 @@ impl Forms {
     }
 }
 
+/// The questions that need no answer of a case.
+fn of_parameters(scene: &Scene, special: Vec<StoryQuestion>) -> Vec<StoryQuestion> {
+    let mut known: BTreeSet<Symbol> = scene.parameters.iter().map(|p| p.name.clone()).collect();
+    known.insert("pi".into());
+    let mut out = Vec::new();
+    for question in special {
+        let formulas: Vec<&Expr> = match &question.ask {
+            StoryAsk::Value { formula, .. } => vec![formula],
+            StoryAsk::Maximum { of, .. } | StoryAsk::Limit { of, .. } => vec![of],
+            StoryAsk::Approximate { of, .. } => vec![of],
+            StoryAsk::Condition { left, right, .. } | StoryAsk::Show { left, right, .. } => {
+                vec![left, right]
+            }
+            _ => continue,
+        };
+        if formulas.iter().all(|e| e.symbols().is_subset(&known)) {
+            known.insert(question.name.as_str().into());
+            out.push(question);
+        }
+    }
+    out
+}
+
 /// The questions about answers, with thresholds of friction as formulas.
-fn thresholds(
-    scene: &Scene,
-    table: &Table,
-    forms: &mut Forms,
-) -> Result<Vec<crate::scene::StoryQuestion>, Stop> {
+fn thresholds(scene: &Scene, table: &Table, forms: &mut Forms) -> Result<Vec<StoryQuestion>, Stop> {
     let mut out = scene.special.clone();
     for question in &mut out {
         if let StoryAsk::Friction { event, .. } = question.ask {
@@ -375,68 +444,58 @@ fn thresholds(
 
 /// The coefficient of friction from which, or up to which, something happens.
 fn threshold(table: &Table, forms: &mut Forms, event: FrictionEvent) -> Result<Expr, Stop> {
-    let none = |what: &str| {
+    // A contact that would stick already in compression does so a fortiori by the end of restitution, and a law with a path
+    // asks no more friction of it; so the latest way to stick has the least coefficient.
+    let (what, modes): (&str, &[Mode]) = match event {
+        FrictionEvent::Sticks => (
+            "sticks",
+            &[
+                Mode::SticksInRestitution,
+                Mode::SticksInCompression,
+                Mode::Sticks,
+                Mode::InsideCone,
+            ],
+        ),
+        FrictionEvent::Slides => ("slides", &[Mode::Slides, Mode::OnCone]),
+        FrictionEvent::Jams => ("jams", &[]),
+    };
+    let none = || {
         Stop::NoThreshold(format!(
-            "no coefficient of friction separates where the contact {what} on the whole domain: give values, or narrow the domain"
+            "no coefficient of friction separates where the contact {what} on the whole domain\nhint: give values, or narrow the domain"
         ))
     };
-    let at_end = |case: &&Case| match event {
-        FrictionEvent::Sticks => case.mode.sticks() || case.mode == Mode::InsideCone,
-        FrictionEvent::Slides => case.mode == Mode::Slides || case.mode == Mode::OnCone,
-        FrictionEvent::Jams => false,
-    };
     if event == FrictionEvent::Jams {
-        return table.jamming.clone().ok_or_else(|| none("jams"));
+        return table.jamming.clone().ok_or_else(none);
     }
-    let what = match event {
-        FrictionEvent::Slides => "slides",
-        _ => "sticks",
-    };
-    let down = event == FrictionEvent::Slides;
+    let of_mode = |mode: &Mode| table.cases.iter().find(|case| case.mode == *mode);
+    let case = modes
+        .iter()
+        .find_map(of_mode)
+        .filter(|case| case.known_direction);
+    let upward = event == FrictionEvent::Sticks;
     let mut bound: Option<Expr> = None;
-    for case in table.cases.iter().filter(at_end) {
-        // The earliest way to stick is the one whose slip ends with the impact.
-        let mut own: Option<Expr> = None;
-        if !case.known_direction {
-            return Err(none(what));
+    for condition in case.iter().flat_map(|case| &case.conditions) {
+        if condition.left != table.law.mu {
+            return Err(none());
         }
-        for condition in &case.conditions {
-            let is_upper = matches!(condition.relation, Relation::Less | Relation::LessEqual);
-            if condition.left != table.law.mu {
-                return Err(none(what));
-            }
-            if is_upper == down {
-                own = Some(match own {
-                    None => condition.right.clone(),
-                    Some(other) => forms.larger(&other, &condition.right)?,
-                });
-            }
+        let is_upward = matches!(
+            condition.relation,
+            Relation::Greater | Relation::GreaterEqual
+        );
+        if is_upward == upward {
+            bound = Some(match bound {
+                None => condition.right.clone(),
+                Some(other) => forms.larger(&other, &condition.right)?,
+            });
         }
-        let Some(own) = own else {
-            return Err(none(what));
-        };
-        bound = Some(match bound {
-            None => own,
-            // Of two ways to stick the one with less friction comes first.
-            Some(other) => {
-                let larger = forms.larger(&other, &own)?;
-                forms.tidy_loosely(&(other + own - larger))
-            }
-        });
     }
-    bound.ok_or_else(|| none(what))
-}
-
-impl Forms {
-    fn tidy_loosely(&mut self, e: &Expr) -> Expr {
-        self.tidy(e).unwrap_or_else(|_| e.clone())
-    }
+    bound.ok_or_else(none)
 }
 
 fn has_root(e: &Expr) -> bool {
     let mut found = false;
     e.walk(&mut |part| {
-        if let crate::expr::Node::Power(_, exponent) = part.node() {
+        if let Node::Power(_, exponent) = part.node() {
             found |= exponent.as_number().is_some_and(|k| !k.is_integer());
         }
     });

@@ -154,6 +154,13 @@ fn uses(scene: &Scene, name: &str) -> bool {
     let mut found = super::work::formulas(scene)
         .iter()
         .any(|e| e.symbols().contains(name));
+    let decided = scene.contacts.iter().filter_map(|c| match &c.law {
+        ContactLaw::Decided(decided) => Some(decided),
+        _ => None,
+    });
+    found |= decided
+        .flat_map(|d| &d.when)
+        .any(|(left, _, right)| [left, right].iter().any(|e| e.symbols().contains(name)));
     found |= scene
         .domains
         .unit_vectors

@@ -3,6 +3,7 @@
 
 pub mod certified;
 mod fonts;
+pub mod friction;
 pub mod grade;
 pub mod html;
 pub mod json;

@@ -15,6 +15,7 @@ use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::laws::friction::{Side, When};
 use crate::numeric::friction::Followed;
 use crate::numeric::{self, Number};
+use crate::numeric::path::{NoPath, Path};
 use crate::scene::{Friction, Hypothesis, Mode, Scene};
 
 /// Exact points tried; about half of them have other modes than the one wanted.
@@ -226,19 +227,24 @@ fn at_values(scene: &Scene) -> Option<AtValues> {
     if let Ok(point) = numeric::exact_values(scene)
         && let Some((given, followed)) = follow(scene, &point, numeric::solve_exact)
     {
-        return Some(AtValues {
-            energy_before: to_f64(&numeric::energy_before(&given, None)),
-            gain: to_f64(&followed.path.gain()),
-            jams: followed.path.jams,
-        });
+        return Some(at_values_of(&given, &followed.path, &to_f64));
     }
     let point = numeric::values(scene).ok()?;
     let (given, followed) = follow(scene, &point, numeric::solve_f64)?;
-    Some(AtValues {
-        energy_before: numeric::energy_before(&given, None),
-        gain: followed.path.gain(),
-        jams: followed.path.jams,
-    })
+    Some(at_values_of(&given, &followed.path, &|x: &f64| *x))
+}
+
+/// The energy of an impact, in doubles.
+pub(super) fn at_values_of<T: Number>(
+    given: &numeric::Given<T>,
+    path: &Path<T>,
+    double: &impl Fn(&T) -> f64,
+) -> AtValues {
+    AtValues {
+        energy_before: double(&numeric::energy_before(given, None)),
+        gain: double(&path.gain()),
+        jams: path.jams,
+    }
 }
 
 fn follow<T: Number + PartialOrd>(
@@ -246,8 +252,21 @@ fn follow<T: Number + PartialOrd>(
     point: &Point<T>,
     solve: impl Fn(&numeric::System<T>) -> Result<numeric::Solution<T>, numeric::Contradiction>,
 ) -> Option<(numeric::Given<T>, Followed<T>)> {
-    let given = numeric::given(scene, point).ok()?;
-    numeric::settle(&given, solve).ok()?
+    followed(scene, point, solve).ok()
+}
+
+/// The same; a path without an end is told from a scene without numbers.
+fn followed<T: Number + PartialOrd>(
+    scene: &Scene,
+    point: &Point<T>,
+    solve: impl Fn(&numeric::System<T>) -> Result<numeric::Solution<T>, numeric::Contradiction>,
+) -> Result<(numeric::Given<T>, Followed<T>), Option<NoPath>> {
+    let given = numeric::given(scene, point).map_err(|_| None)?;
+    match numeric::settle(&given, solve) {
+        Ok(found) => found.ok_or(None),
+        Err(numeric::NoAnswer::NoPath(why)) => Err(Some(why)),
+        Err(_) => Err(None),
+    }
 }
 
 /// At exact points: one case holds, and its impulse is that of the path. Energy is watched on the way.
@@ -259,13 +278,13 @@ fn against_path(scene: &Scene, table: &Table, checks: &mut Vec<Check>) {
     let mut wrong: Option<String> = None;
     for seed in 1..=POINTS {
         let exact = numeric::random_point(&needed, &scene.domains, seed);
-        let outcome = match follow(scene, &exact, numeric::solve_exact) {
-            Some((_, followed)) => {
+        let outcome = match followed(scene, &exact, numeric::solve_exact) {
+            Ok((_, followed)) => {
                 gains += usize::from(followed.path.gain() > Number::zero());
                 same(table, &exact, &exact, &followed.path.end().impulse, 0.0)
             }
             // Stronge's root is no fraction at most points: the mode is decided in fractions, the impulse in doubles.
-            None => {
+            Err(Some(NoPath::Irrational)) => {
                 let rounded = numeric::rounded(&exact);
                 let Some((_, followed)) = follow(scene, &rounded, numeric::solve_f64) else {
                     continue;
@@ -277,6 +296,7 @@ fn against_path(scene: &Scene, table: &Table, checks: &mut Vec<Check>) {
                 gains += usize::from(followed.path.gain() > large);
                 same(table, &exact, &rounded, impulse, 1e-9)
             }
+            Err(_) => continue,
         };
         match outcome {
             Ok(Some(mode)) => {

@@ -6,6 +6,7 @@
 //! writes its equations from the geometry alone; doubles tell how the formula behaves when used.
 
 pub mod possible;
+pub mod compare;
 pub mod friction;
 pub mod printed;
 pub mod rounding;

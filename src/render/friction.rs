@@ -1,0 +1,534 @@
+//! Friction for terminals, programs and pictures: the table of cases, and laws side by side.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use super::{digits, latex, unicode};
+use crate::derive::friction::{Bound, Case, Table};
+use crate::derive::{Derivation, Form};
+use crate::expr::Expr;
+use crate::formula::write_plain;
+use crate::plot::{Axis, Curve, Mark, Plot};
+use crate::scene::{Friction, Hypothesis, Scene};
+use crate::story::Answer as Special;
+use crate::verify::Proof;
+use crate::verify::compare::{Comparison, Outcome};
+use crate::verify::friction::{Judged, Pick};
+
+/// A case with everything derived for it.
+pub struct Shown<'a> {
+    /// The case.
+    pub case: &'a Case,
+    /// Its closed forms.
+    pub derivation: Derivation,
+    /// Their proof.
+    pub proof: Proof,
+    /// What is asked about its answers.
+    pub special: Vec<Special>,
+}
+
+/// The table for the terminal.
+pub fn text(
+    scene: &Scene,
+    table: &Table,
+    judged: &Judged,
+    shown: &[Shown],
+    about: &[Special],
+) -> String {
+    let mut out = String::new();
+    let mut say = |line: &str| {
+        let _ = writeln!(out, "{line}");
+    };
+    let contact = &scene.contacts[table.contact].name;
+    say(&super::heading(&scene.title, &scene.source));
+    say(&law_words(scene, table));
+    say(&format!(
+        "\nwhat {contact} feels of its bodies, along the tangent t and the normal n:"
+    ));
+    let vector = |v: &[Expr; 2]| format!("({}, {})", unicode(scene, &v[0]), unicode(scene, &v[1]));
+    say(&format!(
+        "  t = {}, n = {}",
+        vector(&table.tangent),
+        vector(&table.normal)
+    ));
+    for (name, value) in feels(table) {
+        say(&format!("  {name} = {}", unicode(scene, value)));
+    }
+    say("");
+    for line in bounds(scene, table) {
+        say(&line);
+    }
+    if let Some(words) = verdict(table, judged) {
+        say(&words);
+    }
+    if let ([one], Pick::Values(_) | Pick::Supposed(_)) = (shown, &judged.pick) {
+        say(&format!(
+            "\n{contact} {}{}",
+            one.case.mode.words(),
+            holds_where(scene, &table.law, one.case)
+        ));
+        let full =
+            super::text::derivation(&one.case.scene, &one.derivation, &one.proof, &one.special);
+        // The heading stands above already.
+        let rest = full.split_once('\n').map_or("", |(_, rest)| rest);
+        say(rest.trim_end());
+    } else {
+        let excluded = match table.ruled_out {
+            0 => String::new(),
+            n => format!("; {n} more cannot happen on the domain"),
+        };
+        say(&format!("\n{} cases{excluded}:", shown.len()));
+        for each in shown {
+            say(&format!(
+                "\n{contact} {}{}",
+                each.case.mode.words(),
+                holds_where(scene, &table.law, each.case)
+            ));
+            for answer in &each.derivation.answers {
+                if let Form::Value { short, .. } = &answer.form {
+                    say(&format!("  {} = {}", answer.name, unicode(scene, short)));
+                }
+            }
+            for definition in &each.derivation.definitions {
+                say(&format!(
+                    "    with {} = {}",
+                    definition.name,
+                    unicode(scene, &definition.value)
+                ));
+            }
+            let failed = each
+                .proof
+                .scene
+                .iter()
+                .chain(each.proof.answers.iter().flatten());
+            let failed: Vec<&str> = failed
+                .filter(|c| c.holds == Some(false))
+                .map(|c| c.words.as_str())
+                .collect();
+            match failed.as_slice() {
+                [] => say("  proved: its laws and the conditions of the case hold identically"),
+                words => say(&format!("  NOT PROVED: {}", words.join("; "))),
+            }
+        }
+        if !about.is_empty() {
+            say("\nin every case:");
+            say(super::story::answers(scene, about).trim_end());
+        }
+    }
+    say("\nchecked against the path of the impulse:");
+    for c in &judged.checks {
+        let mark = match c.holds {
+            Some(true) => "holds",
+            Some(false) => "FAILS",
+            None => "told",
+        };
+        say(&format!("  {mark}: {}: {}", c.kind, c.words));
+    }
+    out
+}
+
+/// The law and its parameters.
+fn law_words(scene: &Scene, table: &Table) -> String {
+    let contact = &scene.contacts[table.contact].name;
+    let law = &table.law;
+    let more = match &law.hypothesis {
+        Hypothesis::ChatterjeeRuina { tangential } => {
+            format!(", tangential restitution {}", unicode(scene, tangential))
+        }
+        Hypothesis::Brach { ratio: Some(ratio) } => {
+            format!(", impulse ratio {}", unicode(scene, ratio))
+        }
+        _ => String::new(),
+    };
+    format!(
+        "at {contact}: friction {}, restitution {}{more} ({}'s hypothesis)",
+        unicode(scene, &law.mu),
+        unicode(scene, &law.restitution),
+        law.hypothesis.name()
+    )
+}
+
+fn feels(table: &Table) -> [(&'static str, &Expr); 5] {
+    let space = &table.space;
+    [
+        ("a", &space.a),
+        ("b", &space.b),
+        ("c", &space.c),
+        ("u_t⁻", &space.tangential),
+        ("u_n⁻", &space.normal),
+    ]
+}
+
+/// What holds whatever the case: the ratio that sticking needs, the friction that holds, jamming.
+fn bounds(scene: &Scene, table: &Table) -> Vec<String> {
+    let mut all = vec![format!(
+        "to stop the contact without rebound takes |P_t|/P_n = {}, whatever the law: necessary",
+        unicode(scene, &table.stopping_ratio)
+    )];
+    if let Some(holding) = &table.holding {
+        all.push(format!(
+            "once slip has ended, the contact holds with friction of at least |b|/a = {}: the law's own threshold",
+            unicode(scene, holding)
+        ));
+    }
+    if let Some(jamming) = &table.jamming {
+        all.push(format!(
+            "it jams while slipping (Painlevé) with friction of at least c/(s b) = {}, where that is positive",
+            unicode(scene, jamming)
+        ));
+    }
+    if let (Some(_), Some(jump)) = (&table.jamming, &table.jump) {
+        all.push(format!(
+            "    there P_n tends to {} as u_n⁻ tends to 0, and not to 0: a tangential impact",
+            unicode(scene, jump)
+        ));
+    }
+    all
+}
+
+/// What the values say of the supposed mode and of the energy.
+fn verdict(table: &Table, judged: &Judged) -> Option<String> {
+    let mut words = Vec::new();
+    if judged.supposed_holds == Some(false) {
+        words.push(String::from(
+            "at the values of the scene what is supposed is NOT what happens",
+        ));
+    }
+    if judged.supposed_holds == Some(true) {
+        words.push(String::from(
+            "at the values of the scene what is supposed happens",
+        ));
+    }
+    if let Some(values) = &judged.at_values {
+        words.push(format!(
+            "at the values of the scene the impact {}",
+            values.energy_words(table.law.hypothesis.name())
+        ));
+        if values.jams {
+            words.push(String::from(
+                "and the contact jams: the normal velocity does not grow while it slips",
+            ));
+        }
+    }
+    (!words.is_empty()).then(|| words.join("\n"))
+}
+
+fn bound(scene: &Scene, b: &Bound) -> String {
+    format!(
+        "{} {} {}",
+        unicode(scene, &b.left),
+        b.relation.sign(),
+        unicode(scene, &b.right)
+    )
+}
+
+fn holds_where(scene: &Scene, law: &Friction, case: &Case) -> String {
+    let mut all = Vec::new();
+    if !case.known_direction {
+        let what = match law.hypothesis {
+            Hypothesis::Newton | Hypothesis::Poisson | Hypothesis::Stronge => "slip before is",
+            Hypothesis::ChatterjeeRuina { .. } | Hypothesis::Brach { .. } => "friction is",
+        };
+        let way = if case.direction > 0 {
+            "along t"
+        } else {
+            "against t"
+        };
+        all.push(format!("{what} {way}"));
+    }
+    all.extend(case.conditions.iter().map(|b| bound(scene, b)));
+    match all.is_empty() {
+        true => String::from(", on the whole domain"),
+        false => format!(", where {}", all.join(" and ")),
+    }
+}
+
+/// The table as data.
+pub fn json(scene: &Scene, table: &Table, judged: &Judged, shown: &[Shown]) -> Value {
+    let formula = |e: &Expr| json!({"formula": write_plain(e), "latex": latex(scene, e)});
+    let cases: Vec<Value> = shown
+        .iter()
+        .map(|each| {
+            let mut value = super::json::derivation(
+                &each.case.scene,
+                &each.derivation,
+                &each.proof,
+                &each.special,
+            );
+            if let Value::Object(fields) = &mut value {
+                fields.insert("mode".into(), json!(each.case.mode.words()));
+                fields.insert("direction".into(), json!(each.case.direction));
+                let conditions: Vec<Value> = each
+                    .case
+                    .conditions
+                    .iter()
+                    .map(|b| {
+                        json!({
+                            "left": formula(&b.left),
+                            "relation": b.relation.sign(),
+                            "right": formula(&b.right),
+                        })
+                    })
+                    .collect();
+                fields.insert("conditions".into(), json!(conditions));
+            }
+            value
+        })
+        .collect();
+    let holds = judged.checks.iter().all(|c| c.holds != Some(false));
+    json!({
+        "title": scene.title,
+        "source": scene.source,
+        "contact": scene.contacts[table.contact].name,
+        "hypothesis": table.law.hypothesis.name(),
+        "mu": formula(&table.law.mu),
+        "restitution": formula(&table.law.restitution),
+        "contact_space": {
+            "a": formula(&table.space.a),
+            "b": formula(&table.space.b),
+            "c": formula(&table.space.c),
+            "u_t": formula(&table.space.tangential),
+            "u_n": formula(&table.space.normal),
+        },
+        "necessary_ratio": formula(&table.stopping_ratio),
+        "holding": table.holding.as_ref().map(formula),
+        "jamming": table.jamming.as_ref().map(formula),
+        "jump": table.jump.as_ref().map(formula),
+        "picked_by": match judged.pick {
+            Pick::Values(_) => "values",
+            Pick::Supposed(_) => "supposing",
+            Pick::All => "nothing",
+        },
+        "supposed_holds": judged.supposed_holds,
+        "energy_gained": judged.at_values.as_ref().map(|v| v.gain),
+        "jams": judged.at_values.as_ref().map(|v| v.jams),
+        "cases": cases,
+        "checks": judged.checks.iter().map(|c| json!({"kind": c.kind, "words": c.words, "holds": c.holds})).collect::<Vec<_>>(),
+        "verified": holds && shown.iter().all(|s| s.proof.holds() && s.special.iter().all(Special::holds)),
+    })
+}
+
+/// Laws side by side for the terminal.
+pub fn comparison(scene: &Scene, c: &Comparison) -> String {
+    let mut out = String::new();
+    let mut say = |line: String| {
+        let _ = writeln!(out, "{}", line.trim_end());
+    };
+    let contact = &scene.contacts[c.contact].name;
+    say(super::heading(&scene.title, &scene.source));
+    let s = &c.space;
+    say(format!(
+        "at {contact}, along t and n: a = {}, b = {}, c = {} [1/kg]; before u_t = {}, u_n = {} [m/s]; friction {}\n",
+        digits(s.a),
+        digits(s.b),
+        digits(s.c),
+        digits(s.tangential),
+        digits(s.normal),
+        digits(c.mu)
+    ));
+    let head = [
+        "law",
+        "P_t [N s]",
+        "P_n [N s]",
+        "u_t after",
+        "u_n after",
+        "what happens",
+        "energy",
+    ];
+    let mut table = vec![head.map(String::from)];
+    for row in &c.rows {
+        table.push(match &row.outcome {
+            Ok(o) => [
+                row.law.to_string(),
+                digits(o.impulse[0]),
+                digits(o.impulse[1]),
+                digits(o.velocity[0]),
+                digits(o.velocity[1]),
+                o.mode.words().to_string(),
+                o.energy.energy_words(row.law),
+            ],
+            Err(_) => {
+                let mut cells = [(); 7].map(|()| String::from("–"));
+                cells[0] = row.law.to_string();
+                cells[5] = String::from("no answer");
+                cells[6] = String::new();
+                cells
+            }
+        });
+    }
+    let width = |i: usize| {
+        table
+            .iter()
+            .map(|r| r[i].chars().count())
+            .max()
+            .unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..head.len()).map(width).collect();
+    for row in &table {
+        let cells = row.iter().zip(&widths).enumerate();
+        let padded = cells.map(|(i, (cell, width))| {
+            let gap = " ".repeat(width - cell.chars().count());
+            if (1..5).contains(&i) {
+                format!("{gap}{cell}")
+            } else {
+                format!("{cell}{gap}")
+            }
+        });
+        say(padded.collect::<Vec<_>>().join("  "));
+    }
+    say(String::from(
+        "\nmotion just after, v_x and v_y of the center of mass [m/s], spin [rad/s]:",
+    ));
+    for row in &c.rows {
+        let Ok(outcome) = &row.outcome else { continue };
+        let bodies = outcome
+            .bodies
+            .iter()
+            .map(|(i, v)| format!("{} {}", scene.bodies[*i].name, v.map(digits).join(", ")));
+        say(format!(
+            "  {}: {}",
+            row.law,
+            bodies.collect::<Vec<_>>().join("; ")
+        ));
+    }
+    let reasons: Vec<String> = c
+        .rows
+        .iter()
+        .filter_map(|row| Some(format!("  {}: {}", row.law, row.outcome.as_ref().err()?)))
+        .collect();
+    if !reasons.is_empty() {
+        say(String::from("\nno answer:"));
+        reasons.into_iter().for_each(&mut say);
+    }
+    if c.rows
+        .iter()
+        .filter_map(|r| r.outcome.as_ref().ok())
+        .any(|o| o.energy.jams)
+    {
+        say(String::from(
+            "\nthe contact jams while it slips (Painlevé): slip dies at once, whatever the speed of approach",
+        ));
+    }
+    out
+}
+
+/// Laws side by side as data.
+pub fn comparison_json(scene: &Scene, c: &Comparison) -> Value {
+    let outcome = |o: &Outcome| {
+        let bodies = o.bodies.iter().map(|(i, [x, y, spin])| {
+            json!({"body": scene.bodies[*i].name, "velocity": [x, y], "spin": spin})
+        });
+        let exact = o.exact.as_ref();
+        json!({
+            "mode": o.mode.words(),
+            "impulse": o.impulse,
+            "impulse_exact": exact.map(|p| p.each_ref().map(ToString::to_string)),
+            "velocity_after": o.velocity,
+            "bodies": bodies.collect::<Vec<_>>(),
+            "energy_before": o.energy.energy_before,
+            "energy_gained": o.energy.gain,
+            "jams": o.energy.jams,
+            "path": o.corners,
+        })
+    };
+    let rows = c.rows.iter().map(|row| {
+        let mut value = match &row.outcome {
+            Ok(o) => outcome(o),
+            Err(why) => json!({"reason": why.to_string()}),
+        };
+        value["law"] = json!(row.law);
+        if let Ok(o) = &row.outcome {
+            value["energy"] = json!(o.energy.energy_words(row.law));
+        }
+        value
+    });
+    let s = &c.space;
+    json!({
+        "title": scene.title,
+        "source": scene.source,
+        "contact": scene.contacts[c.contact].name,
+        "contact_space": {"a": s.a, "b": s.b, "c": s.c, "u_t": s.tangential, "u_n": s.normal},
+        "mu": c.mu,
+        "laws": rows.collect::<Vec<_>>(),
+    })
+}
+
+/// The plane of impulses: friction cone, where the contact sticks, where compression is greatest, the path, the end by each
+/// law.
+pub fn plane(scene: &Scene, c: &Comparison) -> Plot {
+    let outcomes = || {
+        c.rows
+            .iter()
+            .filter_map(|r| Some((r.law, r.outcome.as_ref().ok()?)))
+    };
+    let ends = || outcomes().map(|(_, o)| o.impulse);
+    let top = ends().map(|p| p[1]).fold(0.0, f64::max) * 1.12;
+    let side = ends().map(|p| p[0].abs()).fold(0.0, f64::max) * 1.5;
+    let side = side.max(top * 0.35).min(top * 1.5);
+    let s = &c.space;
+    // The part of p·P_t + q·P_n + r = 0 inside the frame.
+    let line = |label: &str, p: f64, q: f64, r: f64| {
+        let mut points: Vec<[f64; 2]> = Vec::new();
+        if q != 0.0 {
+            points.extend([-side, side].map(|x| [x, -(r + p * x) / q]));
+        }
+        if p != 0.0 {
+            points.extend([0.0, top].map(|y| [-(r + q * y) / p, y]));
+        }
+        let slack = 1e-9 * top;
+        points.retain(|[x, y]| x.abs() <= side + slack && (-slack..=top + slack).contains(y));
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        Curve {
+            label: label.into(),
+            points,
+        }
+    };
+    let reach = if c.mu > 0.0 {
+        top.min(side / c.mu)
+    } else {
+        top
+    };
+    let mut curves = vec![
+        Curve {
+            label: String::from("friction cone"),
+            points: vec![[-c.mu * reach, reach], [0.0, 0.0], [c.mu * reach, reach]],
+        },
+        line("sticking", s.a, s.b, s.tangential),
+        line("compression ends", s.b, s.c, s.normal),
+    ];
+    let longest = outcomes()
+        .filter(|(_, o)| o.corners.len() > 2)
+        .max_by(|a, b| a.1.impulse[1].total_cmp(&b.1.impulse[1]));
+    if let Some((_, o)) = longest {
+        curves.push(Curve {
+            label: String::from("path"),
+            points: o.corners.clone(),
+        });
+    }
+    let mut marks: Vec<Mark> = Vec::new();
+    for (law, o) in outcomes() {
+        let near = |m: &&mut Mark| (0..2).all(|i| (m.at[i] - o.impulse[i]).abs() <= 0.01 * top);
+        match marks.iter_mut().find(near) {
+            Some(mark) => mark.label = format!("{}, {law}", mark.label),
+            None => marks.push(Mark {
+                at: o.impulse,
+                label: law.to_string(),
+            }),
+        }
+    }
+    let contact = &scene.contacts[c.contact].name;
+    Plot {
+        title: format!("Impulse at {contact}"),
+        x: Axis {
+            label: String::from("P_t (N s)"),
+            range: Some([-side, side]),
+        },
+        y: Axis {
+            label: String::from("P_n (N s)"),
+            range: Some([0.0, top]),
+        },
+        curves,
+        marks,
+    }
+}
