@@ -237,6 +237,7 @@ impl<'f> Resolver<'f> {
             let known = self.known(known);
             scene.after.extend(known);
         }
+        self.friction_alone(scene);
         for force in file.forces.iter().flatten() {
             if let Some(body) = self.body_named(&force.on) {
                 scene.forces.push(Force {
@@ -400,6 +401,34 @@ impl<'f> Resolver<'f> {
                 normal,
                 law,
             });
+        }
+    }
+
+    /// Friction is followed along the path of one impulse: nothing else may act during the impact but hinges.
+    fn friction_alone(&mut self, scene: &Scene) {
+        let Some((contact, _)) = scene.friction() else {
+            return;
+        };
+        let name = scene.contacts[contact].name.clone();
+        let contacts = self.file.contacts.iter().flat_map(|m| &m.0);
+        let others = contacts.map(|(n, _)| n).filter(|n| n.text != name);
+        let blows = self.file.blows.iter().flat_map(|m| &m.0).map(|(n, _)| n);
+        if let Some(other) = others.chain(blows).next() {
+            let message = format!(
+                "`{}` acts at the same time as the contact with friction `{name}`",
+                other.text
+            );
+            let fault = Fault::new(other.span, message);
+            self.faults.push(fault.hint(
+                "friction is worked out at one contact alone: take all contacts without friction, or one after the other in scenes of their own",
+            ));
+        }
+        if let Some(known) = self.file.after.iter().flatten().next() {
+            let message =
+                format!("something known after takes the place of a law, and `{name}` has one");
+            let fault = Fault::new(known.span, message);
+            self.faults
+                .push(fault.hint("leave out `after`, or the law"));
         }
     }
 

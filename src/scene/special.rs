@@ -292,12 +292,16 @@ fn friction_threshold(
     };
     if mu.text.trim() != parameter.text {
         let message = format!(
-            "the threshold of a contact with friction is one of its `mu`, which is {}",
-            mu.text
+            "a threshold of friction is one of `mu`, which is {} here, and not of {}",
+            mu.text.trim(),
+            parameter.text
         );
         let fault = Fault::new(parameter.span, message);
-        base.faults
-            .push(fault.hint("let `mu` be a parameter, and ask for the threshold of that"));
+        base.faults.push(
+            fault.hint(
+                "let the `mu` of the contact be a parameter, and ask for the threshold of that",
+            ),
+        );
         return None;
     }
     Some(StoryAsk::Friction { contact, event })
