@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Failure, Format, pretty, print, read_scene, save};
+use super::{Failure, Format, files, pretty, print, read_scene};
 use carom::derive::friction::table;
 use carom::render::friction::{self, Shown};
 use carom::scene::Scene;
@@ -34,10 +34,8 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     let found = compare(&scene).map_err(|why| refused(why.to_string()))?;
     if let Some(path) = &args.output {
         let svg = plot::curve(&friction::plane(&scene, &found));
-        save(
-            path,
-            svg.map_err(|why| refused(why.to_string()))?.as_bytes(),
-        )?;
+        let svg = svg.map_err(|why| refused(why.to_string()))?;
+        files::save(path, svg.as_bytes(), &[&args.scene])?;
     }
     print(&match args.format {
         Format::Text => friction::comparison(&scene, &found),
@@ -58,12 +56,14 @@ pub fn derive_cases(path: &Path, scene: &Scene, format: Format) -> Result<u8, Fa
         let case = &table.cases[i];
         let derivation = derive::derive(&case.scene).map_err(|stop| refused(stop.to_string()))?;
         let proof = verify::prove(&case.scene, &derivation);
+        let possible = verify::possible::judge(&case.scene, &derivation);
         let special = story::special(&case.scene, &derivation, &proof)
             .map_err(|reason| refused(reason.to_string()))?;
         shown.push(Shown {
             case,
             derivation,
             proof,
+            possible,
             special,
         });
     }

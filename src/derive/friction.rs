@@ -316,6 +316,11 @@ impl Forms {
             });
         }
         let mut settled = scene.clone();
+        // These two may gain energy; what they gain is told beside the table, and is no reason to withhold the answers.
+        settled.gains_energy |= matches!(
+            table.law.hypothesis,
+            Hypothesis::Newton | Hypothesis::Brach { .. }
+        );
         if let [one, two] = closing.as_slice() {
             let holds = |b: &Bound| (b.left.clone(), b.relation, b.right.clone());
             settled.contacts[table.contact].law = ContactLaw::Decided(Box::new(Decided {

@@ -15,6 +15,7 @@ use crate::story::Answer as Special;
 use crate::verify::Proof;
 use crate::verify::compare::{Comparison, Outcome};
 use crate::verify::friction::{Judged, Pick};
+use crate::verify::possible::Possible;
 
 /// A case with everything derived for it.
 pub struct Shown<'a> {
@@ -24,6 +25,8 @@ pub struct Shown<'a> {
     pub derivation: Derivation,
     /// Their proof.
     pub proof: Proof,
+    /// Whether the collision can happen.
+    pub possible: Possible,
     /// What is asked about its answers.
     pub special: Vec<Special>,
 }
@@ -68,8 +71,13 @@ pub fn text(
             one.case.mode.words(),
             holds_where(scene, &table.law, one.case)
         ));
-        let full =
-            super::text::derivation(&one.case.scene, &one.derivation, &one.proof, &one.special);
+        let full = super::text::derivation(
+            &one.case.scene,
+            &one.derivation,
+            &one.proof,
+            &one.possible,
+            &one.special,
+        );
         // The heading stands above already.
         let rest = full.split_once('\n').map_or("", |(_, rest)| rest);
         say(rest.trim_end());
@@ -254,6 +262,7 @@ pub fn json(scene: &Scene, table: &Table, judged: &Judged, shown: &[Shown]) -> V
                 &each.case.scene,
                 &each.derivation,
                 &each.proof,
+                &each.possible,
                 &each.special,
             );
             if let Value::Object(fields) = &mut value {

@@ -6,8 +6,8 @@
 use super::friction::{AtValues, at_values_of};
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Point, Rational};
-use crate::numeric::path::{Event, NoPath};
 use crate::numeric::friction::Followed;
+use crate::numeric::path::{Event, NoPath};
 use crate::numeric::{self, Given, NoAnswer, NoPoint, Number};
 use crate::scene::{ContactLaw, ContactSpace, Friction, Hypothesis, Mode, Scene};
 

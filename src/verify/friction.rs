@@ -14,8 +14,8 @@ use crate::expr::number::to_f64;
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::laws::friction::{Side, When};
 use crate::numeric::friction::Followed;
-use crate::numeric::{self, Number};
 use crate::numeric::path::{NoPath, Path};
+use crate::numeric::{self, Number};
 use crate::scene::{Friction, Hypothesis, Mode, Scene};
 
 /// Exact points tried; about half of them have other modes than the one wanted.

@@ -5,9 +5,9 @@
 //! not trust the way it was found. Exact points guard against a mistake shared by laws and derivation, since `numeric`
 //! writes its equations from the geometry alone; doubles tell how the formula behaves when used.
 
-pub mod possible;
 pub mod compare;
 pub mod friction;
+pub mod possible;
 pub mod printed;
 pub mod rounding;
 mod row_space;

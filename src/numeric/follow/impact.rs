@@ -366,6 +366,7 @@ impl<'a> Table<'a> {
             }
             Law::StickingX(c) | Law::StickingY(c) => format!("sticking at `{}`", contact(c)),
             Law::Restitution(c) => format!("restitution at `{}`", contact(c)),
+            Law::Condition(c, _) => format!("friction at `{}`", contact(c)),
             Law::Known(k) => format!("known value {}", k + 1),
         }
     }
