@@ -2,5 +2,7 @@
 
 #[path = "friction/modes.rs"]
 mod modes;
+#[path = "friction/scenes.rs"]
+mod scenes;
 #[path = "friction/surd.rs"]
 mod surd;

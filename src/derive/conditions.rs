@@ -10,6 +10,9 @@ use crate::algebra::{self, Element, Sign};
 use crate::expr::{Expr, Int, Node, Rational};
 use crate::scene::ContactLaw;
 
+/// Longest condition that is printed with an answer, in characters.
+const READABLE: usize = 110;
+
 impl Work<'_> {
     /// The determinant of a block, where nothing shows that it keeps away from zero. Joints in a tree and one contact
     /// need no such condition: their equations are those of a quadratic form, the kinetic energy, that is positive for
@@ -92,7 +95,16 @@ impl Work<'_> {
                     let [left, right] = [left, right].map(crate::formula::write_plain);
                     format!("{left} {} {right}", relation.sign())
                 });
-                all.extend(holds);
+                // Nobody reads a condition of many lines; the table of cases has it.
+                let holds: Vec<String> = holds.collect();
+                match holds.iter().all(|h| h.chars().count() <= READABLE) {
+                    true => all.extend(holds),
+                    false => all.push(format!(
+                        "{} {} (the case the values pick)",
+                        contact.name,
+                        decided.mode.words()
+                    )),
+                }
             }
         }
         for divisor in self.blocks.iter().flat_map(|b| &b.divided_by) {

@@ -324,6 +324,7 @@ impl Forms {
         if let [one, two] = closing.as_slice() {
             let holds = |b: &Bound| (b.left.clone(), b.relation, b.right.clone());
             settled.contacts[table.contact].law = ContactLaw::Decided(Box::new(Decided {
+                law: table.law.clone(),
                 mode: mode.mode,
                 when: conditions.iter().map(holds).collect(),
                 conditions: [one.clone(), two.clone()],
@@ -578,6 +579,9 @@ fn eliminated(scene: &Scene, contact: usize, [t, n]: [&Vector; 2]) -> Result<[Ex
     probe.questions.clear();
     probe.special.clear();
     let mut found = Vec::with_capacity(3);
+    let Some((_, law)) = scene.friction() else {
+        return Err(Stop::Limit(String::from("a contact without friction")));
+    };
     for (unit, seen) in [(t, vec![t, n]), (n, vec![n])] {
         let outright = |axis: usize| {
             let mut impulse = [Expr::zero(), Expr::zero()];
@@ -590,6 +594,7 @@ fn eliminated(scene: &Scene, contact: usize, [t, n]: [&Vector; 2]) -> Result<[Ex
             }
         };
         probe.contacts[contact].law = ContactLaw::Decided(Box::new(Decided {
+            law: law.clone(),
             mode: Mode::GivenRatio,
             when: Vec::new(),
             conditions: [outright(0), outright(1)],

@@ -7,10 +7,10 @@ use super::answer::NoAnswer;
 use super::energy::relative_velocities;
 use super::given::{Given, GivenLaw};
 use super::number::{Number, dot, stretched, total};
-use super::path::{NoPath, Path, follow};
+use super::path::{Event, NoPath, Path, follow};
 use super::solution::{Contradiction, Solution, motion};
 use super::system::{System, Unknown, assemble};
-use crate::scene::{Condition, ContactSpace};
+use crate::scene::{Condition, ContactSpace, Hypothesis, Mode};
 
 /// How an impact with friction went.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +54,48 @@ pub fn settle<T: Number + PartialOrd>(
         path,
     };
     Ok(Some((settled, followed)))
+}
+
+/// The name of what a contact did, for those who name it: following it needs none. Where two events fall on one another, either
+/// name would do.
+pub fn happened<T: Number + PartialOrd>(given: &Given<T>, followed: &Followed<T>) -> Mode {
+    let Followed { contact, path, .. } = followed;
+    let end = path.end();
+    let still = end.velocity[0].is_zero() || {
+        let scale = end.velocity[1].size() + path.corners[0].velocity[0].size();
+        end.velocity[0].size() <= 1e-12 * scale
+    };
+    if let GivenLaw::Friction(law) = &given.contacts[*contact].law {
+        match &law.hypothesis {
+            Hypothesis::Brach { ratio: Some(_) } => return Mode::GivenRatio,
+            Hypothesis::Brach { ratio: None } if still => return Mode::Sticks,
+            Hypothesis::Brach { ratio: None } => return Mode::Slides,
+            Hypothesis::ChatterjeeRuina { .. } => {
+                let [p_t, p_n] = &end.impulse;
+                let room = law.mu.size() * p_n.size() - p_t.size();
+                let inside = room > 1e-12 * p_n.size();
+                return if inside {
+                    Mode::InsideCone
+                } else {
+                    Mode::OnCone
+                };
+            }
+            Hypothesis::Newton | Hypothesis::Poisson | Hypothesis::Stronge => {}
+        }
+    }
+    let at = |event| path.corners.iter().position(|c| c.event == event);
+    let slip_at_start = !path.corners[0].velocity[0].is_zero();
+    match (at(Event::SlipEnds), at(Event::Compressed), still) {
+        (Some(slip), Some(pressed), true) if slip < pressed => Mode::SticksInCompression,
+        (Some(slip), Some(pressed), false) if slip < pressed => Mode::ReversesInCompression,
+        (Some(_), _, true) => Mode::SticksInRestitution,
+        (Some(_), _, false) => Mode::ReversesInRestitution,
+        // Without slip before, it sticks from the start or slips from the start.
+        (None, _, true) if !slip_at_start => Mode::SticksInCompression,
+        (None, _, false) if !slip_at_start => Mode::ReversesInCompression,
+        (None, _, true) => Mode::SticksInRestitution,
+        (None, _, false) => Mode::Slides,
+    }
 }
 
 /// What a contact feels: its relative velocity before, and how that changes with one unit of impulse along t and n.

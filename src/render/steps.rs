@@ -24,6 +24,9 @@ pub fn solution(s: &Solution, scene: &str, set: &[String]) -> Value {
         "assumptions": s.assumptions,
         "steps": s.steps.iter().map(|x| step(s, x)).collect::<Vec<_>>(),
     });
+    if let Some(mode) = s.mode {
+        out["mode"] = json!(mode.words());
+    }
     if !s.scopes.is_empty() {
         out["impacts"] = s.scopes.iter().map(scope).collect();
     }

@@ -174,6 +174,8 @@ impl<T> Condition<T> {
 /// Friction in one of its modes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decided {
+    /// The law.
+    pub law: Friction,
     /// The mode.
     pub mode: Mode,
     /// What must hold for it, as left, relation, right.

@@ -5,7 +5,9 @@ use super::{Claim, Detail, Inline, Line, Math, Part, Writer};
 use crate::derive::{Block, Equation};
 use crate::expr::{Expr, Symbol};
 use crate::laws::{Direction, Law, Unknown};
-use crate::scene::{Ask, EnergyWhen, ImpulseAt, KnownQuantity, Question};
+use crate::scene::{
+    Ask, ContactLaw, EnergyWhen, Hypothesis, ImpulseAt, KnownQuantity, Mode, Question,
+};
 
 /// Above this many equations in a block the balances are not written out in vectors.
 const WRITTEN_OUT: usize = 3;
@@ -38,6 +40,7 @@ impl Writer<'_> {
             ));
         }
         self.say(&text);
+        self.friction();
         for (unknown, value) in self.d.given.clone() {
             let symbol = Expr::symbol(self.d.names.plain(unknown));
             self.text(vec![
@@ -46,6 +49,66 @@ impl Writer<'_> {
                 say("."),
             ]);
         }
+    }
+
+    /// What a contact with friction does in the case that is worked out, and when it does that.
+    fn friction(&mut self) {
+        let contacts = &self.scene.contacts;
+        let decided = contacts.iter().find_map(|c| match &c.law {
+            ContactLaw::Decided(decided) => Some((c.name.clone(), decided.clone())),
+            _ => None,
+        });
+        let Some((at, decided)) = decided else {
+            return;
+        };
+        let law = &decided.law;
+        let mut text = vec![
+            say(format!(
+                "At {at} the bodies rub; the coefficient of friction is "
+            )),
+            words::formula(&law.mu),
+            say(", the restitution "),
+            words::formula(&law.restitution),
+        ];
+        if let Hypothesis::ChatterjeeRuina { tangential } = &law.hypothesis {
+            text.push(say(" along the normal and "));
+            text.push(words::formula(tangential));
+            text.push(say(" along the tangent"));
+        }
+        let name = law.hypothesis.name();
+        let does = match decided.mode {
+            Mode::InsideCone => "the impulse lies inside the friction cone",
+            Mode::OnCone => "the impulse lies on the friction cone",
+            Mode::GivenRatio => "the ratio of the impulses is given",
+            other => other.words(),
+        };
+        let subject = match decided.mode {
+            Mode::InsideCone | Mode::OnCone | Mode::GivenRatio => String::new(),
+            _ => String::from("the contact "),
+        };
+        text.push(say(format!(
+            " ({name}’s hypothesis). In the case worked out here {subject}{does}"
+        )));
+        let short: Vec<_> = decided
+            .when
+            .iter()
+            .filter(|(left, _, right)| left.size() + right.size() <= 60)
+            .collect();
+        if !short.is_empty() && short.len() == decided.when.len() {
+            text.push(say(", which is so where "));
+            for (i, (left, relation, right)) in short.into_iter().enumerate() {
+                if i > 0 {
+                    text.push(say(" and "));
+                }
+                text.push(Inline::Math(vec![
+                    Math::Expr(left.clone()),
+                    Math::Op(relation.sign()),
+                    Math::Expr(right.clone()),
+                ]));
+            }
+        }
+        text.push(say("."));
+        self.text(text);
     }
 
     /// The finite forces of the scene, those of one name together.

@@ -25,7 +25,7 @@ use crate::algebra::Field;
 use crate::derive::{self, Derivation, Form, Reduction};
 use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Affine, Geometry, Kinematics, Unknown};
-use crate::scene::Scene;
+use crate::scene::{ContactLaw, Mode, Scene};
 use crate::story::{Answer, Near};
 use crate::verify::Proof;
 
@@ -63,6 +63,8 @@ pub struct Solution {
     pub scopes: Vec<Scope>,
     /// Everything the results rest on.
     pub assumptions: Vec<String>,
+    /// What a contact with friction does in the case worked out; points to replay it at are those where it does that.
+    pub mode: Option<Mode>,
 }
 
 impl Solution {
@@ -388,6 +390,7 @@ impl<'a> Writer<'a> {
                 steps: Vec::new(),
                 scopes: Vec::new(),
                 assumptions,
+                mode: decided(scene),
             },
             nested: false,
             within: String::new(),
@@ -510,4 +513,12 @@ impl<'a> Writer<'a> {
     fn spin_after(&self, b: usize) -> Expr {
         self.form(&self.reduced.spin[b])
     }
+}
+
+/// What the contact with friction does, in a scene whose case is decided.
+fn decided(scene: &Scene) -> Option<Mode> {
+    scene.contacts.iter().find_map(|c| match &c.law {
+        ContactLaw::Decided(decided) => Some(decided.mode),
+        _ => None,
+    })
 }

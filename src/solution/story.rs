@@ -62,6 +62,7 @@ fn blank(scene: &Scene, told: &Told, detail: Detail) -> Solution {
         steps: Vec::new(),
         scopes: Vec::new(),
         assumptions,
+        mode: None,
     }
 }
 

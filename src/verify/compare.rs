@@ -6,8 +6,8 @@
 use super::friction::{AtValues, at_values_of};
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Point, Rational};
-use crate::numeric::friction::Followed;
-use crate::numeric::path::{Event, NoPath};
+use crate::numeric::friction::{Followed, happened};
+use crate::numeric::path::NoPath;
 use crate::numeric::{self, Given, NoAnswer, NoPoint, Number};
 use crate::scene::{ContactLaw, ContactSpace, Friction, Hypothesis, Mode, Scene};
 
@@ -102,21 +102,15 @@ pub fn compare(scene: &Scene) -> Result<Comparison, NoComparison> {
             .map(|at| row(&scene, at, numeric::solve_exact));
         let found = match in_fractions {
             // A root that is no fraction, and nothing else, sends the law to doubles.
-            Some(Ok(found)) => found.with_exact(),
+            Some(Ok(found)) => found.with_exact(&other),
             Some(Err(NoAnswer::NoPath(why))) if why.is_physical() => Found::none(why),
             _ => match row(&scene, &floats, numeric::solve_f64) {
-                Ok(found) => found.in_doubles(),
+                Ok(found) => found.in_doubles(&other),
                 Err(NoAnswer::NoPath(why)) => Found::none(why),
                 Err(why) => return Err(NoComparison::NoAnswer(why)),
             },
         };
-        let outcome = found.outcome.map(|outcome| Outcome {
-            mode: match other.mu.is_zero() {
-                true => Mode::Slides,
-                false => mode(&other, mu, &found.events, &outcome),
-            },
-            ..outcome
-        });
+        let outcome = found.outcome;
         if let (None, Some(space)) = (&comparison, found.space) {
             comparison = Some(Comparison {
                 contact,
@@ -175,7 +169,6 @@ struct Impact<T> {
 /// The same in doubles.
 struct Found {
     space: Option<ContactSpace<f64>>,
-    events: Vec<Event>,
     outcome: Result<Outcome, NoPath>,
 }
 
@@ -183,7 +176,6 @@ impl Found {
     fn none(why: NoPath) -> Found {
         Found {
             space: None,
-            events: Vec::new(),
             outcome: Err(why),
         }
     }
@@ -209,9 +201,9 @@ fn row<T: Number + PartialOrd>(
 }
 
 impl Impact<Rational> {
-    fn with_exact(self) -> Found {
+    fn with_exact(self, law: &Friction) -> Found {
         let exact = self.followed.path.end().impulse.clone();
-        let mut found = self.read(to_f64);
+        let mut found = self.read(law, to_f64);
         if let Ok(outcome) = &mut found.outcome {
             outcome.exact = Some(exact);
         }
@@ -220,13 +212,13 @@ impl Impact<Rational> {
 }
 
 impl Impact<f64> {
-    fn in_doubles(self) -> Found {
-        self.read(|x| *x)
+    fn in_doubles(self, law: &Friction) -> Found {
+        self.read(law, |x| *x)
     }
 }
 
 impl<T: Number + PartialOrd> Impact<T> {
-    fn read(&self, double: impl Fn(&T) -> f64) -> Found {
+    fn read(&self, law: &Friction, double: impl Fn(&T) -> f64) -> Found {
         let Followed { space, path, .. } = &self.followed;
         let end = path.end();
         let pair = |v: &[T; 2]| [double(&v[0]), double(&v[1])];
@@ -244,9 +236,11 @@ impl<T: Number + PartialOrd> Impact<T> {
                 tangential: double(&space.tangential),
                 normal: double(&space.normal),
             }),
-            events: path.corners.iter().map(|c| c.event).collect(),
             outcome: Ok(Outcome {
-                mode: Mode::Slides,
+                mode: match law.mu.is_zero() {
+                    true => Mode::Slides,
+                    false => happened(&self.given, &self.followed),
+                },
                 impulse: pair(&end.impulse),
                 exact: None,
                 velocity: pair(&end.velocity),
@@ -255,37 +249,5 @@ impl<T: Number + PartialOrd> Impact<T> {
                 corners: path.corners.iter().map(|c| pair(&c.impulse)).collect(),
             }),
         }
-    }
-}
-
-/// What a law's impact is called, by the events of its path or, where the law has none, by its impulse.
-fn mode(law: &Friction, mu: f64, events: &[Event], outcome: &Outcome) -> Mode {
-    let scale = outcome.velocity[1]
-        .abs()
-        .max(outcome.energy.energy_before.sqrt());
-    let stopped = outcome.velocity[0].abs() <= 1e-12 * scale;
-    match law.hypothesis {
-        Hypothesis::Brach { ratio: Some(_) } => return Mode::GivenRatio,
-        Hypothesis::Brach { ratio: None } if stopped => return Mode::Sticks,
-        Hypothesis::Brach { ratio: None } => return Mode::Slides,
-        Hypothesis::ChatterjeeRuina { .. } => {
-            let [p_t, p_n] = outcome.impulse;
-            let room = mu * p_n - p_t.abs();
-            return if room > 1e-12 * p_n {
-                Mode::InsideCone
-            } else {
-                Mode::OnCone
-            };
-        }
-        _ => {}
-    }
-    let at = |event| events.iter().position(|e| *e == event);
-    match (at(Event::SlipEnds), at(Event::Compressed), stopped) {
-        (Some(slip), Some(pressed), true) if slip < pressed => Mode::SticksInCompression,
-        (Some(slip), Some(pressed), false) if slip < pressed => Mode::ReversesInCompression,
-        (Some(_), _, true) => Mode::SticksInRestitution,
-        (Some(_), _, false) => Mode::ReversesInRestitution,
-        (None, _, true) => Mode::Sticks,
-        (None, _, false) => Mode::Slides,
     }
 }

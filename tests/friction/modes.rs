@@ -66,6 +66,16 @@ fn case(seed: u64) -> [Rational; 8] {
         0 => (ratio(0, 1), mu),
         1 => (u_t, ratio(0, 1)),
         2 => (u_t, (&b / &a).abs()),
+        // Little friction against a drive that turns the slip round.
+        5 | 6 => {
+            let share = &k / (&k + ratio(3, 1));
+            let against = if b.is_negative() {
+                u_t.abs()
+            } else {
+                -u_t.abs()
+            };
+            (against / ratio(4, 1), (&b / &a).abs() * share)
+        }
         // Slip ends with compression, or with the impact, where that can be.
         tie @ (3 | 4) => {
             let factor = if tie == 3 {

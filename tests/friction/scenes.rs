@@ -1,0 +1,224 @@
+//! Shipped scenes with friction: which case they are about, their answers, and that every check of every case holds.
+
+use std::collections::BTreeMap;
+
+use carom::derive::friction::{Table, table};
+use carom::derive::{Derivation, Form, derive};
+use carom::equality::{Equality, decide};
+use carom::expr::{Expr, Symbol};
+use carom::formula::{Symbols, read_expr};
+use carom::scene::{Mode, Scene};
+use carom::story::{about, special};
+use carom::verify::compare::compare;
+use carom::verify::friction::{Judged, Pick, judge};
+use carom::verify::{possible, prove};
+use carom::{numeric, scene};
+
+fn read(name: &str, set: &str) -> Scene {
+    let path = format!("derivations/friction/{name}.json");
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
+    let mut scene = scene::read(&text).unwrap_or_else(|f| panic!("{}", f.render(&path, &text)));
+    for one in set.split_whitespace() {
+        let (symbol, value) = one.split_once('=').expect("NAME=VALUE");
+        scene::set(&mut scene, symbol, value).unwrap_or_else(|f| panic!("{one}: {}", f.message));
+    }
+    scene
+}
+
+fn names() -> Vec<String> {
+    let folder = std::fs::read_dir("derivations/friction").expect("the folder");
+    let files = folder.map(|e| e.expect("an entry").path());
+    let scenes = files.filter(|p| p.extension().is_some_and(|e| e == "json"));
+    let mut names: Vec<String> = scenes
+        .map(|p| {
+            p.file_stem()
+                .expect("a name")
+                .to_string_lossy()
+                .into_owned()
+        })
+        .collect();
+    names.sort();
+    names
+}
+
+fn judged(scene: &Scene) -> (Table, Judged) {
+    let table = table(scene).expect("a table").expect("friction");
+    let judged = judge(scene, &table);
+    (table, judged)
+}
+
+/// Closed forms by name: of the motion, and of what is asked about it.
+fn answers(scene: &Scene) -> BTreeMap<String, Expr> {
+    let derivation: Derivation = derive(scene).expect("a derivation");
+    let proof = prove(scene, &derivation);
+    let mut out = BTreeMap::new();
+    for answer in &derivation.answers {
+        if let Form::Value { closed, .. } = &answer.form {
+            out.insert(answer.name.clone(), closed.clone());
+        }
+    }
+    for answer in special(scene, &derivation, &proof).expect("answers") {
+        out.extend(answer.formula.map(|f| (answer.name, f)));
+    }
+    out
+}
+
+fn same(scene: &Scene, got: &Expr, expected: &Expr) -> bool {
+    if matches!(
+        decide(got, expected, &scene.domains).equality,
+        Equality::Same { .. }
+    ) {
+        return true;
+    }
+    // A number is that of the scene's own values.
+    let Ok(at) = numeric::exact_values(scene) else {
+        return false;
+    };
+    expected.symbols().is_empty() && got.evaluate(&at) == expected.evaluate(&at)
+}
+
+#[test]
+fn the_answers_are_those_of_the_table() {
+    let rows = std::fs::read_to_string("tests/friction/answers.tsv").expect("the table");
+    let mut count = 0;
+    for row in rows
+        .lines()
+        .filter(|l| !l.starts_with('#') && !l.is_empty())
+    {
+        let cells: Vec<&str> = row.split('\t').collect();
+        let [name, set, case, answer, formula, _why] = cells.as_slice() else {
+            panic!("not six columns: {row}")
+        };
+        let scene = read(name, set);
+        let (table, judged) = judged(&scene);
+        let found = match case.is_empty() {
+            true => {
+                let all = about(&scene, &table.about, &BTreeMap::new()).expect("answers");
+                all.into_iter()
+                    .filter_map(|a| Some((a.name, a.formula?)))
+                    .collect()
+            }
+            false => {
+                let picked = judged.pick.cases(&table);
+                let found = picked
+                    .iter()
+                    .find(|i| table.cases[**i].mode.words() == *case);
+                let i = found.unwrap_or_else(|| panic!("{row}: {:?}, {picked:?}", judged.pick));
+                answers(&table.cases[*i].scene)
+            }
+        };
+        let got = found
+            .get(*answer)
+            .unwrap_or_else(|| panic!("{row}: no answer; {found:?}"));
+        let mut symbols = Symbols::strict();
+        scene
+            .parameters
+            .iter()
+            .for_each(|p| symbols.declare(&p.name));
+        found.keys().for_each(|k| symbols.declare(k));
+        let expected =
+            read_expr(formula, &symbols).unwrap_or_else(|f| panic!("{}", f.show(formula)));
+        let values: BTreeMap<Symbol, Expr> = found
+            .iter()
+            .map(|(k, v)| (k.as_str().into(), v.clone()))
+            .collect();
+        let expected = expected.substitute(&values);
+        assert!(
+            same(&scene, got, &expected),
+            "{row}: {}",
+            carom::formula::write_plain(got)
+        );
+        count += 1;
+    }
+    assert!(count >= 20, "{count} rows");
+}
+
+#[test]
+fn every_check_of_every_case_holds() {
+    for name in names() {
+        let scene = read(&name, "");
+        let (table, judged) = judged(&scene);
+        assert!(!judged.pick.cases(&table).is_empty(), "{name}");
+        assert_ne!(judged.supposed_holds, Some(false), "{name}");
+        for check in &judged.checks {
+            assert_ne!(check.holds, Some(false), "{name}: {}", check.words);
+        }
+        let path = judged
+            .checks
+            .iter()
+            .find(|c| c.kind == "path")
+            .expect("a check");
+        assert_eq!(path.holds, Some(true), "{name}: {}", path.words);
+        for i in judged.pick.cases(&table) {
+            let case = &table.cases[i].scene;
+            let derivation = derive(case).expect("a derivation");
+            let proof = prove(case, &derivation);
+            assert!(
+                proof.holds(),
+                "{name}: {:?} {:?}",
+                table.cases[i].mode,
+                proof.scene
+            );
+            let possible = possible::judge(case, &derivation);
+            assert!(possible.holds(), "{name}: {:?}", possible.reasons());
+        }
+    }
+}
+
+#[test]
+fn a_wrong_form_is_refused_by_the_path() {
+    let scene = read("rod-slides-into-floor", "");
+    let (mut table, _) = judged(&scene);
+    let last = &mut table.cases.last_mut().expect("a case").impulse[0];
+    *last = -last.clone();
+    let again = judge(&scene, &table);
+    assert!(
+        again
+            .checks
+            .iter()
+            .any(|c| c.kind == "path" && c.holds == Some(false))
+    );
+    let (mut table, _) = judged(&scene);
+    table.cases[0].conditions[0].when.of = Expr::one();
+    let again = judge(&scene, &table);
+    assert!(
+        again
+            .checks
+            .iter()
+            .any(|c| c.kind == "path" && c.holds == Some(false))
+    );
+}
+
+#[test]
+fn what_does_not_happen_is_told_where_it_is_supposed() {
+    let mut scene = read("jammed-rod", "");
+    if let scene::ContactLaw::Friction(law) = &mut scene.contacts[0].law {
+        law.supposing = Some(Mode::Slides);
+    }
+    let (table, judged) = judged(&scene);
+    assert_eq!(judged.supposed_holds, Some(false));
+    assert!(
+        matches!(judged.pick, Pick::Supposed(_)),
+        "{:?}",
+        judged.pick.cases(&table)
+    );
+    assert!(judged.at_values.expect("values").jams);
+}
+
+#[test]
+fn newton_gains_where_poisson_and_stronge_lose() {
+    let found = compare(&read("double-pendulum-hits-floor", "")).expect("values");
+    let gain = |law: &str| {
+        let row = found.rows.iter().find(|r| r.law == law).expect("a law");
+        let energy = &row.outcome.as_ref().expect("an outcome").energy;
+        energy.gain / energy.energy_before
+    };
+    assert!(
+        (gain("Newton") - 703.0 / 800.0).abs() < 1e-12,
+        "{}",
+        gain("Newton")
+    );
+    for calm in ["Poisson", "Stronge", "Chatterjee and Ruina", "no friction"] {
+        assert!(gain(calm) < 0.0, "{calm}");
+    }
+}
