@@ -58,7 +58,9 @@ fn table_of_cases(bencher: divan::Bencher) {
 fn table_derived_and_proved(bencher: divan::Bencher) {
     let scene = rod();
     bencher.bench(|| {
-        let table = table(divan::black_box(&scene)).expect("a table").expect("friction");
+        let table = table(divan::black_box(&scene))
+            .expect("a table")
+            .expect("friction");
         for case in &table.cases {
             let derivation = derive::derive(&case.scene).expect("closed forms");
             divan::black_box(verify::prove(&case.scene, &derivation));

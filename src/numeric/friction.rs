@@ -23,6 +23,9 @@ pub struct Followed<T> {
     pub path: Path<T>,
 }
 
+/// A scene with the impulse of its contact with friction known, and the path that led there.
+pub type Settled<T> = (Given<T>, Followed<T>);
+
 /// The tangent of a contact: its normal turned clockwise by 90°.
 pub fn tangent<T: Number>(normal: &[T; 2]) -> [T; 2] {
     [normal[1].clone(), normal[0].negated()]
@@ -33,7 +36,7 @@ pub fn tangent<T: Number>(normal: &[T; 2]) -> [T; 2] {
 pub fn settle<T: Number + PartialOrd>(
     given: &Given<T>,
     solve: impl Fn(&System<T>) -> Result<Solution<T>, Contradiction>,
-) -> Result<Option<(Given<T>, Followed<T>)>, NoAnswer> {
+) -> Result<Option<Settled<T>>, NoAnswer> {
     let mut contacts = given.contacts.iter().enumerate();
     let found = contacts.find_map(|(i, contact)| match (&contact.law, &contact.normal) {
         (GivenLaw::Friction(law), Some(normal)) => Some((i, law, normal)),
