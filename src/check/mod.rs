@@ -125,8 +125,6 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
     }
     match &scene.story {
         Some(_) => story::replay(&scene, &impacts, &meanings, &of(None), &mut report),
-        None => replay(&scene, &meanings, &of(None), &mut report),
-        Some(told) => story::replay(&scene, told, &impacts, &meanings, &of(None), &mut report),
         None => {
             let mode = root["mode"].as_str();
             replay_at(&scene, &meanings, &of(None), mode, &mut report);

@@ -61,6 +61,9 @@ enum DetailArg {
 
 /// Writes the worked solution of a scene.
 pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
+    if let Some(output) = &args.output {
+        files::writable(output, &[&args.scene])?;
+    }
     let format = format(args)?;
     let (scene, text) = read_scene_text(&args.scene, &args.set)?;
     let scene = super::friction::settled(&args.scene, scene)?;

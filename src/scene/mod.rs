@@ -32,9 +32,8 @@ use crate::expr::{Expr, Symbol, Vector};
 
 pub use drawing::{Drawn, Outline, Support};
 pub use fault::{Fault, Faults, Span};
-pub use geometry::direction;
-pub use friction::{Condition, ContactSpace, Friction, Hypothesis, Mode};
 pub use friction::{Condition, ContactSpace, Decided, Friction, FrictionEvent, Hypothesis, Mode};
+pub use geometry::direction;
 pub use printed::{Print, Printed};
 pub use stage::{
     Fall, FallEnd, Lump, OneSided, PlotAsk, Relation, Slide, Stage, StageKind, Story, StoryAsk,

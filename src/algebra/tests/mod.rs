@@ -370,7 +370,6 @@ fn results_are_written_as_a_person_would() {
 fn huge_powers_stop_early() {
     let mut field = Field::new(&Domains::default());
     for e in [
-        (s("x") - s("a")).powi(6000),
         (s("x") + s("a") + s("b") + s("c")).powi(120),
         s("x").powi(200),
     ] {
