@@ -573,15 +573,16 @@ pub(super) fn turn(course: &Course<'_>, before: State, turn: &Turn) -> Result<Pa
             true
         }
     });
-    let about = course.pair(&turn.about, "the fixed point")?;
     let has_forces = turn.gravity.is_some() || turn.torque.is_some();
-    let Ok(movers) = Movers::of(course, &bodies, &before, about) else {
+    // The bodies first: where they are open, the fixed point may have no value either.
+    let Ok(mut movers) = Movers::of(course, &bodies, &before, [0.0; 2]) else {
         let time = match &turn.until {
             Until::For(time) => Ok(course.number(time, "time")?),
             _ => Err(course.open(Why::Needed)),
         };
         return Ok(all_open(course, before, &bodies, has_forces, time));
     };
+    movers.from = course.pair(&turn.about, "the fixed point")?;
     let rotation = Rotation::of(course, turn, movers)?;
     let mechanism = rotation.mechanism(rotation.way);
     let run = rotation.run(course, turn, &mechanism)?;
@@ -612,10 +613,6 @@ pub(super) fn turn(course: &Course<'_>, before: State, turn: &Turn) -> Result<Pa
 /// Motion along a line.
 pub(super) fn slide(course: &Course<'_>, before: State, slide: &Slide) -> Result<Passed, Lost> {
     let bodies = [slide.body];
-    let along = course.pair(&slide.along, "direction")?;
-    let distance = course.number(&slide.distance, "distance")?;
-    let gravity = course.optional(slide.gravity.as_ref(), "gravity")?;
-    let force = course.optional(slide.force.as_ref(), "force")?;
     let has_forces = slide.gravity.is_some() || slide.force.is_some();
     let from = match before.bodies[slide.body].known() {
         Ok([x, y, ..]) => [x, y],
@@ -625,6 +622,10 @@ pub(super) fn slide(course: &Course<'_>, before: State, slide: &Slide) -> Result
         }
         Err(_) => [0.0; 2],
     };
+    let along = course.pair(&slide.along, "direction")?;
+    let distance = course.number(&slide.distance, "distance")?;
+    let gravity = course.optional(slide.gravity.as_ref(), "gravity")?;
+    let force = course.optional(slide.force.as_ref(), "force")?;
     let movers = Movers::of(course, &bodies, &before, from)
         .map_err(|_| course.out_of_reach("the place of the body is open"))?;
     if distance < 0.0 {

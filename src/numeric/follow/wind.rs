@@ -18,8 +18,6 @@ const PIECES: usize = 400;
 
 /// A rope that winds round a pole.
 pub(super) fn wind(course: &Course<'_>, before: State, wind: &Wind) -> Result<Passed, Lost> {
-    let around = course.pair(&wind.around, "the pole")?;
-    let to = course.number(&wind.to, "length")?;
     let mut after = before.clone();
     let body = &before.bodies[wind.body];
     let end = &mut after.bodies[wind.body];
@@ -27,6 +25,8 @@ pub(super) fn wind(course: &Course<'_>, before: State, wind: &Wind) -> Result<Pa
     match body.known() {
         Err(_) => end.leave_open(&course.open(Why::Needed)),
         Ok([x, y, angle, u, v, _]) => {
+            let around = course.pair(&wind.around, "the pole")?;
+            let to = course.number(&wind.to, "length")?;
             let arm = [x - around[0], y - around[1]];
             let speed = wound(course, arm, [u, v], to)?;
             let sense = cross(&arm, &[u, v]).signum();
