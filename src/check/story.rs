@@ -2,7 +2,7 @@
 //! doubles, stage by stage.
 //!
 //! In: the scene, and what the solution says goes into each impact. The scene is followed from its beginning by
-//! [`crate::numeric::follow`], which knows nothing of the solution. Where the solution hands on another place or motion than
+//! [`mod@crate::numeric::follow`], which knows nothing of the solution. Where the solution hands on another place or motion than
 //! is found there, that is a failure like any other.
 
 use std::collections::BTreeMap;

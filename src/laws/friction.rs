@@ -5,7 +5,9 @@
 //! and of Brach. s is the direction of slip before, k₁ = c − μ s b and μ a − s b are the rates of u_n and −s u_t while it
 //! slips. With P_d the normal impulse at which slip ends and P_q that at which compression ends,
 //!
-//!     P_d ≥ (1+e) P_q   ⇔   s u_t⁻ k₁ + (1+e) u_n⁻ (μ a − s b) ≥ 0
+//! ```text
+//! P_d ≥ (1+e) P_q   ⇔   s u_t⁻ k₁ + (1+e) u_n⁻ (μ a − s b) ≥ 0
+//! ```
 //!
 //! also where one of them is infinite, because ac > b²; so no mode needs a condition of its own on the signs of the rates.
 //! Nothing is decided here.

@@ -53,7 +53,7 @@ pub enum Part {
 }
 
 /// Where all bodies are and how they move, by index of body. A component that is not determined is a symbol of
-/// [`State::open`]; a formula in which one occurs has no value.
+/// its field `open`; a formula in which one occurs has no value.
 #[derive(Clone, Debug)]
 pub struct State {
     /// Symbols of components that are not determined, with the reason.

@@ -1,6 +1,6 @@
 //! What was found of a scene, held against the scene followed in numbers from its beginning.
 //!
-//! In: the stages and answers in closed form. Out: checks. The other side is [`crate::numeric::follow`], which starts at the
+//! In: the stages and answers in closed form. Out: checks. The other side is [`mod@crate::numeric::follow`], which starts at the
 //! file and takes nothing from here: not a place, an inertia, a branch or a sense of rotation. A check that could not be made
 //! says so.
 

@@ -13,9 +13,9 @@
 //! ```
 //!
 //! Nothing here comes from `laws`, `derive` or `algebra`, and of `scene` only what the file says of places, joints and
-//! motions: mass, center and moment of inertia are integrated over the outlines ([`outline`]), impacts are one linear system of
-//! all bodies and impulses ([`impact`]), one-sided supports are found by complementarity, motions are integrated in time
-//! from the equations of motion with their constraints ([`mechanism`], [`motion`], [`wind`]). No step uses energy, so that
+//! motions: mass, center and moment of inertia are integrated over the outlines (`outline`), impacts are one linear system of
+//! all bodies and impulses (`impact`), one-sided supports are found by complementarity, motions are integrated in time
+//! from the equations of motion with their constraints (`mechanism`, `motion`, `wind`). No step uses energy, so that
 //! energies can be held against it.
 //!
 //! A component that the laws leave open stays open, and so does what needs it. A scene without stages is one impact.
