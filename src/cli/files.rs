@@ -103,6 +103,12 @@ pub(super) fn writable(path: &Path, read: &[&Path]) -> Result<(), Failure> {
             Ok(_) => Ok(()),
             Err(e) => Err(unwritable(path, &e)),
         },
+        Err(e) if e.kind() == ErrorKind::NotFound => match path.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
+                Err(unwritable(path, &e))
+            }
+            _ => Ok(()),
+        },
         _ => Ok(()),
     }
 }

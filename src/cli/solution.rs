@@ -76,12 +76,7 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
     let (solution, holds, told, plots) = if let Some(stages) = &scene.story {
         let told = story::tell(&scene, stages).map_err(|r| refused(r.to_string()))?;
         let mut solution = solution::tell(&scene, stages, &told, detail);
-        let cases = told
-            .stages
-            .iter()
-            .flat_map(|s| s.cases.iter().map(move |c| (s, c)));
-        let refusals = cases.filter_map(|(s, c)| Some((s, c.possible.refusal()?)));
-        let refusals = refusals.map(|(s, why)| format!("{}: {why}.", s.name));
+        let refusals = told.refusals().into_iter().map(|why| format!("{why}."));
         for refusal in refusals.chain(told.ended.iter().map(|why| format!("{why}."))) {
             solution.begin_with(&refusal);
         }

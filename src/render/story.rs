@@ -25,6 +25,8 @@ pub fn json(scene: &Scene, told: &Told) -> Value {
     json!({
         "title": scene.title,
         "source": scene.source,
+        "admissible": told.refusals().is_empty(),
+        "refusals": told.refusals(),
         "answers": told.answers.iter().map(|a| answer(scene, &told.readings, a)).collect::<Vec<_>>(),
         "stages": told.stages.iter().map(|s| stage(scene, s)).collect::<Vec<_>>(),
         "readings": told.readings,
@@ -133,6 +135,9 @@ pub fn text(scene: &Scene, told: &Told) -> String {
         out.push_str(text.trim_end());
         out.push('\n');
     };
+    for refusal in told.refusals() {
+        line(refusal);
+    }
     line(super::heading(&scene.title, &scene.source));
     for reading in &told.readings {
         line(format!("read as: {reading}"));
@@ -157,9 +162,6 @@ pub fn text(scene: &Scene, told: &Told) -> String {
         for (k, case) in s.cases.iter().enumerate() {
             if s.cases.len() > 1 {
                 line(format!("   case {}:", k + 1));
-            }
-            if let Some(refusal) = case.possible.refusal() {
-                line(format!("   ✗ {refusal}"));
             }
             impact(case).lines().for_each(|l| line(format!("   {l}")));
         }

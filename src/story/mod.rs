@@ -279,6 +279,16 @@ impl Told {
         words::assumed(&self.readings, &self.stages)
     }
 
+    /// Why what is told cannot happen, by stage; empty where it can.
+    pub fn refusals(&self) -> Vec<String> {
+        let cases = self
+            .stages
+            .iter()
+            .flat_map(|s| s.cases.iter().map(move |c| (s, c)));
+        let all = cases.filter_map(|(s, c)| Some(format!("{}: {}", s.name, c.possible.refusal()?)));
+        all.collect()
+    }
+
     /// Whether no check failed, and no laws contradict each other.
     pub fn holds(&self) -> bool {
         let stages = self.stages.iter();

@@ -57,7 +57,11 @@ pub(in crate::story) fn fall(
     let [start, end] = energy;
     let energy = [tidied(stage, &start)?, tidied(stage, &end)?];
     let mut out = told(stage, before, after);
-    out.kept = conserved(fall);
+    let turns = fall
+        .bodies()
+        .iter()
+        .any(|b| !scene.bodies[*b].is_particle());
+    out.kept = conserved(fall, turns);
     out.energy = Some(energy);
     if fall.gravity.is_some() {
         out.work = vec![("weight", Expr::sum(dropped))];
@@ -144,27 +148,29 @@ fn duration(
 }
 
 /// What a flight conserves.
-fn conserved(fall: &Fall) -> Vec<crate::story::Kept> {
+fn conserved(fall: &Fall, turns: bool) -> Vec<crate::story::Kept> {
     let heavy = fall.gravity.is_some();
     let pick = |with, without| if heavy { with } else { without };
-    vec![
-        kept(
-            "energy",
-            true,
-            pick(
-                "weight has a potential, and nothing else acts",
-                "no force acts",
-            ),
+    let mut out = vec![kept(
+        "energy",
+        true,
+        pick(
+            "weight has a potential, and nothing else acts",
+            "no force acts",
         ),
-        kept(
+    )];
+    // A particle has no spin to keep.
+    if turns {
+        out.push(kept(
             "spin",
             true,
             "no force has a moment about the center of mass",
-        ),
-        kept(
-            "momentum",
-            !heavy,
-            pick("weight changes its vertical part", "no force acts"),
-        ),
-    ]
+        ));
+    }
+    out.push(kept(
+        "momentum",
+        !heavy,
+        pick("weight changes its vertical part", "no force acts"),
+    ));
+    out
 }
