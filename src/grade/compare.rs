@@ -146,7 +146,7 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
     let is_asked = |name: &Symbol| asked.iter().any(|g| g.name == *name);
     match (claim(&ctx.key.reading.content), claim(&answer.content)) {
         (Claim::Value(expected_name, expected), Claim::Value(name, value)) => {
-            let mut finding = values(ctx, expected, value, answer);
+            let mut finding = values(ctx, expected, value);
             if let (Some(mine), Some(theirs)) = (expected_name, name) {
                 let declared = |n: &Symbol| ctx.key.question.symbols.iter().any(|g| g.name == *n);
                 if mine != theirs && !(is_asked(mine) && is_asked(theirs)) {
@@ -287,7 +287,7 @@ fn chain(ctx: &Context, answer: &Reading, finding: &mut Finding) {
     }
 }
 
-fn values(ctx: &Context, expected: &Content, answer: &Content, reading: &Reading) -> Finding {
+fn values(ctx: &Context, expected: &Content, answer: &Content) -> Finding {
     match (expected, answer) {
         (Content::Scalar(e), Content::Scalar(a)) => scalars(ctx, e, a),
         (Content::Quantity(e), Content::Quantity(a)) => unit::quantities(ctx, e, a),
@@ -332,7 +332,6 @@ fn values(ctx: &Context, expected: &Content, answer: &Content, reading: &Reading
             if a[0].is_zero() && a[1].is_zero() {
                 return scalars(ctx, e, &a[2]);
             }
-            let _ = reading;
             kind("a number is expected, and the answer is a vector")
         }
         _ => kind("the answer is of another kind than what is expected"),

@@ -210,8 +210,7 @@ impl Writer<'_> {
     fn angular_momentum(&mut self, system: &[usize], about: Place) {
         let o = words::point(self.scene, about);
         let index = match about {
-            Place::Center(b) if self.scene.bodies.iter().filter(|b| !b.is_fixed()).count() == 1 => {
-                let _ = b;
+            Place::Center(_) if self.scene.bodies.iter().filter(|b| !b.is_fixed()).count() == 1 => {
                 String::from("G")
             }
             _ => o.clone(),

@@ -79,12 +79,11 @@ fn read_off<T: Number>(
     }
     // Impulses of hinges that the belief removed have no value.
     if let Ask::Impulse {
-        from: ImpulseAt::Hinge(h),
+        from: ImpulseAt::Hinge(_),
         ..
     } = &ask
         && slip.scene.hinges.len() != written.scene.hinges.len()
     {
-        let _ = h;
         return None;
     }
     given.known.clear();
@@ -273,7 +272,7 @@ fn alter<T: Number>(
 /// The motion with the joints' one freedom and the energy before.
 fn energy_kept(written: &Written, slip: &Slip, point: &Point<f64>) -> Option<Vec<f64>> {
     let given = numeric::given(&slip.scene, point).ok()?;
-    if given.known.iter().any(|_| true) {
+    if !given.known.is_empty() {
         return None;
     }
     let mut system = numeric::assemble(&given);

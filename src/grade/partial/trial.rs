@@ -411,7 +411,7 @@ impl<'a> Trial<'a> {
         for name in angles {
             let at_zero = |e: &Expr| e.substitute(&BTreeMap::from([(name.clone(), Expr::zero())]));
             let (mut e, mut a) = (self.expected.clone(), self.answer.clone());
-            for order in 0..3 {
+            for _ in 0..3 {
                 let (e0, a0) = (at_zero(&e), at_zero(&a));
                 let at =
                     |e: &Expr| -> Vec<_> { self.points.iter().map(|p| evaluate(e, p)).collect() };
@@ -422,7 +422,6 @@ impl<'a> Trial<'a> {
                 match (zero(&e0), zero(&a0)) {
                     (true, true) => {
                         (e, a) = (e.derivative(&name), a.derivative(&name));
-                        let _ = order;
                         continue;
                     }
                     (false, false) if proved(&e0, &a0, self.domains) => {
