@@ -1,0 +1,274 @@
+//! Motions between impacts: rotation about a point, sliding along a line, flight. Integrated in time.
+//!
+//! In: a stage and the state before. Out: the stage as [`Passed`], or why the motion does not get to its end. Sense of a
+//! rotation, end and time come from the motion itself.
+
+mod fall;
+mod slide;
+mod turn;
+
+pub(super) use fall::fall;
+pub(super) use slide::slide;
+pub(super) use turn::turn;
+
+use super::super::given::Freedom;
+use super::mechanism::{Run, Stop};
+use super::{Component, Course, Lost, Open, Passed, State, What, Why};
+
+/// Differences below this share of what is at hand are rounding.
+const ROUNDING: f64 = 1e-9;
+/// Accelerations and speeds below this share are none.
+const REST: f64 = 1e-12;
+/// Angle at which a balanced body is taken up; what its weight does until there is of the order of its square.
+const NUDGE: f64 = 1e-6;
+/// Most samples that are kept of a motion.
+const SAMPLES: usize = 400;
+
+/// What bodies did during a motion.
+#[derive(Clone, Debug)]
+pub struct Moved {
+    /// Indices of the bodies that the stage moves.
+    pub bodies: Vec<usize>,
+    /// Sense of a rotation.
+    pub clockwise: Option<bool>,
+    /// Force of the fixed point of a rotation on the bodies, at the beginning and at the end \[N\].
+    pub reaction: Option<[[Component; 2]; 2]>,
+    /// Places on the way, for pictures; empty where something is open.
+    pub samples: Vec<Sample>,
+}
+
+/// Where the moved bodies are at a time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sample {
+    /// Time since the beginning of the stage \[s\].
+    pub time: f64,
+    /// x, y \[m\] and angle \[rad\] of each body in [`Moved::bodies`].
+    pub poses: Vec<[f64; 3]>,
+}
+
+/// Units in which a motion is of ordinary size.
+#[derive(Clone, Copy)]
+struct Units {
+    length: f64,
+    time: f64,
+    mass: f64,
+}
+
+impl Units {
+    fn speed(&self) -> f64 {
+        self.length / self.time
+    }
+
+    fn force(&self) -> f64 {
+        self.mass * self.length / self.time / self.time
+    }
+}
+
+/// Bodies that move, with their state in numbers and the point from which places count.
+struct Movers {
+    bodies: Vec<usize>,
+    from: [f64; 2],
+    states: Vec<[f64; 6]>,
+    /// Mass and moment of inertia about the center.
+    inertias: Vec<[f64; 2]>,
+}
+
+impl Movers {
+    fn of(
+        course: &Course<'_>,
+        bodies: &[usize],
+        before: &State,
+        from: [f64; 2],
+    ) -> Result<Movers, Open> {
+        let mut states = Vec::new();
+        for b in bodies {
+            let mut body = before.bodies[*b].clone();
+            // How the picture of a body is turned does not matter for its motion.
+            body.angle = body.angle.or(Ok(0.0));
+            states.push(body.known()?);
+        }
+        let solids = bodies.iter().map(|b| &course.solids[*b]);
+        Ok(Movers {
+            bodies: bodies.to_vec(),
+            from,
+            states,
+            inertias: solids.map(|s| [s.mass, s.inertia]).collect(),
+        })
+    }
+
+    fn arm(&self, i: usize) -> [f64; 2] {
+        [0, 1].map(|k| self.states[i][k] - self.from[k])
+    }
+
+    /// Masses in the units.
+    fn scaled(&self, units: &Units) -> Vec<[f64; 2]> {
+        let square = units.mass * units.length * units.length;
+        let all = self.inertias.iter();
+        all.map(|[m, i]| [m / units.mass, i / square]).collect()
+    }
+
+    /// The state in the units; angles count from the beginning.
+    fn start(&self, units: &Units) -> Vec<f64> {
+        let all = 0..self.bodies.len();
+        let places = all.clone().flat_map(|i| {
+            let [x, y] = self.arm(i).map(|r| r / units.length);
+            [x, y, 0.0]
+        });
+        let rates = all.flat_map(|i| {
+            let [_, _, _, u, v, w] = self.states[i];
+            [u / units.speed(), v / units.speed(), w * units.time]
+        });
+        places.chain(rates).collect()
+    }
+
+    /// Place, angle, velocity and spin of each body from a state in the units.
+    fn told(&self, units: &Units, y: &[f64]) -> Vec<[f64; 6]> {
+        let n = 3 * self.bodies.len();
+        let one = |i: usize| {
+            let (q, v) = (&y[3 * i..3 * i + 3], &y[n + 3 * i..n + 3 * i + 3]);
+            [
+                self.from[0] + q[0] * units.length,
+                self.from[1] + q[1] * units.length,
+                self.states[i][2] + q[2],
+                v[0] * units.speed(),
+                v[1] * units.speed(),
+                v[2] / units.time,
+            ]
+        };
+        (0..self.bodies.len()).map(one).collect()
+    }
+
+    /// The state at the end, and the samples.
+    fn ended(
+        &self,
+        course: &Course<'_>,
+        units: &Units,
+        run: &Run,
+        before: &State,
+    ) -> (State, Vec<Sample>) {
+        let mut after = before.clone();
+        for (b, state) in self.bodies.iter().zip(self.told(units, &run.end)) {
+            let body = &mut after.bodies[*b];
+            let angle = std::mem::replace(&mut body.angle, Ok(0.0));
+            body.set(state);
+            body.has_begun = true;
+            if course.solids[*b].freedom == Freedom::Particle {
+                (body.angle, body.spin) = (angle, Ok(0.0));
+            } else if angle.is_err() {
+                body.angle = angle;
+            }
+        }
+        let stride = run.samples.len().div_ceil(SAMPLES);
+        let last = run.samples.len() - 1;
+        let picked = run.samples.iter().enumerate();
+        let picked = picked.filter(|(k, _)| k % stride == 0 || *k == last);
+        let samples = picked.map(|(_, (time, y))| Sample {
+            time: time * units.time,
+            poses: self
+                .told(units, y)
+                .iter()
+                .map(|s| [s[0], s[1], s[2]])
+                .collect(),
+        });
+        (after, samples.collect())
+    }
+}
+
+/// What to say of a motion that stopped.
+fn stopped(course: &Course<'_>, stop: Stop, never: &str) -> Lost {
+    match stop {
+        Stop::Never => course.never(never),
+        Stop::TooLong => course.out_of_reach("the motion takes too many steps"),
+        Stop::Broken => {
+            course.out_of_reach("the equations of motion have no single solution in doubles")
+        }
+    }
+}
+
+/// A stage whose motion hangs on something open: the moving bodies end open too.
+fn all_open(
+    course: &Course<'_>,
+    before: State,
+    bodies: &[usize],
+    has_forces: bool,
+    time: Component,
+) -> Passed {
+    let open = course.open(Why::Needed);
+    let mut after = before.clone();
+    for b in bodies {
+        after.bodies[*b].leave_open(&open);
+        after.bodies[*b].has_begun = true;
+    }
+    others(course, &before, &mut after, bodies, &time, has_forces);
+    let moved = Moved {
+        bodies: bodies.to_vec(),
+        clockwise: None,
+        reaction: None,
+        samples: Vec::new(),
+    };
+    course.passed(time, before, after, What::Motion(moved))
+}
+
+/// Bodies that the stage does not name: they wait, rest, fly on, or nobody knows.
+pub(super) fn others(
+    course: &Course<'_>,
+    before: &State,
+    after: &mut State,
+    moving: &[usize],
+    time: &Component,
+    has_forces: bool,
+) {
+    let fastest = before.bodies.iter().chain(&after.bodies);
+    let fastest = fastest.flat_map(|b| &b.velocity).flatten();
+    let fastest = fastest.fold(0.0, |a: f64, v| a.max(v.abs()));
+    let turning = before.bodies.iter().chain(&after.bodies);
+    let turning = turning
+        .flat_map(|b| &b.spin)
+        .fold(0.0, |a: f64, w| a.max(w.abs()));
+    let rests = |c: &Component, largest: f64| c.as_ref().is_ok_and(|v| v.abs() <= REST * largest);
+    let joined = |b: usize| {
+        let pairs = before.joined.iter().filter(|pair| pair.contains(&b));
+        pairs.flatten().any(|other| moving.contains(other))
+    };
+    for (b, body) in after.bodies.iter_mut().enumerate() {
+        if moving.contains(&b) || !body.has_begun {
+            continue;
+        }
+        if joined(b) {
+            body.leave_open(&course.open(Why::Joined));
+            continue;
+        }
+        let is_at_rest =
+            body.velocity.iter().all(|v| rests(v, fastest)) && rests(&body.spin, turning);
+        if is_at_rest {
+            continue;
+        }
+        let is_prescribed = course.solids[b].freedom == Freedom::Fixed;
+        if has_forces && !is_prescribed {
+            body.leave_open(&course.open(Why::Forces));
+            continue;
+        }
+        let [u, v] = body.velocity.clone();
+        let [x, y] = &mut body.center;
+        for (place, rate) in [(x, u), (y, v), (&mut body.angle, body.spin.clone())] {
+            *place = drifted(course, place, &rate, time);
+        }
+    }
+}
+
+/// A coordinate after uniform motion.
+fn drifted(
+    course: &Course<'_>,
+    place: &Component,
+    rate: &Component,
+    time: &Component,
+) -> Component {
+    let start = place.clone()?;
+    match (rate, time) {
+        (Ok(0.0), _) => Ok(start),
+        (Ok(rate), Ok(time)) => Ok(start + rate * time),
+        (Err(_), Ok(0.0)) => Ok(start),
+        (Err(_), _) => Err(course.open(Why::Needed)),
+        (Ok(_), Err(_)) => Err(course.open(Why::Time)),
+    }
+}
