@@ -94,23 +94,11 @@ pub(super) fn tell(
     }
     let checks = cases[0].proof.scene.clone();
     Ok(StageTold {
-        name: stage.name.clone(),
-        placed: stage.clone(),
-        branch: None,
-        given: Vec::new(),
-        time: None,
-        needs: Vec::new(),
-        before,
-        after,
         kept,
         cases,
-        energy: None,
-        kinetic: None,
-        inertia: None,
-        work: Vec::new(),
-        words: Vec::new(),
         assumptions,
         checks,
+        ..StageTold::new(stage, before, after)
     })
 }
 

@@ -197,6 +197,31 @@ pub struct StageTold {
     pub checks: Vec<Check>,
 }
 
+impl StageTold {
+    /// A stage of which no more is told yet than how it begins and ends.
+    fn new(stage: &Stage, before: State, after: State) -> StageTold {
+        StageTold {
+            name: stage.name.clone(),
+            placed: stage.clone(),
+            branch: None,
+            given: Vec::new(),
+            needs: Vec::new(),
+            time: None,
+            before,
+            after,
+            kept: Vec::new(),
+            cases: Vec::new(),
+            energy: None,
+            kinetic: None,
+            inertia: None,
+            work: Vec::new(),
+            words: Vec::new(),
+            assumptions: Vec::new(),
+            checks: Vec::new(),
+        }
+    }
+}
+
 /// The answer to a question about a story.
 #[derive(Clone, Debug)]
 pub struct Answer {

@@ -1,6 +1,6 @@
 //! Free fall and flight: the center of mass moves as a particle does, and the body keeps its spin.
 
-use super::{half, kept, meanwhile, tidied, told};
+use super::{half, kept, meanwhile, tidied};
 use crate::algebra::Sign;
 use crate::expr::Expr;
 use crate::scene::{Fall, FallEnd, Stage};
@@ -56,7 +56,7 @@ pub(in crate::story) fn fall(
     assumptions.extend(meanwhile::others(stage, &before, &mut after, Some(&time)));
     let [start, end] = energy;
     let energy = [tidied(stage, &start)?, tidied(stage, &end)?];
-    let mut out = told(stage, before, after);
+    let mut out = StageTold::new(stage, before, after);
     let turns = fall
         .bodies()
         .iter()

@@ -15,9 +15,11 @@ pub(super) use slide::slide;
 pub(super) use turn::{arms, inertia_about, sense, turn};
 pub(super) use wind::wind;
 
-use super::calc::{Seen, tidy};
+use super::calc::{Seen, sign, tidy};
+
 use super::{Kept, Refused, StageTold, State};
 use super::{Sentence, sentence::sentence};
+use crate::algebra::Sign;
 use crate::expr::Expr;
 use crate::scene::Stage;
 
@@ -38,26 +40,29 @@ fn tidied(stage: &Stage, e: &Expr) -> Result<Expr, Refused> {
     tidy(e, &stage.scene.domains).map_err(|stop| Refused::stop(&stage.name, stop))
 }
 
-fn told(stage: &Stage, before: State, after: State) -> StageTold {
-    StageTold {
-        name: stage.name.clone(),
-        placed: stage.clone(),
-        branch: None,
-        given: Vec::new(),
-        time: None,
-        needs: Vec::new(),
-        before,
-        after,
-        kept: Vec::new(),
-        cases: Vec::new(),
-        energy: None,
-        kinetic: None,
-        inertia: None,
-        work: Vec::new(),
-        words: Vec::new(),
-        assumptions: Vec::new(),
-        checks: Vec::new(),
+/// Kinetic energy at the end of a motion, with the work done on the way and what is known of its sign; refused where it
+/// is negative.
+fn balance(
+    stage: &Stage,
+    body: usize,
+    start: &Expr,
+    parts: &[(&'static str, Expr)],
+) -> Result<(Expr, Expr, Seen), Refused> {
+    let work = tidied(stage, &Expr::sum(parts.iter().map(|(_, w)| w.clone())))?;
+    let end = tidied(stage, &(start + &work))?;
+    let reaches = sign(&end, &stage.scene.domains);
+    if let Seen::Proved(Sign::Negative | Sign::NotPositive) = reaches {
+        return Err(Refused::new(
+            &stage.name,
+            format!(
+                "`{}` never gets there: its kinetic energy at the end would be {}, which is negative",
+                stage.scene.bodies[body].name,
+                crate::formula::write_plain(&end)
+            ),
+            "end the stage earlier, or give it more energy",
+        ));
     }
+    Ok((work, end, reaches))
 }
 
 /// What must hold so that a motion gets to its end with this kinetic energy; nothing where that is proved.
@@ -89,7 +94,7 @@ pub(super) fn open(stage: &Stage, before: State) -> Option<StageTold> {
         after.lose(scene, b, &why, true);
     }
     meanwhile::others(stage, &before, &mut after, None);
-    let mut out = told(stage, before, after);
+    let mut out = StageTold::new(stage, before, after);
     out.words = vec![sentence!["where this leads is open: ", &why]];
     Some(out)
 }

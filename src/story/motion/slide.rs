@@ -1,7 +1,6 @@
 //! Motion of a body along a straight line, without turning, under constant forces.
 
-use super::{arrival, half, kept, meanwhile, tidied, told};
-use crate::algebra::Sign;
+use super::{arrival, balance, half, kept, meanwhile, tidied};
 use crate::expr::{Expr, dot};
 use crate::scene::{Slide, Stage};
 use crate::story::calc::{Seen, is_zero, sign};
@@ -59,16 +58,7 @@ pub(in crate::story) fn slide(
         work.push(("the applied force", force * &slide.distance));
     }
     let parts = work;
-    let work = tidied(stage, &Expr::sum(parts.iter().map(|(_, w)| w.clone())))?;
-    let end = tidied(stage, &(&start + &work))?;
-    let reaches = sign(&end, domains);
-    if let Seen::Proved(Sign::Negative | Sign::NotPositive) = reaches {
-        return Err(Refused::new(
-            &stage.name,
-            format!("`{}` never gets there: it comes to rest before", body.name),
-            "shorten the distance",
-        ));
-    }
+    let (work, end, reaches) = balance(stage, slide.body, &start, &parts)?;
     if !work.is_zero() {
         assumptions.extend(arrival(stage, &end, reaches));
     }
@@ -95,7 +85,7 @@ pub(in crate::story) fn slide(
     let rests = is_zero(&speed, domains) == Some(true) && work.is_zero();
     let time = (!rests).then(|| tidied(stage, &time)).transpose()?;
     assumptions.extend(meanwhile::others(stage, &before, &mut after, time.as_ref()));
-    let mut out = told(stage, before, after);
+    let mut out = StageTold::new(stage, before, after);
     out.time = time;
     out.kept = vec![kept(
         "energy",

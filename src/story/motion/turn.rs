@@ -1,7 +1,7 @@
 //! Rotation of a rigid body, and of what is fixed to it, about a point that does not move.
 
 use super::bearing::bearing;
-use super::{arrival, half, kept, meanwhile, tidied, told};
+use super::{arrival, balance, half, kept, meanwhile, tidied};
 use crate::algebra::Sign;
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::scene::{Lump, Stage, Turn, Until, direction};
@@ -49,20 +49,7 @@ pub(in crate::story) fn turn(
     }
     let start = tidied(stage, &half(&(&inertia * &spin.powi(2))))?;
     let parts = work(stage, turn, &lump, [&r, &r_end], way, &spin)?;
-    let work = tidied(stage, &Expr::sum(parts.iter().map(|(_, w)| w.clone())))?;
-    let end = tidied(stage, &(&start + &work))?;
-    let reaches = sign(&end, domains);
-    if let Seen::Proved(Sign::Negative | Sign::NotPositive) = reaches {
-        return Err(Refused::new(
-            &stage.name,
-            format!(
-                "`{}` never gets there: its kinetic energy at the end would be {}, which is negative",
-                body.name,
-                crate::formula::write_plain(&end)
-            ),
-            "end the stage earlier, or give it more energy",
-        ));
-    }
+    let (work, end, reaches) = balance(stage, turn.body, &start, &parts)?;
     let (mut needs, mut assumptions) = (Vec::new(), Vec::new());
     if let Some((need, words)) = hurdle(stage, turn, &r, &start, way)? {
         needs.extend(need);
@@ -113,7 +100,7 @@ pub(in crate::story) fn turn(
         after.spin[b] = spin_end.clone();
     }
     assumptions.extend(meanwhile::others(stage, &before, &mut after, time.as_ref()));
-    let mut out = told(stage, before, after);
+    let mut out = StageTold::new(stage, before, after);
     out.kept = conserved(turn);
     out.inertia = Some([about, inertia.clone()]);
     out.work = parts;

@@ -1,6 +1,6 @@
 //! A particle on a rope that winds round a thin pole.
 
-use super::{half, kept, meanwhile, tidied, told};
+use super::{half, kept, meanwhile, tidied};
 use crate::algebra::Sign;
 use crate::domain::Domains;
 use crate::expr::{Expr, dot, minus};
@@ -43,7 +43,7 @@ pub(in crate::story) fn wind(
     // How long it takes goes beyond all bounds as the pole gets thinner.
     let mut assumptions = meanwhile::others(stage, &before, &mut after, None);
     let energy = tidied(stage, &half(&(&body.mass * &speed.powi(2))))?;
-    let mut out = told(stage, before, after);
+    let mut out = StageTold::new(stage, before, after);
     out.kept = vec![
         kept(
             "energy",
