@@ -1,7 +1,9 @@
 //! Derivations of the shipped scenes: what the answers are, how few equations they took, and that every check holds.
 
+mod shared;
+
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use carom::derive::{Derivation, Form, derive};
 use carom::equality::{Equality, decide};
@@ -17,19 +19,7 @@ fn scene(name: &str) -> Scene {
 }
 
 fn shipped() -> Vec<String> {
-    fn collect(folder: &Path, out: &mut Vec<PathBuf>) {
-        for entry in std::fs::read_dir(folder).expect("derivations is readable") {
-            let path = entry.expect("a readable entry").path();
-            if path.is_dir() && path.file_name().is_some_and(|n| n != "refused") {
-                collect(&path, out);
-            } else if path.extension().is_some_and(|e| e == "json") {
-                out.push(path);
-            }
-        }
-    }
-    let mut files = Vec::new();
-    collect(Path::new("derivations"), &mut files);
-    files.sort();
+    let files = shared::files("derivations", "json");
     let name = |p: &PathBuf| {
         p.strip_prefix("derivations")
             .expect("below derivations")

@@ -3,12 +3,14 @@
 //! The tables in `tests/falsified/` say what is falsified and how; scenes that are not possible stand in `tests/possible/`, wrong
 //! printed answers in `tests/printed/`.
 
+mod shared;
+
 #[path = "equality/reader.rs"]
 mod reader;
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use carom::algebra::{Field, Sign};
 use carom::derive::{Derivation, Form, derive};
@@ -34,19 +36,7 @@ fn rows(name: &str) -> Vec<Vec<String>> {
 
 /// The shipped scenes with their text, refused ones aside.
 fn shipped() -> Vec<(String, String, Scene)> {
-    fn collect(folder: &Path, out: &mut Vec<PathBuf>) {
-        for entry in fs::read_dir(folder).expect("a readable folder") {
-            let path = entry.expect("a readable entry").path();
-            if path.is_dir() && path.file_name().is_some_and(|n| n != "refused") {
-                collect(&path, out);
-            } else if path.extension().is_some_and(|e| e == "json") {
-                out.push(path);
-            }
-        }
-    }
-    let mut files = Vec::new();
-    collect(Path::new("derivations"), &mut files);
-    files.sort();
+    let files = shared::files("derivations", "json");
     let read = |path: PathBuf| {
         let text = fs::read_to_string(&path).expect("a scene file");
         let scene = scene::read(&text).expect("a sound scene");

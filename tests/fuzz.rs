@@ -5,9 +5,10 @@
 //! tenths read, a tenth graded, a tenth read as scenes. A case is known by its number; the slowest input of each target is
 //! printed, and `CAROM_FROM` says where to take a run up again.
 
+mod shared;
+
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
@@ -132,7 +133,7 @@ fn mutated(text: &str, other: &str, rng: &mut Rng) -> String {
 fn corpus() -> Vec<String> {
     let mut all = Vec::new();
     for folder in ["tests/grading", "tests/formula"] {
-        for file in files(folder, "tsv") {
+        for file in shared::files(folder, "tsv") {
             for line in fs::read_to_string(file).expect("a table").lines() {
                 all.extend(line.split('\t').take(2).map(str::to_string));
             }
@@ -140,27 +141,6 @@ fn corpus() -> Vec<String> {
     }
     assert!(all.len() > 1_000, "{} texts", all.len());
     all
-}
-
-fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
-    fn go(folder: &Path, extension: &str, out: &mut Vec<PathBuf>) {
-        for entry in fs::read_dir(folder).expect("a folder").flatten() {
-            let path = entry.path();
-            if path.is_dir() {
-                go(&path, extension, out);
-            } else if path.extension().is_some_and(|e| e == extension) {
-                out.push(path);
-            }
-        }
-    }
-    let mut out = Vec::new();
-    go(
-        &Path::new(env!("CARGO_MANIFEST_DIR")).join(folder),
-        extension,
-        &mut out,
-    );
-    out.sort();
-    out
 }
 
 /// The slowest input so far.
@@ -332,8 +312,9 @@ fn grade_anything(cases: u64) {
 }
 
 fn read_any_scene(cases: u64) {
-    let scenes: Vec<String> = files("derivations", "json")
+    let scenes: Vec<String> = ["derivations", "derivations/refused"]
         .iter()
+        .flat_map(|folder| shared::files(folder, "json"))
         .map(|file| fs::read_to_string(file).expect("a scene"))
         .filter(|text| text.len() < 8_000)
         .collect();

@@ -3,8 +3,9 @@
 //!
 //! `CAROM_CASES=1000000 cargo test --release --test grading_laws -- --nocapture` for a long run.
 
+mod shared;
+
 use std::fs;
-use std::path::{Path, PathBuf};
 
 use carom::domain::Domains;
 use carom::expr::{Expr, Function, Node, Point};
@@ -33,25 +34,9 @@ fn told(name: &str) -> Option<u64> {
     std::env::var(name).ok()?.parse().ok()
 }
 
-fn scenes(folder: &Path, out: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("a folder of scenes").flatten() {
-        let path = entry.path();
-        if path.is_dir() && !path.ends_with("refused") {
-            scenes(&path, out);
-        } else if path.extension().is_some_and(|e| e == "json") {
-            out.push(path);
-        }
-    }
-}
-
 /// Every scalar answer of every shipped scene, long ones aside.
 fn answers() -> Vec<(Sheet, Entry, Expr)> {
-    let mut files = Vec::new();
-    scenes(
-        &Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations"),
-        &mut files,
-    );
-    files.sort();
+    let files = shared::files("derivations", "json");
     let mut all = Vec::new();
     for file in files {
         let text = fs::read_to_string(&file).expect("a scene");

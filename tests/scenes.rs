@@ -1,7 +1,9 @@
 //! Every scene in `derivations/` is read, and the schema knows every field it uses.
 
+mod shared;
+
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use carom::expr::Expr;
 use carom::scene;
@@ -10,21 +12,12 @@ use serde_json::Value;
 
 /// All scene files, the refused ones not among them.
 fn scenes() -> Vec<(PathBuf, String)> {
-    let mut found = Vec::new();
-    let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations")];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).expect("a folder of scenes").flatten() {
-            let path = entry.path();
-            if path.is_dir() && !path.ends_with("refused") {
-                folders.push(path);
-            } else if path.extension().is_some_and(|e| e == "json") {
-                let text = fs::read_to_string(&path).expect("a scene file");
-                found.push((path, text));
-            }
-        }
-    }
-    found.sort();
-    found
+    let read = |path: PathBuf| {
+        let text = fs::read_to_string(&path).expect("a scene file");
+        (path, text)
+    };
+    let files = shared::files("derivations", "json");
+    files.into_iter().map(read).collect()
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! Worked solutions: generated beside every scene, replayed step by step, safe whatever the scene is called.
 //! `UPDATE=1 cargo test --test solutions` writes the expected texts anew; reading that diff is the review.
 
+mod shared;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -73,21 +75,8 @@ fn has_one_case(path: &Path) -> bool {
 fn cases() -> &'static [Case] {
     static CASES: OnceLock<Vec<Case>> = OnceLock::new();
     CASES.get_or_init(|| {
-        let mut files = Vec::new();
-        for folder in [
-            "derivations/book",
-            "derivations/more",
-            "derivations/problems",
-            "derivations/friction",
-        ] {
-            for entry in fs::read_dir(folder).expect("a folder of scenes") {
-                let path = entry.expect("a readable entry").path();
-                if path.extension().is_some_and(|e| e == "json") && has_one_case(&path) {
-                    files.push(path);
-                }
-            }
-        }
-        files.sort();
+        let mut files = shared::files("derivations", "json");
+        files.retain(|path| has_one_case(path));
         thread::scope(|scope| {
             let each: Vec<_> = files
                 .into_iter()

@@ -1,6 +1,8 @@
 //! Stories: the scenes of `derivations/problems/` with stages, their answers, and laws that hold for every story.
 
-use std::path::Path;
+mod shared;
+
+use std::path::{Path, PathBuf};
 
 use carom::equality::{Equality, How, decide};
 use carom::formula::{Content, Symbols, read, write_plain};
@@ -27,20 +29,10 @@ fn told(scene: &Scene) -> Told {
 }
 
 fn shipped() -> Vec<String> {
-    let mut names = Vec::new();
-    for entry in std::fs::read_dir(Path::new("derivations/problems")).expect("a readable folder") {
-        let path = entry.expect("a readable entry").path();
-        let name = path
-            .file_stem()
-            .expect("a name")
-            .to_string_lossy()
-            .to_string();
-        if scene(&name).story.is_some() {
-            names.push(name);
-        }
-    }
-    names.sort();
-    names
+    let files = shared::files("derivations/problems", "json");
+    let stem = |path: &PathBuf| Some(path.file_stem()?.to_string_lossy().into_owned());
+    let names = files.iter().filter_map(stem);
+    names.filter(|name| scene(name).story.is_some()).collect()
 }
 
 #[test]

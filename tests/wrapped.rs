@@ -1,27 +1,14 @@
 //! A scene of one impact and the same impact as the only stage of a scene are one scene: every command says the same of both.
 
-use std::path::{Path, PathBuf};
+mod shared;
+
+use std::path::Path;
 use std::process::Command;
 
 use serde_json::{Map, Value};
 
 /// Fields that stand in the impact once there are stages.
 const MOVED: [&str; 5] = ["hinges", "contacts", "blows", "after", "forces"];
-
-fn scenes() -> Vec<PathBuf> {
-    let mut out = Vec::new();
-    for folder in ["book", "more", "problems"] {
-        let folder = Path::new("derivations").join(folder);
-        for entry in std::fs::read_dir(folder).expect("a readable folder") {
-            let path = entry.expect("a readable entry").path();
-            if path.extension().is_some_and(|e| e == "json") {
-                out.push(path);
-            }
-        }
-    }
-    out.sort();
-    out
-}
 
 /// The scene in one stage; `None` where it has stages already, or says what only a scene without stages can.
 fn wrapped(text: &str) -> Option<String> {
@@ -59,7 +46,7 @@ fn a_scene_wrapped_in_one_stage_is_the_same_scene() {
     let folder = std::env::temp_dir().join(format!("carom-wrapped-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
     let mut count = 0;
-    for path in scenes() {
+    for path in shared::files("derivations", "json") {
         let text = std::fs::read_to_string(&path).expect("a readable scene");
         let Some(wrapped) = wrapped(&text) else {
             continue;

@@ -65,14 +65,10 @@ pub enum Item {
         /// What it belongs to.
         ink: Ink,
     },
-    /// A filled arrow head.
-    Head {
-        /// Its tip.
-        tip: Pair,
-        /// Unit vector it points along.
-        along: Pair,
-        /// Its length.
-        size: f64,
+    /// A filled polygon.
+    Fill {
+        /// Its corners.
+        points: Vec<Pair>,
         /// What it belongs to.
         ink: Ink,
     },
@@ -211,12 +207,7 @@ impl Sheet {
             closed: false,
             line,
         });
-        self.items.push(Item::Head {
-            tip: to,
-            along,
-            size,
-            ink,
-        });
+        self.items.push(head(to, along, size, ink));
         self.walls.push((from, to, 3.0));
         let middle = [to[0] - along[0] * size / 2.0, to[1] - along[1] * size / 2.0];
         self.kept.push(Room::around(middle, size / 2.0));
@@ -245,12 +236,7 @@ impl Sheet {
                 ..Line::of(ink)
             },
         });
-        self.items.push(Item::Head {
-            tip,
-            along,
-            size: 9.0,
-            ink,
-        });
+        self.items.push(head(tip, along, 9.0, ink));
         self.kept.push(Room::around(tip, 5.0));
     }
 
@@ -298,7 +284,10 @@ impl Sheet {
                     line,
                 } => Room::around(*center, radius + line.width / 2.0),
                 Item::Dot { center, radius, .. } => Room::around(*center, *radius),
-                Item::Head { tip, size, .. } => Room::around(*tip, size / 2.0),
+                Item::Fill { points, .. } => match Room::of(points) {
+                    Some(room) => room,
+                    None => continue,
+                },
                 Item::Text { room, .. } => *room,
             };
             all = Some(all.map_or(room, |b| b.with(&room)));
@@ -314,9 +303,10 @@ impl Sheet {
         };
         for item in &mut self.items {
             match item {
-                Item::Path { points, .. } => points.iter_mut().for_each(moved),
+                Item::Path { points, .. } | Item::Fill { points, .. } => {
+                    points.iter_mut().for_each(moved);
+                }
                 Item::Circle { center, .. } | Item::Dot { center, .. } => moved(center),
-                Item::Head { tip, .. } => moved(tip),
                 Item::Text { at, room, .. } => {
                     moved(at);
                     moved(&mut room.low);
@@ -340,6 +330,24 @@ impl Item {
             room,
         }
     }
+}
+
+/// The head of an arrow, as long as `size`, whose tip points along a unit vector.
+fn head(tip: Pair, along: Pair, size: f64, ink: Ink) -> Item {
+    let corner = |back: f64, side: f64| {
+        [
+            tip[0] - along[0] * back - along[1] * side,
+            tip[1] - along[1] * back + along[0] * side,
+        ]
+    };
+    let notch = corner(size * 0.75, 0.0);
+    let points = vec![
+        tip,
+        corner(size, size * 0.36),
+        notch,
+        corner(size, -size * 0.36),
+    ];
+    Item::Fill { points, ink }
 }
 
 /// Points on an arc, close enough to look round.

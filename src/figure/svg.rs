@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::label::{Level, SMALL};
 use super::sheet::{Ink, Item, Line};
+use super::values::Pair;
 
 /// A picture with its words.
 pub struct Page<'a> {
@@ -85,6 +86,15 @@ fn color(ink: Ink) -> &'static str {
     }
 }
 
+/// A line through points, in the commands of a path.
+fn path(points: &[Pair], closed: bool, height: f64) -> String {
+    let through: Vec<String> = points
+        .iter()
+        .map(|p| format!("{} {}", number(p[0]), number(height - p[1])))
+        .collect();
+    format!("M{}{}", through.join("L"), if closed { "Z" } else { "" })
+}
+
 fn write_item(item: &Item, height: f64, out: &mut String) {
     let x = |p: &[f64; 2]| number(p[0]);
     let y = |p: &[f64; 2]| number(height - p[1]);
@@ -94,16 +104,12 @@ fn write_item(item: &Item, height: f64, out: &mut String) {
             points,
             closed,
             line,
-        } => {
-            let mut d = String::new();
-            for (i, p) in points.iter().enumerate() {
-                let _ = write!(d, "{}{} {}", if i == 0 { "M" } else { "L" }, x(p), y(p));
-            }
-            if *closed {
-                d.push('Z');
-            }
-            writeln!(out, "<path d=\"{d}\"{}/>", stroke(line))
-        }
+        } => writeln!(
+            out,
+            "<path d=\"{}\"{}/>",
+            path(points, *closed, height),
+            stroke(line)
+        ),
         Item::Circle {
             center,
             radius,
@@ -130,38 +136,12 @@ fn write_item(item: &Item, height: f64, out: &mut String) {
             number(*radius),
             color(*ink)
         ),
-        Item::Head {
-            tip,
-            along,
-            size,
-            ink,
-        } => {
-            let across = [-along[1], along[0]];
-            let corner = |back: f64, side: f64| {
-                [
-                    tip[0] - along[0] * back + across[0] * side,
-                    tip[1] - along[1] * back + across[1] * side,
-                ]
-            };
-            let (a, b, c) = (
-                corner(*size, size * 0.36),
-                corner(size * 0.75, 0.0),
-                corner(*size, -size * 0.36),
-            );
-            writeln!(
-                out,
-                "<path d=\"M{} {}L{} {}L{} {}L{} {}Z\" fill=\"{}\"/>",
-                x(tip),
-                y(tip),
-                x(&a),
-                y(&a),
-                x(&b),
-                y(&b),
-                x(&c),
-                y(&c),
-                color(*ink)
-            )
-        }
+        Item::Fill { points, ink } => writeln!(
+            out,
+            "<path d=\"{}\" fill=\"{}\"/>",
+            path(points, true, height),
+            color(*ink)
+        ),
         Item::Text {
             at,
             size,

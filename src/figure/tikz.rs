@@ -7,6 +7,7 @@ use super::label::{Label, Level, Run};
 use super::latex::command;
 use super::sheet::{Ink, Item, Line};
 use super::svg::number;
+use super::values::Pair;
 
 /// Points of print for a pixel of the screen.
 const SCALE: f64 = 0.72;
@@ -25,7 +26,7 @@ pub(super) fn write(items: &[Item]) -> String {
     out
 }
 
-fn at(p: &[f64; 2]) -> String {
+fn at(p: &Pair) -> String {
     format!("({},{})", number(p[0]), number(p[1]))
 }
 
@@ -50,19 +51,23 @@ fn style(line: &Line) -> String {
     out
 }
 
+/// A line through points.
+fn path(points: &[Pair], closed: bool) -> String {
+    let through: Vec<String> = points.iter().map(at).collect();
+    format!(
+        "{}{}",
+        through.join("--"),
+        if closed { "--cycle" } else { "" }
+    )
+}
+
 fn one(item: &Item) -> String {
     match item {
         Item::Path {
             points,
             closed,
             line,
-        } => {
-            let mut path: Vec<String> = points.iter().map(at).collect();
-            if *closed {
-                path.push(String::from("cycle"));
-            }
-            format!("\\path[{}] {};\n", style(line), path.join("--"))
-        }
+        } => format!("\\path[{}] {};\n", style(line), path(points, *closed)),
         Item::Circle {
             center,
             radius,
@@ -83,26 +88,8 @@ fn one(item: &Item) -> String {
             at(center),
             number(*radius)
         ),
-        Item::Head {
-            tip,
-            along,
-            size,
-            ink,
-        } => {
-            let corner = |back: f64, side: f64| {
-                at(&[
-                    tip[0] - along[0] * back - along[1] * side,
-                    tip[1] - along[1] * back + along[0] * side,
-                ])
-            };
-            format!(
-                "\\path[fill={}] {}--{}--{}--{}--cycle;\n",
-                color(*ink),
-                at(tip),
-                corner(*size, size * 0.36),
-                corner(size * 0.75, 0.0),
-                corner(*size, -size * 0.36)
-            )
+        Item::Fill { points, ink } => {
+            format!("\\path[fill={}] {};\n", color(*ink), path(points, true))
         }
         Item::Text {
             at: place,

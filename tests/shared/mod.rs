@@ -1,0 +1,23 @@
+//! Where the files of the tests lie.
+
+use std::fs;
+use std::path::PathBuf;
+
+/// Files below a folder of the crate whose names end in `.extension`, sorted. A folder `refused` inside is left out: its
+/// scenes are not for use.
+pub fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = vec![PathBuf::from(folder)];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).expect("a folder of the crate") {
+            let path = entry.expect("a readable entry").path();
+            if path.is_dir() && !path.ends_with("refused") {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| e == extension) {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    found
+}
