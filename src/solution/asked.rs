@@ -109,7 +109,14 @@ fn heading(scene: &Scene, ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
         ])
     };
     match ask {
-        StoryAsk::Value { formula, .. } => vec![say("Value of "), math(formula)],
+        StoryAsk::Value { formula, with } => {
+            let mut out = vec![math(formula)];
+            for (i, (name, value)) in with.iter().enumerate() {
+                out.push(say(if i == 0 { " at " } else { " and " }));
+                out.push(words::equation(&Expr::symbol(name), value));
+            }
+            out
+        }
         StoryAsk::Condition {
             parameter,
             left,
@@ -277,19 +284,17 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer,
             solution.step(Vec::new(), vec![claim], "what was to be shown");
         }
     }
+    let line = |left: &Expr, op: &'static str, right: &Expr, step: &Option<String>| Line {
+        math: vec![
+            Math::Expr(left.clone()),
+            Math::Op(op),
+            Math::Expr(right.clone()),
+        ],
+        step: step.clone(),
+    };
+    let mut found: Vec<Line> = Vec::new();
     for (p, relation, value) in &answer.range {
-        let mut math = vec![
-            Math::Expr(Expr::symbol(p)),
-            Math::Op(relation.sign()),
-            Math::Expr(value.clone()),
-        ];
-        if !lines.is_empty() {
-            math.insert(0, Math::Op("⇒"));
-        }
-        lines.push(Line {
-            math,
-            step: shown.clone(),
-        });
+        found.push(line(&Expr::symbol(p), relation.sign(), value, &shown));
     }
     let named_step = defined.or_else(|| shown.clone());
     // A combination of parameters is called by its own formula.
@@ -302,26 +307,19 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer,
             Some((of, op)) => (of, op),
             None => (symbol.clone(), "="),
         };
-        lines.push(Line {
-            math: vec![Math::Expr(left), Math::Op(op), Math::Expr(formula.clone())],
-            step: named_step.clone(),
-        });
+        found.push(line(&left, op, formula, &named_step));
     }
     if let Some((left, right)) = &answer.equation
         && answer.stated.is_none()
         && !matches!(ask, StoryAsk::Show { .. })
     {
-        lines.push(Line {
-            math: vec![
-                Math::Expr(left.clone()),
-                Math::Op("="),
-                Math::Expr(right.clone()),
-            ],
-            step: named_step,
-        });
+        found.push(line(left, "=", right, &named_step));
     }
     if !lines.is_empty() {
         solution.push(Part::Display(lines));
+    }
+    if !found.is_empty() {
+        solution.push(Part::Result(found));
     }
     // Of a parameter that is solved for, the number is its own.
     let of = match answer.range.as_slice() {
@@ -332,9 +330,15 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer,
     if let Some(value) = number(scene, answer).filter(|_| !stands) {
         solution.text(vec![say("In numbers: "), words::formula(&of), say(value)]);
     }
+    // At which values a formula is taken stands in the heading.
+    let in_heading = match ask {
+        StoryAsk::Value { with, .. } => with.len(),
+        _ => 0,
+    };
     let mut text: Vec<Vec<Inline>> = answer
         .text
         .iter()
+        .skip(in_heading)
         .map(|t| full_sentence(scene, t))
         .collect();
     if let StoryAsk::Show { claim, with, .. } = ask
@@ -378,15 +382,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer,
         text.push(say("."));
         solution.text(text);
     }
-    // That a check holds is told once, at the end; each by itself only at full length.
-    let full = solution.detail == Detail::Full;
-    let untold: Vec<Check> = answer
-        .checks
-        .iter()
-        .filter(|c| full || c.holds != Some(true))
-        .cloned()
-        .collect();
-    if let Some(words) = known(&untold).filter(|_| !told) {
+    if let Some(words) = worth_telling(&answer.checks, solution.detail).filter(|_| !told) {
         solution.text(vec![say(called(scene, &words))]);
     }
 }
@@ -444,6 +440,13 @@ pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
         .evaluate(&crate::expr::Point::<f64>::default())?;
     let number = answer.dimension.measured(&words::digits(value));
     Some(format!(" = {number}."))
+}
+
+/// What is told of checks: that one holds is told once, at the end of a solution, and by itself only at full length.
+pub(super) fn worth_telling(checks: &[Check], detail: Detail) -> Option<String> {
+    let full = detail == Detail::Full;
+    let all = checks.iter().filter(|c| full || c.holds != Some(true));
+    known(&all.cloned().collect::<Vec<_>>())
 }
 
 /// How an answer is known: what was checked, what failed, what stayed open.

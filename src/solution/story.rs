@@ -3,7 +3,7 @@
 //! In: a scene and its story as told. Out: a [`Solution`]. An impact is written by the same code as a single collision, with
 //! the motion handed on by the stage before; a motion is an energy balance, whose lines are claims like all others.
 
-use super::asked::{self, answered, full_sentence, known};
+use super::asked::{self, answered, full_sentence};
 use super::words::{self, name, say};
 use super::{
     Before, Claim, Detail, Inline, Line, Math, Meaning, Part, Scope, Slot, Solution, Writer,
@@ -25,7 +25,6 @@ pub fn tell(scene: &Scene, story: &Story, told: &Told, detail: Detail) -> Soluti
         page.stage(i);
     }
     page.questions();
-    page.results();
     page.rests_on();
     page.solution
 }
@@ -131,16 +130,7 @@ impl Page<'_> {
             }
         }
         self.solution.push(Part::Figure(Slot::Stage(i)));
-        if !brief {
-            let items = told.kept.iter().map(|k| {
-                let is = if k.conserved { "is" } else { "is not" };
-                let lead = format!("{} {is} conserved: ", k.what);
-                let text = Sentence([Sentence::words(lead).0, k.why.0.clone()].concat());
-                full_sentence(self.scene, &text)
-            });
-            let items = items.collect();
-            self.solution.push(Part::List(items));
-        }
+        self.kept(told);
         if told.cases.is_empty() {
             self.motion(stage, told);
         }
@@ -148,23 +138,44 @@ impl Page<'_> {
             self.impact(stage, told, case, k);
         }
         self.asked_of(i);
-        if brief {
+        if brief || !told.cases.is_empty() {
             return;
         }
-        if told.cases.is_empty() {
-            if !told.assumptions.is_empty() {
-                let mut text = vec![say("This takes for granted: ")];
-                text.extend(asked::sentence(
-                    self.scene,
-                    &Sentence::join(told.assumptions.clone(), "; "),
-                ));
-                text.push(say("."));
-                self.solution.text(text);
-            }
-            if let Some(words) = known(&told.checks) {
-                self.solution
-                    .text(vec![say(asked::called(self.scene, &words))]);
-            }
+        if !told.assumptions.is_empty() {
+            let mut text = vec![say("Assumed: ")];
+            text.extend(asked::sentence(
+                self.scene,
+                &Sentence::join(told.assumptions.clone(), "; "),
+            ));
+            text.push(say("."));
+            self.solution.text(text);
+        }
+        if let Some(words) = asked::worth_telling(&told.checks, self.solution.detail) {
+            self.solution
+                .text(vec![say(asked::called(self.scene, &words))]);
+        }
+    }
+
+    /// What the stage keeps and what not: of a motion its energy, for an impact the balances themselves say why they hold; all
+    /// of it at full length.
+    fn kept(&mut self, told: &StageTold) {
+        let full = self.solution.detail == Detail::Full;
+        if self.solution.detail == Detail::Brief || (!full && !told.cases.is_empty()) {
+            return;
+        }
+        let named = told.kept.iter().filter(|k| full || k.what == "energy");
+        let mut items: Vec<Vec<Inline>> = named
+            .map(|k| {
+                let is = if k.conserved { "is" } else { "is not" };
+                let lead = format!("{} {is} conserved: ", k.what);
+                let text = Sentence([Sentence::words(lead).0, k.why.0.clone()].concat());
+                full_sentence(self.scene, &text)
+            })
+            .collect();
+        match items.len() {
+            0 => {}
+            1 => self.solution.text(items.remove(0)),
+            _ => self.solution.push(Part::List(items)),
         }
     }
 
@@ -279,6 +290,8 @@ impl Page<'_> {
             };
             Some(s.step(Vec::new(), vec![claim], why))
         };
+        let mut answers = self.told.answers.iter();
+        let named = answers.any(|a| Self::is_end_energy(told, a));
         let chain = |head: Vec<Math>, raw: &Expr, value: &Expr| {
             let mut math = head;
             math.push(Math::Op("="));
@@ -332,7 +345,9 @@ impl Page<'_> {
         if !told.work.is_empty() {
             math.extend([Math::Op("+"), name("W", "", "", false)]);
         }
-        let math = chain(math, end, end);
+        if !named {
+            math = chain(math, end, end);
+        }
         let step = claim(
             &mut self.solution,
             &after,
@@ -377,6 +392,7 @@ impl Page<'_> {
     /// Answers about the end of a stage.
     fn asked_of(&mut self, i: usize) {
         let mut lines = Vec::new();
+        let mut steps = Vec::new();
         let mut numbers = Vec::new();
         for question in &self.story.questions {
             let StoryAsk::Quantity { question: q, .. } = &question.ask else {
@@ -412,9 +428,10 @@ impl Page<'_> {
                     step.defines = is_fresh.then(|| symbol.clone());
                 }
                 let mut math = vec![Math::Expr(Expr::symbol(&symbol)), Math::Op("=")];
-                if let Some(raw) = self.before_tidying(i, *q, formula) {
-                    math.extend([Math::Expr(raw), Math::Op("=")]);
+                if Self::is_end_energy(&self.told.stages[i], answer) {
+                    math.extend([name("T", "", "+", false), Math::Op("=")]);
                 }
+                steps.extend(self.from_energy(&self.told.stages[i], *q, &symbol, formula));
                 math.push(Math::Expr(formula.clone()));
                 lines.push(Line {
                     math,
@@ -428,46 +445,66 @@ impl Page<'_> {
         if lines.is_empty() {
             return;
         }
-        let (told, scene) = (&self.told.stages[i], self.scene);
-        let lead = match told.cases.as_slice() {
-            [] => String::from("So that at the end"),
-            [one] if one.handed.is_empty() => String::from("Just after, in all"),
-            _ if !told.cases.iter().all(|c| c.handed.is_empty()) => {
-                String::from("With what was handed on put in,")
+        let told = &self.told.stages[i];
+        // Without anything handed on, the results of an impact stand where they were found.
+        let is_new = told.cases.len() != 1 || !told.cases[0].handed.is_empty();
+        if is_new {
+            if !told.cases.is_empty() {
+                self.solution
+                    .text(vec![say("In terms of the given quantities,")]);
             }
-            _ => String::from("Just after, in all"),
-        };
-        let repeats = told.cases.len() == 1 && told.cases[0].handed.is_empty();
-        if !repeats {
-            self.solution.text(vec![say(lead)]);
-            self.solution.push(Part::Display(lines));
+            if !steps.is_empty() {
+                self.solution.push(Part::Display(steps));
+            }
+            self.solution.push(Part::Result(lines));
         }
-        let _ = scene;
         if !numbers.is_empty() {
             self.solution.push(Part::List(numbers));
         }
     }
 
-    /// The root a spin or speed was taken from, where the motion changed it: √(2 T⁺/I).
-    fn before_tidying(&self, i: usize, question: usize, value: &Expr) -> Option<Expr> {
-        let told = &self.told.stages[i];
+    /// Whether this answer is the kinetic energy at the end of a motion.
+    fn is_end_energy(told: &StageTold, answer: &Answer) -> bool {
+        let Some([_, end]) = &told.energy else {
+            return false;
+        };
+        let mut asked = told.placed.scene.questions.iter();
+        answer.formula.as_ref() == Some(end)
+            && asked.any(|q| q.name == answer.name && matches!(q.ask, Ask::Energy { .. }))
+    }
+
+    /// The kinetic energy at the end in terms of the speed or spin that is asked for, ½ I ω² = T⁺, where that gives its value.
+    fn from_energy(
+        &self,
+        told: &StageTold,
+        question: usize,
+        symbol: &Symbol,
+        value: &Expr,
+    ) -> Option<Line> {
         let [_, end] = told.energy.as_ref()?;
-        let [_, inertia] = told.inertia.as_ref()?;
-        if !told.cases.is_empty() || told.work.is_empty() || end.size() > 40 {
+        let scene = &told.placed.scene;
+        let inertia = match (&scene.questions.get(question)?.ask, &told.inertia) {
+            (Ask::Spin { .. }, Some([_, about])) => about,
+            (Ask::Velocity { body, .. }, None) => &scene.bodies[*body].mass,
+            _ => return None,
+        };
+        let energy = |of: &Expr| &(&Expr::ratio(1, 2) * inertia) * &of.powi(2);
+        if told.work.is_empty() || tidied(self.scene, &energy(value)) != *end {
             return None;
         }
-        let Ask::Spin { .. } = told.placed.scene.questions.get(question)?.ask else {
-            return None;
-        };
-        let raw = (&(&Expr::from(2) * end) / inertia).sqrt();
-        let positive = crate::formula::write_plain(value);
-        (!positive.starts_with('-') && raw != *value).then_some(raw)
+        let left = Math::Expr(energy(&Expr::symbol(symbol)));
+        let math = vec![left, Math::Op("="), name("T", "", "+", false)];
+        Some(Line { math, step: None })
     }
 
     /// What is asked beyond the motion.
     fn questions(&mut self) {
         for question in &self.story.questions {
-            if matches!(question.ask, StoryAsk::Quantity { .. } | StoryAsk::Assumed) {
+            // What happens in a stage stands where the stage is told.
+            if matches!(
+                question.ask,
+                StoryAsk::Quantity { .. } | StoryAsk::Assumed | StoryAsk::Describe { .. }
+            ) {
                 continue;
             }
             let mine = self.told.answers.iter();
@@ -479,35 +516,20 @@ impl Page<'_> {
         }
     }
 
-    /// All formulas once more.
-    fn results(&mut self) {
-        let mut lines = Vec::new();
-        for a in &self.told.answers {
-            let mut line = |left: Expr, op: &'static str, right: &Expr| {
-                lines.push(Line {
-                    math: vec![Math::Expr(left), Math::Op(op), Math::Expr(right.clone())],
-                    step: None,
-                });
-            };
-            match (&a.formula, a.range.as_slice()) {
-                (_, [(p, relation, value)]) => {
-                    line(Expr::symbol(p), relation.sign(), value);
-                }
-                (Some(formula), []) => line(Expr::symbol(&a.name), "=", formula),
-                _ => {}
-            }
-        }
-        if lines.is_empty() {
-            return;
-        }
-        self.solution.section(0, vec![say("Results")]);
-        self.solution.push(Part::Display(lines));
-    }
-
     /// Readings and everything else that is taken for granted, and data that no answer needs.
     fn rests_on(&mut self) {
-        let assumed = self.told.assumed();
-        self.solution.section(0, vec![say("What this rests on")]);
+        let told_before = match self.solution.detail {
+            Detail::Brief => 0,
+            _ => self.told.readings.len(),
+        };
+        let mut assumed: Vec<Sentence> = self.told.assumed().split_off(told_before);
+        if self.solution.detail != Detail::Brief {
+            // What a motion assumes stands where the motion is told.
+            let motions = self.told.stages.iter().filter(|s| s.cases.is_empty());
+            let said: Vec<&Sentence> = motions.flat_map(|s| &s.assumptions).collect();
+            assumed.retain(|a| !said.contains(&a));
+        }
+        self.solution.section(0, vec![say("Assumptions")]);
         let mut items: Vec<Vec<Inline>> = Vec::new();
         for a in &assumed {
             items.push(full_sentence(self.scene, a));
@@ -525,6 +547,16 @@ impl Page<'_> {
             }
             text.push(say("."));
             self.solution.text(text);
+        }
+        let stages = self.told.stages.iter().flat_map(|s| &s.checks);
+        let answers = self.told.answers.iter().flat_map(|a| &a.checks);
+        let followed = |c: &&crate::verify::Check| c.kind == "integration";
+        let mut followed = stages.chain(answers).filter(followed).peekable();
+        let is_followed = followed.peek().is_some() && followed.all(|c| c.holds == Some(true));
+        if self.told.holds() && is_followed && self.solution.detail == Detail::Normal {
+            self.solution.text(vec![say(
+                "Check: followed in time numerically, from the given data alone, the scene ends with the same values.",
+            )]);
         }
         if !self.told.holds() {
             self.solution.text(vec![say(

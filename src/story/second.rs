@@ -196,7 +196,10 @@ impl Compared {
         if self.points == 0 {
             return Check {
                 kind,
-                words: format!("{what}: not followed in numbers{}", second.why_not()),
+                words: format!(
+                    "{what} is not held against the scene followed in numbers{}",
+                    second.why_not()
+                ),
                 holds: second.contradicts().then_some(false),
             };
         }

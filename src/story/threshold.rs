@@ -178,21 +178,6 @@ fn sides(
             let proved = below.is_proved() && above.is_proved();
             let words = "below and above that value the sides differ with opposite signs ({how}), and there is no other value at which they meet";
             out.checks.push(by_signs("sign", words, proved));
-            let only = if strict {
-                "there the two sides are equal and it fails"
-            } else {
-                "there the two sides are equal and it holds"
-            };
-            out.text.push(sentence![
-                "it holds for ",
-                parameter,
-                " ",
-                relation.sign(),
-                " ",
-                value,
-                "; ",
-                only
-            ]);
         }
         None => intervals::fill(out, parameter, gap, relation, &roots.inside, domains),
     }

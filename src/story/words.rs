@@ -91,24 +91,7 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                 }
             }
         }
-        StageKind::Turn(turn) => {
-            let names: Vec<String> = turn
-                .bodies()
-                .iter()
-                .map(|b| format!("`{}`", scene.bodies[*b].name))
-                .collect();
-            out.push(sentence![
-                names.join(" and "),
-                if names.len() == 1 {
-                    " turns about "
-                } else {
-                    " turn as one about "
-                },
-                &turn.about_name,
-                "; ",
-                turning(stage, told, turn)
-            ]);
-        }
+        StageKind::Turn(turn) => out.push(turning(stage, told, turn)),
         StageKind::Slide(slide) => out.push(sentence![
             "`",
             &scene.bodies[slide.body].name,
@@ -158,28 +141,40 @@ fn counted(e: &Expr, [plus, minus]: [&'static str; 2]) -> (Expr, &'static str) {
     }
 }
 
-/// How a rotation goes on: it keeps its sense, and weight or a moment makes it faster or slower.
-fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> String {
+/// A rotation: which bodies turn, about what, in which sense, and whether weight or a moment makes them faster or slower.
+fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> Sentence {
     let domains = &stage.scene.domains;
+    let names: Vec<String> = turn
+        .bodies()
+        .iter()
+        .map(|b| format!("`{}`", stage.scene.bodies[*b].name))
+        .collect();
     let (before, after) = (&told.before.spin[turn.body], &told.after.spin[turn.body]);
-    let same = is_zero(&(before - after), domains) == Some(true);
     let sense = match super::motion::sense(stage, before, turn) {
-        Ok((1, None)) => "counterclockwise",
-        Ok((-1, None)) => "clockwise",
-        _ => return spin_words("spin", before, after, domains, &[]),
+        Ok((1, None)) => " counterclockwise",
+        Ok((-1, None)) => " clockwise",
+        _ => "",
     };
-    if same {
-        return format!("it goes on {sense} as before");
-    }
-    if is_zero(before, domains) == Some(true) {
-        return format!("it begins at rest and turns {sense}");
-    }
+    let same = is_zero(&(before - after), domains) == Some(true);
+    let from_rest = is_zero(before, domains) == Some(true);
     let gain = Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
-    match way(&gain, domains, &[]) {
-        Some(true) => format!("it goes on {sense}, and faster at the end"),
-        Some(false) => format!("it goes on {sense}, and slower at the end"),
-        None => format!("it goes on {sense}"),
-    }
+    let [turns, and_grows, and_falls] = match names.len() {
+        1 => ["turns", ", and gains speed", ", and slows down"],
+        _ => ["turn as one body", ", and gain speed", ", and slow down"],
+    };
+    let rate = match way(&gain, domains, &[]) {
+        _ if same => " at a steady rate",
+        _ if from_rest => ", from rest",
+        Some(true) => and_grows,
+        Some(false) => and_falls,
+        None => "",
+    };
+    sentence![
+        names.join(" and "),
+        format!(" {turns}{sense} about "),
+        &turn.about_name,
+        rate
+    ]
 }
 
 /// How an impact changes a body's motion, where its conditions hold.
@@ -216,8 +211,8 @@ impl Change<'_> {
         };
         if !is_particle {
             let (w0, w1) = (&before.spin[self.b], &after.spin[self.b]);
-            words.push_str(", and ");
-            words.push_str(&spin_words("its spin", w0, w1, self.domains, self.given));
+            let turning = spin_words(w0, w1, self.domains, self.given);
+            words.push_str(&format!(", and `{name}` {turning}"));
         }
         words
     }
@@ -274,45 +269,33 @@ fn way(e: &Expr, domains: &Domains, given: &[&Expr]) -> Option<bool> {
     }
 }
 
-fn spin_words(
-    what: &str,
-    before: &Expr,
-    after: &Expr,
-    domains: &Domains,
-    given: &[&Expr],
-) -> String {
+/// How the spin of a body changes, as what the body does.
+fn spin_words(before: &Expr, after: &Expr, domains: &Domains, given: &[&Expr]) -> String {
     if is_zero(&(before - after), domains) == Some(true) {
-        return match is_zero(after, domains) {
-            Some(true) => format!("{what} stays zero: it does not turn"),
-            _ => format!("{what} does not change: it goes on turning as before"),
-        };
+        return String::from(match is_zero(after, domains) {
+            Some(true) => "does not turn",
+            _ => "goes on turning as before",
+        });
     }
     if is_zero(after, domains) == Some(true) {
-        return format!("{what} ends");
+        return String::from("stops turning");
     }
-    let sense = |none| {
-        let either = "in a sense that depends on the values";
-        one_of(
-            after,
-            domains,
-            given,
-            ["counterclockwise", "clockwise", none, either],
-        )
-    };
+    let either = "in a sense that depends on the values";
+    let words = ["counterclockwise", "clockwise", "not at all", either];
+    let sense = one_of(after, domains, given, words);
     if is_zero(before, domains) == Some(true) {
-        return format!("{what} begins, {}", sense("not at all"));
+        return format!("begins to turn, {sense}");
     }
-    let change = match way(&(&after.powi(2) - &before.powi(2)), domains, given) {
-        Some(true) => "grows",
-        Some(false) => "falls",
-        None => "changes",
-    };
-    let turned = match (way(before, domains, given), way(after, domains, given)) {
-        (Some(a), Some(b)) if a != b => " and turns round",
-        _ => "",
-    };
-    let sense = sense("zero");
-    format!("{what} {change}{turned}; at the end it is {sense}")
+    if let (Some(a), Some(b)) = (way(before, domains, given), way(after, domains, given))
+        && a != b
+    {
+        return format!("turns the other way, {sense}");
+    }
+    match way(&(&after.powi(2) - &before.powi(2)), domains, given) {
+        Some(true) => format!("turns faster, {sense}"),
+        Some(false) => format!("turns more slowly, {sense}"),
+        None => format!("turns at another rate, {sense}"),
+    }
 }
 
 /// Which forces have an impulse, and why; which have none.
@@ -466,15 +449,56 @@ pub(super) fn missing(told: &StageTold) -> Vec<Sentence> {
 /// Everything the story takes for granted.
 pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence> {
     let mut out: Vec<Sentence> = readings.iter().map(Sentence::from).collect();
+    let named = |is: fn(&StageKind) -> bool| {
+        let mut names: Vec<String> = Vec::new();
+        for told in stages.iter().filter(|s| is(&s.placed.kind)) {
+            let name = format!("`{}`", told.placed.name);
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
+    };
+    let impacts = named(|kind| matches!(kind, StageKind::Impact { .. }));
+    if !impacts.is_empty() {
+        let takes = if impacts.len() == 1 { "takes" } else { "take" };
+        out.push(sentence![
+            listed(&impacts),
+            format!(" {takes} no time: nothing moves while velocities jump, and finite forces have no impulse")
+        ]);
+    }
+    let falls = named(|kind| matches!(kind, StageKind::Fall(_)));
+    if !falls.is_empty() {
+        out.push(sentence!["in ", listed(&falls), " there is no drag"]);
+    }
     for told in stages {
         let stage = &told.placed;
-        match &stage.kind {
-            StageKind::Impact { .. } => out.push(sentence!["`", &stage.name, "` takes no time: nothing moves while velocities jump, and finite forces have no impulse"]),
-            StageKind::Turn(turn) => out.push(sentence!["in `", &stage.name, "` the body is rigid, and ", &turn.about_name, " is frictionless and does not move"]),
-            StageKind::Fall(_) => out.push(sentence!["in `", &stage.name, "` there is no drag"]),
-            StageKind::Slide(_) | StageKind::Wind(_) => {}
+        if let StageKind::Turn(turn) = &stage.kind {
+            out.push(sentence![
+                "in `",
+                &stage.name,
+                "` the body is rigid, and ",
+                &turn.about_name,
+                " is frictionless and does not move"
+            ]);
         }
         out.extend(told.assumptions.iter().cloned());
     }
+    let mut seen: Vec<Sentence> = Vec::new();
+    out.retain(|s| {
+        !seen.contains(s) && {
+            seen.push(s.clone());
+            true
+        }
+    });
     out
+}
+
+/// `a`, `a and b`, `a, b and c`.
+fn listed(names: &[String]) -> String {
+    match names {
+        [] => String::new(),
+        [one] => one.clone(),
+        [all @ .., last] => format!("{} and {last}", all.join(", ")),
+    }
 }

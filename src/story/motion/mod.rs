@@ -65,16 +65,17 @@ fn balance(
     Ok((work, end, reaches))
 }
 
-/// What must hold so that a motion gets to its end with this kinetic energy; nothing where that is proved.
-fn arrival(stage: &Stage, end: &Expr, seen: Seen) -> Option<Sentence> {
+/// What must hold so that a body gets to the end of a motion with this kinetic energy; nothing where that is proved.
+fn arrival(stage: &Stage, body: usize, end: &Expr, seen: Seen) -> Option<Sentence> {
     let proved = matches!(seen, Seen::Proved(s) if s.is_not_negative());
     (!proved).then(|| {
         sentence![
-            "for what is told of the end of `",
-            &stage.name,
-            "`: ",
             &super::calc::essential(end, &stage.scene.domains),
-            " ≥ 0, so that it gets there"
+            " ≥ 0, so that `",
+            &stage.scene.bodies[body].name,
+            "` gets to the end of `",
+            &stage.name,
+            "`"
         ]
     })
 }

@@ -60,7 +60,7 @@ pub(in crate::story) fn slide(
     let parts = work;
     let (work, end, reaches) = balance(stage, slide.body, &start, &parts)?;
     if !work.is_zero() {
-        assumptions.extend(arrival(stage, &end, reaches));
+        assumptions.extend(arrival(stage, slide.body, &end, reaches));
     }
     let begins = speed.clone();
     let speed = if work.is_zero() {

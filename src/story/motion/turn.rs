@@ -109,7 +109,7 @@ pub(in crate::story) fn turn(
     out.time = time;
     out.needs = needs;
     if !work.is_zero() {
-        assumptions.extend(arrival(stage, &end, reaches));
+        assumptions.extend(arrival(stage, turn.body, &end, reaches));
     }
     out.assumptions = assumptions;
     Ok(out)
@@ -291,7 +291,7 @@ fn conserved(turn: &Turn) -> Vec<crate::story::Kept> {
         kept(
             "momentum",
             false,
-            &format!("the force at {at} leads the center of mass round"),
+            &format!("the force at {at} bends the path of the center of mass"),
         ),
     ]
 }
