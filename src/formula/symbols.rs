@@ -149,6 +149,8 @@ pub(crate) struct Parts {
     pub base: String,
     pub accent: &'static str,
     pub index: String,
+    /// The index in its parts, as underscores divide it.
+    pub pieces: Vec<String>,
     /// Whether it was written bold, as vectors are.
     pub bold: bool,
     /// Primes, and `^` with what stands raised behind.
@@ -190,11 +192,13 @@ pub(crate) fn parts_of(name: &str) -> Parts {
         match ACCENTS.iter().find(|accent| **accent == letters) {
             Some(accent) if parts.accent.is_empty() => {
                 parts.accent = accent;
-                parts.index.push_str(&piece[letters.len()..]);
+                parts.pieces.push(piece[letters.len()..].to_string());
             }
-            _ => parts.index.push_str(&piece.replace(['{', '}'], "")),
+            _ => parts.pieces.push(piece.replace(['{', '}'], "")),
         }
     }
+    parts.pieces.retain(|piece| !piece.is_empty());
+    parts.index = parts.pieces.concat();
     parts
 }
 

@@ -498,7 +498,8 @@ pub fn latex_name(name: &str) -> String {
         accent => format!("\\{accent}{{{base}}}"),
     };
     if !parts.index.is_empty() {
-        out.push_str(&format!("_{{{}}}", latex_index(&parts.index)));
+        let pieces: Vec<String> = parts.pieces.iter().map(|p| latex_index(p)).collect();
+        out.push_str(&format!("_{{{}}}", pieces.join(",")));
     }
     let (primes, raised) = parts.marks.split_once('^').unwrap_or((&parts.marks, ""));
     out.push_str(&in_math(primes));
@@ -523,9 +524,15 @@ fn change(base: &str) -> Option<(&'static str, &str)> {
     found.filter(|(_, of)| of.len() == 1 || is_greek(of))
 }
 
+/// One index: a Greek letter, a word upright, or letters and digits.
 fn latex_index(index: &str) -> String {
+    let is_word = index.chars().count() > 2
+        && index.chars().all(char::is_alphabetic)
+        && index.chars().any(char::is_lowercase);
     if is_greek(index) {
         format!("\\{index}")
+    } else if is_word {
+        format!("\\mathrm{{{}}}", in_math(index))
     } else {
         in_math(index)
     }

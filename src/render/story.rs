@@ -30,7 +30,7 @@ pub fn json(scene: &Scene, told: &Told) -> Value {
         "answers": told.answers.iter().map(|a| answer(scene, &told.readings, a)).collect::<Vec<_>>(),
         "stages": told.stages.iter().map(|s| stage(scene, s)).collect::<Vec<_>>(),
         "readings": told.readings,
-        "unused": told.unused,
+        "unused": told.unused.iter().map(|s| &**s).collect::<Vec<_>>(),
         "remarks": scene.remarks,
         "verified": told.holds(),
     })
@@ -177,7 +177,8 @@ pub fn text(scene: &Scene, told: &Told) -> String {
     line(String::from("answers"));
     out.push_str(&answers(scene, &told.answers));
     if !told.unused.is_empty() {
-        out.push_str(&format!("\nnot needed: {}\n", told.unused.join(", ")));
+        let names: Vec<&str> = told.unused.iter().map(AsRef::as_ref).collect();
+        out.push_str(&format!("\nnot needed: {}\n", names.join(", ")));
     }
     out
 }

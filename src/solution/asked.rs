@@ -189,6 +189,7 @@ fn heading(scene: &Scene, ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
             "" => vec![say("To show: "), related(left, Relation::Equal, right)],
             claim => vec![say("To show: "), say(claim)],
         },
+        StoryAsk::Unused(of) => vec![say("Data not needed for "), math(&Expr::symbol(of))],
         _ => vec![say(words::capital(&called(scene, &answer.words)))],
     }
 }

@@ -516,26 +516,11 @@ impl Page<'_> {
         }
     }
 
-    /// Readings and everything else that is taken for granted, and data that no answer needs.
+    /// What is taken for granted, data that no answer needs, and how the results were checked.
     fn rests_on(&mut self) {
-        let told_before = match self.solution.detail {
-            Detail::Brief => 0,
-            _ => self.told.readings.len(),
-        };
-        let mut assumed: Vec<Sentence> = self.told.assumed().split_off(told_before);
-        if self.solution.detail != Detail::Brief {
-            // What a motion assumes stands where the motion is told.
-            let motions = self.told.stages.iter().filter(|s| s.cases.is_empty());
-            let said: Vec<&Sentence> = motions.flat_map(|s| &s.assumptions).collect();
-            assumed.retain(|a| !said.contains(&a));
-        }
-        self.solution.section(0, vec![say("Assumptions")]);
         let mut items: Vec<Vec<Inline>> = Vec::new();
-        for a in &assumed {
-            items.push(full_sentence(self.scene, a));
-        }
-        if !items.is_empty() {
-            self.solution.push(Part::List(items));
+        for a in self.assumed() {
+            items.push(full_sentence(self.scene, &a));
         }
         if !self.told.unused.is_empty() {
             let mut text = vec![say("Given, but needed for no answer: ")];
@@ -546,23 +531,38 @@ impl Page<'_> {
                 text.push(words::formula(&Expr::symbol(p)));
             }
             text.push(say("."));
-            self.solution.text(text);
+            items.push(text);
+        }
+        if !items.is_empty() {
+            self.solution.section(0, vec![say("Assumptions")]);
+            self.solution.push(Part::List(items));
         }
         let stages = self.told.stages.iter().flat_map(|s| &s.checks);
         let answers = self.told.answers.iter().flat_map(|a| &a.checks);
         let followed = |c: &&crate::verify::Check| c.kind == "integration";
         let mut followed = stages.chain(answers).filter(followed).peekable();
         let is_followed = followed.peek().is_some() && followed.all(|c| c.holds == Some(true));
-        if self.told.holds() && is_followed && self.solution.detail == Detail::Normal {
-            self.solution.text(vec![say(
-                "Check: followed in time numerically, from the given data alone, the scene ends with the same values.",
-            )]);
+        let words = match self.told.holds() {
+            false => "A check failed: do not use these results before the fault is found.",
+            true if is_followed && self.solution.detail == Detail::Normal => {
+                "Check: followed in time numerically, from the given data alone, the scene ends with the same values."
+            }
+            true => return,
+        };
+        self.solution.text(vec![say(words)]);
+    }
+
+    /// What is taken for granted and does not stand above: readings of the statement are told first, and what a motion assumes
+    /// where the motion is told.
+    fn assumed(&self) -> Vec<Sentence> {
+        let all = self.told.assumed();
+        if self.solution.detail == Detail::Brief {
+            return all;
         }
-        if !self.told.holds() {
-            self.solution.text(vec![say(
-                "A check failed: do not use these results before the fault is found.",
-            )]);
-        }
+        let motions = self.told.stages.iter().filter(|s| s.cases.is_empty());
+        let said: Vec<&Sentence> = motions.flat_map(|s| &s.assumptions).collect();
+        let unread = all.into_iter().skip(self.told.readings.len());
+        unread.filter(|a| !said.contains(&a)).collect()
     }
 }
 

@@ -156,8 +156,11 @@ pub fn with_symbols(scene: &Scene, text: &str) -> Vec<Inline> {
             let typeset = p.latex.as_deref().is_some_and(is_safe_latex);
             let short = word.len() == 2 && typeset && !WORDS.contains(&word);
             let one = word.chars().count() == 1 && !matches!(word, "a" | "A" | "I");
+            let dotted = typeset && p.latex.iter().any(|l| l.starts_with("\\dot"));
             let indexed = word.contains(|c: char| c.is_ascii_digit() || c == '_');
-            short || (one || indexed || made.starts_with("\\")) && !made.starts_with("\\mathrm")
+            short
+                || dotted
+                || (one || indexed || made.starts_with("\\")) && !made.starts_with("\\mathrm")
         });
         if symbol {
             out.push(say(std::mem::take(&mut words)));

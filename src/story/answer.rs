@@ -180,17 +180,22 @@ fn one(
             out
         }
         StoryAsk::Unused(of) => {
-            let mut out = blank(question, name, format!("data that `{of}` does not need"));
+            let mut out = blank(question, name, format!("data not needed for `{of}`"));
+            let of = Symbol::from(of.as_str());
             let asked: Vec<Answer> = earlier
                 .iter()
-                .filter(|a| a.question == *of || a.name == *of)
+                .filter(|a| *a.question == *of || *a.name == *of)
                 .cloned()
                 .collect();
             let unused = unused(scene, &asked);
             out.text.push(if unused.is_empty() {
-                sentence!["`", of, "` needs all of the data"]
+                sentence![&of, " needs all of the data"]
             } else {
-                sentence!["`", of, "` does not need ", unused.join(", ")]
+                sentence![
+                    &of,
+                    " does not need ",
+                    super::special::list(&unused.iter().map(Sentence::from).collect::<Vec<_>>())
+                ]
             });
             out
         }
@@ -201,7 +206,7 @@ fn one(
 }
 
 /// Parameters that no answer so far depends on.
-fn unused(scene: &Scene, answers: &[Answer]) -> Vec<String> {
+fn unused(scene: &Scene, answers: &[Answer]) -> Vec<Symbol> {
     let mut used: BTreeSet<Symbol> = BTreeSet::new();
     for a in answers {
         used.extend(a.formula.iter().flat_map(Expr::symbols));
@@ -215,7 +220,7 @@ fn unused(scene: &Scene, answers: &[Answer]) -> Vec<String> {
         .parameters
         .iter()
         .filter(|p| !used.contains(&p.name))
-        .map(|p| p.name.to_string())
+        .map(|p| p.name.clone())
         .collect()
 }
 

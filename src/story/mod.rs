@@ -293,7 +293,7 @@ pub struct Told {
     /// How the statement is read.
     pub readings: Vec<String>,
     /// Data that no answer needs.
-    pub unused: Vec<String>,
+    pub unused: Vec<Symbol>,
     /// Where the laws contradict each other: the scene ends there, and nothing that would follow is told.
     pub ended: Vec<Refused>,
 }

@@ -65,7 +65,7 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                         )
                     };
                     out.push(if case.conditions.is_empty() {
-                        sentence![active(case), left, ", for all values in the domain"]
+                        sentence![active(case), left]
                     } else {
                         sentence!["where ", conditions(case), ": ", active(case), left]
                     });
@@ -305,7 +305,7 @@ pub(super) fn impulsive(told: &StageTold) -> Vec<Sentence> {
         return vec![sentence![
             "`",
             &stage.name,
-            "` is a motion: nothing jumps, so no force has an impulse in no time"
+            "` is a motion: nothing jumps, and no force has an impulse"
         ]];
     };
     let scene = &stage.scene;
