@@ -17,7 +17,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 
 use carom::render::pretty;
 use carom::{derive, numeric, render, scene, story, verify};
@@ -88,6 +88,13 @@ enum Command {
     Read(grade::ReadArgs),
     /// Print the JSON Schema of scene files
     Schema,
+    /// Print what a shell needs to complete carom's commands
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page
+    Man,
     /// List the scenes of a folder
     List {
         /// Folder to look in
@@ -138,6 +145,8 @@ pub fn run() -> ExitCode {
         Command::Verify(args) => grade::verify(&args),
         Command::Read(args) => grade::read(&args),
         Command::Schema => print(&scene::schema()).map(|()| 0),
+        Command::Completions { shell } => print(&completions(shell)).map(|()| 0),
+        Command::Man => print(&manual()).map(|()| 0),
         Command::List { folder } => list(&folder),
     };
     match outcome {
@@ -403,6 +412,29 @@ fn with_hint(message: &str, hint: Option<&str>) -> String {
 }
 
 /// Prints to standard output. Where nobody reads on, the command still ends with the status of what it found.
+/// What a shell needs to complete the commands.
+fn completions(shell: clap_complete::Shell) -> String {
+    let mut out = Vec::new();
+    clap_complete::generate(shell, &mut Cli::command(), "carom", &mut out);
+    String::from_utf8_lossy(&out).into_owned()
+}
+
+/// The manual page: the tool, then each command with its options.
+fn manual() -> String {
+    let mut all = Cli::command();
+    all.build();
+    let mut out = Vec::new();
+    // Writing to a vector cannot fail.
+    let _ = clap_mangen::Man::new(all.clone()).render(&mut out);
+    for command in all.get_subcommands().filter(|c| c.get_name() != "help") {
+        let man = clap_mangen::Man::new(command.clone());
+        let _ = man.render_name_section(&mut out);
+        let _ = man.render_synopsis_section(&mut out);
+        let _ = man.render_options_section(&mut out);
+    }
+    String::from_utf8_lossy(&out).into_owned()
+}
+
 fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     let text = render::terminal(text);

@@ -1,4 +1,61 @@
-//! carom: symbolic-numeric mechanics of planar rigid-body collisions.
+//! carom: collisions of rigid bodies in the plane, from a scene to closed forms that are proved.
+//!
+//! ```
+//! let text = r#"{
+//!     "parameters": {"m": {"unit": "kg"}, "l": {"unit": "m"}, "v": {"unit": "m/s"}},
+//!     "points": {"O": [0, 0]},
+//!     "bodies": {
+//!         "ground": {"shape": "fixed"},
+//!         "rod": {"shape": "rod", "mass": "m", "length": "l", "angle": 0,
+//!                 "center": ["l/2", 0], "velocity": [0, "-v"]}
+//!     },
+//!     "contacts": {"O": {"bodies": ["ground", "rod"], "at": "O", "law": "sticking"}},
+//!     "questions": {"omega": {"spin": "rod", "clockwise": true}}
+//! }"#;
+//! let scene = carom::scene::read(text).expect("a sound scene");
+//! let derivation = carom::derive::derive(&scene).expect("laws that close");
+//! let proof = carom::verify::prove(&scene, &derivation);
+//!
+//! let answer = &derivation.answers[0];
+//! let carom::derive::Form::Value { short, .. } = &answer.form else {
+//!     panic!("a value");
+//! };
+//! assert_eq!(carom::formula::write_plain(short), "3*v/(2*l)");
+//! assert!(proof.holds());
+//! ```
+//!
+//! # The way of a scene
+//!
+//! ```text
+//!                     ┌─ derive: the fewest laws of impact ──┐
+//! file ─ scene::read ─┤                                      ├─ Derivation ─┐
+//!                     └─ story: laws of motion, in stages ───┘              ├─ verify ─ solution ─ render
+//!            └─ numeric, numeric::follow: geometry and values, in numbers ──┘
+//! ```
+//!
+//! # Where trust ends
+//!
+//! Two ways lead from the file to a value, and they meet in [`verify`], [`story`] and [`check`] alone. The first one works with
+//! formulas: [`laws`] writes equations, [`derive`] picks and solves them with [`algebra`]. The second, [`numeric`], sees
+//! the scene and values of its parameters; it knows no law, no formula of an answer and no table of moments of inertia. A
+//! result counts as proved where the two agree and every law holds as an identity; whatever was not held against
+//! something is marked so. A test keeps the table of who may import whom.
+//!
+//! # Words
+//!
+//! | word | what it is |
+//! | --- | --- |
+//! | [`scene::Scene`] | bodies, contacts, hinges, what is known and what is asked; with [`scene::Story`] where it has stages |
+//! | [`scene::Stage`] | one impact or one motion, with the scene as it is when the stage begins |
+//! | [`scene::Question`] | what is asked: a velocity, a spin, an impulse, an energy, an equation, a matrix |
+//! | [`laws::Law`] | an equation the scene obeys, with its [`laws::Unknown`]s |
+//! | [`derive::Derivation`] | the equations chosen, solved in order, and the closed forms they give; it claims, and proves nothing |
+//! | [`verify::Check`] | one thing that was held against another: what, how, and whether it holds, fails or is undecided |
+//! | [`verify::Proof`] | the checks of a derivation |
+//! | [`story::Told`] | the stages worked out one after the other, and the answers, each with its checks |
+//! | [`numeric::follow`](mod@numeric::follow) | the same scene in numbers, motions in time |
+//! | [`solution::Solution`] | a worked solution: text and steps, each step a claim that [`check`] replays |
+//! | [`grade::Grade`] | the verdict on a formula: same, different with a point that shows it, or undecided; and what explains it |
 //!
 //! The modules below stand in reading order: each imports only what stands above it.
 
