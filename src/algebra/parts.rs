@@ -24,7 +24,7 @@ impl Parts {
         }
     }
 
-    fn of(p: &Poly, fuel: &Fuel) -> Parts {
+    pub fn of(p: &Poly, fuel: &Fuel) -> Parts {
         let found = factor(p, fuel);
         let mut out = Parts {
             content: found.content,

@@ -49,7 +49,11 @@ impl Field {
         if x.num.is_zero() {
             return Expr::zero();
         }
-        let mut above = self.taken_apart(&x.num);
+        let struck = self.struck(x);
+        let (num, factors) = struck
+            .as_ref()
+            .map_or((&x.num, &x.den.factors), |(num, den)| (num, den));
+        let mut above = self.taken_apart(num);
         let mut below = Parts {
             content: x.den.int.clone(),
             factors: Vec::new(),
@@ -57,7 +61,7 @@ impl Field {
         for v in mono_variables(&x.den.mono) {
             below.note(Poly::var(v), exponent(&x.den.mono, v));
         }
-        for (f, k) in &x.den.factors {
+        for (f, k) in factors {
             let parts = self.taken_apart(f);
             below.content *= parts.content.pow(*k);
             for (g, e) in parts.factors {
@@ -68,6 +72,49 @@ impl Field {
         above.join_conjugates();
         below.join_conjugates();
         self.assemble(&above, &below)
+    }
+
+    /// Numerator and factors of the denominator without what they have in common, where both hold a cosine: each of them may
+    /// be written shorter in sines, and then nothing in common would be seen.
+    fn struck(&self, x: &Element) -> Option<(Poly, Vec<(Poly, u32)>)> {
+        let den = &x.den.factors;
+        let both = |c: usize| x.num.has(c) && den.iter().any(|(f, _)| f.has(c));
+        if x.num.len() > MOST_GROUPED || !self.circles().into_iter().any(|(c, _)| both(c)) {
+            return None;
+        }
+        let mut above = Parts::of(&x.num, &self.fuel);
+        let mut below = Parts::one();
+        for (f, k) in den {
+            let parts = Parts::of(f, &self.fuel);
+            // A factor of the denominator has no number in front.
+            if !parts.content.is_one() {
+                return None;
+            }
+            for (g, e) in parts.factors {
+                below.note(g, e * k);
+            }
+        }
+        let degree = |parts: &Parts| -> u32 {
+            let each = parts.factors.iter();
+            each.map(|(f, k)| {
+                f.terms()
+                    .map(|(m, _)| powers(m).map(|(_, e)| e).sum::<u32>())
+                    .max()
+                    .unwrap_or(0)
+                    * k
+            })
+            .sum()
+        };
+        let before = degree(&below);
+        strike(&mut above, &mut below, &self.fuel);
+        if degree(&below) == before {
+            return None;
+        }
+        let mut num = Poly::term(&Mono::new(), above.content);
+        for (f, k) in &above.factors {
+            num = num.mul(&f.pow(*k).ok()?).ok()?;
+        }
+        Some((num, below.factors))
     }
 
     fn assemble(&self, above: &Parts, below: &Parts) -> Expr {
