@@ -437,6 +437,24 @@ fn bad_arguments_are_one_message_and_leave_no_file() {
 }
 
 #[test]
+fn the_figure_of_the_readme_is_the_one_that_is_drawn() {
+    let drawn = Path::new(env!("CARGO_TARGET_TMPDIR")).join("falling-stick.svg");
+    let shipped = "derivations/book/falling-stick.svg";
+    let status = Command::new(env!("CARGO_BIN_EXE_carom"))
+        .args(["draw", "derivations/book/falling-stick.json", "-o"])
+        .arg(&drawn)
+        .status();
+    assert!(status.is_ok_and(|s| s.success()));
+    if std::env::var_os("UPDATE").is_some() {
+        fs::copy(&drawn, shipped).expect("a writable folder");
+    }
+    let read = |path: &Path| fs::read_to_string(path).expect("a figure");
+    assert_eq!(read(&drawn), read(Path::new(shipped)));
+    let readme = fs::read_to_string("README.md").expect("the README");
+    assert!(readme.contains(shipped));
+}
+
+#[test]
 fn the_name_of_the_output_tells_the_format() {
     for (file, begins) in [
         ("x.html", "<!DOCTYPE html>"),
