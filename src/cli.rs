@@ -9,7 +9,6 @@ mod emit;
 mod files;
 mod friction;
 mod grade;
-#[cfg(feature = "report")]
 mod report;
 mod solution;
 
@@ -80,7 +79,6 @@ enum Command {
     /// Write the closed forms of a scene as code: arranged for accuracy, with a bound of the error
     Emit(emit::EmitArgs),
     /// Measure error against run time of every route a scene has, towards every extreme
-    #[cfg(feature = "report")]
     Report(report::ReportArgs),
     /// Hold what a book prints about a scene against what is derived
     Verify(grade::VerifyArgs),
@@ -137,7 +135,6 @@ pub fn run() -> ExitCode {
         Command::Compare(args) => friction::run(&args),
         Command::Draw(args) => draw::run(&args),
         Command::Emit(args) => emit::run(&args),
-        #[cfg(feature = "report")]
         Command::Report(args) => report::run(&args),
         Command::Solution(args) => solution::run(&args),
         Command::Check(args) => solution::check(&args),

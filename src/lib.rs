@@ -89,7 +89,6 @@ pub mod story;
 
 pub mod emit;
 
-#[cfg(feature = "report")]
 pub mod report;
 
 pub mod figure;

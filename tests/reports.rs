@@ -1,5 +1,4 @@
 //! Reports: their figures come out again by another way, the same seed gives the same errors, and every fault has one message.
-#![cfg(feature = "report")]
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,10 +8,7 @@ use std::time::{Duration, Instant};
 use carom::derive;
 use carom::expr::number::{from_f64, to_f64};
 use carom::expr::{Rational, ratio};
-use carom::render;
 use carom::report::sample::Sampler;
-use carom::report::stiff::{Contact, limit, order, restitutions, usual_contacts};
-use carom::report::studies::{self, Extent};
 use carom::report::{Effort, Report, Route, measure};
 use carom::scene;
 use serde_json::Value;
@@ -121,68 +117,6 @@ fn errors_of_the_falling_stick_come_out_again_from_the_formula_in_the_book() {
             r.route
         );
     }
-}
-
-#[test]
-fn the_stiff_limit_comes_out_again_from_the_closed_form() {
-    let angle = 0.7f64;
-    let c = angle.cos();
-    let rigid = -12.0 * c / (1.0 + 3.0 * c * c);
-    let found = limit(angle, 1.0, 0.05, 8).expect("integrates");
-    for (value, error) in found.extrapolated.iter().zip(&found.errors) {
-        assert!((((value - rigid) / rigid).abs() - error).abs() < 1e-15);
-    }
-    // The order from the two ends alone.
-    let found = order(angle, 1.5, &[1e6, 1e9, 1e12]).expect("integrates");
-    let [first, .., last] = found.points.as_slice() else {
-        panic!("three points")
-    };
-    let ends = -(last[1] / first[1]).ln() / (last[0] / first[0]).ln();
-    assert!(
-        (ends - found.observed).abs() < 0.01,
-        "{ends} {}",
-        found.observed
-    );
-    for r in restitutions(&usual_contacts()) {
-        match r.contact {
-            Contact::DashpotToRest { damping: z } => {
-                let e = (-std::f64::consts::PI * z / (1.0 - z * z).sqrt()).exp();
-                assert!((r.integrated - e).abs() < 1e-12 * e);
-            }
-            Contact::HuntCrossley { damping: d, .. } => {
-                let e = r.integrated;
-                let gap = (1.0 + e) * d - ((1.0 + d) / (1.0 - e * d)).ln();
-                assert!(gap.abs() < 1e-11, "{gap}");
-            }
-            Contact::DashpotToZeroForce { .. } => {}
-        }
-    }
-}
-
-#[test]
-fn studies_stop_when_asked_and_are_shown_in_every_format() {
-    let mut finished = 0;
-    let found = studies::measure(Extent::Quick, |_| {
-        finished += 1;
-        finished < 3
-    });
-    assert!(found.interrupted && finished == 3);
-    assert_eq!(found.stiff.orders.len(), 1);
-    assert!(found.numeric.is_empty());
-    let text = render::report_studies::text(&found);
-    assert!(
-        text.contains("observed order 0.") && text.contains("interrupted"),
-        "{text}"
-    );
-    let page = render::report::html(&[], Some(&found));
-    assert!(page.contains("Richardson") && page.contains("<svg"));
-    let data = render::report::json(&[], Some(&found));
-    assert!(
-        data["studies"]["stiff"]["orders"][0]["observed"]
-            .as_f64()
-            .expect("a number")
-            > 0.49
-    );
 }
 
 fn carom(arguments: &[&str]) -> Output {

@@ -1,4 +1,4 @@
-//! `carom report`: error against run time of every route a scene has, and the studies that hang on no scene.
+//! `carom report`: error against run time of every route a scene has.
 
 use std::fs::File;
 use std::io::{IsTerminal, Write};
@@ -10,18 +10,15 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{Failure, Format, complain, files, impact_of, pretty, print, read_scene};
-use carom::report::studies::{self, Extent};
 use carom::report::{Effort, Report, Row, measure};
 use carom::{derive, numeric, render};
 
 /// Arguments of `carom report`.
 #[derive(Args)]
 pub struct ReportArgs {
-    /// Scene files; without any, only the studies that hang on no scene
+    /// Scene files
+    #[arg(required = true)]
     scenes: Vec<PathBuf>,
-    /// Leave out the studies that hang on no scene: stiff limit, growth of chains, points per second
-    #[arg(long, requires = "scenes")]
-    scenes_only: bool,
     /// Few points and short timing: seconds instead of minutes
     #[arg(long)]
     quick: bool,
@@ -120,33 +117,12 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
             break;
         }
     }
-    let mut interrupted = reports.iter().any(|r| r.interrupted);
-    let mut studied = None;
-    if !interrupted && !args.scenes_only && args.family.is_none() {
-        let bar = bar("studies");
-        let extent = if args.quick {
-            Extent::Quick
-        } else {
-            Extent::Full
-        };
-        let found = studies::measure(extent, |words| {
-            bar.set_message(format!("studies: {words}"));
-            bar.tick();
-            !(handled && stop.load(Ordering::SeqCst))
-        });
-        bar.finish_and_clear();
-        if args.format == Format::Text {
-            let gap = if reports.is_empty() { "" } else { "\n" };
-            print(&format!("{gap}{}", render::report_studies::text(&found)))?;
-        }
-        interrupted = found.interrupted;
-        studied = Some(found);
-    }
+    let interrupted = reports.iter().any(|r| r.interrupted);
     if args.format == Format::Json {
-        print(&pretty(&render::report::json(&reports, studied.as_ref())))?;
+        print(&pretty(&render::report::json(&reports)))?;
     }
     if let Some(path) = &args.html {
-        let page = render::report::html(&reports, studied.as_ref());
+        let page = render::report::html(&reports);
         files::save(path, page.as_bytes(), &inputs)?;
     }
     Ok(if interrupted { 130 } else { 0 })

@@ -15,12 +15,8 @@ pub mod plain;
 pub mod plots;
 pub mod possible;
 pub mod printed;
-#[cfg(feature = "report")]
 pub mod report;
-#[cfg(feature = "report")]
 mod report_pareto;
-#[cfg(feature = "report")]
-pub mod report_studies;
 pub mod stages;
 pub mod steps;
 pub mod story;

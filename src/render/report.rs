@@ -7,7 +7,6 @@ use serde_json::{Value, json};
 use super::mathml::escape;
 use crate::plot::{Axis, Curve, Plot, curve};
 use crate::report::measure::{Cell, Residuals, Swept};
-use crate::report::studies::Studies;
 use crate::report::verdict::{Finding, nanoseconds, short};
 use crate::report::{BINS, Report, Route};
 
@@ -117,20 +116,19 @@ fn effort(report: &Report) -> String {
     )
 }
 
-/// Reports and studies as data. Numbers that are no finite doubles become null.
-pub fn json(reports: &[Report], studies: Option<&Studies>) -> Value {
+/// Reports as data. Numbers that are no finite doubles become null.
+pub fn json(reports: &[Report]) -> Value {
     let value =
         |v: Result<Value, serde_json::Error>| v.unwrap_or_else(|e| json!({"error": e.to_string()}));
     json!({
         "reports": reports.iter().map(|r| value(serde_json::to_value(r))).collect::<Vec<_>>(),
-        "studies": value(serde_json::to_value(studies)),
     })
 }
 
-/// One self-contained page for several reports, and the studies that hang on no scene.
-pub fn html(reports: &[Report], studies: Option<&Studies>) -> String {
+/// One self-contained page for several reports.
+pub fn html(reports: &[Report]) -> String {
     let mut out = String::from(HEAD);
-    if reports.len() + usize::from(studies.is_some()) > 1 {
+    if reports.len() > 1 {
         out.push_str("<nav><ul>");
         for (i, r) in reports.iter().enumerate() {
             let _ = write!(
@@ -140,16 +138,10 @@ pub fn html(reports: &[Report], studies: Option<&Studies>) -> String {
                 escape(&r.verdict)
             );
         }
-        if studies.is_some() {
-            out.push_str("<li><a href=\"#studies\">Stiff limit, growth and batches</a></li>");
-        }
         out.push_str("</ul></nav>");
     }
     for (i, report) in reports.iter().enumerate() {
         section(&mut out, i, report);
-    }
-    if let Some(studies) = studies {
-        super::report_studies::section(&mut out, studies);
     }
     out.push_str("</main></body></html>\n");
     out
@@ -198,7 +190,7 @@ fn section(out: &mut String, index: usize, report: &Report) {
 }
 
 /// Findings as a list.
-pub(super) fn findings(out: &mut String, heading: &str, list: &[Finding]) {
+fn findings(out: &mut String, heading: &str, list: &[Finding]) {
     if list.is_empty() {
         return;
     }
@@ -235,7 +227,7 @@ fn flags(f: &Swept) -> String {
 }
 
 /// A plot with its caption, where there is one.
-pub(super) fn figure(out: &mut String, plot: Option<String>, caption: &str) {
+fn figure(out: &mut String, plot: Option<String>, caption: &str) {
     if let Some(svg) = plot {
         let _ = write!(
             out,

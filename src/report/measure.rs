@@ -4,11 +4,11 @@
 //! exact answer; answers that are exactly zero, or beyond the range of normal doubles, are left out and counted.
 
 use std::collections::BTreeMap;
+use std::time::Instant;
 
 use num_traits::{Signed, Zero};
 use serde::Serialize;
 
-use super::batch::quartiles;
 use super::dual::conditions;
 use super::routes::{Place, Prepared, Route};
 use super::sample::{Family, Sampler, flags};
@@ -577,6 +577,20 @@ fn time(prepared: &Prepared, route: Route, place: &Place, runs: usize, repeat: u
         }
     })
     .map(|t| t / repeat as f64)
+}
+
+/// Quartiles of the time of `work` \[s\] over `runs` runs, after one that does not count.
+fn quartiles(runs: usize, mut work: impl FnMut()) -> [f64; 3] {
+    work();
+    let mut times: Vec<f64> = (0..runs.max(1))
+        .map(|_| {
+            let start = Instant::now();
+            work();
+            start.elapsed().as_secs_f64()
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    [1, 2, 3].map(|q| times[(times.len() - 1) * q / 4])
 }
 
 fn lu_alone(place: &Place, effort: &Effort) -> Option<([f64; 3], usize)> {

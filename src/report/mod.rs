@@ -1,14 +1,10 @@
 //! Measures error against run time for every way to the same number. All of it comes out as data; `render` prints it.
 
-pub mod batch;
 pub mod dual;
-pub mod growth;
 pub mod measure;
 pub mod reduced;
 pub mod routes;
 pub mod sample;
-pub mod stiff;
-pub mod studies;
 pub mod verdict;
 
 pub use measure::{BINS, Effort, Machine, NoReport, Report, Row, measure};
