@@ -15,7 +15,7 @@ use carom::emit::{Function, Heading, Language, file, functions};
 use carom::expr::number::{from_f64, to_f64};
 use carom::expr::{Expr, Point, Scalar};
 use carom::formula::{Symbols, read_expr};
-use carom::numeric::deep::Deep;
+use carom::interval::{Big, Enclosure, Outcome, evaluate};
 use carom::numeric::{Correct, correct};
 use carom::scene::{self, Scene};
 
@@ -120,10 +120,10 @@ fn nearly_cancelling(points: &[Vec<f64>], f: &Function) -> Vec<Vec<f64>> {
 /// The formula in a function's comment, read back and evaluated at exactly these arguments.
 fn truth(f: &Function, x: &[f64]) -> Option<f64> {
     let value = enclosed(f, x)?;
-    Some(value.rounded().unwrap_or_else(|| value.near()))
+    Some(value.nearest().unwrap_or_else(|| value.middle()))
 }
 
-fn enclosed(f: &Function, x: &[f64]) -> Option<Deep<512>> {
+fn enclosed(f: &Function, x: &[f64]) -> Option<Enclosure> {
     let mut symbols = Symbols::strict();
     let mut point = Point::default();
     for (argument, v) in f.arguments.iter().zip(x) {
@@ -131,10 +131,13 @@ fn enclosed(f: &Function, x: &[f64]) -> Option<Deep<512>> {
         let exact = from_f64(*v).expect("finite");
         point
             .values
-            .insert(argument.symbol.clone(), Deep::<512>::from_rational(&exact));
+            .insert(argument.symbol.clone(), Scalar::from_rational(&exact));
     }
     let e = read_expr(&f.formula, &symbols).expect("carom reads what it writes");
-    e.evaluate(&point)
+    match evaluate::<Big<512>>(&e, &point) {
+        Outcome::Value(Big(value)) => Some(value),
+        _ => None,
+    }
 }
 
 /// Random numbers from a seed.
@@ -168,7 +171,7 @@ impl Dice {
             let values = x.iter().zip(&powers).map(|(x, p)| x * 10f64.powf(*p));
             let values: Vec<f64> = values.collect();
             let fits = enclosed(f, &values)
-                .and_then(|v| v.rounded())
+                .and_then(|v| v.nearest())
                 .is_some_and(|v| (1e-290..1e300).contains(&v.abs()));
             if fits {
                 return Some(values);

@@ -8,12 +8,12 @@ use std::collections::{BTreeMap, HashMap};
 
 use num_traits::{One, Signed, Zero};
 
+use super::dd::Dd;
 use super::program::{Program, Step};
 use crate::domain::{Domains, Limit};
 use crate::expr::angle::angle;
 use crate::expr::number::{from_f64, sqrt_exact, to_f64};
-use crate::expr::{Expr, Function, Node, Rational, Scalar, Symbol};
-use crate::numeric::dd::Dd;
+use crate::expr::{Expr, Function, Node, Rational, Symbol};
 
 /// What a formula takes as input: a symbol, or the cosine or sine of an angle.
 pub type Atoms = Vec<(Symbol, Expr)>;
@@ -293,9 +293,7 @@ impl<'a> Builder<'a> {
         }
         let step = match e.node() {
             Node::Number(value) => self.step(Step::WideNumber(Dd::from_rational(value))),
-            Node::Symbol(name) if &**name == "pi" => {
-                self.step(Step::WideNumber(crate::numeric::dd::PI))
-            }
+            Node::Symbol(name) if &**name == "pi" => self.step(Step::WideNumber(super::dd::PI)),
             Node::Sum(terms) => {
                 let mut total = self.wide(&terms[0])?;
                 for term in &terms[1..] {

@@ -5,6 +5,7 @@
 use num_traits::{One, Zero};
 
 use super::arrange::{Atoms, arranged, signs, without_angles};
+use super::dd::Dd;
 use super::program::{Bound, Program, Step};
 use super::range::{Input, divides_safely, reach};
 use super::units::{Units, units};
@@ -14,7 +15,6 @@ use crate::expr::angle::angle;
 use crate::expr::number::{from_f64, to_f64};
 use crate::expr::{Expr, Function as Call, Node, Rational, Symbol};
 use crate::formula::write_plain;
-use crate::numeric::dd::Dd;
 use crate::scene::Scene;
 
 /// An argument of a function.
@@ -247,11 +247,10 @@ fn turns(atoms: &Atoms, arguments: &[Symbol], program: &Program) -> Option<Vec<T
 }
 
 fn multiple_of_pi(factor: &Rational) -> Dd {
-    use crate::expr::Scalar;
     if factor.is_one() {
-        return crate::numeric::dd::PI;
+        return super::dd::PI;
     }
-    Dd::from_rational(factor) * crate::numeric::dd::PI
+    Dd::from_rational(factor) * super::dd::PI
 }
 
 fn argument(scene: &Scene, symbol: &Symbol) -> Argument {

@@ -1,4 +1,4 @@
-//! The double-double arithmetic that emitted functions call, in three languages: the operations of [`crate::numeric::dd`],
+//! The double-double arithmetic that emitted functions call, in three languages: the operations of [`super::dd`],
 //! rounding for rounding.
 
 use std::collections::BTreeSet;

@@ -5,6 +5,7 @@
 //! closed form was found.
 
 pub mod arrange;
+mod dd;
 pub mod function;
 mod helpers;
 pub mod program;

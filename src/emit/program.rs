@@ -3,8 +3,8 @@
 //! Comes in: steps, each on earlier ones. Goes out: the value in doubles, and on request a bound of its error that holds
 //! at the point at hand. Knows nothing of formulas.
 
+use super::dd::Dd;
 use crate::expr::{Function, Scalar};
-use crate::numeric::dd::Dd;
 
 /// One step. Plain steps hold a double, wide ones a double-double; operands are numbers of earlier steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,7 +99,7 @@ pub struct Program {
     pub inputs: usize,
 }
 
-/// Relative errors of wide operations in units of 2⁻¹⁰⁶, as [`crate::numeric::dd`] states them.
+/// Relative errors of wide operations in units of 2⁻¹⁰⁶, as [`super::dd`] states them.
 const SHORT: f64 = 8.0;
 const LONG: f64 = 64.0;
 /// 2⁻⁵³, the relative error of one plain operation.

@@ -5,12 +5,12 @@
 
 use std::collections::BTreeSet;
 
+use super::dd::Dd;
 use super::function::{Function, LIBRARY, Turn};
 use super::helpers::{self, Helper};
 use super::program::Step;
 use super::units::{self, Units};
 use crate::formula::visible;
-use crate::numeric::dd::Dd;
 
 /// The languages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,6 +4,7 @@ use num_traits::{One, Signed, Zero};
 
 use super::dyadic::{Dyadic, Round};
 use super::{Certified, Outcome, series};
+use crate::expr::number::to_f64;
 use crate::expr::{Function, Int, Rational};
 
 /// Numbers beyond 2^±`RANGE` are not followed: their exponents alone would fill memory.
@@ -167,6 +168,27 @@ impl Enclosure {
             low: self.low.add(&by.neg(), bits, Round::Down),
             high: self.high.add(by, bits, Round::Up),
         }
+    }
+
+    /// The double nearest to every number inside; `None` where the ends round apart or beyond the range of doubles.
+    pub fn nearest(&self) -> Option<f64> {
+        if self.is_exact() && self.low.sign() == 0 {
+            return Some(0.0);
+        }
+        // Exponents far outside that range would make fractions too long to hold.
+        if [&self.low, &self.high].iter().any(|x| x.top().abs() > 1200) {
+            return None;
+        }
+        let [low, high] = [&self.low, &self.high].map(|end| to_f64(&end.to_rational()));
+        (low == high && low.is_finite()).then_some(low)
+    }
+
+    /// A double near the middle; zero where zero is inside.
+    pub fn middle(&self) -> f64 {
+        if self.has_zero() {
+            return 0.0;
+        }
+        0.5 * self.low.to_f64(Round::Down) + 0.5 * self.high.to_f64(Round::Up)
     }
 
     /// Number of decimal digits in which the two ends agree, roughly; large for an exact value.

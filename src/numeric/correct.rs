@@ -1,30 +1,27 @@
 //! The correctly rounded double of everything a scene asks for, at the exact values of its parameters.
 //!
 //! In: a scene whose parameters have values, each an exact formula (0.1 is 1/10, 30° is π/6). Out: for every question and
-//! every unknown the double nearest to the true value, and the cheapest number type that could tell: double-doubles with
-//! bounds, exact fractions, or enclosures of more and more bits where a value is irrational.
+//! every unknown the double nearest to the true value, and what told: exact fractions rounded once, or enclosures of more
+//! and more bits where a value is irrational.
 
 use super::answer::{Answer, NoAnswer, answer};
-use super::ball::Ball;
-use super::deep::Deep;
 use super::exact::solve_exact;
 use super::field::eliminate;
-use super::given::{Reason, given};
+use super::given::{Given, Reason, given};
 use super::number::Number;
 use super::points::needed;
-use super::redundant::{regular_part, solve_part};
+use super::redundant::{Part, regular_part, solve_part};
 use super::solution::{Contradiction, Solution, motion};
 use super::system::{Law, System, Unknown, assemble};
 use super::values::{NoPoint, exact_values, given_values, unit_of};
 use crate::expr::number::to_f64;
-use crate::expr::{Expr, Point, Rational};
+use crate::expr::{Expr, Point, Rational, Scalar};
+use crate::interval::{Big, Outcome, evaluate};
 use crate::scene::{Ask, Scene};
 
 /// How a double was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum How {
-    /// A double-double with a rigorous error bound.
-    Ball,
     /// Exact fractions.
     Exact,
     /// An enclosure of this many bits.
@@ -83,30 +80,15 @@ pub enum NoCorrect {
 
 /// Everything a scene asks for, correctly rounded.
 pub fn correct(scene: &Scene) -> Result<CorrectAnswers, NoCorrect> {
-    let ball =
-        enclosed(scene, |e| e.evaluate(&Point::<Ball>::default())).map_err(NoCorrect::NoPoint)?;
-    let near = |v: &Ball| v.middle.high + v.middle.low;
-    let mut best = ball.and_then(|at| attempt(scene, &at, unique, Ball::rounded, near, How::Ball));
-    if best.as_ref().is_some_and(CorrectAnswers::is_complete) {
-        return best.ok_or(NoCorrect::Undecided);
-    }
+    given_values(scene).map_err(NoCorrect::NoPoint)?;
     if let Ok(at) = exact_values(scene) {
         match given(scene, &at) {
             Ok(numbers) => {
                 let system = assemble(&numbers);
                 let clash = |c: Contradiction| NoCorrect::Contradiction(c.laws(&system));
                 let solution = solve_exact(&system).map_err(clash)?;
-                let exact = attempt(
-                    scene,
-                    &at,
-                    |_| Some(solution.clone()),
-                    |v| Some(to_f64(v)),
-                    to_f64,
-                    How::Exact,
-                );
-                if let Some(exact) = exact {
-                    return Ok(join(best, exact));
-                }
+                let rounded = |v: &Rational| Correct::Rounded(to_f64(v), How::Exact);
+                return Ok(told(scene, &at, &numbers, &system, &solution, rounded));
             }
             Err(undefined) if undefined.reason != Reason::NotANumber => {
                 return Err(NoCorrect::Undecided);
@@ -114,32 +96,48 @@ pub fn correct(scene: &Scene) -> Result<CorrectAnswers, NoCorrect> {
             Err(_) => {}
         }
     }
-    // Enclosures never tell that an equation follows from others. Where none of the attempts so far knew a solution, and
-    // wider ones know none either, the equations that do at random points are left out.
-    let part = match best {
-        Some(_) => None,
-        None => regular_part(scene).filter(|part| !part.is_whole()),
-    };
-    macro_rules! try_bits {
-        ($($bits:literal)*) => {$(
-            let at = enclosed(scene, |e| e.evaluate(&Point::<Deep<$bits>>::default())).map_err(NoCorrect::NoPoint)?;
-            let solve = |system: &System<Deep<$bits>>| match &part {
-                None => unique(system),
-                Some(part) => solve_part(system, part),
-            };
-            let found = at.and_then(|at| attempt(scene, &at, solve, Deep::<$bits>::rounded, Deep::<$bits>::near, How::Bits($bits)));
-            if let Some(mut found) = found {
-                found.left_out = part.iter().flat_map(|p| p.left_out.clone()).collect();
-                let joined = join(best, found);
-                if joined.is_told() {
-                    return Ok(joined);
-                }
-                best = Some(joined);
-            }
-        )*};
+    // Enclosures never tell that an equation follows from others: those that do at random points are left out.
+    let part = regular_part(scene).filter(|part| !part.is_whole());
+    let mut best = None;
+    for enclosed in [enclosed::<256>, enclosed::<1024>, enclosed::<4096>] {
+        let Some(mut found) = enclosed(scene, part.as_ref())? else {
+            continue;
+        };
+        found.left_out = part.iter().flat_map(|p| p.left_out.clone()).collect();
+        let joined = join(best, found);
+        if joined.is_told() {
+            return Ok(joined);
+        }
+        best = Some(joined);
     }
-    try_bits!(256 1024 4096);
     best.ok_or(NoCorrect::Undecided)
+}
+
+/// By enclosures of `BITS` bits; `None` where they cannot tell the equations from singular ones.
+fn enclosed<const BITS: u32>(
+    scene: &Scene,
+    part: Option<&Part>,
+) -> Result<Option<CorrectAnswers>, NoCorrect> {
+    let at = enclosed_point::<BITS>(scene).map_err(NoCorrect::NoPoint)?;
+    let Ok(numbers) = given(scene, &at) else {
+        return Ok(None);
+    };
+    let mut known = true;
+    numbers.map(|v| known &= matches!(v, Outcome::Value(_)));
+    let system = assemble(&numbers);
+    let solution = match part {
+        None => eliminate(&system).map(Solution::determined),
+        Some(part) => solve_part(&system, part),
+    };
+    let rounded = |v: &Outcome<Big<BITS>>| match v {
+        Outcome::Value(Big(v)) => match v.nearest() {
+            Some(near) => Correct::Rounded(near, How::Bits(BITS)),
+            None => Correct::Undecided(v.middle()),
+        },
+        _ => Correct::Undecided(f64::NAN),
+    };
+    let solution = solution.filter(|_| known);
+    Ok(solution.map(|s| told(scene, &at, &numbers, &system, &s, rounded)))
 }
 
 /// What the first could not tell, from the second.
@@ -163,27 +161,20 @@ fn join(first: Option<CorrectAnswers>, mut second: CorrectAnswers) -> CorrectAns
     second
 }
 
-fn attempt<T: Number>(
+/// Every unknown and every answer of a solution.
+fn told<T: Number>(
     scene: &Scene,
     at: &Point<T>,
-    solve: impl Fn(&System<T>) -> Option<Solution<T>>,
-    round: impl Fn(&T) -> Option<f64>,
-    near: impl Fn(&T) -> f64,
-    how: How,
-) -> Option<CorrectAnswers> {
-    let numbers = given(scene, at).ok()?;
-    let system = assemble(&numbers);
-    let solution = solve(&system)?;
-    let rounded = |v: &T| match round(v) {
-        Some(v) => Correct::Rounded(v, how),
-        None => Correct::Undecided(near(v)),
-    };
-    let motion = motion(&numbers, &system, &solution);
+    numbers: &Given<T>,
+    system: &System<T>,
+    solution: &Solution<T>,
+    rounded: impl Fn(&T) -> Correct,
+) -> CorrectAnswers {
+    let motion = motion(numbers, system, solution);
     let unknowns = system.unknowns.iter().enumerate().map(|(i, u)| {
-        let value = if solution.unique[i] {
-            rounded(&solution.values[i])
-        } else {
-            Correct::Open
+        let value = match solution.unique[i] {
+            true => rounded(&solution.values[i]),
+            false => Correct::Open,
         };
         (*u, value)
     });
@@ -192,56 +183,38 @@ fn attempt<T: Number>(
         .iter()
         .filter(|q| !matches!(q.ask, Ask::Balance { .. } | Ask::Matrix { .. }));
     let answers = asked.map(|q| {
-        let found = answer(&q.ask, at, &numbers, &motion).map(|a| match a {
+        let found = answer(&q.ask, at, numbers, &motion).map(|a| match a {
             Answer::Scalar(v) => vec![rounded(&v)],
             Answer::Vector(v) => v.iter().map(&rounded).collect(),
         });
         (q.name.clone(), found)
     });
-    Some(CorrectAnswers {
+    CorrectAnswers {
         unknowns: unknowns.collect(),
         answers: answers.collect(),
         left_out: Vec::new(),
-    })
+    }
 }
 
-fn unique<T: Number>(system: &System<T>) -> Option<Solution<T>> {
-    let values = eliminate(system)?;
-    let n = values.len();
-    Some(Solution {
-        values,
-        unique: vec![true; n],
-        rank: n,
-    })
-}
-
-/// The point of the scene's values in a number type; `Ok(None)` where a value does not exist in it.
-fn enclosed<T: Number>(
-    scene: &Scene,
-    evaluate: impl Fn(&Expr) -> Option<T>,
-) -> Result<Option<Point<T>>, NoPoint> {
+/// The point of the scene's values, enclosed.
+fn enclosed_point<const BITS: u32>(scene: &Scene) -> Result<Point<Outcome<Big<BITS>>>, NoPoint> {
     let needed = needed(scene);
+    let value = |e: &Expr| evaluate::<Big<BITS>>(e, &Point::default());
     let mut point = Point::default();
-    for (name, value) in given_values(scene)? {
+    for (name, given) in given_values(scene)? {
         if let Some(divisor) = needed.angles.get(&name) {
-            let part = &value * &Expr::ratio(1, i64::from(*divisor));
+            let part = &given * &Expr::ratio(1, i64::from(*divisor));
             let unit = match unit_of(&part) {
-                Some(unit) => Some(unit.map(|v: Rational| T::from_rational(&v))),
-                None => evaluate(&part.cos())
-                    .zip(evaluate(&part.sin()))
-                    .map(|(c, s)| [c, s]),
+                Some(unit) => unit.each_ref().map(Scalar::from_rational),
+                None => [value(&part.cos()), value(&part.sin())],
             };
-            let Some(unit) = unit else { return Ok(None) };
             point.directions.insert(name.clone(), (*divisor, unit));
         }
         if needed.plain.contains(&name) {
-            let Some(value) = evaluate(&value) else {
-                return Ok(None);
-            };
-            point.values.insert(name, value);
+            point.values.insert(name, value(&given));
         }
     }
-    Ok(Some(point))
+    Ok(point)
 }
 
 #[cfg(test)]
@@ -291,7 +264,7 @@ mod tests {
         // v_y⁺ = v (e − 3cos²θ)/(1 + 3cos²θ) = 3 (1/2 − 9/4)/(13/4), E = 6/13 · (1 − e²)/… = ½ m v² (1−e²)/(1+3cos²θ).
         let all = numbers(&[]);
         assert_eq!(value(&all[0]).0, 0.0);
-        assert_eq!(value(&all[1]), (-21.0 / 13.0, How::Ball));
+        assert_eq!(value(&all[1]), (-21.0 / 13.0, How::Bits(256)));
         assert_eq!(value(&all[3]).0, 4.5 * 0.75 / 3.25);
     }
 

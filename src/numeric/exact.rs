@@ -32,11 +32,7 @@ pub fn solve_exact(system: &System<Rational>) -> Result<Solution<Rational>, Cont
                 let values = numerators
                     .into_iter()
                     .map(|x| Rational::new(x.into(), determinant.clone().into()));
-                return Ok(Solution {
-                    values: values.collect(),
-                    unique: vec![true; n],
-                    rank: n,
-                });
+                return Ok(Solution::determined(values.collect()));
             }
             _ => None,
         };
@@ -50,11 +46,7 @@ pub fn solve_exact(system: &System<Rational>) -> Result<Solution<Rational>, Cont
                 .into_iter()
                 .map(|x| fraction(x, determinant))
                 .collect();
-            Ok(Solution {
-                values,
-                unique: vec![true; n],
-                rank: n,
-            })
+            Ok(Solution::determined(values))
         }
         _ => solve_any_rank(system),
     }

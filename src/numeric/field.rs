@@ -1,7 +1,7 @@
-//! Sparse elimination over number types with division: double-doubles and balls.
+//! Sparse elimination over enclosures.
 //!
-//! The pivot with the fewest fill-ins goes first, among equals the largest; what is exactly zero is never touched. With
-//! balls the outcome is an enclosure of the true solution, whatever the pivots.
+//! The pivot with the fewest fill-ins goes first, among equals the largest; what is exactly zero is never touched, and what
+//! may be zero is no pivot. The outcome is an enclosure of the true solution, whatever the pivots.
 
 use super::number::Number;
 use super::system::System;
@@ -105,7 +105,7 @@ fn pivot<T: Number>(
                 return;
             }
             let size = cells[r * n + c].size();
-            if fill < least.0 || size > least.1 {
+            if size > 0.0 && (fill < least.0 || size > least.1) {
                 (least, best) = ((fill, size), Some((place, c)));
             }
         });

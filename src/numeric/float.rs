@@ -1,47 +1,39 @@
 //! Solution in doubles by nalgebra, and the honest answer where the system leaves something open.
 //!
 //! Rows and columns are first scaled by powers of two, which is exact and takes the units out. A square system whose
-//! triangular factor shows no vanishing pivot is regular. Where one seems to vanish, a mass of 1e−15 beside one of 1 may
-//! be the reason: double-doubles then tell whether any matrix within a few roundings of this one, entry by entry, is
-//! singular. The values come from double-doubles with bounds, from fractions where those are too wide, and from LU with
-//! refinement only beyond 64 unknowns: a light body loses no digits to a heavy one. All else goes to elimination with complete pivoting, which tells which unknowns are
-//! unique. Rank in doubles is a judgement (threshold 64·n·2⁻⁵² on the scaled matrix); rank in fractions, from `exact`, is
+//! triangular factor shows no vanishing pivot is regular. Where one seems to vanish, a mass of 1e−15 beside one of 1 may be
+//! the reason: enclosures then tell whether any matrix within a few roundings of this one, entry by entry, is singular. The
+//! values are the nearest doubles, by enclosures or fractions, and by LU with refinement only beyond 64 unknowns: a light
+//! body loses no digits to a heavy one, and a contact at rest is at rest. All else goes to elimination with complete
+//! pivoting, which tells which unknowns are unique. Rank in doubles is a judgement (threshold 64·n·2⁻⁵² on the scaled matrix); rank in fractions, from `exact`, is
 //! a fact.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::ball::Ball;
 use super::exact::solve_exact;
 use super::field::eliminate;
 use super::solution::{Contradiction, Solution};
 use super::system::System;
 use crate::expr::number::{from_f64, to_f64};
+use crate::interval::{Big, Certified, Outcome};
 
 /// Solves a system in doubles.
 pub fn solve_f64(system: &System<f64>) -> Result<Solution<f64>, Contradiction> {
     let (m, n) = (system.laws.len(), system.unknowns.len());
     if n == 0 {
         let rows: Vec<usize> = (0..m).filter(|i| system.right[*i] != 0.0).collect();
-        return if rows.is_empty() {
-            Ok(Solution {
-                values: Vec::new(),
-                unique: Vec::new(),
-                rank: 0,
-            })
-        } else {
-            Err(Contradiction { rows, rank: 0 })
+        return match rows.is_empty() {
+            true => Ok(Solution::determined(Vec::new())),
+            false => Err(Contradiction { rows, rank: 0 }),
         };
     }
     let scaled = Scaled::of(system);
     if m == n {
         let near = lu(&scaled, 2, threshold(n));
-        let refined = wide(system, &scaled.columns, near.is_some()).or(near);
-        if let Some(values) = refined {
-            return Ok(Solution {
-                values,
-                unique: vec![true; n],
-                rank: n,
-            });
+        let values =
+            nearest(system).filter(|_| near.is_some() || is_regular(system, &scaled.columns));
+        if let Some(values) = values.or(near) {
+            return Ok(Solution::determined(values));
         }
     }
     by_complete_pivoting(&scaled, threshold(n))
@@ -78,21 +70,34 @@ fn lu(scaled: &Scaled, steps: usize, least: f64) -> Option<Vec<f64>> {
     values.iter().all(|v| v.is_finite()).then_some(values)
 }
 
-/// The solution where every matrix whose entries differ from these by 64·2⁻⁵² of themselves is regular too, which no choice
-/// of units changes: the spectral radius of |A⁻¹||A| is below 2⁵²/64 (Oettli & Prager 1964; Bauer 1966).
-fn wide(system: &System<f64>, units: &[f64], regular: bool) -> Option<Vec<f64>> {
+/// The nearest doubles to the solution, the coefficients taken as exact: by enclosures, and by fractions where those are too
+/// wide to tell.
+fn nearest(system: &System<f64>) -> Option<Vec<f64>> {
+    let cells = system.matrix.iter().chain(&system.right);
+    let exact = cells.map(|v| from_f64(*v)).all(|v| v.is_some());
+    let exact = exact.then(|| system.map(|v| from_f64(*v).unwrap_or_default()))?;
+    let enclosed = eliminate(&exact.map(|v| Outcome::Value(Big::<128>::from_rational(v))));
+    let rounded = |v: Outcome<Big<128>>| v.value()?.0.nearest();
+    let found = enclosed.and_then(|x| x.into_iter().map(rounded).collect());
+    found.or_else(|| {
+        let exact = solve_exact(&exact).ok().filter(Solution::is_determined)?;
+        Some(exact.values.iter().map(to_f64).collect())
+    })
+}
+
+/// Whether every matrix whose entries differ from these by 64·2⁻⁵² of themselves is regular too, which no choice of units
+/// changes: the spectral radius of |A⁻¹||A| is below 2⁵²/64 (Oettli & Prager 1964; Bauer 1966).
+fn is_regular(system: &System<f64>, units: &[f64]) -> bool {
     let n = system.unknowns.len();
-    let values = nearest(system)?;
-    if regular {
-        return Some(values);
-    }
     let mut unit = system.clone();
-    let mut inverse = Vec::with_capacity(n);
-    for column in 0..n {
+    let columns = (0..n).map(|column| {
         unit.right.fill(0.0);
         unit.right[column] = 1.0;
-        inverse.push(nearest(&unit)?);
-    }
+        nearest(&unit)
+    });
+    let Some(inverse) = columns.collect::<Option<Vec<Vec<f64>>>>() else {
+        return false;
+    };
     // Powers bring the start near the vector of Perron, for which the bound is sharp; with any positive one it is a bound.
     let mut vector = units.to_vec();
     let mut radius = f64::INFINITY;
@@ -114,21 +119,7 @@ fn wide(system: &System<f64>, units: &[f64], regular: bool) -> Option<Vec<f64>> 
         radius = radius.min(growth.fold(0.0, |a, b| if b > a || b.is_nan() { b } else { a }));
         vector = next;
     }
-    (radius < 1.0 / (64.0 * f64::EPSILON)).then_some(values)
-}
-
-/// The nearest doubles to the solution, the coefficients taken as exact.
-fn nearest(system: &System<f64>) -> Option<Vec<f64>> {
-    let balls = eliminate(&system.map(|v| Ball::exact(*v)));
-    if let Some(values) = balls.and_then(|x| x.iter().map(Ball::rounded).collect()) {
-        return Some(values);
-    }
-    let mut cells = system.matrix.iter().chain(&system.right);
-    let exact = cells
-        .all(|v| v.is_finite())
-        .then(|| system.map(|v| from_f64(*v).unwrap_or_default()))?;
-    let found = solve_exact(&exact).ok().filter(Solution::is_determined)?;
-    Some(found.values.iter().map(to_f64).collect())
+    radius < 1.0 / (64.0 * f64::EPSILON)
 }
 
 /// Gauss–Jordan with complete pivoting. What remains below the threshold counts as zero, on the left and on the right.

@@ -5,14 +5,8 @@
 //! is why agreement with a derived formula means something.
 
 pub mod answer;
-pub mod ball;
-pub mod certify;
-pub mod contact_space;
 pub mod correct;
-pub mod dd;
-pub mod deep;
 pub mod doubles;
-pub mod dyadic;
 pub mod energy;
 pub mod exact;
 pub mod field;
@@ -29,16 +23,13 @@ pub mod redundant;
 pub mod solution;
 pub mod system;
 pub mod values;
-pub mod wide;
 
 #[cfg(test)]
 mod tests;
 
 pub use answer::{Answer, Answered, NoAnswer, answer, answers};
-pub use certify::{Certified, Tier, Uncertified, certify, certify_into, certify_scene};
 pub use correct::{Correct, CorrectAnswers, How, NoCorrect, correct};
 pub use doubles::{NoDoubles, doubles};
-pub use dyadic::solve_dyadic;
 pub use energy::{energy_after, energy_before, energy_lost};
 pub use exact::solve_exact;
 pub use field::eliminate;

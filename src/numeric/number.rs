@@ -1,10 +1,12 @@
 //! What the numeric side asks of a number beyond evaluation: differences, neutral elements, and a few plane vectors.
 //!
-//! Deliberately small: a new number type (double-double, ball) becomes usable everywhere by five short functions.
+//! Doubles, exact fractions, and enclosures of any precision for values that are no fractions.
 
 use num_traits::{One, Zero};
 
 use crate::expr::{Rational, Scalar};
+use crate::interval::dyadic::Round;
+use crate::interval::{Big, Enclosure, Outcome};
 
 /// A number type in which the equations of a scene can be assembled.
 pub trait Number: Scalar {
@@ -69,6 +71,44 @@ impl Number for Rational {
     }
     fn size(&self) -> f64 {
         crate::expr::number::to_f64(self).abs()
+    }
+}
+
+/// An enclosure of `BITS` bits; what it cannot decide, a reciprocal around zero say, stays unknown to the end.
+impl<const BITS: u32> Number for Outcome<Big<BITS>> {
+    fn zero() -> Self {
+        Scalar::from_rational(&Zero::zero())
+    }
+    fn one() -> Self {
+        Scalar::from_rational(&One::one())
+    }
+    fn is_zero(&self) -> bool {
+        matches!(self, Outcome::Value(v) if v.0.is_exact() && v.0.low.sign() == 0)
+    }
+    fn minus(&self, other: &Self) -> Self {
+        self.plus(&other.negated())
+    }
+    fn negated(&self) -> Self {
+        each(self, Enclosure::neg)
+    }
+    fn halved(&self) -> Self {
+        each(self, |v| v.scale(-1))
+    }
+    fn size(&self) -> f64 {
+        match self {
+            Outcome::Value(v) if !v.0.has_zero() => v.0.abs().high.to_f64(Round::Up),
+            _ => 0.0,
+        }
+    }
+}
+
+fn each<const BITS: u32>(
+    of: &Outcome<Big<BITS>>,
+    f: impl Fn(&Enclosure) -> Enclosure,
+) -> Outcome<Big<BITS>> {
+    match of {
+        Outcome::Value(v) => Outcome::Value(Big(f(&v.0))),
+        other => other.clone(),
     }
 }
 

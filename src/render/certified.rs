@@ -126,7 +126,6 @@ fn components<'a>(question: &str, values: &'a [Correct]) -> Vec<(String, &'a Cor
 /// How a double was certified.
 pub fn words(how: How) -> String {
     match how {
-        How::Ball => "double-double with bound".into(),
         How::Exact => "exact fractions".into(),
         How::Bits(bits) => format!("enclosure of {bits} bits"),
     }

@@ -9,14 +9,12 @@ use std::time::Instant;
 use num_traits::{Signed, Zero};
 use serde::Serialize;
 
-use super::dual::conditions;
 use super::routes::{Place, Prepared, Route};
 use super::sample::{Family, Sampler, flags};
 use super::verdict::{self, Finding};
 use crate::derive::Derivation;
 use crate::expr::Rational;
-use crate::expr::number::from_f64;
-use crate::numeric::dd::Dd;
+use crate::expr::number::{from_f64, to_f64};
 use crate::numeric::{Invariant, assemble, identities};
 use crate::scene::Scene;
 
@@ -88,8 +86,6 @@ pub struct Cell {
     pub digits_lost: f64,
     /// Largest error over 2⁻⁵³ × structured condition number.
     pub stability: f64,
-    /// Largest Oettli–Prager backward error of the full system, in units of 2⁻⁵³, where the route gives all unknowns.
-    pub backward: Option<f64>,
 }
 
 /// One level of a family.
@@ -248,7 +244,7 @@ impl std::error::Error for NoReport {}
 
 /// Error in units in the last place of the exact answer; `None` where that is zero or no normal double.
 pub fn ulps(value: f64, exact: &Rational) -> Option<f64> {
-    let near = crate::expr::number::to_f64(exact);
+    let near = to_f64(exact);
     if exact.is_zero() || !(1e-300..1e300).contains(&near.abs()) {
         return None;
     }
@@ -264,7 +260,7 @@ pub fn ulps(value: f64, exact: &Rational) -> Option<f64> {
         power += 1;
     }
     let unit = from_f64(2f64.powi(power - 52))?;
-    Some(crate::expr::number::to_f64(&((value - exact).abs() / unit)))
+    Some(to_f64(&((value - exact).abs() / unit)))
 }
 
 /// Measures a scene. `row` is told of every row as it finishes and says whether to go on.
@@ -418,7 +414,6 @@ impl Bench<'_> {
         let level = &family.levels[level];
         let mut all: BTreeMap<Route, Vec<f64>> = BTreeMap::new();
         let mut stability: BTreeMap<Route, f64> = BTreeMap::new();
-        let mut backward: BTreeMap<Route, f64> = BTreeMap::new();
         let mut condition = 0.0f64;
         let mut special: Vec<&'static str> = Vec::new();
         let mut points = 0;
@@ -430,8 +425,7 @@ impl Bench<'_> {
                 continue;
             };
             points += 1;
-            let near = conditions(self.prepared.scene, point)
-                .unwrap_or_else(|| vec![f64::INFINITY; truth.len()]);
+            let near = self.prepared.conditions(point, &truth);
             special.extend(flags(&place.given, &near));
             for (q, exact) in truth.iter().enumerate() {
                 if ulps(0.0, exact).is_none() {
@@ -462,10 +456,6 @@ impl Bench<'_> {
                     let worst = stability.entry(*route).or_insert(0.0);
                     *worst = worst.max(factor);
                 }
-                if let Some(motion) = found.and_then(|f| f.motion) {
-                    let worst = backward.entry(*route).or_insert(0.0);
-                    *worst = worst.max(oettli_prager(&place, &motion));
-                }
             }
         }
         let cells = self.routes.iter().filter_map(|route| {
@@ -476,7 +466,6 @@ impl Bench<'_> {
                 median: errors.median,
                 digits_lost: digits_lost(errors.max),
                 stability: stability.get(route).copied().unwrap_or(0.0),
-                backward: backward.get(route).copied(),
             })
         });
         let cells: Vec<Cell> = cells.collect();
@@ -498,33 +487,6 @@ pub fn digits_lost(ulps: f64) -> f64 {
     ulps.max(1.0).log10().min(16.0)
 }
 
-/// max_i |b − A x|_i / (|A||x| + |b|)_i in units of 2⁻⁵³, the residual in double-doubles (Oettli & Prager 1964).
-fn oettli_prager(place: &Place, motion: &crate::numeric::Motion<f64>) -> f64 {
-    let system = assemble(&place.given);
-    let normal = |c: usize| place.given.contacts[c].normal;
-    let along = |b: usize| match &place.given.blows[b].impulse {
-        crate::numeric::given::GivenImpulse::Along(d) => Some(*d),
-        crate::numeric::given::GivenImpulse::Whole(_) => None,
-    };
-    let x: Vec<f64> = system
-        .unknowns
-        .iter()
-        .map(|u| super::dual::unknown_value(motion, *u, normal, along))
-        .collect();
-    let mut worst = 0.0f64;
-    for (r, right) in system.right.iter().enumerate() {
-        let row = system.row(r);
-        let residual = row.iter().zip(&x).fold(Dd::exact(*right), |sum, (a, x)| {
-            sum + -(Dd::exact(*a) * Dd::exact(*x))
-        });
-        let size = row.iter().zip(&x).map(|(a, x)| (a * x).abs()).sum::<f64>() + right.abs();
-        if size > 0.0 {
-            worst = worst.max(residual.high.abs() / size / crate::emit::program::UNIT);
-        }
-    }
-    worst
-}
-
 fn residuals(prepared: &Prepared, route: Route, places: &[Place]) -> Option<Residuals> {
     let mut out = Residuals::default();
     let mut seen = false;
@@ -533,21 +495,12 @@ fn residuals(prepared: &Prepared, route: Route, places: &[Place]) -> Option<Resi
             continue;
         };
         seen = true;
-        let wide = place.given.map(|v| Dd::exact(*v));
-        let pair = |v: &[f64; 2]| v.map(Dd::exact);
-        let motion = crate::numeric::Motion {
-            velocity: motion.velocity.iter().map(pair).collect(),
-            spin: motion.spin.iter().map(|v| Dd::exact(*v)).collect(),
-            hinge: motion.hinge.iter().map(pair).collect(),
-            contact: motion.contact.iter().map(pair).collect(),
-            blow: motion.blow.iter().map(pair).collect(),
-            loose: motion.loose,
-        };
-        for identity in identities(&wide, &motion) {
+        let exact = |v: &f64| from_f64(*v).unwrap_or_default();
+        for identity in identities(&place.given.map(exact), &motion.map(exact)) {
             if identity.size == 0.0 || !identity.size.is_finite() {
                 continue;
             }
-            let gap = (identity.left + -identity.right).high.abs()
+            let gap = to_f64(&(identity.left - identity.right)).abs()
                 / identity.size
                 / crate::emit::program::UNIT;
             let slot = match identity.what {

@@ -1,6 +1,5 @@
 //! Measures error against run time for every way to the same number. All of it comes out as data; `render` prints it.
 
-pub mod dual;
 pub mod measure;
 pub mod reduced;
 pub mod routes;

@@ -1,24 +1,20 @@
-//! Every route a scene has from its numbers to what is asked: closed forms, small systems, the full system, wide numbers.
+//! Every route a scene has from its numbers to what is asked: closed forms, small systems, the full system, fractions.
 //!
 //! In: a scene, and a point with exact values. Out: for each quantity asked a double, and for routes that find the whole
 //! motion that too. Routes in doubles see the exact values rounded once, as a program would.
 
 use nalgebra::{DMatrix, DVector};
+use num_traits::Zero;
 use serde::Serialize;
 
 use super::reduced;
 use crate::derive::{Derivation, Form};
 use crate::emit::{Atoms, Program, arranged, as_derived, signs, without_angles};
-use crate::expr::number::{from_f64, to_f64};
-use crate::expr::{Expr, Point, Rational, Scalar, Symbol};
-use crate::numeric::ball::Ball;
-use crate::numeric::contact_space::enclosures;
-use crate::numeric::dd::Dd;
-use crate::numeric::solution::Solution;
-use crate::numeric::system::unknowns;
+use crate::expr::number::to_f64;
+use crate::expr::{Expr, Int, Point, Rational, Symbol};
 use crate::numeric::{
-    Answer, Given, Motion, Number, System, answer, assemble, eliminate, given, lu_scaled, motion,
-    rounded, solve_dyadic, solve_exact,
+    Answer, Given, Motion, Number, Solution, System, answer, assemble, given, lu_scaled, motion,
+    rounded, solve_exact,
 };
 use crate::scene::{Ask, EnergyWhen, Scene};
 
@@ -40,19 +36,13 @@ pub enum Route {
     LuScaled,
     /// The same with three steps of refinement, residuals in plain doubles.
     LuRefined,
-    /// The full system in double-doubles.
-    DoubleDouble,
-    /// Double-doubles with bounds, exact fractions where those cannot tell: correctly rounded.
-    Certified,
-    /// Integers times powers of two, where the scene's numbers are doubles to begin with.
-    ExactIntegers,
-    /// Exact fractions.
+    /// The full system in exact fractions, rounded once.
     Exact,
 }
 
 impl Route {
     /// Every route.
-    pub const ALL: [Route; 11] = [
+    pub const ALL: [Route; 8] = [
         Route::ClosedForm,
         Route::Arranged,
         Route::AboutJoints,
@@ -60,9 +50,6 @@ impl Route {
         Route::LuRaw,
         Route::LuScaled,
         Route::LuRefined,
-        Route::DoubleDouble,
-        Route::Certified,
-        Route::ExactIntegers,
         Route::Exact,
     ];
 
@@ -76,9 +63,6 @@ impl Route {
             Route::LuRaw => "full system, LU",
             Route::LuScaled => "full system, LU scaled",
             Route::LuRefined => "full system, LU refined",
-            Route::DoubleDouble => "double-double",
-            Route::Certified => "certified",
-            Route::ExactIntegers => "exact integers",
             Route::Exact => "exact fractions",
         }
     }
@@ -93,23 +77,13 @@ impl Route {
             Route::LuRaw => "LU",
             Route::LuScaled => "LU scaled",
             Route::LuRefined => "LU refined",
-            Route::DoubleDouble => "double-double",
-            Route::Certified => "certified",
-            Route::ExactIntegers => "integers",
             Route::Exact => "exact",
         }
     }
 
     /// Whether it works in plain doubles throughout.
     pub fn is_plain(self) -> bool {
-        !matches!(
-            self,
-            Route::Arranged
-                | Route::DoubleDouble
-                | Route::Certified
-                | Route::ExactIntegers
-                | Route::Exact
-        )
+        !matches!(self, Route::Arranged | Route::Exact)
     }
 }
 
@@ -181,8 +155,6 @@ pub struct Place {
     pub near: Point<f64>,
     /// The scene in numbers.
     pub given: Given<f64>,
-    /// Whether these doubles are the exact numbers.
-    is_double: bool,
     inputs: Vec<f64>,
 }
 
@@ -211,15 +183,6 @@ impl<'a> Prepared<'a> {
     pub fn place(&self, exact: &Point<Rational>) -> Option<Place> {
         let near = rounded(exact);
         let numbers = given(self.scene, &near).ok()?;
-        let is_double = given(self.scene, exact).is_ok_and(|exact| {
-            let mut finite = true;
-            let doubles = numbers.map(|v| {
-                let exact = from_f64(*v);
-                finite &= exact.is_some();
-                exact.unwrap_or_default()
-            });
-            finite && doubles == exact
-        });
         let inputs = match &self.forms {
             Some(forms) => forms
                 .inputs
@@ -236,7 +199,6 @@ impl<'a> Prepared<'a> {
             exact: exact.clone(),
             near,
             given: numbers,
-            is_double,
             inputs,
         })
     }
@@ -247,6 +209,42 @@ impl<'a> Prepared<'a> {
         let system = assemble(&numbers);
         let solution = solve_exact(&system).ok()?;
         self.flat(at, &numbers, &motion(&numbers, &system, &solution))
+    }
+
+    /// Structured condition number of each answer: Σ |x_k ∂f/∂x_k| / |f| over the data of the scene (parameters; of an angle
+    /// the cosine and the sine), by exact differences with steps of 2⁻¹²⁸ x_k. Infinite where a datum cannot move.
+    pub fn conditions(&self, at: &Point<Rational>, truth: &[Rational]) -> Vec<f64> {
+        let step = Rational::new(1.into(), Int::from(2).pow(128));
+        let larger = |v: &Rational| v + &(v * &step);
+        let mut moved: Vec<Point<Rational>> = Vec::new();
+        for (name, value) in &at.values {
+            let mut near = at.clone();
+            near.values.insert(name.clone(), larger(value));
+            moved.push(near);
+        }
+        for (name, (n, unit)) in &at.directions {
+            for axis in 0..2 {
+                let mut unit = unit.clone();
+                unit[axis] = larger(&unit[axis]);
+                let mut near = at.clone();
+                near.directions.insert(name.clone(), (*n, unit));
+                moved.push(near);
+            }
+        }
+        let mut sums = vec![0.0; truth.len()];
+        for near in moved {
+            let found = self.truth(&near);
+            for (q, sum) in sums.iter_mut().enumerate() {
+                let change = found.as_ref().map(|f| (&f[q] - &truth[q]) / &step);
+                *sum += match change {
+                    None => f64::INFINITY,
+                    Some(change) if Zero::is_zero(&change) => 0.0,
+                    Some(_) if Zero::is_zero(&truth[q]) => f64::INFINITY,
+                    Some(change) => to_f64(&(change / &truth[q])).abs(),
+                };
+            }
+        }
+        sums
     }
 
     /// The routes that have an answer at a place.
@@ -285,19 +283,11 @@ impl<'a> Prepared<'a> {
             Route::LuRaw | Route::LuScaled | Route::LuRefined => {
                 let system = assemble(&at.given);
                 let values = full(route, &system)?;
-                Some(self.of_motion(at, motion(&at.given, &system, &unique(values))))
+                Some(self.of_motion(
+                    at,
+                    motion(&at.given, &system, &Solution::determined(values)),
+                ))
             }
-            Route::DoubleDouble => {
-                let wide = convert::<Dd>(&at.exact);
-                let numbers = given(self.scene, &wide).ok()?;
-                self.wide(&wide, &numbers, |v| v.high)
-            }
-            Route::Certified => {
-                let wide = convert::<Ball>(&at.exact);
-                let numbers = given(self.scene, &wide).ok()?;
-                self.certified(at, &wide, &numbers)
-            }
-            Route::ExactIntegers => at.is_double.then(|| self.by_integers(at))?,
             Route::Exact => {
                 let values = self.truth(&at.exact)?.iter().map(to_f64).collect();
                 Some(Found {
@@ -328,19 +318,6 @@ impl<'a> Prepared<'a> {
                         .sum()
                 })
             }
-            Route::DoubleDouble => {
-                let wide = convert::<Dd>(&at.exact);
-                let numbers = given(self.scene, &wide).ok()?;
-                Box::new(move || {
-                    self.wide(&wide, &numbers, |v: &Dd| v.high)
-                        .map_or(f64::NAN, sum)
-                })
-            }
-            Route::Certified => {
-                let wide = convert::<Ball>(&at.exact);
-                let numbers = given(self.scene, &wide).ok()?;
-                Box::new(move || self.certified(at, &wide, &numbers).map_or(f64::NAN, sum))
-            }
             Route::Exact => {
                 let numbers = given(self.scene, &at.exact).ok()?;
                 Box::new(move || {
@@ -366,53 +343,6 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    fn wide<T: Number>(
-        &self,
-        at: &Point<T>,
-        numbers: &Given<T>,
-        near: impl Fn(&T) -> f64,
-    ) -> Option<Found> {
-        let system = assemble(numbers);
-        let motion = motion(numbers, &system, &unique(eliminate(&system)?));
-        let values = self.flat(at, numbers, &motion)?.iter().map(near).collect();
-        Some(Found {
-            values,
-            motion: None,
-        })
-    }
-
-    /// Exact unknowns, each rounded once; what is asked of them in doubles.
-    fn by_integers(&self, at: &Place) -> Option<Found> {
-        let values = solve_dyadic(&at.given)?;
-        let motion = motion(&at.given, &named(&at.given), &unique(values));
-        Some(self.of_motion(at, motion))
-    }
-
-    fn certified(&self, at: &Place, wide: &Point<Ball>, numbers: &Given<Ball>) -> Option<Found> {
-        let mut values = Vec::with_capacity(16);
-        let system = match enclosures(numbers, |ball| values.push(ball)) {
-            Some(()) => named(numbers),
-            None => {
-                let system = assemble(numbers);
-                values = eliminate(&system).unwrap_or_default();
-                system
-            }
-        };
-        let complete = values.len() == system.unknowns.len();
-        let balls = complete
-            .then(|| self.flat(wide, numbers, &motion(numbers, &system, &unique(values))))
-            .flatten();
-        let rounded = balls.and_then(|v| v.iter().map(Ball::rounded).collect::<Option<Vec<f64>>>());
-        let values = match rounded {
-            Some(values) => values,
-            None => self.truth(&at.exact)?.iter().map(to_f64).collect(),
-        };
-        Some(Found {
-            values,
-            motion: None,
-        })
-    }
-
     fn flat<T: Number>(
         &self,
         at: &Point<T>,
@@ -435,18 +365,6 @@ impl<'a> Prepared<'a> {
     }
 }
 
-/// The names of the unknowns, with no equations.
-fn named<T>(given: &Given<T>) -> System<T> {
-    let mut system = System {
-        unknowns: Vec::with_capacity(16),
-        laws: Vec::new(),
-        matrix: Vec::new(),
-        right: Vec::new(),
-    };
-    unknowns(given, &mut system.unknowns);
-    system
-}
-
 /// The unknowns of the full system by nalgebra's LU.
 fn full(route: Route, system: &System<f64>) -> Option<Vec<f64>> {
     let n = system.unknowns.len();
@@ -467,30 +385,6 @@ fn full(route: Route, system: &System<f64>) -> Option<Vec<f64>> {
         }
     }
     Some(x.iter().copied().collect())
-}
-
-fn unique<T>(values: Vec<T>) -> Solution<T> {
-    let n = values.len();
-    Solution {
-        values,
-        unique: vec![true; n],
-        rank: n,
-    }
-}
-
-fn convert<T: Scalar>(at: &Point<Rational>) -> Point<T> {
-    Point {
-        values: at
-            .values
-            .iter()
-            .map(|(n, v)| (n.clone(), T::from_rational(v)))
-            .collect(),
-        directions: at
-            .directions
-            .iter()
-            .map(|(n, (k, unit))| (n.clone(), (*k, unit.each_ref().map(T::from_rational))))
-            .collect(),
-    }
 }
 
 /// The closed forms of all quantities as programs; `None` where one has no closed form.

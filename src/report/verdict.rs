@@ -88,10 +88,8 @@ fn verdict(report: &Report) -> String {
 /// A route as a sentence speaks of it.
 fn advised(words: &str) -> String {
     match words {
-        "certified" => "the certified route".into(),
         "about the joints" => "angular momentum about the joints".into(),
         "effective mass" => "effective mass at the joints".into(),
-        "double-double" => "double-double arithmetic".into(),
         _ if words.starts_with("exact") => words.into(),
         _ => format!("the {words}"),
     }
@@ -202,20 +200,12 @@ fn findings(report: &Report, quantities: &[Quantity]) -> Vec<Finding> {
         };
         let repaired = |route: Route| over(&near, |r| r == route, factor).unwrap_or(0.0);
         let (broken, refined) = (repaired(Route::LuRaw), repaired(Route::LuRefined));
-        let backward = f
-            .rows
-            .iter()
-            .flat_map(|r| &r.cells)
-            .filter(|c| c.route == Route::LuRaw)
-            .filter_map(|c| c.backward)
-            .fold(0.0, f64::max);
         say(
             "near dead centre the full system loses digits that minimal coordinates keep",
             raw >= 1e3 * joints.max(1.0),
             format!(
-                "stability factor {} by LU (ω {} u), {} about the joints",
+                "stability factor {} by LU, {} about the joints",
                 short(raw),
-                short(backward),
                 short(joints)
             ),
         );
@@ -255,18 +245,18 @@ fn findings(report: &Report, quantities: &[Quantity]) -> Vec<Finding> {
             .filter_map(|r| over(f, |x| x == r.route, ulp))
             .reduce(f64::min)
             .unwrap_or(0.0);
-        let certified = over(f, |r| r == Route::Certified, ulp).unwrap_or(0.0);
+        let exact = over(f, |r| r == Route::Exact, ulp).unwrap_or(0.0);
         say(
             &format!(
-                "{}: every plain route loses digits, the certified one none",
+                "{}: every plain route loses digits, exact fractions none",
                 f.name
             ),
-            least >= 1e6 && certified <= 0.5,
+            least >= 1e6 && exact <= 0.5,
             format!(
-                "between {} and {} ulp by plain routes, {} certified",
+                "between {} and {} ulp by plain routes, {} by fractions",
                 short(least),
                 short(plain),
-                short(certified)
+                short(exact)
             ),
         );
     }

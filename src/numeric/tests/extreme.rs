@@ -6,6 +6,7 @@ use super::random::{Dice, random_scene};
 use super::*;
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Int, Vector};
+use crate::interval::{Big, Certified, Outcome};
 use crate::scene::{Ask, BlowImpulse, ImpulseAt, Question};
 
 /// Ten to a power, for each body, and for all lengths and times.
@@ -129,6 +130,20 @@ proptest! {
                 (Ok(found), Ok(nearest)) => prop_assert_eq!(found, nearest, "{}", name),
                 (found, nearest) => prop_assert_eq!(found.is_ok(), nearest.is_ok(), "{}", name),
             }
+        }
+    }
+
+    #[test]
+    fn elimination_over_enclosures_encloses_what_fractions_give(seed: u64, family in 0u8..5) {
+        let scene = scaled(seed, &scales(seed, family));
+        let exact = assemble(&given::<Rational>(&scene, &Point::default()).expect("numbers"));
+        let enclosed = |v: &Rational| Outcome::Value(Big::<128>::from_rational(v));
+        let found = eliminate(&exact.map(enclosed));
+        let truth = solve_exact(&exact).ok().filter(Solution::is_determined);
+        // Rows that follow from others leave no square system, and what may be zero is no pivot.
+        let (Some(found), Some(truth)) = (found, truth) else { return Ok(()) };
+        for (found, truth) in found.iter().zip(&truth.values) {
+            prop_assert!(matches!(found, Outcome::Value(Big(v)) if v.contains(truth)), "{:?} {}", found, truth);
         }
     }
 

@@ -3,7 +3,6 @@
 
 pub(in crate::numeric) mod build;
 mod cases;
-mod certified;
 mod extreme;
 mod laws;
 pub(in crate::numeric) mod random;

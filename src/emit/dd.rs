@@ -6,9 +6,8 @@
 
 use std::ops::{Add, Mul, Neg};
 
-use super::number::Number;
+use crate::expr::Rational;
 use crate::expr::number::{from_f64, to_f64};
-use crate::expr::{Function, Rational, Scalar};
 
 /// The number high + low, with high the double nearest to it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
@@ -76,6 +75,13 @@ impl Dd {
         }
     }
 
+    /// A fraction.
+    pub fn from_rational(value: &Rational) -> Dd {
+        let high = to_f64(value);
+        let low = from_f64(high).map_or(0.0, |h| to_f64(&(value - &h)));
+        Dd { high, low }
+    }
+
     /// Reciprocal by one Newton step from the double; infinite or not a number for zero.
     #[inline(always)]
     pub fn inverse(self) -> Dd {
@@ -127,109 +133,11 @@ impl Neg for Dd {
     }
 }
 
-impl Scalar for Dd {
-    fn from_rational(value: &Rational) -> Dd {
-        let high = to_f64(value);
-        let low = from_f64(high).map_or(0.0, |h| to_f64(&(value - &h)));
-        Dd { high, low }
-    }
-    fn pi() -> Option<Dd> {
-        Some(PI)
-    }
-    fn plus(&self, other: &Dd) -> Dd {
-        self.add(*other)
-    }
-    fn times(&self, other: &Dd) -> Dd {
-        self.mul(*other)
-    }
-    fn recip(&self) -> Option<Dd> {
-        (self.high != 0.0).then(|| self.inverse())
-    }
-    fn sqrt(&self) -> Option<Dd> {
-        (self.high >= 0.0).then(|| self.root())
-    }
-    fn pow(&self, _: &Dd) -> Option<Dd> {
-        None
-    }
-    fn call(&self, function: Function) -> Option<Dd> {
-        match function {
-            Function::Abs => Some(if self.high < 0.0 { self.neg() } else { *self }),
-            Function::Sin => turned(*self).map(|[_, s]| s),
-            Function::Cos => turned(*self).map(|[c, _]| c),
-            Function::Tan => turned(*self).and_then(|[c, s]| Some(s.mul(c.recip()?))),
-            _ => None,
-        }
-    }
-}
-
-impl Number for Dd {
-    fn zero() -> Dd {
-        Dd::default()
-    }
-    fn one() -> Dd {
-        Dd::exact(1.0)
-    }
-    fn is_zero(&self) -> bool {
-        self.high == 0.0
-    }
-    fn minus(&self, other: &Dd) -> Dd {
-        self.add(other.neg())
-    }
-    fn negated(&self) -> Dd {
-        self.neg()
-    }
-    fn halved(&self) -> Dd {
-        Dd {
-            high: 0.5 * self.high,
-            low: 0.5 * self.low,
-        }
-    }
-    fn size(&self) -> f64 {
-        self.high.abs()
-    }
-}
-
 /// π.
 pub const PI: Dd = Dd {
     high: std::f64::consts::PI,
     low: 1.224_646_799_147_353_2e-16,
 };
-
-/// π/2 in three doubles; what is missing is below 2⁻¹⁶⁰.
-const QUARTER: [f64; 3] = [
-    std::f64::consts::FRAC_PI_2,
-    6.123_233_995_736_766e-17,
-    -1.497_384_904_859_169_8e-33,
-];
-
-/// (cos, sin) of an angle of at most 2²⁰ \[rad\], absolute error below 2⁻⁹⁸; `None` beyond.
-pub fn turned(angle: Dd) -> Option<[Dd; 2]> {
-    let quarters = (angle.high / QUARTER[0]).round();
-    if quarters.is_nan() || quarters.abs() > 1_048_576.0 {
-        return None;
-    }
-    let mut rest = angle;
-    for part in QUARTER {
-        rest = rest.add(two_product(quarters, part).neg());
-    }
-    let square = rest.mul(rest).neg();
-    let series = |mut term: Dd, mut k: f64| {
-        let mut sum = term;
-        while term.high.abs() > 1e-36 {
-            term = term.mul(square).mul(Dd::exact(k * (k + 1.0)).inverse());
-            sum = sum.add(term);
-            k += 2.0;
-        }
-        sum
-    };
-    let (s, c) = (series(rest, 2.0), series(Dd::exact(1.0), 1.0));
-    Some(match (quarters as i64).rem_euclid(4) {
-        0 => [c, s],
-        1 => [s.neg(), c],
-        2 => [c.neg(), s.neg()],
-        _ => [s, c.neg()],
-    })
-}
 
 #[cfg(test)]
 mod tests {
@@ -237,7 +145,6 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::expr::ratio;
 
     fn exactly(v: Dd) -> Rational {
         from_f64(v.high).expect("finite") + from_f64(v.low).expect("finite")
@@ -263,17 +170,6 @@ mod tests {
             prop_assert!(near(&exactly(b.inverse()), &y.recip(), 100));
             let root = exactly(if b.high < 0.0 { b.neg() } else { b }.root());
             prop_assert!(near(&(&root * &root), &y.abs(), 99));
-        }
-
-        #[test]
-        fn sine_and_cosine_lie_on_the_circle_and_double(x in -1e4f64..1e4) {
-            let [c, s] = turned(Dd::exact(x)).expect("small").map(exactly);
-            let [c2, s2] = turned(Dd::exact(2.0 * x)).expect("small").map(exactly);
-            let tiny = Rational::from(crate::expr::Int::from(2).pow(97)).recip();
-            prop_assert!((&c * &c + &s * &s - ratio(1, 1)).abs() < tiny);
-            prop_assert!((c2 - (&c * &c - &s * &s)).abs() < tiny);
-            prop_assert!((s2 - &c * &s * ratio(2, 1)).abs() < tiny);
-            prop_assert!((to_f64(&s) - x.sin()).abs() < 3e-16);
         }
     }
 }
