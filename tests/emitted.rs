@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 use carom::derive;
 use carom::dimension::Dimension;
 use carom::domain::Limit;
-use carom::emit::{Function, Heading, Language, file, functions};
+use carom::emit::{Function, Heading, Language, Style, file, file_as, functions};
 use carom::expr::number::{from_f64, to_f64};
 use carom::expr::{Expr, Point, Scalar};
 use carom::formula::{Symbols, read_expr};
@@ -447,4 +447,126 @@ fn the_formula_in_the_comment_is_what_the_independent_solver_finds() {
         }
     }
     assert!(compared > 60, "{compared}");
+}
+
+/// A program that takes all arguments in one struct and prints every value it gets back, one a line.
+fn by_struct(case: &Case, language: Language) -> (String, String) {
+    let style = Style {
+        language,
+        prefix: String::from("c_"),
+        record: true,
+    };
+    let text = file_as(&style, &Heading::default(), &case.functions);
+    let mut given: Vec<(String, f64)> = Vec::new();
+    for (f, points) in case.functions.iter().zip(&case.arguments) {
+        for (argument, value) in f.arguments.iter().zip(&points[0]) {
+            if given.iter().all(|(name, _)| *name != *argument.symbol) {
+                given.push((argument.symbol.to_string(), *value));
+            }
+        }
+    }
+    // What one function takes of another's points is the same number, so that both ways see the same arguments.
+    let calls = case.functions.iter().map(|f| {
+        let value = |name: &str| given.iter().find(|(n, _)| n == name).expect("given").1;
+        let list = f
+            .arguments
+            .iter()
+            .map(|a| format!("{:?}", value(&a.symbol)));
+        format!("c_{}({})", f.name, list.collect::<Vec<_>>().join(", "))
+    });
+    let calls: Vec<String> = calls.collect();
+    let list = |of: &dyn Fn(&str, f64) -> String| {
+        let each = given.iter().map(|(name, v)| of(name, *v));
+        each.collect::<Vec<_>>().join(", ")
+    };
+    let names = case.functions.iter().map(|f| f.name.as_str());
+    let program = match language {
+        Language::Rust => format!(
+            "{text}\nfn main() {{\n    let out = c_solve(&CIn {{ {} }});\n{}{}}}\n",
+            list(&|name, v| format!("{name}: {v:?}")),
+            names
+                .map(|n| format!("    println!(\"{{:?}}\", out.{n});\n"))
+                .collect::<String>(),
+            calls
+                .iter()
+                .map(|c| format!("    println!(\"{{:?}}\", {c});\n"))
+                .collect::<String>(),
+        ),
+        Language::C => format!(
+            "#include <stdio.h>\nint main(void) {{\n    const c_in given = {{ {} }};\n    const c_out out = c_solve(&given);\n{}{}    return 0;\n}}\n",
+            list(&|name, v| format!(".{name} = {v:?}")),
+            names
+                .map(|n| format!("    printf(\"%.17g\\n\", out.{n});\n"))
+                .collect::<String>(),
+            calls
+                .iter()
+                .map(|c| format!("    printf(\"%.17g\\n\", {c});\n"))
+                .collect::<String>(),
+        ),
+        Language::Python => format!(
+            "{text}\n\nout = c_solve(CIn({}))\n{}{}",
+            list(&|name, v| format!("{name}={v:?}")),
+            names
+                .map(|n| format!("print(repr(out.{n}))\n"))
+                .collect::<String>(),
+            calls
+                .iter()
+                .map(|c| format!("print(repr({c}))\n"))
+                .collect::<String>(),
+        ),
+    };
+    (text, program)
+}
+
+/// Values by the struct first, by the functions behind them.
+fn same_twice(case: &Case, printed: &str) {
+    let values: Vec<&str> = printed.lines().collect();
+    let (one, two) = values.split_at(case.functions.len());
+    assert_eq!(one, two, "{}", case.name);
+}
+
+#[test]
+fn one_struct_in_and_one_out_gives_what_the_functions_give() {
+    let folder = folder("struct");
+    let picked = || {
+        let all = cases()
+            .iter()
+            .filter(|c| c.functions.iter().any(|f| !f.arguments.is_empty()));
+        all.step_by(5)
+    };
+    for case in picked().filter(|_| is_there("rustc")) {
+        let (_, program) = by_struct(case, Language::Rust);
+        fs::write(folder.join("one.rs"), &program).expect("written");
+        let arguments = ["--edition", "2021", "-D", "warnings", "-o", "one", "one.rs"];
+        output(Command::new("rustc").current_dir(&folder).args(arguments));
+        same_twice(case, &output(&mut Command::new(folder.join("one"))));
+    }
+    for case in picked().filter(|_| is_there("cc")) {
+        let (header, program) = by_struct(case, Language::C);
+        // Included twice, and beside another header with helpers of its own.
+        let other = header.replace("c_", "d_").replace("CAROM_C_H", "CAROM_D_H");
+        fs::write(folder.join("c.h"), header).expect("written");
+        fs::write(folder.join("d.h"), other).expect("written");
+        let includes = "#include \"c.h\"\n#include \"c.h\"\n#include \"d.h\"\n";
+        fs::write(folder.join("two.c"), format!("{includes}{}", program)).expect("written");
+        let flags = [
+            "-std=c99",
+            "-Wall",
+            "-Wextra",
+            "-Werror",
+            "-O1",
+            "-ffp-contract=off",
+        ];
+        let mut cc = Command::new("cc");
+        cc.current_dir(&folder).args(flags);
+        output(cc.args(["-o", "two", "two.c", "-lm"]));
+        same_twice(case, &output(&mut Command::new(folder.join("two"))));
+    }
+    for case in picked().filter(|_| is_there("python3")) {
+        let (_, program) = by_struct(case, Language::Python);
+        fs::write(folder.join("three.py"), &program).expect("written");
+        let mut python = Command::new("python3");
+        let printed = output(python.current_dir(&folder).args(["-B", "three.py"]));
+        same_twice(case, &printed);
+    }
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::{Failure, complain, files, impact_of, print, read_scene};
-use carom::emit::{Heading, Language, file, functions};
+use carom::emit::{Heading, Language, Style, file_as, functions};
 use carom::{derive, render, story, verify};
 
 /// Arguments of `carom emit`.
@@ -22,10 +22,22 @@ pub struct EmitArgs {
     /// Only the impact of this stage; missing: the answers of all stages
     #[arg(long, value_name = "NAME")]
     stage: Option<String>,
+    /// What stands before the name of every function and type
+    #[arg(long, value_name = "WORD", default_value = "")]
+    prefix: String,
+    /// Add a function that takes one struct and gives one; in C the file is a header then
+    #[arg(long = "struct")]
+    record: bool,
+    /// Without scaling by powers of two, where arguments from 1e-30 to 1e30 need none
+    #[arg(long)]
+    plain: bool,
     /// File to write instead of standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
+
+/// Powers of ten that arguments may have either way where nothing is scaled.
+const PLAIN_REACH: i32 = 30;
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Lang {
@@ -87,6 +99,10 @@ pub fn run(args: &EmitArgs) -> Result<u8, Failure> {
             without.join(", ")
         ));
     }
+    if args.plain {
+        let wide = found.iter_mut().filter(|f| f.reach >= PLAIN_REACH);
+        wide.for_each(|f| f.units = None);
+    }
     let heading = Heading {
         title: scene.title.clone(),
         source: scene.source.clone(),
@@ -97,7 +113,12 @@ pub fn run(args: &EmitArgs) -> Result<u8, Failure> {
         Lang::C => Language::C,
         Lang::Python => Language::Python,
     };
-    let text = file(language, &heading, &found);
+    let style = Style {
+        language,
+        prefix: args.prefix.clone(),
+        record: args.record,
+    };
+    let text = file_as(&style, &heading, &found);
     match &args.output {
         Some(path) => files::save(path, text.as_bytes(), &[&args.scene])?,
         None => print(&text)?,

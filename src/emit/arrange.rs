@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, HashMap};
 use num_traits::{One, Signed, Zero};
 
 use super::dd::Dd;
-use super::program::{Program, Step};
+use super::program::{Op, Program, Step};
 use crate::domain::{Domains, Limit};
 use crate::expr::angle::angle;
 use crate::expr::number::{from_f64, sqrt_exact, to_f64};
@@ -114,8 +114,8 @@ struct Builder<'a> {
     steps: Vec<Step>,
     /// Steps by how they are made, so that equal parts are computed once.
     made: HashMap<String, usize>,
-    plain: HashMap<Expr, usize>,
-    wide: HashMap<Expr, usize>,
+    /// The step of each expression in doubles, and in double-doubles.
+    known: [HashMap<Expr, usize>; 2],
 }
 
 impl<'a> Builder<'a> {
@@ -126,13 +126,12 @@ impl<'a> Builder<'a> {
             careful,
             steps: Vec::new(),
             made: HashMap::new(),
-            plain: HashMap::new(),
-            wide: HashMap::new(),
+            known: Default::default(),
         }
     }
 
     fn finish(mut self, e: &Expr) -> Option<Program> {
-        let last = self.plain(e)?;
+        let last = self.value(e, false)?;
         if last + 1 != self.steps.len() {
             // The value has to be the last step; an input alone, or a shared part, is repeated.
             let step = self.steps[last];
@@ -144,7 +143,8 @@ impl<'a> Builder<'a> {
         })
     }
 
-    fn step(&mut self, step: Step) -> usize {
+    fn step(&mut self, op: Op, wide: bool) -> usize {
+        let step = Step { op, wide };
         let key = format!("{step:?}");
         if let Some(known) = self.made.get(&key) {
             return *known;
@@ -154,200 +154,97 @@ impl<'a> Builder<'a> {
         self.steps.len() - 1
     }
 
-    /// The number of a plain step with the expression's value.
-    fn plain(&mut self, e: &Expr) -> Option<usize> {
-        if let Some(known) = self.plain.get(e) {
+    fn one(&mut self, wide: bool) -> usize {
+        self.step(Op::Number(Dd::exact(1.0)), wide)
+    }
+
+    /// The number of a step with the expression's value.
+    fn value(&mut self, e: &Expr, wide: bool) -> Option<usize> {
+        if let Some(known) = self.known[usize::from(wide)].get(e) {
             return Some(*known);
         }
+        let rounded = |v: Dd| if wide { v } else { Dd::exact(v.high) };
         let step = match e.node() {
-            Node::Number(value) => self.step(Step::Number(to_f64(value))),
-            Node::Symbol(name) if &**name == "pi" => self.step(Step::Number(std::f64::consts::PI)),
-            Node::Symbol(name) => {
+            Node::Number(value) => self.step(Op::Number(rounded(Dd::from_rational(value))), wide),
+            Node::Symbol(name) if &**name == "pi" => {
+                self.step(Op::Number(rounded(super::dd::PI)), wide)
+            }
+            Node::Symbol(name) if !wide || is_wave(name) => {
                 let input = self.inputs.iter().position(|i| i == name)?;
-                self.step(Step::Input(input))
+                self.step(Op::Input(input), wide)
             }
+            Node::Sum(terms) if wide => self.wide_sum(terms)?,
             Node::Sum(terms) => self.sum(e, terms)?,
-            Node::Product(factors) => self.product(factors)?,
-            Node::Power(base, exponent) => self.power(e, base, exponent)?,
-            Node::Call(f, argument) => {
-                let argument = self.plain(argument)?;
-                self.step(Step::Call(*f, argument))
+            Node::Product(factors) => self.product(factors, wide)?,
+            Node::Power(base, exponent) => self.power(e, base, exponent, wide)?,
+            Node::Call(f, argument) if !wide => {
+                let argument = self.value(argument, false)?;
+                self.step(Op::Call(*f, argument), false)
             }
+            Node::Symbol(_) | Node::Call(..) => self.widened(e)?,
         };
-        self.plain.insert(e.clone(), step);
+        self.known[usize::from(wide)].insert(e.clone(), step);
         Some(step)
+    }
+
+    fn widened(&mut self, e: &Expr) -> Option<usize> {
+        let plain = self.value(e, false)?;
+        Some(self.step(Op::Widen(plain), true))
+    }
+
+    fn wide_sum(&mut self, terms: &[Expr]) -> Option<usize> {
+        let mut total = self.value(&terms[0], true)?;
+        for term in &terms[1..] {
+            let term = self.value(term, true)?;
+            total = self.step(Op::Add(total, term), true);
+        }
+        Some(total)
     }
 
     fn sum(&mut self, e: &Expr, terms: &[Expr]) -> Option<usize> {
         if self.careful {
             if let Some([minus, plus]) = difference_of_squares(terms) {
-                let [minus, plus] = [self.plain(&minus)?, self.plain(&plus)?];
-                return Some(self.step(Step::Multiply(minus, plus)));
+                let [minus, plus] = [self.value(&minus, false)?, self.value(&plus, false)?];
+                return Some(self.step(Op::Multiply(minus, plus), false));
             }
             let atoms = terms.len() == 2 && terms.iter().all(is_exact_atom);
             if !atoms && sign(e, self.signs).is_none() {
-                let wide = self.wide(e)?;
-                return Some(self.step(Step::Round(wide)));
+                let wide = self.value(e, true)?;
+                return Some(self.step(Op::Round(wide), false));
             }
         }
-        let mut total = self.plain(&terms[0])?;
+        let mut total = self.value(&terms[0], false)?;
         for term in &terms[1..] {
             total = match negated(term) {
                 Some(positive) => {
-                    let term = self.plain(&positive)?;
-                    self.step(Step::Subtract(total, term))
+                    let term = self.value(&positive, false)?;
+                    self.step(Op::Subtract(total, term), false)
                 }
                 None => {
-                    let term = self.plain(term)?;
-                    self.step(Step::Add(total, term))
+                    let term = self.value(term, false)?;
+                    self.step(Op::Add(total, term), false)
                 }
             };
         }
         Some(total)
     }
 
-    fn product(&mut self, factors: &[Expr]) -> Option<usize> {
+    fn product(&mut self, factors: &[Expr], wide: bool) -> Option<usize> {
         let (above, below) = fraction(factors);
-        let above = self.chain(&above)?;
-        let below = self.chain(&below)?;
+        let above = self.chain(&above, wide)?;
+        let below = self.chain(&below, wide)?;
         Some(match (above, below) {
-            (Some(a), Some(b)) => self.step(Step::Divide(a, b)),
+            (Some(a), Some(b)) => self.step(Op::Divide(a, b), wide),
             (Some(a), None) => a,
             (None, below) => {
-                let one = self.step(Step::Number(1.0));
-                below.map_or(one, |b| self.step(Step::Divide(one, b)))
+                let one = self.one(wide);
+                below.map_or(one, |b| self.step(Op::Divide(one, b), wide))
             }
         })
     }
 
-    fn chain(&mut self, factors: &[Expr]) -> Option<Option<usize>> {
-        let mut total = None;
-        for factor in factors {
-            if factor.as_number().is_some_and(|v| *v == -Rational::one()) && factors.len() > 1 {
-                continue;
-            }
-            let factor = self.plain(factor)?;
-            total = Some(total.map_or(factor, |t| self.step(Step::Multiply(t, factor))));
-        }
-        let minus = factors
-            .iter()
-            .filter(|f| f.as_number().is_some_and(|v| *v == -Rational::one()))
-            .count();
-        if factors.len() > 1 && minus % 2 == 1 {
-            total = total.map(|t| self.step(Step::Negate(t)));
-        }
-        Some(total)
-    }
-
-    fn power(&mut self, e: &Expr, base: &Expr, exponent: &Expr) -> Option<usize> {
-        let Some((root, times)) = half_integer(exponent) else {
-            let (base, exponent) = (self.plain(base)?, self.plain(exponent)?);
-            return Some(self.step(Step::Power(base, exponent)));
-        };
-        if times < 0 {
-            return self.product(std::slice::from_ref(e));
-        }
-        let mut base = self.plain(base)?;
-        if root {
-            base = self.step(Step::Root(base));
-        }
-        Some(self.raised(
-            base,
-            times.unsigned_abs(),
-            Step::Multiply,
-            Step::Number(1.0),
-        ))
-    }
-
-    /// Power by repeated squaring.
-    fn raised(
-        &mut self,
-        base: usize,
-        times: u64,
-        multiply: fn(usize, usize) -> Step,
-        one: Step,
-    ) -> usize {
-        let (mut square, mut left, mut total) = (base, times, None);
-        while left > 0 {
-            if left & 1 == 1 {
-                total = Some(match total {
-                    None => square,
-                    Some(t) => self.step(multiply(t, square)),
-                });
-            }
-            left >>= 1;
-            if left > 0 {
-                square = self.step(multiply(square, square));
-            }
-        }
-        match total {
-            Some(total) => total,
-            None => self.step(one),
-        }
-    }
-
-    /// The number of a wide step with the expression's value.
-    fn wide(&mut self, e: &Expr) -> Option<usize> {
-        if let Some(known) = self.wide.get(e) {
-            return Some(*known);
-        }
-        let step = match e.node() {
-            Node::Number(value) => self.step(Step::WideNumber(Dd::from_rational(value))),
-            Node::Symbol(name) if &**name == "pi" => self.step(Step::WideNumber(super::dd::PI)),
-            Node::Sum(terms) => {
-                let mut total = self.wide(&terms[0])?;
-                for term in &terms[1..] {
-                    let term = self.wide(term)?;
-                    total = self.step(Step::WideAdd(total, term));
-                }
-                total
-            }
-            Node::Product(factors) => {
-                let (above, below) = fraction(factors);
-                let above = self.wide_chain(&above)?;
-                let below = self.wide_chain(&below)?;
-                match (above, below) {
-                    (Some(a), Some(b)) => self.step(Step::WideDivide(a, b)),
-                    (Some(a), None) => a,
-                    (None, below) => {
-                        let one = self.step(Step::WideNumber(Dd::exact(1.0)));
-                        below.map_or(one, |b| self.step(Step::WideDivide(one, b)))
-                    }
-                }
-            }
-            Node::Power(base, exponent) => match half_integer(exponent) {
-                Some((_, times)) if times < 0 => {
-                    let below = self.wide(&e.powi(-1))?;
-                    let one = self.step(Step::WideNumber(Dd::exact(1.0)));
-                    self.step(Step::WideDivide(one, below))
-                }
-                Some((root, times)) => {
-                    let mut base = self.wide(base)?;
-                    if root {
-                        base = self.step(Step::WideRoot(base));
-                    }
-                    let one = Step::WideNumber(Dd::exact(1.0));
-                    self.raised(base, times.unsigned_abs(), Step::WideMultiply, one)
-                }
-                None => {
-                    let plain = self.plain(e)?;
-                    self.step(Step::Widen(plain))
-                }
-            },
-            Node::Symbol(name) if is_wave(name) => {
-                let input = self.inputs.iter().position(|i| i == name)?;
-                self.step(Step::WideInput(input))
-            }
-            Node::Symbol(_) | Node::Call(..) => {
-                let plain = self.plain(e)?;
-                self.step(Step::Widen(plain))
-            }
-        };
-        self.wide.insert(e.clone(), step);
-        Some(step)
-    }
-
-    fn wide_chain(&mut self, factors: &[Expr]) -> Option<Option<usize>> {
+    /// The product of factors; signs among them are taken last.
+    fn chain(&mut self, factors: &[Expr], wide: bool) -> Option<Option<usize>> {
         let minus_one = |f: &Expr| f.as_number().is_some_and(|v| *v == -Rational::one());
         let mut total = None;
         let mut negative = false;
@@ -356,13 +253,49 @@ impl<'a> Builder<'a> {
                 negative = !negative;
                 continue;
             }
-            let factor = self.wide(factor)?;
-            total = Some(total.map_or(factor, |t| self.step(Step::WideMultiply(t, factor))));
+            let factor = self.value(factor, wide)?;
+            total = Some(total.map_or(factor, |t| self.step(Op::Multiply(t, factor), wide)));
         }
         if negative {
-            total = total.map(|t| self.step(Step::WideNegate(t)));
+            total = total.map(|t| self.step(Op::Negate(t), wide));
         }
         Some(total)
+    }
+
+    fn power(&mut self, e: &Expr, base: &Expr, exponent: &Expr, wide: bool) -> Option<usize> {
+        let Some((root, times)) = half_integer(exponent) else {
+            if wide {
+                return self.widened(e);
+            }
+            let (base, exponent) = (self.value(base, false)?, self.value(exponent, false)?);
+            return Some(self.step(Op::Power(base, exponent), false));
+        };
+        if times < 0 {
+            return self.product(std::slice::from_ref(e), wide);
+        }
+        let mut base = self.value(base, wide)?;
+        if root {
+            base = self.step(Op::Root(base), wide);
+        }
+        Some(self.raised(base, times.unsigned_abs(), wide))
+    }
+
+    /// Power by repeated squaring.
+    fn raised(&mut self, base: usize, times: u64, wide: bool) -> usize {
+        let (mut square, mut left, mut total) = (base, times, None);
+        while left > 0 {
+            if left & 1 == 1 {
+                total = Some(match total {
+                    None => square,
+                    Some(t) => self.step(Op::Multiply(t, square), wide),
+                });
+            }
+            left >>= 1;
+            if left > 0 {
+                square = self.step(Op::Multiply(square, square), wide);
+            }
+        }
+        total.unwrap_or_else(|| self.one(wide))
     }
 }
 

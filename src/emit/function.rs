@@ -6,7 +6,7 @@ use num_traits::{One, Zero};
 
 use super::arrange::{Atoms, arranged, signs, without_angles};
 use super::dd::Dd;
-use super::program::{Bound, Program, Step};
+use super::program::{Bound, Op, Program, Step};
 use super::range::{Input, divides_safely, reach};
 use super::units::{Units, units};
 use crate::derive::{Answer, Derivation, Form};
@@ -84,7 +84,8 @@ pub const LIBRARY: f64 = 2.0;
 /// is nearer to a multiple of π/2 than 2⁻⁶¹, and taking those off leaves an error below 2⁻¹⁵¹.
 const WIDE_WAVE: f64 = 1.0 / (1u64 << 37) as f64;
 
-/// A function for every number the scene asks for; the names of those that are none in doubles come second.
+/// A function for every number the scene asks for; the names of those that are none in doubles come second. A value that
+/// needs no argument, zero say, takes those of all others, so that it is called as they are.
 pub fn functions(scene: &Scene, derivation: &Derivation) -> (Vec<Function>, Vec<String>) {
     let mut found = Vec::new();
     let mut without = Vec::new();
@@ -93,6 +94,19 @@ pub fn functions(scene: &Scene, derivation: &Derivation) -> (Vec<Function>, Vec<
             Some(f) => found.push(f),
             None => without.push(answer.name.clone()),
         }
+    }
+    let constant = |f: &Function| f.arguments.is_empty();
+    let mut all: Vec<Argument> = Vec::new();
+    for argument in found.iter().flat_map(|f| &f.arguments) {
+        if !all.iter().any(|a| a.symbol == argument.symbol) {
+            all.push(argument.clone());
+        }
+    }
+    let place = |a: &Argument| scene.parameters.iter().position(|p| p.name == a.symbol);
+    all.sort_by_key(place);
+    for f in found.iter_mut().filter(|f| constant(f)) {
+        f.program.inputs = all.len();
+        f.arguments = all.clone();
     }
     (found, without)
 }
@@ -241,7 +255,11 @@ fn turns(atoms: &Atoms, arguments: &[Symbol], program: &Program) -> Option<Vec<T
             Call::Sin => turn.sin = Some(input),
             _ => turn.cos = Some(input),
         }
-        turn.wide |= !turn.is_plain() || program.steps.contains(&Step::WideInput(input));
+        turn.wide |= !turn.is_plain()
+            || program.steps.contains(&Step {
+                op: Op::Input(input),
+                wide: true,
+            });
     }
     Some(turns)
 }

@@ -100,7 +100,7 @@ impl Helper {
 /// Whether a name is a helper's.
 pub fn is_helper(name: &str) -> bool {
     let own = |name: &str| Helper::ALL.iter().any(|h| h.name() == name);
-    name == "Wide" || name == "split" || own(name) || super::units::NAMES.contains(&name)
+    ["Wide", "wide", "split"].contains(&name) || own(name) || super::units::NAMES.contains(&name)
 }
 
 /// What stands before the functions: imports, and the helpers used.
@@ -120,97 +120,150 @@ pub fn text(language: Language, used: &BTreeSet<Helper>) -> String {
     for helper in used {
         let text = source(language, *helper);
         if !text.is_empty() {
-            out.push_str(text);
+            out.push_str(&text);
             out.push('\n');
         }
     }
     out
 }
 
-fn source(language: Language, helper: Helper) -> &'static str {
-    match language {
-        Language::Rust => rust(helper),
-        Language::C => c(helper),
-        Language::Python => python(helper),
+/// C code with a prefix before the names of all helpers, so that two such headers go into one program.
+pub fn prefixed(code: &str, prefix: &str) -> String {
+    let mut out = String::new();
+    let mut word = String::new();
+    for c in code.chars().chain(['\n']) {
+        if c.is_alphanumeric() || c == '_' {
+            word.push(c);
+            continue;
+        }
+        if is_helper(&word) && word != "split" {
+            out.push_str(prefix);
+        }
+        out.push_str(&std::mem::take(&mut word));
+        out.push(c);
+    }
+    out.pop();
+    out
+}
+
+/// A helper in one language; empty where the language has it already.
+fn source(language: Language, helper: Helper) -> String {
+    match (language, helper) {
+        (Language::Rust, Helper::Pair) => "type Wide = (f64, f64);\n".into(),
+        (Language::C, Helper::Pair) => C_PAIR.into(),
+        (Language::Rust | Language::Python, Helper::Widen) | (Language::Python, Helper::Pair) => {
+            String::new()
+        }
+        (Language::Rust, Helper::Turn) => RUST_TURN.into(),
+        (Language::C, Helper::Turn) => C_TURN.into(),
+        (Language::Python, Helper::Turn) => PYTHON_TURN.into(),
+        _ => straight(language, helper),
     }
 }
 
-fn rust(helper: Helper) -> &'static str {
+/// What a helper does, in steps that all languages share: names for values, and the result last. `pair` makes a
+/// double-double, `root` is the square root of a double.
+fn steps(helper: Helper) -> &'static str {
     match helper {
-        Helper::Pair => "type Wide = (f64, f64);\n",
-        Helper::Widen => "",
+        Helper::Widen => "pair(a, 0.0)",
         Helper::TwoSum => {
-            "fn two_sum(a: f64, b: f64) -> Wide {
-    let high = a + b;
-    let part = high - a;
-    (high, (a - (high - part)) + (b - part))
-}
-"
+            "high = a + b; part = high - a; pair(high, (a - (high - part)) + (b - part))"
         }
-        Helper::QuickTwoSum => {
-            "fn quick_two_sum(a: f64, b: f64) -> Wide {
-    let high = a + b;
-    (high, b - (high - a))
-}
-"
-        }
+        Helper::QuickTwoSum => "high = a + b; pair(high, b - (high - a))",
         Helper::TwoProduct => {
-            "fn two_product(a: f64, b: f64) -> Wide {
-    let split = |x: f64| {
-        let c = 134217729.0 * x;
-        let high = c - (c - x);
-        (high, x - high)
-    };
-    let (a1, a2) = split(a);
-    let (b1, b2) = split(b);
-    let high = a * b;
-    (high, ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2)
-}
-"
+            "c = 134217729.0 * a; d = 134217729.0 * b; a1 = c - (c - a); a2 = a - a1; b1 = d - (d - b); b2 = b - b1; \
+             high = a * b; pair(high, ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2)"
         }
         Helper::Add => {
-            "fn wide_add(a: Wide, b: Wide) -> Wide {
-    let s = two_sum(a.0, b.0);
-    let t = two_sum(a.1, b.1);
-    let v = quick_two_sum(s.0, s.1 + t.0);
-    quick_two_sum(v.0, t.1 + v.1)
-}
-"
+            "s = two_sum(a.high, b.high); t = two_sum(a.low, b.low); v = quick_two_sum(s.high, s.low + t.high); \
+             quick_two_sum(v.high, t.low + v.low)"
         }
-        Helper::Negate => {
-            "fn wide_neg(a: Wide) -> Wide {
-    (-a.0, -a.1)
-}
-"
-        }
+        Helper::Negate => "pair(-a.high, -a.low)",
         Helper::Multiply => {
-            "fn wide_mul(a: Wide, b: Wide) -> Wide {
-    let p = two_product(a.0, b.0);
-    quick_two_sum(p.0, p.1 + (a.0 * b.1 + a.1 * b.0))
-}
-"
+            "p = two_product(a.high, b.high); quick_two_sum(p.high, p.low + (a.high * b.low + a.low * b.high))"
         }
         Helper::Divide => {
-            "fn wide_div(a: Wide, b: Wide) -> Wide {
-    let first = 1.0 / b.0;
-    let rest = wide_add((1.0, 0.0), wide_neg(wide_mul(b, (first, 0.0))));
-    wide_mul(a, quick_two_sum(first, rest.0 * first))
-}
-"
+            "first = 1.0 / b.high; rest = wide_add(pair(1.0, 0.0), wide_neg(wide_mul(b, pair(first, 0.0)))); \
+             wide_mul(a, quick_two_sum(first, rest.high * first))"
         }
         Helper::Root => {
-            "fn wide_sqrt(a: Wide) -> Wide {
-    if a.0 <= 0.0 {
-        return (0.0, 0.0);
-    }
-    let first = a.0.sqrt();
-    let rest = wide_add(a, wide_neg(two_product(first, first)));
-    quick_two_sum(first, rest.0 / (2.0 * first))
-}
-"
+            "if a.high <= 0.0: pair(0.0, 0.0); first = root(a.high); rest = wide_add(a, wide_neg(two_product(first, first))); \
+             quick_two_sum(first, rest.high / (2.0 * first))"
         }
-        Helper::Turn => {
-            "/// Cosine (`lead` 0) or sine (`lead` 1).
+        Helper::Cos => "wide_turn(angle, 0)",
+        Helper::Sin => "wide_turn(angle, 1)",
+        Helper::Pair | Helper::Turn => "",
+    }
+}
+
+/// A helper without loops, written from its steps.
+fn straight(language: Language, helper: Helper) -> String {
+    let name = helper.name();
+    let parameters: &[&str] = match helper {
+        Helper::Cos | Helper::Sin => &["angle"],
+        Helper::Widen | Helper::Negate | Helper::Root => &["a"],
+        _ => &["a", "b"],
+    };
+    let takes_wide = name.starts_with("wide_") && helper != Helper::Widen;
+    let list = |of: &str| {
+        let each = parameters.iter().map(|p| of.replace('#', p));
+        each.collect::<Vec<_>>().join(", ")
+    };
+    let head = match (language, takes_wide) {
+        (Language::Rust, true) => format!("fn {name}({}) -> Wide {{\n", list("#: Wide")),
+        (Language::Rust, false) => format!("fn {name}({}) -> Wide {{\n", list("#: f64")),
+        (Language::C, true) => format!("static wide {name}({}) {{\n", list("wide #")),
+        (Language::C, false) => format!("static wide {name}({}) {{\n", list("double #")),
+        (Language::Python, _) => format!("\ndef {name}({}):\n", list("#")),
+    };
+    let own = |text: &str| match language {
+        Language::C => text
+            .replace("pair(", "wide_pair(")
+            .replace("root(", "sqrt("),
+        Language::Rust => text
+            .replace("pair(", "(")
+            .replace("root(a.high)", "a.0.sqrt()")
+            .replace(".high", ".0")
+            .replace(".low", ".1"),
+        Language::Python => text
+            .replace("pair(", "(")
+            .replace("root(", "math.sqrt(")
+            .replace(".high", "[0]")
+            .replace(".low", "[1]"),
+    };
+    let mut out = head;
+    for step in steps(helper).split("; ") {
+        let step = own(step);
+        let condition = step.strip_prefix("if ").and_then(|s| s.split_once(": "));
+        let line = match (condition, step.split_once(" = "), language) {
+            (Some((test, value)), _, Language::Rust) => format!("if {test} {{ return {value}; }}"),
+            (Some((test, value)), _, Language::C) => format!("if ({test}) return {value};"),
+            (Some((test, value)), _, Language::Python) => format!("if {test}: return {value}"),
+            (_, Some((name, value)), Language::Rust) => format!("let {name} = {value};"),
+            (_, Some((name, value)), Language::C) => {
+                let called = value.split('(').next().unwrap_or_default();
+                let is_wide = called.starts_with("wide_")
+                    || called.ends_with("two_sum")
+                    || called == "two_product";
+                format!(
+                    "const {} {name} = {value};",
+                    if is_wide { "wide" } else { "double" }
+                )
+            }
+            (_, Some(_), Language::Python) => step,
+            (_, None, Language::Rust) => step,
+            (_, None, Language::C) => format!("return {step};"),
+            (_, None, Language::Python) => format!("return {step}"),
+        };
+        out.push_str(&format!("    {line}\n"));
+    }
+    if language != Language::Python {
+        out.push_str("}\n");
+    }
+    out
+}
+
+const RUST_TURN: &str = "/// Cosine (`lead` 0) or sine (`lead` 1).
 fn wide_turn(angle: Wide, lead: i64) -> Wide {
     let quarters = (angle.0 / 1.5707963267948966).round();
     let mut rest = angle;
@@ -228,109 +281,9 @@ fn wide_turn(angle: Wide, lead: i64) -> Wide {
     }
     if quadrant == 1 || quadrant == 2 { wide_neg(sum) } else { sum }
 }
-"
-        }
-        Helper::Cos => {
-            "fn wide_cos(angle: Wide) -> Wide {
-    wide_turn(angle, 0)
-}
-"
-        }
-        Helper::Sin => {
-            "fn wide_sin(angle: Wide) -> Wide {
-    wide_turn(angle, 1)
-}
-"
-        }
-    }
-}
+";
 
-fn c(helper: Helper) -> &'static str {
-    match helper {
-        Helper::Pair => {
-            "typedef struct { double high, low; } wide;
-
-static wide wide_pair(double high, double low) {
-    wide w;
-    w.high = high;
-    w.low = low;
-    return w;
-}
-"
-        }
-        Helper::Widen => {
-            "static wide wide_of(double a) {
-    return wide_pair(a, 0.0);
-}
-"
-        }
-        Helper::TwoSum => {
-            "static wide two_sum(double a, double b) {
-    const double high = a + b, part = high - a;
-    return wide_pair(high, (a - (high - part)) + (b - part));
-}
-"
-        }
-        Helper::QuickTwoSum => {
-            "static wide quick_two_sum(double a, double b) {
-    const double high = a + b;
-    return wide_pair(high, b - (high - a));
-}
-"
-        }
-        Helper::TwoProduct => {
-            "static wide two_product(double a, double b) {
-    const double c = 134217729.0 * a, d = 134217729.0 * b;
-    const double a1 = c - (c - a), a2 = a - a1, b1 = d - (d - b), b2 = b - b1;
-    const double high = a * b;
-    return wide_pair(high, ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2);
-}
-"
-        }
-        Helper::Add => {
-            "static wide wide_add(wide a, wide b) {
-    const wide s = two_sum(a.high, b.high), t = two_sum(a.low, b.low);
-    const wide v = quick_two_sum(s.high, s.low + t.high);
-    return quick_two_sum(v.high, t.low + v.low);
-}
-"
-        }
-        Helper::Negate => {
-            "static wide wide_neg(wide a) {
-    return wide_pair(-a.high, -a.low);
-}
-"
-        }
-        Helper::Multiply => {
-            "static wide wide_mul(wide a, wide b) {
-    const wide p = two_product(a.high, b.high);
-    return quick_two_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
-}
-"
-        }
-        Helper::Divide => {
-            "static wide wide_div(wide a, wide b) {
-    const double first = 1.0 / b.high;
-    const wide rest = wide_add(wide_of(1.0), wide_neg(wide_mul(b, wide_of(first))));
-    return wide_mul(a, quick_two_sum(first, rest.high * first));
-}
-"
-        }
-        Helper::Root => {
-            "static wide wide_sqrt(wide a) {
-    double first;
-    wide rest;
-    if (a.high <= 0.0) {
-        return wide_of(0.0);
-    }
-    first = sqrt(a.high);
-    rest = wide_add(a, wide_neg(two_product(first, first)));
-    return quick_two_sum(first, rest.high / (2.0 * first));
-}
-"
-        }
-        Helper::Turn => {
-            "/* Cosine (lead 0) or sine (lead 1). */
+const C_TURN: &str = "/* Cosine (lead 0) or sine (lead 1). */
 static wide wide_turn(wide angle, int lead) {
     const double parts[3] = {1.5707963267948966, 6.123233995736766e-17, -1.4973849048591698e-33};
     const double quarters = round(angle.high / parts[0]);
@@ -352,92 +305,9 @@ static wide wide_turn(wide angle, int lead) {
     }
     return quadrant == 1 || quadrant == 2 ? wide_neg(sum) : sum;
 }
-"
-        }
-        Helper::Cos => {
-            "static wide wide_cos(wide angle) {
-    return wide_turn(angle, 0);
-}
-"
-        }
-        Helper::Sin => {
-            "static wide wide_sin(wide angle) {
-    return wide_turn(angle, 1);
-}
-"
-        }
-    }
-}
+";
 
-fn python(helper: Helper) -> &'static str {
-    match helper {
-        Helper::Pair | Helper::Widen => "",
-        Helper::TwoSum => {
-            "
-def two_sum(a, b):
-    high = a + b
-    part = high - a
-    return high, (a - (high - part)) + (b - part)
-"
-        }
-        Helper::QuickTwoSum => {
-            "
-def quick_two_sum(a, b):
-    high = a + b
-    return high, b - (high - a)
-"
-        }
-        Helper::TwoProduct => {
-            "
-def two_product(a, b):
-    c, d = 134217729.0 * a, 134217729.0 * b
-    a1, b1 = c - (c - a), d - (d - b)
-    a2, b2 = a - a1, b - b1
-    high = a * b
-    return high, ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2
-"
-        }
-        Helper::Add => {
-            "
-def wide_add(a, b):
-    s, t = two_sum(a[0], b[0]), two_sum(a[1], b[1])
-    v = quick_two_sum(s[0], s[1] + t[0])
-    return quick_two_sum(v[0], t[1] + v[1])
-"
-        }
-        Helper::Negate => {
-            "
-def wide_neg(a):
-    return -a[0], -a[1]
-"
-        }
-        Helper::Multiply => {
-            "
-def wide_mul(a, b):
-    p = two_product(a[0], b[0])
-    return quick_two_sum(p[0], p[1] + (a[0] * b[1] + a[1] * b[0]))
-"
-        }
-        Helper::Divide => {
-            "
-def wide_div(a, b):
-    first = 1.0 / b[0]
-    rest = wide_add((1.0, 0.0), wide_neg(wide_mul(b, (first, 0.0))))
-    return wide_mul(a, quick_two_sum(first, rest[0] * first))
-"
-        }
-        Helper::Root => {
-            "
-def wide_sqrt(a):
-    if a[0] <= 0.0:
-        return 0.0, 0.0
-    first = math.sqrt(a[0])
-    rest = wide_add(a, wide_neg(two_product(first, first)))
-    return quick_two_sum(first, rest[0] / (2.0 * first))
-"
-        }
-        Helper::Turn => {
-            "
+const PYTHON_TURN: &str = "
 def wide_turn(angle, lead):
     # Cosine (lead 0) or sine (lead 1).
     parts = (1.5707963267948966, 6.123233995736766e-17, -1.4973849048591698e-33)
@@ -454,19 +324,14 @@ def wide_turn(angle, lead):
         total = wide_add(total, term)
         k += 2.0
     return wide_neg(total) if quadrant in (1, 2) else total
-"
-        }
-        Helper::Cos => {
-            "
-def wide_cos(angle):
-    return wide_turn(angle, 0)
-"
-        }
-        Helper::Sin => {
-            "
-def wide_sin(angle):
-    return wide_turn(angle, 1)
-"
-        }
-    }
+";
+
+const C_PAIR: &str = "typedef struct { double high, low; } wide;
+
+static wide wide_pair(double high, double low) {
+    wide w;
+    w.high = high;
+    w.low = low;
+    return w;
 }
+";

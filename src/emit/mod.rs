@@ -10,10 +10,11 @@ pub mod function;
 mod helpers;
 pub mod program;
 mod range;
+mod record;
 pub mod units;
 pub mod write;
 
 pub use arrange::{Atoms, Signs, arranged, as_derived, signs, without_angles};
 pub use function::{Function, functions};
-pub use program::{Bound, Program, Step};
-pub use write::{Heading, Language, file};
+pub use program::{Bound, Op, Program, Step};
+pub use write::{Heading, Language, Style, file, file_as};

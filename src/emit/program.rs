@@ -1,92 +1,71 @@
 //! Straight-line programs in doubles, with double-doubles where a sum may cancel.
 //!
-//! Comes in: steps, each on earlier ones. Goes out: the value in doubles, and on request a bound of its error that holds
-//! at the point at hand. Knows nothing of formulas.
+//! Comes in: steps, each on earlier ones. Goes out: the value in doubles, and a bound of its error that holds at every
+//! point. Knows nothing of formulas.
 
 use super::dd::Dd;
 use crate::expr::{Function, Scalar};
 
-/// One step. Plain steps hold a double, wide ones a double-double; operands are numbers of earlier steps.
+/// One step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Step {
-    /// A double that the formula's number rounds to.
-    Number(f64),
-    /// An input, taken as exact.
+pub struct Step {
+    /// What it does.
+    pub op: Op,
+    /// Whether it holds a double-double, as its operands then do.
+    pub wide: bool,
+}
+
+/// What a step does; operands are numbers of earlier steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Op {
+    /// A number: the double nearest to the formula's, or 106 bits of it.
+    Number(Dd),
+    /// An input: taken as exact in doubles; wide, with all digits it has (the cosine of an angle, say).
     Input(usize),
-    /// Plain sum.
+    /// Sum.
     Add(usize, usize),
-    /// Plain difference.
+    /// Difference.
     Subtract(usize, usize),
-    /// Plain product.
+    /// Product.
     Multiply(usize, usize),
-    /// Plain quotient.
+    /// Quotient.
     Divide(usize, usize),
-    /// Plain opposite.
+    /// Opposite.
     Negate(usize),
-    /// Plain square root.
+    /// Square root.
     Root(usize),
-    /// Plain power with an odd exponent of its own.
+    /// Power with an odd exponent of its own; never wide.
     Power(usize, usize),
-    /// Plain function.
+    /// Function; never wide.
     Call(Function, usize),
     /// A wide step rounded to a double.
     Round(usize),
     /// A plain step made wide.
     Widen(usize),
-    /// An input with all digits it has, where the plain one is it rounded: the cosine of an angle, say.
-    WideInput(usize),
-    /// A number to 106 bits.
-    WideNumber(Dd),
-    /// Wide sum.
-    WideAdd(usize, usize),
-    /// Wide product.
-    WideMultiply(usize, usize),
-    /// Wide quotient.
-    WideDivide(usize, usize),
-    /// Wide opposite.
-    WideNegate(usize),
-    /// Wide square root.
-    WideRoot(usize),
 }
 
-impl Step {
-    /// The earlier steps it uses.
-    pub fn operands(self) -> [Option<usize>; 2] {
-        match self {
-            Step::Number(_) | Step::Input(_) | Step::WideNumber(_) | Step::WideInput(_) => {
-                [None, None]
-            }
-            Step::Negate(a)
-            | Step::Root(a)
-            | Step::Call(_, a)
-            | Step::Round(a)
-            | Step::Widen(a)
-            | Step::WideNegate(a)
-            | Step::WideRoot(a) => [Some(a), None],
-            Step::Add(a, b)
-            | Step::Subtract(a, b)
-            | Step::Multiply(a, b)
-            | Step::Divide(a, b)
-            | Step::Power(a, b)
-            | Step::WideAdd(a, b)
-            | Step::WideMultiply(a, b)
-            | Step::WideDivide(a, b) => [Some(a), Some(b)],
+impl Op {
+    /// In doubles.
+    pub fn plain(self) -> Step {
+        Step {
+            op: self,
+            wide: false,
         }
     }
 
-    /// Whether its value is a double-double.
-    pub fn is_wide(self) -> bool {
-        matches!(
-            self,
-            Step::Widen(_)
-                | Step::WideInput(_)
-                | Step::WideNumber(_)
-                | Step::WideAdd(..)
-                | Step::WideMultiply(..)
-                | Step::WideDivide(..)
-                | Step::WideNegate(_)
-                | Step::WideRoot(_)
-        )
+    /// The earlier steps it uses.
+    pub fn operands(self) -> [Option<usize>; 2] {
+        match self {
+            Op::Number(_) | Op::Input(_) => [None, None],
+            Op::Negate(a) | Op::Root(a) | Op::Call(_, a) | Op::Round(a) | Op::Widen(a) => {
+                [Some(a), None]
+            }
+            Op::Add(a, b)
+            | Op::Subtract(a, b)
+            | Op::Multiply(a, b)
+            | Op::Divide(a, b)
+            | Op::Power(a, b) => [Some(a), Some(b)],
+        }
     }
 }
 
@@ -117,105 +96,43 @@ impl Program {
         slots.last().map_or(f64::NAN, |v| v.high)
     }
 
-    /// The value and a bound of its relative error in units of 2⁻⁵³, at this point and to first order. `errors` holds the
-    /// error of each input in the same units, 0 for exact ones. Infinite where a sum cancels altogether.
-    pub fn value_with_bound(&self, inputs: &[f64], errors: &[f64]) -> (f64, f64) {
-        let mut slots: Vec<Dd> = Vec::with_capacity(self.steps.len());
-        let mut bounds: Vec<f64> = Vec::with_capacity(self.steps.len());
-        for step in &self.steps {
-            let value = perform(*step, &slots, inputs);
-            let weighted = |a: usize, b: usize| {
-                let sum = slots[a].high.abs() * bounds[a] + slots[b].high.abs() * bounds[b];
-                if sum == 0.0 {
-                    0.0
-                } else {
-                    sum / value.high.abs()
-                }
-            };
-            bounds.push(match *step {
-                Step::Number(v) => number_error(v),
-                Step::Input(i) | Step::WideInput(i) => errors[i],
-                Step::Add(a, b) | Step::Subtract(a, b) => weighted(a, b) + 1.0,
-                Step::Multiply(a, b) | Step::Divide(a, b) => bounds[a] + bounds[b] + 1.0,
-                Step::Negate(a) | Step::WideNegate(a) | Step::Widen(a) => bounds[a],
-                Step::Root(a) => 0.5 * bounds[a] + 1.0,
-                Step::Call(Function::Abs, a) => bounds[a],
-                Step::Power(..) | Step::Call(..) => f64::INFINITY,
-                Step::Round(a) => bounds[a] + 1.0,
-                Step::WideNumber(_) => FINE,
-                Step::WideAdd(a, b) => weighted(a, b) + SHORT * FINE,
-                Step::WideMultiply(a, b) => bounds[a] + bounds[b] + SHORT * FINE,
-                Step::WideDivide(a, b) => bounds[a] + bounds[b] + (LONG + SHORT) * FINE,
-                Step::WideRoot(a) => 0.5 * bounds[a] + LONG * FINE,
-            });
-            slots.push(value);
-        }
-        let value = slots.last().map_or(f64::NAN, |v| v.high);
-        (value, bounds.last().copied().unwrap_or(f64::INFINITY))
-    }
-
     /// The bound that holds at every point, in units of 2⁻⁵³ and to first order; `None` where a function makes it depend on
-    /// more. `errors` as in [`Program::value_with_bound`], `wide_errors` those of [`Step::WideInput`]. Where wide sums cancel
-    /// κ-fold, κ times `wide` is added.
+    /// more. `errors` holds the error of each input in the same units, 0 for exact ones, `wide_errors` that of wide inputs.
+    /// Where wide sums cancel κ-fold, κ times `wide` is added.
     pub fn bound(&self, errors: &[f64], wide_errors: &[f64]) -> Option<Bound> {
         let mut bounds: Vec<Bound> = Vec::with_capacity(self.steps.len());
-        for step in &self.steps {
+        for Step { op, wide } in &self.steps {
             let of = |a: usize| bounds[a];
-            let larger = |a: usize, b: usize| Bound {
-                plain: of(a).plain.max(of(b).plain),
-                wide: of(a).wide.max(of(b).wide),
-            };
-            let both = |a: usize, b: usize| Bound {
-                plain: of(a).plain + of(b).plain,
-                wide: of(a).wide + of(b).wide,
-            };
-            let plain = |b: Bound| Bound {
-                plain: b.plain + 1.0,
-                ..b
-            };
-            let wide = |b: Bound, by: f64| Bound {
-                wide: b.wide + by * FINE,
-                ..b
-            };
-            bounds.push(match *step {
-                Step::Number(v) => Bound {
-                    plain: number_error(v),
-                    wide: 0.0,
+            let inherited = match *op {
+                Op::Number(_) => Bound::default(),
+                Op::Input(i) if *wide => Bound::wide(wide_errors[i]),
+                Op::Input(i) => Bound::plain(errors[i]),
+                Op::Add(a, b) | Op::Subtract(a, b) => Bound {
+                    plain: of(a).plain.max(of(b).plain),
+                    wide: of(a).wide.max(of(b).wide),
                 },
-                Step::Input(i) => Bound {
-                    plain: errors[i],
-                    wide: 0.0,
-                },
-                Step::Add(a, b) | Step::Subtract(a, b) => plain(larger(a, b)),
-                Step::Multiply(a, b) | Step::Divide(a, b) => plain(both(a, b)),
-                Step::Negate(a) | Step::WideNegate(a) | Step::Call(Function::Abs, a) => of(a),
-                Step::Root(a) | Step::Round(a) => plain(of(a)),
-                Step::Power(..) | Step::Call(..) => return None,
+                Op::Multiply(a, b) | Op::Divide(a, b) => of(a).and(of(b)),
+                Op::Negate(a) | Op::Root(a) | Op::Round(a) | Op::Call(Function::Abs, a) => of(a),
+                Op::Power(..) | Op::Call(..) => return None,
                 // What was rounded before it became wide is amplified with the rest.
-                Step::Widen(a) => Bound {
-                    plain: 0.0,
-                    wide: of(a).plain + of(a).wide,
-                },
-                Step::WideInput(i) => Bound {
-                    plain: 0.0,
-                    wide: wide_errors[i],
-                },
-                Step::WideNumber(_) => Bound {
-                    plain: 0.0,
-                    wide: FINE,
-                },
-                Step::WideAdd(a, b) => wide(larger(a, b), SHORT),
-                Step::WideMultiply(a, b) => wide(both(a, b), SHORT),
-                Step::WideDivide(a, b) => wide(both(a, b), LONG + SHORT),
-                Step::WideRoot(a) => wide(of(a), LONG),
-            });
+                Op::Widen(a) => Bound::wide(of(a).plain + of(a).wide),
+            };
+            bounds.push(inherited.and(match (*op, *wide) {
+                (Op::Number(v), false) => Bound::plain(number_error(v.high)),
+                (Op::Number(_), true) => Bound::wide(FINE),
+                (Op::Input(_) | Op::Negate(_) | Op::Call(..) | Op::Widen(_), _) => Bound::default(),
+                (_, false) => Bound::plain(1.0),
+                (Op::Divide(..), true) => Bound::wide((LONG + SHORT) * FINE),
+                (Op::Root(_), true) => Bound::wide(LONG * FINE),
+                (_, true) => Bound::wide(SHORT * FINE),
+            }));
         }
         bounds.last().copied()
     }
 
     /// Whether any step is wide.
     pub fn is_wide(&self) -> bool {
-        self.steps.iter().any(|s| matches!(s, Step::Round(_)))
+        self.steps.iter().any(|s| matches!(s.op, Op::Round(_)))
     }
 }
 
@@ -226,7 +143,7 @@ fn number_error(value: f64) -> f64 {
 }
 
 /// Relative error: `plain` everywhere, and `wide` times the factor by which wide sums cancel; units of 2⁻⁵³.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bound {
     /// What always applies.
     pub plain: f64,
@@ -234,27 +151,49 @@ pub struct Bound {
     pub wide: f64,
 }
 
-fn perform(step: Step, slots: &[Dd], inputs: &[f64]) -> Dd {
-    let plain = |i: usize| slots[i].high;
-    let wide = |i: usize| slots[i];
-    match step {
-        Step::Number(v) => Dd::exact(v),
-        Step::Input(i) | Step::WideInput(i) => Dd::exact(inputs[i]),
-        Step::Add(a, b) => Dd::exact(plain(a) + plain(b)),
-        Step::Subtract(a, b) => Dd::exact(plain(a) - plain(b)),
-        Step::Multiply(a, b) => Dd::exact(plain(a) * plain(b)),
-        Step::Divide(a, b) => Dd::exact(plain(a) / plain(b)),
-        Step::Negate(a) => Dd::exact(-plain(a)),
-        Step::Root(a) => Dd::exact(plain(a).sqrt()),
-        Step::Power(a, b) => Dd::exact(plain(a).powf(plain(b))),
-        Step::Call(f, a) => Dd::exact(plain(a).call(f).unwrap_or(f64::NAN)),
-        Step::Round(a) => Dd::exact(wide(a).high),
-        Step::Widen(a) => Dd::exact(plain(a)),
-        Step::WideNumber(v) => v,
-        Step::WideAdd(a, b) => wide(a) + wide(b),
-        Step::WideMultiply(a, b) => wide(a) * wide(b),
-        Step::WideDivide(a, b) => wide(a) * wide(b).inverse(),
-        Step::WideNegate(a) => -wide(a),
-        Step::WideRoot(a) => wide(a).root(),
+impl Bound {
+    fn plain(plain: f64) -> Bound {
+        Bound { plain, wide: 0.0 }
     }
+
+    fn wide(wide: f64) -> Bound {
+        Bound { plain: 0.0, wide }
+    }
+
+    fn and(self, other: Bound) -> Bound {
+        Bound {
+            plain: self.plain + other.plain,
+            wide: self.wide + other.wide,
+        }
+    }
+}
+
+fn perform(step: Step, slots: &[Dd], inputs: &[f64]) -> Dd {
+    let wide = |i: usize| slots[i];
+    if step.wide {
+        return match step.op {
+            Op::Add(a, b) => wide(a) + wide(b),
+            Op::Subtract(a, b) => wide(a) + -wide(b),
+            Op::Multiply(a, b) => wide(a) * wide(b),
+            Op::Divide(a, b) => wide(a) * wide(b).inverse(),
+            Op::Negate(a) => -wide(a),
+            Op::Root(a) => wide(a).root(),
+            Op::Number(v) => v,
+            op => perform(op.plain(), slots, inputs),
+        };
+    }
+    let plain = |i: usize| slots[i].high;
+    Dd::exact(match step.op {
+        Op::Number(v) => v.high,
+        Op::Input(i) => inputs[i],
+        Op::Add(a, b) => plain(a) + plain(b),
+        Op::Subtract(a, b) => plain(a) - plain(b),
+        Op::Multiply(a, b) => plain(a) * plain(b),
+        Op::Divide(a, b) => plain(a) / plain(b),
+        Op::Negate(a) => -plain(a),
+        Op::Root(a) => plain(a).sqrt(),
+        Op::Power(a, b) => plain(a).powf(plain(b)),
+        Op::Call(f, a) => plain(a).call(f).unwrap_or(f64::NAN),
+        Op::Round(a) | Op::Widen(a) => plain(a),
+    })
 }

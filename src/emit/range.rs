@@ -3,7 +3,7 @@
 //! Sizes are followed as powers of ten, from the smallest a value can have, zero aside, to the largest. Sums count as
 //! their smallest term at least: what cancels is told to the reader apart.
 
-use super::program::{Program, Step};
+use super::program::{Op, Program};
 
 /// What is known of an input: whether it is an argument, and its sign.
 #[derive(Clone, Copy, Debug)]
@@ -46,31 +46,25 @@ fn fits(program: &Program, inputs: &[Input], k: f64) -> bool {
         let sum = |a: usize, b: usize| [of(a)[0].min(of(b)[0]), of(a)[1].max(of(b)[1]) + 0.31];
         let times = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
         let per = |a: [f64; 2], b: [f64; 2]| [a[0] - b[1], a[1] - b[0]];
-        let (size, wide) = match *step {
-            Step::Number(v) => (number(v), false),
-            Step::WideNumber(v) => (number(v.high), true),
-            Step::Input(i) => (input(i), false),
-            Step::WideInput(i) => (input(i), true),
-            Step::Add(a, b) | Step::Subtract(a, b) => (sum(a, b), false),
-            Step::WideAdd(a, b) => (sum(a, b), true),
-            Step::Multiply(a, b) => (times(of(a), of(b)), false),
-            Step::WideMultiply(a, b) => (times(of(a), of(b)), true),
-            Step::Divide(a, b) => (per(of(a), of(b)), false),
-            // The reciprocal is formed first.
-            Step::WideDivide(a, b) => {
+        let size = match step.op {
+            Op::Number(v) => number(v.high),
+            Op::Input(i) => input(i),
+            Op::Add(a, b) | Op::Subtract(a, b) => sum(a, b),
+            Op::Multiply(a, b) => times(of(a), of(b)),
+            // A wide reciprocal is formed first.
+            Op::Divide(a, b) if step.wide => {
                 let inverse = per([0.0, 0.0], of(b));
                 if inverse[0] < SMALLEST || inverse[1] > LARGEST {
                     return false;
                 }
-                (times(of(a), inverse), true)
+                times(of(a), inverse)
             }
-            Step::Negate(a) | Step::Round(a) | Step::Call(_, a) => (of(a), false),
-            Step::Widen(a) | Step::WideNegate(a) => (of(a), true),
-            Step::Root(a) => (of(a).map(|v| 0.5 * v), false),
-            Step::WideRoot(a) => (of(a).map(|v| 0.5 * v), true),
-            Step::Power(..) => return false,
+            Op::Divide(a, b) => per(of(a), of(b)),
+            Op::Negate(a) | Op::Round(a) | Op::Widen(a) | Op::Call(_, a) => of(a),
+            Op::Root(a) => of(a).map(|v| 0.5 * v),
+            Op::Power(..) => return false,
         };
-        let smallest = if wide { SMALLEST } else { PLAIN_SMALLEST };
+        let smallest = if step.wide { SMALLEST } else { PLAIN_SMALLEST };
         if size[0] < smallest || size[1] > LARGEST {
             return false;
         }
@@ -82,8 +76,8 @@ fn fits(program: &Program, inputs: &[Input], k: f64) -> bool {
 /// Whether every divisor has one sign, whatever the arguments: a sum of terms that cannot cancel.
 pub fn divides_safely(program: &Program, inputs: &[Input]) -> bool {
     let signs = signs(program, inputs);
-    program.steps.iter().all(|step| match *step {
-        Step::Divide(_, b) | Step::WideDivide(_, b) => signs[b].is_some(),
+    program.steps.iter().all(|step| match step.op {
+        Op::Divide(_, b) => signs[b].is_some(),
         _ => true,
     })
 }
@@ -93,23 +87,17 @@ fn signs(program: &Program, inputs: &[Input]) -> Vec<Option<bool>> {
     let mut signs: Vec<Option<bool>> = Vec::with_capacity(program.steps.len());
     for step in &program.steps {
         let both = |a: usize, b: usize| signs[a].zip(signs[b]);
-        signs.push(match *step {
-            Step::Number(v) => Some(v >= 0.0),
-            Step::WideNumber(v) => Some(v.high >= 0.0),
-            Step::Input(i) | Step::WideInput(i) => inputs[i].sign,
-            Step::Add(a, b) | Step::WideAdd(a, b) => {
-                both(a, b).and_then(|(a, b)| (a == b).then_some(a))
-            }
-            Step::Subtract(a, b) => both(a, b).and_then(|(a, b)| (a != b).then_some(a)),
-            Step::Multiply(a, b) | Step::WideMultiply(a, b) if a == b => Some(true),
-            Step::Multiply(a, b)
-            | Step::WideMultiply(a, b)
-            | Step::Divide(a, b)
-            | Step::WideDivide(a, b) => both(a, b).map(|(a, b)| a == b),
-            Step::Negate(a) | Step::WideNegate(a) => signs[a].map(|s| !s),
-            Step::Round(a) | Step::Widen(a) => signs[a],
-            Step::Root(_) | Step::WideRoot(_) => Some(true),
-            Step::Power(..) | Step::Call(..) => None,
+        signs.push(match step.op {
+            Op::Number(v) => Some(v.high >= 0.0),
+            Op::Input(i) => inputs[i].sign,
+            Op::Add(a, b) => both(a, b).and_then(|(a, b)| (a == b).then_some(a)),
+            Op::Subtract(a, b) => both(a, b).and_then(|(a, b)| (a != b).then_some(a)),
+            Op::Multiply(a, b) if a == b => Some(true),
+            Op::Multiply(a, b) | Op::Divide(a, b) => both(a, b).map(|(a, b)| a == b),
+            Op::Negate(a) => signs[a].map(|s| !s),
+            Op::Round(a) | Op::Widen(a) => signs[a],
+            Op::Root(_) => Some(true),
+            Op::Power(..) | Op::Call(..) => None,
         });
     }
     signs

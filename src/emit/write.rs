@@ -8,7 +8,8 @@ use std::collections::BTreeSet;
 use super::dd::Dd;
 use super::function::{Function, LIBRARY, Turn};
 use super::helpers::{self, Helper};
-use super::program::Step;
+use super::program::{Op, Step};
+use super::record;
 use super::units::{self, Units};
 use crate::formula::visible;
 
@@ -36,26 +37,70 @@ pub struct Heading {
 
 /// The functions with what they need, as one file.
 pub fn file(language: Language, heading: &Heading, functions: &[Function]) -> String {
+    file_as(&Style::of(language), heading, functions)
+}
+
+/// How a file is written.
+#[derive(Clone, Debug)]
+pub struct Style {
+    /// Its language.
+    pub language: Language,
+    /// What stands before the name of every function and type.
+    pub prefix: String,
+    /// Whether one function more takes all arguments in one struct and gives all values in another; in C the file is a
+    /// header then.
+    pub record: bool,
+}
+
+impl Style {
+    /// Functions alone, under the names of the answers.
+    pub fn of(language: Language) -> Style {
+        Style {
+            language,
+            prefix: String::new(),
+            record: false,
+        }
+    }
+}
+
+/// The same in a style of one's own.
+pub fn file_as(style: &Style, heading: &Heading, functions: &[Function]) -> String {
+    let language = style.language;
+    let mut given: Vec<String> = Vec::new();
     let mut used = BTreeSet::new();
     let mut names = Names::default();
     let bodies: Vec<String> = functions
         .iter()
         .map(|f| {
             // Functions of the C library stand beside ours; arguments may be called like them.
-            let name = match C_LIBRARY.split_whitespace().any(|n| n == f.name) {
-                true => names.fresh(&format!("{}_after", f.name)),
-                false => names.fresh(&f.name),
+            let name = format!("{}{}", style.prefix, f.name);
+            let name = match C_LIBRARY.split_whitespace().any(|n| n == name) {
+                true => names.fresh(&format!("{name}_after")),
+                false => names.fresh(&name),
             };
-            Writer::new(language, f, &mut used).function(&name)
+            given.push(name.clone());
+            Writer::new(language, f, &mut used).function(&name, style.record)
         })
         .collect();
-    let mut out = comment(language, &head(heading), true);
-    out.push('\n');
+    let mut out = String::from("\n");
+    if style.record && language == Language::Python {
+        out.push_str("import typing\n");
+    }
     out.push_str(&helpers::text(language, &used));
     if functions.iter().any(|f| f.units.is_some()) {
         out.push_str(units::helpers(language));
     }
     out.push_str(&bodies.join("\n"));
+    if style.record {
+        out.push_str(&record::record(style, functions, &given, &mut names));
+    }
+    if language == Language::C && !style.prefix.is_empty() {
+        out = helpers::prefixed(&out, &style.prefix);
+    }
+    out.insert_str(0, &comment(language, &head(heading), true));
+    if style.record && language == Language::C {
+        out = record::guarded(&out, &style.prefix);
+    }
     out
 }
 
@@ -191,13 +236,14 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn function(mut self, name: &str) -> String {
+    fn function(mut self, name: &str, of_header: bool) -> String {
         let documentation = documentation(self.function, &self.arguments);
         let function = self.function;
         let scales = function.units.as_ref().map(|units| self.scale(units));
         for turn in &function.turns {
             self.turn(turn);
         }
+        self.unused();
         let mut value = self.steps();
         let back = function.units.as_ref().zip(scales.as_deref());
         if let Some(power) = back.and_then(|(units, scales)| power(&units.value, scales, 1)) {
@@ -234,7 +280,8 @@ impl<'a> Writer<'a> {
                 } else {
                     list("double #")
                 };
-                out.push_str(&format!("double {name}({list}) {{\n"));
+                let kind = if of_header { "static inline " } else { "" };
+                out.push_str(&format!("{kind}double {name}({list}) {{\n"));
                 self.lines
                     .iter()
                     .for_each(|l| out.push_str(&format!("    {l}\n")));
@@ -307,6 +354,29 @@ impl<'a> Writer<'a> {
             }
         }
         scales
+    }
+
+    /// Arguments that no step uses are named all the same, so that compilers do not remark on them.
+    fn unused(&mut self) {
+        let f = self.function;
+        let read = |a: usize| {
+            let in_step = |s: &Step| s.op == Op::Input(a);
+            let in_turn = f.turns.iter().any(|t| t.terms.iter().any(|(_, i)| *i == a));
+            in_turn || f.program.steps.iter().any(in_step)
+        };
+        let free: Vec<String> = (0..self.arguments.len())
+            .filter(|a| !read(*a))
+            .map(|a| self.arguments[a].clone())
+            .collect();
+        match self.language {
+            Language::Rust if !free.is_empty() => {
+                self.lines.push(format!("let _ = ({},);", free.join(", ")));
+            }
+            Language::C => free
+                .iter()
+                .for_each(|name| self.lines.push(format!("(void){name};"))),
+            _ => {}
+        }
     }
 
     fn assign(&mut self, name: &str, value: &str, wide: bool) {
@@ -423,7 +493,8 @@ impl<'a> Writer<'a> {
         let steps = &self.function.program.steps;
         let mut uses = vec![0usize; steps.len()];
         for step in steps {
-            step.operands()
+            step.op
+                .operands()
                 .into_iter()
                 .flatten()
                 .for_each(|i| uses[i] += 1);
@@ -431,14 +502,17 @@ impl<'a> Writer<'a> {
         let mut texts: Vec<(String, Holds)> = Vec::with_capacity(steps.len());
         for (i, step) in steps.iter().enumerate() {
             let (text, holds) = self.step(*step, &texts);
-            let trivial = matches!(step, Step::Number(_) | Step::Input(_) | Step::WideInput(_));
+            let trivial = match step.op {
+                Op::Number(_) => !step.wide,
+                op => matches!(op, Op::Input(_)),
+            };
             let long = text.len() > 70;
             let keep = i + 1 == steps.len() || trivial || (uses[i] < 2 && !long);
             texts.push(if keep {
                 (text, holds)
             } else {
-                let name = self.names.fresh(if step.is_wide() { "w1" } else { "t1" });
-                self.assign(&name, &text, step.is_wide());
+                let name = self.names.fresh(if step.wide { "w1" } else { "t1" });
+                self.assign(&name, &text, step.wide);
                 (name, Holds::Atom)
             });
         }
@@ -460,24 +534,43 @@ impl<'a> Writer<'a> {
             (format!("{} {sign} {second}", left(a, holds)), holds)
         };
         let text = |i: usize| texts[i].0.as_str();
-        match step {
-            Step::Number(v) if v < 0.0 => (number(v), Holds::Product),
-            Step::Number(v) => (number(v), Holds::Atom),
-            Step::Input(i) => match self.arguments.get(i) {
+        if step.wide {
+            let (helper, operands) = match step.op {
+                Op::Number(v) => return (self.wide_number(v), Holds::Atom),
+                Op::Input(i) => {
+                    let wave = match self.arguments.get(i).cloned() {
+                        Some(name) => self.widened(&name),
+                        None => self.waves[i][1].clone(),
+                    };
+                    return (wave, Holds::Atom);
+                }
+                Op::Widen(a) => return (self.widened(text(a)), Holds::Atom),
+                Op::Add(a, b) => (Helper::Add, vec![text(a), text(b)]),
+                Op::Multiply(a, b) => (Helper::Multiply, vec![text(a), text(b)]),
+                Op::Divide(a, b) => (Helper::Divide, vec![text(a), text(b)]),
+                Op::Root(a) => (Helper::Root, vec![text(a)]),
+                // No wide step subtracts, calls or takes powers.
+                op => (
+                    Helper::Negate,
+                    op.operands().into_iter().flatten().map(text).collect(),
+                ),
+            };
+            return (self.call(helper, &operands), Holds::Atom);
+        }
+        match step.op {
+            Op::Number(v) if v.high < 0.0 => (number(v.high), Holds::Product),
+            Op::Number(v) => (number(v.high), Holds::Atom),
+            Op::Input(i) => match self.arguments.get(i) {
                 Some(name) => (name.clone(), Holds::Atom),
                 None => (self.waves[i][0].clone(), Holds::Atom),
             },
-            Step::WideInput(i) => match self.arguments.get(i).cloned() {
-                Some(name) => (self.widened(&name), Holds::Atom),
-                None => (self.waves[i][1].clone(), Holds::Atom),
-            },
-            Step::Add(a, b) => infix(a, "+", b, Holds::Sum),
-            Step::Subtract(a, b) => infix(a, "-", b, Holds::Sum),
-            Step::Multiply(a, b) => infix(a, "*", b, Holds::Product),
-            Step::Divide(a, b) => infix(a, "/", b, Holds::Product),
-            Step::Negate(a) => (format!("-{}", right(a)), Holds::Product),
-            Step::Root(a) => (self.library("sqrt", &texts[a].0, texts[a].1), Holds::Atom),
-            Step::Power(a, b) => (
+            Op::Add(a, b) => infix(a, "+", b, Holds::Sum),
+            Op::Subtract(a, b) => infix(a, "-", b, Holds::Sum),
+            Op::Multiply(a, b) => infix(a, "*", b, Holds::Product),
+            Op::Divide(a, b) => infix(a, "/", b, Holds::Product),
+            Op::Negate(a) => (format!("-{}", right(a)), Holds::Product),
+            Op::Root(a) => (self.library("sqrt", &texts[a].0, texts[a].1), Holds::Atom),
+            Op::Power(a, b) => (
                 match self.language {
                     Language::Rust => format!("{}.powf({})", right(a), text(b)),
                     Language::C => format!("pow({}, {})", text(a), text(b)),
@@ -485,7 +578,7 @@ impl<'a> Writer<'a> {
                 },
                 Holds::Atom,
             ),
-            Step::Call(f, a) => {
+            Op::Call(f, a) => {
                 let name = match (self.language, f.name()) {
                     (Language::Rust, "log") => "ln",
                     (Language::C | Language::Python, "ln") => "log",
@@ -493,17 +586,8 @@ impl<'a> Writer<'a> {
                 };
                 (self.library(name, &texts[a].0, texts[a].1), Holds::Atom)
             }
-            Step::Round(a) => (self.high(text(a)), Holds::Atom),
-            Step::Widen(a) => (self.widened(text(a)), Holds::Atom),
-            Step::WideNumber(v) => (self.wide_number(v), Holds::Atom),
-            Step::WideAdd(a, b) => (self.call(Helper::Add, &[text(a), text(b)]), Holds::Atom),
-            Step::WideMultiply(a, b) => (
-                self.call(Helper::Multiply, &[text(a), text(b)]),
-                Holds::Atom,
-            ),
-            Step::WideDivide(a, b) => (self.call(Helper::Divide, &[text(a), text(b)]), Holds::Atom),
-            Step::WideNegate(a) => (self.call(Helper::Negate, &[text(a)]), Holds::Atom),
-            Step::WideRoot(a) => (self.call(Helper::Root, &[text(a)]), Holds::Atom),
+            Op::Round(a) => (self.high(text(a)), Holds::Atom),
+            Op::Widen(a) => (text(a).to_string(), texts[a].1),
         }
     }
 }
@@ -619,7 +703,7 @@ fn promise(f: &Function, names: &[String]) -> Vec<String> {
 
 /// Names already given, and words that languages keep for themselves.
 #[derive(Default)]
-struct Names(BTreeSet<String>);
+pub(super) struct Names(BTreeSet<String>);
 
 const KEPT: &str = "False None True abs abstract alignas and as assert async auto await become bool box break case char class const \
     continue cos crate def default del do double dyn elif else enum except extern fabs false final finally float fmax fn \
@@ -634,7 +718,7 @@ const C_LIBRARY: &str = "abort bsearch ceil clock div exit exp floor free gamma 
 
 impl Names {
     /// The name as an identifier of all three languages, not given before.
-    fn fresh(&mut self, name: &str) -> String {
+    pub(super) fn fresh(&mut self, name: &str) -> String {
         // One underscore for any number of other signs.
         let mut base = String::new();
         for c in name.chars() {
