@@ -38,9 +38,7 @@ fn errors(report: &Report) -> Value {
         route["seconds"] = Value::Null;
         route["dominated"] = Value::Null;
     }
-    for name in ["lu_alone", "verdict"] {
-        all[name] = Value::Null;
-    }
+    all["verdict"] = Value::Null;
     all
 }
 

@@ -83,19 +83,6 @@ pub struct Motion<T> {
 }
 
 impl<T> Motion<T> {
-    /// The same in another number type.
-    pub fn map<U>(&self, f: impl Fn(&T) -> U) -> Motion<U> {
-        let all = |v: &[[T; 2]]| v.iter().map(|v| v.each_ref().map(&f)).collect();
-        Motion {
-            velocity: all(&self.velocity),
-            spin: self.spin.iter().map(&f).collect(),
-            hinge: all(&self.hinge),
-            contact: all(&self.contact),
-            blow: all(&self.blow),
-            loose: self.loose.clone(),
-        }
-    }
-
     /// Whether the equations determine the component.
     pub fn determines(&self, unknown: Unknown) -> bool {
         !self.loose.contains(&unknown)

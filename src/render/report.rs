@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 
 use super::mathml::escape;
 use crate::plot::{Axis, Curve, Plot, curve};
-use crate::report::measure::{Cell, Residuals, Swept};
-use crate::report::verdict::{Finding, nanoseconds, short};
+use crate::report::measure::{Cell, Swept};
+use crate::report::verdict::{nanoseconds, short};
 use crate::report::{BINS, Report, Route};
 
 /// The tables for a terminal.
@@ -18,18 +18,14 @@ pub fn text(report: &Report) -> String {
     let _ = writeln!(out, "\n{}\n", report.verdict);
     let _ = writeln!(
         out,
-        "{:24} {:>9} {:>19} {:>9} {:>9} {:>9} {:>9}  worst in",
-        "route", "time", "quartiles", "usual max", "worst", "stability", "residual"
+        "{:24} {:>9} {:>19} {:>9} {:>9} {:>9}  worst in",
+        "route", "time", "quartiles", "usual max", "worst", "stability"
     );
     for r in &report.routes {
         let mark = if r.dominated { "·" } else { " " };
-        let residual = r
-            .residuals
-            .as_ref()
-            .map_or("–".into(), |r| short(largest(r)));
         let _ = writeln!(
             out,
-            "{mark}{:23} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}  {}",
+            "{mark}{:23} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}  {}",
             r.words,
             nanoseconds(r.seconds[1]),
             nanoseconds(r.seconds[0]),
@@ -37,18 +33,7 @@ pub fn text(report: &Report) -> String {
             short(r.usual_max),
             short(r.worst),
             short(r.stability),
-            residual,
             r.worst_family
-        );
-    }
-    if let Some((time, n)) = &report.lu_alone {
-        let _ = writeln!(
-            out,
-            " {:23} {:>9} {:>9} {:>9}  (the {n}×{n} matrix ready)",
-            "nalgebra's LU alone",
-            nanoseconds(time[1]),
-            nanoseconds(time[0]),
-            nanoseconds(time[2])
         );
     }
     out.push_str(LEGEND);
@@ -73,13 +58,6 @@ pub fn text(report: &Report) -> String {
             );
         }
     }
-    if !report.findings.is_empty() {
-        out.push_str("\nknown findings, held against these numbers:\n");
-        for f in &report.findings {
-            let mark = if f.holds { "shown" } else { "not shown" };
-            let _ = writeln!(out, "  {mark}: {} — {}", f.claim, f.evidence);
-        }
-    }
     if report.interrupted {
         out.push_str("\ninterrupted: what was finished is above\n");
     }
@@ -87,13 +65,7 @@ pub fn text(report: &Report) -> String {
 }
 
 const LEGEND: &str = " · dominated: another route is both faster and no less accurate. Errors in units in the last place of the exact answer;\n \
-    stability: error over 2⁻⁵³ × structured condition number; residual: momentum, angular momentum and Carnot in 2⁻⁵³.\n";
-
-fn largest(r: &Residuals) -> f64 {
-    r.momentum
-        .max(r.angular_momentum)
-        .max(r.carnot.unwrap_or(0.0))
-}
+    stability: error over 2⁻⁵³ × structured condition number.\n";
 
 fn effort(report: &Report) -> String {
     let (e, m) = (&report.effort, &report.machine);
@@ -177,38 +149,11 @@ fn section(out: &mut String, index: usize, report: &Report) {
     out.push_str("</div><h3>Errors at usual values</h3>");
     histogram(out, report);
     conditions(out, report);
-    findings(
-        out,
-        "Known findings, held against these numbers",
-        &report.findings,
-    );
     let _ = write!(
         out,
         "<p class=\"small\">{}</p></section>",
         escape(&effort(report))
     );
-}
-
-/// Findings as a list.
-fn findings(out: &mut String, heading: &str, list: &[Finding]) {
-    if list.is_empty() {
-        return;
-    }
-    let _ = write!(out, "<h3>{heading}</h3><ul class=\"findings\">");
-    for f in list {
-        let (class, mark) = if f.holds {
-            ("yes", "shown")
-        } else {
-            ("no", "not shown")
-        };
-        let _ = write!(
-            out,
-            "<li><b class=\"{class}\">{mark}</b> {} <span>— {}</span></li>",
-            escape(&f.claim),
-            escape(&f.evidence)
-        );
-    }
-    out.push_str("</ul>");
 }
 
 fn flags(f: &Swept) -> String {
@@ -238,7 +183,7 @@ fn figure(out: &mut String, plot: Option<String>, caption: &str) {
 }
 
 fn routes_table(out: &mut String, report: &Report) {
-    out.push_str("<table><thead><tr><th>route<th>time<th>quartiles<th>usual max [ulp]<th>99 %<th>median<th>worst [ulp]<th>in<th>stability<th>momentum<th>ang. mom.<th>Carnot</tr></thead><tbody>");
+    out.push_str("<table><thead><tr><th>route<th>time<th>quartiles<th>usual max [ulp]<th>99 %<th>median<th>worst [ulp]<th>in<th>stability</tr></thead><tbody>");
     for r in &report.routes {
         let class = if r.dominated {
             " class=\"dominated\""
@@ -248,12 +193,9 @@ fn routes_table(out: &mut String, report: &Report) {
         let top = |f: &dyn Fn(&crate::report::measure::Errors) -> f64| {
             r.usual.values().map(f).fold(0.0, f64::max)
         };
-        let residual = |f: &dyn Fn(&Residuals) -> Option<f64>| {
-            r.residuals.as_ref().and_then(f).map_or("–".into(), short)
-        };
         let _ = write!(
             out,
-            "<tr{class}><th>{}<td>{}<td>{} – {}<td>{}<td>{}<td>{}<td>{}<td class=\"words\">{}<td>{}<td>{}<td>{}<td>{}</tr>",
+            "<tr{class}><th>{}<td>{}<td>{} – {}<td>{}<td>{}<td>{}<td>{}<td class=\"words\">{}<td>{}</tr>",
             r.words,
             nanoseconds(r.seconds[1]),
             nanoseconds(r.seconds[0]),
@@ -264,18 +206,6 @@ fn routes_table(out: &mut String, report: &Report) {
             short(r.worst),
             escape(&r.worst_family),
             short(r.stability),
-            residual(&|x| Some(x.momentum)),
-            residual(&|x| Some(x.angular_momentum)),
-            residual(&|x| x.carnot),
-        );
-    }
-    if let Some((time, n)) = &report.lu_alone {
-        let _ = write!(
-            out,
-            "<tr><th>nalgebra's LU alone<td>{}<td>{} – {}<td colspan=\"9\" class=\"words\">the {n}×{n} matrix ready</tr>",
-            nanoseconds(time[1]),
-            nanoseconds(time[0]),
-            nanoseconds(time[2])
         );
     }
     out.push_str("</tbody></table>");
@@ -420,6 +350,5 @@ tr.dominated{color:var(--soft);opacity:.6}
 .plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(23rem,1fr));gap:1rem}
 figure{margin:.5rem 0;max-width:34rem}figure svg{width:100%;height:auto;color:var(--ink)}
 figcaption,.small{color:var(--soft);font-size:.82rem}
-.findings b{display:inline-block;min-width:5.5rem}.findings .yes{color:#2e965f}.findings .no{color:#d9534a}.findings span{color:var(--soft)}
 </style></head><body><main><h1>Error against run time</h1>
 "#;

@@ -11,11 +11,10 @@ use serde::Serialize;
 
 use super::routes::{Place, Prepared, Route};
 use super::sample::{Family, Sampler, flags};
-use super::verdict::{self, Finding};
+use super::verdict;
 use crate::derive::Derivation;
 use crate::expr::Rational;
 use crate::expr::number::{from_f64, to_f64};
-use crate::numeric::{Invariant, assemble, identities};
 use crate::scene::Scene;
 
 /// How much to measure.
@@ -118,17 +117,6 @@ pub struct Swept {
     pub rows: Vec<Row>,
 }
 
-/// Scaled residuals of the laws: |left − right| over the size of the terms, in units of 2⁻⁵³.
-#[derive(Clone, Debug, Default, Serialize)]
-pub struct Residuals {
-    /// Momentum of bodies and systems.
-    pub momentum: f64,
-    /// Angular momentum about points other than the centers.
-    pub angular_momentum: f64,
-    /// Carnot's theorem, where it applies.
-    pub carnot: Option<f64>,
-}
-
 /// A route over the whole report.
 #[derive(Clone, Debug, Serialize)]
 pub struct RouteSummary {
@@ -148,8 +136,6 @@ pub struct RouteSummary {
     pub worst_family: String,
     /// Largest stability factor anywhere.
     pub stability: f64,
-    /// Residuals at usual values, where the route gives the whole motion.
-    pub residuals: Option<Residuals>,
     /// Whether another route is both faster and at least as accurate everywhere.
     pub dominated: bool,
 }
@@ -169,14 +155,10 @@ pub struct Report {
     pub quantities: Vec<String>,
     /// Largest condition number per quantity at usual values, with the error 2⁻⁵³ × it [ulp of 1].
     pub conditions: BTreeMap<String, f64>,
-    /// Time of nalgebra's LU on the full system alone, matrix ready: quartiles \[s\], and its size.
-    pub lu_alone: Option<([f64; 3], usize)>,
     /// Routes.
     pub routes: Vec<RouteSummary>,
     /// Families.
     pub families: Vec<Swept>,
-    /// What is known of such scenes, held against these numbers.
-    pub findings: Vec<Finding>,
     /// Which route to use here, and why.
     pub verdict: String,
     /// Answers left out: exactly zero, or beyond the range of normal doubles.
@@ -275,24 +257,6 @@ pub fn measure(
         return Err(NoReport::NothingAsked);
     }
     let sampler = Sampler::new(scene, effort.seed);
-    let usual = sampler.usual(effort.points * 8);
-    let places: Vec<Place> = usual.levels[0]
-        .points
-        .iter()
-        .filter_map(|p| prepared.place(p))
-        .collect();
-    let place = places
-        .iter()
-        .find(|p| prepared.truth(&p.exact).is_some())
-        .ok_or(NoReport::NoAnswer)?;
-    let routes = prepared.routes(place);
-    let mut bench = Bench {
-        prepared: &prepared,
-        routes: &routes,
-        left_out: 0,
-        usual: BTreeMap::new(),
-        conditions: BTreeMap::new(),
-    };
     let mut families = sampler.families(effort.points);
     if let Some(asked) = &effort.family {
         let has = families.iter().map(|f| f.name.clone()).collect();
@@ -301,28 +265,33 @@ pub fn measure(
             return Err(NoReport::NoFamily(asked.clone(), has));
         }
     }
+    // Usual values come first; their first point with an answer is where routes are timed.
+    let place = families[0].levels[0]
+        .points
+        .iter()
+        .filter(|p| prepared.truth(p).is_some())
+        .find_map(|p| prepared.place(p))
+        .ok_or(NoReport::NoAnswer)?;
+    let routes = prepared.routes(&place);
+    let mut bench = Bench {
+        prepared: &prepared,
+        routes: &routes,
+        left_out: 0,
+        usual: BTreeMap::new(),
+        conditions: BTreeMap::new(),
+    };
     let total: usize = families.iter().map(|f| f.levels.len()).sum();
     let mut done = 0;
     let mut interrupted = false;
     let mut swept: Vec<Swept> = Vec::new();
-    'all: for family in &families {
+    for family in &families {
         let mut rows = Vec::new();
         for level in 0..family.levels.len() {
-            let Some(next) = bench.row(family, level) else {
-                continue;
-            };
-            done += 1;
-            let go_on = row(&next, done, total);
-            rows.push(next);
-            if !go_on {
-                interrupted = true;
-                swept.push(Swept {
-                    name: family.name.clone(),
-                    words: family.words.clone(),
-                    axis: family.axis.clone(),
-                    rows,
-                });
-                break 'all;
+            let next = (!interrupted).then(|| bench.row(family, level));
+            if let Some(next) = next.flatten() {
+                done += 1;
+                interrupted = !row(&next, done, total);
+                rows.push(next);
             }
         }
         if !rows.is_empty() {
@@ -334,68 +303,26 @@ pub fn measure(
             });
         }
     }
-    let summaries: Vec<RouteSummary> = routes
+    let runs = effort.runs.min(if interrupted { 5 } else { usize::MAX });
+    let seconds = |route| time(&prepared, route, &place, runs, effort.repeat);
+    let summaries = routes
         .iter()
-        .map(|route| {
-            let cells = || {
-                swept
-                    .iter()
-                    .flat_map(|f| f.rows.iter().map(move |r| (f, r)))
-                    .filter_map(|(f, r)| Some((f, r.cells.iter().find(|c| c.route == *route)?)))
-            };
-            let (worst, worst_family) = cells().fold((0.0, String::new()), |best, (f, c)| {
-                if c.max > best.0 {
-                    (c.max, f.name.clone())
-                } else {
-                    best
-                }
-            });
-            let usual: BTreeMap<String, Errors> = prepared
-                .quantities
-                .iter()
-                .enumerate()
-                .map(|(q, quantity)| {
-                    (
-                        quantity.name.clone(),
-                        Errors::of(bench.usual.get(&(*route, q)).cloned().unwrap_or_default()),
-                    )
-                })
-                .collect();
-            let runs = if interrupted {
-                effort.runs.min(5)
-            } else {
-                effort.runs
-            };
-            RouteSummary {
-                route: *route,
-                words: route.words(),
-                seconds: time(&prepared, *route, place, runs, effort.repeat),
-                usual_max: usual.values().map(|e| e.max).fold(0.0, f64::max),
-                usual,
-                worst,
-                worst_family,
-                stability: cells().map(|(_, c)| c.stability).fold(0.0, f64::max),
-                residuals: residuals(&prepared, *route, &places),
-                dominated: false,
-            }
-        })
-        .collect();
+        .map(|r| bench.summary(*r, &swept, seconds(*r)));
+    let summaries = summaries.collect();
     let mut report = Report {
         title: scene.title.clone(),
         source: scene.source.clone(),
         machine: Machine::here(),
         quantities: prepared.quantities.iter().map(|q| q.name.clone()).collect(),
         conditions: bench.conditions,
-        lu_alone: lu_alone(place, &effort),
         effort,
         routes: summaries,
         families: swept,
-        findings: Vec::new(),
         verdict: String::new(),
         left_out: bench.left_out,
         interrupted,
     };
-    verdict::judge(&mut report, &prepared.quantities);
+    verdict::judge(&mut report);
     Ok(report)
 }
 
@@ -409,6 +336,38 @@ struct Bench<'a> {
 }
 
 impl Bench<'_> {
+    fn summary(&self, route: Route, swept: &[Swept], seconds: [f64; 3]) -> RouteSummary {
+        let mut stability = 0.0f64;
+        let (mut worst, mut worst_family) = (0.0, String::new());
+        for family in swept {
+            let cells = family.rows.iter().flat_map(|r| &r.cells);
+            for cell in cells.filter(|c| c.route == route) {
+                stability = stability.max(cell.stability);
+                if cell.max > worst {
+                    (worst, worst_family) = (cell.max, family.name.clone());
+                }
+            }
+        }
+        let quantities = self.prepared.quantities.iter().enumerate();
+        let usual: BTreeMap<String, Errors> = quantities
+            .map(|(q, quantity)| {
+                let all = self.usual.get(&(route, q)).cloned();
+                (quantity.name.clone(), Errors::of(all.unwrap_or_default()))
+            })
+            .collect();
+        RouteSummary {
+            route,
+            words: route.words(),
+            seconds,
+            usual_max: usual.values().map(|e| e.max).fold(0.0, f64::max),
+            usual,
+            worst,
+            worst_family,
+            stability,
+            dominated: false,
+        }
+    }
+
     fn row(&mut self, family: &Family, level: usize) -> Option<Row> {
         let is_usual = family.axis.is_empty();
         let level = &family.levels[level];
@@ -442,7 +401,7 @@ impl Bench<'_> {
             for route in self.routes {
                 let found = self.prepared.follow(*route, &place);
                 for (q, exact) in truth.iter().enumerate() {
-                    let value = found.as_ref().map_or(f64::NAN, |f| f.values[q]);
+                    let value = found.as_ref().map_or(f64::NAN, |f| f[q]);
                     let Some(error) = ulps(value, exact) else {
                         continue;
                     };
@@ -487,42 +446,13 @@ pub fn digits_lost(ulps: f64) -> f64 {
     ulps.max(1.0).log10().min(16.0)
 }
 
-fn residuals(prepared: &Prepared, route: Route, places: &[Place]) -> Option<Residuals> {
-    let mut out = Residuals::default();
-    let mut seen = false;
-    for place in places {
-        let Some(motion) = prepared.follow(route, place).and_then(|f| f.motion) else {
-            continue;
-        };
-        seen = true;
-        let exact = |v: &f64| from_f64(*v).unwrap_or_default();
-        for identity in identities(&place.given.map(exact), &motion.map(exact)) {
-            if identity.size == 0.0 || !identity.size.is_finite() {
-                continue;
-            }
-            let gap = to_f64(&(identity.left - identity.right)).abs()
-                / identity.size
-                / crate::emit::program::UNIT;
-            let slot = match identity.what {
-                Invariant::MomentumX(_) | Invariant::MomentumY(_) => &mut out.momentum,
-                Invariant::AngularMomentum(..) => &mut out.angular_momentum,
-                Invariant::Carnot => out.carnot.get_or_insert(0.0),
-                _ => continue,
-            };
-            *slot = slot.max(gap);
-        }
-    }
-    seen.then_some(out)
-}
-
 fn time(prepared: &Prepared, route: Route, place: &Place, runs: usize, repeat: usize) -> [f64; 3] {
     let Some(mut work) = prepared.work(route, place) else {
         return [f64::NAN; 3];
     };
-    let repeat = if route == Route::Exact {
-        (repeat / 50).max(1)
-    } else {
-        repeat
+    let repeat = match route {
+        Route::Exact => (repeat / 50).max(1),
+        _ => repeat,
     };
     quartiles(runs, || {
         for _ in 0..repeat {
@@ -544,20 +474,4 @@ fn quartiles(runs: usize, mut work: impl FnMut()) -> [f64; 3] {
         .collect();
     times.sort_by(f64::total_cmp);
     [1, 2, 3].map(|q| times[(times.len() - 1) * q / 4])
-}
-
-fn lu_alone(place: &Place, effort: &Effort) -> Option<([f64; 3], usize)> {
-    let system = assemble(&place.given);
-    let n = system.unknowns.len();
-    if system.laws.len() != n || n == 0 {
-        return None;
-    }
-    let matrix = nalgebra::DMatrix::from_row_slice(n, n, &system.matrix);
-    let right = nalgebra::DVector::from_row_slice(&system.right);
-    let seconds = quartiles(effort.runs, || {
-        for _ in 0..effort.repeat {
-            std::hint::black_box(std::hint::black_box(&matrix).clone().lu().solve(&right));
-        }
-    });
-    Some((seconds.map(|t| t / effort.repeat as f64), n))
 }

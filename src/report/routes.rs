@@ -16,7 +16,7 @@ use crate::numeric::{
     Answer, Given, Motion, Number, Solution, System, answer, assemble, given, lu_scaled, motion,
     rounded, solve_exact,
 };
-use crate::scene::{Ask, EnergyWhen, Scene};
+use crate::scene::{Ask, Scene};
 
 /// A way to the numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
@@ -80,11 +80,6 @@ impl Route {
             Route::Exact => "exact",
         }
     }
-
-    /// Whether it works in plain doubles throughout.
-    pub fn is_plain(self) -> bool {
-        !matches!(self, Route::Arranged | Route::Exact)
-    }
 }
 
 /// One number asked for.
@@ -97,9 +92,6 @@ pub struct Quantity {
     /// Whether it is a velocity or spin after.
     #[serde(skip)]
     pub is_motion: bool,
-    /// Whether it is an energy lost.
-    #[serde(skip)]
-    pub is_loss: bool,
 }
 
 /// What a scene asks for, one entry a number.
@@ -107,13 +99,6 @@ pub fn quantities(scene: &Scene) -> Vec<Quantity> {
     let mut out = Vec::new();
     for q in &scene.questions {
         let is_motion = matches!(q.ask, Ask::Velocity { .. } | Ask::Spin { .. });
-        let is_loss = matches!(
-            q.ask,
-            Ask::Energy {
-                when: EnergyWhen::Lost,
-                ..
-            }
-        );
         let vector = match &q.ask {
             Ask::Velocity { along, .. } | Ask::Impulse { along, .. } => along.is_none(),
             Ask::Spin { .. } | Ask::Energy { .. } => false,
@@ -124,7 +109,6 @@ pub fn quantities(scene: &Scene) -> Vec<Quantity> {
             name: format!("{}{s}", q.name),
             question: q.name.clone(),
             is_motion,
-            is_loss,
         }));
     }
     out
@@ -156,15 +140,6 @@ pub struct Place {
     /// The scene in numbers.
     pub given: Given<f64>,
     inputs: Vec<f64>,
-}
-
-/// What a route gives.
-#[derive(Clone, Debug)]
-pub struct Found {
-    /// A double for each quantity; NaN where there is none.
-    pub values: Vec<f64>,
-    /// The whole motion, where the route finds it.
-    pub motion: Option<Motion<f64>>,
 }
 
 impl<'a> Prepared<'a> {
@@ -205,10 +180,13 @@ impl<'a> Prepared<'a> {
 
     /// The exact answers; `None` where the laws leave one open or a value is irrational.
     pub fn truth(&self, at: &Point<Rational>) -> Option<Vec<Rational>> {
-        let numbers = given(self.scene, at).ok()?;
-        let system = assemble(&numbers);
+        self.solved(at, &given(self.scene, at).ok()?)
+    }
+
+    fn solved(&self, at: &Point<Rational>, numbers: &Given<Rational>) -> Option<Vec<Rational>> {
+        let system = assemble(numbers);
         let solution = solve_exact(&system).ok()?;
-        self.flat(at, &numbers, &motion(&numbers, &system, &solution))
+        self.flat(at, numbers, &motion(numbers, &system, &solution))
     }
 
     /// Structured condition number of each answer: Σ |x_k ∂f/∂x_k| / |f| over the data of the scene (parameters; of an angle
@@ -255,92 +233,64 @@ impl<'a> Prepared<'a> {
             .collect()
     }
 
-    /// The answers by a route; `None` where the scene does not have it.
-    pub fn follow(&self, route: Route, at: &Place) -> Option<Found> {
+    /// The answers by a route, NaN where one has none; `None` where the scene does not have the route.
+    pub fn follow(&self, route: Route, at: &Place) -> Option<Vec<f64>> {
         match route {
             Route::ClosedForm | Route::Arranged => {
-                let forms = self
-                    .forms
-                    .as_ref()
-                    .filter(|f| f.inputs.len() == at.inputs.len())?;
+                let programs = self.programs(route, at)?;
                 let mut slots = Vec::new();
-                let programs = if route == Route::ClosedForm {
-                    &forms.derived
-                } else {
-                    &forms.arranged
-                };
-                let values = programs
-                    .iter()
-                    .map(|p| p.value(&at.inputs, &mut slots))
-                    .collect();
-                Some(Found {
-                    values,
-                    motion: None,
-                })
+                let values = programs.iter().map(|p| p.value(&at.inputs, &mut slots));
+                Some(values.collect())
             }
-            Route::AboutJoints => Some(self.of_motion(at, reduced::about_joints(&at.given)?)),
-            Route::EffectiveMass => Some(self.of_motion(at, reduced::effective_mass(&at.given)?)),
+            Route::AboutJoints => Some(self.of_motion(at, &reduced::about_joints(&at.given)?)),
+            Route::EffectiveMass => Some(self.of_motion(at, &reduced::effective_mass(&at.given)?)),
             Route::LuRaw | Route::LuScaled | Route::LuRefined => {
                 let system = assemble(&at.given);
-                let values = full(route, &system)?;
-                Some(self.of_motion(
-                    at,
-                    motion(&at.given, &system, &Solution::determined(values)),
-                ))
+                let solution = Solution::determined(full(route, &system)?);
+                Some(self.of_motion(at, &motion(&at.given, &system, &solution)))
             }
-            Route::Exact => {
-                let values = self.truth(&at.exact)?.iter().map(to_f64).collect();
-                Some(Found {
-                    values,
-                    motion: None,
-                })
-            }
+            Route::Exact => Some(self.truth(&at.exact)?.iter().map(to_f64).collect()),
         }
+    }
+
+    fn programs(&self, route: Route, at: &Place) -> Option<&[Program]> {
+        let forms = self.forms.as_ref()?;
+        let programs = match route {
+            Route::ClosedForm => &forms.derived,
+            _ => &forms.arranged,
+        };
+        (forms.inputs.len() == at.inputs.len()).then_some(programs)
     }
 
     /// A closure that does the work of a route once, from the numbers of the scene to its answers; what came before the
     /// numbers (sines, positions from formulas) is not counted for any route.
     pub fn work<'b>(&'b self, route: Route, at: &'b Place) -> Option<Box<dyn FnMut() -> f64 + 'b>> {
-        let sum = |f: Found| f.values.iter().sum::<f64>();
         Some(match route {
             Route::ClosedForm | Route::Arranged => {
-                let forms = self.forms.as_ref()?;
-                let programs = if route == Route::ClosedForm {
-                    &forms.derived
-                } else {
-                    &forms.arranged
-                };
+                let programs = self.programs(route, at)?;
                 let mut slots = Vec::new();
                 Box::new(move || {
-                    programs
-                        .iter()
-                        .map(|p| p.value(&at.inputs, &mut slots))
-                        .sum()
+                    let values = programs.iter().map(|p| p.value(&at.inputs, &mut slots));
+                    values.sum()
                 })
             }
             Route::Exact => {
                 let numbers = given(self.scene, &at.exact).ok()?;
                 Box::new(move || {
-                    let system = assemble(&numbers);
-                    let found = solve_exact(&system).ok().and_then(|s| {
-                        self.flat(&at.exact, &numbers, &motion(&numbers, &system, &s))
-                    });
+                    let found = self.solved(&at.exact, &numbers);
                     found.map_or(f64::NAN, |v| v.iter().map(to_f64).sum())
                 })
             }
-            _ => Box::new(move || self.follow(route, at).map_or(f64::NAN, sum)),
+            _ => Box::new(move || {
+                let found = self.follow(route, at);
+                found.map_or(f64::NAN, |v| v.iter().sum())
+            }),
         })
     }
 
-    fn of_motion(&self, at: &Place, motion: Motion<f64>) -> Found {
-        let nothing = || vec![f64::NAN; self.quantities.len()];
-        let values = self
-            .flat(&at.near, &at.given, &motion)
-            .unwrap_or_else(nothing);
-        Found {
-            values,
-            motion: Some(motion),
-        }
+    fn of_motion(&self, at: &Place, motion: &Motion<f64>) -> Vec<f64> {
+        let found = self.flat(&at.near, &at.given, motion);
+        found.unwrap_or_else(|| vec![f64::NAN; self.quantities.len()])
     }
 
     fn flat<T: Number>(

@@ -4,7 +4,7 @@
 //! so they are no source of error; an angle is a rational point of the unit circle.
 
 use crate::domain::{Domain, Limit};
-use crate::expr::number::{from_f64, to_f64};
+use crate::expr::number::from_f64;
 use crate::expr::{Point, Rational, Symbol};
 use crate::numeric::points::{Needed, circle_point, needed};
 use crate::numeric::random::Rng;
@@ -15,7 +15,7 @@ mod extremes;
 mod flags;
 mod vanishing;
 
-pub use flags::{approach, flags, is_admissible};
+pub use flags::{approach, flags};
 
 /// Points that share one extreme.
 #[derive(Clone, Debug)]
@@ -263,17 +263,4 @@ fn scale(draft: &mut Draft, name: &Symbol, by: f64) -> bool {
         Some(value) if value.is_normal() => put(draft, name, value),
         _ => false,
     }
-}
-
-/// The parameter values of a point, for people.
-pub fn words(point: &Point<Rational>) -> String {
-    let plain = point
-        .values
-        .iter()
-        .map(|(n, v)| format!("{n} = {:e}", to_f64(v)));
-    let turned = point
-        .directions
-        .iter()
-        .map(|(n, (k, [c, s]))| format!("{n} = {:e}", f64::from(*k) * to_f64(s).atan2(to_f64(c))));
-    plain.chain(turned).collect::<Vec<_>>().join(", ")
 }

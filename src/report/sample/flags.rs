@@ -1,7 +1,6 @@
-//! What is special about a point: grazing, dead centre, cancelling, out of range; and whether its motion is possible.
+//! What is special about a point: grazing, separating, cancelling, out of range.
 
-use crate::numeric::given::GivenLaw;
-use crate::numeric::{Given, assemble, contact_reports, motion, solve_f64};
+use crate::numeric::Given;
 
 /// Normal relative velocity before at a contact with a normal, u_n⁻; negative when approaching.
 pub fn approach(given: &Given<f64>, contact: usize) -> Option<f64> {
@@ -39,16 +38,6 @@ pub fn flags(given: &Given<f64>, conditions: &[f64]) -> Vec<&'static str> {
         if u > 0.0 {
             flags.push("separating");
         }
-        if let (GivenLaw::Frictionless(_), Some(n)) = (&c.law, &c.normal) {
-            let lined = |h: &crate::numeric::given::Joint<f64>| {
-                let l = [h.at[0] - c.joint.at[0], h.at[1] - c.joint.at[1]];
-                h.bodies.iter().any(|b| c.joint.bodies.contains(b))
-                    && (l[0] * n[1] - l[1] * n[0]).abs() <= 1e-3 * l[0].hypot(l[1])
-            };
-            if given.hinges.iter().any(lined) {
-                flags.push("dead centre");
-            }
-        }
     }
     if conditions.iter().any(|c| *c > 1e6) {
         flags.push("cancelling");
@@ -65,16 +54,4 @@ pub fn flags(given: &Given<f64>, conditions: &[f64]) -> Vec<&'static str> {
     flags.sort_unstable();
     flags.dedup();
     flags
-}
-
-/// Whether the motion at a point is possible at every contact with a normal, in doubles.
-pub fn is_admissible(given: &Given<f64>) -> bool {
-    let system = assemble(given);
-    let Ok(solution) = solve_f64(&system) else {
-        return false;
-    };
-    contact_reports(given, &motion(given, &system, &solution))
-        .iter()
-        .flatten()
-        .all(|r| r.admissible)
 }

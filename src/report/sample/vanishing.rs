@@ -1,10 +1,9 @@
-//! Families that run towards a point at which something vanishes: an answer, the approach, or the angle of links in line.
+//! Families that run towards a point at which something vanishes: an answer, the approach, or the arm of an impulse.
 
 use super::{Draft, Family, Level, Sampler, approach, put, steps};
 use crate::domain::Limit;
 use crate::expr::Symbol;
 use crate::numeric::{Answer, Given, answers, rounded, solve_f64};
-use crate::scene::ContactLaw;
 
 impl Sampler<'_> {
     /// Families that run towards the root of some quantity.
@@ -84,7 +83,6 @@ impl Sampler<'_> {
                 list.push(family);
             }
         }
-        self.dead_centre(count, list);
     }
 
     /// Points where one parameter runs to a root of `target`; the first parameter that has one is taken.
@@ -223,114 +221,5 @@ impl Sampler<'_> {
             return Some(right);
         }
         None
-    }
-
-    /// All links that carry the impulse in line with it: the joints take everything, the contact gives way no more.
-    fn dead_centre(&self, count: usize, list: &mut Vec<Family>) {
-        let Some(contact) =
-            self.scene.contacts.iter().position(|c| {
-                c.normal.is_some() && matches!(c.law, ContactLaw::Frictionless { .. })
-            })
-        else {
-            return;
-        };
-        if self.scene.hinges.is_empty() || self.needed.angles.is_empty() {
-            return;
-        }
-        // Links from the struck body on, each from the joint met to its other hinge.
-        let mut links: Vec<(usize, Option<usize>, usize)> = Vec::new();
-        let mut at = self.scene.contacts[contact]
-            .bodies
-            .into_iter()
-            .find(|b| self.scene.hinges.iter().any(|h| h.bodies.contains(b)));
-        let mut from: Option<usize> = None;
-        while let Some(body) = at {
-            let next = self.scene.hinges.iter().position(|h| {
-                h.bodies.contains(&body) && from.is_none_or(|f| self.scene.hinges[f].at != h.at)
-            });
-            let Some(hinge) = next else { break };
-            links.push((body, from, hinge));
-            let [a, b] = self.scene.hinges[hinge].bodies;
-            let other = if a == body { b } else { a };
-            from = Some(hinge);
-            at = (!self.scene.bodies[other].is_fixed() && links.len() < 8).then_some(other);
-        }
-        if links.is_empty() {
-            return;
-        }
-        let sine = |g: &Given<f64>, (_, from, to): &(usize, Option<usize>, usize)| {
-            let start = from.map_or(g.contacts[contact].joint.at, |h| g.hinges[h].at);
-            let end = g.hinges[*to].at;
-            let n = g.contacts[contact].normal?;
-            let l = [end[0] - start[0], end[1] - start[1]];
-            Some((l[0] * n[1] - l[1] * n[0]) / l[0].hypot(l[1]))
-        };
-        let mut aligned: Vec<(Draft, Vec<(Symbol, f64)>)> = Vec::new();
-        for k in 0..count {
-            let mut draft = self.draft("dead centre", k);
-            let mut set: Vec<(Symbol, f64)> = Vec::new();
-            for link in &links {
-                let free = self
-                    .needed
-                    .angles
-                    .keys()
-                    .filter(|n| !set.iter().any(|(s, _)| s == *n))
-                    .cloned()
-                    .collect::<Vec<_>>();
-                for parameter in free {
-                    if let Some(root) = self.root(&draft, &parameter, &|g, _| sine(g, link)) {
-                        put(&mut draft, &parameter, root);
-                        set.push((parameter, root));
-                        break;
-                    }
-                }
-            }
-            let Some(given) = self.given(&draft) else {
-                continue;
-            };
-            if links
-                .iter()
-                .all(|l| sine(&given, l).is_some_and(|s| s.abs() < 1e-12))
-            {
-                aligned.push((draft, set));
-            }
-        }
-        if aligned.is_empty() {
-            return;
-        }
-        let level = |x: f64| {
-            let points = aligned.iter().filter_map(|(draft, set)| {
-                [1.0, -1.0].into_iter().find_map(|side| {
-                    let mut near = draft.clone();
-                    for (k, (name, root)) in set.iter().enumerate() {
-                        // Not quite in parallel, or the links would stay in line with each other.
-                        let value = root + side * 10f64.powf(-x) * (1.0 + 0.5 * k as f64);
-                        put(&mut near, name, value);
-                        if !self.inside(name, value) {
-                            return None;
-                        }
-                    }
-                    Some(self.exact(&near))
-                })
-            });
-            Level {
-                x,
-                points: points.collect(),
-            }
-        };
-        let mut levels: Vec<Level> = steps(1.0, 8.0, 1.0).into_iter().map(level).collect();
-        levels.retain(|l| !l.points.is_empty());
-        if !levels.is_empty() {
-            list.push(Family {
-                name: "dead centre".into(),
-                words: format!(
-                    "{} link{} at an angle φ to the normal, φ → 0",
-                    links.len(),
-                    if links.len() == 1 { "" } else { "s" }
-                ),
-                axis: "−log10 φ".into(),
-                levels,
-            });
-        }
     }
 }
