@@ -42,23 +42,7 @@ pub(super) fn record(
             .collect();
         format!("{name}({})", list.join(", "))
     };
-    let (field, value, read) = match style.language {
-        Language::Rust => (
-            "    /// [@unit]\n    pub @name: f64,\n",
-            "        @name: @call,\n",
-            "given.",
-        ),
-        Language::C => (
-            "    double @name; /* [@unit] */\n",
-            "    result.@name = @call;\n",
-            "given->",
-        ),
-        Language::Python => (
-            "    @name: float  # [@unit]\n",
-            "        @name=@call,\n",
-            "given.",
-        ),
-    };
+    let [field, value, read] = lines(style.language);
     let line = |name: &str, unit: &str| field.replace("@unit", unit).replace("@name", name);
     let mut taken: String = inputs
         .iter()
@@ -109,6 +93,27 @@ pub(super) fn record(
                  def {solve}(given):\n    \"\"\"All values at once.\"\"\"\n    return {outside}(\n{values}    )\n"
             )
         }
+    }
+}
+
+/// A field of a type, a value that fills one, and how an argument is read.
+fn lines(language: Language) -> [&'static str; 3] {
+    match language {
+        Language::Rust => [
+            "    /// [@unit]\n    pub @name: f64,\n",
+            "        @name: @call,\n",
+            "given.",
+        ],
+        Language::C => [
+            "    double @name; /* [@unit] */\n",
+            "    result.@name = @call;\n",
+            "given->",
+        ],
+        Language::Python => [
+            "    @name: float  # [@unit]\n",
+            "        @name=@call,\n",
+            "given.",
+        ],
     }
 }
 

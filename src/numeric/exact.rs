@@ -284,9 +284,15 @@ pub(super) fn cheapest_pivot<I: Whole>(
     best
 }
 
-/// Gauss–Jordan over fractions, for systems that leave something open or contradict themselves. Every row carries along
-/// which of the original rows it is made of.
+/// Gauss–Jordan over fractions, for systems that leave something open or contradict themselves.
 fn solve_any_rank(system: &System<Rational>) -> Result<Solution<Rational>, Contradiction> {
+    reduced(system).map(|(solution, _)| solution)
+}
+
+/// The same, with row and column of each pivot. Every row carries along which of the original rows it is made of.
+pub(super) fn reduced(
+    system: &System<Rational>,
+) -> Result<(Solution<Rational>, Vec<[usize; 2]>), Contradiction> {
     let (n, m) = (system.unknowns.len(), system.laws.len());
     let mut rows: Vec<Vec<Rational>> = (0..m)
         .map(|i| {
@@ -306,13 +312,15 @@ fn solve_any_rank(system: &System<Rational>) -> Result<Solution<Rational>, Contr
                 .collect()
         })
         .collect();
-    let mut pivots = Vec::new();
+    let mut order: Vec<usize> = (0..m).collect();
+    let mut pivots: Vec<[usize; 2]> = Vec::new();
     for column in 0..n {
         let rank = pivots.len();
         let Some(found) = (rank..m).find(|r| !rows[*r][column].is_zero()) else {
             continue;
         };
         rows.swap(rank, found);
+        order.swap(rank, found);
         let scale = rows[rank][column].recip();
         for value in &mut rows[rank] {
             *value *= &scale;
@@ -329,7 +337,7 @@ fn solve_any_rank(system: &System<Rational>) -> Result<Solution<Rational>, Contr
                 }
             }
         }
-        pivots.push(column);
+        pivots.push([order[rank], column]);
     }
     let rank = pivots.len();
     if let Some(row) = rows[rank..].iter().find(|row| !row[n].is_zero()) {
@@ -338,13 +346,14 @@ fn solve_any_rank(system: &System<Rational>) -> Result<Solution<Rational>, Contr
     }
     let mut values = vec![Rational::zero(); n];
     let mut unique = vec![false; n];
-    for (row, &column) in rows.iter().zip(&pivots) {
+    for (row, &[_, column]) in rows.iter().zip(&pivots) {
         values[column] = row[n].clone();
         unique[column] = (0..n).all(|c| c == column || row[c].is_zero());
     }
-    Ok(Solution {
+    let solution = Solution {
         values,
         unique,
         rank,
-    })
+    };
+    Ok((solution, pivots))
 }

@@ -6,7 +6,7 @@ use std::fmt;
 
 use super::number::{Number, difference, velocity_at};
 use crate::expr::{Expr, Point, Symbol, Vector};
-use crate::scene::{BlowImpulse, Condition, ContactLaw, Friction, KnownQuantity, Scene};
+use crate::scene::{BlowImpulse, Condition, Contact, ContactLaw, Friction, KnownQuantity, Scene};
 
 /// A scene in numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -302,31 +302,7 @@ pub(super) fn around<T: Number>(
             Some(n) => Some(vector(n, at, || format!("normal of contact {name}"))?),
             None => None,
         };
-        let law = match &contact.law {
-            ContactLaw::None => GivenLaw::None,
-            ContactLaw::Sticking => GivenLaw::Sticking,
-            ContactLaw::Decided(decided) => {
-                let read = |c: &Condition| {
-                    c.try_map(|e| value(e, at, || format!("condition at contact {name}")))
-                };
-                let [one, two] = &decided.conditions;
-                GivenLaw::Conditions([read(one)?, read(two)?])
-            }
-            ContactLaw::Friction(law) => GivenLaw::Friction(
-                law.try_map(|e| value(e, at, || format!("friction of contact {name}")))?,
-            ),
-            ContactLaw::Frictionless { restitution } => {
-                if normal.is_none() {
-                    return Err(Undefined {
-                        quantity: format!("normal of contact {name}"),
-                        reason: Reason::Missing,
-                    });
-                }
-                GivenLaw::Frictionless(value(restitution, at, || {
-                    format!("restitution of contact {name}")
-                })?)
-            }
-        };
+        let law = contact_law(contact, at)?;
         let joint = Joint {
             bodies: pair(contact.bodies, &|| format!("body of contact {name}"))?,
             at: vector(&contact.at, at, || format!("position of contact {name}"))?,
@@ -374,6 +350,36 @@ pub(super) fn around<T: Number>(
         contacts,
         blows,
         known,
+    })
+}
+
+/// The law of a contact in numbers.
+fn contact_law<T: Number>(contact: &Contact, at: &Point<T>) -> Result<GivenLaw<T>, Undefined> {
+    let name = &contact.name;
+    Ok(match &contact.law {
+        ContactLaw::None => GivenLaw::None,
+        ContactLaw::Sticking => GivenLaw::Sticking,
+        ContactLaw::Decided(decided) => {
+            let read = |c: &Condition| {
+                c.try_map(|e| value(e, at, || format!("condition at contact {name}")))
+            };
+            let [one, two] = &decided.conditions;
+            GivenLaw::Conditions([read(one)?, read(two)?])
+        }
+        ContactLaw::Friction(law) => GivenLaw::Friction(
+            law.try_map(|e| value(e, at, || format!("friction of contact {name}")))?,
+        ),
+        ContactLaw::Frictionless { restitution } => {
+            if contact.normal.is_none() {
+                return Err(Undefined {
+                    quantity: format!("normal of contact {name}"),
+                    reason: Reason::Missing,
+                });
+            }
+            GivenLaw::Frictionless(value(restitution, at, || {
+                format!("restitution of contact {name}")
+            })?)
+        }
     })
 }
 

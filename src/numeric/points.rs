@@ -8,12 +8,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 
 use num_integer::Integer;
-use num_traits::{One, ToPrimitive, Zero};
+use num_traits::{One, Zero};
 
+use crate::domain::sample::roles;
 use crate::domain::{Domain, Domains, Limit};
-use crate::expr::angle::angle;
 use crate::expr::number::to_f64;
-use crate::expr::{Expr, Function, Int, Node, Point, Rational, Symbol, ratio};
+use crate::expr::{Expr, Int, Point, Rational, Symbol, ratio};
 use crate::numeric::random::Rng;
 use crate::scene::{Ask, BlowImpulse, ContactLaw, KnownQuantity, Scene};
 
@@ -29,30 +29,14 @@ pub struct Needed {
 impl Needed {
     /// Adds what `e` needs.
     pub fn add(&mut self, e: &Expr) {
-        match e.node() {
-            Node::Number(_) => {}
-            Node::Symbol(name) if &**name == "pi" => {}
-            Node::Symbol(name) => {
-                self.plain.insert(name.clone());
+        for (name, role) in roles(&[e]).symbols {
+            if role.turns {
+                let entry = self.angles.entry(name.clone()).or_insert(1);
+                *entry = entry.lcm(&role.divisor.min(1 << 16)).min(1 << 16);
             }
-            Node::Sum(parts) | Node::Product(parts) => parts.iter().for_each(|p| self.add(p)),
-            Node::Power(base, exponent) => {
-                self.add(base);
-                self.add(exponent);
+            if role.bare {
+                self.plain.insert(name);
             }
-            Node::Call(Function::Sin | Function::Cos | Function::Tan, argument) => {
-                match angle(argument) {
-                    Some(read) => {
-                        for (name, factor) in read.symbols {
-                            let divisor = factor.denom().to_u32().unwrap_or(1);
-                            let entry = self.angles.entry(name).or_insert(1);
-                            *entry = entry.lcm(&divisor).min(1 << 16);
-                        }
-                    }
-                    None => self.add(argument),
-                }
-            }
-            Node::Call(_, argument) => self.add(argument),
         }
     }
 }
@@ -180,25 +164,9 @@ pub fn circle_point(t: &Rational) -> [Rational; 2] {
 
 /// A rational direction of angle/N with the angle strictly inside its domain.
 fn direction(domain: Option<&Domain>, divisor: u32, rng: &mut Rng) -> [Rational; 2] {
-    let quadrant = || Domain {
-        low: Some(Limit {
-            value: Rational::zero(),
-            of_pi: true,
-            open: true,
-        }),
-        high: Some(Limit {
-            value: ratio(1, 2),
-            of_pi: true,
-            open: true,
-        }),
-    };
-    let domain = domain.cloned().unwrap_or_else(quadrant);
-    let end = |limit: &Option<Limit>, otherwise: f64| match limit {
-        None => otherwise,
-        Some(l) => to_f64(&l.value) * if l.of_pi { PI } else { 1.0 },
-    };
-    let low = end(&domain.low, -PI);
-    let high = end(&domain.high, PI).max(low);
+    let domain = domain.cloned().unwrap_or_else(Domain::first_quadrant);
+    let low = domain.low.as_ref().map_or(-PI, Limit::approximate);
+    let high = domain.high.as_ref().map_or(PI, Limit::approximate).max(low);
     // The angle is chosen first, then replaced by a nearby one with a simple tangent of a quarter... of its N-th part.
     let share = (1 + rng.below(62)) as f64 / 64.0;
     let part = (low + (high - low) * share) / f64::from(divisor);
@@ -222,15 +190,7 @@ fn direction(domain: Option<&Domain>, divisor: u32, rng: &mut Rng) -> [Rational;
 
 /// A small fraction strictly inside the domain.
 fn inside(domain: Option<&Domain>, rng: &mut Rng) -> Rational {
-    let positive = Domain {
-        low: Some(Limit {
-            value: Rational::zero(),
-            of_pi: false,
-            open: true,
-        }),
-        high: None,
-    };
-    let domain = domain.cloned().unwrap_or(positive);
+    let domain = domain.cloned().unwrap_or_else(Domain::positive);
     // 22/7 for π would do for sampling anywhere but at the end; 355/113 is closer, and the end itself is never taken.
     let end = |l: &Limit| {
         if l.of_pi {

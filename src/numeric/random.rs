@@ -1,4 +1,4 @@
-//! One sequence of random words for sample points, studies and tests: the same on every machine, known by its seed.
+//! One sequence of random words for sample points, reports and tests: the same on every machine, known by its seed.
 //!
 //! In: a seed, or a seed and a name. Out: words, whole numbers below a bound, doubles below one.
 

@@ -5,7 +5,7 @@
 //! several random exact points, and which unknowns they determine. That the rows left out agree is then seen at those
 //! points, not proved, and whoever uses it has to say so.
 
-use super::exact::solve_exact;
+use super::exact::reduced;
 use super::field::eliminate;
 use super::given::given;
 use super::number::Number;
@@ -50,41 +50,16 @@ pub fn regular_part(scene: &Scene) -> Option<Part> {
 }
 
 fn part(system: &System<Rational>) -> Option<Part> {
-    let unique = solve_exact(system).ok()?.unique;
-    let n = system.unknowns.len();
-    let mut left: Vec<(usize, Vec<Rational>)> = (0..system.laws.len())
-        .map(|r| (r, system.row(r).to_vec()))
-        .collect();
-    let (mut rows, mut columns) = (Vec::new(), Vec::new());
-    // Unknowns that are determined come first, so that those set to zero are none of them.
-    let (known, open): (Vec<usize>, Vec<usize>) = (0..n).partition(|c| unique[*c]);
-    for column in known.into_iter().chain(open) {
-        let Some(place) = left.iter().position(|(_, row)| !row[column].is_zero()) else {
-            continue;
-        };
-        let (number, line) = left.remove(place);
-        for (_, row) in &mut left {
-            if row[column].is_zero() {
-                continue;
-            }
-            let factor = &row[column] / &line[column];
-            for (cell, entry) in row.iter_mut().zip(&line) {
-                if !entry.is_zero() {
-                    *cell -= &factor * entry;
-                }
-            }
-        }
-        rows.push(number);
-        columns.push(column);
-    }
+    // Unknowns that are determined are all among the pivots, so those set to zero are none of them.
+    let (solution, pivots) = reduced(system).ok()?;
+    let mut rows: Vec<usize> = pivots.iter().map(|[row, _]| *row).collect();
     rows.sort_unstable();
-    columns.sort_unstable();
     let left_out = (0..system.laws.len()).filter(|r| !rows.contains(r));
     Some(Part {
         left_out: left_out.map(|r| system.laws[r]).collect(),
         rows,
-        columns,
-        unique,
+        columns: pivots.iter().map(|[_, column]| *column).collect(),
+        unique: solution.unique,
     })
 }
 

@@ -150,6 +150,9 @@ pub fn unknown_words(scene: &Scene, unknown: Unknown) -> (String, &'static str) 
         Unknown::ContactX(c) => (format!("impulse at {} along x", contact(c)), "N s"),
         Unknown::ContactY(c) => (format!("impulse at {} along y", contact(c)), "N s"),
         Unknown::ContactNormal(c) => (format!("impulse at {} along the normal", contact(c)), "N s"),
-        Unknown::Blow(b) => (format!("size of the blow {}", scene.blows[b].name), "N s"),
+        Unknown::Blow(b) => (
+            format!("size of the applied impulse {}", scene.blows[b].name),
+            "N s",
+        ),
     }
 }

@@ -190,9 +190,8 @@ fn routes_table(out: &mut String, report: &Report) {
         } else {
             ""
         };
-        let top = |f: &dyn Fn(&crate::report::measure::Errors) -> f64| {
-            r.usual.values().map(f).fold(0.0, f64::max)
-        };
+        let top =
+            |f: &dyn Fn(&crate::report::Errors) -> f64| r.usual.values().map(f).fold(0.0, f64::max);
         let _ = write!(
             out,
             "<tr{class}><th>{}<td>{}<td>{} – {}<td>{}<td>{}<td>{}<td>{}<td class=\"words\">{}<td>{}</tr>",

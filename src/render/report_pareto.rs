@@ -44,48 +44,7 @@ pub fn plot(report: &Report) -> Option<String> {
         "<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"{}\" font-family=\"system-ui,sans-serif\" font-size=\"11\" fill=\"currentColor\">",
         escape(&format!("Error against run time: {}", report.title))
     );
-    let line = |out: &mut String, [a, b, c, d]: [f64; 4], faint: f64| {
-        let _ = write!(
-            out,
-            "<line x1=\"{a:.1}\" y1=\"{b:.1}\" x2=\"{c:.1}\" y2=\"{d:.1}\" stroke=\"currentColor\" stroke-opacity=\"{faint}\"/>"
-        );
-    };
-    let text = |out: &mut String, [a, b]: [f64; 2], anchor: &str, words: &str| {
-        let _ = write!(
-            out,
-            "<text x=\"{a:.1}\" y=\"{b:.1}\" text-anchor=\"{anchor}\">{}</text>",
-            escape(words)
-        );
-    };
-    for k in 0..=((high - low) as i32) {
-        let log = low + f64::from(k);
-        line(&mut out, [x(log), FIELD[1], x(log), FIELD[3]], 0.15);
-        text(
-            &mut out,
-            [x(log), FIELD[3] + 15.0],
-            "middle",
-            &decade(log as i32),
-        );
-    }
-    for k in [0, 4, 8, 12, 16] {
-        let at = y(f64::from(k));
-        line(&mut out, [FIELD[0], at, FIELD[2], at], 0.15);
-        text(
-            &mut out,
-            [FIELD[0] - 6.0, at + 4.0],
-            "end",
-            &match k {
-                0 => String::from("1"),
-                _ => format!("1e{k}"),
-            },
-        );
-    }
-    text(
-        &mut out,
-        [0.5 * (FIELD[0] + FIELD[2]), HEIGHT - 8.0],
-        "middle",
-        "median time; worst error [ulp] upwards, ∞ on top",
-    );
+    axes(&mut out, [low, high], &x, &y);
     let mut front: Vec<[f64; 2]> = dots.iter().filter(|d| d.best).map(|d| d.at).collect();
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let path: Vec<String> = front
@@ -145,6 +104,54 @@ pub fn plot(report: &Report) -> Option<String> {
     }
     out.push_str("</svg>");
     Some(out)
+}
+
+fn line(out: &mut String, [a, b, c, d]: [f64; 4], faint: f64) {
+    let _ = write!(
+        out,
+        "<line x1=\"{a:.1}\" y1=\"{b:.1}\" x2=\"{c:.1}\" y2=\"{d:.1}\" stroke=\"currentColor\" stroke-opacity=\"{faint}\"/>"
+    );
+}
+
+fn text(out: &mut String, [a, b]: [f64; 2], anchor: &str, words: &str) {
+    let _ = write!(
+        out,
+        "<text x=\"{a:.1}\" y=\"{b:.1}\" text-anchor=\"{anchor}\">{}</text>",
+        escape(words)
+    );
+}
+
+/// Decades of time from `low` to `high` and of error, with their labels.
+fn axes(out: &mut String, [low, high]: [f64; 2], x: &dyn Fn(f64) -> f64, y: &dyn Fn(f64) -> f64) {
+    for k in 0..=((high - low) as i32) {
+        let log = low + f64::from(k);
+        line(out, [x(log), FIELD[1], x(log), FIELD[3]], 0.15);
+        text(
+            out,
+            [x(log), FIELD[3] + 15.0],
+            "middle",
+            &decade(log as i32),
+        );
+    }
+    for k in [0, 4, 8, 12, 16] {
+        let at = y(f64::from(k));
+        line(out, [FIELD[0], at, FIELD[2], at], 0.15);
+        text(
+            out,
+            [FIELD[0] - 6.0, at + 4.0],
+            "end",
+            &match k {
+                0 => String::from("1"),
+                _ => format!("1e{k}"),
+            },
+        );
+    }
+    text(
+        out,
+        [0.5 * (FIELD[0] + FIELD[2]), HEIGHT - 8.0],
+        "middle",
+        "median time; worst error [ulp] upwards, ∞ on top",
+    );
 }
 
 /// A box for the label that lies in the field and on nothing else: beside the dot, else as near as there is room.

@@ -2,7 +2,8 @@
 //!
 //! In: a measured report. Out: the same with its judgements; every figure in them is read from the report.
 
-use super::measure::{Report, digits_lost};
+use super::errors::digits_lost;
+use super::measure::Report;
 
 /// An error up to which a route counts as accurate \[ulp\]: sixteen units leave fifteen digits.
 const ACCURATE: f64 = 16.0;

@@ -5,17 +5,35 @@ use crate::expr::{Expr, Symbol};
 use crate::scene::{ContactLaw, Shape};
 
 impl Sampler<'_> {
+    /// A family in which some parameters are multiplied by 10^(power·k), k from `from` to `to`.
+    fn multiplied(
+        &self,
+        name: &str,
+        of: &[Symbol],
+        (power, [from, to, by]): (f64, [f64; 3]),
+        count: usize,
+    ) -> Family {
+        let names = of.join(", ");
+        let (times, axis) = match power {
+            1.0 => (String::new(), format!("log10 of the factor of {names}")),
+            p => (format!("{p}").replace('-', "−"), String::from("k")),
+        };
+        self.family(
+            name,
+            format!("{names} × 10^{times}k, k = {from} … {to}"),
+            axis,
+            &steps(from, to, by),
+            count,
+            |d, x| of.iter().all(|s| scale(d, s, 10f64.powf(power * x))),
+        )
+    }
+
     pub(super) fn masses(&self, count: usize, list: &mut Vec<Family>) {
         let masses = self.of_dimension(1, 0, 0);
         if let [first, _, ..] = masses.as_slice() {
-            list.push(self.family(
-                "mass ratio",
-                format!("{first} × 10^k, k = −15 … 15"),
-                format!("log10 of the factor of {first}"),
-                &steps(-15.0, 15.0, 5.0),
-                count,
-                |d, x| scale(d, first, 10f64.powf(x)),
-            ));
+            let extent = (1.0, [-15.0, 15.0, 5.0]);
+            let one = std::slice::from_ref(first);
+            list.push(self.multiplied("mass ratio", one, extent, count));
         }
     }
 
@@ -69,49 +87,23 @@ impl Sampler<'_> {
             _ => None,
         });
         if let Some(width) = rectangle {
-            list.push(self.family(
-                "slender and wide",
-                format!("{width} × 10^k, k = −6 … 6"),
-                format!("log10 of the factor of {width}"),
-                &steps(-6.0, 6.0, 3.0),
-                count,
-                |d, x| scale(d, &width, 10f64.powf(x)),
-            ));
+            let extent = (1.0, [-6.0, 6.0, 3.0]);
+            list.push(self.multiplied("slender and wide", &[width], extent, count));
         }
-        if let Some(arm) = lengths
-            .iter()
-            .find(|l| in_place(l))
-            .filter(|_| lengths.len() + inertias.len() > 1)
-        {
-            list.push(self.family(
-                "long and short arms",
-                format!("{arm} × 10^k, k = −8 … 8"),
-                format!("log10 of the factor of {arm}"),
-                &steps(-8.0, 8.0, 4.0),
-                count,
-                |d, x| scale(d, arm, 10f64.powf(x)),
-            ));
+        let arm = lengths.iter().find(|l| in_place(l));
+        if let Some(arm) = arm.filter(|_| lengths.len() + inertias.len() > 1) {
+            let extent = (1.0, [-8.0, 8.0, 4.0]);
+            let one = std::slice::from_ref(arm);
+            list.push(self.multiplied("long and short arms", one, extent, count));
         }
         let radius = lengths.iter().find(|l| in_inertia(l) && !in_place(l));
-        match (inertias.is_empty(), radius) {
-            (false, _) => list.push(self.family(
-                "radius of gyration → 0",
-                format!("{} × 10^−2k, so k_G × 10^−k", inertias.join(", ")),
-                "−log10 of the factor of k_G".into(),
-                &steps(0.0, 8.0, 1.0),
-                count,
-                |d, x| inertias.iter().all(|i| scale(d, i, 10f64.powf(-2.0 * x))),
-            )),
-            (true, Some(k)) => list.push(self.family(
-                "radius of gyration → 0",
-                format!("{k} × 10^−k"),
-                format!("−log10 of the factor of {k}"),
-                &steps(0.0, 8.0, 1.0),
-                count,
-                |d, x| scale(d, k, 10f64.powf(-x)),
-            )),
-            _ => {}
-        }
+        let (of, power) = match (inertias.is_empty(), radius) {
+            (false, _) => (inertias, -2.0),
+            (true, Some(k)) => (vec![k.clone()], -1.0),
+            _ => return,
+        };
+        let extent = (power, [0.0, 8.0, 1.0]);
+        list.push(self.multiplied("radius of gyration → 0", &of, extent, count));
     }
 
     /// Everything large or small in powers of two, which changes no digit of any right answer.
