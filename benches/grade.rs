@@ -6,10 +6,11 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use carom::formula::stream::{Angle, Builder, Names, Ratio, Seen, Table, stream};
-use carom::grade::plain::plain;
-use carom::grade::{Options, Question, Strength, Verdict, judge, judge_against, key, quick};
-use carom::render::grade::Frame;
+use carom::equality::{at_points, decide};
+use carom::formula::{Symbols, read_expr};
+use carom::grade::entry::{self, Keys};
+use carom::grade::{Options, Question, Strength, Verdict, judge, judge_against, key};
+use carom::render;
 
 fn main() {
     match std::env::args().any(|arg| arg == "stages") {
@@ -120,51 +121,15 @@ fn different_fast_against_a_stored_key(bencher: divan::Bencher, class: usize) {
 fn line_of_a_batch_fast(bencher: divan::Bencher, class: usize) {
     let (_, expected, equal, _) = PAIRS[class];
     let line = serde_json::json!({"id": 17, "expected": expected, "answer": equal}).to_string();
-    let key = key(expected, &Question::default()).expect("a readable formula");
     let options = options(Strength::Fast);
-    let mut frame = Frame::of(&key).expect("a key judged at points");
-    let (mut seen, mut out) = (Seen::default(), String::new());
+    let (mut keys, mut out) = (Keys::default(), String::new());
     bencher.bench_local(|| {
-        let line = plain(black_box(&line)).expect("a plain line");
-        let judged = quick(&key, &line.answer, &options, &mut seen).expect("a plain formula");
+        let entry = entry::entry(black_box(&line), &options).expect("a line of JSON");
+        let grade = entry::judge(&entry, &mut keys, &|_, _| Err(String::new()));
         out.clear();
-        frame.line(&mut out, line.id, &judged, &seen);
+        render::grade::line(&mut out, &entry.id, 1, &grade, &entry.answer);
         out.len()
     });
-}
-
-/// A formula that is read and thrown away.
-struct Nothing;
-
-impl Builder for Nothing {
-    type Value = ();
-    fn number(&mut self, _: u64, _: u32) -> Option<()> {
-        Some(())
-    }
-    fn symbol(&mut self, _: usize, _: &[u8]) -> Option<()> {
-        Some(())
-    }
-    fn pi(&mut self) -> Option<()> {
-        Some(())
-    }
-    fn negative(&mut self, _: ()) -> Option<()> {
-        Some(())
-    }
-    fn sum(&mut self, _: (), _: ()) -> Option<()> {
-        Some(())
-    }
-    fn product(&mut self, _: (), _: ()) -> Option<()> {
-        Some(())
-    }
-    fn quotient(&mut self, _: (), _: ()) -> Option<()> {
-        Some(())
-    }
-    fn power(&mut self, _: (), _: i32) -> Option<()> {
-        Some(())
-    }
-    fn turn(&mut self, _: Ratio, _: &Angle, _: &[&[u8]]) -> Option<()> {
-        Some(())
-    }
 }
 
 /// The median time of a call in microseconds, of a few thousand calls.
@@ -180,58 +145,48 @@ fn median(mut call: impl FnMut()) -> f64 {
     times[times.len() / 2]
 }
 
-/// Reads both texts of a pair, the second with the names of the first.
-fn read_both(expected: &str, answer: &str) {
-    let (mut names, mut seen) = (Names::collecting(), Seen::default());
-    black_box(stream(
-        expected,
-        Table::Collect(&mut names),
-        &mut Nothing,
-        &mut seen,
-    ));
-    names.close();
-    black_box(stream(
-        answer,
-        Table::Known(&names),
-        &mut Nothing,
-        &mut seen,
-    ));
-}
-
-/// What the stages take, each told with those before it, in microseconds and as a multiple of reading.
+/// What the stages take by themselves, then whole verdicts, in microseconds and as a multiple of reading.
 fn stages() {
     let [fast, identity] = [Strength::Fast, Strength::Identity].map(options);
-    println!(
-        "{:<15} {:>9} {:>16} {:>16} {:>16} {:>16}",
-        "us (x reading)", "reading", "points, equal", "points, differ", "proof", "stored key"
-    );
+    let question = Question::default();
+    let columns = [
+        "reading",
+        "key",
+        "points",
+        "decision",
+        "fast, equal",
+        "fast, differ",
+        "proof",
+        "stored key",
+    ];
+    print!("{:<15}", "us (x reading)");
+    columns.iter().for_each(|name| print!(" {name:>15}"));
+    println!();
     for (name, expected, equal, other) in PAIRS {
         let judged = |answer: &str, options: &Options, verdict: Verdict| {
-            let once = || {
-                judge(
-                    black_box(expected),
-                    black_box(answer),
-                    &Question::default(),
-                    options,
-                )
-            };
+            let once = || judge(black_box(expected), black_box(answer), &question, options);
             assert_eq!(once().verdict, verdict);
             median(|| drop(black_box(once())))
         };
-        let reading = median(|| read_both(black_box(expected), black_box(equal)));
-        let kept = key(expected, &Question::default()).expect("a readable formula");
-        let mut seen = Seen::default();
-        let stored = median(|| {
-            black_box(quick(&kept, black_box(equal), &fast, &mut seen));
-        });
-        let columns = [
+        let open = Symbols::open();
+        let read = |text: &str| read_expr(black_box(text), &open).expect("a readable formula");
+        let kept = key(expected, &question).expect("a readable formula");
+        let (a, b) = (read(expected), read(equal));
+        let domains = &question.domains;
+        let times = [
+            median(|| drop(black_box((read(expected), read(equal))))),
+            median(|| drop(black_box(key(black_box(expected), &question).is_ok()))),
+            median(|| drop(black_box(at_points(&a, &b, domains)))),
+            median(|| drop(black_box(decide(&a, &b, domains)))),
             judged(equal, &fast, Verdict::Equivalent),
             judged(other, &fast, Verdict::Different),
             judged(equal, &identity, Verdict::Equivalent),
-            stored,
+            median(|| drop(black_box(judge_against(&kept, equal, &fast)))),
         ];
-        let shown = columns.map(|time| format!("{time:.2} ({:.1})", time / reading));
-        let [a, b, c, d] = shown;
-        println!("{name:<15} {reading:>9.2} {a:>16} {b:>16} {c:>16} {d:>16}");
+        print!("{name:<15}");
+        for time in times {
+            print!(" {:>15}", format!("{time:.2} ({:.1})", time / times[0]));
+        }
+        println!();
     }
 }

@@ -67,7 +67,7 @@ def carom_times():
     times = {}
     for row in out.splitlines()[1:]:
         name, *cells = row.split()
-        times[name] = {"equal": float(cells[5]), "different": float(cells[3])}
+        times[name] = {"equal": float(cells[12]), "different": float(cells[10])}
     return times
 
 

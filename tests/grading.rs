@@ -310,37 +310,6 @@ fn a_line_of_a_batch_is_the_grade_as_data() {
 }
 
 #[test]
-fn a_line_judged_at_points_is_the_line_of_its_grade() {
-    use carom::formula::stream::Seen;
-    use carom::grade::{judge_against, key, quick};
-    use carom::render::grade::{Frame, line};
-    let fast = Options {
-        strength: Strength::Fast,
-        ..Options::default()
-    };
-    let mut judged = 0;
-    for (file, number, cells) in rows(|name| name != "scenes.tsv") {
-        let Ok(key) = key(
-            &cells[0],
-            &question(cells.get(4).map_or("", String::as_str)),
-        ) else {
-            continue;
-        };
-        let mut seen = Seen::default();
-        if let Some(quick) = quick(&key, &cells[1], &fast, &mut seen) {
-            let (mut short, mut long) = (String::new(), String::new());
-            let mut frame = Frame::of(&key).expect("a key judged at points");
-            frame.line(&mut short, "17", &quick, &seen);
-            let grade = judge_against(&key, &cells[1], &fast);
-            line(&mut long, &serde_json::json!(17), 1, &grade, &cells[1]);
-            assert_eq!(short, long, "{file}:{number}");
-            judged += 1;
-        }
-    }
-    assert!(judged > 150, "{judged} rows judged at points");
-}
-
-#[test]
 fn a_slash_without_brackets_is_refused_where_authors_ask_for_brackets() {
     let strict = Options {
         strict_slash: true,

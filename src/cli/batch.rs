@@ -16,12 +16,9 @@ use rayon::prelude::*;
 use super::Failure;
 use super::files::Held;
 use super::grade::{GradeArgs, only_quantity, open};
-use carom::formula::Fault;
-use carom::formula::stream::Seen;
 use carom::grade::entry::{self, Entry, Keys};
-use carom::grade::plain::{Plain, plain};
 use carom::grade::sheet::Sheet;
-use carom::grade::{self, Grade, Key, Options};
+use carom::grade::{self, Grade, Options};
 use carom::render;
 
 /// Bytes asked of standard input at a time.
@@ -221,8 +218,8 @@ fn cut<'a>(mut bytes: &'a [u8], read: &mut u64, tasks: &mut Vec<Task<'a>>) {
 struct Judges<'a> {
     options: &'a Options,
     sheets: Sheets,
-    /// Judges at rest, with the keys they know.
-    idle: Mutex<Vec<Judge>>,
+    /// Keys read so far, while no task is at work with them.
+    idle: Mutex<Vec<Keys>>,
     held: &'a Held,
 }
 
@@ -233,7 +230,7 @@ impl Judges<'_> {
             Ok(mut idle) => idle.pop(),
             Err(_) => None,
         };
-        let mut judge = rested.unwrap_or_default();
+        let mut keys = rested.unwrap_or_default();
         let mut out = String::new();
         let mut whole = true;
         match task {
@@ -250,7 +247,7 @@ impl Judges<'_> {
                         return false;
                     }
                     match line {
-                        Ok(text) => self.line(&mut judge, text, number, &mut out),
+                        Ok(text) => self.line(&mut keys, text, number, &mut out),
                         Err(line) => {
                             let good = String::from_utf8_lossy(line);
                             let at = good.find('\u{fffd}').unwrap_or_default();
@@ -270,26 +267,20 @@ impl Judges<'_> {
             }
         }
         if let Ok(mut idle) = self.idle.lock() {
-            idle.push(judge);
+            idle.push(keys);
         }
         (out, whole)
     }
 
     /// Judges a line.
-    fn line(&self, judge: &mut Judge, line: &str, number: u64, out: &mut String) {
-        if line.len() <= entry::MAX_LINE
-            && let Some(plain) = plain(line)
-            && judge.plain(line, &plain, self.options, out)
-        {
-            return;
-        }
+    fn line(&self, keys: &mut Keys, line: &str, number: u64, out: &mut String) {
         if line.bytes().all(|b| b.is_ascii_whitespace()) {
             return refuse(&[], number, String::from("the line is blank"), out);
         }
         match entry::entry(line, self.options) {
             Ok(entry) => {
                 let scenes = |entry: &Entry, scene: &str| self.sheets.judge(entry, scene);
-                let grade = entry::judge(&entry, &mut judge.keys, &scenes);
+                let grade = entry::judge(&entry, keys, &scenes);
                 let text = match grade.note {
                     "INVALID_EXPECTED" => entry.expected.as_deref().unwrap_or_default(),
                     "INVALID_LINE" => "",
@@ -308,120 +299,6 @@ impl Judges<'_> {
 fn refuse(line: &[u8], number: u64, message: String, out: &mut String) {
     let id = entry::id_in(&String::from_utf8_lossy(line));
     render::grade::line(out, &id, number, &entry::refused(message), "");
-}
-
-/// Keys kept by the texts they stand in; when there are more, all are read anew.
-const KEPT: usize = 4096;
-
-/// One who judges: the keys read so far.
-#[derive(Default)]
-struct Judge {
-    keys: Keys,
-    ready: Vec<Ready>,
-    by_text: HashMap<u64, usize, std::hash::BuildHasherDefault<Same>>,
-    last: usize,
-    seen: Seen,
-}
-
-/// A key, by the raw texts of `expected` and `symbols`, and the frame of its lines.
-struct Ready {
-    expected: String,
-    symbols: String,
-    key: Arc<Result<Key, Fault>>,
-    frame: render::grade::Frame,
-}
-
-impl Ready {
-    fn fits(&self, line: &Plain) -> bool {
-        self.expected == line.expected && self.symbols == line.symbols
-    }
-}
-
-impl Judge {
-    /// Judges a plain line at points, if that is asked for and decides.
-    fn plain(&mut self, line: &str, plain: &Plain, options: &Options, out: &mut String) -> bool {
-        if options.strength != grade::Strength::Fast {
-            return false;
-        }
-        let Some(at) = self.find(line, plain, options) else {
-            return false;
-        };
-        let ready = &mut self.ready[at];
-        let Ok(key) = &*ready.key else { return false };
-        match grade::quick(key, &plain.answer, options, &mut self.seen) {
-            Some(quick) => {
-                ready.frame.line(out, plain.id, &quick, &self.seen);
-                true
-            }
-            None => false,
-        }
-    }
-
-    /// Where the key of a line is kept; it is read where it is new.
-    fn find(&mut self, line: &str, plain: &Plain, options: &Options) -> Option<usize> {
-        if self.ready.get(self.last).is_some_and(|r| r.fits(plain)) {
-            return Some(self.last);
-        }
-        let hash = hash(plain.expected.as_bytes()) ^ hash(plain.symbols.as_bytes()).rotate_left(1);
-        let known = self.by_text.get(&hash).copied();
-        if let Some(at) = known.filter(|at| self.ready[*at].fits(plain)) {
-            self.last = at;
-            return Some(at);
-        }
-        let entry = entry::entry(line, options).ok()?;
-        let key = self.keys.key(&entry, entry.expected.as_deref()?);
-        let frame = key
-            .as_ref()
-            .as_ref()
-            .ok()
-            .and_then(render::grade::Frame::of)?;
-        if self.ready.len() >= KEPT {
-            self.ready.clear();
-            self.by_text.clear();
-        }
-        self.last = self.ready.len();
-        self.by_text.insert(hash, self.last);
-        self.ready.push(Ready {
-            expected: plain.expected.to_string(),
-            symbols: plain.symbols.to_string(),
-            key,
-            frame,
-        });
-        Some(self.last)
-    }
-}
-
-/// A hash of bytes, eight at a time.
-fn hash(bytes: &[u8]) -> u64 {
-    let mut state = bytes.len() as u64 ^ 0x9e37_79b9_7f4a_7c15;
-    let mut mix = |word: u64| {
-        state = (state ^ word).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        state ^= state >> 29;
-    };
-    let (eights, rest) = bytes.as_chunks::<8>();
-    eights
-        .iter()
-        .for_each(|eight| mix(u64::from_le_bytes(*eight)));
-    let mut last = [0; 8];
-    last[..rest.len()].copy_from_slice(rest);
-    mix(u64::from_le_bytes(last));
-    state
-}
-
-/// Hashes that were made before are taken as they are.
-#[derive(Default)]
-struct Same(u64);
-
-impl std::hash::Hasher for Same {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-    fn write(&mut self, bytes: &[u8]) {
-        self.0 = hash(bytes);
-    }
-    fn write_u64(&mut self, value: u64) {
-        self.0 = value;
-    }
 }
 
 /// Scenes named in a batch, each derived once.

@@ -1,8 +1,8 @@
 //! When are two formulas equal: proved, refuted at a point that can be checked by hand, or honestly undecided.
 //!
 //! In: two expressions and the domain their symbols live in. Out: a [`Decision`]. Refutation needs no algebra: unequal exact
-//! fractions at an exact point of the domain, or disjoint enclosures there. Proof is `algebra`'s normal form. Nothing here is
-//! probabilistic: agreement at points is evidence and is called that.
+//! fractions at an exact point of the domain, or disjoint enclosures there. Proof is `algebra`'s normal form. No decision is
+//! probabilistic: agreement at points is evidence and is called that; [`at_points`] alone says how likely it is to err.
 
 mod arcs;
 mod branch;
@@ -11,8 +11,8 @@ mod critical;
 mod exact;
 mod gap;
 mod line;
-
 mod measure;
+mod modular;
 mod proof;
 mod refute;
 
@@ -22,6 +22,7 @@ use crate::interval::Enclosure;
 pub(crate) use line::zero_apart;
 use measure::Size;
 pub(crate) use measure::work;
+pub use modular::AtPoints;
 use proof::Proof;
 use refute::{Probe, Tally};
 
@@ -192,25 +193,36 @@ pub enum Reason {
 ///
 /// Same result on every machine: limits count points, nodes and bits.
 pub fn decide(a: &Expr, b: &Expr, domains: &Domains) -> Decision {
-    let too_large = || Decision {
-        equality: Equality::Undecided {
-            reason: Reason::TooLarge,
-            evidence: Evidence::default(),
-        },
-        assumed: Vec::new(),
-    };
-    let Some(size) = measure::of(&[a, b]) else {
-        return too_large();
-    };
-    let roles = roles(&[a, b]);
-    let Some(size) = size.with(&roles) else {
-        return too_large();
+    let Some((size, roles)) = within_limits(a, b) else {
+        return Decision {
+            equality: Equality::Undecided {
+                reason: Reason::TooLarge,
+                evidence: Evidence::default(),
+            },
+            assumed: Vec::new(),
+        };
     };
     let (domains, assumed) = domains.completed(&roles);
     Decision {
         equality: decide_on(a, b, &domains, &roles, size),
         assumed,
     }
+}
+
+/// Compares two formulas at random points modulo a prime alone, with the domains assumed, in words. `None` where they are
+/// not of the kind this is for.
+pub fn at_points(a: &Expr, b: &Expr, domains: &Domains) -> Option<(AtPoints, Vec<String>)> {
+    let (_, roles) = within_limits(a, b)?;
+    let (domains, assumed) = domains.completed(&roles);
+    let found = modular::compare(a, b, &domains, &roles)?;
+    Some((found, assumed))
+}
+
+/// The size of a pair and how its symbols occur; `None` beyond the limits.
+fn within_limits(a: &Expr, b: &Expr) -> Option<(Size, Roles)> {
+    let size = measure::of(&[a, b])?;
+    let roles = roles(&[a, b]);
+    Some((size.with(&roles)?, roles))
 }
 
 /// A pair with what is known of it so far.
@@ -304,6 +316,13 @@ impl Search<'_> {
         let (a, b, domains) = (self.a, self.b, self.domains);
         if a == b && self.tally.both_defined > 0 {
             return Proof::Equal(Vec::new(), Ground::NormalForm);
+        }
+        // What differs at points modulo a prime needs no algebra, only a point that can be shown.
+        if modular::compare(a, b, domains, self.roles).is_some_and(|found| !found.equal) {
+            return Proof::Unequal {
+                settled: true,
+                folded: Vec::new(),
+            };
         }
         let open = match proof::compare(a, b, domains) {
             known @ (Proof::Equal(..) | Proof::Invalid(_)) => return known,

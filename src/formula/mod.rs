@@ -16,7 +16,6 @@ mod note;
 mod number;
 mod parser;
 mod prose;
-pub mod stream;
 mod symbols;
 mod tex;
 mod units;

@@ -12,10 +12,8 @@ mod compare;
 mod doubt;
 pub mod entry;
 mod form;
-mod modular;
 mod number;
 mod partial;
-pub mod plain;
 mod read;
 mod relation;
 pub mod sheet;
@@ -26,14 +24,12 @@ mod verdict;
 use std::collections::BTreeSet;
 
 use crate::dimension::Dimension;
-use crate::domain::{Domain, Domains};
+use crate::domain::Domains;
 use crate::expr::Symbol;
-use crate::formula::stream::{Names, Seen};
 use crate::formula::{self, Content, Fault, Reading, Symbols};
 pub(crate) use crate::verify::rounding::fraction;
 
 pub use form::Form;
-pub use modular::Quick;
 pub use number::Tolerance;
 pub use verdict::{Apart, Diagnosis, Grade, Proof, Verdict};
 
@@ -76,24 +72,6 @@ pub struct Options {
     pub strict_slash: bool,
 }
 
-impl Options {
-    /// Whether nothing but equality is asked for.
-    fn is_plain(&self) -> bool {
-        self.tolerance.is_none() && self.forms.is_empty() && !self.strict_slash
-    }
-}
-
-impl Question {
-    /// Whether nothing is declared.
-    fn is_empty(&self) -> bool {
-        self.symbols.is_empty()
-            && self.asked.is_empty()
-            && !self.closed
-            && self.dimension.is_none()
-            && self.domains == Domains::default()
-    }
-}
-
 /// How strong a proof of equality has to be.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Strength {
@@ -113,14 +91,10 @@ pub struct Key {
     pub question: Question,
     /// Names an answer may use.
     pub(crate) readable: Symbols,
-    /// Values modulo a prime, for the fast comparison.
-    pub(crate) residues: Option<modular::Residues>,
     /// The key as a quantity, where its text is one as well as a product: `5 m`.
     pub(crate) quantity: Option<Box<Key>>,
     /// Whether the question says itself what e is.
     pub(crate) declares_e: bool,
-    /// The names for answers that are read in one pass.
-    pub(crate) names: Option<Names>,
     /// How the formula was read, where slashes could reach further or less far.
     pub(crate) told: Option<String>,
     /// The same as a fault, for those who want brackets.
@@ -138,18 +112,14 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
     let quantity = (!question.closed)
         .then(|| read::quantity(expected, question))
         .flatten();
-    let mut key = from_reading(
-        read::expected(expected, &symbols)?,
-        Some(expected),
-        question,
-    );
+    let mut key = from_reading(read::expected(expected, &symbols)?, question);
     if let Some(reading) = quantity {
         let closed = Question {
             closed: true,
             ..question.clone()
         };
         let same = reading.content == key.reading.content;
-        let alone = from_reading(reading, Some(expected), &closed);
+        let alone = from_reading(reading, &closed);
         if same {
             return Ok(alone);
         }
@@ -162,7 +132,7 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
         match read::answer(&key, expected) {
             Ok(again) if again.content != key.reading.content => {
                 let before = key;
-                key = from_reading(again, Some(expected), question);
+                key = from_reading(again, question);
                 key.quantity = before.quantity;
                 key.told = before.told;
                 key.unclear = before.unclear;
@@ -184,10 +154,10 @@ pub fn key_of(content: Content, question: &Question) -> Key {
         choices: 0,
         slashes: false,
     };
-    from_reading(reading, None, question)
+    from_reading(reading, question)
 }
 
-fn from_reading(reading: Reading, text: Option<&str>, question: &Question) -> Key {
+fn from_reading(reading: Reading, question: &Question) -> Key {
     let declares_e = question.symbols.iter().any(|g| &*g.name == "e");
     let mut question = question.clone();
     let known: BTreeSet<Symbol> = question
@@ -211,26 +181,12 @@ fn from_reading(reading: Reading, text: Option<&str>, question: &Question) -> Ke
         Symbols::open()
     };
     declare(&mut readable, &question);
-    let declared = || question.symbols.iter().chain(&question.asked);
-    let residues = reading.expr().and_then(|e| {
-        let names = declared().map(|g| g.name.clone()).collect();
-        modular::Residues::of(e, text, &question.domains, names)
-    });
-    let names = match &reading.content {
-        Content::Scalar(_) if residues.is_some() => Names::declared(
-            declared().map(|g| (&*g.name, g.latex.as_deref())),
-            !question.closed,
-        ),
-        _ => None,
-    };
     Key {
         reading,
         question,
         readable,
-        residues,
         quantity: None,
         declares_e,
-        names,
         told: None,
         unclear: None,
     }
@@ -244,125 +200,9 @@ fn declare(symbols: &mut Symbols, question: &Question) {
 
 /// Judges an answer against an expected formula.
 pub fn judge(expected: &str, answer: &str, question: &Question, options: &Options) -> Grade {
-    if options.is_plain()
-        && question.is_empty()
-        && let Some(pair) = modular::pair(expected, answer)
-    {
-        let fast = options.strength == Strength::Fast;
-        let proved = || provable(&pair.quick, &pair.seen[1]) && pair.proves(expected, answer);
-        let [mine, yours] = &pair.seen;
-        let clear = mine.choices == 0 && (pair.quick.equal || yours.choices == 0);
-        if clear && (fast || proved()) {
-            let sorted: Vec<(usize, &str)> = pair.names.sorted().collect();
-            let assumed = assumed(&sorted, &pair.seen[0]);
-            let finding = match fast {
-                true => pair.quick.finding(assumed),
-                false => identity(pair.quick.roots, assumed),
-            };
-            let [_, seen] = pair.seen;
-            let used = pair
-                .names
-                .sorted()
-                .filter(|(i, _)| seen.names >> i & 1 == 1);
-            let symbols = used.map(|(_, name)| Symbol::from(name)).collect();
-            return plain_grade(finding, symbols, seen);
-        }
-    }
     match key(expected, question) {
         Ok(key) => judge_against(&key, answer, options),
         Err(fault) => unreadable_key(fault),
-    }
-}
-
-/// Domains taken for names of which nothing is declared, in words.
-fn assumed(names: &[(usize, &str)], seen: &Seen) -> Vec<String> {
-    let used = names.iter().filter(|(i, _)| seen.names >> i & 1 == 1);
-    let words = |(i, name): &(usize, &str)| match seen.turned >> i & 1 == 1 {
-        true => Domain::first_quadrant().words(name),
-        false => [*name, " > 0"].concat(),
-    };
-    used.map(words).collect()
-}
-
-/// Judges a plain answer in one pass over its text or two, where that decides.
-fn plain_against(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
-    let (residues, names) = (key.residues.as_ref()?, key.names.as_ref()?);
-    let mut seen = Seen::default();
-    let finding = match options.strength {
-        Strength::Fast => {
-            quick(key, answer, options, &mut seen)?.finding(residues.assumed().to_vec())
-        }
-        Strength::Identity => {
-            if !options.is_plain() || key.quantity.is_some() {
-                return None;
-            }
-            let quick = residues.judge(answer, names, &mut seen)?;
-            let e = key.reading.expr()?;
-            if !provable(&quick, &seen) || !residues.proves(e, answer, names, &mut seen) {
-                return None;
-            }
-            identity(quick.roots, residues.assumed().to_vec())
-        }
-    };
-    let used = residues.list().iter().enumerate();
-    let mut symbols: Vec<Symbol> = used
-        .filter(|(i, _)| seen.names >> i & 1 == 1)
-        .map(|(_, name)| name.clone())
-        .collect();
-    symbols.sort();
-    Some(plain_grade(finding, symbols, seen))
-}
-
-/// The verdict on an answer at the first strength, with nothing around it: for those who judge millions. It is the one
-/// [`judge_against`] gives; `None` where it takes more than one pass over the text, or where more is asked for.
-pub fn quick(key: &Key, answer: &str, options: &Options, seen: &mut Seen) -> Option<Quick> {
-    let fast = options.strength == Strength::Fast;
-    if !fast || !options.is_plain() || key.quantity.is_some() {
-        return None;
-    }
-    let residues = key.residues.as_ref()?;
-    let quick = residues.judge(answer, key.names.as_ref()?, seen)?;
-    // Another reading could be right.
-    (quick.equal || seen.choices == 0).then_some(quick)
-}
-
-impl Key {
-    /// The domains taken for granted, in words, and the names in play by their index in [`Seen`].
-    pub fn assumed(&self) -> Option<(&[String], &[Symbol])> {
-        let residues = self.residues.as_ref()?;
-        Some((residues.assumed(), residues.list()))
-    }
-}
-
-/// Whether a proof of equality is worth trying and would be all there is to say.
-fn provable(quick: &Quick, seen: &Seen) -> bool {
-    quick.equal && seen.choices == 0
-}
-
-/// The finding of an identity between plain formulas.
-fn identity(roots: bool, assumed: Vec<String>) -> compare::Finding {
-    let words = match roots {
-        false => "the difference is zero in the normal form",
-        true => "the difference is zero in the normal form, every root taken not negative",
-    };
-    let proof = Proof::of("identity", words);
-    let mut finding = compare::Finding::new(Verdict::Equivalent, "EQUIV_IDENTITY", proof);
-    finding.assumed = assumed;
-    finding
-}
-
-/// The grade of a plain formula, with what was seen of the answer.
-fn plain_grade(finding: compare::Finding, symbols: Vec<Symbol>, seen: Seen) -> Grade {
-    Grade {
-        verdict: finding.verdict,
-        note: finding.note,
-        proof: finding.proof,
-        assumed: finding.assumed,
-        counterexample: None,
-        error: None,
-        diagnosis: Vec::new(),
-        read_as: Some(seen.echo),
-        symbols,
     }
 }
 
@@ -412,9 +252,6 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         };
         let words = format!("{unit} is a unit, not a symbol");
         grade.assumed.push(words);
-        return grade;
-    }
-    if let Some(grade) = plain_against(key, answer, options) {
         return grade;
     }
     let mut reading = match read::answer(key, answer) {

@@ -3,9 +3,8 @@
 use serde_json::{Map, Value, json};
 
 use crate::formula::Fault;
-use crate::formula::stream::Seen;
 use crate::grade::steps::{Line, Status};
-use crate::grade::{Diagnosis, Grade, Key, Quick};
+use crate::grade::{Diagnosis, Grade};
 
 /// A grade as data. `text` is the formula an error speaks of: its places are told in characters.
 pub fn json(id: Option<&Value>, grade: &Grade, text: &str) -> Value {
@@ -133,101 +132,6 @@ fn list(out: &mut String, texts: &mut dyn Iterator<Item = &str>) {
         quoted(out, text);
     }
     out.push(']');
-}
-
-/// What the lines of a batch have in common that are judged against the same key at points.
-#[derive(Clone, Debug)]
-pub struct Frame {
-    /// From behind the `id` up to the bound of error, the rest up to the reading; by whether roots occur.
-    equal: [[String; 2]; 2],
-    /// From behind the `id` up to the reading; by whether roots occur.
-    different: [String; 2],
-    /// Names with their quotes in alphabetical order, and their indices.
-    names: Vec<(usize, String)>,
-    /// The bound of the line before, and how it is written.
-    bound: (f64, String),
-}
-
-impl Frame {
-    /// The frame of a key; `None` where such keys are not judged at points.
-    pub fn of(key: &Key) -> Option<Frame> {
-        let (assumed, names) = key.assumed()?;
-        let mut shared = String::new();
-        if !assumed.is_empty() {
-            shared.push_str(",\"assumed\":");
-            list(&mut shared, &mut assumed.iter().map(String::as_str));
-        }
-        shared.push_str(",\"read_as\":\"");
-        let words = |equal, roots| {
-            let bound = 0.0;
-            Quick {
-                equal,
-                bound,
-                roots,
-            }
-            .words()
-        };
-        let equal = |roots| {
-            let words = words(true, roots);
-            [
-                format!(
-                    ",\"verdict\":\"equivalent\",\"reward\":1,\"proof\":{{\"kind\":\"modular\",\"words\":\"{words}\",\"error_bound\":"
-                ),
-                format!("}},\"note\":\"EQUIV_MODULAR\"{shared}"),
-            ]
-        };
-        let different = |roots| {
-            let words = words(false, roots);
-            format!(
-                ",\"verdict\":\"different\",\"reward\":0,\"proof\":{{\"kind\":\"modular\",\"words\":\"{words}\"}},\"note\":\"DIFF\"{shared}"
-            )
-        };
-        let mut sorted: Vec<(usize, &str)> = names.iter().map(|n| &**n).enumerate().collect();
-        sorted.sort_by_key(|(_, name)| *name);
-        let in_quotes = |(index, name): (usize, &str)| {
-            let mut text = String::new();
-            quoted(&mut text, name);
-            (index, text)
-        };
-        Some(Frame {
-            equal: [equal(false), equal(true)],
-            different: [different(false), different(true)],
-            names: sorted.into_iter().map(in_quotes).collect(),
-            bound: (0.0, json!(0.0).to_string()),
-        })
-    }
-
-    /// The same line as [`line()`] writes for the grade of such an answer; `id` is written as it came.
-    pub fn line(&mut self, out: &mut String, id: &str, quick: &Quick, seen: &Seen) {
-        out.push_str("{\"id\":");
-        out.push_str(id);
-        let roots = usize::from(quick.roots);
-        if quick.equal {
-            if self.bound.0 != quick.bound {
-                self.bound = (quick.bound, json!(quick.bound).to_string());
-            }
-            let [before, behind] = &self.equal[roots];
-            out.push_str(before);
-            out.push_str(&self.bound.1);
-            out.push_str(behind);
-        } else {
-            out.push_str(&self.different[roots]);
-        }
-        // The echo is made of plain characters.
-        out.push_str(&seen.echo);
-        out.push_str("\",\"symbols\":[");
-        let mut first = true;
-        for (index, name) in &self.names {
-            if seen.names >> index & 1 == 1 {
-                if !first {
-                    out.push(',');
-                }
-                first = false;
-                out.push_str(name);
-            }
-        }
-        out.push_str("]}\n");
-    }
 }
 
 fn diagnosis(d: &Diagnosis) -> Value {

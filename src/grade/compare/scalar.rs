@@ -3,10 +3,10 @@
 use num_traits::Signed;
 
 use super::super::number::{self, Tolerance};
-use super::super::{Apart, Diagnosis, Proof, Strength, Verdict, fraction, modular, partial};
+use super::super::{Apart, Diagnosis, Proof, Strength, Verdict, fraction, partial};
 use super::{Context, Finding};
 use crate::algebra::Field;
-use crate::equality::{self, Assumption, Condition, Equality, How, Reason, Side, Value};
+use crate::equality::{self, Assumption, AtPoints, Condition, Equality, How, Reason, Side, Value};
 use crate::expr::{Expr, Node};
 use crate::formula::write_plain;
 
@@ -17,22 +17,13 @@ pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Finding 
     {
         return finding;
     }
-    if ctx.options.strength == Strength::Fast {
-        let usual = ctx
-            .key
-            .residues
-            .as_ref()
-            .filter(|_| ctx.key.reading.expr() == Some(expected));
-        let found = match usual {
-            Some(residues) => residues.compare(answer),
-            None => modular::Residues::of(expected, None, &ctx.key.question.domains, Vec::new())
-                .and_then(|r| r.compare(answer)),
-        };
-        if let Some(finding) = found {
-            return finding;
-        }
+    let domains = &ctx.key.question.domains;
+    if ctx.options.strength == Strength::Fast
+        && let Some((found, assumed)) = equality::at_points(expected, answer, domains)
+    {
+        return at_points(found, assumed);
     }
-    let decision = equality::decide(expected, answer, &ctx.key.question.domains);
+    let decision = equality::decide(expected, answer, domains);
     let mut finding = decided(ctx, expected, answer, decision.equality);
     finding.assumed.splice(0..0, decision.assumed);
     for e in [expected, answer] {
@@ -48,6 +39,20 @@ pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Finding 
         }
         finding.diagnosis.extend(found);
     }
+    finding
+}
+
+/// What a comparison at random points says.
+fn at_points(found: AtPoints, assumed: Vec<String>) -> Finding {
+    let mut finding = match found.equal {
+        true => {
+            let mut proof = Proof::of("modular", found.words());
+            proof.bound = Some(found.bound);
+            Finding::new(Verdict::Equivalent, "EQUIV_MODULAR", proof)
+        }
+        false => Finding::different("DIFF", "modular", found.words()),
+    };
+    finding.assumed = assumed;
     finding
 }
 

@@ -2,7 +2,6 @@
 
 use super::prime::{self, SMOOTH, add, each, negative, random, times};
 use super::real::Real;
-use crate::expr::Symbol;
 
 /// Bounds on a polynomial.
 #[derive(Clone, Copy, Debug)]
@@ -186,30 +185,6 @@ impl<const L: usize, const R: usize> Circle<L, R> {
         out.norm *= other.norm;
         out
     }
-}
-
-/// Where a symbol lives; without one it is positive, or an angle in the first quadrant.
-#[derive(Clone, PartialEq, Debug)]
-pub(super) struct Place {
-    pub sign: Sign,
-    /// Real points are taken from here.
-    pub range: [f64; 2],
-    /// A component of a unit vector: the name of the first one, and whether this is the second.
-    pub unit: Option<(Symbol, bool)>,
-}
-
-/// Values of symbols, found once and used by many formulas.
-#[derive(Clone, Debug)]
-pub(super) struct Points<const L: usize, const R: usize> {
-    pub symbols: Vec<Option<Value<L, R>>>,
-    pub circles: Vec<Option<Circle<L, R>>>,
-}
-
-impl<const L: usize, const R: usize> Points<L, R> {
-    pub(super) const EMPTY: Points<L, R> = Points {
-        symbols: Vec::new(),
-        circles: Vec::new(),
-    };
 }
 
 /// The primes that divide a number an odd number of times, as bits by their size; `None` where a large one occurs.

@@ -10,43 +10,39 @@
 //! is alive its radicand is no square: then it is no square in the field before either, adjoining it is a true extension,
 //! and either choice of its sign in the lanes is as good as the real one. Lanes where it has no root are dead from there.
 
-use super::build::Slot;
+use super::Place;
 use super::prime::{self, ROOTS, add, each, negative, one, random, residue, roots, seed, times};
 use super::real::Real;
-use super::value::{Bound, Circle, Place, Points, Sign, Value, odd_primes, real};
+use super::value::{Bound, Circle, Sign, Value, odd_primes, real};
+use super::{AtPoints, walk};
+use crate::expr::Expr;
 
 /// Most generators in a pair of formulas.
 const MOST_ROOTS: usize = 4;
 
-/// One formula after the other, read into values at the same points.
-#[derive(Clone, Debug)]
+/// Two formulas, read into values at the same points.
+#[derive(Debug)]
 pub(super) struct Lanes<'a, const C: u64, const L: usize, const R: usize> {
-    /// Points found before.
-    pub(super) known: &'a Points<L, R>,
-    places: &'a [Option<Place>],
-    /// Points found now.
-    pub points: Points<L, R>,
-    /// Angles are multiples of (symbol)/`divisor`.
-    pub divisor: i32,
-    /// The divisor it takes to read on, where another one is needed.
-    pub wanted: i32,
+    /// The symbols in alphabetical order.
+    pub(super) places: &'a [Place<'a>],
+    /// Values and directions of symbols met so far.
+    symbols: Vec<Option<Value<L, R>>>,
+    circles: Vec<Option<Circle<L, R>>>,
     /// Whether reading ended at a root that these lanes do not take.
     pub rooted: bool,
     /// The points, by the numbers they are drawn with.
-    pub rounds: [u64; L],
-    pub state: State<L, R>,
-    /// Values computed while reading, the last ones used up first.
-    pub(super) made: Vec<Value<L, R>>,
+    rounds: [u64; L],
+    state: State<L, R>,
 }
 
 /// The generators met so far.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct State<const L: usize, const R: usize> {
+struct State<const L: usize, const R: usize> {
     generators: [Option<Generator<L, R>>; MOST_ROOTS],
     /// Lanes in which all roots so far exist, as bits.
-    pub alive: u32,
+    alive: u32,
     /// Generators used since this was cleared, as bits.
-    pub used: u32,
+    used: u32,
     /// Constants whose roots were taken: their odd primes, reduced to independent ones.
     constants: [u32; MOST_ROOTS],
 }
@@ -55,14 +51,6 @@ pub(super) struct State<const L: usize, const R: usize> {
 struct Generator<const L: usize, const R: usize> {
     core: Value<L, R>,
     root: Value<L, R>,
-}
-
-/// How two values compare.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct Compared {
-    pub equal: bool,
-    /// Largest probability that an equality is none.
-    pub bound: f64,
 }
 
 impl<const L: usize, const R: usize> State<L, R> {
@@ -89,23 +77,28 @@ impl<const L: usize, const R: usize> State<L, R> {
 }
 
 impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
-    pub fn new(known: &'a Points<L, R>, places: &'a [Option<Place>], divisor: i32) -> Self {
+    pub fn new(places: &'a [Place<'a>], rounds: [u64; L]) -> Self {
         Lanes {
-            known,
             places,
-            points: Points::EMPTY,
-            divisor,
-            wanted: divisor,
+            symbols: vec![None; places.len()],
+            circles: vec![None; places.len()],
             rooted: false,
-            rounds: std::array::from_fn(|lane| lane as u64),
+            rounds,
             state: State {
                 generators: [None; MOST_ROOTS],
                 alive: (1 << L) - 1,
                 used: 0,
                 constants: [0; MOST_ROOTS],
             },
-            made: Vec::with_capacity(8),
         }
+    }
+
+    /// Reads two formulas one after the other, and compares them.
+    pub fn both(&mut self, a: &Expr, b: &Expr) -> Option<AtPoints> {
+        let left = walk::value(a, self)?;
+        let mine = std::mem::take(&mut self.state.used);
+        let right = walk::value(b, self)?;
+        self.compare((&left, mine), (&right, self.state.used))
     }
 
     pub(super) fn constant(&self, above: u64, below: u64) -> Value<L, R> {
@@ -133,54 +126,67 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         }
     }
 
-    pub(super) fn place(&self, index: usize) -> Option<&'a Place> {
-        self.places.get(index)?.as_ref()
-    }
-
-    pub(super) fn fresh(&self, index: usize, name: &[u8]) -> Value<L, R> {
-        let mut value = self.constant(1, 1);
-        let place = self.place(index);
-        if let Some((first, second)) = place.and_then(|p| p.unit.as_ref()) {
-            let unit = self.unit(first.as_bytes(), [0.2, 1.3]);
-            let bound = Bound {
-                degree: 2.0,
-                norm: 2.0,
-            };
-            return Value {
-                above: if *second { unit.sin } else { unit.cos },
-                below: unit.below,
-                whole: false,
-                bounds: [bound; 2],
-                real: unit.real.map(|both| both[usize::from(*second)]),
-                sign: Sign::Unknown,
-                monomial: false,
-                ..value
-            };
+    /// A symbol, by its place in the alphabet.
+    pub(super) fn symbol(&mut self, index: usize) -> Value<L, R> {
+        if let Some(value) = self.symbols[index] {
+            return value;
         }
-        let sign = place.map_or(Sign::Positive, |p| p.sign);
-        let power = if C == ROOTS && sign != Sign::Unknown {
-            4
-        } else {
-            1
+        let place = &self.places[index];
+        let value = match place.unit {
+            Some((first, second)) => self.component(first, second),
+            None => self.drawn(place.name, place.sign, real(seed(place.name), place.range)),
         };
-        let seed = seed(name);
-        for (round, above) in self.rounds.iter().zip(value.above.iter_mut()) {
-            let drawn = random::<C>(seed, *round);
-            *above = match power {
-                1 => drawn,
-                _ => prime::power::<C>(drawn, 4),
-            };
-        }
-        value.bounds[0].degree = power as f32;
-        value.real = real(seed, place.map_or([0.5, 2.5], |p| p.range));
-        value.sign = sign;
-        value.monomial = power == 4;
-        value.odd = 0;
+        self.symbols[index] = Some(value);
         value
     }
 
+    /// A component of a unit vector.
+    fn component(&self, first: &str, second: bool) -> Value<L, R> {
+        let unit = self.unit(first, [0.2, 1.3]);
+        let bound = Bound {
+            degree: 2.0,
+            norm: 2.0,
+        };
+        Value {
+            above: if second { unit.sin } else { unit.cos },
+            below: unit.below,
+            whole: false,
+            bounds: [bound; 2],
+            real: unit.real.map(|both| both[usize::from(second)]),
+            sign: Sign::Unknown,
+            monomial: false,
+            odd: 0,
+        }
+    }
+
+    /// Something of which only its sign and real values are known: drawn by its name, a fourth power where roots of it are
+    /// taken.
+    pub(super) fn drawn(&self, name: &str, sign: Sign, real: [Real; R]) -> Value<L, R> {
+        let power = match sign {
+            Sign::Unknown => 1,
+            _ if C == ROOTS => 4,
+            _ => 1,
+        };
+        let seed = seed(name);
+        let above = self.rounds.map(|round| match power {
+            1 => random::<C>(seed, round),
+            _ => prime::power::<C>(random::<C>(seed, round), 4),
+        });
+        let degree = power as f32;
+        Value {
+            above,
+            below: [one::<C>(); L],
+            whole: true,
+            bounds: [Bound { degree, norm: 1.0 }, Bound::ONE],
+            real,
+            sign,
+            monomial: power == 4,
+            odd: 0,
+        }
+    }
+
     /// Cosine and sine of an angle of which nothing is known but its name.
-    fn unit(&self, name: &[u8], range: [f64; 2]) -> Circle<L, R> {
+    fn unit(&self, name: &str, range: [f64; 2]) -> Circle<L, R> {
         let seed = seed(name);
         let parameter = self.rounds.map(|round| random::<C>(seed, round));
         let square = each(parameter, parameter, times::<C>);
@@ -194,40 +200,16 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         }
     }
 
-    #[inline]
-    pub(super) fn symbol_at(&mut self, index: usize, name: &[u8]) -> Slot {
-        if let Some(Some(_)) = self.known.symbols.get(index) {
-            return Slot::Known(index as u32);
+    /// Cosine and sine of the part of an angle of which multiples occur.
+    pub(super) fn circle(&mut self, index: usize) -> Circle<L, R> {
+        if let Some(circle) = self.circles[index] {
+            return circle;
         }
-        if !matches!(self.points.symbols.get(index), Some(Some(_))) {
-            let value = self.fresh(index, name);
-            if self.points.symbols.len() <= index {
-                // More than a kilobyte at a time costs much more.
-                self.points.symbols.reserve(12);
-                self.points.symbols.resize(index + 1, None);
-            }
-            self.points.symbols[index] = Some(value);
-        }
-        Slot::Fresh(index as u32)
-    }
-
-    /// Cosine and sine of the unit of an angle.
-    #[inline]
-    pub(super) fn circle_at(&mut self, index: usize, name: &[u8]) -> Circle<L, R> {
-        if let Some(Some(value)) = self.known.circles.get(index) {
-            return *value;
-        }
-        if let Some(Some(value)) = self.points.circles.get(index) {
-            return *value;
-        }
-        let range = self.place(index).map_or([0.1, 1.45], |p| p.range);
-        let value = self.unit(name, range.map(|end| end / f64::from(self.divisor)));
-        if self.points.circles.len() <= index {
-            self.points.circles.reserve(8);
-            self.points.circles.resize(index + 1, None);
-        }
-        self.points.circles[index] = Some(value);
-        value
+        let place = &self.places[index];
+        let range = place.range.map(|end| end / f64::from(place.divisor));
+        let circle = self.unit(place.name, range);
+        self.circles[index] = Some(circle);
+        circle
     }
 
     /// Whether a value is 0 in a lane that counts.
@@ -317,25 +299,23 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         out & used
     }
 
-    /// Compares an answer with what is expected; each comes with the generators it uses. `None` where nothing follows.
-    pub fn compare(
-        &self,
-        expected: (&Value<L, R>, u32),
-        answer: (&Value<L, R>, u32),
-    ) -> Option<Compared> {
-        let ((e, mine), (a, theirs)) = (expected, answer);
+    /// Compares two values; each comes with the generators it uses. `None` where nothing follows.
+    fn compare(&self, left: (&Value<L, R>, u32), right: (&Value<L, R>, u32)) -> Option<AtPoints> {
+        let ((a, mine), (b, theirs)) = (left, right);
+        let found = |equal, bound| AtPoints {
+            equal,
+            bound,
+            roots: C == ROOTS,
+        };
         // Enclosures at real points that do not meet settle it.
-        let pairs = || e.real.iter().zip(&a.real);
+        let pairs = || a.real.iter().zip(&b.real);
         if pairs().any(|(x, y)| x.apart(y)) {
-            return Some(Compared {
-                equal: false,
-                bound: 0.0,
-            });
+            return Some(found(false, 0.0));
         }
         if self.state.alive == 0 {
             return None;
         }
-        let equal = self.same(e, a);
+        let equal = self.same(a, b);
         if C == ROOTS {
             // Roots of what may be negative: both sides have to lack values at the same places, and to have some at one.
             let defined = pairs().any(|(x, y)| x.is_known() && y.is_known());
@@ -343,15 +323,16 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
                 return None;
             }
         }
-        let left = e.bounds[0].times(a.bounds[1]);
-        let right = a.bounds[0].times(e.bounds[1]);
+        if !equal {
+            return Some(found(false, 0.0));
+        }
+        let whole = a.bounds[0].times(b.bounds[1]);
+        let whole = whole.plus(b.bounds[0].times(a.bounds[1]));
         // The product of the difference with its conjugates, one for each choice of signs of the roots.
-        let conjugates = 1 << self.state.degree();
-        let whole = left.plus(right).power(conjugates);
+        let whole = whole.power(1 << self.state.degree());
         let largest = prime::prime::<C>() as f64;
         // Otherwise the prime could divide all coefficients; the bounds are rounded, and one that overflowed is none.
-        let small = f64::from(whole.norm) < largest * 0.99 && whole.degree.is_finite();
-        if equal && !small {
+        if f64::from(whole.norm) >= largest * 0.99 || !whole.degree.is_finite() {
             return None;
         }
         // Any two of the lanes may be those left: as many pairs, as many chances.
@@ -359,9 +340,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
             1 => (1, L as f64),
             _ => (2, (L * (L - 1) / 2) as f64),
         };
-        Some(Compared {
-            equal,
-            bound: choices * (f64::from(whole.degree).max(1.0) / largest).powi(lanes),
-        })
+        let chance = f64::from(whole.degree).max(1.0) / largest;
+        Some(found(true, choices * chance.powi(lanes)))
     }
 }

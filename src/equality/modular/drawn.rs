@@ -1,0 +1,95 @@
+//! The numbers by which the points of a pair are drawn: a strong hash of both formulas, in no order.
+//!
+//! Whoever writes a formula fixes the points by it, and cannot aim at them; every machine and either order reach the same.
+
+use sha2::{Digest, Sha256};
+
+use crate::expr::{Expr, Node};
+
+/// The hash of two formulas, in four numbers.
+pub(super) struct Pair([u64; 4]);
+
+impl Pair {
+    pub fn of(a: &Expr, b: &Expr) -> Pair {
+        let [mut first, mut second] = [a, b].map(|e| {
+            let mut bytes = Vec::with_capacity(512);
+            spell(e, &mut bytes);
+            bytes
+        });
+        if second < first {
+            std::mem::swap(&mut first, &mut second);
+        }
+        let mut hash = Sha256::new();
+        hash.update(&first);
+        hash.update(&second);
+        let digest = hash.finalize();
+        let mut words = [0; 4];
+        for (word, bytes) in words.iter_mut().zip(digest.chunks_exact(8)) {
+            *word = bytes.iter().fold(0, |w, b| w << 8 | u64::from(*b));
+        }
+        Pair(words)
+    }
+
+    /// One number for each lane.
+    pub fn rounds<const L: usize>(&self) -> [u64; L] {
+        // Lanes beyond the fourth are far from the others in the same sequences.
+        std::array::from_fn(|lane| {
+            self.0[lane % 4].wrapping_add((lane / 4) as u64 * 0x5851_f42d_4c95_7f2d)
+        })
+    }
+}
+
+/// A formula in bytes from which it could be read again: no two are spelt alike, and none is the start of another.
+fn spell(e: &Expr, out: &mut Vec<u8>) {
+    let mut parts = |kind: u8, parts: &[Expr]| {
+        out.push(kind);
+        out.extend((parts.len() as u64).to_le_bytes());
+        parts.iter().for_each(|part| spell(part, out));
+    };
+    match e.node() {
+        Node::Sum(terms) => parts(b'+', terms),
+        Node::Product(factors) => parts(b'*', factors),
+        Node::Number(value) => match (value.numer().as_i64(), value.denom().as_i64()) {
+            (Some(above), Some(below)) => {
+                out.push(b'n');
+                out.extend(above.to_le_bytes());
+                out.extend(below.to_le_bytes());
+            }
+            _ => named(b'N', &value.to_string(), out),
+        },
+        Node::Symbol(name) => named(b's', name, out),
+        Node::Power(base, exponent) => {
+            out.push(b'^');
+            spell(base, out);
+            spell(exponent, out);
+        }
+        Node::Call(function, argument) => {
+            named(b'f', function.name(), out);
+            spell(argument, out);
+        }
+    }
+}
+
+fn named(kind: u8, name: &str, out: &mut Vec<u8>) {
+    out.push(kind);
+    out.extend((name.len() as u64).to_le_bytes());
+    out.extend(name.as_bytes());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_hang_on_both_formulas_in_no_order() {
+        let [x, y, z] = ["x", "y", "z"].map(Expr::symbol);
+        let drawn = |a: &Expr, b: &Expr| Pair::of(a, b).rounds::<8>();
+        assert_eq!(drawn(&x, &y), drawn(&y, &x));
+        assert_ne!(drawn(&x, &y), drawn(&x, &(&y + &Expr::one())));
+        assert_ne!(drawn(&(&x * &y), &z), drawn(&x, &(&y * &z)));
+        let mut lanes = drawn(&x, &y).to_vec();
+        lanes.sort_unstable();
+        lanes.dedup();
+        assert_eq!(lanes.len(), 8);
+    }
+}

@@ -1,0 +1,118 @@
+//! Equality at random points modulo a prime near 2⁶¹: fast, and right up to a probability that is stated.
+//!
+//! For quotients of polynomials in symbols, in sines and cosines of rational multiples of angles, and in square roots.
+//! In: expressions and the domains of their symbols; out: equal or not, with the bound. A difference is certain: an
+//! identity over ℚ holds modulo every prime that divides no denominator. An equality is wrong with at most the probability
+//! stated (Schwartz and Zippel: degree over p for each point), where coefficients are shown to be smaller than the prime.
+//! Points are drawn by a strong hash of the two formulas: nobody can write one that meets them.
+//! Roots follow the rules told in [`lanes`]. Whatever fits none of this is declined.
+
+mod drawn;
+mod lanes;
+mod prime;
+mod real;
+mod value;
+mod walk;
+
+use crate::domain::{Domain, Domains, Role, Roles};
+use crate::expr::{Expr, Symbol};
+use lanes::Lanes;
+use prime::{PLAIN, ROOTS};
+use value::Sign;
+
+/// Points for formulas without roots; each divides the chance of an error by p over the degree.
+const FEW: usize = 2;
+/// Points for formulas with roots: each root makes about half of them useless.
+const MANY: usize = 8;
+/// Real points that go with them.
+const REAL: usize = 2;
+
+/// What a comparison at points found.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct AtPoints {
+    /// Whether the values agree.
+    pub equal: bool,
+    /// Largest probability that agreement is chance; 0 where they differ.
+    pub bound: f64,
+    /// Whether roots occur.
+    pub roots: bool,
+}
+
+impl AtPoints {
+    /// How it is known, in words.
+    pub fn words(&self) -> &'static str {
+        match (self.equal, self.roots) {
+            (true, false) => "equal at random points modulo 2^61 - 1",
+            (true, true) => "equal at random points modulo 2^61 - 139666593, roots included",
+            (false, false) => "no identity: the values differ modulo 2^61 - 1",
+            (false, true) => "the values differ at a real point, by enclosures",
+        }
+    }
+}
+
+/// Compares two formulas whose symbols, those of `roles`, all have a domain. `None` where they are not of the kind this is
+/// for, or nothing follows.
+pub(super) fn compare(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles) -> Option<AtPoints> {
+    let place = |(name, role)| place(name, role, domains);
+    let places: Vec<Place> = roles.symbols.iter().map(place).collect::<Option<_>>()?;
+    let pair = drawn::Pair::of(a, b);
+    let mut plain = Lanes::<PLAIN, FEW, 0>::new(&places, pair.rounds());
+    let compared = plain.both(a, b);
+    if !plain.rooted {
+        return compared;
+    }
+    Lanes::<ROOTS, MANY, REAL>::new(&places, pair.rounds()).both(a, b)
+}
+
+/// A symbol and where it lives.
+#[derive(Debug)]
+struct Place<'a> {
+    name: &'a Symbol,
+    /// What is known of its sign; nothing of a symbol that is known by its direction only.
+    sign: Sign,
+    /// Whether it is an angle in the first quadrant.
+    acute: bool,
+    /// Real points are taken from here.
+    range: [f64; 2],
+    /// It occurs as an angle only, in multiples of its part by this.
+    divisor: u32,
+    /// A component of a unit vector: the name of the first one, and whether this is the second.
+    unit: Option<(&'a Symbol, bool)>,
+}
+
+/// Where a symbol lives; `None` where that is no place for identities, or the symbol is an angle as well as a value.
+fn place<'a>(name: &'a Symbol, role: &Role, domains: &'a Domains) -> Option<Place<'a>> {
+    let domain = domains.symbols.get(name)?;
+    let [low, high] = [&domain.low, &domain.high].map(|l| l.as_ref().map(|l| l.approximate()));
+    if role.turns && role.bare || low.is_some() && low == high {
+        return None;
+    }
+    let pair = domains.unit_vectors.iter().find(|pair| pair.contains(name));
+    // A part of the circle only would have signs of its own.
+    if pair.is_some() && (low, high) != (Some(-1.0), Some(1.0)) {
+        return None;
+    }
+    let sign = match low {
+        Some(low) if low > 0.0 => Sign::Positive,
+        Some(0.0) if domain.low.as_ref().is_some_and(|l| l.open) => Sign::Positive,
+        Some(0.0) => Sign::NotNegative,
+        _ => Sign::Unknown,
+    };
+    let range = match (low, high) {
+        (Some(low), Some(high)) => [low, high],
+        (Some(low), None) => [low + 0.5, low + 2.5],
+        (None, Some(high)) => [high - 2.5, high - 0.5],
+        (None, None) => [-2.0, 2.5],
+    };
+    Some(Place {
+        name,
+        sign,
+        acute: *domain == Domain::first_quadrant(),
+        range,
+        divisor: role.divisor,
+        unit: pair.map(|pair| (&pair[0], pair[1] == *name)),
+    })
+}
+
+#[cfg(test)]
+mod tests;
