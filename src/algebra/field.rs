@@ -8,11 +8,11 @@ use num_traits::One;
 use rustc_hash::FxHashMap;
 
 use super::Stop;
+use super::angles::MOST_ANGLES;
 use super::element::{Den, Element};
 use super::gcd::Fuel;
 use super::mono::{Mono, mono_max, mono_of};
 use super::poly::Poly;
-use super::read::MOST_ANGLES;
 use crate::domain::Domains;
 use crate::expr::angle::angle;
 use crate::expr::{Expr, Function, Int, Node, Rational, Symbol};

@@ -6,6 +6,8 @@
 //! stops is an error, what was only seen and not proved is listed in [`Field::assumptions`], and whether a nonzero
 //! element proves two formulas different is told by [`Field::complete`]. Nothing here knows of mechanics.
 
+mod angles;
+mod calls;
 mod constant;
 mod den;
 mod differences;

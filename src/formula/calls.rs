@@ -3,7 +3,8 @@
 use super::fault::{Fault, Faulty};
 use super::lexer::Tok;
 use super::note::Remark;
-use super::parser::{Parser, raised_number, whole_number};
+use super::parser::Parser;
+use super::value::{raised_number, whole_number};
 use super::written::{Link, Shape, Sign, Written};
 use crate::expr::{Function, ratio};
 

@@ -1,0 +1,370 @@
+//! Cosine and sine of combinations of base angles and of π, exactly where square roots give them.
+
+use num_integer::Integer;
+use num_traits::{One, ToPrimitive, Zero};
+
+use super::Stop;
+use super::element::{Den, Element};
+use super::field::{AngleOf, Field, Kind};
+use super::mono::{mono_of, mono_variables};
+use super::poly::Poly;
+use crate::expr::angle::angle;
+use crate::expr::{Expr, Function, Int, Rational, Symbol, ratio};
+
+/// Largest multiple of a base angle.
+const MOST_TURNS: i64 = 100;
+/// Most different angles in one argument.
+pub(super) const MOST_ANGLES: usize = 24;
+
+/// Cosine and sine.
+type Direction = [Element; 2];
+
+impl Field {
+    /// Cosine and sine of an argument, when it is a combination of known base angles and of π.
+    pub(super) fn direction(
+        &mut self,
+        argument: &Expr,
+        depth: u32,
+    ) -> Result<Option<Direction>, Stop> {
+        let mut parts: Vec<(usize, i64)> = Vec::new();
+        let mut units: Vec<(Direction, i64)> = Vec::new();
+        let pi;
+        match angle(argument) {
+            Some(read) => {
+                pi = read.pi;
+                for (name, factor) in read.symbols {
+                    let known = self
+                        .bases
+                        .iter()
+                        .position(|b| matches!(&b.of, AngleOf::Symbol(s) if *s == name));
+                    let Some(part) = self.turns(known, AngleOf::Symbol(name), &factor)? else {
+                        return Ok(None);
+                    };
+                    parts.push(part);
+                }
+            }
+            None => {
+                let argument = self.read(argument, depth)?;
+                let mut turns = Rational::zero();
+                let terms = self.angle_terms(&argument);
+                if terms.len() > MOST_ANGLES {
+                    return Err(Stop::TooLarge("angles in one argument"));
+                }
+                for (term, factor) in terms {
+                    if self.is_pi(&term) {
+                        turns = factor;
+                        continue;
+                    }
+                    if let Some(unit) = self.inverse_direction(&term)?
+                        && factor.is_integer()
+                        && let Some(k) = factor.numer().as_i64()
+                        && k.abs() <= MOST_TURNS
+                    {
+                        units.push((unit, k));
+                        continue;
+                    }
+                    // Sums of fractions with different denominators may depend on each other.
+                    if !term.den.factors.is_empty() {
+                        self.complete = false;
+                    }
+                    let of = match self.as_symbol(&term) {
+                        Some(name) => AngleOf::Symbol(name),
+                        None => AngleOf::Term(term.clone()),
+                    };
+                    let same = |b: &AngleOf| match b {
+                        AngleOf::Term(t) => self.equal(t, &term),
+                        AngleOf::Symbol(name) => self.is_symbol(&term, name),
+                    };
+                    let known = self.bases.iter().position(|b| same(&b.of));
+                    let Some(part) = self.turns(known, of, &factor)? else {
+                        return Ok(None);
+                    };
+                    parts.push(part);
+                }
+                pi = turns;
+            }
+        }
+        let Some(mut total) = self.of_pi(&pi)? else {
+            return Ok(None);
+        };
+        for (base, k) in parts {
+            let base = &self.bases[base];
+            units.push(([Element::var(base.cos), Element::var(base.sin)], k));
+        }
+        // Each turn of each angle may double the terms.
+        if units.len() > 1 && units.iter().map(|(_, k)| k.abs()).sum::<i64>() > MOST_TURNS {
+            return Err(Stop::TooLarge("angle multiple"));
+        }
+        for (unit, k) in units {
+            let part = self.multiple(&unit, k)?;
+            total = self.turn(&total, &part)?;
+        }
+        Ok(Some(total))
+    }
+
+    /// The base angle and how many of it the coefficient makes; `None` where the base is too coarse.
+    fn turns(
+        &mut self,
+        known: Option<usize>,
+        of: AngleOf,
+        factor: &Rational,
+    ) -> Result<Option<(usize, i64)>, Stop> {
+        let base = match known {
+            Some(base) => base,
+            None => {
+                let divisor = factor
+                    .denom()
+                    .to_u32()
+                    .filter(|d| *d < 1_000_000)
+                    .ok_or(Stop::TooLarge("angle fraction"))?;
+                self.add_base(of, divisor)
+            }
+        };
+        let turns = factor * Rational::from(Int::from(i64::from(self.bases[base].divisor)));
+        if !turns.is_integer() {
+            return Ok(None);
+        }
+        let k = turns
+            .numer()
+            .as_i64()
+            .filter(|k| k.abs() <= MOST_TURNS)
+            .ok_or(Stop::TooLarge("angle multiple"))?;
+        Ok(Some((base, k)))
+    }
+
+    /// Cosine and sine of asin x or atan x.
+    fn inverse_direction(&mut self, term: &Element) -> Result<Option<Direction>, Stop> {
+        let Some(v) = self.as_generator(term) else {
+            return Ok(None);
+        };
+        let Kind::Call(function @ (Function::Asin | Function::Atan), x) = self.gens[v].kind.clone()
+        else {
+            return Ok(None);
+        };
+        let square = self.mul(&x, &x)?;
+        Ok(Some(if function == Function::Asin {
+            let rest = self.sub(&self.integer(1), &square)?;
+            [self.sqrt(&rest)?, x]
+        } else {
+            let rest = self.add(&self.integer(1), &square)?;
+            let root = self.sqrt(&rest)?;
+            [self.div(&self.integer(1), &root)?, self.div(&x, &root)?]
+        }))
+    }
+
+    /// asin and atan of the exact values of sine and tangent at multiples of π/6, π/4 and π/5.
+    pub(super) fn exact_angle(
+        &mut self,
+        function: Function,
+        x: &Element,
+    ) -> Result<Option<Element>, Stop> {
+        let constant = x
+            .num
+            .variables()
+            .into_iter()
+            .chain(mono_variables(&x.den.mono))
+            .all(|v| matches!(self.gens[v].kind, Kind::Root));
+        if !constant || !x.den.factors.is_empty() || x.num.len() > 2 {
+            return Ok(None);
+        }
+        for (p, q) in [
+            (1, 6),
+            (1, 4),
+            (1, 3),
+            (1, 2),
+            (1, 5),
+            (2, 5),
+            (1, 10),
+            (3, 10),
+            (1, 8),
+            (3, 8),
+            (1, 12),
+            (5, 12),
+        ] {
+            let no_tangent = function == Function::Atan && matches!(q, 2 | 5 | 10);
+            if no_tangent || (q >= 8 && x.num.len() < 2) {
+                continue;
+            }
+            let Some([cos, sin]) = self.of_pi(&ratio(p, q))? else {
+                continue;
+            };
+            let value = if function == Function::Asin {
+                sin
+            } else {
+                self.div(&sin, &cos)?
+            };
+            if self.equal(&value, x) {
+                let pi = Element::var(self.symbol(&Symbol::from("pi")));
+                return self.mul(&pi, &self.number(&ratio(p, q))).map(Some);
+            }
+        }
+        Ok(None)
+    }
+
+    /// The number q, when the element is q·π.
+    pub(crate) fn as_turns(&self, x: &Element) -> Option<Rational> {
+        match self.angle_terms(x).as_slice() {
+            [(term, q)] if self.is_pi(term) => Some(q.clone()),
+            _ => None,
+        }
+    }
+
+    fn is_pi(&self, x: &Element) -> bool {
+        self.is_symbol(x, &Symbol::from("pi"))
+    }
+
+    /// The terms of an argument, each with its rational coefficient split off.
+    pub(crate) fn angle_terms(&self, x: &Element) -> Vec<(Element, Rational)> {
+        let den = Den {
+            int: Int::one(),
+            ..x.den.clone()
+        };
+        x.num
+            .terms()
+            .map(|(mono, coeff)| {
+                let mut den = den.clone();
+                let num = den.cancel_into(Poly::term(mono, Int::one()));
+                (
+                    Element { num, den },
+                    Rational::new(coeff.clone(), x.den.int.clone()),
+                )
+            })
+            .collect()
+    }
+
+    fn turn(&self, a: &Direction, b: &Direction) -> Result<Direction, Stop> {
+        Ok([
+            self.sub(&self.mul(&a[0], &b[0])?, &self.mul(&a[1], &b[1])?)?,
+            self.add(&self.mul(&a[1], &b[0])?, &self.mul(&a[0], &b[1])?)?,
+        ])
+    }
+
+    fn multiple(&self, unit: &Direction, k: i64) -> Result<Direction, Stop> {
+        let unit = if k < 0 {
+            [unit[0].clone(), self.neg(&unit[1])]
+        } else {
+            unit.clone()
+        };
+        let mut total = [self.integer(1), Element::zero()];
+        if k == 0 {
+            return Ok(total);
+        }
+        for bit in (0..=k.unsigned_abs().ilog2()).rev() {
+            if bit < k.unsigned_abs().ilog2() {
+                total = self.turn(&total, &total)?;
+            }
+            if k.unsigned_abs() >> bit & 1 == 1 {
+                total = self.turn(&total, &unit)?;
+            }
+        }
+        Ok(total)
+    }
+
+    /// Cosine and sine of q·π for denominators whose values need square roots only.
+    pub(super) fn of_pi(&mut self, q: &Rational) -> Result<Option<Direction>, Stop> {
+        let two = ratio(2, 1);
+        let half = ratio(1, 2);
+        let q = q - (q / &two).floor() * &two;
+        let quarter = (&q * &two).floor();
+        let rest = &q - &(&quarter * &half);
+        let Some([cos, sin]) = self.acute(&rest)? else {
+            return Ok(None);
+        };
+        Ok(Some(match quarter.numer().as_i64() {
+            Some(0) => [cos, sin],
+            Some(1) => [self.neg(&sin), cos],
+            Some(2) => [self.neg(&cos), self.neg(&sin)],
+            _ => [sin, self.neg(&cos)],
+        }))
+    }
+
+    /// The same for 0 ≤ q < 1/2, where both values are positive or q is 0.
+    fn acute(&mut self, q: &Rational) -> Result<Option<Direction>, Stop> {
+        let (Some(p), Some(d)) = (q.numer().as_i64(), q.denom().as_i64()) else {
+            return Ok(None);
+        };
+        let number = |field: &Field, n: i64, d: i64| field.number(&ratio(n, d));
+        if p == 0 {
+            return Ok(Some([self.integer(1), Element::zero()]));
+        }
+        let pair = match (p, d) {
+            (1, 3 | 6) => {
+                let long = {
+                    let three = self.integer(3);
+                    let root = self.sqrt(&three)?;
+                    self.mul(&root, &number(self, 1, 2))?
+                };
+                let short = number(self, 1, 2);
+                if d == 3 { [short, long] } else { [long, short] }
+            }
+            (1, 4) => {
+                let two = self.integer(2);
+                let root = self.sqrt(&two)?;
+                let half = self.mul(&root, &number(self, 1, 2))?;
+                [half.clone(), half]
+            }
+            (1 | 2, 5) => {
+                let five = self.integer(5);
+                let root = self.sqrt(&five)?;
+                let quarter = number(self, 1, 4);
+                let cos = self.mul(&self.add(&root, &self.integer(1))?, &quarter)?;
+                let square = self.sub(&self.integer(1), &self.mul(&cos, &cos)?)?;
+                let sin = self.sqrt(&square)?;
+                let unit = [cos, sin];
+                if p == 1 {
+                    unit
+                } else {
+                    self.multiple(&unit, 2)?
+                }
+            }
+            (_, 15) => {
+                // p/15 = a/3 + b/5.
+                let b = (2 * p).mod_floor(&5);
+                let a = (p - 3 * b) / 5;
+                match (self.of_pi(&ratio(a, 3))?, self.of_pi(&ratio(b, 5))?) {
+                    (Some(x), Some(y)) => self.turn(&x, &y)?,
+                    _ => return Ok(None),
+                }
+            }
+            (_, d) if d % 2 == 0 && d <= 240 && constructible(d) => {
+                let Some([cos, sin]) = self.of_pi(&(q * ratio(2, 1)))? else {
+                    return Ok(None);
+                };
+                let square = self.mul(&self.add(&cos, &self.integer(1))?, &number(self, 1, 2))?;
+                let half_cos = self.sqrt(&square)?;
+                let half_sin = self.div(&self.mul(&sin, &number(self, 1, 2))?, &half_cos)?;
+                [half_cos, half_sin]
+            }
+            _ => self.opaque_acute(q)?,
+        };
+        Ok(Some(pair))
+    }
+
+    /// Cosine and sine of an angle that square roots do not give, as generators: those of 70° are those of 20° exchanged.
+    fn opaque_acute(&mut self, q: &Rational) -> Result<Direction, Stop> {
+        if *q > ratio(1, 4) {
+            let [cos, sin] = self.opaque_acute(&(ratio(1, 2) - q))?;
+            return Ok([sin, cos]);
+        }
+        self.complete = false;
+        let pi = Element::var(self.symbol(&Symbol::from("pi")));
+        let angle = self.mul(&pi, &self.number(q))?;
+        let cos = self.opaque(Function::Cos, angle.clone());
+        let sin = self.opaque(Function::Sin, angle);
+        if let (Some(c), Some(s)) = (self.as_generator(&cos), self.as_generator(&sin))
+            && self.gens[s].relation.is_none()
+        {
+            let square = Poly::term(&mono_of(c, 2), Int::one());
+            self.relate(s, 2, Poly::one().sub(&square));
+        }
+        Ok([cos, sin])
+    }
+}
+
+/// Whether a regular polygon with 2d corners can be drawn with primes 2, 3 and 5 only.
+fn constructible(mut d: i64) -> bool {
+    while d % 2 == 0 {
+        d /= 2;
+    }
+    matches!(d, 1 | 3 | 5 | 15)
+}

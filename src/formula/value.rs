@@ -1,0 +1,276 @@
+//! Values: numbers, names, brackets, fractions, and what is raised behind them.
+
+use super::Relation;
+use super::fault::{Fault, Faulty};
+use super::lexer::{Tok, Token};
+use super::parser::Parser;
+use super::written::{Literal, Shape, Sign, Written};
+use crate::expr::ratio;
+
+impl Parser<'_> {
+    /// A value with its exponents.
+    pub(super) fn factor(&mut self) -> Faulty<Written> {
+        let primary = self.primary()?;
+        self.raised(primary)
+    }
+
+    pub(super) fn raised(&mut self, mut base: Written) -> Faulty<Written> {
+        loop {
+            match self.peek()?.tok {
+                Tok::Caret => {
+                    self.next()?;
+                    let exponent = self.exponent()?;
+                    let (start, end) = (base.start, exponent.end);
+                    base =
+                        Written::new(Shape::Power(Box::new(base), Box::new(exponent)), start, end);
+                    if let Tok::Caret | Tok::Raised(_) = self.peek()?.tok {
+                        let token = self.next()?;
+                        return Err(Fault::new(
+                            "two exponents on one base",
+                            token.start,
+                            token.end,
+                        )
+                        .hint("write brackets"));
+                    }
+                }
+                Tok::Raised(_) => {
+                    let token = self.next()?;
+                    let exponent = raised_number(&token);
+                    let (start, end) = (base.start, token.end);
+                    base =
+                        Written::new(Shape::Power(Box::new(base), Box::new(exponent)), start, end);
+                    if let Tok::Caret | Tok::Raised(_) = self.peek()?.tok {
+                        let token = self.next()?;
+                        return Err(Fault::new(
+                            "two exponents on one base",
+                            token.start,
+                            token.end,
+                        )
+                        .hint("write brackets"));
+                    }
+                }
+                Tok::Percent => {
+                    let end = self.next()?.end;
+                    let start = base.start;
+                    let hundred = Box::new(whole_number(100, start, end));
+                    base = Written::new(Shape::Fraction(Box::new(base), hundred), start, end);
+                }
+                Tok::Degree => {
+                    let token = self.next()?;
+                    if !base.is_numeric() {
+                        let message = "degrees stand behind a number";
+                        return Err(Fault::new(message, token.start, token.end));
+                    }
+                    let (start, end) = (base.start, token.end);
+                    base = Written::new(Shape::Degrees(Box::new(base)), start, end);
+                }
+                _ => return Ok(base),
+            }
+        }
+    }
+
+    /// An exponent behind `^`: a sign and one factor; a further `^` belongs to the exponent.
+    pub(super) fn exponent(&mut self) -> Faulty<Written> {
+        self.deeper(|p| {
+            let (start, sign) = (p.peek()?.start, p.sign()?);
+            let mut inner = p.primary()?;
+            if let Tok::Caret = p.peek()?.tok {
+                p.next()?;
+                let above = p.exponent()?;
+                let (from, to) = (inner.start, above.end);
+                inner = Written::new(Shape::Power(Box::new(inner), Box::new(above)), from, to);
+            }
+            let end = inner.end;
+            Ok(match sign {
+                None | Some(Sign::Plus) => inner,
+                Some(sign) => Written::new(Shape::Sum(vec![(sign, inner)]), start, end),
+            })
+        })
+    }
+
+    pub(super) fn primary(&mut self) -> Faulty<Written> {
+        let token = self.next()?;
+        let (start, end) = (token.start, token.end);
+        match token.tok {
+            Tok::Number(literal) => Ok(Written::new(Shape::Number(literal), start, end)),
+            Tok::Name(name) => Ok(Written::new(Shape::Symbol(name), start, end)),
+            Tok::Vulgar(n, d) => Ok(vulgar(n, d, start, end)),
+            Tok::Open(open) => self.bracket(open, start, end),
+            Tok::Relation(Relation::Less) => self.bracket('<', start, end),
+            Tok::Bar => {
+                let outer = std::mem::replace(&mut self.bars, 1);
+                let inner = self.sum()?;
+                self.bars = outer;
+                let close = self.next()?;
+                match close.tok {
+                    Tok::Bar => Ok(Written::new(Shape::Abs(Box::new(inner)), start, close.end)),
+                    _ => Err(self.unclosed("|", start, end, &close)),
+                }
+            }
+            Tok::OpenBar => {
+                let outer = std::mem::replace(&mut self.bars, 0);
+                let inner = self.sum()?;
+                self.bars = outer;
+                let close = self.next()?;
+                match close.tok {
+                    Tok::CloseBar => {
+                        Ok(Written::new(Shape::Abs(Box::new(inner)), start, close.end))
+                    }
+                    _ => Err(self.unclosed("|", start, end, &close)),
+                }
+            }
+            Tok::Fraction => self.deeper(|p| {
+                let above = p.argument("the numerator")?;
+                let below = p.argument("the denominator")?;
+                let stop = below.end;
+                Ok(Written::new(
+                    Shape::Fraction(Box::new(above), Box::new(below)),
+                    start,
+                    stop,
+                ))
+            }),
+            Tok::Root(index) => self.deeper(|p| p.root(index, start, end)),
+            Tok::Call(function) => self.deeper(|p| p.call(function, false, start, end)),
+            Tok::Reciprocal(function) => self.deeper(|p| p.call(function, true, start, end)),
+            Tok::Logarithm(base) => {
+                let base = whole_number(base, start, end);
+                self.deeper(|p| p.logarithm(base, start, end))
+            }
+            Tok::LogarithmTo => self.deeper(|p| {
+                let base = p.argument("the base of the logarithm")?;
+                p.logarithm(base, start, end)
+            }),
+            Tok::Area(function) => self.deeper(|p| p.area(function, start, end)),
+            Tok::RootOf => self.deeper(|p| p.root_of(start)),
+            Tok::Exponential => self.deeper(|p| p.exponential(start, end)),
+            Tok::Signum => self.deeper(|p| p.signum(start)),
+            _ => Err(self.missing(&token)),
+        }
+    }
+
+    fn unclosed(&self, open: &str, start: usize, end: usize, at: &Token) -> Box<Fault> {
+        match at.tok {
+            Tok::End => Fault::new(
+                format!("`{open}` is opened here and never closed"),
+                start,
+                end,
+            ),
+            _ => {
+                let shown: String = self.lexer.text[at.start..at.end].chars().take(24).collect();
+                let message = format!(
+                    "`{shown}` stands where the `{open}` opened at byte {start} should be closed"
+                );
+                Fault::new(message, at.start, at.end)
+            }
+        }
+    }
+
+    fn bracket(&mut self, open: char, start: usize, opened: usize) -> Faulty<Written> {
+        let outer = std::mem::replace(&mut self.bars, 0);
+        let lists = open == '[' || open == '<' || open == '(' && self.lexer.lists();
+        let list = std::mem::replace(&mut self.lexer.list, lists);
+        let mut parts = vec![self.sum()?];
+        let mut token = self.next()?;
+        if token.tok == Tok::Over
+            && open == '{'
+            && let Some(above) = parts.pop()
+        {
+            let below = self.sum()?;
+            let (from, to) = (above.start, below.end);
+            let shape = Shape::Fraction(Box::new(above), Box::new(below));
+            parts.push(Written::new(shape, from, to));
+            token = self.next()?;
+        }
+        while token.tok == Tok::Comma && open != '{' {
+            if parts.len() >= 3 {
+                return Err(Fault::new(
+                    "a vector has at most three components",
+                    token.start,
+                    token.end,
+                ));
+            }
+            parts.push(self.sum()?);
+            token = self.next()?;
+        }
+        self.bars = outer;
+        self.lexer.list = list;
+        let close = match open {
+            '(' => ')',
+            '[' => ']',
+            '{' => '}',
+            'm' => 'm',
+            _ => '>',
+        };
+        let angled = open == '<' && token.tok == Tok::Relation(Relation::Greater);
+        if token.tok != Tok::Close(close) && !(angled && parts.len() > 1) {
+            let shown = self.lexer.text[start..opened].to_string();
+            return Err(self.unclosed(&shown, start, opened, &token));
+        }
+        let shape = match parts.pop() {
+            Some(_) if parts.is_empty() && matches!(open, 'm' | '<') => {
+                let fault = Fault::new("a vector has two or three components", start, token.end);
+                return Err(fault);
+            }
+            Some(only) if parts.is_empty() => Shape::Bracket(Box::new(only)),
+            Some(last) => {
+                parts.push(last);
+                Shape::List(parts)
+            }
+            None => return Err(self.missing(&token)),
+        };
+        Ok(Written::new(shape, start, token.end))
+    }
+
+    /// One argument of a LaTeX command: a group, or a single digit, letter or command.
+    pub(super) fn argument(&mut self, what: &str) -> Faulty<Written> {
+        if self.peeked.is_none() {
+            self.lexer.single = true;
+        }
+        let token = self.peek()?;
+        match token.tok {
+            Tok::Number(_)
+            | Tok::Name(_)
+            | Tok::Open('{' | '(')
+            | Tok::Fraction
+            | Tok::Root(_)
+            | Tok::Vulgar(..) => self.primary(),
+            _ => {
+                let token = self.next()?;
+                Err(Fault::new(
+                    format!("{what} is expected here"),
+                    token.start,
+                    token.end,
+                ))
+            }
+        }
+    }
+}
+
+pub(super) fn whole_number(value: i64, start: usize, end: usize) -> Written {
+    let literal = Literal {
+        value: ratio(value, 1),
+        digits: 1,
+        place: 0,
+        decimal: false,
+    };
+    Written::new(Shape::Number(literal), start, end)
+}
+
+pub(super) fn raised_number(token: &Token) -> Written {
+    let value = match &token.tok {
+        Tok::Raised(value) => value.clone(),
+        _ => ratio(1, 1),
+    };
+    let literal = Literal {
+        value,
+        digits: 1,
+        place: 0,
+        decimal: false,
+    };
+    Written::new(Shape::Number(literal), token.start, token.end)
+}
+
+fn vulgar(n: i64, d: i64, start: usize, end: usize) -> Written {
+    let part = |value| Box::new(whole_number(value, start, end));
+    Written::new(Shape::Fraction(part(n), part(d)), start, end)
+}
