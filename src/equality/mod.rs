@@ -214,7 +214,7 @@ pub fn decide(a: &Expr, b: &Expr, domains: &Domains) -> Decision {
 pub fn at_points(a: &Expr, b: &Expr, domains: &Domains) -> Option<(AtPoints, Vec<String>)> {
     let (_, roles) = within_limits(a, b)?;
     let (domains, assumed) = domains.completed(&roles);
-    let found = modular::compare(a, b, &domains, &roles)?;
+    let found = modular::Pair::of(a, b, &domains, &roles)?.at_points()?;
     Some((found, assumed))
 }
 
@@ -235,11 +235,23 @@ struct Search<'a> {
     probe: Probe<'a>,
     points: Vec<Sample>,
     tally: Tally,
+    /// Whether they differ for certain: then no proof is tried, and a point is looked for that can be shown.
+    apart: bool,
     /// What roots and logarithms are taken of, where that may be negative.
     unsure: Vec<(Expr, bool)>,
 }
 
 fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -> Equality {
+    let pair = modular::Pair::of(a, b, domains, roles);
+    let at_points = pair.as_ref().and_then(modular::Pair::at_points);
+    let agree = at_points.map(|found| found.equal);
+    if agree == Some(true) && pair.is_some_and(|pair| pair.proved()) {
+        let how = How::Identity {
+            ground: Ground::NormalForm,
+            assumptions: Vec::new(),
+        };
+        return Equality::Same { how };
+    }
     let mut search = Search {
         a,
         b,
@@ -249,6 +261,7 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
         probe: Probe::new(a, b, roles),
         points: Vec::new(),
         tally: Tally::default(),
+        apart: agree == Some(false),
         unsure: Vec::new(),
     };
     if let Some(found) = search.before_proof() {
@@ -317,8 +330,7 @@ impl Search<'_> {
         if a == b && self.tally.both_defined > 0 {
             return Proof::Equal(Vec::new(), Ground::NormalForm);
         }
-        // What differs at points modulo a prime needs no algebra, only a point that can be shown.
-        if modular::compare(a, b, domains, self.roles).is_some_and(|found| !found.equal) {
+        if self.apart {
             return Proof::Unequal {
                 settled: true,
                 folded: Vec::new(),

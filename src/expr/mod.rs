@@ -202,6 +202,8 @@ impl Expr {
         let mut out: Vec<Expr> = Vec::new();
         let mut number = Rational::one();
         let mut multiply = |factor: &Expr, out: &mut Vec<Expr>| match factor.as_number() {
+            // Most products hold one number.
+            Some(value) if number.is_one() => number = value.clone(),
             Some(value) => number *= value,
             None => out.push(factor.clone()),
         };

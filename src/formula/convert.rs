@@ -3,7 +3,7 @@
 use num_traits::{Signed, Zero};
 
 use super::fault::{Fault, Faulty};
-use super::written::{Link, Shape, Sign, Written};
+use super::written::{Link, Shape, Sign, Written, has_arrow};
 use crate::expr::{Expr, Function, Rational};
 
 /// Largest exponent that is a plain number.
@@ -36,7 +36,7 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
             "i_hat" => Ok(Value::Vector([Expr::one(), Expr::zero(), Expr::zero()])),
             "j_hat" => Ok(Value::Vector([Expr::zero(), Expr::one(), Expr::zero()])),
             "k_hat" => Ok(Value::Vector([Expr::zero(), Expr::zero(), Expr::one()])),
-            name if mode.components && super::symbols::parts_of(name).accent == "vec" => {
+            name if mode.components && has_arrow(name) => {
                 let along = |axis: &str| Expr::symbol(&format!("{name}_{axis}"));
                 Ok(Value::Vector([along("x"), along("y"), along("z")]))
             }

@@ -36,6 +36,7 @@ pub use fault::Fault;
 use fault::Faulty;
 pub use note::{Note, Remark};
 use parser::{Parser, Side};
+pub(crate) use symbols::is_greek;
 pub use symbols::{Declared, Symbols};
 pub use visible::{is_hidden, visible};
 pub use write::{latex_name, unicode_name, write_latex, write_plain, write_unicode};

@@ -13,6 +13,10 @@ pub(super) fn alternatives(text: &str) -> Option<(usize, usize)> {
         "\\text{ and }",
         " and ",
     ];
+    // Nearly all texts hold none of them.
+    if !text.contains(',') && !text.contains("or") && !text.contains("and") {
+        return None;
+    }
     let mut found = None;
     let mut depth = 0i32;
     let mut at = 0;
@@ -69,6 +73,10 @@ pub(super) fn conclusion(text: &str) -> Option<usize> {
         "answer",
         "it follows that",
     ];
+    let mark = |b: u8| !b.is_ascii() || matches!(b, b'\\' | b'=' | b',' | b':');
+    if !text.bytes().any(mark) {
+        return None;
+    }
     let arrow = ARROWS
         .iter()
         .filter_map(|arrow| text.rfind(arrow).map(|at| at + arrow.len()))

@@ -29,6 +29,7 @@ pub struct Symbols {
     longest_base: usize,
     open: bool,
     lists: bool,
+    brief: bool,
 }
 
 impl Symbols {
@@ -49,6 +50,17 @@ impl Symbols {
     pub fn with_lists(mut self) -> Symbols {
         self.lists = true;
         self
+    }
+
+    /// The same names, where the first undeclared one ends reading: for trying whether a text can be read at all.
+    pub fn briefly(mut self) -> Symbols {
+        self.brief = true;
+        self
+    }
+
+    /// Whether the first undeclared name ends reading.
+    pub(crate) fn is_brief(&self) -> bool {
+        self.brief
     }
 
     /// Whether a comma between digits in round brackets separates components.

@@ -24,6 +24,10 @@ impl Lexer<'_> {
             };
             return self.resolve(start, start + 1, parts);
         }
+        if let Some(name) = self.bare_letter(start) {
+            self.pos = start + 1;
+            return Ok(Tok::Name(name));
+        }
         // A longer run is read in pieces.
         let run = rest
             .bytes()
@@ -119,6 +123,27 @@ impl Lexer<'_> {
             return self.name(start, start + 1);
         }
         self.unknown_word(start, run)
+    }
+
+    /// A known name of one letter with nothing behind it that could belong to the name: most names are.
+    fn bare_letter(&self, start: usize) -> Option<Symbol> {
+        let rest = &self.text[start + 1..];
+        let ends = match rest.bytes().next() {
+            None | Some(b'+' | b'-' | b'*' | b'/' | b')' | b'}' | b'=') => true,
+            Some(b' ') => !rest.trim_start_matches(' ').starts_with('_'),
+            _ => false,
+        };
+        let inside = start > 0 && self.text.as_bytes()[start - 1].is_ascii_alphabetic();
+        let letter = &self.text[start..=start];
+        // A d could be that of a derivative, and what stands behind a number a unit.
+        if !ends || inside || letter == "d" || self.before != Before::Nothing {
+            return None;
+        }
+        let known = || self.found.iter().find(|name| ***name == *letter);
+        match self.symbols.find(letter) {
+            Some(declared) => Some(declared.name.clone()),
+            None => known().cloned(),
+        }
     }
 
     /// A logarithm to the base behind it: `log_10 x`, `\log_{2}(x)`, `log10(x)`; without one it is the natural one.
@@ -219,6 +244,9 @@ impl Lexer<'_> {
 
     /// Notes an undeclared name and goes on with it, so that all are reported together.
     pub(super) fn refuse(&mut self, key: &str, start: usize, end: usize) -> Faulty<Tok> {
+        if self.symbols.is_brief() {
+            return Err(Fault::new("a name is not declared", start, end));
+        }
         let shown = &self.text[start..end];
         let mut fault = Fault::new(format!("`{shown}` is not declared"), start, end);
         if let Some(nearest) = self.symbols.nearest(key) {

@@ -94,9 +94,7 @@ impl Written {
     /// Whether it is a vector by the way it is written: an arrow, a unit vector, components, or a sum or multiple of such.
     pub(crate) fn is_vector(&self) -> bool {
         match &self.shape {
-            Shape::Symbol(name) => {
-                name.ends_with("_hat") || super::symbols::parts_of(name).accent == "vec"
-            }
+            Shape::Symbol(name) => name.ends_with("_hat") || has_arrow(name),
             Shape::List(_) => true,
             Shape::Bracket(inner) | Shape::Fraction(inner, _) | Shape::Measured(inner, _) => {
                 inner.is_vector()
@@ -143,7 +141,7 @@ impl Written {
 
     fn has_arrow(&self) -> bool {
         match &self.shape {
-            Shape::Symbol(name) => super::symbols::parts_of(name).accent == "vec",
+            Shape::Symbol(name) => has_arrow(name),
             Shape::Bracket(inner) | Shape::Fraction(inner, _) | Shape::Measured(inner, _) => {
                 inner.has_arrow()
             }
@@ -215,4 +213,9 @@ impl Written {
             _ => None,
         }
     }
+}
+
+/// Whether a name stands for a vector by its arrow.
+pub(crate) fn has_arrow(name: &str) -> bool {
+    name.contains("_vec") && super::symbols::parts_of(name).accent == "vec"
 }

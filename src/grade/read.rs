@@ -32,6 +32,20 @@ pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> 
     }
 }
 
+/// Whether a text is read in the same way once its names are declared: there was nothing to choose, no unit, and every
+/// name is one letter, Latin or Greek, with digits at most.
+pub(super) fn is_stable(reading: &Reading) -> bool {
+    let plain = |name: &Symbol| {
+        let base = name.trim_end_matches(|c: char| c.is_ascii_digit());
+        base.len() == 1 || base == "pi" || formula::is_greek(base)
+    };
+    let scalar = matches!(reading.content, Content::Scalar(_)) && reading.unit.is_none();
+    scalar
+        && reading.choices == 0
+        && reading.notes.is_empty()
+        && reading.symbols().iter().all(plain)
+}
+
 /// Reads an answer.
 pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     let fault = match formula::read(text, &key.readable) {
@@ -91,15 +105,14 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
 
 /// A text as a quantity with a unit, where no undeclared symbol is needed to read it.
 pub(super) fn quantity(text: &str, question: &Question) -> Option<Reading> {
-    let mut symbols = Symbols::strict();
+    let mut symbols = Symbols::strict().briefly();
     declare(&mut symbols, question);
-    let reading = formula::read(text, &symbols).or_else(|fault| {
-        match formula::read(text, &symbols.clone().with_lists()) {
-            Ok(reading) if vector(&reading) => Ok(reading),
-            _ => Err(fault),
-        }
-    });
-    reading.ok().filter(|reading| {
+    let list = || {
+        let lists = text.contains(',').then(|| symbols.clone().with_lists())?;
+        formula::read(text, &lists).ok().filter(vector)
+    };
+    let reading = formula::read(text, &symbols).ok().or_else(list);
+    reading.filter(|reading| {
         let plain = matches!(reading.content.answer(), Content::Quantity(_));
         plain || reading.unit.is_some() && reading.symbols().is_empty()
     })

@@ -7,10 +7,10 @@ use sha2::{Digest, Sha256};
 use crate::expr::{Expr, Node};
 
 /// The hash of two formulas, in four numbers.
-pub(super) struct Pair([u64; 4]);
+pub(super) struct Drawn([u64; 4]);
 
-impl Pair {
-    pub fn of(a: &Expr, b: &Expr) -> Pair {
+impl Drawn {
+    pub fn of(a: &Expr, b: &Expr) -> Drawn {
         let [mut first, mut second] = [a, b].map(|e| {
             let mut bytes = Vec::with_capacity(512);
             spell(e, &mut bytes);
@@ -27,7 +27,7 @@ impl Pair {
         for (word, bytes) in words.iter_mut().zip(digest.chunks_exact(8)) {
             *word = bytes.iter().fold(0, |w, b| w << 8 | u64::from(*b));
         }
-        Pair(words)
+        Drawn(words)
     }
 
     /// One number for each lane.
@@ -83,7 +83,7 @@ mod tests {
     #[test]
     fn points_hang_on_both_formulas_in_no_order() {
         let [x, y, z] = ["x", "y", "z"].map(Expr::symbol);
-        let drawn = |a: &Expr, b: &Expr| Pair::of(a, b).rounds::<8>();
+        let drawn = |a: &Expr, b: &Expr| Drawn::of(a, b).rounds::<8>();
         assert_eq!(drawn(&x, &y), drawn(&y, &x));
         assert_ne!(drawn(&x, &y), drawn(&x, &(&y + &Expr::one())));
         assert_ne!(drawn(&(&x * &y), &z), drawn(&x, &(&y * &z)));

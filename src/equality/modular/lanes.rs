@@ -24,7 +24,7 @@ const MOST_ROOTS: usize = 4;
 #[derive(Debug)]
 pub(super) struct Lanes<'a, const C: u64, const L: usize, const R: usize> {
     /// The symbols in alphabetical order.
-    pub(super) places: &'a [Place<'a>],
+    places: &'a [Place<'a>],
     /// Values and directions of symbols met so far.
     symbols: Vec<Option<Value<L, R>>>,
     circles: Vec<Option<Circle<L, R>>>,
@@ -95,9 +95,9 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
 
     /// Reads two formulas one after the other, and compares them.
     pub fn both(&mut self, a: &Expr, b: &Expr) -> Option<AtPoints> {
-        let left = walk::value(a, self)?;
+        let left = walk::value(a, self.places, self)?;
         let mine = std::mem::take(&mut self.state.used);
-        let right = walk::value(b, self)?;
+        let right = walk::value(b, self.places, self)?;
         self.compare((&left, mine), (&right, self.state.used))
     }
 
@@ -127,7 +127,7 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
     }
 
     /// A symbol, by its place in the alphabet.
-    pub(super) fn symbol(&mut self, index: usize) -> Value<L, R> {
+    pub(super) fn at(&mut self, index: usize) -> Value<L, R> {
         if let Some(value) = self.symbols[index] {
             return value;
         }

@@ -6,10 +6,16 @@
 //! stated (Schwartz and Zippel: degree over p for each point), where coefficients are shown to be smaller than the prime.
 //! Points are drawn by a strong hash of the two formulas: nobody can write one that meets them.
 //! Roots follow the rules told in [`lanes`]. Whatever fits none of this is declined.
+//!
+//! What agrees at points can mostly be proved as quickly, by [`exact`]: that is no matter of chance.
 
+mod build;
 mod drawn;
+mod exact;
 mod lanes;
+mod poly;
 mod prime;
+mod radical;
 mod real;
 mod value;
 mod walk;
@@ -50,18 +56,45 @@ impl AtPoints {
     }
 }
 
-/// Compares two formulas whose symbols, those of `roles`, all have a domain. `None` where they are not of the kind this is
-/// for, or nothing follows.
-pub(super) fn compare(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles) -> Option<AtPoints> {
-    let place = |(name, role)| place(name, role, domains);
-    let places: Vec<Place> = roles.symbols.iter().map(place).collect::<Option<_>>()?;
-    let pair = drawn::Pair::of(a, b);
-    let mut plain = Lanes::<PLAIN, FEW, 0>::new(&places, pair.rounds());
-    let compared = plain.both(a, b);
-    if !plain.rooted {
-        return compared;
+/// Two formulas, and where their symbols live.
+pub(super) struct Pair<'a> {
+    formulas: [&'a Expr; 2],
+    places: Vec<Place<'a>>,
+}
+
+impl<'a> Pair<'a> {
+    /// A pair whose symbols, those of `roles`, all have a domain; `None` where that is no place for identities.
+    pub fn of(
+        a: &'a Expr,
+        b: &'a Expr,
+        domains: &'a Domains,
+        roles: &'a Roles,
+    ) -> Option<Pair<'a>> {
+        let place = |(name, role)| place(name, role, domains);
+        Some(Pair {
+            formulas: [a, b],
+            places: roles.symbols.iter().map(place).collect::<Option<_>>()?,
+        })
     }
-    Lanes::<ROOTS, MANY, REAL>::new(&places, pair.rounds()).both(a, b)
+
+    /// Compares the two at random points. `None` where they are not of the kind this is for, or nothing follows.
+    pub fn at_points(&self) -> Option<AtPoints> {
+        let [a, b] = self.formulas;
+        let drawn = drawn::Drawn::of(a, b);
+        let mut plain = Lanes::<PLAIN, FEW, 0>::new(&self.places, drawn.rounds());
+        let compared = plain.both(a, b);
+        if !plain.rooted {
+            return compared;
+        }
+        Lanes::<ROOTS, MANY, REAL>::new(&self.places, drawn.rounds()).both(a, b)
+    }
+
+    /// Whether the two are proved to be equal, with values at the same points of the domain.
+    pub fn proved(&self) -> bool {
+        let [a, b] = self.formulas;
+        // Roots that come first are those by which later ones are known.
+        exact::proves(a, b, &self.places) || exact::proves(b, a, &self.places)
+    }
 }
 
 /// A symbol and where it lives.
