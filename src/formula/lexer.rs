@@ -4,10 +4,9 @@
 //! a LaTeX command outside the list below is a fault.
 
 use super::Relation;
-use super::fault::{Fault, Faulty, is_invisible};
+use super::fault::{Fault, Faulty};
 use super::note::{Note, Remark};
-use super::number::{self, Exponent};
-use super::symbols::{Symbols, greek_name, is_angle_name};
+use super::symbols::{Symbols, is_angle_name};
 use super::tex::{decoration, degree_mark, shows_space};
 use super::written::Literal;
 use crate::dimension::Unit;
@@ -17,8 +16,6 @@ use crate::expr::{Function, Rational, Symbol, ratio};
 pub(super) const SLASHES: u32 = 63;
 /// Most tokens of one formula.
 const MAX_TOKENS: u32 = 20_000;
-/// Most digits and powers of ten of all numbers together, beyond what fits a machine word: long fractions cost much.
-const MAX_LONG_DIGITS: u32 = 6_000;
 
 /// A token.
 #[derive(Clone, PartialEq, Debug)]
@@ -112,7 +109,7 @@ pub(crate) struct Lexer<'a> {
     /// Tokens so far.
     count: u32,
     /// Digits of long numbers so far.
-    long_digits: u32,
+    pub(super) long_digits: u32,
     /// Whether a comma between digits separates components here.
     pub list: bool,
     /// Whether lines are aligned: `&` and `\\\\` only lay them out.
@@ -370,246 +367,9 @@ impl<'a> Lexer<'a> {
         Ok(tok)
     }
 
-    fn other(&mut self) -> Faulty<Tok> {
-        let rest = &self.text[self.pos..];
-        let Some(c) = rest.chars().next() else {
-            return Ok(Tok::End);
-        };
-        let tok = match c {
-            '−' | '–' | '—' | '‐' | '‑' | '﹣' | '－' => Tok::Minus,
-            '＋' => Tok::Plus,
-            '（' => Tok::Open('('),
-            '）' => Tok::Close(')'),
-            '［' => Tok::Open('['),
-            '］' => Tok::Close(']'),
-            '｛' => Tok::Open('{'),
-            '｝' => Tok::Close('}'),
-            '／' => Tok::Slash,
-            '＾' => Tok::Caret,
-            '，' => Tok::Comma,
-            '∥' | '‖' => Tok::Bar,
-            '±' => Tok::PlusMinus,
-            '∓' => Tok::MinusPlus,
-            '·' | '⋅' | '∙' | '•' | '∗' | '＊' => Tok::Times,
-            '×' | '⨯' | '✕' => Tok::Cross,
-            '÷' | '∕' | '⁄' => Tok::Slash,
-            '√' => Tok::Root(2),
-            '∛' => Tok::Root(3),
-            '≤' | '⩽' | '≦' => Tok::Relation(Relation::LessEqual),
-            '≥' | '⩾' | '≧' => Tok::Relation(Relation::GreaterEqual),
-            '≠' => Tok::Relation(Relation::NotEqual),
-            '≈' | '≃' | '≅' => Tok::Relation(Relation::Approximately),
-            '≡' | '＝' => Tok::Relation(Relation::Equal),
-            '½' => Tok::Vulgar(1, 2),
-            '⅓' => Tok::Vulgar(1, 3),
-            '⅔' => Tok::Vulgar(2, 3),
-            '¼' => Tok::Vulgar(1, 4),
-            '¾' => Tok::Vulgar(3, 4),
-            '⅕' => Tok::Vulgar(1, 5),
-            '⅖' => Tok::Vulgar(2, 5),
-            '⅗' => Tok::Vulgar(3, 5),
-            '⅘' => Tok::Vulgar(4, 5),
-            '⅙' => Tok::Vulgar(1, 6),
-            '⅚' => Tok::Vulgar(5, 6),
-            '⅐' => Tok::Vulgar(1, 7),
-            '⅛' => Tok::Vulgar(1, 8),
-            '⅜' => Tok::Vulgar(3, 8),
-            '⅝' => Tok::Vulgar(5, 8),
-            '⅞' => Tok::Vulgar(7, 8),
-            '⅑' => Tok::Vulgar(1, 9),
-            '⅒' => Tok::Vulgar(1, 10),
-            '°' if rest[c.len_utf8()..].starts_with(['C', 'F']) => {
-                let fault = Fault::new(
-                    "a temperature in degrees is not read",
-                    self.pos,
-                    self.pos + 3,
-                );
-                return Err(fault.hint("write it in kelvins, K"));
-            }
-            '°' | '∘' => Tok::Degree,
-            '⟨' => Tok::Open('<'),
-            '⟩' => Tok::Close('>'),
-            'π' | '𝜋' | '𝛑' | '𝝅' => Tok::Name("pi".into()),
-            '⁰' | '¹' | '²' | '³' | '⁴'..='⁹' | '⁺' | '⁻' => return self.raised(),
-            '∂' | 'ⅆ' => {
-                return match self.derivative() {
-                    Some(derivative) => derivative,
-                    None => {
-                        let message = "∂ is read in a derivative of one name only, as in ∂x/∂t";
-                        Err(Fault::new(message, self.pos, self.pos + c.len_utf8()))
-                    }
-                };
-            }
-            'ⁿ' => {
-                let message = "a raised letter is not read here";
-                return Err(Fault::new(message, self.pos, self.pos + c.len_utf8()).hint("write ^n"));
-            }
-            'µ' | 'μ' | 'Ω' | '\u{2126}' if self.units_first && self.before != Before::Nothing =>
-            {
-                return match self.unit(false) {
-                    Some(tok) => Ok(tok),
-                    None => self.name(self.pos, self.pos + c.len_utf8()),
-                };
-            }
-            _ if greek_name(c).is_some() || matches!(c, 'î' | 'ĵ' | 'ŷ') => {
-                return self.name(self.pos, self.pos + c.len_utf8());
-            }
-            '\'' | '′' => {
-                let message = "a prime belongs right behind a name";
-                return Err(Fault::new(message, self.pos, self.pos + c.len_utf8()));
-            }
-            '_' => {
-                let message = "an index belongs right behind a name";
-                return Err(Fault::new(message, self.pos, self.pos + 1).hint("write v_1 or v_{G1}"));
-            }
-            '.' => {
-                return Err(Fault::new("a point without digits", self.pos, self.pos + 1)
-                    .hint("write * for a product"));
-            }
-            '!' => {
-                return Err(Fault::new(
-                    "a factorial has no place in these formulas",
-                    self.pos,
-                    self.pos + 1,
-                ));
-            }
-            '&' => {
-                return Err(Fault::new(
-                    "`&` is no part of a formula",
-                    self.pos,
-                    self.pos + 1,
-                ));
-            }
-            c => return Err(strange(c, self.pos)),
-        };
-        self.pos += c.len_utf8();
-        Ok(tok)
-    }
-
-    /// An exponent in raised digits.
-    fn raised(&mut self) -> Faulty<Tok> {
-        let start = self.pos;
-        let mut digits = 0i64;
-        let mut count = 0;
-        let mut negative = false;
-        for c in self.text[start..].chars() {
-            let digit = match c {
-                '⁰' => 0,
-                '¹' => 1,
-                '²' => 2,
-                '³' => 3,
-                '⁴'..='⁹' => i64::from(u32::from(c) - u32::from('⁴')) + 4,
-                '⁺' | '⁻' if self.pos == start => {
-                    negative = c == '⁻';
-                    self.pos += c.len_utf8();
-                    continue;
-                }
-                _ => break,
-            };
-            self.pos += c.len_utf8();
-            count += 1;
-            if count > 4 {
-                return Err(Fault::new(
-                    "an exponent has at most four raised digits",
-                    start,
-                    self.pos,
-                ));
-            }
-            digits = digits * 10 + digit;
-        }
-        if count == 0 {
-            return Err(Fault::new(
-                "a raised sign without digits belongs right behind a name",
-                start,
-                self.pos,
-            ));
-        }
-        Ok(Tok::Raised(ratio(
-            if negative { -digits } else { digits },
-            1,
-        )))
-    }
-
-    fn number(&mut self) -> Faulty<Tok> {
-        let start = self.pos;
-        let bytes = self.text.as_bytes();
-        let mut digits_end = start;
-        let mut dot = false;
-        while bytes
-            .get(digits_end)
-            .is_some_and(|b| b.is_ascii_digit() || (*b == b'.' && !dot))
-        {
-            dot |= bytes[digits_end] == b'.';
-            digits_end += 1;
-        }
-        let mut exponent = Exponent::Ten;
-        if let Some((_, stop, _)) = number::exponent_at(bytes, digits_end) {
-            let letter = &self.text[digits_end..=digits_end];
-            let declared = self.symbols.find(letter).is_some();
-            if declared || letter == "e" && self.symbols.is_open() {
-                let signed = matches!(bytes.get(digits_end + 1), Some(b'+' | b'-'));
-                // 2e-1 with e declared is 2e minus 1; 1.5e-3 is a number to everybody.
-                let ten = !(declared && signed && !dot);
-                let usual = self.usual();
-                self.note(
-                    Remark::PowerOfTen { ten: ten == usual },
-                    start,
-                    digits_end,
-                    stop,
-                );
-                exponent = if ten == usual {
-                    Exponent::Ten
-                } else {
-                    Exponent::Symbol
-                };
-            }
-        }
-        let (literal, end) = match number::grouped(self.text, start) {
-            Some(found) => found?,
-            None => match number::decimal_comma(self.text, start)
-                .filter(|_| !self.list && self.open == 0)
-            {
-                Some((literal, end)) => {
-                    self.note(Remark::DecimalComma, start, start, end);
-                    (literal, end)
-                }
-                None => number::literal(self.text, start, exponent, self.list)?,
-            },
-        };
-        self.long_digits += (literal.digits + literal.place.unsigned_abs()).saturating_sub(18);
-        if self.long_digits > MAX_LONG_DIGITS {
-            let message =
-                format!("the numbers of a formula have at most {MAX_LONG_DIGITS} digits in all");
-            return Err(Fault::new(message, start, end));
-        }
-        self.pos = end;
-        Ok(Tok::Number(literal))
-    }
-
     /// Whether a comma between digits in round brackets separates components.
     pub fn lists(&self) -> bool {
         self.symbols.lists()
-    }
-
-    /// Whether an x stands for the times sign of a power of ten, as in `6.02 x 10^23`.
-    fn times_ten(&self, rest: &str) -> bool {
-        let behind = rest[1..].trim_start();
-        matches!(self.before, Before::Number { .. })
-            && (behind.starts_with("10^") || behind.starts_with("10**"))
-            && self.symbols.find(&rest[..1]).is_none()
-    }
-
-    /// A percent sign behind a number, with nothing behind it that could make it a remainder.
-    pub(super) fn percent(&mut self, start: usize, length: usize) -> Faulty<Tok> {
-        let end = start + length;
-        let behind = self.text[end..].trim_start().chars().next();
-        let alone = behind.is_none_or(|c| "+-−±*·/=<>≤≥≈)]},;.$|".contains(c));
-        if !alone || !matches!(self.before, Before::Number { .. }) {
-            let fault = Fault::new("a percent sign belongs behind a number", start, end);
-            return Err(fault.hint("write 5% or 0.05"));
-        }
-        self.pos = end;
-        Ok(Tok::Percent)
     }
 
     /// A separator of components inside a matrix: all of one kind, so that it is a row or a column.
@@ -638,24 +398,4 @@ impl<'a> Lexer<'a> {
             .chars()
             .all(|c| c.is_whitespace() || c == '$')
     }
-}
-
-/// A character that has no place in a formula.
-fn strange(c: char, at: usize) -> Box<Fault> {
-    let end = at + c.len_utf8();
-    if is_invisible(c) {
-        let message = format!(
-            "an invisible character (U+{:04X}) stands here",
-            u32::from(c)
-        );
-        return Fault::new(message, at, end).hint("type the formula anew");
-    }
-    if c.is_control() {
-        return Fault::new(
-            format!("a control character (U+{:04X}) stands here", u32::from(c)),
-            at,
-            end,
-        );
-    }
-    Fault::new(format!("`{c}` has no place in a formula"), at, end)
 }

@@ -5,8 +5,10 @@
 //! module never decides whether two formulas are equal.
 
 mod calls;
+mod characters;
 mod convert;
 mod differential;
+mod digits;
 mod echo;
 mod fault;
 mod lexer;

@@ -7,20 +7,24 @@
 //! for saying nothing.
 
 mod cells;
+mod factor;
+mod inequality;
 mod locus;
 mod solved;
 mod system;
 
 use std::collections::BTreeSet;
 
-use super::compare::{Context, Finding, WRITTEN, scalars};
+use super::compare::{Context, Finding};
 use super::{Apart, Diagnosis, Proof, Verdict};
-use crate::algebra::{Element, Field, Sign};
+use crate::algebra::{Field, Sign};
 use crate::domain::{Domain, Domains, roles, samples};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Content, Relation, write_plain};
 use crate::interval::{Interval, Outcome, evaluate};
 use cells::holds;
+use factor::turned_term;
+use inequality::inequalities;
 use locus::{Compared, Extent, Part};
 use num_traits::Signed;
 pub(super) use solved::solve_for;
@@ -368,169 +372,6 @@ fn parted(ctx: &Context, words: &str, note: &'static str, part: &Part, gained: b
     finding.with(Diagnosis::new(code, words, hint))
 }
 
-/// The one term of the answer whose sign has to be turned to make the equations the same.
-fn turned_term(f: &Expr, g: &Expr, domains: &Domains) -> Option<Expr> {
-    let Node::Sum(terms) = g.node() else {
-        return None;
-    };
-    (0..terms.len().min(12)).find_map(|i| {
-        let all = terms
-            .iter()
-            .enumerate()
-            .map(|(j, t)| if i == j { -t } else { t.clone() });
-        let normal = |difference: Expr| Normal {
-            difference,
-            relation: Relation::Equal,
-        };
-        same_sign(&normal(f.clone()), &normal(Expr::sum(all)), domains).map(|_| terms[i].clone())
-    })
-}
-
-/// What sets two differences apart: the sign of the quotient where it has one, and its parts that may vanish.
-struct Factor {
-    positive: bool,
-    weak: Vec<Expr>,
-}
-
-/// The quotient of two differences, where its sign is known.
-fn factor(f: &Expr, g: &Expr, domains: &Domains) -> Option<Factor> {
-    let (domains, _) = domains.completed(&roles(&[f, g]));
-    let mut field = Field::new(&domains);
-    field.prepare([f, g]);
-    let (x, y) = (field.element(f).ok()?, field.element(g).ok()?);
-    if field.is_zero(&x) || field.is_zero(&y) {
-        return None;
-    }
-    // One way round a quotient may divide out that does not the other way.
-    let (quotient, sign) = [(&y, &x), (&x, &y)].into_iter().find_map(|(a, b)| {
-        let quotient = field.div(a, b).ok().filter(|q| q.terms() <= WRITTEN)?;
-        let sign = field.sign(&quotient)?;
-        Some((quotient, sign))
-    })?;
-    let strict = |x: &Element| matches!(field.sign(x), Some(Sign::Positive | Sign::Negative));
-    let below = field.below(&quotient).ok()?;
-    let parts = [field.zeros(&quotient), field.zeros(&below)].concat();
-    let weak = parts.iter().filter(|x| !strict(x));
-    Some(Factor {
-        positive: sign.is_not_negative(),
-        weak: weak.map(|x| field.expr(x)).collect(),
-    })
-}
-
-/// Where a relation `difference < 0` or `≤ 0` holds on a domain, as far as the sign of its difference tells.
-fn extent(n: &Normal, domains: &Domains) -> Extent {
-    let (domains, _) = domains.completed(&roles(&[&n.difference]));
-    let mut field = Field::new(&domains);
-    field.prepare([&n.difference]);
-    let sign = field.element(&n.difference).ok();
-    let sign = sign.and_then(|x| field.sign(&x));
-    match (sign, n.relation) {
-        (Some(Sign::Negative), _) => Extent::All,
-        (Some(Sign::NotPositive | Sign::Zero), Relation::LessEqual) => Extent::All,
-        (Some(Sign::Positive), _) => Extent::None,
-        (Some(Sign::NotNegative | Sign::Zero), Relation::Less) => Extent::None,
-        (Some(_), _) => Extent::Unknown,
-        (None, _) => Extent::Some,
-    }
-}
-
-/// Two inequalities.
-fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
-    let domains = &ctx.key.question.domains;
-    let (f, g) = (&expected.difference, &answer.difference);
-    match [expected, answer].map(|n| extent(n, domains)) {
-        [Extent::All, Extent::All] | [Extent::None, Extent::None] => {
-            let reals = over_reals(domains, &[f, g]);
-            let extents = [expected, answer].map(|n| extent(n, &reals));
-            match extents {
-                [Extent::All, Extent::All] => return says_nothing("holds everywhere"),
-                [Extent::None, Extent::None] => return says_nothing("has no solution"),
-                _ => {}
-            }
-            let same = expected.relation == answer.relation
-                && factor(f, g, &reals).is_some_and(|q| q.positive && q.weak.is_empty());
-            if same && !extents.contains(&Extent::None) && !extents.contains(&Extent::All) {
-                let mut finding = same_solutions("the two differ by a factor that is positive");
-                finding.assumed.push(REALS.into());
-                return finding;
-            }
-            return undecided("on the domain neither inequality says anything");
-        }
-        [
-            a @ (Extent::All | Extent::None),
-            b @ (Extent::All | Extent::None),
-        ] if a != b => {
-            let words = "one holds everywhere on the domain and the other nowhere";
-            return Finding::different("DIFF_INEQUALITY", "solutions", words);
-        }
-        _ => {}
-    }
-    let common = factor(f, g, domains);
-    if let Some(common) = &common {
-        let sought = sought_in(ctx, f, g);
-        let free = |e: &Expr| e.symbols().is_disjoint(&sought);
-        if common.positive && expected.relation == answer.relation {
-            if common.weak.is_empty() {
-                return same_solutions("the two differ by a factor that is positive");
-            }
-            if common.weak.iter().all(free) {
-                let mut finding = same_solutions("the two differ by a factor that is not negative");
-                let words = common
-                    .weak
-                    .iter()
-                    .map(|e| format!("{} ≠ 0", write_plain(e)));
-                finding.assumed = words.collect();
-                return finding;
-            }
-        }
-        let boundary = || locus::vanishing(f, &Expr::one(), domains);
-        if common.positive && expected.relation != answer.relation {
-            match boundary() {
-                Some((at, _)) => {
-                    let words =
-                        "the boundary belongs to one of the two inequalities and not to the other";
-                    let mut finding = Finding::different("DIFF_STRICT", "solutions", words);
-                    let word = |r| {
-                        if r == Relation::Less {
-                            "does not hold"
-                        } else {
-                            "holds"
-                        }
-                    };
-                    finding.counterexample = Some(Apart {
-                        at,
-                        yours: word(answer.relation).into(),
-                        expected: word(expected.relation).into(),
-                    });
-                    return finding.with(Diagnosis::new(
-                        "STRICT",
-                        words,
-                        "look at the case of equality",
-                    ));
-                }
-                None => return undecided("the two differ at most on their boundary"),
-            }
-        }
-        if !common.positive && common.weak.is_empty() {
-            let words = "the inequality points the other way";
-            return Finding::different("DIFF_TURNED", "solutions", words).with(Diagnosis::new(
-                "TURNED",
-                words,
-                "multiplying by something negative turns an inequality round",
-            ));
-        }
-    }
-    apart_at_points(
-        ctx,
-        std::slice::from_ref(expected),
-        std::slice::from_ref(answer),
-    )
-    .or_else(|| other_bound(ctx, f, g))
-    .unwrap_or_else(|| {
-        undecided("the inequalities agree at every point tried, and no proof was found")
-    })
-}
-
 /// The sought quantity of two relations: what is asked for, else the symbols they share.
 fn sought_in(ctx: &Context, f: &Expr, g: &Expr) -> BTreeSet<Symbol> {
     let all: BTreeSet<Symbol> = f.symbols().intersection(&g.symbols()).cloned().collect();
@@ -587,22 +428,4 @@ fn apart_at_points(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Opt
         }
     }
     None
-}
-
-/// Whether two inequalities set different bounds on the same symbol.
-fn other_bound(ctx: &Context, f: &Expr, g: &Expr) -> Option<Finding> {
-    let domains = &ctx.key.question.domains;
-    let plain = Context {
-        key: ctx.key,
-        options: ctx.options,
-        diagnose: false,
-    };
-    unknowns(f, g).iter().find_map(|name| {
-        let (a, b) = (solve_for(f, name, domains)?, solve_for(g, name, domains)?);
-        let finding = scalars(&plain, &a, &b);
-        (finding.verdict == Verdict::Different).then_some(Finding {
-            note: "DIFF_INEQUALITY",
-            ..finding
-        })
-    })
 }

@@ -5,9 +5,11 @@
 //! introduces. It holds when it is an identity in the derived motion. After a line that does not hold, later lines are
 //! also tried in the motion that line would imply.
 
+mod text;
+mod why;
+
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::behind::{Named, behind};
 use super::relation::{follows, solve_for};
 use super::sheet::Sheet;
 use super::{Diagnosis, Options, Tolerance};
@@ -17,6 +19,7 @@ use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{self, Content, Fault, Reading, Relation, Symbols};
 use crate::laws;
 use crate::scene::{Ask, ContactLaw, Scene};
+use text::{equation, is_near};
 
 /// What is found of one line.
 #[derive(Clone, PartialEq, Debug)]
@@ -465,40 +468,6 @@ impl<'a> Desk<'a> {
         }
     }
 
-    /// Notes what a wrong line implies: each of its names in turn is what it would have to be.
-    fn believe(&mut self, cause: usize, differences: &[Expr]) {
-        let earlier = self
-            .believed
-            .iter()
-            .rev()
-            .find(|(c, _)| *c == cause)
-            .map(|(_, v)| v.clone())
-            .unwrap_or_default();
-        for d in differences {
-            let d = self.with_own(d);
-            let names: Vec<Symbol> = d
-                .symbols()
-                .into_iter()
-                .filter(|n| self.closed.contains_key(n))
-                .collect();
-            for name in names {
-                let mut others = self.closed.clone();
-                others.remove(&name);
-                let mut known = earlier.clone();
-                known.remove(&name);
-                let reduced = d.substitute(&known).substitute(&others);
-                if let Some(root) = solve_for(&reduced, &name, &self.sheet.scene.domains) {
-                    let mut values = earlier.clone();
-                    self.carry_along(&name, &root, &mut values);
-                    values.insert(name, root);
-                    self.believed.push((cause, values));
-                }
-            }
-        }
-        let excess = self.believed.len().saturating_sub(64);
-        self.believed.drain(..excess);
-    }
-
     /// In a motion with one freedom all velocities are what they are, times the same wrong number.
     fn carry_along(&self, name: &Symbol, root: &Expr, values: &mut BTreeMap<Symbol, Expr>) {
         let Some(truth) = self.closed.get(name).filter(|t| !t.is_zero()) else {
@@ -514,149 +483,6 @@ impl<'a> Desk<'a> {
             }
         }
     }
-
-    /// For a line that states a quantity of the scene: the belief behind it.
-    fn diagnosis(&self, reading: &Reading, text: &str, options: &Options) -> Vec<Diagnosis> {
-        let Content::Relations(sides, _) = &reading.content else {
-            return Vec::new();
-        };
-        let name = sides
-            .first()
-            .and_then(Content::expr)
-            .and_then(Expr::as_symbol);
-        if let Some(entry) = name.and_then(|n| self.sheet.entry(n).ok()) {
-            return self.sheet.judge(&entry, text, options).diagnosis;
-        }
-        // A law with a slip.
-        let [left, right] = sides.as_slice() else {
-            return Vec::new();
-        };
-        let (Some(left), Some(right)) = (left.expr(), right.expr()) else {
-            return Vec::new();
-        };
-        let (left, right) = (self.with_own(left), self.with_own(right));
-        let used: BTreeSet<Symbol> = left.symbols().union(&right.symbols()).cloned().collect();
-        let names = used.into_iter().filter(|n| self.closed.contains_key(n));
-        let named: Option<Vec<_>> = names.map(|n| self.named(n)).collect();
-        let mut found: Vec<Diagnosis> = self.turned(&left, &right).into_iter().collect();
-        if let Some(named @ [_, ..]) = named.as_deref() {
-            found.extend(behind(&self.sheet.scene, [&left, &right], named));
-        }
-        found
-    }
-
-    /// The term with whose other sign an equation holds.
-    fn turned(&self, left: &Expr, right: &Expr) -> Option<Diagnosis> {
-        let terms = |e: &Expr| match e.node() {
-            Node::Sum(terms) => terms.to_vec(),
-            _ => vec![e.clone()],
-        };
-        let gap = left - right;
-        let all = terms(left).into_iter().chain(terms(right));
-        let twice = |term: &Expr, k: i64| [&gap + &(term * &Expr::from(k))];
-        let mut single = all.take(MOST_TERMS).filter(|term| {
-            let none = BTreeMap::new();
-            // On the left a term stands in the gap as it is, on the right with the other sign.
-            [-2, 2]
-                .iter()
-                .any(|k| self.all_zero(&twice(term, *k), &none) == Some(true))
-        });
-        let term = formula::write_plain(&single.next()?);
-        Some(Diagnosis::new(
-            "TERM_SIGN",
-            format!(
-                "this line holds with the other sign of the term {}",
-                term.trim_start_matches('-')
-            ),
-            "check the sign of every term: which directions count as positive?",
-        ))
-    }
-
-    /// What a name stands for in the motion.
-    fn named(&self, name: Symbol) -> Option<Named> {
-        let (scene, d) = (&self.sheet.scene, &self.sheet.derivation);
-        if let Some(answer) = d.answers.iter().find(|a| *a.name == *name) {
-            let question = scene.questions.iter().find(|q| q.name == answer.question)?;
-            let component = match answer.name.strip_prefix(&answer.question) {
-                Some("_x") => Some(0),
-                Some("_y") => Some(1),
-                _ => None,
-            };
-            return Some((name, question.ask.clone(), component));
-        }
-        let unknown = laws::unknowns(scene)
-            .into_iter()
-            .find(|u| d.names.plain(*u) == &*name)?;
-        let (ask, component) = match unknown {
-            laws::Unknown::Velocity(body, axis) => {
-                let (point, along) = (None, None);
-                (Ask::Velocity { body, point, along }, Some(axis))
-            }
-            laws::Unknown::Spin(body) => {
-                let clockwise = d.names.is_reversed(unknown);
-                (Ask::Spin { body, clockwise }, None)
-            }
-            _ => return None,
-        };
-        Some((name, ask, component))
-    }
-}
-
-/// The equation of a line, without the words before it: `AMB about C: …`, `so …`, `=> …`.
-fn equation(text: &str) -> &str {
-    const LEADS: [&str; 18] = [
-        "=>",
-        "⇒",
-        "⟹",
-        "∴",
-        "→",
-        "->",
-        "\\Rightarrow",
-        "\\implies",
-        "\\therefore",
-        "therefore",
-        "hence",
-        "thus",
-        "so",
-        "then",
-        "with",
-        "and",
-        "where",
-        "gives",
-    ];
-    let mut rest = text.trim().trim_start_matches('$').trim_start();
-    // A law or body named before a colon; a definition `a := b` has its sign behind the colon.
-    if let Some((words, behind)) = rest.split_once(':')
-        && !behind.starts_with('=')
-        && behind.contains(['=', '<', '>', '≤', '≥', '≈'])
-        && !words.contains(['=', '<', '>', '^', '*'])
-        && words.chars().any(char::is_alphabetic)
-    {
-        rest = behind.trim_start();
-    }
-    loop {
-        let lower = rest.to_ascii_lowercase();
-        let lead = LEADS.iter().find(|lead| {
-            let word = lead.ends_with(|c: char| c.is_ascii_alphabetic());
-            lower.strip_prefix(**lead).is_some_and(|behind| {
-                let apart = !word || behind.starts_with([' ', ',', '\\', '$']);
-                apart && behind.contains(['=', '<', '>', '≤', '≥', '≈'])
-            })
-        });
-        match lead {
-            Some(lead) => rest = rest[lead.len()..].trim_start_matches([' ', ',', '$', '~']),
-            None => return rest.trim_end_matches('$').trim_end(),
-        }
-    }
-}
-
-/// Whether a refused name of several letters resembles a declared one.
-fn is_near(fault: &Fault) -> bool {
-    let offered = fault
-        .hint
-        .as_ref()
-        .is_some_and(|h| h.starts_with("did you"));
-    offered && fault.end - fault.start > 1
 }
 
 /// Whether hinges and sticking contacts leave the bodies one freedom, so that all velocities go in step.

@@ -1,0 +1,144 @@
+//! Characters beyond plain ASCII that stand for something in a formula, and those that have no place in one.
+
+use super::Relation;
+use super::fault::{Fault, Faulty, is_invisible};
+use super::lexer::{Before, Lexer, Tok};
+use super::symbols::greek_name;
+
+impl Lexer<'_> {
+    pub(super) fn other(&mut self) -> Faulty<Tok> {
+        let rest = &self.text[self.pos..];
+        let Some(c) = rest.chars().next() else {
+            return Ok(Tok::End);
+        };
+        let tok = match c {
+            '−' | '–' | '—' | '‐' | '‑' | '﹣' | '－' => Tok::Minus,
+            '＋' => Tok::Plus,
+            '（' => Tok::Open('('),
+            '）' => Tok::Close(')'),
+            '［' => Tok::Open('['),
+            '］' => Tok::Close(']'),
+            '｛' => Tok::Open('{'),
+            '｝' => Tok::Close('}'),
+            '／' => Tok::Slash,
+            '＾' => Tok::Caret,
+            '，' => Tok::Comma,
+            '∥' | '‖' => Tok::Bar,
+            '±' => Tok::PlusMinus,
+            '∓' => Tok::MinusPlus,
+            '·' | '⋅' | '∙' | '•' | '∗' | '＊' => Tok::Times,
+            '×' | '⨯' | '✕' => Tok::Cross,
+            '÷' | '∕' | '⁄' => Tok::Slash,
+            '√' => Tok::Root(2),
+            '∛' => Tok::Root(3),
+            '≤' | '⩽' | '≦' => Tok::Relation(Relation::LessEqual),
+            '≥' | '⩾' | '≧' => Tok::Relation(Relation::GreaterEqual),
+            '≠' => Tok::Relation(Relation::NotEqual),
+            '≈' | '≃' | '≅' => Tok::Relation(Relation::Approximately),
+            '≡' | '＝' => Tok::Relation(Relation::Equal),
+            '½' => Tok::Vulgar(1, 2),
+            '⅓' => Tok::Vulgar(1, 3),
+            '⅔' => Tok::Vulgar(2, 3),
+            '¼' => Tok::Vulgar(1, 4),
+            '¾' => Tok::Vulgar(3, 4),
+            '⅕' => Tok::Vulgar(1, 5),
+            '⅖' => Tok::Vulgar(2, 5),
+            '⅗' => Tok::Vulgar(3, 5),
+            '⅘' => Tok::Vulgar(4, 5),
+            '⅙' => Tok::Vulgar(1, 6),
+            '⅚' => Tok::Vulgar(5, 6),
+            '⅐' => Tok::Vulgar(1, 7),
+            '⅛' => Tok::Vulgar(1, 8),
+            '⅜' => Tok::Vulgar(3, 8),
+            '⅝' => Tok::Vulgar(5, 8),
+            '⅞' => Tok::Vulgar(7, 8),
+            '⅑' => Tok::Vulgar(1, 9),
+            '⅒' => Tok::Vulgar(1, 10),
+            '°' if rest[c.len_utf8()..].starts_with(['C', 'F']) => {
+                let fault = Fault::new(
+                    "a temperature in degrees is not read",
+                    self.pos,
+                    self.pos + 3,
+                );
+                return Err(fault.hint("write it in kelvins, K"));
+            }
+            '°' | '∘' => Tok::Degree,
+            '⟨' => Tok::Open('<'),
+            '⟩' => Tok::Close('>'),
+            'π' | '𝜋' | '𝛑' | '𝝅' => Tok::Name("pi".into()),
+            '⁰' | '¹' | '²' | '³' | '⁴'..='⁹' | '⁺' | '⁻' => return self.raised(),
+            '∂' | 'ⅆ' => {
+                return match self.derivative() {
+                    Some(derivative) => derivative,
+                    None => {
+                        let message = "∂ is read in a derivative of one name only, as in ∂x/∂t";
+                        Err(Fault::new(message, self.pos, self.pos + c.len_utf8()))
+                    }
+                };
+            }
+            'ⁿ' => {
+                let message = "a raised letter is not read here";
+                return Err(Fault::new(message, self.pos, self.pos + c.len_utf8()).hint("write ^n"));
+            }
+            'µ' | 'μ' | 'Ω' | '\u{2126}' if self.units_first && self.before != Before::Nothing =>
+            {
+                return match self.unit(false) {
+                    Some(tok) => Ok(tok),
+                    None => self.name(self.pos, self.pos + c.len_utf8()),
+                };
+            }
+            _ if greek_name(c).is_some() || matches!(c, 'î' | 'ĵ' | 'ŷ') => {
+                return self.name(self.pos, self.pos + c.len_utf8());
+            }
+            '\'' | '′' => {
+                let message = "a prime belongs right behind a name";
+                return Err(Fault::new(message, self.pos, self.pos + c.len_utf8()));
+            }
+            '_' => {
+                let message = "an index belongs right behind a name";
+                return Err(Fault::new(message, self.pos, self.pos + 1).hint("write v_1 or v_{G1}"));
+            }
+            '.' => {
+                return Err(Fault::new("a point without digits", self.pos, self.pos + 1)
+                    .hint("write * for a product"));
+            }
+            '!' => {
+                return Err(Fault::new(
+                    "a factorial has no place in these formulas",
+                    self.pos,
+                    self.pos + 1,
+                ));
+            }
+            '&' => {
+                return Err(Fault::new(
+                    "`&` is no part of a formula",
+                    self.pos,
+                    self.pos + 1,
+                ));
+            }
+            c => return Err(strange(c, self.pos)),
+        };
+        self.pos += c.len_utf8();
+        Ok(tok)
+    }
+}
+
+/// A character that has no place in a formula.
+fn strange(c: char, at: usize) -> Box<Fault> {
+    let end = at + c.len_utf8();
+    if is_invisible(c) {
+        let message = format!(
+            "an invisible character (U+{:04X}) stands here",
+            u32::from(c)
+        );
+        return Fault::new(message, at, end).hint("type the formula anew");
+    }
+    if c.is_control() {
+        return Fault::new(
+            format!("a control character (U+{:04X}) stands here", u32::from(c)),
+            at,
+            end,
+        );
+    }
+    Fault::new(format!("`{c}` has no place in a formula"), at, end)
+}

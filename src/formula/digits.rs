@@ -1,0 +1,133 @@
+//! Numbers as tokens: digits, raised digits, percentages.
+
+use super::fault::{Fault, Faulty};
+use super::lexer::{Before, Lexer, Tok};
+use super::note::Remark;
+use super::number::{self, Exponent};
+use crate::expr::ratio;
+
+/// Most digits and powers of ten of all numbers together, beyond what fits a machine word: long fractions cost much.
+const MAX_LONG_DIGITS: u32 = 6_000;
+
+impl Lexer<'_> {
+    /// An exponent in raised digits.
+    pub(super) fn raised(&mut self) -> Faulty<Tok> {
+        let start = self.pos;
+        let mut digits = 0i64;
+        let mut count = 0;
+        let mut negative = false;
+        for c in self.text[start..].chars() {
+            let digit = match c {
+                '⁰' => 0,
+                '¹' => 1,
+                '²' => 2,
+                '³' => 3,
+                '⁴'..='⁹' => i64::from(u32::from(c) - u32::from('⁴')) + 4,
+                '⁺' | '⁻' if self.pos == start => {
+                    negative = c == '⁻';
+                    self.pos += c.len_utf8();
+                    continue;
+                }
+                _ => break,
+            };
+            self.pos += c.len_utf8();
+            count += 1;
+            if count > 4 {
+                return Err(Fault::new(
+                    "an exponent has at most four raised digits",
+                    start,
+                    self.pos,
+                ));
+            }
+            digits = digits * 10 + digit;
+        }
+        if count == 0 {
+            return Err(Fault::new(
+                "a raised sign without digits belongs right behind a name",
+                start,
+                self.pos,
+            ));
+        }
+        Ok(Tok::Raised(ratio(
+            if negative { -digits } else { digits },
+            1,
+        )))
+    }
+
+    pub(super) fn number(&mut self) -> Faulty<Tok> {
+        let start = self.pos;
+        let bytes = self.text.as_bytes();
+        let mut digits_end = start;
+        let mut dot = false;
+        while bytes
+            .get(digits_end)
+            .is_some_and(|b| b.is_ascii_digit() || (*b == b'.' && !dot))
+        {
+            dot |= bytes[digits_end] == b'.';
+            digits_end += 1;
+        }
+        let mut exponent = Exponent::Ten;
+        if let Some((_, stop, _)) = number::exponent_at(bytes, digits_end) {
+            let letter = &self.text[digits_end..=digits_end];
+            let declared = self.symbols.find(letter).is_some();
+            if declared || letter == "e" && self.symbols.is_open() {
+                let signed = matches!(bytes.get(digits_end + 1), Some(b'+' | b'-'));
+                // 2e-1 with e declared is 2e minus 1; 1.5e-3 is a number to everybody.
+                let ten = !(declared && signed && !dot);
+                let usual = self.usual();
+                self.note(
+                    Remark::PowerOfTen { ten: ten == usual },
+                    start,
+                    digits_end,
+                    stop,
+                );
+                exponent = if ten == usual {
+                    Exponent::Ten
+                } else {
+                    Exponent::Symbol
+                };
+            }
+        }
+        let (literal, end) = match number::grouped(self.text, start) {
+            Some(found) => found?,
+            None => match number::decimal_comma(self.text, start)
+                .filter(|_| !self.list && self.open == 0)
+            {
+                Some((literal, end)) => {
+                    self.note(Remark::DecimalComma, start, start, end);
+                    (literal, end)
+                }
+                None => number::literal(self.text, start, exponent, self.list)?,
+            },
+        };
+        self.long_digits += (literal.digits + literal.place.unsigned_abs()).saturating_sub(18);
+        if self.long_digits > MAX_LONG_DIGITS {
+            let message =
+                format!("the numbers of a formula have at most {MAX_LONG_DIGITS} digits in all");
+            return Err(Fault::new(message, start, end));
+        }
+        self.pos = end;
+        Ok(Tok::Number(literal))
+    }
+
+    /// Whether an x stands for the times sign of a power of ten, as in `6.02 x 10^23`.
+    pub(super) fn times_ten(&self, rest: &str) -> bool {
+        let behind = rest[1..].trim_start();
+        matches!(self.before, Before::Number { .. })
+            && (behind.starts_with("10^") || behind.starts_with("10**"))
+            && self.symbols.find(&rest[..1]).is_none()
+    }
+
+    /// A percent sign behind a number, with nothing behind it that could make it a remainder.
+    pub(super) fn percent(&mut self, start: usize, length: usize) -> Faulty<Tok> {
+        let end = start + length;
+        let behind = self.text[end..].trim_start().chars().next();
+        let alone = behind.is_none_or(|c| "+-−±*·/=<>≤≥≈)]},;.$|".contains(c));
+        if !alone || !matches!(self.before, Before::Number { .. }) {
+            let fault = Fault::new("a percent sign belongs behind a number", start, end);
+            return Err(fault.hint("write 5% or 0.05"));
+        }
+        self.pos = end;
+        Ok(Tok::Percent)
+    }
+}

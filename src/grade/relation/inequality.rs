@@ -1,0 +1,146 @@
+//! Inequalities: where each holds, part by part.
+
+use super::super::compare::{Context, Finding, scalars};
+use super::super::{Apart, Diagnosis, Verdict};
+use super::factor::factor;
+use super::locus::{self, Extent};
+use super::{
+    Normal, REALS, apart_at_points, over_reals, same_solutions, says_nothing, solve_for, sought_in,
+    undecided, unknowns,
+};
+use crate::algebra::{Field, Sign};
+use crate::domain::{Domains, roles};
+use crate::expr::Expr;
+use crate::formula::{Relation, write_plain};
+
+/// Where a relation `difference < 0` or `≤ 0` holds on a domain, as far as the sign of its difference tells.
+pub(super) fn extent(n: &Normal, domains: &Domains) -> Extent {
+    let (domains, _) = domains.completed(&roles(&[&n.difference]));
+    let mut field = Field::new(&domains);
+    field.prepare([&n.difference]);
+    let sign = field.element(&n.difference).ok();
+    let sign = sign.and_then(|x| field.sign(&x));
+    match (sign, n.relation) {
+        (Some(Sign::Negative), _) => Extent::All,
+        (Some(Sign::NotPositive | Sign::Zero), Relation::LessEqual) => Extent::All,
+        (Some(Sign::Positive), _) => Extent::None,
+        (Some(Sign::NotNegative | Sign::Zero), Relation::Less) => Extent::None,
+        (Some(_), _) => Extent::Unknown,
+        (None, _) => Extent::Some,
+    }
+}
+
+/// Two inequalities.
+pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
+    let domains = &ctx.key.question.domains;
+    let (f, g) = (&expected.difference, &answer.difference);
+    match [expected, answer].map(|n| extent(n, domains)) {
+        [Extent::All, Extent::All] | [Extent::None, Extent::None] => {
+            let reals = over_reals(domains, &[f, g]);
+            let extents = [expected, answer].map(|n| extent(n, &reals));
+            match extents {
+                [Extent::All, Extent::All] => return says_nothing("holds everywhere"),
+                [Extent::None, Extent::None] => return says_nothing("has no solution"),
+                _ => {}
+            }
+            let same = expected.relation == answer.relation
+                && factor(f, g, &reals).is_some_and(|q| q.positive && q.weak.is_empty());
+            if same && !extents.contains(&Extent::None) && !extents.contains(&Extent::All) {
+                let mut finding = same_solutions("the two differ by a factor that is positive");
+                finding.assumed.push(REALS.into());
+                return finding;
+            }
+            return undecided("on the domain neither inequality says anything");
+        }
+        [
+            a @ (Extent::All | Extent::None),
+            b @ (Extent::All | Extent::None),
+        ] if a != b => {
+            let words = "one holds everywhere on the domain and the other nowhere";
+            return Finding::different("DIFF_INEQUALITY", "solutions", words);
+        }
+        _ => {}
+    }
+    let common = factor(f, g, domains);
+    if let Some(common) = &common {
+        let sought = sought_in(ctx, f, g);
+        let free = |e: &Expr| e.symbols().is_disjoint(&sought);
+        if common.positive && expected.relation == answer.relation {
+            if common.weak.is_empty() {
+                return same_solutions("the two differ by a factor that is positive");
+            }
+            if common.weak.iter().all(free) {
+                let mut finding = same_solutions("the two differ by a factor that is not negative");
+                let words = common
+                    .weak
+                    .iter()
+                    .map(|e| format!("{} ≠ 0", write_plain(e)));
+                finding.assumed = words.collect();
+                return finding;
+            }
+        }
+        let boundary = || locus::vanishing(f, &Expr::one(), domains);
+        if common.positive && expected.relation != answer.relation {
+            match boundary() {
+                Some((at, _)) => {
+                    let words =
+                        "the boundary belongs to one of the two inequalities and not to the other";
+                    let mut finding = Finding::different("DIFF_STRICT", "solutions", words);
+                    let word = |r| {
+                        if r == Relation::Less {
+                            "does not hold"
+                        } else {
+                            "holds"
+                        }
+                    };
+                    finding.counterexample = Some(Apart {
+                        at,
+                        yours: word(answer.relation).into(),
+                        expected: word(expected.relation).into(),
+                    });
+                    return finding.with(Diagnosis::new(
+                        "STRICT",
+                        words,
+                        "look at the case of equality",
+                    ));
+                }
+                None => return undecided("the two differ at most on their boundary"),
+            }
+        }
+        if !common.positive && common.weak.is_empty() {
+            let words = "the inequality points the other way";
+            return Finding::different("DIFF_TURNED", "solutions", words).with(Diagnosis::new(
+                "TURNED",
+                words,
+                "multiplying by something negative turns an inequality round",
+            ));
+        }
+    }
+    apart_at_points(
+        ctx,
+        std::slice::from_ref(expected),
+        std::slice::from_ref(answer),
+    )
+    .or_else(|| other_bound(ctx, f, g))
+    .unwrap_or_else(|| {
+        undecided("the inequalities agree at every point tried, and no proof was found")
+    })
+}
+
+/// Whether two inequalities set different bounds on the same symbol.
+fn other_bound(ctx: &Context, f: &Expr, g: &Expr) -> Option<Finding> {
+    let domains = &ctx.key.question.domains;
+    let plain = Context {
+        key: ctx.key,
+        options: ctx.options,
+        diagnose: false,
+    };
+    unknowns(f, g).iter().find_map(|name| {
+        let (a, b) = (solve_for(f, name, domains)?, solve_for(g, name, domains)?);
+        let finding = scalars(&plain, &a, &b);
+        (finding.verdict == Verdict::Different).then_some(Finding {
+            note: "DIFF_INEQUALITY",
+            ..finding
+        })
+    })
+}

@@ -1,0 +1,139 @@
+//! What is behind a wrong line: a belief, a turned sign, another quantity.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::super::behind::{Named, behind};
+use super::super::relation::solve_for;
+use super::super::{Diagnosis, Options};
+use super::{Desk, MOST_TERMS};
+use crate::expr::{Expr, Node, Symbol};
+use crate::formula::{self, Content, Reading};
+use crate::laws;
+use crate::scene::Ask;
+
+impl Desk<'_> {
+    /// Notes what a wrong line implies: each of its names in turn is what it would have to be.
+    pub(super) fn believe(&mut self, cause: usize, differences: &[Expr]) {
+        let earlier = self
+            .believed
+            .iter()
+            .rev()
+            .find(|(c, _)| *c == cause)
+            .map(|(_, v)| v.clone())
+            .unwrap_or_default();
+        for d in differences {
+            let d = self.with_own(d);
+            let names: Vec<Symbol> = d
+                .symbols()
+                .into_iter()
+                .filter(|n| self.closed.contains_key(n))
+                .collect();
+            for name in names {
+                let mut others = self.closed.clone();
+                others.remove(&name);
+                let mut known = earlier.clone();
+                known.remove(&name);
+                let reduced = d.substitute(&known).substitute(&others);
+                if let Some(root) = solve_for(&reduced, &name, &self.sheet.scene.domains) {
+                    let mut values = earlier.clone();
+                    self.carry_along(&name, &root, &mut values);
+                    values.insert(name, root);
+                    self.believed.push((cause, values));
+                }
+            }
+        }
+        let excess = self.believed.len().saturating_sub(64);
+        self.believed.drain(..excess);
+    }
+
+    /// For a line that states a quantity of the scene: the belief behind it.
+    pub(super) fn diagnosis(
+        &self,
+        reading: &Reading,
+        text: &str,
+        options: &Options,
+    ) -> Vec<Diagnosis> {
+        let Content::Relations(sides, _) = &reading.content else {
+            return Vec::new();
+        };
+        let name = sides
+            .first()
+            .and_then(Content::expr)
+            .and_then(Expr::as_symbol);
+        if let Some(entry) = name.and_then(|n| self.sheet.entry(n).ok()) {
+            return self.sheet.judge(&entry, text, options).diagnosis;
+        }
+        // A law with a slip.
+        let [left, right] = sides.as_slice() else {
+            return Vec::new();
+        };
+        let (Some(left), Some(right)) = (left.expr(), right.expr()) else {
+            return Vec::new();
+        };
+        let (left, right) = (self.with_own(left), self.with_own(right));
+        let used: BTreeSet<Symbol> = left.symbols().union(&right.symbols()).cloned().collect();
+        let names = used.into_iter().filter(|n| self.closed.contains_key(n));
+        let named: Option<Vec<_>> = names.map(|n| self.named(n)).collect();
+        let mut found: Vec<Diagnosis> = self.turned(&left, &right).into_iter().collect();
+        if let Some(named @ [_, ..]) = named.as_deref() {
+            found.extend(behind(&self.sheet.scene, [&left, &right], named));
+        }
+        found
+    }
+
+    /// The term with whose other sign an equation holds.
+    pub(super) fn turned(&self, left: &Expr, right: &Expr) -> Option<Diagnosis> {
+        let terms = |e: &Expr| match e.node() {
+            Node::Sum(terms) => terms.to_vec(),
+            _ => vec![e.clone()],
+        };
+        let gap = left - right;
+        let all = terms(left).into_iter().chain(terms(right));
+        let twice = |term: &Expr, k: i64| [&gap + &(term * &Expr::from(k))];
+        let mut single = all.take(MOST_TERMS).filter(|term| {
+            let none = BTreeMap::new();
+            // On the left a term stands in the gap as it is, on the right with the other sign.
+            [-2, 2]
+                .iter()
+                .any(|k| self.all_zero(&twice(term, *k), &none) == Some(true))
+        });
+        let term = formula::write_plain(&single.next()?);
+        Some(Diagnosis::new(
+            "TERM_SIGN",
+            format!(
+                "this line holds with the other sign of the term {}",
+                term.trim_start_matches('-')
+            ),
+            "check the sign of every term: which directions count as positive?",
+        ))
+    }
+
+    /// What a name stands for in the motion.
+    pub(super) fn named(&self, name: Symbol) -> Option<Named> {
+        let (scene, d) = (&self.sheet.scene, &self.sheet.derivation);
+        if let Some(answer) = d.answers.iter().find(|a| *a.name == *name) {
+            let question = scene.questions.iter().find(|q| q.name == answer.question)?;
+            let component = match answer.name.strip_prefix(&answer.question) {
+                Some("_x") => Some(0),
+                Some("_y") => Some(1),
+                _ => None,
+            };
+            return Some((name, question.ask.clone(), component));
+        }
+        let unknown = laws::unknowns(scene)
+            .into_iter()
+            .find(|u| d.names.plain(*u) == &*name)?;
+        let (ask, component) = match unknown {
+            laws::Unknown::Velocity(body, axis) => {
+                let (point, along) = (None, None);
+                (Ask::Velocity { body, point, along }, Some(axis))
+            }
+            laws::Unknown::Spin(body) => {
+                let clockwise = d.names.is_reversed(unknown);
+                (Ask::Spin { body, clockwise }, None)
+            }
+            _ => return None,
+        };
+        Some((name, ask, component))
+    }
+}
