@@ -1,6 +1,7 @@
 //! Laws that hold for every scene: random ones are read, derived and proved from end to end.
 
 use carom::derive::{Form, derive};
+use carom::formula::write_plain;
 use carom::scene::read;
 use carom::verify::prove;
 use proptest::prelude::*;
@@ -218,6 +219,72 @@ proptest! {
         for answer in &derivation.answers {
             prop_assert!(matches!(answer.form, Form::Value { .. }), "{} has no closed form\n{text}", answer.name);
         }
+    }
+}
+
+/// Two bodies of point masses at places of their own, all symbols, that meet at the origin.
+fn composites(parts: [usize; 2], law: &str) -> String {
+    let (mut symbols, mut points, mut bodies) = (Vec::new(), Vec::new(), Vec::new());
+    for (body, count) in ["a", "b"].iter().zip(parts) {
+        let mut joined = Vec::new();
+        for k in 0..count {
+            let id = format!("{body}{k}");
+            symbols.push(format!(
+                r#""m{id}": {{"unit": "kg"}}, "x{id}": {{"unit": "m"}}, "y{id}": {{"unit": "m", "domain": "real"}}"#
+            ));
+            let side = if *body == "a" { "-" } else { "" };
+            points.push(format!(r#""{id}": ["{side}x{id}", "y{id}"]"#));
+            joined.push(format!(
+                r#""{id}": {{"shape": "particle", "mass": "m{id}", "center": "{id}"}}"#
+            ));
+        }
+        let motion = match *body {
+            "a" => r#""velocity": ["u", "0"], "spin": "w""#,
+            _ => r#""velocity": ["-v", "0"]"#,
+        };
+        bodies.push(format!(
+            r#""{body}": {{"shape": "composite", "parts": {{{}}}, {motion}}}"#,
+            joined.join(", ")
+        ));
+    }
+    format!(
+        r#"{{"title": "composites", "parameters": {{{}, "u": {{"unit": "m/s"}}, "v": {{"unit": "m/s"}}, "w": {{"unit": "rad/s", "domain": "real"}}}},
+        "points": {{"K": ["0", "0"], {}}}, "bodies": {{{}}},
+        "contacts": {{"K": {{"bodies": ["a", "b"], "at": "K", {law}}}}},
+        "questions": {{"omega": {{"spin": "a"}}, "P": {{"impulse": "K", "on": "b"}}, "lost": {{"energy": "lost"}}}}}}"#,
+        symbols.join(", "),
+        points.join(", "),
+        bodies.join(", "),
+    )
+}
+
+#[test]
+fn what_is_too_large_to_multiply_out_is_given_in_steps_that_can_be_read() {
+    let smooth = r#""law": "frictionless", "restitution": "1/2", "normal": ["1", "0"]"#;
+    for (parts, law) in [
+        ([3, 3], r#""law": "sticking""#),
+        ([3, 3], smooth),
+        ([4, 3], r#""law": "sticking""#),
+    ] {
+        let scene = read(&composites(parts, law)).expect("a sound scene");
+        let derivation = derive(&scene).expect("a derivation that ends");
+        assert!(derivation.in_steps, "{parts:?}");
+        let proof = prove(&scene, &derivation);
+        assert!(proof.holds(), "{parts:?}: {proof:?}");
+        for checks in &proof.answers {
+            let exact = checks.iter().find(|c| c.kind == "exact points");
+            assert_eq!(exact.and_then(|c| c.holds), Some(true), "{parts:?}");
+        }
+        let values = derivation.answers.iter().filter_map(|a| match &a.form {
+            Form::Value { short, .. } => Some(write_plain(short).len()),
+            _ => None,
+        });
+        let steps = derivation.definitions.iter();
+        let length: usize = steps
+            .map(|d| write_plain(&d.value).len())
+            .chain(values)
+            .sum();
+        assert!(length < 20_000, "{parts:?}: {length} characters");
     }
 }
 

@@ -21,11 +21,10 @@ pub(crate) struct Factored {
 /// Contents with respect to every variable, squarefree parts, and quadratics split by their discriminant.
 /// Where a limit is met, a factor stays whole.
 pub(crate) fn factor(p: &Poly, fuel: &Fuel) -> Factored {
-    let fuel = &fuel.portion();
     let (content, mono, rest) = p.split();
     let mut factors = Vec::new();
     if !rest.is_constant() {
-        split_into(rest, 1, &mut factors, fuel);
+        fuel.portion(|fuel| split_into(rest, 1, &mut factors, fuel));
     }
     factors.sort();
     Factored {

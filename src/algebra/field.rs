@@ -110,6 +110,12 @@ impl Field {
         }
     }
 
+    /// Everything from now on together may take so much work, counted in products of terms; then each operation ends with
+    /// [`Stop::TooLarge`].
+    pub fn limit(&self, work: u64) {
+        self.fuel.limit(work);
+    }
+
     /// Takes in the symbols and angles of all expressions to come, so that base angles and the order of variables do not
     /// depend on the order in which the expressions are read. May be called once more for further symbols; an angle
     /// divided more finely than before is then opaque.
@@ -506,6 +512,7 @@ impl Field {
         if den.is_one() {
             return Ok(Element { num, den });
         }
+        self.fuel.burn(num.len() * (1 + den.factors.len()))?;
         let num = den.cancel_into(num);
         Ok(Element { num, den })
     }

@@ -178,7 +178,10 @@ fn exchange(p: &Poly, c: usize, s: usize) -> Option<Poly> {
 
 /// Removes what both have in common.
 pub(crate) fn strike(above: &mut Parts, below: &mut Parts, fuel: &Fuel) {
-    let fuel = &fuel.portion();
+    fuel.portion(|fuel| strike_within(above, below, fuel));
+}
+
+fn strike_within(above: &mut Parts, below: &mut Parts, fuel: &Fuel) {
     let mut i = 0;
     while i < above.factors.len() {
         let mut j = 0;

@@ -2,12 +2,12 @@
 
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
+use rustc_hash::FxHashMap;
 
 use super::element::Element;
 use super::field::{AngleOf, Field, Kind};
 use super::mono::{
-    Mono, cmp_mono, exponent, mono_add, mono_div, mono_divides, mono_is_one, mono_of,
-    mono_variables, powers,
+    Mono, exponent, mono_add, mono_div, mono_divides, mono_is_one, mono_of, mono_variables, powers,
 };
 use super::parts::{Parts, letters, strike};
 use super::poly::Poly;
@@ -15,6 +15,8 @@ use crate::expr::{Expr, Function, Int, Node, Rational, ratio};
 
 /// Longest sum whose terms are grouped.
 const MOST_GROUPED: usize = 300;
+/// Longest sum whose terms are joined.
+const MOST_JOINED: usize = 2_000;
 
 /// Most values whose written form is remembered; they are searched one by one.
 const MOST_REMEMBERED: usize = 64;
@@ -329,6 +331,9 @@ impl Field {
                 gathered: None,
             })
             .collect();
+        if terms.len() > MOST_JOINED {
+            return terms;
+        }
         for (c, s) in self.circles() {
             if !p.has(c) && !p.has(s) {
                 continue;
@@ -389,37 +394,53 @@ fn join(
     second: &[u64],
     joined: impl Fn(bool) -> Option<(Mono, Option<Expr>)>,
 ) {
-    let mut i = 0;
-    while i < terms.len() {
-        let term = terms[i].clone();
-        i += 1;
-        if term.gathered.is_some() || !mono_divides(first, &term.mono) {
-            continue;
+    while let Some((i, j, term)) = joinable(terms, first, second, &joined) {
+        terms[i] = term;
+        terms.remove(j);
+    }
+}
+
+/// The first term that can be joined to another, that other one, and what they become.
+fn joinable(
+    terms: &[Term],
+    first: &[u64],
+    second: &[u64],
+    joined: &impl Fn(bool) -> Option<(Mono, Option<Expr>)>,
+) -> Option<(usize, usize, Term)> {
+    let plain = || {
+        let all = terms.iter().enumerate();
+        all.filter(|(_, t)| t.gathered.is_none())
+    };
+    let mut places: FxHashMap<&[u64], Vec<usize>> = FxHashMap::default();
+    for (j, term) in plain() {
+        places.entry(trimmed(&term.mono)).or_default().push(j);
+    }
+    plain().find_map(|(i, term)| {
+        if !mono_divides(first, &term.mono) {
+            return None;
         }
         let common = mono_div(&term.mono, first);
-        let Ok(target) = mono_add(&common, second) else {
-            continue;
-        };
-        let partner = terms.iter().position(|t| {
-            t.gathered.is_none()
-                && cmp_mono(&t.mono, &target).is_eq()
-                && t.coeff.abs() == term.coeff.abs()
-        });
-        let Some(j) = partner else { continue };
-        let Some((extra, gathered)) = joined(terms[j].coeff == term.coeff) else {
-            continue;
-        };
-        let Ok(mono) = mono_add(&common, &extra) else {
-            continue;
-        };
-        terms[i - 1] = Term {
+        let target = mono_add(&common, second).ok()?;
+        let here = places.get(trimmed(&target))?;
+        let j = *here
+            .iter()
+            .find(|j| terms[**j].coeff.abs() == term.coeff.abs())?;
+        let (extra, gathered) = joined(terms[j].coeff == term.coeff)?;
+        let mono = mono_add(&common, &extra).ok()?;
+        let coeff = term.coeff.clone();
+        let term = Term {
             mono,
-            coeff: term.coeff,
+            coeff,
             gathered,
         };
-        terms.remove(j);
-        i = 0;
-    }
+        Some((i, j, term))
+    })
+}
+
+/// A monomial without the variables after its last one.
+fn trimmed(mono: &[u64]) -> &[u64] {
+    let len = mono.iter().rposition(|w| *w != 0).map_or(0, |k| k + 1);
+    &mono[..len]
 }
 
 /// The terms that are best written under one bracket, ascending, not all of them if `proper`; `None` where that saves nothing.

@@ -207,7 +207,7 @@ impl Work<'_> {
             }
             Asked::Energy(when, of) => {
                 let form = match self.energy(when, of)? {
-                    Some(value) => self.value(&value)?,
+                    Some(terms) => self.sum(&terms)?,
                     None => Form::Open(counting.open.clone()),
                 };
                 out.push(make(question.name.clone(), latex, words, form));
@@ -225,7 +225,7 @@ impl Work<'_> {
     }
 
     fn value(&mut self, value: &Element) -> Result<Form, Stop> {
-        if !self.in_steps && value.size() > super::LONGEST && !self.has_two_bodies() {
+        if !self.in_steps && value.size() > self.longest() {
             return Err(Stop::Limit(String::from("the length of an answer")));
         }
         let closed = self.field.expr(value);
@@ -233,6 +233,22 @@ impl Work<'_> {
             short: closed.clone(),
             closed,
         })
+    }
+
+    /// A sum; in steps term by term where it would be long.
+    fn sum(&mut self, terms: &[Element]) -> Result<Form, Stop> {
+        let total = terms.iter().try_fold(self.field.integer(0), |total, term| {
+            self.field.add(&total, term)
+        });
+        match total {
+            Ok(total) if !self.in_steps || total.size() <= super::LONGEST => self.value(&total),
+            Err(stop) if !self.in_steps => Err(stop.into()),
+            _ => {
+                let closed = Expr::sum(terms.iter().map(|term| self.field.expr(term)));
+                let short = closed.clone();
+                Ok(Form::Value { closed, short })
+            }
+        }
     }
 
     /// An expression as a person would write it.
@@ -302,9 +318,13 @@ impl Work<'_> {
             .collect()
     }
 
-    /// Kinetic energy \[J\]; `None` where a velocity is not determined.
-    fn energy(&mut self, when: EnergyWhen, of: Option<usize>) -> Result<Option<Element>, Stop> {
-        let mut total = self.field.element(&Expr::zero())?;
+    /// Kinetic energy \[J\] as a sum; `None` where a velocity is not determined.
+    fn energy(
+        &mut self,
+        when: EnergyWhen,
+        of: Option<usize>,
+    ) -> Result<Option<Vec<Element>>, Stop> {
+        let mut terms = Vec::new();
         for b in self.moving(of) {
             let body = &self.scene.bodies[b];
             let weights = [&body.mass, &body.mass, &body.inertia].map(|m| m * &Expr::ratio(1, 2));
@@ -331,11 +351,10 @@ impl Work<'_> {
                         _ => square,
                     };
                 }
-                let term = self.field.mul(&weight, &change)?;
-                total = self.field.add(&total, &term)?;
+                terms.push(self.field.mul(&weight, &change)?);
             }
         }
-        Ok(Some(total))
+        Ok(Some(terms))
     }
 
     /// Linear momentum before = after along a direction, in the components the scene asks for.

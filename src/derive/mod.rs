@@ -35,6 +35,8 @@ use work::Work;
 
 /// Most terms of a closed form that is printed as one formula; longer ones are given step by step. About a page.
 const LONGEST: usize = 160;
+/// The same where two free bodies meet: their answers are long by nature.
+const LONGEST_OF_TWO: usize = 1_200;
 
 /// Everything found out about a scene, ready to be proved and printed.
 #[derive(Clone, Debug)]
@@ -130,18 +132,38 @@ impl From<algebra::Stop> for Stop {
     }
 }
 
+/// Most work of a derivation before it goes on in steps, and of each step from there on, in products of terms: some tenths
+/// of a second.
+const WORK: u64 = 3_000_000;
+/// Most work that a derivation in steps spends on solving some equations at once.
+const TRIED: u64 = 300_000;
+
+/// A piece of work; where closed forms are too large to multiply out, once more with the unknowns standing for themselves.
+fn stepwise<T>(work: &mut Work, piece: impl Fn(&mut Work) -> Result<T, Stop>) -> Result<T, Stop> {
+    match piece(work) {
+        Err(Stop::Limit(_)) => {
+            work.name_values();
+            piece(work)
+        }
+        outcome => outcome,
+    }
+}
+
 /// Answers every question of a scene. Unknowns that the laws do not determine have no closed form, and questions that
 /// need one are left without an answer; `counting` says so.
 pub fn derive(scene: &Scene) -> Result<Derivation, Stop> {
     let counting = count(scene)?;
     let mut work = Work::new(scene)?;
+    work.field.limit(WORK);
     if counting.contradictory {
         return work.without_answers(counting);
     }
     for question in &scene.questions {
         let needed = work.unknowns_of(&question.ask)?;
         if needed.iter().all(|u| counting.is_unique(*u)) {
-            work.determine(&needed, Some(&question.name))?;
+            stepwise(&mut work, |work| {
+                work.determine(&needed, Some(&question.name))
+            })?;
         }
     }
     let asked = work.blocks.len();
@@ -150,17 +172,16 @@ pub fn derive(scene: &Scene) -> Result<Derivation, Stop> {
         .into_iter()
         .filter(|u| counting.is_unique(*u))
         .collect();
-    work.determine(&rest, None)?;
+    stepwise(&mut work, |work| work.determine(&rest, None))?;
     let mut definitions = Vec::new();
-    let mut answers = match work.answers(&counting) {
-        // Sums and squares of long closed forms: from here on the unknowns stand for themselves.
-        Err(Stop::Limit(_)) => {
-            work.name_values();
-            work.answers(&counting)?
-        }
+    let mut answers = stepwise(&mut work, |work| work.answers(&counting))?;
+    let plain = (answers.clone(), definitions.clone());
+    match compact::shorten(&mut work, &mut answers, &mut definitions) {
+        // What cannot be written shorter stays as it is.
+        Err(Stop::Limit(_)) => (answers, definitions) = plain,
         outcome => outcome?,
-    };
-    compact::shorten(&mut work, &mut answers, &mut definitions)?;
+    }
+    work.field.limit(WORK);
     let motion = work.motion()?;
     let left_out = left_out::list(&work, &counting, asked);
     let assumptions = work.assumptions();

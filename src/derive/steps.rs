@@ -15,6 +15,8 @@ use crate::laws::Unknown;
 const ZERO: f64 = 1e-11;
 /// An intermediate of more characters than this is named.
 const NAMED: usize = 24;
+/// A coefficient of the equations of more terms than this is named too: those of composite bodies run to pages.
+const LONG: usize = 60;
 
 /// An entry of the system: its formula, and its value at a point in general position.
 #[derive(Clone, Debug)]
@@ -37,6 +39,7 @@ pub(super) fn solve(work: &mut Work<'_>, rows: &[Row], unknowns: &[Unknown]) -> 
     if rows.len() != n {
         return Ok(false);
     }
+    let start = work.definitions.len();
     let mut system: Vec<Vec<Option<Entry>>> = Vec::with_capacity(n);
     for row in rows {
         let mut entries: Vec<Option<Entry>> = vec![None; n + 1];
@@ -47,7 +50,14 @@ pub(super) fn solve(work: &mut Work<'_>, rows: &[Row], unknowns: &[Unknown]) -> 
             .chain([(n, &row.rhs)])
         {
             if !work.field.is_zero(k) {
-                let Some(entry) = entry(work.field.expr(k), &point) else {
+                let e = work.field.expr(k);
+                let entry = if k.size() > LONG {
+                    named(work, &mut point, e, "coefficient of an equation")?
+                } else {
+                    entry(e, &point)
+                };
+                let Some(entry) = entry.filter(|e| e.v.is_finite()) else {
+                    work.definitions.truncate(start);
                     return Ok(false);
                 };
                 entries[column] = Some(entry);
@@ -55,7 +65,6 @@ pub(super) fn solve(work: &mut Work<'_>, rows: &[Row], unknowns: &[Unknown]) -> 
         }
         system.push(entries);
     }
-    let start = work.definitions.len();
     let mut open: Vec<usize> = (0..n).collect();
     let mut order: Vec<(usize, usize)> = Vec::new();
     while let Some((row, column)) = pivot(&system, &open, n) {

@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 use super::plan::{self, Planner};
 use super::steps;
 use super::{
-    Block, Counting, Definition, Derivation, Equation, LONGEST, Names, Reduction, Stop, answer,
+    Block, Counting, Definition, Derivation, Equation, LONGEST, LONGEST_OF_TWO, Names, Reduction,
+    Stop, TRIED, WORK, answer,
 };
 use crate::algebra::{self, Element, Field, Row};
 use crate::expr::{Expr, Vector};
@@ -202,7 +203,14 @@ impl<'a> Work<'a> {
         let Some((rows, equations)) = system else {
             return Ok(false);
         };
-        let solution = match algebra::solve(&self.field, &rows, unknowns.len()) {
+        if self.in_steps {
+            self.field.limit(TRIED);
+        }
+        let solved = algebra::solve(&self.field, &rows, unknowns.len());
+        if self.in_steps {
+            self.field.limit(WORK);
+        }
+        let solution = match solved {
             Ok(solution) if self.is_printable(&solution.values) => solution,
             Ok(solution) if solution.contradiction.is_some() => solution,
             outcome => {
@@ -253,10 +261,17 @@ impl<'a> Work<'a> {
         Ok(Some((rows, equations)))
     }
 
-    /// Whether the closed forms are of a length somebody could want to see. The general case of two bodies has a short
-    /// form of its own, however long it is multiplied out.
+    /// Whether the closed forms are of a length somebody could want to see.
     fn is_printable(&self, values: &[Option<Element>]) -> bool {
-        self.has_two_bodies() || values.iter().flatten().all(|v| v.size() <= LONGEST)
+        values.iter().flatten().all(|v| v.size() <= self.longest())
+    }
+
+    /// Most terms of a closed form. The general case of two bodies has a short form of its own, made from a long one.
+    pub(super) fn longest(&self) -> usize {
+        match self.has_two_bodies() {
+            true => LONGEST_OF_TWO,
+            false => LONGEST,
+        }
     }
 
     /// Whether all that happens is one contact between otherwise free bodies.
@@ -432,9 +447,10 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Lets every unknown with a closed form of some length stand for a definition.
+    /// Lets every unknown with a closed form of some length stand for a definition, and begins to count work anew.
     pub(super) fn name_values(&mut self) {
         self.in_steps = true;
+        self.field.limit(WORK);
         let long: Vec<Unknown> = self
             .values
             .iter()
