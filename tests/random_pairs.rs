@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use carom::domain::{Domain, Domains, Limit};
+use carom::domain::{Coordinate, Domain, Domains, Limit, Sample};
 use carom::equality::{Equality, decide};
 use carom::expr::{Expr, Function, Point, Rational, ratio};
 use carom::formula::write_plain;
@@ -273,7 +273,26 @@ fn truth(e: &Expr, f: &Expr, ground: &Ground, rng: &mut Rng) -> Truth {
     if known >= 3 { Truth::Same } else { Truth::Open }
 }
 
-/// Whether the proof's own point parts two formulas, by 90 digits.
+/// The coordinates of a point that are fractions, and directions with a fraction for cosine and sine.
+fn fractions(at: &Sample) -> Point<Rational> {
+    let mut point = Point::default();
+    for (name, coordinate) in &at.coordinates {
+        match coordinate {
+            Coordinate::Number(value) => {
+                point.values.insert(name.clone(), value.clone());
+            }
+            Coordinate::Direction { divisor, unit, .. } => {
+                point
+                    .directions
+                    .insert(name.clone(), (*divisor, unit.clone()));
+            }
+            Coordinate::Pi(_) => {}
+        }
+    }
+    point
+}
+
+/// Whether the proof's own point parts two formulas, by fractions or by 90 digits.
 fn point_holds(e: &Expr, f: &Expr, domains: &Domains) -> bool {
     match decide(e, f, domains).equality {
         Equality::Different(found)
@@ -282,6 +301,11 @@ fn point_holds(e: &Expr, f: &Expr, domains: &Domains) -> bool {
                 elsewhere: found, ..
             },
         } => {
+            // Fractions know that x − x is 0, which long numbers do not.
+            let exact = fractions(&found.at);
+            if let (Some(x), Some(y)) = (e.evaluate(&exact), f.evaluate(&exact)) {
+                return x != y;
+            }
             let at = found.at.point::<Long>(true);
             match (evaluate(e, &at), evaluate(f, &at)) {
                 (Outcome::Value(x), Outcome::Value(y)) => x.0.is_disjoint(&y.0),

@@ -5,7 +5,7 @@ use num_traits::{One, ToPrimitive, Zero};
 
 use super::Stop;
 use super::element::{Den, Element};
-use super::field::{AngleOf, Field, Kind};
+use super::field::{AngleOf, Base, Field, Kind};
 use super::mono::{mono_of, mono_variables};
 use super::poly::Poly;
 use crate::expr::angle::angle;
@@ -15,6 +15,8 @@ use crate::expr::{Expr, Function, Int, Rational, Symbol, ratio};
 const MOST_TURNS: i64 = 100;
 /// Most different angles in one argument.
 pub(super) const MOST_ANGLES: usize = 24;
+/// Most of them whose sum is written out: each one doubles the terms.
+const MOST_DOUBLED: usize = 12;
 
 /// Cosine and sine.
 type Direction = [Element; 2];
@@ -91,6 +93,9 @@ impl Field {
             let base = &self.bases[base];
             units.push(([Element::var(base.cos), Element::var(base.sin)], k));
         }
+        if units.len() > MOST_DOUBLED {
+            return self.undivided(argument, depth).map(Some);
+        }
         // Each turn of each angle may double the terms.
         if units.len() > 1 && units.iter().map(|(_, k)| k.abs()).sum::<i64>() > MOST_TURNS {
             return Err(Stop::TooLarge("angle multiple"));
@@ -100,6 +105,23 @@ impl Field {
             total = self.turn(&total, &part)?;
         }
         Ok(Some(total))
+    }
+
+    /// Cosine and sine of a sum too long to be written out: it is an angle of its own, known by its normal form.
+    fn undivided(&mut self, argument: &Expr, depth: u32) -> Result<Direction, Stop> {
+        self.complete = false;
+        let argument = self.read(argument, depth)?;
+        let flip = argument.num.leading_is_negative();
+        let term = if flip { self.neg(&argument) } else { argument };
+        let same = |b: &Base| match &b.of {
+            AngleOf::Term(t) => b.divisor == 1 && self.equal(t, &term),
+            AngleOf::Symbol(_) => false,
+        };
+        let known = self.bases.iter().position(same);
+        let base = known.unwrap_or_else(|| self.add_base(AngleOf::Term(term), 1));
+        let base = &self.bases[base];
+        let (cos, sin) = (Element::var(base.cos), Element::var(base.sin));
+        Ok([cos, if flip { self.neg(&sin) } else { sin }])
     }
 
     /// The base angle and how many of it the coefficient makes; `None` where the base is too coarse.

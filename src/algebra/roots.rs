@@ -72,13 +72,15 @@ impl Field {
         // √(ab) = √a √b for factors known not to be negative; the others stay under one root.
         let several = odd.len() != 1 || !rest.is_one();
         let mut together = Poly::one();
-        let mut atoms = Vec::new();
+        // Each with whether it may be zero.
+        let mut signed = Vec::new();
         for f in odd {
             match self.sign_poly(&f) {
-                Some(sign) if sign.is_not_negative() => atoms.push(f),
+                Some(Sign::Positive) => signed.push((f, false)),
+                Some(sign) if sign.is_not_negative() => signed.push((f, true)),
                 Some(Sign::Negative) => {
                     rest = -rest;
-                    atoms.push(f.neg());
+                    signed.push((f.neg(), false));
                 }
                 // What may be zero at an end has a root there.
                 _ => together = self.mul_poly(&together, &f)?,
@@ -86,11 +88,18 @@ impl Field {
         }
         if rest.is_negative() {
             if together.is_one() {
+                // Negative everywhere, but where one of these is zero.
+                for (f, _) in signed.extract_if(.., |(_, zero)| *zero) {
+                    together = self.mul_poly(&together, &f)?;
+                }
+            }
+            if together.is_one() {
                 return Err(Stop::NotReal);
             }
             rest = -rest;
             together = together.neg();
         }
+        let mut atoms: Vec<Poly> = signed.into_iter().map(|(f, _)| f).collect();
         atoms.extend(primes(&rest).into_iter().map(Poly::constant));
         if !together.is_one() {
             atoms.push(together);

@@ -12,7 +12,7 @@ use num_traits::{Signed, Zero};
 
 use crate::expr::{Int, Rational, Symbol, ratio};
 
-pub use sample::{Coordinate, Role, Roles, Sample, roles, samples};
+pub use sample::{Coordinate, Role, Roles, Sample, at_ends, roles, samples};
 
 /// One end of an interval: `value`, or `value`·π.
 #[derive(Clone, PartialEq, Eq, Debug)]

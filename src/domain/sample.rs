@@ -183,6 +183,45 @@ pub fn samples(roles: &Roles, domains: &Domains, count: usize) -> Vec<Sample> {
     out
 }
 
+/// Most points made of one by moving symbols to ends.
+const MOST_ENDS: usize = 64;
+
+/// Points with one symbol or several at closed ends of their domains or at 0, and the others as they are.
+pub fn at_ends(near: &[Sample], domains: &Domains) -> Vec<Sample> {
+    let mut out = Vec::new();
+    for point in near {
+        let mut moved = vec![point.clone()];
+        for (name, at) in &point.coordinates {
+            let tied = domains.unit_vectors.iter().flatten().any(|s| s == name);
+            let Some(domain) = domains.symbols.get(name) else {
+                continue;
+            };
+            if tied || matches!(at, Coordinate::Direction { .. }) {
+                continue;
+            }
+            let ends = [&domain.low, &domain.high].into_iter().flatten();
+            let closed = ends.filter(|l| !l.open).map(|end| match end.of_pi {
+                true => Coordinate::Pi(end.value.clone()),
+                false => Coordinate::Number(end.value.clone()),
+            });
+            let zero = Rational::zero();
+            let inside = domain.contains(&zero) && !domain.is_end(&zero);
+            for value in closed.chain(inside.then_some(Coordinate::Number(zero))) {
+                // What has been moved already does not come again.
+                let free = |p: &&Sample| p.coordinates.get(name) == Some(at);
+                let more: Vec<Sample> = moved.iter().filter(free).cloned().collect();
+                moved.extend(more.into_iter().map(|mut p| {
+                    p.coordinates.insert(name.clone(), value.clone());
+                    p
+                }));
+            }
+            moved.truncate(MOST_ENDS);
+        }
+        out.extend(moved.into_iter().skip(1));
+    }
+    out
+}
+
 /// A simple value of a symbol in a part of its domain.
 pub fn within(part: &Domain, domain: &Domain, role: &Role) -> Option<Coordinate> {
     let fits = |x: &Rational| part.contains(x) && domain.contains(x);

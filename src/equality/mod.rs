@@ -16,8 +16,8 @@ mod modular;
 mod proof;
 mod refute;
 
-use crate::domain::{Domain, Domains, Roles, Sample, roles, samples};
-use crate::expr::{Expr, Rational};
+use crate::domain::{Domain, Domains, Roles, Sample, at_ends, roles, samples};
+use crate::expr::{Expr, Node, Rational};
 use crate::interval::Enclosure;
 pub(crate) use line::zero_apart;
 use measure::Size;
@@ -269,11 +269,25 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
     }
     let proof = search.proof();
     match proof {
-        Proof::Invalid(side) => search.invalid(side),
+        Proof::Invalid(side) if search.tally.defined(side) == 0 => search.invalid(side),
         Proof::Equal(assumptions, ground) if search.tally.both_defined > 0 => {
             search.equal(assumptions, ground)
         }
         open => search.after_proof(open),
+    }
+}
+
+/// A formula with the parts of its sums and products in one order.
+fn ordered(e: &Expr) -> Expr {
+    let sorted = |parts: &[Expr]| {
+        let mut parts: Vec<Expr> = parts.iter().map(ordered).collect();
+        parts.sort();
+        parts
+    };
+    match e.node() {
+        Node::Sum(parts) => Expr::sum(sorted(parts)),
+        Node::Product(parts) => Expr::product(sorted(parts)),
+        _ => e.map_parts(ordered),
     }
 }
 
@@ -307,6 +321,14 @@ impl Search<'_> {
                 return Some(found);
             }
         }
+        // A root may have its only values at closed ends.
+        if self.tally.both_defined == 0 {
+            let near = samples(self.roles, self.domains, FIRST);
+            let ends = at_ends(&near, self.domains);
+            if let Some(found) = self.probe.points(&ends, &mut self.tally) {
+                return Some(found);
+            }
+        }
         let costly = work(self.a).saturating_add(work(self.b)) > COSTLY;
         if self.a == self.b || !costly {
             return None;
@@ -327,7 +349,9 @@ impl Search<'_> {
 
     fn proof(&self) -> Proof {
         let (a, b, domains) = (self.a, self.b, self.domains);
-        if a == b && self.tally.both_defined > 0 {
+        // What costs much to multiply out is often the same in another order.
+        let same = a == b || work(a).saturating_add(work(b)) > COSTLY && ordered(a) == ordered(b);
+        if same && self.tally.both_defined > 0 {
             return Proof::Equal(Vec::new(), Ground::NormalForm);
         }
         if self.apart {
@@ -421,7 +445,8 @@ impl Search<'_> {
             Proof::Unequal { settled: true, .. } => self.undecided(Reason::NoPointApart),
             Proof::Unequal { settled: false, .. } => self.undecided(Reason::UnknownLaws),
             Proof::Stopped(limit) => self.undecided(Reason::Limit(limit)),
-            Proof::Invalid(side) => self.invalid(side),
+            // It has values all the same.
+            Proof::Invalid(_) => self.undecided(Reason::NoPointApart),
         }
     }
 
