@@ -144,6 +144,15 @@ fn claim(content: &Content) -> Claim<'_> {
 fn compare(ctx: &Context, answer: &Reading) -> Finding {
     let asked = &ctx.key.question.asked;
     let is_asked = |name: &Symbol| asked.iter().any(|g| g.name == *name);
+    // `a = b = c` is a system, in whatever order, where b and c are not the same of themselves.
+    if let (Content::Relations(a, s), Content::Relations(b, t)) =
+        (&ctx.key.reading.content, &answer.content)
+        && a.len() > 2
+        && b.len() > 2
+        && apart(ctx, a, s).is_some()
+    {
+        return relation::compare(ctx, (a, s), (b, t));
+    }
     match (claim(&ctx.key.reading.content), claim(&answer.content)) {
         (Claim::Value(expected_name, expected), Claim::Value(name, value)) => {
             let mut finding = values(ctx, expected, value);
@@ -264,27 +273,31 @@ fn chain(ctx: &Context, answer: &Reading, finding: &mut Finding) {
     let Content::Relations(sides, signs) = &answer.content else {
         return;
     };
-    if !ctx.diagnose || sides.len() < 3 || signs.iter().any(|s| *s != Relation::Equal) {
+    if !ctx.diagnose {
         return;
     }
-    let exprs: Vec<&Expr> = sides[1..].iter().filter_map(Content::expr).collect();
-    for pair in exprs.windows(2) {
-        if let Equality::Different(_) =
-            equality::decide(pair[0], pair[1], &ctx.key.question.domains).equality
-        {
-            let message = format!(
-                "{} and {} are not equal",
-                ctx.say(pair[0]),
-                ctx.say(pair[1])
-            );
-            finding.diagnosis.push(Diagnosis::new(
-                "CHAIN",
-                message,
-                "two sides of your chain of equations are not equal",
-            ));
-            return;
-        }
+    if let Some([one, two]) = apart(ctx, sides, signs) {
+        let message = format!("{} and {} are not equal", ctx.say(one), ctx.say(two));
+        finding.diagnosis.push(Diagnosis::new(
+            "CHAIN",
+            message,
+            "two sides of your chain of equations are not equal",
+        ));
     }
+}
+
+/// Two neighbouring sides of a chain of equations, after its first, that are not equal.
+fn apart<'a>(ctx: &Context, sides: &'a [Content], signs: &[Relation]) -> Option<[&'a Expr; 2]> {
+    if sides.len() < 3 || signs.iter().any(|s| *s != Relation::Equal) {
+        return None;
+    }
+    let exprs: Vec<&Expr> = sides[1..].iter().filter_map(Content::expr).collect();
+    let differ = |pair: &&[&Expr]| {
+        let decision = equality::decide(pair[0], pair[1], &ctx.key.question.domains);
+        matches!(decision.equality, Equality::Different(_))
+    };
+    let pair = exprs.windows(2).find(differ)?;
+    Some([pair[0], pair[1]])
 }
 
 fn values(ctx: &Context, expected: &Content, answer: &Content) -> Finding {
