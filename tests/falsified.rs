@@ -19,9 +19,9 @@ use carom::expr::{Expr, Point, Rational, ratio};
 use carom::grade::{Options, sheet};
 use carom::interval::{Interval, Outcome, evaluate};
 use carom::numeric::{self, Motion};
-use carom::scene::{self, Scene};
+use carom::scene::{self, Scene, Shape};
 use carom::verify::{Trust, prove, trust};
-use carom::{check, render, solution, story};
+use carom::{check, render, solution, story, verify};
 
 /// The rows of a table, cell by cell.
 fn rows(name: &str) -> Vec<Vec<String>> {
@@ -140,6 +140,51 @@ fn a_falsified_derivation_is_refused_by_the_check_that_is_for_it() {
     }
     assert!(refused.values().all(|n| *n >= 10), "{refused:?}");
     assert_eq!(refused.len(), rows("derivations").len(), "{refused:?}");
+}
+
+/// A rod with a bead at its end, struck across.
+const JOINED: &str = r#"{"title": "rod and bead", "parameters": {"m": {"unit": "kg"}, "l": {"unit": "m"}, "J": {"unit": "N s"}},
+    "points": {"O": ["0", "0"], "B": ["l/2", "0"]},
+    "bodies": {"club": {"shape": "composite", "parts": {
+        "rod": {"shape": "rod", "mass": "m", "length": "l", "center": "O"}, "bead": {"shape": "particle", "mass": "2*m", "center": "B"}}}},
+    "blows": {"F": {"on": "club", "at": "B", "impulse": ["0", "J"]}},
+    "questions": {"omega": {"spin": "club"}, "v": {"velocity": "club"}}}"#;
+
+#[test]
+fn a_falsified_body_is_refused_by_its_outline() {
+    let mut refused: BTreeMap<String, usize> = BTreeMap::new();
+    let joined = scene::read(JOINED).expect("a sound scene");
+    let single = shipped().into_iter().filter(|(_, _, s)| s.story.is_none());
+    let all = single.map(|(path, _, scene)| (path, scene));
+    for (path, scene) in all.chain([(String::from("a club"), joined)]) {
+        for row in rows("bodies") {
+            let [what, change, reason] = [0, 1, 2].map(|i| row[i].as_str());
+            for (b, body) in scene.bodies.iter().enumerate() {
+                let joined = matches!(body.shape, Shape::Composite { .. });
+                let outlined = !matches!(body.shape, Shape::Fixed | Shape::Particle | Shape::Other);
+                let mut wrong = scene.clone();
+                let target = match what {
+                    "inertia" if outlined && !body.inertia_given => &mut wrong.bodies[b].inertia,
+                    "mass" if joined => &mut wrong.bodies[b].mass,
+                    "center" if joined => &mut wrong.bodies[b].center[0],
+                    _ => continue,
+                };
+                let right = target.clone();
+                *target = changed(change, &right);
+                if *target == right {
+                    continue;
+                }
+                // Laws and numeric solution agree with each other, and are both wrong.
+                let derivation = derive(&wrong).expect("a derivation");
+                let proof = prove(&wrong, &derivation);
+                let caught = |c: &&verify::Check| c.holds == Some(false);
+                let kinds: Vec<&str> = proof.scene.iter().filter(caught).map(|c| c.kind).collect();
+                assert_eq!(kinds, ["inertia"], "{path}, {}, {reason}", body.name);
+                *refused.entry(format!("{what} {change}")).or_default() += 1;
+            }
+        }
+    }
+    assert_eq!(refused.len(), rows("bodies").len(), "{refused:?}");
 }
 
 /// A scene's exact values, or a random exact point, with the motion there.

@@ -6,7 +6,9 @@
 //! writes its equations from the geometry alone; doubles tell how the formula behaves when used.
 
 pub mod compare;
+mod doubles;
 pub mod friction;
+mod inertia;
 pub mod possible;
 pub mod printed;
 pub mod rounding;
@@ -116,6 +118,7 @@ pub fn trust(derivation: &Derivation, proof: &Proof) -> Trust {
 pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
     let mut proof = Proof::default();
     proof.scene.push(identity(scene, derivation));
+    proof.scene.extend(inertia::check(scene));
     let runs = runs(scene);
     invariants(&runs, &mut proof);
     admissible(&runs, &mut proof);
@@ -126,7 +129,7 @@ pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
                 checks.push(same_value(scene, derivation, closed, short));
             }
             checks.push(exact_points(scene, derivation, answer, closed, &runs));
-            checks.push(doubles(scene, derivation, answer, closed));
+            checks.push(doubles::check(scene, derivation, answer, closed));
         }
         proof.answers.push(checks);
     }
@@ -451,55 +454,5 @@ fn exact_points(
             words: format!("equal to the independent exact solution at {n} points"),
             holds: Some(true),
         },
-    }
-}
-
-/// The formula in doubles against nalgebra's solution in doubles, in units in the last place of the value.
-fn doubles(scene: &Scene, derivation: &Derivation, answer: &Answer, closed: &Expr) -> Check {
-    let mut worst: f64 = 0.0;
-    let mut count = 0;
-    for seed in 1..=POINTS {
-        let exact = numeric::random_point(&numeric::needed(scene), &scene.domains, seed);
-        let point = numeric::rounded(&exact);
-        let Some(value) = evaluate(closed, derivation, &point) else {
-            continue;
-        };
-        let Ok(given) = numeric::given(scene, &point) else {
-            continue;
-        };
-        let system = numeric::assemble(&given);
-        let Ok(solution) = numeric::solve_f64(&system) else {
-            continue;
-        };
-        let motion = numeric::motion(&given, &system, &solution);
-        let Some(expected) = numeric_value(scene, answer, &point, &given, &motion) else {
-            continue;
-        };
-        // A component is as exact as its vector is: one that vanishes has no digits of its own.
-        let siblings = derivation
-            .answers
-            .iter()
-            .filter(|a| a.question == answer.question && a.axis.is_some() && answer.axis.is_some());
-        let length = siblings
-            .filter_map(|a| numeric_value(scene, a, &point, &given, &motion))
-            .fold(f64::MIN_POSITIVE, |length, x| length.max(x.abs()));
-        let scale = length.max(value.abs()).max(expected.abs());
-        // A value that vanishes exactly has no relative error; what the solver leaves there is rounding of its terms.
-        let unit = if closed.is_zero() { 1.0 } else { scale };
-        worst = worst.max((value - expected).abs() / (unit * f64::EPSILON));
-        count += 1;
-    }
-    if count == 0 {
-        return Check {
-            kind: "doubles",
-            words: String::from("no value in doubles"),
-            holds: None,
-        };
-    }
-    Check {
-        kind: "doubles",
-        words: format!("within {worst:.0} ulp of nalgebra's solution in doubles"),
-        // Doubles may lose digits for good reasons; only a loss of all of them is a contradiction.
-        holds: Some(worst < 1e12),
     }
 }

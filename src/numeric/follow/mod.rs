@@ -228,13 +228,17 @@ pub struct Followed {
     pub stages: Vec<Result<Passed, Lost>>,
 }
 
-/// Follows a scene at a point that has a value for every parameter; an angle may have its direction only.
-pub fn follow(scene: &Scene, values: &Point<f64>) -> Result<Followed, Undefined> {
+/// The bodies of a scene in numbers, mass and inertia from their outlines.
+pub fn solids(scene: &Scene, values: &Point<f64>) -> Result<Vec<Solid>, Undefined> {
     let values = with_angles(values);
     let all = scene.bodies.iter();
-    let solids: Vec<Solid> = all
-        .map(|b| outline::solid(b, &values))
-        .collect::<Result<_, _>>()?;
+    all.map(|b| outline::solid(b, &values)).collect()
+}
+
+/// Follows a scene at a point that has a value for every parameter; an angle may have its direction only.
+pub fn follow(scene: &Scene, values: &Point<f64>) -> Result<Followed, Undefined> {
+    let solids = solids(scene, values)?;
+    let values = with_angles(values);
     let start = start(scene, &solids, &values)?;
     let Some(story) = &scene.story else {
         let only = Course {

@@ -1,0 +1,124 @@
+//! A closed form in doubles beside nalgebra's solution in doubles.
+//!
+//! In: the form of an answer, and the scene. Out: a check that tells by how many units in the last place they differ. A
+//! value that all but vanishes has no digits of its own: it is measured by what a change of the data's last digits would
+//! make of it, as the independent solution shows.
+
+use super::{Check, POINTS, evaluate, numeric_value};
+use crate::derive::{Answer, Derivation};
+use crate::expr::{Expr, Point};
+use crate::numeric;
+use crate::scene::Scene;
+
+/// Differences up to this many units in the last place of the value need no other measure.
+const CLOSE: f64 = 4096.0;
+/// Relative change of the data by which the condition is found: far above rounding, far below the data.
+const NUDGE: f64 = 1.0 / (1 << 20) as f64;
+/// Doubles may lose digits for good reasons; only a loss of all of them is a contradiction.
+const ALL_LOST: f64 = 1e12;
+
+/// The formula in doubles against nalgebra's solution in doubles.
+pub(super) fn check(
+    scene: &Scene,
+    derivation: &Derivation,
+    answer: &Answer,
+    closed: &Expr,
+) -> Check {
+    let mut worst: f64 = 0.0;
+    let mut count = 0;
+    // Whether a value was measured by what it is made of.
+    let mut weighed = false;
+    for seed in 1..=POINTS {
+        let exact = numeric::random_point(&numeric::needed(scene), &scene.domains, seed);
+        let point = numeric::rounded(&exact);
+        let Some(value) = evaluate(closed, derivation, &point) else {
+            continue;
+        };
+        // A component is as exact as its vector is: one that vanishes has no digits of its own.
+        let siblings: Vec<&Answer> = derivation
+            .answers
+            .iter()
+            .filter(|a| a.question == answer.question && a.axis.is_some() && answer.axis.is_some())
+            .collect();
+        let Some((expected, length)) = solved(scene, answer, &siblings, &point) else {
+            continue;
+        };
+        let scale = length.max(value.abs()).max(expected.abs());
+        // A value that vanishes exactly has no relative error; what the solver leaves there is rounding of its terms.
+        let unit = if closed.is_zero() { 1.0 } else { scale };
+        let apart = (value - expected).abs();
+        let mut off = apart / (unit * f64::EPSILON);
+        if off > CLOSE {
+            let weight = condition(scene, answer, &point, expected);
+            weighed |= weight > unit;
+            off = apart / (weight.max(unit) * f64::EPSILON);
+        }
+        worst = worst.max(off);
+        count += 1;
+    }
+    if count == 0 {
+        return Check {
+            kind: "doubles",
+            words: String::from("no value in doubles"),
+            holds: None,
+        };
+    }
+    Check {
+        kind: "doubles",
+        words: match weighed {
+            false => format!("within {worst:.0} ulp of nalgebra's solution in doubles"),
+            true => format!(
+                "within {worst:.0} times what rounding of the data makes of it, of nalgebra's solution in doubles"
+            ),
+        },
+        holds: Some(worst < ALL_LOST),
+    }
+}
+
+/// The independent value of an answer, and the length of the vector it is a component of.
+fn solved(
+    scene: &Scene,
+    answer: &Answer,
+    siblings: &[&Answer],
+    point: &Point<f64>,
+) -> Option<(f64, f64)> {
+    let given = numeric::given(scene, point).ok()?;
+    let system = numeric::assemble(&given);
+    let solution = numeric::solve_f64(&system).ok()?;
+    let motion = numeric::motion(&given, &system, &solution);
+    let value = numeric_value(scene, answer, point, &given, &motion)?;
+    let length = siblings
+        .iter()
+        .filter_map(|a| numeric_value(scene, a, point, &given, &motion))
+        .fold(f64::MIN_POSITIVE, |length, x| length.max(x.abs()));
+    Some((value, length))
+}
+
+/// Σ |xᵢ ∂f/∂xᵢ| over the data: what relative errors of the data do to the value.
+fn condition(scene: &Scene, answer: &Answer, point: &Point<f64>, value: f64) -> f64 {
+    let mut sum = 0.0;
+    let mut add = |nudged: &Point<f64>| {
+        if let Some((there, _)) = solved(scene, answer, &[], nudged) {
+            sum += (there - value).abs() / NUDGE;
+        }
+    };
+    for name in point.values.keys() {
+        let mut nudged = point.clone();
+        if let Some(x) = nudged.values.get_mut(name) {
+            *x = if *x == 0.0 { NUDGE } else { *x * (1.0 + NUDGE) };
+            add(&nudged);
+        }
+    }
+    for name in point.directions.keys() {
+        let mut nudged = point.clone();
+        if let Some((_, [cos, sin])) = nudged.directions.get_mut(name) {
+            let (turn_sin, turn_cos) = NUDGE.sin_cos();
+            (*cos, *sin) = (
+                *cos * turn_cos - *sin * turn_sin,
+                *sin * turn_cos + *cos * turn_sin,
+            );
+            add(&nudged);
+        }
+    }
+    sum
+}
