@@ -5,11 +5,12 @@
 
 use num_traits::Zero;
 
+use super::body_file::{BodyFile, ShapeName, VelocityFile};
 use super::check::{Claim, Claimed};
 use super::fault::{Fault, Span};
-use super::file::{BodyFile, PositionFile, ShapeName, VelocityFile};
 use super::formulas::{Quantity, Symbols};
 use super::geometry::split_number;
+use super::place_file::PositionFile;
 use super::record::{Formula, is_sound};
 use super::{Body, Shape};
 use crate::expr::{Expr, Rational, Vector, dot, minus};

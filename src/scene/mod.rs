@@ -4,7 +4,10 @@
 //! body into the second; the impulse of a contact is the one on the second body.
 
 mod body;
+mod body_file;
 mod check;
+mod contact;
+mod contact_file;
 mod drawing;
 mod fault;
 mod file;
@@ -15,9 +18,11 @@ mod json;
 pub mod outline;
 mod parameters;
 mod place;
+mod place_file;
 mod printed;
 mod proof;
 mod question;
+mod question_file;
 mod record;
 mod resolve;
 mod special;

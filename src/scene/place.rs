@@ -5,11 +5,12 @@
 
 use super::Body;
 use super::body::Solid;
+use super::body_file::ShapeName;
 use super::check::{Claim, Claimed};
 use super::fault::Fault;
-use super::file::{AxisName, DirectionFile, PositionFile, ShapeName, StepFile};
 use super::formulas::Quantity;
 use super::geometry;
+use super::place_file::{AxisName, DirectionFile, PositionFile, StepFile};
 use super::record::Text;
 use super::resolve::{Resolver, entries, origin};
 use crate::expr::{Expr, Node, Vector};

@@ -1,7 +1,7 @@
 //! What is asked: each question of the file becomes one [`Ask`], or a fault that says what is missing.
 
 use super::fault::{Fault, Span};
-use super::file::{EnergyName, QuestionFile};
+use super::question_file::{EnergyName, QuestionFile};
 use super::record::{Text, is_sound};
 use super::resolve::Resolver;
 use super::{Ask, EnergyWhen, ImpulseAt, Question, Scene, special};

@@ -3,10 +3,12 @@
 //! Scenes of one impact and scenes with stages ask these alike: values, thresholds, equations to be solved, largest values,
 //! limits, forms for a small parameter, identities. Nothing is worked out here.
 
+use super::contact_file::{ContactFile, LawName};
 use super::fault::Fault;
-use super::file::{ContactFile, LawName, PlotFile, QuestionFile, SceneFile};
+use super::file::SceneFile;
 use super::formulas::Symbols;
 use super::question::is_motion;
+use super::question_file::{PlotFile, QuestionFile};
 use super::record::{Formula, Map, Text};
 use super::resolve::{Resolver, entries};
 use super::stage::{PlotAsk, StoryAsk, StoryQuestion};

@@ -1,9 +1,8 @@
 //! The part of the scene file that tells stages: fields, meaning, and what may be left out.
 
-use super::file::{
-    BlowFile, ContactFile, DirectionFile, ForceFile, HingeFile, KnownFile, PositionFile,
-    VelocityFile,
-};
+use super::body_file::VelocityFile;
+use super::contact_file::{BlowFile, ContactFile, ForceFile, HingeFile, KnownFile};
+use super::place_file::{DirectionFile, PositionFile};
 use super::record::{Formula, Map, Pair, Text, choice, record};
 
 record! {

@@ -5,8 +5,8 @@
 use crate::expr::Expr;
 use crate::scene::Scene;
 use crate::scene::fault::{Fault, Span};
-use crate::scene::file::PositionFile;
 use crate::scene::formulas::Quantity;
+use crate::scene::place_file::PositionFile;
 use crate::scene::record::Formula;
 use crate::scene::resolve::Resolver;
 use crate::scene::stage::{Fall, FallEnd, OneSided, Slide, StageKind, Turn, Until, Wind};

@@ -9,9 +9,11 @@ mod questions;
 use std::collections::HashMap;
 
 use crate::expr::{Expr, Symbol, Vector, minus};
+use crate::scene::body_file::VelocityFile;
 use crate::scene::check::{Claim, check};
+use crate::scene::contact_file::ContactFile;
 use crate::scene::fault::{Fault, nearest};
-use crate::scene::file::{ContactFile, SceneFile, VelocityFile};
+use crate::scene::file::SceneFile;
 use crate::scene::formulas::{Quantity, Symbols};
 use crate::scene::place::Place;
 use crate::scene::record::{Map, Text};

@@ -1,0 +1,363 @@
+//! Hinges, contacts with their laws, and what is known after: what may stand together, and between which bodies.
+
+use super::body_file::ShapeName;
+use super::check::{Claim, Claimed};
+use super::contact_file::{ContactFile, HypothesisName, KnownFile, LawName, SupposedName};
+use super::fault::{Fault, Span};
+use super::formulas::Quantity;
+use super::record::{Formula, Text, is_sound};
+use super::resolve::{Resolver, text};
+use super::{Contact, ContactLaw, Friction, Hypothesis, Known, KnownQuantity, Mode, Scene};
+use crate::expr::{Expr, Vector, minus};
+
+impl Resolver<'_> {
+    pub(super) fn contact(&mut self, name: &Text, contact: &ContactFile, scene: &mut Scene) {
+        let bodies = self.pair(&contact.bodies.items, contact.bodies.span, "contact");
+        let at = self.position(&contact.at);
+        let normal = contact.normal.as_ref().map(|n| self.direction(n));
+        let restitution = contact.restitution.as_ref().map(|e| {
+            let value = self.symbols.read(e, Quantity::NUMBER, &mut self.faults);
+            if let Some(value) = &value {
+                self.claims.push(Claimed {
+                    span: e.span,
+                    claim: Claim::Fraction(value.clone()),
+                });
+            }
+            value
+        });
+        self.belongs_to_friction(contact);
+        let law = match contact.law {
+            Some(LawName::Friction) => {
+                self.friction(name, contact, restitution.flatten(), normal.is_some())
+            }
+            Some(LawName::Frictionless) => {
+                for (missing, field, hint) in [
+                    (
+                        normal.is_none(),
+                        "normal",
+                        "the unit normal out of the first body into the second",
+                    ),
+                    (
+                        restitution.is_none(),
+                        "restitution",
+                        "a number or a symbol from 0 to 1",
+                    ),
+                ] {
+                    if missing && is_sound(contact.span, &self.faults) {
+                        let message = format!("a frictionless contact needs `{field}`");
+                        self.faults.push(
+                            Fault::new(contact.span, message)
+                                .shown_at(name.span)
+                                .hint(hint),
+                        );
+                    }
+                }
+                restitution
+                    .flatten()
+                    .map(|restitution| ContactLaw::Frictionless { restitution })
+            }
+            law => {
+                let is_sound = law.is_some() || is_sound(contact.span, &self.faults);
+                if let (Some(e), true) = (&contact.restitution, is_sound) {
+                    let with = if law.is_some() {
+                        "a sticking contact"
+                    } else {
+                        "a contact without law"
+                    };
+                    let fault = Fault::new(e.span, format!("{with} has no restitution"));
+                    self.faults
+                        .push(fault.hint("restitution belongs to \"law\": \"frictionless\""));
+                }
+                Some(if law.is_some() {
+                    ContactLaw::Sticking
+                } else {
+                    ContactLaw::None
+                })
+            }
+        };
+        // A normal that was given but could not be read has been reported.
+        let normal = normal.map_or(Some(None), |n| n.map(Some));
+        if let (Some(bodies), Some(at), Some(normal), Some(law)) = (bodies, at, normal, law) {
+            self.reach(bodies, &at, name.span, &name.text);
+            if self.file.stages.is_none() {
+                // In stages bodies have moved by then; where they are shows when the stages are followed.
+                self.claims.push(Claimed {
+                    span: name.span,
+                    claim: Claim::Touch(scene.contacts.len()),
+                });
+            }
+            if normal.is_some() {
+                self.claims.push(Claimed {
+                    span: name.span,
+                    claim: Claim::Approach(scene.contacts.len()),
+                });
+            }
+            scene.contacts.push(Contact {
+                name: name.text.clone(),
+                bodies,
+                at,
+                normal,
+                law,
+            });
+        }
+    }
+
+    /// Friction is followed along the path of one impulse: nothing else may act during the impact but hinges.
+    pub(super) fn friction_alone(&mut self, scene: &Scene) {
+        let Some((contact, _)) = scene.friction() else {
+            return;
+        };
+        let name = scene.contacts[contact].name.clone();
+        let contacts = self.file.contacts.iter().flat_map(|m| &m.0);
+        let others = contacts.map(|(n, _)| n).filter(|n| n.text != name);
+        let blows = self.file.blows.iter().flat_map(|m| &m.0).map(|(n, _)| n);
+        if let Some(other) = others.chain(blows).next() {
+            let message = format!(
+                "`{}` acts at the same time as the contact with friction `{name}`",
+                other.text
+            );
+            let fault = Fault::new(other.span, message);
+            self.faults.push(fault.hint(
+                "friction is worked out at one contact alone: take all contacts without friction, or one after the other in scenes of their own",
+            ));
+        }
+        if let Some(known) = self.file.after.iter().flatten().next() {
+            let message =
+                format!("something known after takes the place of a law, and `{name}` has one");
+            let fault = Fault::new(known.span, message);
+            self.faults
+                .push(fault.hint("leave out `after`, or the law"));
+        }
+    }
+
+    /// Reports what only a contact with friction has, where the law is another one.
+    fn belongs_to_friction(&mut self, contact: &ContactFile) {
+        if contact.law == Some(LawName::Friction) || !is_sound(contact.span, &self.faults) {
+            return;
+        }
+        let given = [
+            ("mu", contact.mu.as_ref().map(|f| f.span)),
+            ("hypothesis", contact.hypothesis.map(|_| contact.span)),
+            (
+                "tangential_restitution",
+                contact.tangential_restitution.as_ref().map(|f| f.span),
+            ),
+            (
+                "impulse_ratio",
+                contact.impulse_ratio.as_ref().map(|f| f.span),
+            ),
+            ("supposing", contact.supposing.map(|_| contact.span)),
+        ];
+        for (field, span) in given {
+            if let Some(span) = span {
+                let message = format!("`{field}` belongs to a contact with friction");
+                let fault = Fault::new(span, message);
+                self.faults.push(fault.hint("add \"law\": \"friction\""));
+            }
+        }
+    }
+
+    /// The law of a contact with friction.
+    fn friction(
+        &mut self,
+        name: &Text,
+        contact: &ContactFile,
+        restitution: Option<Expr>,
+        has_normal: bool,
+    ) -> Option<ContactLaw> {
+        let brach = contact.hypothesis == Some(HypothesisName::Brach);
+        let no_mu = contact.mu.is_none() && !(brach && contact.impulse_ratio.is_some());
+        for (missing, field, hint) in [
+            (
+                !has_normal,
+                "normal",
+                "the unit normal out of the first body into the second",
+            ),
+            (
+                contact.restitution.is_none(),
+                "restitution",
+                "a number or a symbol from 0 to 1",
+            ),
+            (no_mu, "mu", "the coefficient of friction, 0 or greater"),
+        ] {
+            if missing && is_sound(contact.span, &self.faults) {
+                let message = format!("a contact with friction needs `{field}`");
+                let fault = Fault::new(contact.span, message).shown_at(name.span);
+                self.faults.push(fault.hint(hint));
+            }
+        }
+        let number = |this: &mut Self, f: &Option<Formula>, claim: fn(Expr) -> Claim| {
+            let f = f.as_ref()?;
+            let value = this.symbols.read(f, Quantity::NUMBER, &mut this.faults)?;
+            this.claims.push(Claimed {
+                span: f.span,
+                claim: claim(value.clone()),
+            });
+            Some(value)
+        };
+        let mu = number(self, &contact.mu, Claim::Friction);
+        let tangential = number(self, &contact.tangential_restitution, Claim::Tangential);
+        let ratio = contact.impulse_ratio.as_ref();
+        let ratio = ratio.and_then(|f| self.symbols.read(f, Quantity::NUMBER, &mut self.faults));
+        let own = [
+            (
+                "tangential_restitution",
+                contact.tangential_restitution.as_ref(),
+                HypothesisName::ChatterjeeRuina,
+                "chatterjee-ruina",
+            ),
+            (
+                "impulse_ratio",
+                contact.impulse_ratio.as_ref(),
+                HypothesisName::Brach,
+                "brach",
+            ),
+        ];
+        for (field, given, owner, word) in own {
+            if let Some(f) = given.filter(|_| contact.hypothesis != Some(owner)) {
+                let message = format!("`{field}` belongs to the hypothesis {word}");
+                let fault = Fault::new(f.span, message);
+                self.faults
+                    .push(fault.hint(format!("add \"hypothesis\": \"{word}\"")));
+            }
+        }
+        let hypothesis = match contact.hypothesis {
+            Some(HypothesisName::Newton) => Hypothesis::Newton,
+            None | Some(HypothesisName::Poisson) => Hypothesis::Poisson,
+            Some(HypothesisName::Stronge) => Hypothesis::Stronge,
+            Some(HypothesisName::ChatterjeeRuina) => Hypothesis::ChatterjeeRuina {
+                tangential: tangential.unwrap_or_else(Expr::zero),
+            },
+            Some(HypothesisName::Brach) => Hypothesis::Brach { ratio },
+        };
+        let supposing = contact.supposing.map(|supposed| match supposed {
+            SupposedName::Slides => Mode::Slides,
+            SupposedName::Sticks => Mode::Sticks,
+            SupposedName::SticksInCompression => Mode::SticksInCompression,
+            SupposedName::SticksInRestitution => Mode::SticksInRestitution,
+            SupposedName::ReversesInCompression => Mode::ReversesInCompression,
+            SupposedName::ReversesInRestitution => Mode::ReversesInRestitution,
+            SupposedName::InsideCone => Mode::InsideCone,
+            SupposedName::OnCone => Mode::OnCone,
+        });
+        Some(ContactLaw::Friction(Box::new(Friction {
+            mu: mu.or_else(|| brach.then(Expr::zero))?,
+            restitution: restitution?,
+            hypothesis,
+            supposing,
+        })))
+    }
+
+    pub(super) fn known(&mut self, known: &KnownFile) -> Option<Known> {
+        let what = match (&known.velocity, &known.spin) {
+            (Some(body), None) => {
+                let body = self.moving(body);
+                let at = known.at.as_ref().map(|at| self.position(at));
+                let Some(along) = &known.along else {
+                    let fault = Fault::new(
+                        known.span,
+                        "a known velocity needs the direction `along` which it is known",
+                    );
+                    let place = Span::new(known.span.start, known.span.start + 1);
+                    self.faults.push(
+                        fault
+                            .shown_at(place)
+                            .hint("add \"along\": [\"1\", \"0\"]; a vector takes two entries"),
+                    );
+                    return None;
+                };
+                let along = self.direction(along);
+                let at = match at {
+                    Some(at) => at,
+                    None => body.and_then(|b| self.center(b)),
+                };
+                (
+                    body?,
+                    KnownQuantity::Velocity {
+                        at: at?,
+                        along: along?,
+                    },
+                    Quantity::VELOCITY,
+                )
+            }
+            (None, Some(body)) => {
+                if let Some(span) = known
+                    .at
+                    .as_ref()
+                    .map(|_| known.span)
+                    .or(known.along.as_ref().map(|_| known.span))
+                {
+                    self.faults.push(Fault::new(
+                        span,
+                        "a known spin has neither `at` nor `along`",
+                    ));
+                }
+                let index = self.moving(body)?;
+                if self.is_particle(index) {
+                    self.faults.push(Fault::new(
+                        body.span,
+                        format!("the particle `{}` has no spin", body.text),
+                    ));
+                    return None;
+                }
+                (index, KnownQuantity::Spin, Quantity::SPIN)
+            }
+            _ => {
+                let fault = Fault::new(
+                    known.span,
+                    "something known after is either a `velocity` or a `spin`",
+                );
+                self.faults.push(fault.hint("its value is the body's name"));
+                return None;
+            }
+        };
+        let value = self.symbols.read(&known.is, what.2, &mut self.faults)?;
+        Some(Known {
+            name: text(&known.name),
+            body: what.0,
+            what: what.1,
+            value,
+        })
+    }
+
+    /// The two bodies of a hinge or contact: different, and not both immovable.
+    pub(super) fn pair(&mut self, names: &[Text; 2], span: Span, what: &str) -> Option<[usize; 2]> {
+        let (a, b) = (self.body_named(&names[0]), self.body_named(&names[1]));
+        let (a, b) = (a?, b?);
+        if a == b {
+            self.faults.push(Fault::new(
+                span,
+                format!(
+                    "a {what} is between two bodies, not `{}` and itself",
+                    names[0].text
+                ),
+            ));
+            return None;
+        }
+        if self.shape(a) == Some(ShapeName::Fixed) && self.shape(b) == Some(ShapeName::Fixed) {
+            let message = format!(
+                "`{}` and `{}` are both fixed: nothing can happen between them",
+                names[0].text, names[1].text
+            );
+            self.faults.push(Fault::new(span, message));
+            return None;
+        }
+        Some([a, b])
+    }
+
+    /// A particle can only be touched where it is.
+    pub(super) fn reach(&mut self, bodies: [usize; 2], at: &Vector, span: Span, name: &str) {
+        for body in bodies {
+            if self.is_particle(body)
+                && let Some(center) = self.center(body)
+            {
+                let claim = Claim::AtParticle {
+                    offset: minus(at, &center),
+                    at: name.to_owned(),
+                    body,
+                };
+                self.claims.push(Claimed { span, claim });
+            }
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! Questions and plots as a scene file writes them.
+
+use super::place_file::{DirectionFile, PositionFile};
+use super::record::{Formula, Map, Text, choice, record};
+use super::stage_file::{EndName, ShareFile};
+
+choice! {
+    /// Which kinetic energy.
+    EnergyName {
+        /// Just before.
+        Before = "before",
+        /// Just after.
+        After = "after",
+        /// Before minus after.
+        Lost = "lost",
+    }
+}
+
+choice! {
+    /// Which balance.
+    BalanceName {
+        /// Linear momentum.
+        Momentum = "momentum",
+    }
+}
+
+record! {
+    /// Something asked: exactly one of velocity, spin, impulse, energy, balance and matrix, with what belongs to it; or one of
+    /// value, solve, threshold, maximum, limit, approximate and show, about the answers to those.
+    QuestionFile {
+        /// How the answer's name is typeset.
+        latex: Option<Text>,
+        /// Velocity just after of this body (its center of mass), or of this point of the body named in `of`.
+        velocity: Option<Text>,
+        /// The body: to which the point of a velocity belongs, or of which the energy is asked (missing: of all).
+        of: Option<Text>,
+        /// Direction of the component asked of a velocity or an impulse, or in which momentum is balanced.
+        along: Option<DirectionFile>,
+        /// Angular velocity just after of this body.
+        spin: Option<Text>,
+        /// Counts a spin clockwise.
+        clockwise: Option<bool>,
+        /// Impulse at this contact, hinge or blow.
+        impulse: Option<Text>,
+        /// The body on which the impulse acts. Missing: the second body; the first, if the second is fixed.
+        on: Option<Text>,
+        /// Kinetic energy.
+        energy: Option<EnergyName>,
+        /// An equation: a quantity before equals that after, along `along`, for the bodies in `system`.
+        balance: Option<BalanceName>,
+        /// Bodies of a balance.
+        system: Option<Vec<Text>>,
+        /// A matrix: names of balance questions and of entries of `after`, one per row.
+        matrix: Option<Vec<Text>>,
+        /// Names of the questions whose answers are the unknowns of the matrix, one per column.
+        unknowns: Option<Vec<Text>>,
+        /// Name of the stage at whose end a velocity, spin, impulse or energy is asked, or which a reaction or angular momentum
+        /// belongs to. Missing: the last stage.
+        at: Option<Text>,
+        /// Beginning or end of the stage, for a reaction or an angular momentum. Missing: its end.
+        when: Option<EndName>,
+        /// Force of the fixed point on the body that turns in this stage, along `along`.
+        reaction: Option<Text>,
+        /// Angular momentum of this body about the point `about`.
+        angular_momentum: Option<Text>,
+        /// Point to which an angular momentum refers.
+        about: Option<PositionFile>,
+        /// A formula of parameters and earlier answers.
+        value: Option<Formula>,
+        /// Parameters and the formulas that stand for them, in a value, a threshold, a solution or what is to be shown.
+        with: Option<Map<Formula>>,
+        /// The parameter for whose values the relation `holds` is true.
+        threshold: Option<Text>,
+        /// The parameter for whose value the equation `holds` is true.
+        solve: Option<Text>,
+        /// An inequality or equation between formulas of parameters and earlier answers, such as "K_top <= 0".
+        holds: Option<Text>,
+        /// A formula to be made as large as possible.
+        maximum: Option<Formula>,
+        /// The parameters that may be chosen for it.
+        over: Option<Vec<Text>>,
+        /// A formula whose limit is asked.
+        limit: Option<Formula>,
+        /// The parameter that tends to `to`.
+        tends: Option<Text>,
+        /// What it tends to: a formula, or "infinity".
+        to: Option<Formula>,
+        /// A formula, or the name of a vector, to be written as a polynomial in the small difference between the parameter that
+        /// `tends` and what it tends `to` (missing: 0), up to the power `order`.
+        approximate: Option<Formula>,
+        /// Highest power kept: 0, 1, 2, ….
+        order: Option<Formula>,
+        /// An equation to be proved.
+        show: Option<Text>,
+        /// Names of answers that must not vanish for what is shown to mean something, such as velocities between which an angle is
+        /// measured; where they vanish is found and told.
+        unless: Option<Vec<Text>>,
+        /// What the equation to be proved says, in words.
+        claim: Option<Text>,
+        /// Name of the stage: which forces have an impulse in it, and why?
+        impulsive: Option<Text>,
+        /// A spring that a blow of constant force presses: what share of the blow does it take while the blow lasts?
+        share: Option<ShareFile>,
+        /// Name of the stage: what happens in it, in words?
+        describe: Option<Text>,
+        /// Name of the stage: what do its laws leave open?
+        missing: Option<Text>,
+        /// Words of the author that nothing here derives, told as such.
+        remark: Option<Text>,
+        /// What is assumed?
+        assumed: Option<bool>,
+        /// Name of an earlier answer: which data does it not need?
+        unused: Option<Text>,
+    }
+}
+
+record! {
+    /// A curve of a quantity against a parameter, or against a name that stands for a formula.
+    PlotFile {
+        /// Heading. Missing: the quantity against the parameter.
+        title: Option<Text>,
+        /// A formula of parameters and answers.
+        quantity: Formula,
+        /// What is written at its axis, such as "P_A/(m_1 v)". Missing: the formula.
+        label: Option<Text>,
+        /// The parameter along the other axis, or a new name that `stands_for` explains.
+        against: Text,
+        /// What the new name stands for, such as "l/d".
+        stands_for: Option<Formula>,
+        /// The parameter of that formula that varies.
+        varying: Option<Text>,
+        /// Smallest value shown.
+        from: Formula,
+        /// Largest value shown.
+        to: Formula,
+        /// One curve for each entry: parameters and the formulas that stand for them. Missing: one curve.
+        curves: Option<Vec<Map<Formula>>>,
+    }
+}
