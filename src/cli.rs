@@ -351,7 +351,7 @@ fn impact_of(
             Some(name) => Err(refused(format!(
                 "no stage {name}: this scene is one impact"
             ))),
-            None => Ok(scene),
+            None => friction::settled(path, scene),
         };
     };
     let told = story::tell(&scene, stages).map_err(|r| refused(r.to_string()))?;
@@ -398,6 +398,8 @@ fn read_scene_text(path: &Path, set: &[String]) -> Result<(scene::Scene, String)
             ))
         })?;
     }
+    scene::values_fit(&scene)
+        .map_err(|fault| Failure::Input(with_hint(&fault.message, fault.hint.as_deref())))?;
     Ok((scene, text))
 }
 

@@ -78,8 +78,9 @@ pub struct Field {
     /// Exponent bits ≥ 2 of the algebraic generators: a quick test for "nothing to reduce".
     mask: Mono,
     pub(crate) assumed: Vec<Element>,
-    /// Polynomials that are taken not to be negative, by [`Field::suppose`].
-    pub(crate) supposed: Vec<Poly>,
+    /// Polynomials taken to be positive, or not negative where the flag tells that they may vanish: by the relations of the
+    /// domain, and by [`Field::suppose`].
+    pub(crate) supposed: Vec<(Poly, bool)>,
     pub(crate) complete: bool,
     /// Values of the generators at fixed points of the domain, made when first needed.
     pub(crate) samples: Vec<Vec<f64>>,
@@ -126,6 +127,10 @@ impl Field {
         for e in exprs {
             found.collect(e);
         }
+        let relations = self.relations(&found.names());
+        for relation in &relations {
+            found.collect(&relation.excess);
+        }
         for pair in &self.domains.unit_vectors {
             if pair.iter().any(|name| found.symbols.contains(name)) {
                 found.symbols.extend(pair.iter().cloned());
@@ -162,6 +167,7 @@ impl Field {
                 self.add_base(AngleOf::Term(term), divisor);
             }
         }
+        self.relate_signs(&relations);
     }
 
     /// The terms of arguments with the least common denominators of their coefficients; bare symbols among the angles.
@@ -230,24 +236,10 @@ impl Field {
     /// Takes what an expression vanishes with not to be negative: for proofs about points at which a root or a logarithm of
     /// it has a value. Whether anything new was learnt.
     pub fn suppose(&mut self, e: &Expr) -> bool {
-        let Ok(x) = self.element(e) else {
+        let Some((p, _)) = self.undecided_part(e) else {
             return false;
         };
-        let (mut negative, parts) = self.powers_of_parts(&x);
-        let mut unknown = Vec::new();
-        for (f, k) in parts.into_iter().filter(|(_, k)| k % 2 != 0) {
-            match self.sign_poly(&f) {
-                Some(sign) => negative ^= !sign.is_not_negative(),
-                None => unknown.push((f, k)),
-            }
-        }
-        let [(f, _)] = unknown.as_slice() else {
-            return false;
-        };
-        self.supposed
-            .push(if negative { f.neg() } else { f.clone() });
-        // Normal forms found before know nothing of it.
-        self.read.clear();
+        self.take(p, true);
         true
     }
 
@@ -538,6 +530,12 @@ struct Found {
 }
 
 impl Found {
+    /// Symbols and angles.
+    fn names(&self) -> BTreeSet<Symbol> {
+        let angles = self.angles.keys().cloned();
+        self.symbols.iter().cloned().chain(angles).collect()
+    }
+
     fn collect(&mut self, e: &Expr) {
         match e.node() {
             Node::Number(_) => {}

@@ -21,6 +21,7 @@ mod parts;
 mod poly;
 mod powers;
 mod read;
+mod related;
 mod roots;
 mod sampled;
 mod sign;

@@ -19,13 +19,26 @@ impl Field {
     pub(crate) fn seen_signs(&mut self, p: &Poly) -> (bool, bool) {
         self.ensure_samples();
         let (mut plus, mut minus) = (false, false);
-        for k in 0..SAMPLES {
+        for k in (0..self.sample_count()).filter(|k| self.keeps_what_is_supposed(*k)) {
             if let Some(value) = self.sample(p, k) {
                 plus |= value > 0.0;
                 minus |= value < 0.0;
             }
         }
         (plus, minus)
+    }
+
+    /// More points are drawn where what is supposed leaves only some.
+    fn sample_count(&self) -> usize {
+        match self.supposed.len() {
+            0 => SAMPLES,
+            _ => 8 * SAMPLES,
+        }
+    }
+
+    fn keeps_what_is_supposed(&self, k: usize) -> bool {
+        let mut supposed = self.supposed.iter();
+        supposed.all(|(p, _)| self.sample(p, k).is_none_or(|value| value >= 0.0))
     }
 
     /// Value at a sample point; 0 where rounding leaves the sign open, `None` where a generator has no value.
@@ -60,7 +73,7 @@ impl Field {
 
     fn ensure_samples(&mut self) {
         for v in self.samples.len()..self.gens.len() {
-            let column: Vec<f64> = (0..SAMPLES)
+            let column: Vec<f64> = (0..self.sample_count())
                 .map(|k| self.sample_generator(v, k).unwrap_or(f64::NAN))
                 .collect();
             self.samples.push(column);

@@ -104,13 +104,8 @@ impl Field {
         if let Some(sign) = self.by_coefficients(p, &[]) {
             return Some(sign);
         }
-        if !self.supposed.is_empty() {
-            if self.supposed.contains(p) {
-                return Some(Sign::NotNegative);
-            }
-            if self.supposed.contains(&p.neg()) {
-                return Some(Sign::NotPositive);
-            }
+        if let Some(sign) = self.by_relations(p) {
+            return Some(sign);
         }
         let found = self.by_substitution(p);
         if found == Found::Mixed {

@@ -44,7 +44,7 @@ impl Field {
     /// Writes variables of unknown sign as positive ones, then looks at the coefficients; where they are of both signs, the
     /// domain is halved as far as a count of parts allows.
     pub(crate) fn by_substitution(&self, p: &Poly) -> Found {
-        let Some((p, axes)) = self.axes(p) else {
+        let Some((p, axes)) = self.axes(p, &[]) else {
             return Found::Unknown;
         };
         let first = self.on_box(&p, &axes);
@@ -92,8 +92,9 @@ impl Field {
         total.map_or(Found::Unknown, Found::Proved)
     }
 
-    /// The polynomial with half tangents for angles, up to a positive factor, and the intervals of its variables.
-    fn axes(&self, p: &Poly) -> Option<(Poly, Vec<Axis>)> {
+    /// The polynomial with half tangents for angles, up to a positive factor, and the intervals of its variables. Those of
+    /// `excesses` stand for something positive, or not negative where the flag tells.
+    fn axes(&self, p: &Poly, excesses: &[(usize, bool)]) -> Option<(Poly, Vec<Axis>)> {
         let mut p = p.clone();
         let mut axes = Vec::new();
         for (index, base) in self.bases.iter().enumerate() {
@@ -139,7 +140,14 @@ impl Field {
         }
         for v in p.variables() {
             if let Kind::Symbol(name) = &self.gens[v].kind {
-                let range = self.interval(name);
+                let excess = excesses.iter().find(|(e, _)| *e == v);
+                let range = match excess {
+                    Some((_, closed)) => Interval {
+                        low: Some((Rational::zero(), !closed)),
+                        high: None,
+                    },
+                    None => self.interval(name),
+                };
                 axes.push(Axis {
                     v,
                     low: range.low,
@@ -149,6 +157,16 @@ impl Field {
             }
         }
         (p.len() <= MOST_TERMS).then_some((p, axes))
+    }
+
+    /// The sign where the variables of `excesses` are positive (or not negative) and the others lie in their intervals, as far
+    /// as the coefficients tell.
+    pub(crate) fn with_excesses(&self, p: &Poly, excesses: &[(usize, bool)]) -> Option<Sign> {
+        let (p, axes) = self.axes(p, excesses)?;
+        match self.on_box(&p, &axes) {
+            Found::Proved(sign) => Some(sign),
+            _ => None,
+        }
     }
 
     /// The sign on one part of the domain, from the coefficients alone.

@@ -101,6 +101,7 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
             .ok_or_else(|| Unusable(String::from("`set` holds something other than NAME=VALUE")))?;
         scene::set(&mut scene, name.trim(), value.trim()).map_err(|f| Unusable(f.message))?;
     }
+    scene::values_fit(&scene).map_err(|f| Unusable(f.message))?;
     let impacts = story::impacts(&scene, &root["impacts"])?;
     let meanings = meanings(&scene, &root["symbols"])?;
     let known = Known::of(&scene, &meanings, &root["spelled"]);

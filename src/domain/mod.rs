@@ -3,6 +3,7 @@
 //! In: declared intervals and the formulas that use the symbols. Out: membership, the domain completed by the stated
 //! defaults, and a fixed sequence of sample points from simple to complicated. It knows nothing of equality.
 
+mod relation;
 pub mod sample;
 
 use std::cmp::Ordering;
@@ -12,6 +13,7 @@ use num_traits::{Signed, Zero};
 
 use crate::expr::{Int, Rational, Symbol, ratio};
 
+pub use relation::Relation;
 pub use sample::{Coordinate, Role, Roles, Sample, at_ends, roles, samples};
 
 /// One end of an interval: `value`, or `value`·π.
@@ -34,7 +36,8 @@ pub struct Domain {
     pub high: Option<Limit>,
 }
 
-/// The domain of a formula: a product of intervals, restricted to unit circles for declared unit vectors.
+/// The domain of a formula: a product of intervals, restricted to unit circles for declared unit vectors and to the points
+/// that keep to the stated relations.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Domains {
     /// Interval of each declared symbol. An undeclared symbol is taken as positive, an undeclared symbol that occurs under
@@ -42,6 +45,8 @@ pub struct Domains {
     pub symbols: BTreeMap<Symbol, Domain>,
     /// Pairs (a, b) of symbols with a² + b² = 1: components of unit vectors. Each lies in [−1, 1].
     pub unit_vectors: Vec<[Symbol; 2]>,
+    /// Inequalities between symbols.
+    pub relations: Vec<Relation>,
 }
 
 impl Limit {
@@ -98,6 +103,14 @@ impl Domain {
         Domain {
             low: Some(Limit::number(Rational::zero(), true)),
             high: None,
+        }
+    }
+
+    /// All numbers < 0.
+    pub fn negative() -> Domain {
+        Domain {
+            low: None,
+            high: Some(Limit::number(Rational::zero(), true)),
         }
     }
 

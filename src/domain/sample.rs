@@ -129,10 +129,55 @@ fn role<'a>(out: &'a mut Roles, name: &Symbol) -> &'a mut Role {
 /// different values, later ones are drawn from a fixed pseudo-random sequence. `domains` must declare every symbol of
 /// `roles`. Fewer points come out where a domain has no point that could be found.
 pub fn samples(roles: &Roles, domains: &Domains, count: usize) -> Vec<Sample> {
+    if !domains.relations.is_empty() {
+        return related(roles, domains, count);
+    }
+    drawn(roles, domains, 4 * count, count, |_| true)
+}
+
+/// Points that keep to the relations: the other symbols of these are placed too, and left out again.
+fn related(some: &Roles, domains: &Domains, count: usize) -> Vec<Sample> {
+    let bearing = domains.relations_of(&some.symbols.keys().cloned().collect());
+    let excesses: Vec<&Expr> = bearing.iter().map(|r| &r.excess).collect();
+    let mut all = roles(&excesses);
+    all.symbols
+        .retain(|name, _| !some.symbols.contains_key(name));
+    all.symbols.extend(some.symbols.clone());
+    let (domains, _) = domains.completed(&all);
+    let mut out: Vec<Sample> = Vec::new();
+    // Chains of relations leave few of the points drawn.
+    drawn(&all, &domains, 200 + 60 * count, count, |point| {
+        if !domains.admits(point) {
+            return false;
+        }
+        let mut own = point.clone();
+        own.coordinates
+            .retain(|name, _| some.symbols.contains_key(name));
+        let is_new = !out.contains(&own);
+        if is_new {
+            out.push(own);
+        }
+        is_new
+    });
+    out
+}
+
+/// The first `count` points of the sequence that are taken, of at most `most`.
+fn drawn(
+    roles: &Roles,
+    domains: &Domains,
+    most: usize,
+    count: usize,
+    mut takes: impl FnMut(&Sample) -> bool,
+) -> Vec<Sample> {
     let mut axes: Vec<(&Symbol, &Domain, Vec<Coordinate>)> = Vec::new();
     for (i, (name, role)) in roles.symbols.iter().enumerate() {
         // The early points pick by place, the later ones at random.
-        let wanted = if count <= 2 { (i + 2).min(24) } else { 24 };
+        let wanted = if count <= 2 && domains.relations.is_empty() {
+            (i + 2).min(24)
+        } else {
+            24
+        };
         let Some(domain) = domains.symbols.get(name) else {
             continue;
         };
@@ -150,7 +195,7 @@ pub fn samples(roles: &Roles, domains: &Domains, count: usize) -> Vec<Sample> {
         return vec![Sample::default()];
     }
     let mut out: Vec<Sample> = Vec::new();
-    for k in 0..4 * count {
+    for k in 0..most {
         let mut random = Lcg(k as u64);
         let mut point = Sample::default();
         for (i, (name, _, list)) in axes.iter().enumerate() {
@@ -173,7 +218,7 @@ pub fn samples(roles: &Roles, domains: &Domains, count: usize) -> Vec<Sample> {
                 }
             }
         }
-        if place_units(&mut point, domains, k) && !out.contains(&point) {
+        if place_units(&mut point, domains, k) && !out.contains(&point) && takes(&point) {
             out.push(point);
             if out.len() == count {
                 break;

@@ -100,7 +100,7 @@ pub(super) fn points(
                 let mut moved = start.clone();
                 moved.coordinates.insert(name.clone(), value);
                 let signs = pattern(&doubles(&moved));
-                if seen.contains(&signs) {
+                if seen.contains(&signs) || !domains.admits(&moved) {
                     continue;
                 }
                 seen.push(signs);
@@ -293,7 +293,7 @@ pub(super) fn tested(
                 }
             }
         }
-        all.retain(|at| sign_at(e, at) == Some(-1));
+        all.retain(|at| sign_at(e, at) == Some(-1) && domains.admits(at));
         if !all.is_empty() {
             return Err(all);
         }

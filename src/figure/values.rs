@@ -176,7 +176,9 @@ fn choices(scene: &Scene, parameter: &Parameter, earlier: usize) -> Vec<f64> {
     } else if is(1, 2, 0) {
         vec![0.2]
     } else if is(1, 0, 0) {
-        vec![[1.0, 2.0, 3.0][earlier % 3]]
+        let mut masses = vec![1.0, 2.0, 3.0];
+        masses.rotate_left(earlier % 3);
+        masses
     } else if is(0, 0, 0) {
         vec![0.5, 0.25, 1.5, -0.5]
     } else {
@@ -219,6 +221,14 @@ fn penalty(scene: &Scene, point: &Point<f64>) -> f64 {
         point: point.clone(),
     };
     let mut cost = 0.0;
+    for relation in &scene.domains.relations {
+        let excess = values.of(&relation.excess);
+        cost += if excess.is_some_and(|v| v > 0.0) {
+            0.0
+        } else {
+            1e3
+        };
+    }
     let bodies: Option<Vec<Pair>> = scene
         .bodies
         .iter()

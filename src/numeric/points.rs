@@ -99,6 +99,34 @@ pub fn needed(scene: &Scene) -> Needed {
 /// An exact point inside the domains. An undeclared symbol is taken as positive, an undeclared angle as one of the first
 /// quadrant. A symbol that is both an angle under a sine and a plain factor gets its direction only.
 pub fn random_point(needed: &Needed, domains: &Domains, seed: u64) -> Point<Rational> {
+    if domains.relations.is_empty() {
+        return any_point(needed, domains, seed);
+    }
+    let mut all = needed.clone();
+    let own = needed.plain.iter().chain(needed.angles.keys());
+    for relation in domains.relations_of(&own.cloned().collect()) {
+        all.add(&relation.excess);
+    }
+    // Of points drawn one after the other, the first that keeps to the relations; seeds far apart stay apart.
+    let drawn = (0..DRAWS).map(|k| any_point(&all, domains, seed.wrapping_add(k << 32)));
+    let mut kept = drawn.filter(|point| keeps(domains, &rounded(point)));
+    kept.next()
+        .unwrap_or_else(|| any_point(needed, domains, seed))
+}
+
+/// Most points drawn for one that keeps to all relations.
+const DRAWS: u64 = 2000;
+
+/// Whether a point keeps clearly to every relation between symbols that have a value there.
+pub fn keeps(domains: &Domains, point: &Point<f64>) -> bool {
+    let mut relations = domains.relations.iter();
+    relations.all(|r| {
+        let value = r.excess.evaluate(point);
+        value.is_none_or(|value| value > 1e-9 || (r.closed && value > -1e-12))
+    })
+}
+
+fn any_point(needed: &Needed, domains: &Domains, seed: u64) -> Point<Rational> {
     let mut point = Point::default();
     for (name, divisor) in &needed.angles {
         let mut rng = Rng::of(seed, name);

@@ -51,7 +51,7 @@ pub fn derivation(
             "unknowns": b.unknowns.iter().map(|u| derivation.names.plain(*u)).collect::<Vec<_>>(),
         })).collect::<Vec<_>>(),
         "left_out": derivation.left_out.iter().map(|l| json!({"what": l.what, "why": l.why})).collect::<Vec<_>>(),
-        "assumptions": assumptions(scene, derivation, proof),
+        "assumptions": super::assumptions(scene, derivation, proof),
         "checks": proof.scene.iter().map(check).collect::<Vec<_>>(),
         "admissible": super::possible::json(scene, possible),
         "verified": proof.holds() && special.iter().all(Special::holds),
@@ -144,7 +144,7 @@ fn answer(
     out.insert("unit".into(), json!(a.dimension.si()));
     out.insert(
         "assumptions".into(),
-        json!(assumptions(scene, derivation, proof)),
+        json!(super::assumptions(scene, derivation, proof)),
     );
     let mut all: Vec<Value> = proof
         .scene
@@ -155,10 +155,6 @@ fn answer(
     all.extend(checks.iter().map(check));
     out.insert("checks".into(), json!(all));
     Value::Object(out)
-}
-
-fn assumptions(scene: &Scene, derivation: &Derivation, proof: &Proof) -> Vec<String> {
-    super::assumptions(scene, derivation, proof)
 }
 
 fn check(check: &Check) -> Value {

@@ -29,8 +29,8 @@ use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::formula::{is_hidden, visible};
 use crate::numeric::{self, Answered};
 use crate::scene::Scene;
+pub use crate::solution::assumptions;
 use crate::solution::is_safe_latex;
-use crate::verify::Proof;
 
 /// Lines, and characters of a line, that are told of what is wrong.
 const SCREEN: (usize, usize) = (100, 400);
@@ -119,27 +119,6 @@ pub fn sides(derivation: &Derivation, equation: &Equation) -> (Expr, Expr) {
     let symbol = |u| Expr::symbol(derivation.names.plain(u));
     let left = Expr::sum(equation.terms.iter().map(|(u, k)| k * &symbol(*u)));
     (left, equation.known.clone())
-}
-
-/// Everything an answer rests on: the domains of the scene's symbols, what was divided by, what was seen and not proved.
-pub fn assumptions(scene: &Scene, derivation: &Derivation, proof: &Proof) -> Vec<String> {
-    let mut all: Vec<String> = Vec::new();
-    for (name, domain) in &scene.domains.symbols {
-        let words = domain.words(name);
-        if domain.low.is_some() || domain.high.is_some() {
-            all.push(words);
-        }
-    }
-    all.extend(
-        scene
-            .domains
-            .unit_vectors
-            .iter()
-            .map(|[a, b]| format!("{a}^2 + {b}^2 = 1")),
-    );
-    all.extend(derivation.assumptions.iter().cloned());
-    all.extend(proof.assumptions.iter().cloned());
-    all
 }
 
 /// A value in SI units.

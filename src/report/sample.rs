@@ -6,7 +6,7 @@
 use crate::domain::{Domain, Limit};
 use crate::expr::number::from_f64;
 use crate::expr::{Point, Rational, Symbol};
-use crate::numeric::points::{Needed, circle_point, needed};
+use crate::numeric::points::{Needed, circle_point, keeps, needed};
 use crate::numeric::random::Rng;
 use crate::numeric::{Given, exact_values, given, rounded};
 use crate::scene::Scene;
@@ -98,12 +98,16 @@ impl<'a> Sampler<'a> {
         let mut rng = Rng::of(self.seed, &format!("{family} {k}"));
         let mut draft = self.any(&mut rng);
         for _ in 0..64 {
-            if self.approaches(&draft) {
+            if self.keeps_relations(&draft) && self.approaches(&draft) {
                 break;
             }
             draft = self.any(&mut rng);
         }
         draft
+    }
+
+    fn keeps_relations(&self, draft: &Draft) -> bool {
+        keeps(&self.scene.domains, &rounded(&self.exact(draft)))
     }
 
     fn any(&self, rng: &mut Rng) -> Draft {

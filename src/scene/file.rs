@@ -29,6 +29,9 @@ record! {
         parameters: Option<Map<ParameterFile>>,
         /// Pairs of parameters that are the components of a unit vector, such as ["nx", "ny"].
         unit_vectors: Option<Vec<Pair<Text>>>,
+        /// Inequalities between parameters that the problem grants, such as "M > m" or "c < L/2". Signs are decided by them, and
+        /// values keep to them.
+        relations: Option<Vec<Text>>,
         /// Points by name.
         points: Option<Map<PositionFile>>,
         /// Bodies by name.
@@ -214,9 +217,9 @@ choice! {
 record! {
     /// An interval in the parameter's unit; a missing end is infinite.
     IntervalFile {
-        /// Lower end: a number, or a multiple of pi.
+        /// Lower end: a number, a multiple of pi, or a formula of other parameters such as "a/2".
         min: Option<Formula>,
-        /// Upper end: a number, or a multiple of pi.
+        /// Upper end: a number, a multiple of pi, or a formula of other parameters such as "acos(b/a)".
         max: Option<Formula>,
         /// Whether the lower end itself is excluded.
         min_open: Option<bool>,

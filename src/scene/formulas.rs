@@ -6,11 +6,11 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::fault::{Fault, Span};
-use super::record::{Formula, Pair};
+use super::record::{Formula, Pair, Text};
 use crate::dimension::{self, Dimension};
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Node, Symbol, Vector};
-use crate::formula::{self, Content};
+use crate::formula::{self, Content, Relation};
 
 /// What a field holds: its name, dimension and a remark that helps when the dimension is wrong.
 #[derive(Clone, Copy)]
@@ -177,6 +177,43 @@ impl Symbols {
             self.read(y, quantity, faults),
         );
         Some([x?, y?])
+    }
+
+    /// Reads inequalities or equations, one or a chain: the formulas and what stands between them. Their dimensions are not
+    /// looked at.
+    pub fn relations(
+        &self,
+        text: &Text,
+        faults: &mut Vec<Fault>,
+    ) -> Option<(Vec<Expr>, Vec<Relation>)> {
+        let reading = match formula::read(&text.text, &self.names) {
+            Ok(reading) => reading,
+            Err(trouble) => {
+                let mut fault = Fault::new(text.span, &trouble.message);
+                fault.hint = trouble.hint.clone();
+                faults.push(fault);
+                return None;
+            }
+        };
+        for name in reading.symbols() {
+            self.mark_used(&name);
+        }
+        let Content::Relations(sides, relations) = &reading.content else {
+            return Some((Vec::new(), Vec::new()));
+        };
+        let sides: Option<Vec<Expr>> = sides.iter().map(|s| s.expr().cloned()).collect();
+        Some((sides.unwrap_or_default(), relations.clone()))
+    }
+
+    /// What is wrong with comparing two formulas: their dimensions, or one within them.
+    pub fn clash(&self, a: &Expr, b: &Expr) -> Option<String> {
+        let known = |name: &str| self.dimensions.get(name).cloned().flatten();
+        let of = |e: &Expr| dimension::of(e, &known).map_err(|c| c.message(&formula::write_plain));
+        match (of(a), of(b)) {
+            (Err(message), _) | (_, Err(message)) => Some(message),
+            (Ok(Some(a)), Ok(Some(b))) if a != b => Some(format!("{a} is compared with {b}")),
+            _ => None,
+        }
     }
 
     /// Reads a formula without regard to its dimension.

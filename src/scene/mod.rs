@@ -24,6 +24,7 @@ mod proof;
 mod question;
 mod question_file;
 mod record;
+mod relations;
 mod resolve;
 mod special;
 mod stage;
@@ -135,6 +136,11 @@ pub fn set(scene: &mut Scene, name: &str, value: &str) -> Result<(), Fault> {
             Err(fault)
         }
     }
+}
+
+/// What is wrong with the values now given taken together, such as a relation that they break. The fault has no place.
+pub fn values_fit(scene: &Scene) -> Result<(), Fault> {
+    relations::broken(scene, Span::default()).map_or(Ok(()), Err)
 }
 
 /// Everything a scene file says, with names resolved to indices.

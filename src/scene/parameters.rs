@@ -6,15 +6,16 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::check::{Claim, Claimed};
+use super::contact_file::ContactFile;
 use super::fault::{Fault, Span};
 use super::file::{DomainFile, DomainName, IntervalFile, ParameterFile, SceneFile};
 use super::formulas::Symbols;
 use super::record::{Formula, Text};
-use super::{Parameter, Scene};
+use super::{Parameter, Scene, relations};
 use crate::dimension::{self, Unit};
 use crate::domain::{Domain, Limit};
 use crate::expr::angle::angle;
-use crate::expr::{Expr, Function, Point, Rational, ratio};
+use crate::expr::{Expr, Function, Node, Point, Rational, ratio};
 
 /// Most parameters a scene may have.
 const PARAMETERS: usize = 1000;
@@ -35,7 +36,8 @@ pub(super) fn resolve(
         return Symbols::new(BTreeMap::new());
     }
     let mut spellings: BTreeMap<String, &str> = BTreeMap::new();
-    let mut symbols = BTreeMap::new();
+    let mut dimensions = BTreeMap::new();
+    let mut units = Vec::new();
     for (name, entry) in all {
         check_name(name, faults);
         if let Some(other) = spellings.insert(spelling(&name.text), &name.text) {
@@ -49,49 +51,88 @@ pub(super) fn resolve(
             Some(text) => read_unit(text, faults),
         };
         let dimension = unit.as_ref().map(|u| u.dimension.clone());
-        symbols.insert(name.text.as_str().into(), dimension.clone());
-        let (Some(entry), Some(unit)) = (entry, unit) else {
-            continue;
-        };
-        let parameter = Parameter {
-            name: name.text.as_str().into(),
-            latex: entry.latex.as_ref().map(|t| t.text.clone()),
-            unit: entry
-                .unit
-                .as_ref()
-                .map_or_else(|| "1".to_owned(), |t| t.text.clone()),
-            dimension: dimension.unwrap_or_default(),
-            value: entry.value.as_ref().and_then(|v| value(v, &unit, faults)),
-            meaning: entry
-                .meaning
-                .as_ref()
-                .map(|t| t.text.clone())
-                .unwrap_or_default(),
-        };
-        let domain = match &entry.domain {
-            Some(written) => domain(written, &unit, faults),
-            None if is_restitution(file, &name.text) => {
-                Some(Domain::between(ratio(0, 1), ratio(1, 1)))
-            }
-            None if is_tangential(file, &name.text) || is_component(file, &name.text) => {
-                Some(Domain::between(ratio(-1, 1), ratio(1, 1)))
-            }
-            None if unit.angle && unit.dimension.is_none() => Some(Domain::real()),
-            None => Some(Domain::positive()),
-        };
-        let Some(domain) = domain else { continue };
-        if let (Some(value), Some(formula)) = (&parameter.value, &entry.value)
-            && let Err(message) = lies_in(&name.text, value, &domain)
-        {
-            faults
-                .push(Fault::new(formula.span, message).hint("change the value, or its `domain`"));
-        }
-        scene.domains.symbols.insert(parameter.name.clone(), domain);
-        scene.parameters.push(parameter);
+        dimensions.insert(name.text.as_str().into(), dimension);
+        units.push(unit);
     }
-    let symbols = Symbols::new(symbols);
+    let symbols = Symbols::new(dimensions);
+    let mut ends = Vec::new();
+    for ((name, entry), unit) in all.iter().zip(units) {
+        if let (Some(entry), Some(unit)) = (entry, unit) {
+            ends.extend(parameter(
+                file,
+                scene,
+                &symbols,
+                (name, entry),
+                &unit,
+                faults,
+            ));
+        }
+    }
+    for end in ends {
+        let [small, large] = [&end.small, &end.large];
+        relations::add(
+            scene,
+            [small, large],
+            end.closed,
+            end.words,
+            end.span,
+            faults,
+        );
+    }
+    let stated = file.relations.as_deref().unwrap_or_default();
+    relations::resolve(stated, scene, &symbols, faults);
+    scene.remarks.extend(relations::without_points(scene));
     unit_vectors(file, scene, &symbols, claims, faults);
     symbols
+}
+
+/// Reads one parameter into the scene; gives the ends of its domain that refer to other parameters.
+fn parameter(
+    file: &SceneFile,
+    scene: &mut Scene,
+    symbols: &Symbols,
+    (name, entry): (&Text, &ParameterFile),
+    unit: &Unit,
+    faults: &mut Vec<Fault>,
+) -> Vec<End> {
+    let text = |t: &Option<Text>| t.as_ref().map(|t| t.text.clone());
+    let parameter = Parameter {
+        name: name.text.as_str().into(),
+        latex: text(&entry.latex),
+        unit: text(&entry.unit).unwrap_or_else(|| "1".to_owned()),
+        dimension: unit.dimension.clone(),
+        value: entry.value.as_ref().and_then(|v| value(v, unit, faults)),
+        meaning: text(&entry.meaning).unwrap_or_default(),
+    };
+    let mut ends = Vec::new();
+    let domain = match &entry.domain {
+        Some(DomainFile::Named(DomainName::Positive)) => Some(Domain::positive()),
+        Some(DomainFile::Named(DomainName::Nonnegative)) => Some(Domain::nonnegative()),
+        Some(DomainFile::Named(DomainName::Real)) => Some(Domain::real()),
+        Some(DomainFile::Interval(interval)) => {
+            let of = Bounded {
+                name,
+                unit,
+                symbols,
+            };
+            of.domain(interval, &mut ends, faults)
+        }
+        None if is_restitution(file, &name.text) => Some(Domain::between(ratio(0, 1), ratio(1, 1))),
+        None if is_tangential(file, &name.text) || is_component(file, &name.text) => {
+            Some(Domain::between(ratio(-1, 1), ratio(1, 1)))
+        }
+        None if unit.angle && unit.dimension.is_none() => Some(Domain::real()),
+        None => Some(Domain::positive()),
+    };
+    let Some(domain) = domain else { return ends };
+    if let (Some(value), Some(formula)) = (&parameter.value, &entry.value)
+        && let Err(message) = lies_in(&name.text, value, &domain)
+    {
+        faults.push(Fault::new(formula.span, message).hint("change the value, or its `domain`"));
+    }
+    scene.domains.symbols.insert(parameter.name.clone(), domain);
+    scene.parameters.push(parameter);
+    ends
 }
 
 /// The value of a quantity as a person writes it, in the parameter's unit, brought to SI units.
@@ -211,85 +252,140 @@ fn read_unit(text: &Text, faults: &mut Vec<Fault>) -> Option<Unit> {
     }
 }
 
-fn domain(written: &DomainFile, unit: &Unit, faults: &mut Vec<Fault>) -> Option<Domain> {
-    match written {
-        DomainFile::Named(DomainName::Positive) => Some(Domain::positive()),
-        DomainFile::Named(DomainName::Nonnegative) => Some(Domain::nonnegative()),
-        DomainFile::Named(DomainName::Real) => Some(Domain::real()),
-        DomainFile::Interval(interval) => interval_domain(interval, unit, faults),
-    }
+/// An end of a domain that refers to other parameters, as an inequality.
+struct End {
+    small: Expr,
+    large: Expr,
+    closed: bool,
+    words: String,
+    span: Span,
 }
 
-fn interval_domain(
-    interval: &IntervalFile,
-    unit: &Unit,
-    faults: &mut Vec<Fault>,
-) -> Option<Domain> {
-    let mut end = |formula: &Option<Formula>, open: Option<bool>| match formula {
-        None => Some(None),
-        Some(formula) => interval_end(formula, open == Some(true), unit, faults).map(Some),
-    };
-    let (low, high) = (
-        end(&interval.min, interval.min_open),
-        end(&interval.max, interval.max_open),
-    );
-    let (low, high) = (low?, high?);
-    if let (Some(low), Some(high)) = (&low, &high) {
-        let order = if low.of_pi == high.of_pi {
-            Some(low.value.cmp(&high.value))
-        } else {
-            low.approximate().partial_cmp(&high.approximate())
+/// A parameter whose domain is an interval.
+struct Bounded<'a> {
+    name: &'a Text,
+    unit: &'a Unit,
+    symbols: &'a Symbols,
+}
+
+impl Bounded<'_> {
+    /// Its domain as far as its ends are numbers; the others go to `ends`.
+    fn domain(
+        &self,
+        interval: &IntervalFile,
+        ends: &mut Vec<End>,
+        faults: &mut Vec<Fault>,
+    ) -> Option<Domain> {
+        let mut end = |formula: &Option<Formula>, open: Option<bool>, is_low: bool| match formula {
+            None => Some(None),
+            Some(formula) => self.end(formula, open == Some(true), is_low, ends, faults),
         };
-        if order != Some(Ordering::Less) {
-            let fault = Fault::new(interval.span, "`min` is not below `max`");
-            faults.push(fault.hint(
-                "a quantity with one possible value is a number: write it into the formulas",
-            ));
+        let low = end(&interval.min, interval.min_open, true);
+        let high = end(&interval.max, interval.max_open, false);
+        let (low, high) = (low?, high?);
+        if let (Some(low), Some(high)) = (&low, &high) {
+            let order = if low.of_pi == high.of_pi {
+                Some(low.value.cmp(&high.value))
+            } else {
+                low.approximate().partial_cmp(&high.approximate())
+            };
+            if order != Some(Ordering::Less) {
+                let fault = Fault::new(interval.span, "`min` is not below `max`");
+                faults.push(fault.hint(
+                    "a quantity with one possible value is a number: write it into the formulas",
+                ));
+                return None;
+            }
+        }
+        Some(Domain { low, high })
+    }
+
+    fn end(
+        &self,
+        formula: &Formula,
+        open: bool,
+        is_low: bool,
+        ends: &mut Vec<End>,
+        faults: &mut Vec<Fault>,
+    ) -> Option<Option<Limit>> {
+        let e = self.symbols.expression(formula, faults)?;
+        if e.symbols().iter().any(|name| &**name != "pi") {
+            return self.by_others(formula, e, open, is_low, ends, faults);
+        }
+        let e = value(formula, self.unit, faults)?;
+        if let Some(number) = e.as_number() {
+            return Some(Some(Limit::number(number.clone(), open)));
+        }
+        if let Some(multiple) = multiple_of_pi(&e) {
+            return Some(Some(Limit::pi(multiple, open)));
+        }
+        let fault = Fault::new(
+            formula.span,
+            "an end of a domain is a fraction, a fraction of pi or a formula of parameters",
+        );
+        faults.push(fault.hint("such as 3/2, 0.25, pi/4 or acos(b/a)"));
+        None
+    }
+
+    /// An end that refers to other parameters; of an inverse function the range bounds the angle too.
+    fn by_others(
+        &self,
+        formula: &Formula,
+        e: Expr,
+        open: bool,
+        is_low: bool,
+        ends: &mut Vec<End>,
+        faults: &mut Vec<Fault>,
+    ) -> Option<Option<Limit>> {
+        e.symbols()
+            .iter()
+            .for_each(|name| self.symbols.mark_used(name));
+        let own = Expr::symbol(&self.name.text);
+        if let Some(message) = self.symbols.clash(&own, &e) {
+            faults.push(Fault::new(formula.span, message));
             return None;
         }
+        let sign = if open { "<" } else { "≤" };
+        let (small, large) = if is_low { (&e, &own) } else { (&own, &e) };
+        let plain = crate::formula::write_plain;
+        ends.push(End {
+            words: format!("{} {sign} {}", plain(small), plain(large)),
+            small: small.clone(),
+            large: large.clone(),
+            closed: !open,
+            span: formula.span,
+        });
+        Some(match (e.node(), is_low) {
+            (Node::Call(Function::Acos, _), false) => Some(Limit::pi(ratio(1, 1), false)),
+            (Node::Call(Function::Acos, _), true) => Some(Limit::pi(ratio(0, 1), false)),
+            (Node::Call(Function::Asin | Function::Atan, _), false) => {
+                Some(Limit::pi(ratio(1, 2), false))
+            }
+            (Node::Call(Function::Asin | Function::Atan, _), true) => {
+                Some(Limit::pi(ratio(-1, 2), false))
+            }
+            _ => None,
+        })
     }
-    Some(Domain { low, high })
 }
 
-fn interval_end(
-    formula: &Formula,
-    open: bool,
-    unit: &Unit,
-    faults: &mut Vec<Fault>,
-) -> Option<Limit> {
-    let e = value(formula, unit, faults)?;
-    if let Some(number) = e.as_number() {
-        return Some(Limit::number(number.clone(), open));
-    }
-    if let Some(multiple) = multiple_of_pi(&e) {
-        return Some(Limit::pi(multiple, open));
-    }
-    let fault = Fault::new(
-        formula.span,
-        "an end of a domain is a fraction or a fraction of pi",
-    );
-    faults.push(fault.hint("such as 3/2, 0.25 or pi/4"));
-    None
+/// The contacts of a scene and of the impacts of its stages.
+fn contacts(file: &SceneFile) -> impl Iterator<Item = &ContactFile> {
+    let stages = file.stages.iter().flatten();
+    let impacts = stages.filter_map(|s| s.impact.as_ref()?.contacts.as_ref());
+    let maps = file.contacts.iter().chain(impacts);
+    maps.flat_map(|m| &m.0).filter_map(|(_, c)| c.as_ref())
 }
 
 /// Whether a contact uses this name, as it is, for its restitution.
 fn is_restitution(file: &SceneFile, name: &str) -> bool {
-    let mut contacts = file
-        .contacts
-        .iter()
-        .flat_map(|m| &m.0)
-        .filter_map(|(_, c)| c.as_ref());
-    contacts.any(|c| {
-        c.restitution
-            .as_ref()
-            .is_some_and(|e| e.text.trim() == name)
-    })
+    let mut given = contacts(file).filter_map(|c| c.restitution.as_ref());
+    given.any(|e| e.text.trim() == name)
 }
 
 /// Whether a contact uses this name, as it is, for its tangential restitution.
 fn is_tangential(file: &SceneFile, name: &str) -> bool {
-    let contacts = file.contacts.iter().flat_map(|m| &m.0);
-    let mut given = contacts.filter_map(|(_, c)| c.as_ref()?.tangential_restitution.as_ref());
+    let mut given = contacts(file).filter_map(|c| c.tangential_restitution.as_ref());
     given.any(|e| e.text.trim() == name)
 }
 

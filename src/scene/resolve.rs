@@ -90,7 +90,7 @@ pub(super) fn resolve(file: &SceneFile, mut faults: Vec<Fault>) -> (Scene, Vec<F
         ..
     } = resolver;
     if faults.is_empty() {
-        scene.remarks = symbols.remarks();
+        scene.remarks.extend(symbols.remarks());
         faults = check(&mut scene, &claims);
         let unused = unused(&scene, |name| symbols.is_used(name));
         // Data that a problem gives in vain are no oversight where the scene asks for them.

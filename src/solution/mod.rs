@@ -19,7 +19,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 pub use asked::{answered, full_sentence, known, sentence};
 pub use story::tell;
-pub use words::is_safe_latex;
+pub use words::{assumptions, is_safe_latex};
 
 use crate::algebra::Field;
 use crate::derive::{self, Derivation, Form, Reduction};

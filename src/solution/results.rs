@@ -304,6 +304,11 @@ impl Writer<'_> {
             let squares = Expr::symbol(a).powi(2) + Expr::symbol(b).powi(2);
             all.push(words::equation(&squares, &Expr::one()));
         }
+        all.extend(self.scene.domains.relations.iter().map(|r| {
+            let [small, large] = r.sides.clone().map(Math::Expr);
+            let sign = if r.closed { "≤" } else { "<" };
+            Inline::Math(vec![small, Math::Op(sign), large])
+        }));
         let others = self.d.assumptions.iter().chain(&self.proof.assumptions);
         all.extend(others.map(|a| say(a.replace("the bodies approach", "bodies that approach"))));
         all

@@ -219,16 +219,9 @@ pub fn meaning(scene: &Scene, unknown: Unknown, reversed: bool) -> Meaning {
     }
 }
 
-/// What the results rest on beyond positive parameters.
+/// Everything an answer rests on: what is said of the scene's symbols, what was divided by, what was seen and not proved.
 pub fn assumptions(scene: &Scene, d: &Derivation, proof: &Proof) -> Vec<String> {
-    let mut all: Vec<String> = Vec::new();
-    for (name, domain) in &scene.domains.symbols {
-        if domain.low.is_some() || domain.high.is_some() {
-            all.push(domain.words(name));
-        }
-    }
-    let pairs = scene.domains.unit_vectors.iter();
-    all.extend(pairs.map(|[a, b]| format!("{a}^2 + {b}^2 = 1")));
+    let mut all = scene.domains.conditions();
     all.extend(d.assumptions.iter().cloned());
     all.extend(proof.assumptions.iter().cloned());
     all

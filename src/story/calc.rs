@@ -190,8 +190,43 @@ impl From<Stop> for Unsolved {
     }
 }
 
-/// Solves e = 0 for a symbol.
+/// Solves e = 0 for a symbol, within its domain and the relations that bear upon it.
 pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unsolved> {
+    let mut out = within_interval(e, symbol, domains)?;
+    let bearing = domains.relations.iter();
+    for relation in bearing.filter(|r| r.excess.symbols().contains(symbol)) {
+        for mut root in std::mem::take(&mut out.inside) {
+            let put = BTreeMap::from([(symbol.clone(), root.value.clone())]);
+            let excess = relation.excess.substitute(&put);
+            match sign(&excess, domains) {
+                Seen::Proved(Sign::Negative) | Seen::Negative => {}
+                Seen::Proved(Sign::Zero | Sign::NotPositive) if !relation.closed => {}
+                seen => {
+                    let sure = match seen {
+                        Seen::Proved(s) => {
+                            s == Sign::Positive || relation.closed && s.is_not_negative()
+                        }
+                        Seen::Positive => true,
+                        _ => false,
+                    };
+                    if !sure {
+                        let sign = if relation.closed { " ≥" } else { " >" };
+                        let excess = essential(&excess, domains);
+                        root.given
+                            .push(sentence![&excess, sign, " 0, by ", &relation.words]);
+                    }
+                    out.inside.push(root);
+                    continue;
+                }
+            }
+            let why = sentence![symbol, " = ", &root.value, ", against ", &relation.words];
+            out.discarded.push(why);
+        }
+    }
+    Ok(out)
+}
+
+fn within_interval(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unsolved> {
     let mut field = Field::new(domains);
     field.prepare([e]);
     let x = field.element(e)?;

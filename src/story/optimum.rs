@@ -80,7 +80,8 @@ pub(super) fn maximum(
         .symbols
         .get(&variable)
         .is_none_or(|d| *d == Domain::positive() || *d == Domain::nonnegative());
-    if !positive {
+    let related = |r: &crate::domain::Relation| r.excess.symbols().contains(&variable);
+    if !positive || domains.relations.iter().any(related) {
         return bounded(scene, out, &reduced, &variable);
     }
     let root: Symbol = ROOT.into();
@@ -108,15 +109,16 @@ pub(super) fn maximum(
         return Ok(vec![at_the_rim(out, &slope, &words, &domains)]);
     }
     let [best] = roots.inside.as_slice() else {
-        return Err(refused("the derivative vanishes more than once"));
+        return Err(elsewhere(&name, &variable, &roots.inside));
     };
+    out.assumptions.extend(best.given.iter().cloned());
     let side = |factor: Expr| {
         let e = slope.substitute(&BTreeMap::from([(root.clone(), &factor * &best.value)]));
         sign(&essential(&e, &domains), &domains)
     };
     let (before, after) = (side(Expr::ratio(1, 2)), side(Expr::from(2)));
     if !(before.is_positive() && after.is_negative()) {
-        return Err(refused("where the derivative vanishes there is no maximum"));
+        return Err(elsewhere(&name, &variable, &roots.inside));
     }
     let value = tidy(
         &f.substitute(&BTreeMap::from([(root.clone(), best.value.clone())])),
@@ -176,6 +178,22 @@ pub(super) fn maximum(
     Ok(vec![out, at])
 }
 
+/// Told where the derivative vanishes more than once, or where there is no maximum: only an interval decides then.
+fn elsewhere(name: &str, variable: &Symbol, roots: &[super::calc::Root]) -> Refused {
+    let reason = match roots.len() {
+        1 => String::from("where the derivative vanishes there is no maximum"),
+        count => format!("the derivative vanishes at {count} values of {variable}"),
+    };
+    Refused {
+        at: format!("question `{name}`"),
+        reason,
+        hint: format!(
+            "with a \"domain\" of `min` and `max` for {variable} the values at its ends are compared too"
+        ),
+        contradicts: false,
+    }
+}
+
 /// The largest value over one parameter in an interval: where the derivative vanishes once, or at an end.
 fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<Answer>, Refused> {
     let domains = &scene.domains;
@@ -205,7 +223,11 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
         )
     };
     let (inside, discarded) = match solve(&slope, p, domains) {
-        Ok(roots) if roots.open.is_none() => (roots.inside, roots.discarded),
+        Ok(roots) if roots.open.is_none() => {
+            let given = roots.inside.iter().flat_map(|r| r.given.clone());
+            out.assumptions.extend(given);
+            (roots.inside, roots.discarded)
+        }
         Ok(_) | Err(Unsolved::Inside) => {
             return Err(refused(format!(
                 "where the derivative by {p} vanishes has no closed form here"
@@ -252,19 +274,21 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
         [] => {
             let rising = sign(&slope, domains);
             // Where the slope is zero at an end alone, it has one sign inside.
-            let end = if rising.is_positive() || rising == Seen::Proved(Sign::NotNegative) {
-                domain.high
+            let grows = if rising.is_positive() || rising == Seen::Proved(Sign::NotNegative) {
+                true
             } else if rising.is_negative() || rising == Seen::Proved(Sign::NotPositive) {
-                domain.low
+                false
             } else {
                 return Err(refused(format!(
                     "whether it grows with {p} could not be decided"
                 )));
             };
-            let Some(end) = end else {
-                return Ok(vec![at_the_rim(out, &slope, p, domains)]);
+            let limit = if grows { &domain.high } else { &domain.low };
+            let (value, open) = match (related_end(p, grows, domains).map_err(refused)?, limit) {
+                (Some(end), _) => end,
+                (None, Some(end)) => (value_of(end), end.open),
+                (None, None) => return Ok(vec![at_the_rim(out, &slope, p, domains)]),
             };
-            let value = value_of(&end);
             let words = "the derivative has one sign inside the interval ({how})";
             out.checks
                 .push(by_signs("maximum", words, rising.is_proved()));
@@ -272,7 +296,7 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
                 "the derivative by ",
                 p,
                 " does not vanish inside: the largest value is ",
-                if end.open {
+                if open {
                     "approached at, and not reached, as the domain excludes"
                 } else {
                     "at"
@@ -287,9 +311,14 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
         several => {
             let closed = |end: &Option<Limit>| end.as_ref().is_some_and(|e| !e.open);
             if !closed(&domain.low) || !closed(&domain.high) {
-                return Err(refused(format!(
-                    "the derivative by {p} vanishes where the value is not largest, and the interval does not end"
-                )));
+                return Err(Refused {
+                    hint: format!(
+                        "give {p} a \"domain\" with `min` and `max`: the ends are then compared too"
+                    ),
+                    ..refused(format!(
+                        "the derivative by {p} vanishes where the value is not largest, and the interval does not end"
+                    ))
+                });
             }
             let mut found: Vec<(Expr, Expr)> = Vec::new();
             for x in several.iter().chain(&ends) {
@@ -325,6 +354,38 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
     out.range.push((p.clone(), Relation::Equal, place));
     out.formula = Some(value);
     Ok(vec![out])
+}
+
+/// The end that a relation sets to a parameter on the side to which a value grows, and whether it is excluded; an error where
+/// there are several or the relation does not give the parameter itself.
+fn related_end(p: &Symbol, grows: bool, domains: &Domains) -> Result<Option<(Expr, bool)>, String> {
+    let bearing = domains.relations.iter();
+    let bearing = bearing.filter(|r| r.excess.symbols().contains(p));
+    let mut ends = Vec::new();
+    for r in bearing {
+        match &r.sides {
+            [small, large] if small.as_symbol() == Some(p) && !large.symbols().contains(p) => {
+                if grows {
+                    ends.push((large.clone(), !r.closed));
+                }
+            }
+            [small, large] if large.as_symbol() == Some(p) && !small.symbols().contains(p) => {
+                if !grows {
+                    ends.push((small.clone(), !r.closed));
+                }
+            }
+            _ => {
+                return Err(format!(
+                    "it is largest at an end of the range of {p}, which {} does not give alone",
+                    r.words
+                ));
+            }
+        }
+    }
+    if ends.len() > 1 {
+        return Err(format!("several relations end the range of {p}"));
+    }
+    Ok(ends.pop())
 }
 
 /// A divisor with the parameter in it that is not known to keep one sign.

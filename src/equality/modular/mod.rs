@@ -70,6 +70,10 @@ impl<'a> Pair<'a> {
         domains: &'a Domains,
         roles: &'a Roles,
     ) -> Option<Pair<'a>> {
+        // The points drawn here keep to no relations.
+        if !domains.relations.is_empty() {
+            return None;
+        }
         let place = |(name, role)| place(name, role, domains);
         Some(Pair {
             formulas: [a, b],

@@ -1,0 +1,260 @@
+//! Signs that stated relations decide: with M > m, M − m is positive, and so is 2M − m.
+
+use std::collections::BTreeSet;
+
+use super::Sign;
+use super::field::{Field, Kind};
+use super::poly::Poly;
+use super::substitution::MOST_TERMS;
+use crate::domain::Relation;
+use crate::expr::{Expr, Symbol};
+
+/// Relations put in one after the other for one sign.
+const DEPTH: usize = 3;
+
+impl Field {
+    /// The relations that bear upon some symbols.
+    pub(super) fn relations(&self, symbols: &BTreeSet<Symbol>) -> Vec<Relation> {
+        let bearing = self.domains.relations_of(symbols).into_iter();
+        bearing.cloned().collect()
+    }
+
+    /// Takes in what relations tell of signs.
+    pub(super) fn relate_signs(&mut self, relations: &[Relation]) {
+        for relation in relations {
+            // Where a factor may be zero, so may the whole, and nothing is told of the rest.
+            if let Some((p, others_vanish)) = self.undecided_part(&relation.excess)
+                && !(relation.closed && others_vanish)
+            {
+                self.take(p, relation.closed);
+            }
+        }
+    }
+
+    /// Supposes a polynomial positive, or not negative.
+    pub(super) fn take(&mut self, p: Poly, closed: bool) {
+        if !self.supposed.iter().any(|(q, c)| *q == p && *c == closed) {
+            self.supposed.push((p, closed));
+            // Normal forms found before know nothing of it.
+            self.read.clear();
+            self.samples.clear();
+        }
+    }
+
+    /// The one factor of odd power whose sign is not known, turned so that it has the sign of the whole; and whether any of
+    /// the others may vanish.
+    pub(super) fn undecided_part(&mut self, e: &Expr) -> Option<(Poly, bool)> {
+        let x = self.element(e).ok()?;
+        let (mut negative, parts) = self.powers_of_parts(&x);
+        let mut unknown = Vec::new();
+        let mut others_vanish = false;
+        for (f, k) in parts {
+            let sign = self.sign_poly(&f);
+            match sign {
+                None if k % 2 != 0 => unknown.push(f),
+                Some(Sign::Positive) => {}
+                Some(sign) => {
+                    others_vanish |= k > 0 && sign != Sign::Negative;
+                    negative ^= k % 2 != 0 && !sign.is_not_negative();
+                }
+                None => others_vanish |= k > 0,
+            }
+        }
+        let [f] = unknown.as_slice() else {
+            return None;
+        };
+        let part = if negative { f.neg() } else { f.clone() };
+        Some((part, others_vanish))
+    }
+
+    /// The sign of a polynomial by what is supposed.
+    pub(crate) fn by_relations(&self, p: &Poly) -> Option<Sign> {
+        if self.supposed.is_empty() || p.len() > MOST_TERMS {
+            return None;
+        }
+        let strict = |closed: &bool| match closed {
+            true => Sign::NotNegative,
+            false => Sign::Positive,
+        };
+        let (mut same, opposite) = (self.supposed.iter(), p.neg());
+        if let Some((_, closed)) = same.find(|(q, _)| q == p) {
+            return Some(strict(closed));
+        }
+        let mut same = self.supposed.iter();
+        if let Some((_, closed)) = same.find(|(q, _)| *q == opposite) {
+            return Some(strict(closed).flip());
+        }
+        self.eliminated(p, &self.supposed, &[])
+    }
+
+    /// A relation A v + B > 0 with A > 0 makes v = (δ − B)/A with a positive δ, which takes the place of v: a sign that
+    /// follows for all positive δ holds. `excesses` are the variables that stand for such a δ already.
+    fn eliminated(
+        &self,
+        p: &Poly,
+        relations: &[(Poly, bool)],
+        excesses: &[(usize, bool)],
+    ) -> Option<Sign> {
+        for (i, (relation, closed)) in relations.iter().enumerate() {
+            for v in relation.variables() {
+                let is_free =
+                    matches!(self.gens[v].kind, Kind::Symbol(_)) && self.gens[v].relation.is_none();
+                if !is_free || !p.has(v) || excesses.iter().any(|(e, _)| *e == v) {
+                    continue;
+                }
+                let Some((top, below)) = self.solved(relation, v, excesses) else {
+                    continue;
+                };
+                let Some(q) = replaced(p, v, &top, &below) else {
+                    continue;
+                };
+                let mut excesses = excesses.to_vec();
+                excesses.push((v, *closed));
+                if let Some(sign) = self.with_excesses(&q, &excesses) {
+                    return Some(sign);
+                }
+                if excesses.len() == DEPTH {
+                    continue;
+                }
+                let others = relations.iter().enumerate().filter(|(j, _)| *j != i);
+                let others = others
+                    .filter_map(|(_, (r, closed))| Some((replaced(r, v, &top, &below)?, *closed)));
+                let others: Vec<(Poly, bool)> = others.collect();
+                if let Some(sign) = self.eliminated(&q, &others, &excesses) {
+                    return Some(sign);
+                }
+            }
+        }
+        None
+    }
+
+    /// The variable v as top/below, below positive, where v in `top` stands for the excess of the relation.
+    fn solved(
+        &self,
+        relation: &Poly,
+        v: usize,
+        excesses: &[(usize, bool)],
+    ) -> Option<(Poly, Poly)> {
+        let parts = relation.by_power(v);
+        let [b, a] = parts.as_slice() else {
+            return None;
+        };
+        if excesses.iter().any(|(e, _)| a.has(*e)) {
+            return None;
+        }
+        let excess = Poly::var(v);
+        match self.by_coefficients(a, &[])? {
+            Sign::Positive => Some((excess.sub(b), a.clone())),
+            Sign::Negative => Some((b.sub(&excess), a.neg())),
+            _ => None,
+        }
+    }
+}
+
+/// The polynomial with top/below in the place of v, times the power of `below` that clears it.
+fn replaced(p: &Poly, v: usize, top: &Poly, below: &Poly) -> Option<Poly> {
+    let degree = p.degree(v);
+    let mut total = Poly::zero();
+    for (k, part) in p.by_power(v).iter().enumerate() {
+        if !part.is_zero() {
+            let k = k as u32;
+            let part = part.mul(&top.pow(k).ok()?).ok()?;
+            total = total.add(&part.mul(&below.pow(degree - k).ok()?).ok()?);
+        }
+        if total.len() > MOST_TERMS {
+            return None;
+        }
+    }
+    Some(total)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::domain::Domains;
+    use crate::expr::ratio;
+
+    fn s(name: &str) -> Expr {
+        Expr::symbol(name)
+    }
+
+    fn related(stated: &[(Expr, Expr, bool)]) -> Domains {
+        let relations = stated.iter().map(|(small, large, closed)| Relation {
+            sides: [small.clone(), large.clone()],
+            excess: large.clone() - small.clone(),
+            closed: *closed,
+            words: String::new(),
+        });
+        Domains {
+            relations: relations.collect(),
+            ..Domains::default()
+        }
+    }
+
+    fn sign(e: &Expr, domains: &Domains) -> Option<Sign> {
+        let mut field = Field::new(domains);
+        field.prepare([e]);
+        let x = field.element(e).expect("a normal form");
+        field.sign(&x)
+    }
+
+    #[test]
+    fn a_relation_decides_what_follows_from_it_and_no_more() {
+        let two = || Expr::from(2);
+        let heavier = [(s("m"), s("M"), false)];
+        let chain = [(s("m"), s("M"), false), (s("k"), s("m"), true)];
+        let half = [(s("c"), s("L") / two(), false)];
+        let steep = [(s("b"), s("a") * s("theta").cos(), false)];
+        let closed = [(s("m"), s("M"), true)];
+        let table: [(&[(Expr, Expr, bool)], Expr, Option<Sign>); 14] = [
+            (&heavier, s("M") - s("m"), Some(Sign::Positive)),
+            (&heavier, s("m") - s("M"), Some(Sign::Negative)),
+            (&heavier, two() * s("M") - s("m"), Some(Sign::Positive)),
+            (
+                &heavier,
+                s("M").powi(2) - s("m").powi(2),
+                Some(Sign::Positive),
+            ),
+            (&heavier, s("M") - two() * s("m"), None),
+            (&heavier, s("M") - s("k"), None),
+            (&closed, s("M") - s("m"), Some(Sign::NotNegative)),
+            (&closed, two() * s("M") - s("m"), Some(Sign::Positive)),
+            (&chain, s("M") - s("k"), Some(Sign::Positive)),
+            (&chain, s("k") - two() * s("M"), Some(Sign::Negative)),
+            (
+                &half,
+                s("L").powi(2) - Expr::from(4) * s("c").powi(2),
+                Some(Sign::Positive),
+            ),
+            (&half, s("L") - s("c"), Some(Sign::Positive)),
+            (&steep, s("a") - s("b"), Some(Sign::Positive)),
+            (&[], s("M") - s("m"), None),
+        ];
+        for (stated, e, expected) in table {
+            let found = sign(&e, &related(stated));
+            assert_eq!(found, expected, "{e:?}");
+        }
+    }
+
+    #[test]
+    fn an_absolute_value_opens_where_a_relation_tells_the_sign() {
+        let domains = related(&[(s("m"), s("M"), false)]);
+        let e = (s("m") - s("M")).powi(2).sqrt() - s("M") + s("m");
+        let mut field = Field::new(&domains);
+        field.prepare([&e]);
+        let x = field.element(&e).expect("a normal form");
+        assert!(field.is_zero(&x) && field.assumptions().is_empty());
+    }
+
+    #[test]
+    fn a_factor_that_may_vanish_gives_nothing_away() {
+        // (a − b)(c − 1)² ≥ 0 holds for any a and b where c = 1.
+        let factor = (s("c") - Expr::one()).powi(2);
+        let stated = [(Expr::zero(), (s("a") - s("b")) * factor, true)];
+        assert_eq!(sign(&(s("a") - s("b")), &related(&stated)), None);
+        let mut domains = related(&[(s("b") * s("c"), s("a") * s("c"), false)]);
+        let open = crate::domain::Domain::between(ratio(0, 1), ratio(1, 1));
+        domains.symbols.insert("c".into(), open);
+        assert_eq!(sign(&(s("a") - s("b")), &domains), Some(Sign::Positive));
+    }
+}

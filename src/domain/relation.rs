@@ -1,0 +1,131 @@
+//! Relations between symbols, such as `M > m`: which points keep to them, and which belong to the symbols in play.
+
+use std::collections::BTreeSet;
+
+use super::{Domains, Sample};
+use crate::expr::{Expr, Symbol};
+use crate::interval::{Interval, Outcome, evaluate};
+
+/// An inequality between formulas of the symbols.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Relation {
+    /// The smaller side and the larger one.
+    pub sides: [Expr; 2],
+    /// What is positive by it: the larger side minus the smaller one, or something of the same sign.
+    pub excess: Expr,
+    /// Whether the two sides may be equal.
+    pub closed: bool,
+    /// As stated, such as `M > m`.
+    pub words: String,
+}
+
+impl Relation {
+    /// Whether a value of the excess, told by its bounds, keeps to it; `None` where the bounds do not tell.
+    pub fn admits(&self, low: f64, high: f64) -> Option<bool> {
+        if low > 0.0 || (self.closed && low == 0.0) {
+            return Some(true);
+        }
+        (high < 0.0 || (!self.closed && high == 0.0)).then_some(false)
+    }
+}
+
+impl Domains {
+    /// The relations that bear upon some symbols, directly or through each other.
+    pub fn relations_of(&self, symbols: &BTreeSet<Symbol>) -> Vec<&Relation> {
+        let mut reached = symbols.clone();
+        let mut taken = vec![false; self.relations.len()];
+        loop {
+            let mut grew = false;
+            for (relation, taken) in self.relations.iter().zip(&mut taken) {
+                let own = relation.excess.symbols();
+                if !*taken && own.iter().any(|name| reached.contains(name)) {
+                    (*taken, grew) = (true, true);
+                    reached.extend(own);
+                }
+            }
+            if !grew {
+                break;
+            }
+        }
+        let all = self.relations.iter().zip(taken);
+        all.filter_map(|(r, taken)| taken.then_some(r)).collect()
+    }
+
+    /// Whether a point keeps for certain to every relation between symbols that it places.
+    pub fn admits(&self, sample: &Sample) -> bool {
+        if self.relations.is_empty() {
+            return true;
+        }
+        let point = sample.point::<Interval>(true);
+        let placed = |name: &Symbol| &**name == "pi" || sample.coordinates.contains_key(name);
+        let bearing = self.relations.iter();
+        bearing
+            .filter(|r| r.excess.symbols().iter().all(placed))
+            .all(|r| match evaluate::<Interval>(&r.excess, &point) {
+                Outcome::Value(v) => r.admits(v.low, v.high) == Some(true),
+                _ => false,
+            })
+    }
+
+    /// What is said of the symbols, one condition each: ends of intervals, unit vectors, relations.
+    pub fn conditions(&self) -> Vec<String> {
+        let bounded = self.symbols.iter();
+        let bounded = bounded.filter(|(_, d)| d.low.is_some() || d.high.is_some());
+        let pairs = self.unit_vectors.iter();
+        bounded
+            .map(|(name, domain)| domain.words(name))
+            .chain(pairs.map(|[a, b]| format!("{a}^2 + {b}^2 = 1")))
+            .chain(self.relations.iter().map(|r| r.words.clone()))
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::domain::{roles, samples};
+
+    fn chain() -> Domains {
+        let relation = |small: &str, large: &str, closed| {
+            let [small, large] = [small, large].map(Expr::symbol);
+            Relation {
+                excess: large.clone() - small.clone(),
+                sides: [small, large],
+                closed,
+                words: String::new(),
+            }
+        };
+        Domains {
+            relations: vec![relation("m", "M", false), relation("k", "m", true)],
+            ..Domains::default()
+        }
+    }
+
+    #[test]
+    fn points_keep_to_relations_through_symbols_that_are_not_asked_for() {
+        let e = Expr::symbol("M") + Expr::symbol("k");
+        let roles = roles(&[&e]);
+        let (domains, _) = chain().completed(&roles);
+        let all = samples(&roles, &domains, 12);
+        assert_eq!(all.len(), 12);
+        for sample in all {
+            assert_eq!(sample.coordinates.len(), 2);
+            let gap = Expr::symbol("M") - Expr::symbol("k");
+            match evaluate::<Interval>(&gap, &sample.point(false)) {
+                Outcome::Value(v) => assert!(v.low > 0.0, "{}", sample.words()),
+                _ => panic!("a value"),
+            }
+        }
+    }
+
+    #[test]
+    fn an_open_relation_excludes_equal_sides() {
+        let domains = chain();
+        let [open, closed] = domains.relations.as_slice() else {
+            panic!("two relations")
+        };
+        assert_eq!(open.admits(0.0, 0.0), Some(false));
+        assert_eq!(closed.admits(0.0, 0.0), Some(true));
+        assert_eq!(open.admits(-1.0, 1.0), None);
+    }
+}
