@@ -1,12 +1,19 @@
 //! What a scene asks about its answers: zeros, thresholds, limits, forms for a small parameter, identities. Each row of the table
 //! is a question about the scene below; a fact of its own stands in a test of its own.
 
-use carom::formula::write_plain;
+use carom::domain::Domains;
+use carom::equality::{Equality, decide};
+use carom::formula::{Symbols, read_expr, write_plain};
 use carom::story::{self, Answer};
 use carom::{derive, scene, verify};
 
 /// A bar hinged at A is hit by a ball that sticks at D; the parameters beside are for questions alone.
 fn asked(questions: &str) -> Result<Vec<Answer>, String> {
+    asked_where("", questions)
+}
+
+/// The same with relations between the parameters.
+fn asked_where(relations: &str, questions: &str) -> Result<Vec<Answer>, String> {
     let text = format!(
         r#"{{
   "parameters": {{
@@ -14,6 +21,7 @@ fn asked(questions: &str) -> Result<Vec<Answer>, String> {
     "x": {{"unit": "m", "domain": "real"}}, "theta": {{"unit": "rad", "domain": {{"min": 0, "max": "pi/2"}}}},
     "phi": {{"unit": "rad", "domain": {{"min": "-pi", "max": "pi"}}}}, "e": {{"unit": "1", "domain": {{"min": 0, "max": 1}}}}
   }},
+  "relations": [{relations}],
   "points": {{"A": [0, 0], "D": [0, "-d"]}},
   "bodies": {{
     "support": {{"shape": "fixed"}},
@@ -178,5 +186,98 @@ fn a_plot_that_cannot_be_drawn_says_why() {
     ] {
         let text = with(from, to);
         assert!(text.contains(said), "{to}: {text}");
+    }
+}
+
+#[test]
+fn solutions_keep_to_relations() {
+    let question = r#""it": {"solve": "d", "holds": "P_A_x = 0"}"#;
+    let inside = said(&asked_where(r#""d <= 2 l""#, question).expect("an answer"));
+    assert!(
+        inside.contains("d = 4*l/3") && !inside.contains("given"),
+        "{inside}"
+    );
+    let outside = said(&asked_where(r#""d < l""#, question).expect("an answer"));
+    assert!(outside.contains("d = 4*l/3, against d < l"), "{outside}");
+    let open = said(&asked_where(r#""d < x""#, question).expect("an answer"));
+    assert!(open.contains("given 3*x - 4*l > 0, by d < x"), "{open}");
+}
+
+#[test]
+fn a_relation_ends_the_range_of_a_maximum() {
+    let question = r#""it": {"maximum": "d*v", "over": ["d"]}"#;
+    let end = said(&asked_where(r#""d <= 2 l""#, question).expect("an answer"));
+    assert!(
+        end.contains("it = 2*l*v") && end.contains("d = 2*l"),
+        "{end}"
+    );
+    let several = asked_where(r#""d <= 2 l", "d <= x""#, question).expect("an answer");
+    let several = said(&several);
+    assert!(
+        several.contains("several relations end the range of d"),
+        "{several}"
+    );
+}
+
+#[test]
+fn what_is_sought_may_bear_the_name_of_its_parameter() {
+    let questions = r#""d": {"solve": "d", "holds": "P_A_x = 0"}, "later": {"value": "3*d*v"}"#;
+    let all = said(&asked(questions).expect("answers"));
+    assert!(
+        all.contains("d = 4*l/3") && all.contains("later = 3*d*v"),
+        "{all}"
+    );
+    let other = asked(r#""v": {"solve": "d", "holds": "P_A_x = 0"}"#);
+    assert!(
+        other
+            .expect_err("another parameter")
+            .contains("has the name of the parameter")
+    );
+}
+
+#[test]
+fn what_was_before_and_what_belongs_to_a_point_can_be_asked() {
+    let table = [
+        (
+            r#"{"angular_momentum": "ball", "about": "A", "when": "start"}"#,
+            "it = -d*m1*v",
+        ),
+        (r#"{"inertia": "bar", "about": "A"}"#, "it = 4*l^2*m2/3"),
+        (r#"{"inertia": "ball", "about": "A"}"#, "it = d^2*m1"),
+        (r#"{"speed": "D", "of": "bar", "when": "start"}"#, "it = 0"),
+        (r#"{"speed": "ball", "when": "start"}"#, "it = v"),
+        (
+            r#"{"velocity": "ball", "when": "start", "along": "-x"}"#,
+            "it = v",
+        ),
+        (r#"{"spin": "bar", "when": "start"}"#, "it = 0"),
+        (r#"{"instantaneous_center": "bar"}"#, "it_x = 0 & it_y = 0"),
+        (
+            r#"{"angular_momentum": "bar", "about": "A"}"#,
+            "it = -4*d*l^2*m1*m2*v/(3*d^2*m1 + 4*l^2*m2)",
+        ),
+        (
+            r#"{"speed": "ball"}"#,
+            "it = 3*d^2*m1*v/(3*d^2*m1 + 4*l^2*m2)",
+        ),
+    ];
+    for (question, expected) in table {
+        let found = asked(&format!("\"it\": {question}")).expect("an answer");
+        let expected: Vec<(&str, &str)> = expected
+            .split(" & ")
+            .filter_map(|one| one.split_once(" = "))
+            .collect();
+        assert_eq!(found.len(), expected.len(), "{question}");
+        for (answer, (name, formula)) in found.iter().zip(expected) {
+            let formula = read_expr(formula, &Symbols::open()).expect("a formula");
+            let got = answer.formula.as_ref().expect("a formula");
+            let same = decide(got, &formula, &Domains::default()).equality;
+            let is_same = matches!(same, Equality::Same { .. });
+            assert!(
+                answer.name == name && is_same,
+                "{question}: {}",
+                write_plain(got)
+            );
+        }
     }
 }

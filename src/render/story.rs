@@ -3,18 +3,14 @@
 use serde_json::{Map, Value, json};
 
 use super::{latex, unicode};
-use crate::formula::write_plain;
+use crate::formula::{Relation, write_plain};
 use crate::scene::Scene;
 use crate::story::{Answer, Case, Sentence, StageTold, Told};
 use crate::verify::Check;
 
 /// What an answer rests on: the domains, how the statement is read, and its own assumptions.
 fn assumptions(scene: &Scene, readings: &[String], answer: &Answer) -> Vec<String> {
-    let domains = scene.domains.symbols.iter();
-    let mut all: Vec<String> = domains
-        .filter(|(_, d)| d.low.is_some() || d.high.is_some())
-        .map(|(name, d)| d.words(name))
-        .collect();
+    let mut all = scene.domains.conditions();
     all.extend(readings.iter().cloned());
     all.extend(answer.assumptions.iter().map(ToString::to_string));
     all
@@ -204,6 +200,15 @@ pub fn answers(scene: &Scene, answers: &[Answer]) -> String {
         line(String::new());
         let value = a.formula.as_ref().map(|e| unicode(scene, e));
         match (&value, a.range.as_slice()) {
+            // A largest value, and where it is.
+            (Some(value), [(s, Relation::Equal, e)]) if *value != unicode(scene, e) => {
+                let s = unicode(scene, &crate::expr::Expr::symbol(s));
+                line(format!(
+                    "   {} = {value}, at {s} = {}",
+                    a.name,
+                    unicode(scene, e)
+                ));
+            }
             (_, [(s, relation, e)]) => line(format!(
                 "   {}: {} {} {}",
                 a.name,
@@ -211,6 +216,16 @@ pub fn answers(scene: &Scene, answers: &[Answer]) -> String {
                 relation.sign(),
                 unicode(scene, e)
             )),
+            (None, several @ [_, _, ..])
+                if several.iter().all(|(_, r, _)| *r == Relation::Equal) =>
+            {
+                let all = several.iter().map(|(s, _, e)| {
+                    let s = unicode(scene, &crate::expr::Expr::symbol(s));
+                    format!("{s} = {}", unicode(scene, e))
+                });
+                let all: Vec<String> = all.collect();
+                line(format!("   {}: {}", a.name, all.join(" or ")));
+            }
             (Some(value), _) => line(format!("   {} = {value}", a.name)),
             (None, _) => line(format!("   {}:", a.name)),
         }

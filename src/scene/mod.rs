@@ -30,6 +30,7 @@ mod special;
 mod stage;
 mod stage_file;
 mod stages;
+mod told;
 pub mod touch;
 
 use crate::dimension::{self, Dimension};

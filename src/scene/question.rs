@@ -4,7 +4,7 @@ use super::fault::{Fault, Span};
 use super::question_file::{EnergyName, QuestionFile};
 use super::record::{Text, is_sound};
 use super::resolve::Resolver;
-use super::{Ask, EnergyWhen, ImpulseAt, Question, Scene, special};
+use super::{Ask, EnergyWhen, ImpulseAt, Question, Scene, special, told};
 
 /// Reads all questions.
 pub(super) fn resolve(resolver: &mut Resolver<'_>, scene: &mut Scene) {
@@ -16,9 +16,9 @@ pub(super) fn resolve(resolver: &mut Resolver<'_>, scene: &mut Scene) {
         .filter_map(|(name, q)| Some((name, q.as_ref()?)))
         .collect();
     for (name, question) in &all {
-        name_is_free(resolver, name);
+        name_is_free(resolver, name, Some(question));
         // Questions about the answers are read when all of these are known.
-        if special::is_asked(question) && !is_motion(question) {
+        if told::is_told(question) || special::is_asked(question) && !is_motion(question) {
             continue;
         }
         let ask = ask(resolver, scene, name, question);
@@ -32,14 +32,19 @@ pub(super) fn resolve(resolver: &mut Resolver<'_>, scene: &mut Scene) {
             });
         }
     }
+    for (name, question) in all.iter().filter(|(_, q)| told::is_told(q)) {
+        told::resolve(resolver, scene, name, question);
+    }
     for (name, question) in &all {
         matrix_names(resolver, scene, name, question);
     }
 }
 
-/// A question and a parameter need different names.
-pub(super) fn name_is_free(resolver: &mut Resolver<'_>, name: &Text) {
-    if special::parameter_names(resolver.file).contains(&name.text.as_str()) {
+/// A question and a parameter need different names, unless that parameter is what is sought.
+pub(super) fn name_is_free(resolver: &mut Resolver<'_>, name: &Text, q: Option<&QuestionFile>) {
+    if !told::is_own(name, q)
+        && special::parameter_names(resolver.file).contains(&name.text.as_str())
+    {
         let message = format!(
             "the question `{0}` has the name of the parameter `{0}`",
             name.text
@@ -47,7 +52,7 @@ pub(super) fn name_is_free(resolver: &mut Resolver<'_>, name: &Text) {
         let fault = Fault::new(name.span, message);
         resolver
             .faults
-            .push(fault.hint("what is asked and what is given need different names"));
+            .push(fault.hint("what is asked and what is given need different names; only a `solve` or `threshold` may bear the name of the parameter it seeks"));
     }
 }
 
@@ -64,10 +69,9 @@ pub(super) fn things_asked(kinds: &[&str]) -> String {
 }
 
 /// The kinds of question that only a scene with stages can answer, and which of them are asked.
-pub(super) fn about_stage(q: &QuestionFile) -> [(&'static str, bool); 9] {
+pub(super) fn about_stage(q: &QuestionFile) -> [(&'static str, bool); 8] {
     [
         ("reaction", q.reaction.is_some()),
-        ("angular_momentum", q.angular_momentum.is_some()),
         ("share", q.share.is_some()),
         ("impulsive", q.impulsive.is_some()),
         ("describe", q.describe.is_some()),
@@ -98,9 +102,9 @@ fn ask(
         (
             "velocity",
             question.velocity.is_some(),
-            &["of", "along"][..],
+            &["of", "along", "when"][..],
         ),
-        ("spin", question.spin.is_some(), &["clockwise"]),
+        ("spin", question.spin.is_some(), &["clockwise", "when"]),
         ("impulse", question.impulse.is_some(), &["on", "along"]),
         ("energy", question.energy.is_some(), &["of"]),
         ("balance", question.balance.is_some(), &["system", "along"]),
@@ -120,7 +124,7 @@ fn ask(
         let fault = Fault::new(name.span, message);
         resolver
             .faults
-            .push(fault.hint("give one of velocity, spin, impulse, energy, balance, matrix, or of value, solve, threshold, maximum, limit, approximate, show"));
+            .push(fault.hint("give one of velocity, speed, spin, impulse, energy, balance, matrix, angular_momentum, inertia, instantaneous_center, or of value, solve, threshold, maximum, limit, approximate, show"));
         return None;
     };
     let others = [
@@ -130,6 +134,8 @@ fn ask(
         ("on", question.on.is_some()),
         ("system", question.system.is_some()),
         ("unknowns", question.unknowns.is_some()),
+        ("when", question.when.is_some()),
+        ("about", question.about.is_some()),
     ];
     for (other, given) in others.into_iter().chain(special::companions(question)) {
         if given && !companions.contains(&other) {
@@ -228,7 +234,7 @@ fn ask(
 type NamedPosition = (String, crate::expr::Vector);
 
 /// The body, and the point of it if it is not its center.
-fn velocity(
+pub(super) fn velocity(
     resolver: &mut Resolver<'_>,
     scene: &Scene,
     what: &Text,

@@ -57,13 +57,20 @@ record! {
         /// Name of the stage at whose end a velocity, spin, impulse or energy is asked, or which a reaction or angular momentum
         /// belongs to. Missing: the last stage.
         at: Option<Text>,
-        /// Beginning or end of the stage, for a reaction or an angular momentum. Missing: its end.
+        /// Beginning or end of the stage, for a reaction or an angular momentum; in a scene without stages also just before or
+        /// just after the impact, for a velocity, a speed or a spin. Missing: the end, or just after.
         when: Option<EndName>,
+        /// Speed just after of this body (its center of mass), or of this point of the body named in `of`.
+        speed: Option<Text>,
+        /// Moment of inertia of this body about the point `about`.
+        inertia: Option<Text>,
+        /// The point of this body, or beside it, that is at rest just after: its coordinates, by `_x` and `_y`.
+        instantaneous_center: Option<Text>,
         /// Force of the fixed point on the body that turns in this stage, along `along`.
         reaction: Option<Text>,
         /// Angular momentum of this body about the point `about`.
         angular_momentum: Option<Text>,
-        /// Point to which an angular momentum refers.
+        /// Point to which an angular momentum or a moment of inertia refers.
         about: Option<PositionFile>,
         /// A formula of parameters and earlier answers.
         value: Option<Formula>,

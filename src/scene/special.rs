@@ -12,9 +12,10 @@ use super::question_file::{PlotFile, QuestionFile};
 use super::record::{Formula, Map, Text};
 use super::resolve::{Resolver, entries};
 use super::stage::{PlotAsk, StoryAsk, StoryQuestion};
+use super::told::is_own;
 use super::{Ask, FrictionEvent, Scene};
 use crate::expr::{Expr, Symbol};
-use crate::formula::{Content, Relation, read};
+use crate::formula::Relation;
 
 /// Highest power of a small parameter that may be asked for.
 const ORDER: u32 = 6;
@@ -63,12 +64,14 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     for q in &scene.questions {
         names.extend(names_of(&q.name, &q.ask));
     }
+    names.extend(scene.special.iter().map(|q| q.name.clone()));
     for (name, q) in entries(base.file.questions.as_ref()) {
         if let Some(at) = &q.at {
             let message = "`at` names a stage, and this scene has none";
             base.faults.push(Fault::new(at.span, message));
         }
-        if scene.parameters.iter().any(|p| *p.name == *name.text) {
+        let is_own = is_own(name, Some(q));
+        if scene.parameters.iter().any(|p| *p.name == *name.text) && !is_own {
             continue;
         }
         if !is_asked(q) || is_motion(q) {
@@ -81,6 +84,9 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
                 latex: q.latex.as_ref().map(|t| t.text.clone()),
                 ask,
             });
+        }
+        if is_own {
+            continue;
         }
         for suffix in ["", "_x", "_y", "_at"] {
             names.push(format!("{}{suffix}", name.text));
@@ -350,7 +356,8 @@ pub(super) fn plots(base: &mut Resolver<'_>, scene: &mut Scene) {
         names.extend(names_of(&q.name, &q.ask));
     }
     let later = scene.story.iter().flat_map(|s| &s.questions);
-    for q in scene.special.iter().chain(later) {
+    let given = |q: &&StoryQuestion| scene.parameters.iter().any(|p| *p.name == *q.name);
+    for q in scene.special.iter().chain(later).filter(|q| !given(q)) {
         for suffix in ["", "_x", "_y", "_at"] {
             names.push(format!("{}{suffix}", q.name));
         }
@@ -499,21 +506,8 @@ fn relation(
     symbols: &Symbols,
     text: &Text,
 ) -> Option<(Expr, Relation, Expr)> {
-    let reading = match read(&text.text, symbols.names()) {
-        Ok(reading) => reading,
-        Err(trouble) => {
-            let mut fault = Fault::new(text.span, &trouble.message);
-            fault.hint = trouble.hint.clone();
-            base.faults.push(fault);
-            return None;
-        }
-    };
-    for name in reading.symbols() {
-        symbols.mark_used(&name);
-    }
-    if let Content::Relations(sides, relations) = &reading.content
-        && let ([left, right], [relation]) = (sides.as_slice(), relations.as_slice())
-        && let (Some(left), Some(right)) = (left.expr(), right.expr())
+    let (sides, relations) = symbols.relations(text, &mut base.faults)?;
+    if let ([left, right], [relation]) = (sides.as_slice(), relations.as_slice())
         && !matches!(relation, Relation::NotEqual | Relation::Approximately)
     {
         return Some((left.clone(), *relation, right.clone()));

@@ -30,7 +30,7 @@ pub(super) fn all(
     let mut answers: Vec<Answer> = Vec::new();
     for question in &story.questions {
         let new = if worlds::about_formulas(&question.ask) {
-            worlds::each(&mut worlds, |known| {
+            worlds::each(scene, &mut worlds, |known| {
                 match needs_open(&question.ask, known, &answers) {
                     Some(why) => Ok(vec![unanswered(question, &why)]),
                     None => formula(scene, question, known),

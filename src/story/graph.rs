@@ -46,7 +46,7 @@ pub fn graphs(
     later: &[Answer],
 ) -> Result<Vec<Graph>, Refused> {
     let mut known = known.clone();
-    super::special::remember(later, &mut known);
+    super::special::remember(scene, later, &mut known);
     scene
         .plots
         .iter()

@@ -57,15 +57,16 @@ pub fn about(
                 contradicts: false,
             });
         };
-        remember(&new, &mut known);
+        remember(scene, &new, &mut known);
         answers.extend(new);
     }
     Ok(answers)
 }
 
-/// Later formulas may use the answers by name.
-pub(super) fn remember(answers: &[Answer], known: &mut Known) {
-    for answer in answers {
+/// Later formulas may use the answers by name; the name of a parameter stands for the parameter.
+pub(super) fn remember(scene: &Scene, answers: &[Answer], known: &mut Known) {
+    let is_given = |a: &Answer| scene.parameters.iter().any(|p| *p.name == *a.name);
+    for answer in answers.iter().filter(|a| !is_given(a)) {
         if let Some(formula) = &answer.formula {
             known.insert(Symbol::from(answer.name.as_str()), formula.clone());
         }
@@ -200,7 +201,12 @@ fn one(
                 format!("value of {}", write_plain(formula)),
             );
             let value = put(formula, with)?;
-            out.dimension = dimension_of(scene, &value, &name)?;
+            put_in_fits(scene, known, with, &name)?;
+            out.dimension = match stated_dimension(scene, known, formula, &name)? {
+                Some(stated) => stated,
+                None if with.is_empty() => dimension_of(scene, &value, &name)?,
+                None => Dimension::none(),
+            };
             let with_known: Known = with.iter().cloned().collect();
             let raw = gathered(&formula.substitute(known).substitute(&with_known));
             out.checks.push(Check {
@@ -236,7 +242,11 @@ fn one(
             return Ok(
                 optimum::maximum(scene, open.clone(), &value, over).unwrap_or_else(|why| {
                     // Not found is an answer too, and leaves the others alone.
-                    open.text.push(sentence!["not found: ", why.reason]);
+                    let why = match why.hint.as_str() {
+                        "" => why.reason,
+                        hint => format!("{}; {hint}", why.reason),
+                    };
+                    open.text.push(sentence!["not found: ", why]);
                     open.checks.push(Check {
                         kind: "maximum",
                         words: String::from("not found"),
@@ -529,6 +539,59 @@ pub(super) fn blank(question: &StoryQuestion, name: &str, words: impl Into<Strin
     }
 }
 
+/// Dimension of a formula of parameters and earlier answers, as it is stated: what is put in for a parameter may be a plain
+/// number in its unit.
+fn stated_dimension(
+    scene: &Scene,
+    known: &Known,
+    e: &Expr,
+    at: &str,
+) -> Result<Option<Dimension>, Refused> {
+    let parameter = |name: &str| {
+        let found = scene.parameters.iter().find(|p| *p.name == *name);
+        found.map(|p| p.dimension.clone())
+    };
+    let of_answer = |answer: &Expr| dimension::of(answer, &parameter).ok().flatten();
+    let of = |name: &str| match known.get(name) {
+        Some(answer) => of_answer(answer),
+        None => parameter(name),
+    };
+    // Of an answer that is 0 nothing can be told: it stands for itself.
+    let plain = known.iter().filter(|(_, v)| of_answer(v).is_none());
+    let plain: Known = plain.map(|(s, v)| (s.clone(), v.clone())).collect();
+    let e = &e.substitute(&plain);
+    dimension::of(e, &of).map_err(|clash| clashes(at, clash.message(&write_plain)))
+}
+
+/// What is put in for a parameter has its dimension, or is a number.
+fn put_in_fits(
+    scene: &Scene,
+    known: &Known,
+    with: &[(Symbol, Expr)],
+    at: &str,
+) -> Result<(), Refused> {
+    for (name, value) in with.iter().filter(|(_, v)| !v.symbols().is_empty()) {
+        let own = stated_dimension(scene, known, &Expr::symbol(name), at)?;
+        let put = stated_dimension(scene, known, value, at)?;
+        if let (Some(own), Some(put)) = (own, put)
+            && own != put
+        {
+            let reason = format!("{name} is {own}, and what is put in for it {put}");
+            return Err(clashes(at, reason));
+        }
+    }
+    Ok(())
+}
+
+fn clashes(at: &str, reason: String) -> Refused {
+    Refused {
+        at: format!("question `{at}`"),
+        reason,
+        hint: String::from("both sides of a sum or relation have the same dimension"),
+        contradicts: false,
+    }
+}
+
 /// Dimension of an expression in the scene's parameters.
 pub(super) fn dimension_of(scene: &Scene, e: &Expr, at: &str) -> Result<Dimension, Refused> {
     let of = |name: &str| {
@@ -540,11 +603,6 @@ pub(super) fn dimension_of(scene: &Scene, e: &Expr, at: &str) -> Result<Dimensio
     };
     match dimension::of(e, &of) {
         Ok(found) => Ok(found.unwrap_or_else(Dimension::none)),
-        Err(clash) => Err(Refused {
-            at: format!("question `{at}`"),
-            reason: clash.message(&write_plain),
-            hint: String::from("both sides of a sum or relation have the same dimension"),
-            contradicts: false,
-        }),
+        Err(clash) => Err(clashes(at, clash.message(&write_plain))),
     }
 }

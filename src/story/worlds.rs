@@ -9,7 +9,7 @@ use super::answer::number_case;
 use super::special::Known;
 use super::{Answer, Refused, Sentence, StageTold, sentence::sentence};
 use crate::expr::Symbol;
-use crate::scene::StoryAsk;
+use crate::scene::{Scene, StoryAsk};
 
 /// One way a scene can go.
 #[derive(Clone, Default)]
@@ -67,13 +67,16 @@ pub(super) fn about_formulas(ask: &StoryAsk) -> bool {
 
 /// Answers in every way; where they differ each is told with what it needs, and remembered where it holds.
 pub(super) fn each(
+    scene: &Scene,
     worlds: &mut [World],
     answer: impl Fn(&Known) -> Result<Vec<Answer>, Refused>,
 ) -> Result<Vec<Answer>, Refused> {
     let mut found: Vec<(Vec<Answer>, Vec<Sentence>, Vec<usize>)> = Vec::new();
     for (w, world) in worlds.iter_mut().enumerate() {
         let answers = answer(&world.known)?;
-        for a in &answers {
+        // The name of a parameter stands for the parameter.
+        let is_given = |a: &&Answer| scene.parameters.iter().any(|p| *p.name == *a.name);
+        for a in answers.iter().filter(|a| !is_given(a)) {
             let name = Symbol::from(a.name.as_str());
             match &a.formula {
                 Some(formula) => world.known.insert(name, formula.clone()),

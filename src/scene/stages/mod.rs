@@ -19,7 +19,7 @@ use crate::scene::place::Place;
 use crate::scene::record::{Map, Text};
 use crate::scene::resolve::{Resolver, entries};
 use crate::scene::stage::{Stage, Story};
-use crate::scene::stage_file::{StageFile, StartFile};
+use crate::scene::stage_file::{EndName, StageFile, StartFile};
 use crate::scene::{Scene, geometry, question};
 
 /// Most stages a scene may have.
@@ -60,7 +60,10 @@ pub(super) fn lone(file: &SceneFile) -> Option<SceneFile> {
     for (_, q) in out.questions.iter_mut().flat_map(|m| &mut m.0) {
         let Some(q) = q else { continue };
         let elsewhere = q.at.as_ref().is_some_and(|at| at.text != stage.name.text);
-        if elsewhere || question::about_stage(q).iter().any(|(_, asked)| *asked) {
+        if elsewhere
+            || q.angular_momentum.is_some()
+            || question::about_stage(q).iter().any(|(_, asked)| *asked)
+        {
             return None;
         }
         q.at = None;
@@ -121,7 +124,7 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
         story.stages.extend(read);
     }
     if base.faults.is_empty() {
-        questions::read(base, &mut story, &homes);
+        questions::read(base, scene, &mut story, &homes);
     }
     scene.story = Some(Box::new(story));
 }
@@ -131,6 +134,15 @@ fn homes(base: &mut Resolver<'_>, stages: &[StageFile]) -> HashMap<usize, usize>
     let mut out = HashMap::new();
     for (k, (_, q)) in base.file.questions.iter().flat_map(|m| &m.0).enumerate() {
         let Some(q) = q else { continue };
+        if question::is_motion(q)
+            && let Some(place) = q.when.filter(|w| *w == EndName::Start).map(|_| q.span)
+        {
+            let message = "what moves when a stage begins moves so when the one before ends";
+            let fault = Fault::new(place, message);
+            base.faults
+                .push(fault.hint("ask it `at` the stage before, without `when`"));
+            continue;
+        }
         if question::is_motion(q)
             && let Some(i) = stage_named(&mut base.faults, stages, q.at.as_ref())
         {

@@ -13,19 +13,24 @@ use crate::scene::record::Text;
 use crate::scene::resolve::Resolver;
 use crate::scene::stage::{Story, StoryAsk, StoryQuestion};
 use crate::scene::stage_file::{EndName, StageFile};
-use crate::scene::{question, special};
+use crate::scene::{Scene, question, special, told};
 
 const STIFFNESS: Quantity =
     Quantity::other([1, 0, -2], "a stiffness is a force divided by a length");
 
 /// All questions, in the order of the file.
-pub(super) fn read(base: &mut Resolver<'_>, story: &mut Story, homes: &HashMap<usize, usize>) {
+pub(super) fn read(
+    base: &mut Resolver<'_>,
+    scene: &Scene,
+    story: &mut Story,
+    homes: &HashMap<usize, usize>,
+) {
     let file = base.file;
     let Some(stages) = &file.stages else { return };
     let mut names: Vec<String> = Vec::new();
     for (k, (name, entry)) in file.questions.iter().flat_map(|m| &m.0).enumerate() {
         let Some(q) = entry else { continue };
-        question::name_is_free(base, name);
+        question::name_is_free(base, name, Some(q));
         let ask = match homes.get(&k) {
             Some(stage) => {
                 let found = story.stages[*stage]
@@ -38,8 +43,12 @@ pub(super) fn read(base: &mut Resolver<'_>, story: &mut Story, homes: &HashMap<u
                     question,
                 })
             }
-            None => special::with_names(base, &names, |base, symbols| {
-                story_ask(base, symbols, stages, name, q)
+            None => special::with_names(base, &names, |base, symbols| match &q.inertia {
+                Some(_) => told::inertia(base, scene, name, q).map(|formula| StoryAsk::Value {
+                    formula,
+                    with: Vec::new(),
+                }),
+                None => story_ask(base, symbols, stages, name, q),
             }),
         };
         if let Some(ask) = ask {
@@ -48,6 +57,9 @@ pub(super) fn read(base: &mut Resolver<'_>, story: &mut Story, homes: &HashMap<u
                 latex: q.latex.as_ref().map(|t| t.text.clone()),
                 ask,
             });
+        }
+        if told::is_own(name, Some(q)) {
+            continue;
         }
         for suffix in ["", "_x", "_y"] {
             names.push(format!("{}{suffix}", name.text));
@@ -63,8 +75,23 @@ fn story_ask(
     q: &QuestionFile,
 ) -> Option<StoryAsk> {
     let kinds = special::asked(q).map(|(kind, given, _)| (kind, given));
-    let kinds: Vec<_> = kinds.into_iter().chain(question::about_stage(q)).collect();
+    let angular = ("angular_momentum", q.angular_momentum.is_some());
+    let kinds: Vec<_> = kinds
+        .into_iter()
+        .chain(question::about_stage(q))
+        .chain([angular])
+        .collect();
     let asked: Vec<&str> = kinds.iter().filter(|k| k.1).map(|k| k.0).collect();
+    if let Some((kind, _)) = told::kinds(q).into_iter().find(|k| k.1) {
+        let fault = Fault::new(
+            name.span,
+            format!("`{kind}` is asked of a scene without stages"),
+        );
+        base.faults.push(fault.hint(
+            "ask for the velocity `at` that stage, and for a `value` of it, such as \"sqrt(v_x^2 + v_y^2)\"",
+        ));
+        return None;
+    }
     if asked.len() != 1 {
         let all: Vec<&str> = kinds.iter().map(|k| k.0).collect();
         let hint = format!(

@@ -1,0 +1,255 @@
+//! Questions that are answered by a formula of the geometry and of velocities just after: speed, what was before, angular
+//! momentum and moment of inertia about a point, the instantaneous center.
+//!
+//! Each becomes a [`StoryAsk::Value`]; the velocities it takes are asked for too, unless they are already.
+
+use super::fault::Fault;
+use super::question_file::QuestionFile;
+use super::record::Text;
+use super::resolve::Resolver;
+use super::stage::{StoryAsk, StoryQuestion};
+use super::stage_file::EndName;
+use super::{Ask, Body, Question, Scene, geometry, question};
+use crate::expr::{Expr, Vector, cross, dot, minus};
+
+/// Whether a question is one of these.
+pub(super) fn is_told(q: &QuestionFile) -> bool {
+    q.when == Some(EndName::Start) && (q.velocity.is_some() || q.spin.is_some())
+        || q.angular_momentum.is_some()
+        || kinds(q).iter().any(|(_, given)| *given)
+}
+
+/// Those that are nothing else.
+pub(super) fn kinds(q: &QuestionFile) -> [(&'static str, bool); 3] {
+    [
+        ("speed", q.speed.is_some()),
+        ("inertia", q.inertia.is_some()),
+        ("instantaneous_center", q.instantaneous_center.is_some()),
+    ]
+}
+
+/// Reads one question of a scene of one impact into `scene.special`.
+pub(super) fn resolve(
+    resolver: &mut Resolver<'_>,
+    scene: &mut Scene,
+    name: &Text,
+    q: &QuestionFile,
+) -> Option<()> {
+    let asked = kinds(q).into_iter().chain([
+        ("velocity", q.velocity.is_some()),
+        ("spin", q.spin.is_some()),
+        ("angular_momentum", q.angular_momentum.is_some()),
+    ]);
+    let asked: Vec<&str> = asked.filter(|(_, given)| *given).map(|k| k.0).collect();
+    let [kind] = asked.as_slice() else {
+        let fault = Fault::new(name.span, question::things_asked(&asked));
+        let fault = fault.hint("give each of them a question of its own");
+        resolver.faults.push(fault);
+        return None;
+    };
+    let is_start = q.when == Some(EndName::Start);
+    let latex = q.latex.as_ref().map(|t| t.text.as_str());
+    let push = |scene: &mut Scene, suffix: &str, formula: Expr| {
+        scene.special.push(StoryQuestion {
+            name: format!("{}{suffix}", name.text),
+            latex: latex.map(|l| match suffix {
+                "_x" => format!("{{{l}}}_x"),
+                "_y" => format!("{{{l}}}_y"),
+                _ => l.to_owned(),
+            }),
+            ask: StoryAsk::Value {
+                formula,
+                with: Vec::new(),
+            },
+        });
+    };
+    match *kind {
+        "inertia" => {
+            let formula = inertia(resolver, scene, name, q)?;
+            push(scene, "", formula);
+        }
+        "angular_momentum" => {
+            let (b, at) = (
+                resolver.moving(q.angular_momentum.as_ref()?)?,
+                about(resolver, name, q)?,
+            );
+            let (velocity, spin) = match is_start {
+                true => (
+                    scene.bodies[b].velocity.clone(),
+                    scene.bodies[b].spin.clone(),
+                ),
+                false => (velocity_after(scene, b), spin_after(scene, b)),
+            };
+            let body = &scene.bodies[b];
+            let arm = minus(&body.center, &at);
+            let formula = &body.mass * &cross(&arm, &velocity) + &body.inertia * &spin;
+            push(scene, "", formula);
+        }
+        "speed" => {
+            let (b, point) = question::velocity(resolver, scene, q.speed.as_ref()?, q.of.as_ref())?;
+            let at = point.map(|(_, at)| at);
+            let v = match is_start {
+                true => velocity_of(&scene.bodies[b], at.as_ref()),
+                false => {
+                    let v = velocity_after(scene, b);
+                    moved(scene, b, v, at.as_ref())
+                }
+            };
+            push(scene, "", dot(&v, &v).sqrt());
+        }
+        "instantaneous_center" => {
+            let b = resolver.moving(q.instantaneous_center.as_ref()?)?;
+            if resolver.is_particle(b) {
+                let message = "a particle has no spin, and so no instantaneous center";
+                resolver.faults.push(Fault::new(name.span, message));
+                return None;
+            }
+            let (v, spin) = (velocity_after(scene, b), spin_after(scene, b));
+            let [x, y] = scene.bodies[b].center.clone();
+            // v = ω k × (G − C): C lies v/ω to the left of the motion of G.
+            push(scene, "_x", x - &v[1] / &spin);
+            push(scene, "_y", y + &v[0] / &spin);
+        }
+        "spin" => {
+            let b = resolver.moving(q.spin.as_ref()?)?;
+            let spin = scene.bodies[b].spin.clone();
+            let formula = if q.clockwise == Some(true) {
+                -spin
+            } else {
+                spin
+            };
+            push(scene, "", formula);
+        }
+        _ => {
+            let of = q.velocity.as_ref()?;
+            let (b, point) = question::velocity(resolver, scene, of, q.of.as_ref())?;
+            let v = velocity_of(&scene.bodies[b], point.map(|(_, at)| at).as_ref());
+            match &q.along {
+                Some(along) => {
+                    let along = resolver.direction(along)?;
+                    push(scene, "", dot(&v, &along));
+                }
+                None => {
+                    let [x, y] = v;
+                    push(scene, "_x", x);
+                    push(scene, "_y", y);
+                }
+            }
+        }
+    }
+    Some(())
+}
+
+/// The moment of inertia of a body about a point of it (Huygens and Steiner).
+pub(super) fn inertia(
+    resolver: &mut Resolver<'_>,
+    scene: &Scene,
+    name: &Text,
+    q: &QuestionFile,
+) -> Option<Expr> {
+    let b = resolver.moving(q.inertia.as_ref()?)?;
+    let at = about(resolver, name, q)?;
+    let body = scene.bodies.get(b)?;
+    let arm = minus(&body.center, &at);
+    Some(&body.inertia + &body.mass * &dot(&arm, &arm))
+}
+
+fn about(resolver: &mut Resolver<'_>, name: &Text, q: &QuestionFile) -> Option<Vector> {
+    let Some(about) = &q.about else {
+        let what = if q.inertia.is_some() {
+            "a moment of inertia"
+        } else {
+            "an angular momentum"
+        };
+        let message = format!("{what} needs the point `about` which it is meant");
+        resolver.faults.push(Fault::new(name.span, message));
+        return None;
+    };
+    resolver.position(about)
+}
+
+/// Velocity just before of the center of mass, or of another point of the body.
+fn velocity_of(body: &Body, at: Option<&Vector>) -> Vector {
+    let Some(at) = at else {
+        return body.velocity.clone();
+    };
+    let turned = geometry::turned(&body.spin, &minus(at, &body.center));
+    [0, 1].map(|i| &body.velocity[i] + &turned[i])
+}
+
+/// Velocity just after of another point, from that of the center of mass.
+fn moved(scene: &mut Scene, b: usize, v: Vector, at: Option<&Vector>) -> Vector {
+    let Some(at) = at else {
+        return v;
+    };
+    let spin = spin_after(scene, b);
+    let turned = geometry::turned(&spin, &minus(at, &scene.bodies[b].center));
+    [0, 1].map(|i| &v[i] + &turned[i])
+}
+
+/// The names of the velocity just after, asked for if it is not.
+fn velocity_after(scene: &mut Scene, b: usize) -> Vector {
+    let same =
+        |ask: &Ask| matches!(ask, Ask::Velocity { body, point: None, along: None } if *body == b);
+    let ask = Ask::Velocity {
+        body: b,
+        point: None,
+        along: None,
+    };
+    let name = named(scene, b, "v", same, ask);
+    ["x", "y"].map(|axis| Expr::symbol(&format!("{name}_{axis}")))
+}
+
+/// The name of the spin just after, asked for if it is not; 0 of a particle.
+fn spin_after(scene: &mut Scene, b: usize) -> Expr {
+    if scene.bodies[b].is_particle() {
+        return Expr::zero();
+    }
+    let same = |ask: &Ask| matches!(ask, Ask::Spin { body, clockwise: false } if *body == b);
+    let ask = Ask::Spin {
+        body: b,
+        clockwise: false,
+    };
+    Expr::symbol(&named(scene, b, "omega", same, ask))
+}
+
+fn named(
+    scene: &mut Scene,
+    b: usize,
+    letter: &str,
+    same: impl Fn(&Ask) -> bool,
+    ask: Ask,
+) -> String {
+    if let Some(found) = scene.questions.iter().find(|q| same(&q.ask)) {
+        return found.name.clone();
+    }
+    let body = &scene.bodies[b].name;
+    let is_word = body.chars().all(|c| c.is_ascii_alphanumeric());
+    let own = match is_word {
+        true => format!("{letter}_{body}"),
+        false => format!("{letter}_{}", b + 1),
+    };
+    let is_taken = |name: &str| {
+        scene.parameters.iter().any(|p| *p.name == *name)
+            || scene.questions.iter().any(|q| q.name == name)
+            || scene.special.iter().any(|q| q.name == name)
+    };
+    let mut name = own;
+    while is_taken(&name) {
+        name.push_str("_after");
+    }
+    scene.questions.push(Question {
+        name: name.clone(),
+        latex: None,
+        ask,
+        hidden: false,
+    });
+    name
+}
+
+/// Whether a question is answered by the parameter whose name it has: `"d": {"solve": "d", …}`. Its answer has no name for
+/// later formulas, in which the name stands for the parameter.
+pub(super) fn is_own(name: &Text, q: Option<&QuestionFile>) -> bool {
+    let sought = q.and_then(|q| q.solve.as_ref().or(q.threshold.as_ref()));
+    sought.is_some_and(|sought| sought.text == name.text)
+}
