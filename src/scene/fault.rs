@@ -222,6 +222,18 @@ pub(super) fn nearest<'a>(
 }
 
 /// Number of letters to change, add, drop or swap with their neighbor; a change of case counts nothing.
+/// How little a name looks like a word: slips that turn one into the other, fewer where one holds the other.
+pub(super) fn far(word: &str, name: &str) -> usize {
+    let slips = 2 * distance(word, name);
+    let (word, name) = (word.to_lowercase(), name.to_lowercase());
+    let holds = word.contains(&name) || name.contains(&word);
+    // Two or three letters are in many words.
+    match holds && word.len().min(name.len()) > 3 {
+        true => slips / 4,
+        false => slips,
+    }
+}
+
 fn distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (
         a.to_lowercase().chars().collect(),

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
-use super::fault::{Fault, Span, nearest};
+use super::fault::{Fault, Span, far, nearest};
 use super::json::{Entry, Node, Value};
 
 /// What can be read from a JSON value.
@@ -262,7 +262,7 @@ pub(super) fn fields<'n, 't>(
                     .or_else(|| near.map(|n| format!("did you mean `{n}`?")))
                 {
                     Some(hint) => fault.hint(hint),
-                    None => fault.hint(format!("the fields here are {}", known.join(", "))),
+                    None => fault.hint(likely(&entry.key, known)),
                 },
             );
         }
@@ -274,6 +274,24 @@ pub(super) fn fields<'n, 't>(
 /// Whether nothing inside this place has been reported. Among very many faults the question is not worth its time.
 pub(super) fn is_sound(span: Span, faults: &[Fault]) -> bool {
     faults.len() < 1000 && !faults.iter().any(|f| span.contains(f.span))
+}
+
+/// Most fields that are listed whole.
+const FEW: usize = 8;
+
+/// The fields that may be meant: all of a short list, the three nearest of a long one.
+fn likely(word: &str, known: &[&str]) -> String {
+    if known.len() <= FEW {
+        return format!("the fields here are {}", known.join(", "));
+    }
+    let mut near = known.to_vec();
+    near.sort_by_key(|field| far(word, field));
+    near.truncate(3);
+    format!(
+        "the nearest of the {} fields here are {}; `carom schema` tells them all",
+        known.len(),
+        near.join(", ")
+    )
 }
 
 /// What there is for a word of mechanics that is no word of scene files.
@@ -291,6 +309,26 @@ fn meant(word: &str) -> Option<&'static str> {
         }
         "newton" | "poisson" | "stronge" | "brach" | "routh" => {
             "\"law\": \"friction\", and this word as its `hypothesis`: newton, poisson, stronge, chatterjee-ruina or brach"
+        }
+        "e" | "cor" | "coefficient_of_restitution" => {
+            "the coefficient of restitution is `restitution`"
+        }
+        "string" | "strings" | "rope" | "cord" | "cable" => {
+            "a string that jerks taut stands among the `strings` of an impact, in `stages`; in a scene of one impact it is a blow `along` it, with the velocity along it `after`"
+        }
+        "pulley" | "pulleys" => {
+            "there are no pulleys; a string along one line stands among the `strings` of an impact, in `stages`"
+        }
+        "weld" | "welded" | "glued" | "rigid" | "docking" => {
+            "bodies that are one after the impact stick at two points: two contacts with \"law\": \"sticking\""
+        }
+        "omega" | "angular_velocity" | "rotation" => "an angular velocity is `spin`",
+        "momentum" => {
+            "\"balance\": \"momentum\" gives an equation, `angular_momentum` with `about` a quantity"
+        }
+        "moment_of_inertia" => "a moment of inertia is `inertia`",
+        "gravity" => {
+            "gravity belongs to a motion in `stages`; in an impact weight has no impulse, and is one of `forces`"
         }
         _ => return None,
     })
