@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::solution::{chapters, plots};
-use super::{Failure, files, print, read_scene};
+use super::{Failure, files, friction, print, read_scene};
 use carom::figure::{self, Chapter, Drawing, Subject, Which};
 use carom::scene::Scene;
 use carom::{derive, story, verify};
@@ -75,6 +75,14 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
             all => return write(args, &figure::chapters(&scene, all)),
         }
     }
+    // What comes after is drawn in the case that the values pick; without one the pictures before and during stand.
+    if matches!(args.which, Picture::After | Picture::All) {
+        match friction::settled(&args.scene, scene.clone()) {
+            Ok(settled) => scene = settled,
+            Err(why) if matches!(args.which, Picture::After) => return Err(why),
+            Err(_) => {}
+        }
+    }
     let subject = match &args.body {
         None => Subject::System,
         Some(name) => {
@@ -121,6 +129,7 @@ fn plotted(args: &DrawArgs, scene: &mut Scene, name: &str) -> Result<Drawing, Fa
         let told = story::tell(scene, stages).map_err(|r| refused(r.to_string()))?;
         (BTreeMap::new(), told.answers)
     } else {
+        *scene = friction::settled(&args.scene, scene.clone())?;
         let derivation = derive::derive(scene).map_err(|stop| refused(stop.to_string()))?;
         let proof = verify::prove(scene, &derivation);
         let later = story::special(scene, &derivation, &proof);

@@ -82,6 +82,25 @@ pub fn derive_cases(path: &Path, scene: &Scene, format: Format) -> Result<u8, Fa
     Ok(u8::from(!holds))
 }
 
+/// The same for grading. Where several cases are left, what is the same in all of them can still be asked, and is told.
+pub fn gradable(path: &Path, scene: Scene) -> Result<Scene, Failure> {
+    let why = match settled(path, scene.clone()) {
+        Err(Failure::Input(why)) => why,
+        other => return other,
+    };
+    let Ok(Some(mut table)) = table(&scene) else {
+        return Err(Failure::Input(why));
+    };
+    if table.about.is_empty() || table.cases.is_empty() {
+        return Err(Failure::Input(why));
+    }
+    eprintln!("{why}\nwhat is the same in every case can be graded");
+    let mut common = table.cases.swap_remove(0).scene;
+    common.questions.clear();
+    common.special = table.about;
+    Ok(common)
+}
+
 /// A scene whose contact with friction is in the case that its values pick or that it supposes.
 pub fn settled(path: &Path, scene: Scene) -> Result<Scene, Failure> {
     if scene.friction().is_none() {

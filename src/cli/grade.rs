@@ -207,6 +207,7 @@ pub(super) fn open(path: &Path) -> Result<Sheet, Failure> {
             bounds,
         });
     }
+    let scene = super::friction::gradable(path, scene)?;
     prove(path, &scene)?;
     let (scene, derivation, answers) = carom::story::with_special(scene)
         .map_err(|reason| Failure::Input(format!("{}: {reason}", path.display())))?;

@@ -24,6 +24,10 @@ pub trait Number: Scalar {
     fn halved(&self) -> Self;
     /// The absolute value, roughly: for judging sizes, not for results.
     fn size(&self) -> f64;
+    /// Share of two products below which their difference is rounding; 0 where numbers are exact.
+    fn rounding() -> f64 {
+        0.0
+    }
 }
 
 impl Number for f64 {
@@ -47,6 +51,10 @@ impl Number for f64 {
     }
     fn size(&self) -> f64 {
         self.abs()
+    }
+    // Some thousand units in the last place: coefficients of a contact come from a solved system.
+    fn rounding() -> f64 {
+        1e-12
     }
 }
 

@@ -122,6 +122,16 @@ struct Rates<T> {
     normal: T,
 }
 
+/// A difference that is nothing but the rounding of its parts is zero: of a body hinged to the ground, ac = b², and what is
+/// left of c − b²/a in doubles would be taken for a way to move along the normal.
+fn unless_rounding<T: Number>(difference: T, part: &T) -> T {
+    let share = T::rounding();
+    if share > 0.0 && difference.size() <= share * part.size() {
+        return T::zero();
+    }
+    difference
+}
+
 fn size<T: Number + PartialOrd>(x: &T) -> T {
     if *x < T::zero() {
         x.negated()
@@ -161,7 +171,7 @@ fn rates<T: Number + PartialOrd>(
         } else {
             b.plus(&a.times(&friction))
         },
-        normal: c.plus(&b.times(&friction)),
+        normal: unless_rounding(c.plus(&b.times(&friction)), c),
         friction,
     })
 }
@@ -216,6 +226,7 @@ fn routh<T: Number + PartialOrd>(
         };
         let u_n = match event {
             Event::Compressed => zero.clone(),
+            Event::SlipEnds => unless_rounding(u_n.plus(&rates.normal.times(&step)), &space.normal),
             _ => u_n.plus(&rates.normal.times(&step)),
         };
         at = Corner {
@@ -379,7 +390,8 @@ fn chatterjee_ruina<T: Number + PartialOrd>(
     } = space;
     // P_I ends the approach without friction; P_II stops the contact.
     let first = quotient(&u_n.negated(), c)?;
-    let determinant = a.times(c).minus(&b.times(b));
+    let product = a.times(c);
+    let determinant = unless_rounding(product.minus(&b.times(b)), &product);
     let stop_t = quotient(&b.times(u_n).minus(&c.times(u_t)), &determinant)?;
     let stop_n = quotient(&b.times(u_t).minus(&a.times(u_n)), &determinant)?;
     let more = stop_n.minus(&first);
@@ -430,6 +442,6 @@ fn brach<T: Number + PartialOrd>(
         })
     };
     let r = ratio.cloned().map_or_else(limited, Ok)?;
-    let p_n = quotient(&bounce.negated(), &c.plus(&r.times(b)))?;
+    let p_n = quotient(&bounce.negated(), &unless_rounding(c.plus(&r.times(b)), c))?;
     Ok([r.times(&p_n), p_n])
 }

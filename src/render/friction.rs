@@ -12,10 +12,10 @@ use crate::formula::write_plain;
 use crate::plot::{Axis, Curve, Mark, Plot};
 use crate::scene::{Friction, Hypothesis, Scene};
 use crate::story::Answer as Special;
-use crate::verify::Proof;
 use crate::verify::compare::{Comparison, Outcome};
 use crate::verify::friction::{Judged, Pick};
 use crate::verify::possible::Possible;
+use crate::verify::{Check, Proof};
 
 /// A case with everything derived for it.
 pub struct Shown<'a> {
@@ -105,19 +105,7 @@ pub fn text(
                     unicode(scene, &definition.value)
                 ));
             }
-            let failed = each
-                .proof
-                .scene
-                .iter()
-                .chain(each.proof.answers.iter().flatten());
-            let failed: Vec<&str> = failed
-                .filter(|c| c.holds == Some(false))
-                .map(|c| c.words.as_str())
-                .collect();
-            match failed.as_slice() {
-                [] => say("  proved: its laws and the conditions of the case hold identically"),
-                words => say(&format!("  NOT PROVED: {}", words.join("; "))),
-            }
+            say(&format!("  {}", proved(&each.proof)));
         }
         if !about.is_empty() {
             say("\nin every case:");
@@ -134,6 +122,26 @@ pub fn text(
         say(&format!("  {mark}: {}: {}", c.kind, c.words));
     }
     out
+}
+
+/// How far a case is proved: a check that was not decided is no proof.
+fn proved(proof: &Proof) -> String {
+    let all = proof.scene.iter().chain(proof.answers.iter().flatten());
+    let words = |holds: Option<bool>| {
+        let some = all.clone().filter(|c| c.holds == holds);
+        some.map(|c| c.words.as_str())
+            .collect::<Vec<_>>()
+            .join("; ")
+    };
+    let (failed, open) = (words(Some(false)), words(None));
+    if !failed.is_empty() {
+        return format!("NOT PROVED: {failed}");
+    }
+    let is_identity = |c: &&Check| c.kind == "identity" && c.holds == Some(true);
+    if proof.scene.iter().any(|c| is_identity(&c)) {
+        return String::from("proved: its laws and the conditions of the case hold identically");
+    }
+    format!("not decided: {open}")
 }
 
 /// The law and its parameters.

@@ -8,10 +8,11 @@ use std::collections::BTreeMap;
 
 use super::Check;
 use crate::algebra::{Field, Sign};
-use crate::derive::friction::{Case, Table};
+use crate::derive::friction::{Bound, Case, Table};
 use crate::domain::Domains;
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Point, Rational, Symbol};
+use crate::formula::Relation;
 use crate::laws::friction::{Side, When};
 use crate::numeric::friction::Followed;
 use crate::numeric::path::{NoPath, Path};
@@ -134,10 +135,16 @@ pub fn settled(scene: &Scene) -> Result<Option<Scene>, String> {
         [] => Err(String::from(
             "what the scene supposes of its contact never happens",
         )),
-        several => Err(format!(
-            "friction leaves {} cases\nhint: give the parameters values, with --set or in the scene, or choose a case with `supposing`; `carom derive` lists them",
-            several.len()
-        )),
+        several => {
+            let modes = several.iter().map(|i| table.cases[*i].mode.words());
+            let modes: std::collections::BTreeSet<&str> = modes.collect();
+            let modes: Vec<&str> = modes.into_iter().collect();
+            Err(format!(
+                "friction leaves {} cases: it {}\nhint: give the parameters values, with --set or in the scene, or choose a case with `supposing`; `carom derive` tells when each holds",
+                several.len(),
+                modes.join(", or ")
+            ))
+        }
     }
 }
 
@@ -216,6 +223,18 @@ fn direction_holds(
             Equal => s > 0,
         },
     })
+}
+
+/// Whether a condition holds as it is told; `None` where a side has no exact value.
+fn stated(bound: &Bound, at: &Point<Rational>) -> Option<bool> {
+    let order = bound.left.evaluate(at)?.cmp(&bound.right.evaluate(at)?);
+    match bound.relation {
+        Relation::Less => Some(order.is_lt()),
+        Relation::LessEqual => Some(order.is_le()),
+        Relation::Greater => Some(order.is_gt()),
+        Relation::GreaterEqual => Some(order.is_ge()),
+        Relation::Equal | Relation::NotEqual | Relation::Approximately => None,
+    }
 }
 
 fn satisfied(sign: std::cmp::Ordering, when: &When) -> bool {
@@ -385,7 +404,15 @@ fn same<T: Number>(
             let Some(sign) = sign(&bound.when.of) else {
                 return Ok(None);
             };
-            all &= satisfied(sign, &bound.when);
+            let holds = satisfied(sign, &bound.when);
+            // As it is told, solved for μ where that is possible, it must say the same.
+            if stated(bound, exact).is_some_and(|told| told != holds) {
+                return Err(format!(
+                    "a condition of `{}` says something else than its law at one point",
+                    case.mode.words()
+                ));
+            }
+            all &= holds;
         }
         if all {
             holding.push(case);

@@ -222,3 +222,49 @@ fn newton_gains_where_poisson_and_stronge_lose() {
         assert!(gain(calm) < 0.0, "{calm}");
     }
 }
+
+/// A rod hinged to the ground whose tip scrapes a floor: ac = b², which doubles meet only up to rounding.
+#[test]
+fn a_hinged_body_is_no_freer_in_doubles_than_it_is() {
+    for angle in ["0.85", "0.95", "1.1", "1.3"] {
+        for hypothesis in ["newton", "stronge", "poisson", "chatterjee-ruina", "brach"] {
+            let text = format!(
+                r#"{{
+  "parameters": {{"L": {{"unit": "m", "value": "7/10"}}, "w": {{"unit": "rad/s", "value": "11/10"}}, "theta": {{"unit": "rad", "value": "{angle}"}}}},
+  "points": {{"O": [0, 0], "C": ["L*cos(theta)", "-L*sin(theta)"]}},
+  "bodies": {{
+    "ground": {{"shape": "fixed"}},
+    "rod": {{"shape": "rod", "mass": "3/10", "length": "L", "angle": "-theta", "center": {{"from": "O", "distance": "L/2", "angle": "-theta"}}, "velocity": {{"about": "O"}}, "spin": "-w"}}
+  }},
+  "hinges": {{"O": {{"bodies": ["ground", "rod"], "at": "O"}}}},
+  "contacts": {{"C": {{"bodies": ["ground", "rod"], "at": "C", "normal": "y", "law": "friction", "mu": "9/10", "restitution": "1/3", "hypothesis": "{hypothesis}"}}}},
+  "questions": {{"omega": {{"spin": "rod"}}}}
+}}"#
+            );
+            let scene = scene::read(&text).unwrap_or_else(|f| panic!("{}", f.render("rod", &text)));
+            let point = numeric::values(&scene).expect("values");
+            let given = numeric::given(&scene, &point).expect("numbers");
+            let found = numeric::settle(&given, numeric::solve_f64);
+            if hypothesis != "poisson" {
+                assert!(found.is_err(), "{hypothesis} at {angle}");
+                continue;
+            }
+            let (_, followed) = found.expect("a path").expect("friction");
+            let [u_t, u_n] = followed.path.end().velocity;
+            assert!(u_t.abs() + u_n.abs() < 1e-14, "{u_t} {u_n} at {angle}");
+        }
+    }
+}
+
+#[test]
+fn a_scene_left_open_names_the_cases_it_has() {
+    let text = std::fs::read_to_string("derivations/friction/ball-slides-at-its-bounce.json")
+        .expect("the scene");
+    let text = text.replace(", \"supposing\": \"slides\"", "");
+    let scene = scene::read(&text).unwrap_or_else(|f| panic!("{}", f.render("ball", &text)));
+    let why = carom::verify::friction::settled(&scene).expect_err("several cases");
+    assert!(
+        why.contains("cases: it ") && why.contains("slides"),
+        "{why}"
+    );
+}
