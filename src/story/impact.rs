@@ -589,10 +589,11 @@ fn hand_on(scene: &mut Scene, named: &[(Symbol, Expr)]) -> BTreeMap<Symbol, Expr
             }
         };
         let sign = sign(&value, &original);
-        let domain = if matches!(sign, Seen::Proved(Sign::Positive | Sign::Negative)) {
-            Domain::positive()
-        } else {
-            Domain::real()
+        // What a question asks may be negative, such as the velocity of something that falls.
+        let domain = match sign {
+            Seen::Proved(Sign::Positive) => Domain::positive(),
+            Seen::Proved(Sign::Negative) => Domain::negative(),
+            _ => Domain::real(),
         };
         domains.symbols.insert(name.clone(), domain);
         *e = &factor * &Expr::symbol(&name);
