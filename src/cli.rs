@@ -10,6 +10,8 @@ mod files;
 mod friction;
 mod grade;
 mod report;
+#[cfg(feature = "serve")]
+mod serve;
 mod solution;
 
 use std::io::Write;
@@ -84,6 +86,13 @@ enum Command {
     Verify(grade::VerifyArgs),
     /// Tell how a formula is understood
     Read(grade::ReadArgs),
+    /// Serve a folder of scenes: a workbench in the browser, and HTTP for programs
+    #[cfg(feature = "serve")]
+    Serve(serve::ServeArgs),
+    /// Describe a scene for pages and editors, as JSON
+    #[cfg(feature = "serve")]
+    #[command(hide = true)]
+    Describe(serve::DescribeArgs),
     /// Print the JSON Schema of scene files
     Schema,
     /// Print what a shell needs to complete carom's commands
@@ -141,6 +150,10 @@ pub fn run() -> ExitCode {
         Command::Grade(args) => grade::run(&args),
         Command::Verify(args) => grade::verify(&args),
         Command::Read(args) => grade::read(&args),
+        #[cfg(feature = "serve")]
+        Command::Serve(args) => serve::run(&args),
+        #[cfg(feature = "serve")]
+        Command::Describe(args) => serve::describe(&args),
         Command::Schema => print(&scene::schema()).map(|()| 0),
         Command::Completions { shell } => print(&completions(shell)).map(|()| 0),
         Command::Man => print(&manual()).map(|()| 0),

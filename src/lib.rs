@@ -100,3 +100,6 @@ pub mod solution;
 pub mod check;
 
 pub mod render;
+
+#[cfg(feature = "serve")]
+pub mod serve;

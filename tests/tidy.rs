@@ -48,6 +48,10 @@ const LAYERS: &[(&str, &str)] = &[
         "render",
         "expr domain dimension formula scene laws numeric derive verify story grade emit report figure plot solution",
     ),
+    (
+        "serve",
+        "expr domain formula scene grade figure solution render",
+    ),
 ];
 
 fn sources(folder: &Path, out: &mut Vec<PathBuf>) {

@@ -31,7 +31,7 @@ pub use tikz::{COLORS, escaped, node};
 
 use std::collections::BTreeSet;
 
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Point, Symbol};
 use crate::numeric::Motion;
 use crate::scene::{BlowImpulse, ContactLaw, KnownQuantity, Scene, Shape, StageKind};
 use label::advance;
@@ -108,6 +108,11 @@ const MOST_BODIES: usize = 40;
 const MOST_JOINTS: usize = 80;
 /// Named points a scene may have to be drawn.
 const MOST_POINTS: usize = 120;
+
+/// Values a scene is drawn at: those given, and for the others some at which its bodies touch and approach each other.
+pub fn shown_at(scene: &Scene) -> Point<f64> {
+    values::representative(scene).point
+}
 
 /// Draws one picture. A scene that has no place on paper gives a sheet that says so.
 pub fn draw(scene: &Scene, which: Which) -> Drawing {

@@ -1,0 +1,224 @@
+//! What a page needs to know of a scene: parameters with ranges for sliders, stages, plots, and how formulas about it are
+//! understood. Where the scene cannot be read: what is wrong, and where in its text.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Map, Value, json};
+
+use crate::domain::{Domain, Limit};
+use crate::expr::{Point, Symbol};
+use crate::figure;
+use crate::formula::{self, Content, Symbols, latex_name};
+use crate::grade;
+use crate::render::{self, mathml};
+use crate::scene::{self, Faults, Parameter, Scene, StageKind};
+use crate::solution::{Detail, Math, Solution};
+
+/// Describes the scene of a text, and reads formulas and typeset symbols about it; whether the scene could be read.
+pub fn describe(text: &str, formulas: &[String], symbols: &[String]) -> (Value, bool) {
+    let scene = match scene::read(text) {
+        Ok(scene) => scene,
+        Err(faults) => return (self::faults(&faults, text), false),
+    };
+    let shown = figure::shown_at(&scene);
+    let parameters = scene.parameters.iter();
+    let stages = scene.story.iter().flat_map(|s| &s.stages);
+    let readings = formulas.iter().map(|f| reading(&scene, f));
+    let description = json!({
+        "title": scene.title,
+        "source": scene.source,
+        "statement": scene.statement,
+        "parameters": parameters.map(|p| parameter(&scene, p, &shown)).collect::<Vec<_>>(),
+        "directions": scene.domains.unit_vectors.iter().map(|pair| pair.each_ref().map(ToString::to_string)).collect::<Vec<_>>(),
+        "stages": stages.map(|s| json!({"name": s.name, "is_impact": matches!(s.kind, StageKind::Impact { .. })})).collect::<Vec<_>>(),
+        "plots": scene.plots.iter().map(|p| p.name.clone()).collect::<Vec<_>>(),
+        "remarks": scene.remarks,
+        "readings": readings.collect::<Vec<_>>(),
+        "symbols": symbols.iter().map(|s| math(&mathml::from_latex(s))).collect::<Vec<_>>(),
+    });
+    (description, true)
+}
+
+/// What is wrong with a scene; places count in UTF-16 units, as pages count.
+fn faults(faults: &Faults, text: &str) -> Value {
+    let place = |byte: usize| {
+        let before = text.char_indices().take_while(|(at, _)| *at < byte);
+        before.map(|(_, c)| c.len_utf16()).sum::<usize>()
+    };
+    let list = faults.list.iter().map(|f| {
+        json!({
+            "pointer": f.pointer,
+            "line": f.line,
+            "column": f.column,
+            "start": place(f.span.start),
+            "end": place(f.span.end),
+            "message": f.message,
+            "hint": f.hint,
+        })
+    });
+    json!({"faults": list.collect::<Vec<_>>(), "untold": faults.untold})
+}
+
+fn parameter(scene: &Scene, p: &Parameter, shown: &Point<f64>) -> Value {
+    let scale = p.scale().evaluate(&Point::<f64>::default()).unwrap_or(1.0);
+    let value = shown.values.get(&p.name).copied().unwrap_or(1.0) / scale;
+    let domain = scene.domains.symbols.get(&p.name);
+    let [min, max, step] = range(domain, value, scale, &p.unit);
+    let latex = p.latex.clone().unwrap_or_else(|| latex_name(&p.name));
+    json!({
+        "name": *p.name,
+        "mathml": math(&mathml::from_latex(&latex)),
+        "unit": p.unit,
+        "meaning": p.meaning,
+        "domain": domain.map(|d| d.words(&p.name)),
+        "is_given": p.value.is_some(),
+        "value": value,
+        "min": min,
+        "max": max,
+        "step": step,
+    })
+}
+
+/// The range of a slider inside the domain and its step, a power of ten; both ends are multiples of the step. Where the
+/// domain has no end, three times the value that is shown is far enough.
+fn range(domain: Option<&Domain>, value: f64, scale: f64, unit: &str) -> [f64; 3] {
+    let end = |limit: &Option<Limit>| limit.as_ref().map(|l| (l.approximate() / scale, l.open));
+    let (low, high) = domain.map_or((None, None), |d| (end(&d.low), end(&d.high)));
+    let size = if value == 0.0 { 1.0 } else { value.abs() };
+    let reach = match unit {
+        "rad" => std::f64::consts::PI,
+        _ => 3.0 * size,
+    };
+    let free = (None, None) == (low, high);
+    let (low, low_open) = low.unwrap_or_else(|| match high {
+        Some((high, _)) => (high - 3.0 * (high - value).abs().max(size), false),
+        None => (-reach, false),
+    });
+    let (high, high_open) = high.unwrap_or(match free {
+        true => (reach, false),
+        false => (low + 3.0 * (value - low).abs().max(size), false),
+    });
+    let step = 10f64.powf(((high - low).abs().max(1e-12) / 60.0).log10().floor());
+    let first = (low / step - 1e-9).ceil() + f64::from(u8::from(low_open));
+    let last = (high / step + 1e-9).floor();
+    // An end that is excluded, or that is no fraction and so rounded, is left to the number box.
+    let last = match high_open && (last * step - high).abs() < 1e-9 * step {
+        true => last - 1.0,
+        false => last,
+    };
+    let first = match low_open && first * step - step > low + 1e-9 * step {
+        true => first - 1.0,
+        false => first,
+    };
+    [first * step, last * step, step]
+}
+
+/// How a formula is understood.
+fn reading(scene: &Scene, text: &str) -> Value {
+    // Answers may name what a derivation defines, so names that are not declared are read as they stand.
+    let mut symbols = Symbols::open();
+    for p in &scene.parameters {
+        symbols.declare_as(&p.name, p.latex.as_deref(), Some(p.dimension.clone()));
+    }
+    for q in &scene.questions {
+        symbols.declare_as(&q.name, q.latex.as_deref(), None);
+    }
+    let read = match formula::read(text, &symbols) {
+        Ok(read) => read,
+        Err(fault) => return json!({"error": render::grade::error(&fault, text)}),
+    };
+    let known = |s: &Symbol| symbols.declared().iter().any(|d| d.name == *s);
+    let unknown = read.symbols().into_iter().filter(|s| !known(s));
+    let notes = read.notes.iter().map(|n| n.message(text));
+    json!({
+        "plain": grade::show(&read.content),
+        "mathml": math(&content(&written(scene), &read.content)),
+        "unknown": unknown.map(|s| s.to_string()).collect::<Vec<_>>(),
+        "notes": notes.collect::<Vec<_>>(),
+    })
+}
+
+fn math(inner: &str) -> String {
+    format!("<math>{inner}</math>")
+}
+
+/// What was read, as MathML.
+fn content(names: &Solution, content: &Content) -> String {
+    let one = |e: &crate::expr::Expr| mathml::expr(names, e);
+    match content {
+        Content::Scalar(e) => one(e),
+        Content::Either([a, b]) => format!("{}<mtext> or </mtext>{}", one(a), one(b)),
+        Content::Vector([x, y, z]) => {
+            let plane = !(x.is_zero() && y.is_zero());
+            let mut parts = Vec::new();
+            if plane || z.is_zero() {
+                parts.push(Math::Vector([x.clone(), y.clone()]));
+            }
+            if plane && !z.is_zero() {
+                parts.push(Math::Op("+"));
+            }
+            if !z.is_zero() {
+                parts.push(Math::Along(z.clone()));
+            }
+            mathml::formula(names, &parts)
+        }
+        Content::Quantity(q) => format!(
+            "{}<mspace width=\"0.2em\"></mspace><mi mathvariant=\"normal\">{}</mi>",
+            one(&q.written),
+            mathml::escape(&q.unit_text)
+        ),
+        Content::Relations(sides, signs) => {
+            let mut out = String::new();
+            for (i, side) in sides.iter().enumerate() {
+                if i > 0 {
+                    let sign = signs.get(i - 1).map_or("=", |s| s.sign());
+                    out.push_str(&format!("<mo>{}</mo>", mathml::escape(sign)));
+                }
+                out.push_str(&self::content(names, side));
+            }
+            out
+        }
+    }
+}
+
+/// A solution that holds nothing but how the scene's symbols are written.
+fn written(scene: &Scene) -> Solution {
+    let mut names: BTreeMap<Symbol, String> = render::latex_names(scene)
+        .into_iter()
+        .map(|(name, latex)| (Symbol::from(name.as_str()), latex))
+        .collect();
+    for q in &scene.questions {
+        if let Some(latex) = &q.latex {
+            names.insert(Symbol::from(q.name.as_str()), latex.clone());
+        }
+    }
+    Solution {
+        title: String::new(),
+        source: String::new(),
+        statement: String::new(),
+        detail: Detail::Normal,
+        names,
+        meanings: BTreeMap::new(),
+        sections: Vec::new(),
+        steps: Vec::new(),
+        scopes: Vec::new(),
+        assumptions: Vec::new(),
+        mode: None,
+    }
+}
+
+/// Title and source of a scene, for lists.
+pub(super) fn heading(name: &str, text: &str) -> Value {
+    let mut out = Map::from_iter([("name".to_string(), json!(name))]);
+    match scene::read(text) {
+        Ok(scene) => {
+            out.insert("title".into(), json!(scene.title));
+            out.insert("source".into(), json!(scene.source));
+        }
+        Err(faults) => {
+            let first = faults.list.first().map(|f| f.message.clone());
+            out.insert("fault".into(), json!(first));
+        }
+    }
+    Value::Object(out)
+}

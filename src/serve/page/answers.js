@@ -1,0 +1,159 @@
+// The answers: formulas as derived, numbers at the values of the sliders, and how each is known.
+
+import { $, ask, digits, latest, make, markup, quietly, told } from "/ask.js";
+import { bench, scene, set } from "/main.js";
+
+const derivedOnce = latest();
+const solved = latest();
+const valued = latest();
+// Where the number of an answer stands, by the answer's name.
+let places = new Map();
+// What was derived last, for the panels that build on it.
+let last = Promise.resolve(null);
+
+export const derived = () => last;
+
+export function showAnswers() {
+  places = new Map();
+  const panel = $("answers");
+  panel.replaceChildren(make("p", { class: "note", role: "status" }, "Deriving …"));
+  last = derivedOnce((signal) => ask("derive", scene(), signal));
+  last.then((found) => found && draw(found)).catch((error) => {
+    panel.replaceChildren(make("p", { class: "wrong", role: "status" }, told(error)));
+    last = Promise.resolve(null);
+  });
+  return last;
+}
+
+// The answers of what was derived; with friction, of every case.
+export function cases(found) {
+  return found.cases ?? [found];
+}
+
+async function draw(found) {
+  const all = cases(found);
+  const formulas = [];
+  const symbols = [];
+  for (const one of all) {
+    for (const a of one.answers) {
+      formulas.push(a.formula ?? "", ...(a.range ?? []));
+      symbols.push(a.symbol ?? a.name);
+    }
+    for (const w of one.where ?? []) formulas.push(`${w.name} = ${w.formula}`);
+    for (const c of one.conditions ?? []) if (c.left) formulas.push(`${c.left.formula} ${c.relation} ${c.right.formula}`);
+  }
+  const set = await typeset(formulas, symbols);
+  const parts = [];
+  if (found.refusals?.length) parts.push(...found.refusals.map((why) => make("p", { class: "failed" }, `✗ ${why}.`)));
+  for (const one of all) {
+    if (one.mode) parts.push(make("h3", {}, `If the contact ${one.mode}`), conditions(one, set));
+    parts.push(...one.answers.map((a) => answer(a, set, !one.mode)));
+    if (one.where?.length) parts.push(make("h3", {}, "where"), ...one.where.map((w) => definition(w, set)));
+    parts.push(known(one));
+  }
+  if (found.cases) parts.unshift(make("section", { id: "numbers", "aria-live": "off" }));
+  $("answers").replaceChildren(...parts.filter(Boolean));
+  renumber();
+}
+
+// Formulas and symbols as markup, by their texts.
+export async function typeset(formulas, symbols) {
+  const most = 250;
+  const out = { formulas: new Map(), symbols: new Map() };
+  const lists = [[...new Set(formulas.filter(Boolean))], [...new Set(symbols)]];
+  for (let i = 0; i < Math.max(...lists.map((l) => l.length)); i += most) {
+    const [some, names] = lists.map((l) => l.slice(i, i + most));
+    const found = await ask("describe", { ...scene(), formulas: some, symbols: names }).catch(() => null);
+    some.forEach((f, k) => out.formulas.set(f, found?.readings[k]?.mathml));
+    names.forEach((s, k) => out.symbols.set(s, found?.symbols[k]));
+  }
+  return out;
+}
+
+const written = (set, formula) => {
+  const math = set.formulas.get(formula);
+  return math ? markup(math) : formula;
+};
+
+function answer(a, set, numbered) {
+  const symbol = set.symbols.get(a.symbol ?? a.name);
+  const line = make("div", { class: "formula", tabindex: "0", "aria-label": `${a.name} = ${a.formula ?? "open"}` });
+  if (a.range?.length) line.append(...a.range.flatMap((r, i) => [i ? ", " : "", written(set, r)]));
+  else if (a.formula) line.append(...(/[=<>≤≥]/.test(a.formula) ? [] : [symbol ? markup(symbol) : a.name, " = "]), written(set, a.formula));
+  else if (a.undetermined) line.append(`not determined by the laws: ${a.undetermined.join(", ")}`);
+  else if (a.matrix) line.append("a matrix; it stands in the solution");
+  const number = make("div", { class: "number" });
+  // A formula that is a number needs none beside it.
+  if (numbered && !/^-?\d+$/.test(a.formula ?? "")) places.set(a.name, number);
+  const doubts = a.checks.filter((c) => c.holds !== true);
+  return make("article", { class: "answer" }, make("div", { class: "meaning" }, a.words), line,
+    ...(a.text ?? []).map((t) => make("p", {}, t)), number, ...doubts.map(check));
+}
+
+function definition(w, set) {
+  const meaning = w.meaning ? make("span", { class: "meaning" }, ` ${w.meaning}`) : null;
+  return make("div", { class: "formula", tabindex: "0" }, written(set, `${w.name} = ${w.formula}`), meaning);
+}
+
+function conditions(one, set) {
+  const each = (one.conditions ?? []).map((c) => make("li", {}, c.left ? written(set, `${c.left.formula} ${c.relation} ${c.right.formula}`) : String(c)));
+  return each.length ? make("ul", {}, ...each) : null;
+}
+
+export function check(c) {
+  const [mark, kind, word] = { true: ["✓", "held", "holds"], false: ["✗", "failed", "fails"] }[c.holds] ?? ["?", "unsure", "open"];
+  return make("div", { class: `checks ${kind}` }, make("span", { "aria-label": word }, mark), ` ${c.words}`);
+}
+
+// How everything is known, folded away.
+function known(one) {
+  const checks = [...(one.checks ?? []), ...one.answers.flatMap((a) => a.checks)];
+  const seen = new Set();
+  const each = checks.filter((c) => !seen.has(c.words) && seen.add(c.words));
+  const rests = [...new Set(one.answers.flatMap((a) => a.assumptions ?? []))];
+  const refuted = each.some((c) => c.holds === false) || one.verified === false;
+  const title = refuted ? "✗ A check failed" : one.verified ? "How this is known" : "Not everything is proved";
+  return make("details", refuted ? { open: true } : {}, make("summary", {}, title), ...each.map(check),
+    rests.length ? make("p", { class: "note" }, `Given that ${rests.join(", ")}.`) : null);
+}
+
+const number = (n) => (n.value === null ? (n.reason ?? "open") : `≈ ${digits(n.value)} ${n.unit === "1" ? "" : n.unit}`);
+
+// The numbers at the values of the sliders, from the geometry alone.
+export async function renumber() {
+  if (!bench.about || (!places.size && !$("numbers"))) return;
+  try {
+    const found = await solved((signal) => ask("solve", { ...scene(), set: set() }, signal));
+    if (!found) return;
+    const told = new Map(found.answers.map((n) => [n.name, n]));
+    for (const [name, place] of places) {
+      const n = told.get(name);
+      if (n) place.textContent = number(n);
+    }
+    $("numbers")?.replaceChildren(make("h3", { id: "mode" }, "At these values"),
+      ...found.answers.map((n) => make("div", { class: "number" }, `${n.name} ${number(n)}`)));
+    if ($("numbers")) return modeAtValues();
+    const missing = [...places.keys()].filter((name) => !told.has(name));
+    if (missing.length) revalue(missing);
+  } catch (error) {
+    for (const place of places.values()) place.textContent = "";
+    $("numbers")?.replaceChildren(make("p", { class: "wrong" }, told(error)));
+  }
+}
+
+// What the contact with friction does at these values.
+const modeAtValues = quietly(async () => {
+  const found = await valued((signal) => ask("derive", { ...scene(), set: set() }, signal)).catch(() => null);
+  if (found?.picked_by === "values" && $("mode")) {
+    $("mode").textContent = `At these values the contact ${found.cases.map((c) => c.mode).join(", or ")}`;
+  }
+}, 250);
+
+// Answers about answers, such as a threshold, have their numbers from their closed forms, once the sliders rest.
+const revalue = quietly(async (missing) => {
+  const found = await valued((signal) => ask("derive", { ...scene(), set: set() }, signal)).catch(() => null);
+  for (const a of found?.answers ?? []) {
+    const place = places.get(a.name);
+    if (missing.includes(a.name) && a.value !== undefined) place.textContent = number(a);
+  }
+}, 250);

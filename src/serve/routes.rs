@@ -1,0 +1,335 @@
+//! What stands at which address: the page and its files, the scenes of the folder, the commands.
+
+use std::io::Write;
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::Router;
+use axum::body::{Body, Bytes};
+use axum::extract::rejection::BytesRejection;
+use axum::extract::{DefaultBodyLimit, Path, Request, State};
+use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
+use axum::middleware::{self, Next};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{get, post};
+use serde_json::{Map, Value, json};
+use tokio::time;
+
+use super::request::{self, Bad, COMMANDS, Command, Gives};
+use super::work::{Done, Job, NoEnd};
+use super::{Shared, describe, openapi};
+
+/// Version of the JSON that comes back; it grows when a field changes its meaning or goes.
+const VERSION: u32 = 1;
+/// Largest body of a request, in bytes.
+const BODY: usize = 1 << 20;
+/// How long a request may take from its head to its answer, waiting for a turn included.
+const REQUEST: Duration = Duration::from_secs(60);
+
+/// The files of the page: address, type, text.
+const FILES: &[(&str, &str, &str)] = &[
+    ("/", "text/html", include_str!("page/index.html")),
+    ("/style.css", "text/css", include_str!("page/style.css")),
+    ("/ask.js", "text/javascript", include_str!("page/ask.js")),
+    ("/list.js", "text/javascript", include_str!("page/list.js")),
+    ("/main.js", "text/javascript", include_str!("page/main.js")),
+    (
+        "/values.js",
+        "text/javascript",
+        include_str!("page/values.js"),
+    ),
+    (
+        "/figure.js",
+        "text/javascript",
+        include_str!("page/figure.js"),
+    ),
+    (
+        "/answers.js",
+        "text/javascript",
+        include_str!("page/answers.js"),
+    ),
+    ("/try.js", "text/javascript", include_str!("page/try.js")),
+    (
+        "/solution.js",
+        "text/javascript",
+        include_str!("page/solution.js"),
+    ),
+    (
+        "/editor.js",
+        "text/javascript",
+        include_str!("page/editor.js"),
+    ),
+];
+
+/// Nothing but what the server itself holds; styles may stand in pictures and worked solutions, scripts may not.
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; font-src data:; \
+     connect-src 'self'; img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// All addresses.
+pub(super) fn routes(shared: Arc<Shared>) -> Router {
+    let mut router = Router::new();
+    for (address, media, text) in FILES {
+        let media = format!("{media}; charset=utf-8");
+        router = router.route(address, get(async move || typed(&media, *text)));
+    }
+    router
+        .route(
+            "/openapi.json",
+            get(async || json_text(openapi::document())),
+        )
+        .route("/v1/scenes", get(scenes))
+        .route("/v1/scenes/{*name}", get(scene_text))
+        .route("/v1/{command}", post(command))
+        .fallback(async || no_address())
+        .method_not_allowed_fallback(async || {
+            error(
+                StatusCode::METHOD_NOT_ALLOWED,
+                "this method is not for this address",
+                Map::new(),
+            )
+        })
+        .layer(DefaultBodyLimit::max(BODY))
+        .layer(middleware::from_fn_with_state(shared.clone(), guard))
+        .with_state(shared)
+}
+
+/// What holds for every request: whose name is asked for, how long it takes, and what a browser may do with the answer.
+async fn guard(State(shared): State<Arc<Shared>>, request: Request, next: Next) -> Response {
+    let mut response = if shared.is_local && !names_this_machine(request.headers()) {
+        error(
+            StatusCode::MISDIRECTED_REQUEST,
+            "this server answers to localhost only",
+            Map::new(),
+        )
+    } else {
+        match time::timeout(REQUEST, next.run(request)).await {
+            Ok(response) => response,
+            Err(_) => no_end(&NoEnd::Slow),
+        }
+    };
+    let headers = response.headers_mut();
+    for (name, value) in [
+        (header::CONTENT_SECURITY_POLICY, POLICY),
+        (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (header::REFERRER_POLICY, "no-referrer"),
+        (
+            HeaderName::from_static("cross-origin-resource-policy"),
+            "same-origin",
+        ),
+        (header::CACHE_CONTROL, "no-cache"),
+    ] {
+        headers.insert(name, HeaderValue::from_static(value));
+    }
+    response
+}
+
+/// Whether a request is addressed to this machine by a name that only this machine has.
+fn names_this_machine(headers: &HeaderMap) -> bool {
+    let Some(host) = headers.get(header::HOST).and_then(|h| h.to_str().ok()) else {
+        return false;
+    };
+    let name = match host.strip_prefix('[') {
+        Some(rest) => rest.split(']').next().unwrap_or_default(),
+        None => host.split(':').next().unwrap_or_default(),
+    };
+    let address = name.parse::<std::net::IpAddr>();
+    name.eq_ignore_ascii_case("localhost") || address.is_ok_and(|a| a.is_loopback())
+}
+
+/// The scenes of the folder, each with title and source.
+async fn scenes(State(shared): State<Arc<Shared>>) -> Response {
+    let folder = shared.folder.clone();
+    let listed = tokio::task::spawn_blocking(move || {
+        let each = folder.names().into_iter().map(|name| {
+            let text = folder.text(&name).unwrap_or_default();
+            describe::heading(&name, &text)
+        });
+        each.collect::<Vec<Value>>()
+    });
+    match listed.await {
+        Ok(list) => json_text(json!({"version": VERSION, "scenes": list})),
+        Err(_) => fault_of_carom(String::from("the list of scenes broke off")),
+    }
+}
+
+async fn scene_text(State(shared): State<Arc<Shared>>, Path(name): Path<String>) -> Response {
+    match shared.folder.text(&name) {
+        Some(text) => typed("text/plain; charset=utf-8", text),
+        None => error(
+            StatusCode::NOT_FOUND,
+            "the folder has no such scene",
+            Map::new(),
+        ),
+    }
+}
+
+/// Runs a command.
+async fn command(
+    State(shared): State<Arc<Shared>>,
+    Path(name): Path<String>,
+    headers: HeaderMap,
+    body: Result<Bytes, BytesRejection>,
+) -> Response {
+    let Some(command) = COMMANDS.iter().find(|c| c.name == name) else {
+        return no_address();
+    };
+    let body = match body {
+        Ok(body) => body,
+        Err(e) if e.status() == StatusCode::PAYLOAD_TOO_LARGE => {
+            let message = format!("a request has at most {BODY} bytes");
+            return error(StatusCode::PAYLOAD_TOO_LARGE, message, Map::new());
+        }
+        Err(e) => return error(e.status(), e.body_text(), Map::new()),
+    };
+    let media = headers
+        .get(header::CONTENT_TYPE)
+        .and_then(|m| m.to_str().ok());
+    let lines = media.is_some_and(|m| m.contains("jsonl") || m.contains("ndjson"));
+    let answered = match lines && command.name == "grade" {
+        true => batch(&shared, body).await,
+        false => answer(&shared, command, &body).await,
+    };
+    answered.unwrap_or_else(|bad| {
+        let pointer = Map::from_iter([("pointer".to_string(), json!(bad.pointer))]);
+        error(StatusCode::BAD_REQUEST, bad.message, pointer)
+    })
+}
+
+/// JSON lines in, one line out for each.
+async fn batch(shared: &Shared, body: Bytes) -> Result<Response, Bad> {
+    let lines = String::from_utf8(body.into());
+    let lines = lines.map_err(|_| Bad::new("", "the body is not in UTF-8"))?;
+    request::named_scenes_exist(&lines, &shared.folder)?;
+    let job = Job {
+        arguments: ["grade", "--batch", "--jobs=1"].map(String::from).into(),
+        input: lines,
+        file: None,
+    };
+    Ok(match shared.workshop.run(job, shared.folder.root()).await {
+        Ok(done) if done.status == Some(0) => typed("application/jsonl; charset=utf-8", done.out),
+        Ok(done) => fault_of_carom(done.said),
+        Err(why) => no_end(&why),
+    })
+}
+
+/// One request, one answer.
+async fn answer(shared: &Shared, command: &Command, body: &[u8]) -> Result<Response, Bad> {
+    let fields = request::fields(body)?;
+    let scene = request::scene(&fields, &shared.folder)?;
+    let (job, gives) = request::job(command, &fields, scene)?;
+    let text = job.input.clone();
+    Ok(match shared.workshop.run(job, shared.folder.root()).await {
+        Ok(done) if matches!(done.status, Some(0..=3)) && !done.out.is_empty() => {
+            result(done, gives)
+        }
+        Ok(done) if done.status == Some(2) => unusable(shared, &done.said, text).await,
+        Ok(done) => fault_of_carom(done.said),
+        Err(why) => no_end(&why),
+    })
+}
+
+/// What a command printed; JSON gets the version, and the doubts that the command told beside it.
+fn result(done: Done, gives: Gives) -> Response {
+    let rest = match gives {
+        Gives::Text(media) => return typed(media, done.out),
+        Gives::OwnJson => return typed(JSON, done.out),
+        Gives::Json => done.out.strip_prefix(b"{").unwrap_or_default(),
+    };
+    let mut out = format!("{{\n  \"version\": {VERSION},").into_bytes();
+    let doubts: Vec<&str> = done.said.lines().map(without_place).collect();
+    if !doubts.is_empty() {
+        out.extend_from_slice(format!("\n  \"doubts\": {},", json!(doubts)).as_bytes());
+    }
+    out.extend_from_slice(rest);
+    typed(JSON, out)
+}
+
+/// Why a request could not be carried out; if that is its scene, what is wrong with it and where.
+async fn unusable(shared: &Shared, said: &str, scene: String) -> Response {
+    let (message, hint) = match said.trim_end().split_once("\nhint: ") {
+        Some((message, hint)) => (message, Some(hint)),
+        None => (said.trim_end(), None),
+    };
+    let mut more = Map::new();
+    if let Some(hint) = hint {
+        more.insert("hint".into(), json!(hint));
+    }
+    let status = StatusCode::UNPROCESSABLE_ENTITY;
+    let job = Job {
+        arguments: ["describe", "-"].map(String::from).into(),
+        input: scene,
+        file: None,
+    };
+    if !job.input.is_empty()
+        && let Ok(done) = shared.workshop.run(job, shared.folder.root()).await
+        && done.status == Some(2)
+        && let Ok(Value::Object(faults)) = serde_json::from_slice(&done.out)
+    {
+        return error(status, "the scene cannot be read", faults);
+    }
+    error(status, without_place(message), more)
+}
+
+/// A message without the name of standard input before it.
+fn without_place(message: &str) -> &str {
+    message.strip_prefix("-: ").unwrap_or(message)
+}
+
+fn no_end(why: &NoEnd) -> Response {
+    let (status, message) = match why {
+        NoEnd::Busy => (
+            StatusCode::SERVICE_UNAVAILABLE,
+            "too many requests at once; come again",
+        ),
+        NoEnd::Slow => (
+            StatusCode::SERVICE_UNAVAILABLE,
+            "this takes longer than a request may; the command line has no such limit",
+        ),
+        NoEnd::Large => (
+            StatusCode::UNPROCESSABLE_ENTITY,
+            "the result is too large to send",
+        ),
+        NoEnd::Broken(why) => return fault_of_carom(why.clone()),
+    };
+    let mut response = error(status, message, Map::new());
+    if matches!(why, NoEnd::Busy) {
+        let headers = response.headers_mut();
+        headers.insert(header::RETRY_AFTER, HeaderValue::from_static("1"));
+    }
+    response
+}
+
+/// What should not happen; the particulars are for who runs the server.
+fn fault_of_carom(said: String) -> Response {
+    let said = crate::render::screen(&said);
+    // That nobody may be there to read it changes nothing.
+    let _ = writeln!(std::io::stderr(), "a command failed: {said}");
+    let message = "a fault of carom; it told more where the server runs";
+    error(StatusCode::INTERNAL_SERVER_ERROR, message, Map::new())
+}
+
+fn no_address() -> Response {
+    let message = "nothing stands here; GET /openapi.json tells what there is";
+    error(StatusCode::NOT_FOUND, message, Map::new())
+}
+
+/// An error as JSON: a message, and what else is known.
+fn error(status: StatusCode, message: impl Into<String>, more: Map<String, Value>) -> Response {
+    let mut error = Map::from_iter([("message".to_string(), json!(message.into()))]);
+    error.extend(more);
+    let mut response = json_text(json!({"version": VERSION, "error": error}));
+    *response.status_mut() = status;
+    response
+}
+
+const JSON: &str = "application/json";
+
+fn json_text(value: Value) -> Response {
+    typed(JSON, value.to_string())
+}
+
+fn typed(media: &str, body: impl Into<Body>) -> Response {
+    let media = HeaderValue::from_str(media);
+    let media = media.unwrap_or(HeaderValue::from_static("text/plain"));
+    ([(header::CONTENT_TYPE, media)], body.into()).into_response()
+}
