@@ -27,6 +27,9 @@ pub struct ServeArgs {
 pub struct DescribeArgs {
     /// Scene file, `-` for standard input
     scene: PathBuf,
+    /// Give a parameter a value; may be repeated
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
     /// Tell how this formula is read; may be repeated
     #[arg(long, allow_hyphen_values = true)]
     formula: Vec<String>,
@@ -60,7 +63,18 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
 /// Describes a scene for pages and editors.
 pub fn describe(args: &DescribeArgs) -> Result<u8, Failure> {
     let text = files::read(&args.scene, scene::LONGEST)?;
-    let (description, is_read) = serve::describe(&text, &args.formula, &args.symbol);
-    print(&pretty(&description))?;
-    Ok(if is_read { 0 } else { 2 })
+    let each = args.set.iter().map(|assignment| {
+        let (name, value) = assignment.split_once('=').unwrap_or((assignment, ""));
+        (name.trim().to_string(), value.trim().to_string())
+    });
+    let asked = serve::Asked {
+        set: each.collect(),
+        formulas: args.formula.clone(),
+        symbols: args.symbol.clone(),
+    };
+    match serve::describe(&text, &asked) {
+        Ok(description) => print(&pretty(&description)).map(|()| 0),
+        Err(serve::Wrong::Scene(faults)) => print(&pretty(&faults)).map(|()| 2),
+        Err(serve::Wrong::Value(message)) => Err(Failure::Input(message)),
+    }
 }

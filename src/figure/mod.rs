@@ -114,6 +114,13 @@ pub fn shown_at(scene: &Scene) -> Point<f64> {
     values::representative(scene).point
 }
 
+/// Outlines of the bodies in the order of the scene, in meters where the scene places them: closed lines, of two points for
+/// a thin rod and of one for a particle. `None` where a body has no finite place.
+pub fn outlines(scene: &Scene) -> Option<Vec<Vec<Vec<[f64; 2]>>>> {
+    let poses = pose::posed(scene, &values::representative(scene))?;
+    Some(poses.iter().map(pose::Pose::lines).collect())
+}
+
 /// Draws one picture. A scene that has no place on paper gives a sheet that says so.
 pub fn draw(scene: &Scene, which: Which) -> Drawing {
     if !is_readable(scene) {

@@ -220,6 +220,22 @@ impl Pose {
             .collect()
     }
 
+    /// Closed lines that show the body, in meters.
+    pub fn lines(&self) -> Vec<Vec<Pair>> {
+        match &self.look {
+            _ if !self.skin.is_empty() => self.drawn(),
+            Look::Fixed => Vec::new(),
+            Look::Parts(parts) => {
+                // The parts are joined by light bars, each from its center to the next.
+                let bars = parts
+                    .windows(2)
+                    .map(|two| vec![two[0].center, two[1].center]);
+                bars.chain(parts.iter().flat_map(Pose::lines)).collect()
+            }
+            _ => vec![self.outline()],
+        }
+    }
+
     /// How far the body reaches from a point in a direction, in meters; a thin body reaches nowhere across itself.
     pub fn reach(&self, from: Pair, direction: Pair) -> f64 {
         let lines = match self.skin.is_empty() {

@@ -14,17 +14,42 @@ use crate::render::{self, mathml};
 use crate::scene::{self, Faults, Parameter, Scene, StageKind};
 use crate::solution::{Detail, Math, Solution};
 
-/// Describes the scene of a text, and reads formulas and typeset symbols about it; whether the scene could be read.
-pub fn describe(text: &str, formulas: &[String], symbols: &[String]) -> (Value, bool) {
-    let scene = match scene::read(text) {
-        Ok(scene) => scene,
-        Err(faults) => return (self::faults(&faults, text), false),
-    };
+/// What is asked about a scene.
+#[derive(Clone, Debug, Default)]
+pub struct Asked {
+    /// Values of parameters, name and value.
+    pub set: Vec<(String, String)>,
+    /// Formulas to be read.
+    pub formulas: Vec<String>,
+    /// Symbols in LaTeX, to be typeset.
+    pub symbols: Vec<String>,
+}
+
+/// Why a scene is not described.
+#[derive(Clone, Debug)]
+pub enum Wrong {
+    /// It cannot be read: what is wrong, and where.
+    Scene(Value),
+    /// It does not take this value.
+    Value(String),
+}
+
+/// Describes the scene of a text, and reads formulas about it.
+pub fn describe(text: &str, asked: &Asked) -> Result<Value, Wrong> {
+    let read = scene::read(text);
+    let mut scene = read.map_err(|faults| Wrong::Scene(self::faults(&faults, text)))?;
+    for (name, value) in &asked.set {
+        scene::set(&mut scene, name, value)
+            .map_err(|fault| Wrong::Value(format!("{name}: {}", fault.message)))?;
+    }
     let shown = figure::shown_at(&scene);
     let parameters = scene.parameters.iter();
     let stages = scene.story.iter().flat_map(|s| &s.stages);
-    let readings = formulas.iter().map(|f| reading(&scene, f));
-    let description = json!({
+    let readings = asked.formulas.iter().map(|f| reading(&scene, f));
+    let symbols = asked.symbols.iter();
+    let outlines = figure::outlines(&scene).unwrap_or_default();
+    let outlines = scene.bodies.iter().zip(outlines);
+    Ok(json!({
         "title": scene.title,
         "source": scene.source,
         "statement": scene.statement,
@@ -34,9 +59,9 @@ pub fn describe(text: &str, formulas: &[String], symbols: &[String]) -> (Value, 
         "plots": scene.plots.iter().map(|p| p.name.clone()).collect::<Vec<_>>(),
         "remarks": scene.remarks,
         "readings": readings.collect::<Vec<_>>(),
-        "symbols": symbols.iter().map(|s| math(&mathml::from_latex(s))).collect::<Vec<_>>(),
-    });
-    (description, true)
+        "symbols": symbols.map(|s| math(&mathml::from_latex(s))).collect::<Vec<_>>(),
+        "outlines": outlines.map(|(b, lines)| json!({"body": b.name, "lines": lines})).collect::<Vec<_>>(),
+    }))
 }
 
 /// What is wrong with a scene; places count in UTF-16 units, as pages count.

@@ -26,7 +26,7 @@ use tokio::signal;
 use tokio::sync::Semaphore;
 use tokio::time;
 
-pub use describe::describe;
+pub use describe::{Asked, Wrong, describe};
 use folder::Folder;
 use work::Workshop;
 

@@ -249,6 +249,7 @@ pub(super) const COMMANDS: &[Command] = &[
         name: "describe",
         what: "parameters of a scene with ranges for sliders, its stages and plots, and how formulas about it are read; where it cannot be read, what is wrong and where",
         fields: &[
+            SET,
             Field {
                 name: "formulas",
                 kind: Kind::Texts("--formula"),

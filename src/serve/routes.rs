@@ -48,6 +48,7 @@ const FILES: &[(&str, &str, &str)] = &[
         "text/javascript",
         include_str!("page/answers.js"),
     ),
+    ("/film.js", "text/javascript", include_str!("page/film.js")),
     ("/try.js", "text/javascript", include_str!("page/try.js")),
     (
         "/solution.js",

@@ -51,7 +51,7 @@ async function draw(found) {
     if (one.where?.length) parts.push(make("h3", {}, "where"), ...one.where.map((w) => definition(w, set)));
     parts.push(known(one));
   }
-  if (found.cases) parts.unshift(make("section", { id: "numbers", "aria-live": "off" }));
+  if (found.cases) parts.unshift(make("section", { id: "numbers" }), laws());
   $("answers").replaceChildren(...parts.filter(Boolean));
   renumber();
 }
@@ -141,13 +141,31 @@ export async function renumber() {
   }
 }
 
-// What the contact with friction does at these values.
+// What the contact with friction does at these values by the scene's law; the numbers follow it, whatever a scene supposes.
 const modeAtValues = quietly(async () => {
-  const found = await valued((signal) => ask("derive", { ...scene(), set: set() }, signal)).catch(() => null);
-  if (found?.picked_by === "values" && $("mode")) {
-    $("mode").textContent = `At these values the contact ${found.cases.map((c) => c.mode).join(", or ")}`;
-  }
+  const [found, compared] = await Promise.all([last, valued((signal) => ask("compare", { ...scene(), set: set() }, signal))]).catch(() => []);
+  const law = compared?.laws.find((l) => l.law === found?.hypothesis);
+  if (law && $("mode")) $("mode").textContent = `At these values the contact ${law.mode}`;
 }, 250);
+
+// The laws of friction side by side, when they are asked for.
+function laws() {
+  const table = make("table", { class: "lines" });
+  const fold = make("details", {}, make("summary", {}, "Laws of friction side by side, at these values"), table);
+  fold.addEventListener("toggle", async () => {
+    if (!fold.open) return;
+    try {
+      const found = await ask("compare", { ...scene(), set: set() });
+      const head = ["law", "the contact", "impulse, tangential and normal", "energy"];
+      const rows = found.laws.map((l) => [l.law, l.mode, l.impulse?.map(digits).join(", ") ?? "", l.energy ?? ""]);
+      table.replaceChildren(make("tr", {}, ...head.map((h) => make("th", { scope: "col" }, h))),
+        ...rows.map((row) => make("tr", {}, ...row.map((cell) => make("td", {}, String(cell))))));
+    } catch (error) {
+      table.replaceChildren(make("caption", { class: "wrong" }, told(error)));
+    }
+  });
+  return fold;
+}
 
 // Answers about answers, such as a threshold, have their numbers from their closed forms, once the sliders rest.
 const revalue = quietly(async (missing) => {

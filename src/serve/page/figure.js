@@ -5,8 +5,6 @@ import { bench, remember, scene, set } from "/main.js";
 import { refuse } from "/values.js";
 
 const MOMENTS = [["before", "before"], ["during", "during"], ["after", "after"], ["all", "all"]];
-// How long a picture stays while they are played, in milliseconds.
-const STAY = 1500;
 
 export function showFigure() {
   const { stages } = bench.about;
@@ -18,7 +16,6 @@ export function showFigure() {
     const button = make("input", { type: "radio", name: "moment", value, onchange: () => go(bench.stage, value) });
     return make("label", {}, button, words);
   }));
-  stop();
   choose();
   redraw();
 }
@@ -28,7 +25,6 @@ function choose() {
   const stage = bench.about.stages.find((s) => s.name === bench.stage);
   $("stage").value = bench.stage;
   $("moments").hidden = stage ? !stage.is_impact : false;
-  $("steps").hidden = false;
   for (const button of $("moments").querySelectorAll("input")) button.checked = button.value === bench.moment;
 }
 
@@ -79,23 +75,5 @@ function step(by) {
   go(...all.at((at + by) % all.length));
 }
 
-$("on").addEventListener("click", () => { stop(); step(1); });
-$("back").addEventListener("click", () => { stop(); step(-1); });
-
-let playing = null;
-
-function stop() {
-  clearInterval(playing);
-  playing = null;
-  $("play").textContent = "Play";
-  $("play").setAttribute("aria-pressed", "false");
-}
-
-$("play").addEventListener("click", () => {
-  if (playing) return stop();
-  $("play").textContent = "Pause";
-  $("play").setAttribute("aria-pressed", "true");
-  step(1);
-  playing = setInterval(() => step(1), STAY);
-});
-addEventListener("hashchange", stop);
+$("on").addEventListener("click", () => step(1));
+$("back").addEventListener("click", () => step(-1));

@@ -1,9 +1,10 @@
 // The page: which scene, which values, which panel; all of it stands in the link.
 
-import { $, ask, get, say } from "/ask.js";
+import { $, ask, get, quietly, say } from "/ask.js";
 import { showList } from "/list.js";
 import { showValues } from "/values.js";
 import { showFigure, redraw } from "/figure.js";
+import { showFilm } from "/film.js";
 import { showAnswers, renumber } from "/answers.js";
 import { showTry } from "/try.js";
 import { showSolution } from "/solution.js";
@@ -51,8 +52,10 @@ export function valuesChanged() {
     waiting = false;
     redraw();
     renumber();
+    refilm();
   });
 }
+const refilm = quietly(showFilm, 300);
 
 // Puts a scene on the bench, from its text where that was changed. A scene that cannot be read leaves the bench as it is.
 export async function load(text) {
@@ -68,6 +71,7 @@ export async function load(text) {
   $("statement").textContent = about.statement;
   showValues();
   showFigure();
+  showFilm();
   showAnswers();
   stale = new Set(PANELS.slice(1, 3));
   openPanel(bench.panel);
@@ -134,6 +138,7 @@ async function follow() {
     if (found.faults) {
       $("title").textContent = `${name} cannot be read`;
       bench.about = null;
+      for (const id of ["statement", "figure", "values", "answers"]) $(id).replaceChildren();
       openPanel("scene");
     }
   } catch (error) {

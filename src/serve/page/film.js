@@ -1,0 +1,165 @@
+// The stages of a scene in time, as the numbers follow them: played, paused, or moved by hand.
+
+import { $, ask, digits, latest, told } from "/ask.js";
+import { bench, scene, set } from "/main.js";
+
+// The longest a film takes, and how long an impact is shown, in seconds.
+const LONGEST = 8;
+const IMPACT = 0.6;
+const SPACE = "http://www.w3.org/2000/svg";
+
+const filmed = latest();
+let film = null;
+let running = null;
+
+// Makes the film at the values of the sliders; without stages there is none.
+export async function showFilm() {
+  pause();
+  film = null;
+  $("film").hidden = true;
+  if (!bench.about.stages.length) return;
+  try {
+    const found = await filmed((signal) => Promise.all([
+      ask("solve", { ...scene(), set: set() }, signal),
+      ask("describe", { ...scene(), set: set() }, signal),
+    ]));
+    if (!found) return;
+    film = made(...found);
+    $("film").hidden = false;
+    $("film-note").textContent = film.note;
+    $("film-time").max = film.length;
+    $("film-time").step = film.length / 400 || 0.01;
+    $("film-play").disabled = $("film-time").disabled = !film.length;
+    at(0);
+  } catch (error) {
+    $("film").hidden = false;
+    $("film-note").textContent = told(error);
+    $("film-picture").replaceChildren();
+  }
+}
+
+// Scenes of the film: where every body is from one time of the film to another.
+function made(solved, about) {
+  const [first] = solved.stages;
+  const bodies = about.outlines.map((o) => ({ ...o, from: pose(first.bodies?.find((b) => b.name === o.body)?.before) }));
+  const parts = [];
+  let note = "";
+  let real = 0;
+  for (const stage of solved.stages) {
+    if (stage.lost) { note = `${stage.name}: ${stage.reason}`; break; }
+    const poses = new Map(stage.bodies.map((b) => [b.name, pose(b.before)]));
+    const moves = (stage.samples?.length ?? 0) > 1;
+    if (stage.kind !== "impact" && !moves) { note = `${stage.name}: its course in time is not known`; break; }
+    parts.push({ name: stage.name, poses, moving: stage.moving ?? [], samples: stage.samples ?? [], time: moves ? stage.samples.at(-1).time : 0 });
+    real += parts.at(-1).time;
+  }
+  const slow = real ? Math.max(1, LONGEST / 2 / real) : 1;
+  const speed = real > LONGEST ? real / LONGEST : 1 / slow;
+  let length = 0;
+  for (const part of parts) {
+    part.start = length;
+    part.speed = speed;
+    length = part.end = length + (part.time ? part.time / speed : IMPACT);
+  }
+  return { bodies, parts, length, note };
+}
+
+const pose = (b) => (b && [b.x, b.y, b.angle].every(Number.isFinite) ? [b.x, b.y, b.angle] : null);
+
+// Where a body is within a part: between two samples by the cubic that keeps the slopes of the course.
+function place(part, body, time) {
+  const k = part.moving.indexOf(body);
+  if (k < 0) return part.poses.get(body);
+  const s = part.samples;
+  let i = s.findIndex((one) => one.time >= time);
+  if (i < 0) i = s.length - 1;
+  i = Math.max(1, i);
+  const [a, b] = [s[i - 1], s[i]];
+  const h = b.time - a.time;
+  const u = h ? Math.min(1, Math.max(0, (time - a.time) / h)) : 1;
+  const slope = (j, c) => {
+    const [p, q] = [s[Math.max(0, j - 1)], s[Math.min(s.length - 1, j + 1)]];
+    return (q.poses[k][c] - p.poses[k][c]) / (q.time - p.time);
+  };
+  return a.poses[k].map((from, c) => {
+    const to = b.poses[k][c];
+    const [m, n] = [slope(i - 1, c) * h, slope(i, c) * h];
+    return from + u * m + u * u * (3 * (to - from) - 2 * m - n) + u * u * u * (m + n - 2 * (to - from));
+  });
+}
+
+// The lines of a body where it is.
+function moved(body, to) {
+  if (!body.from || !to) return body.lines;
+  const [x, y, angle] = body.from;
+  const [c, s] = [Math.cos(to[2] - angle), Math.sin(to[2] - angle)];
+  return body.lines.map((line) => line.map(([px, py]) => [
+    to[0] + c * (px - x) - s * (py - y), to[1] + s * (px - x) + c * (py - y)]));
+}
+
+// Shows a moment of the film.
+function at(moment) {
+  const part = film.parts.find((p) => moment <= p.end) ?? film.parts.at(-1);
+  if (!part) return;
+  const time = Math.min(part.time, Math.max(0, (moment - part.start) * part.speed));
+  film.box ??= box();
+  const svg = document.createElementNS(SPACE, "svg");
+  svg.setAttribute("viewBox", film.box.join(" "));
+  svg.setAttribute("role", "img");
+  svg.setAttribute("aria-label", `${part.name}, ${digits(time)} s`);
+  const thick = film.box[2] / 150;
+  const begin = film.bodies.map((body) => [body.lines, "begin"]);
+  const now = film.bodies.map((body) => [moved(body, place(part, body.body, time)), "now"]);
+  for (const [lines, when] of [...begin, ...now]) {
+    for (const line of lines) {
+      const shape = document.createElementNS(SPACE, line.length === 1 ? "circle" : "polygon");
+      if (line.length === 1) {
+        for (const [name, value] of [["cx", line[0][0]], ["cy", -line[0][1]], ["r", 3 * thick]]) shape.setAttribute(name, value);
+      } else shape.setAttribute("points", line.map(([x, y]) => `${x},${-y}`).join(" "));
+      shape.setAttribute("class", when);
+      shape.setAttribute("stroke-width", thick * (line.length === 2 ? 2.5 : 1));
+      svg.append(shape);
+    }
+  }
+  $("film-picture").replaceChildren(svg);
+  $("film-time").value = moment;
+  $("film-time").setAttribute("aria-valuetext", `${part.name}, ${digits(time)} s`);
+  $("film-where").textContent = part.time ? `${part.name}, ${digits(Number(time.toPrecision(3)))} s` : part.name;
+}
+
+// Room for all that is shown in the film.
+function box() {
+  const all = film.parts.flatMap((part) => [0, 0.25, 0.5, 0.75, 1].flatMap((u) =>
+    film.bodies.flatMap((body) => moved(body, place(part, body.body, u * part.time)).flat())));
+  const [xs, ys] = [all.map((p) => p[0]), all.map((p) => -p[1])];
+  const [left, top] = [Math.min(...xs), Math.min(...ys)];
+  const [wide, high] = [Math.max(...xs) - left, Math.max(...ys) - top];
+  const room = 0.08 * Math.max(wide, high, 1e-6);
+  return [left - room, top - room, wide + 2 * room, high + 2 * room];
+}
+
+function pause() {
+  cancelAnimationFrame(running);
+  running = null;
+  $("film-play").textContent = "Play";
+}
+
+$("film-play").addEventListener("click", () => {
+  if (running !== null) return pause();
+  $("film-play").textContent = "Pause";
+  const from = Number($("film-time").value);
+  const begin = performance.now() - 1000 * (from < film.length - 1e-6 ? from : 0);
+  const frame = (now) => {
+    const moment = (now - begin) / 1000;
+    at(Math.min(moment, film.length));
+    running = moment < film.length ? requestAnimationFrame(frame) : null;
+    if (running === null) pause();
+  };
+  running = requestAnimationFrame(frame);
+});
+
+$("film-time").addEventListener("input", () => {
+  pause();
+  at(Number($("film-time").value));
+});
+addEventListener("hashchange", pause);
