@@ -95,7 +95,7 @@ fn parameter(scene: &Scene, p: &Parameter, shown: &Point<f64>) -> Value {
         "mathml": math(&mathml::from_latex(&latex)),
         "unit": p.unit,
         "meaning": p.meaning,
-        "domain": domain.map(|d| d.words(&p.name)),
+        "domain": domain.filter(|d| **d != Domain::real()).map(|d| d.words(&p.name)),
         "is_given": p.value.is_some(),
         "value": value,
         "min": min,

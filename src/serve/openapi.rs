@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::request::{COMMANDS, Command, Field, Gives, Kind, SCENE};
+use super::request::{COMMANDS, Command, Field, Gives, Kind, MANY, SCENE};
 
 /// The document, by OpenAPI 3.1.
 pub(super) fn document() -> Value {
@@ -42,7 +42,7 @@ pub(super) fn document() -> Value {
 fn post(command: &Command) -> Value {
     let mut fields = scene_fields();
     fields.extend(command.fields.iter().map(|f| (f.name, schema(f))));
-    let mut request = body(object(&fields, &[]));
+    let mut request = body(object(&fields, command.sceneless));
     if command.name == "grade" {
         request["content"]["application/jsonl"] = json!({"schema": {
             "type": "string",
@@ -73,38 +73,44 @@ fn scene_fields() -> Vec<(&'static str, Value)> {
     vec![
         (
             scene,
-            json!({"description": of_scene, "type": ["object", "string", "null"]}),
+            json!({"description": of_scene, "type": ["object", "string"]}),
         ),
-        (
-            name,
-            json!({"description": of_name, "type": ["string", "null"]}),
-        ),
+        (name, json!({"description": of_name, "type": "string"})),
     ]
 }
 
 fn schema(field: &Field) -> Value {
     let texts = json!({"type": ["string", "number"]});
     let mut schema = match field.kind {
-        Kind::Values(_) => json!({"type": ["object", "null"], "additionalProperties": texts}),
-        Kind::Text(_) => json!({"type": ["string", "number", "null"]}),
+        Kind::Values(_) => {
+            json!({"type": "object", "additionalProperties": texts, "maxProperties": MANY})
+        }
+        Kind::Text(_) => texts.clone(),
         Kind::Word(_, words) => json!({"type": "string", "enum": words}),
-        Kind::Flag(_) => json!({"type": ["boolean", "null"]}),
-        Kind::Texts(_) => json!({"type": ["array", "null"], "items": texts}),
-        Kind::Lines(_) => json!({"type": ["string", "null"]}),
-        Kind::List(_) => json!({"type": ["array", "null"], "items": {"type": "object"}}),
+        Kind::Flag(_) => json!({"type": "boolean"}),
+        Kind::Texts(_) => json!({"type": "array", "items": texts, "maxItems": MANY}),
+        Kind::Lines(_) => json!({"type": "string"}),
+        Kind::List(_) => json!({"type": "array", "items": {"type": "object"}}),
     };
     schema["description"] = json!(field.what);
     schema
 }
 
-fn object(fields: &[(&str, Value)], required: &[&str]) -> Value {
+/// A request: its fields, and a scene or the name of one unless it can do without.
+fn object(fields: &[(&str, Value)], sceneless: bool) -> Value {
     let properties: Map<String, Value> = fields
         .iter()
         .map(|(name, schema)| (name.to_string(), schema.clone()))
         .collect();
-    json!({
-        "type": "object", "properties": properties, "required": required, "additionalProperties": false,
-    })
+    let mut object =
+        json!({"type": "object", "properties": properties, "additionalProperties": false});
+    if !sceneless {
+        object["oneOf"] = SCENE
+            .iter()
+            .map(|(name, _)| json!({"required": [name]}))
+            .collect();
+    }
+    object
 }
 
 fn body(schema: Value) -> Value {

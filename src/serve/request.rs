@@ -8,7 +8,7 @@ use super::work::Job;
 /// Longest text of a field, in bytes; scenes, solutions and lists of answers aside.
 const TEXT: usize = 1 << 16;
 /// Most values or forms a request may hold.
-const MANY: usize = 256;
+pub(super) const MANY: usize = 256;
 
 /// A command that can be asked for.
 pub(super) struct Command {

@@ -48,7 +48,8 @@ async function draw(found) {
   for (const one of all) {
     if (one.mode) parts.push(make("h3", {}, `If the contact ${one.mode}`), conditions(one, set));
     parts.push(...one.answers.map((a) => answer(a, set, !one.mode)));
-    if (one.where?.length) parts.push(make("h3", {}, "where"), ...one.where.map((w) => definition(w, set)));
+    const defined = (one.where ?? []).filter((w) => !one.answers.some((a) => a.name === w.name));
+    if (defined.length) parts.push(make("h3", {}, "where"), ...defined.map((w) => definition(w, set)));
     parts.push(known(one));
   }
   if (found.cases) parts.unshift(make("section", { id: "numbers" }), laws());

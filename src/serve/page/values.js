@@ -68,7 +68,7 @@ function row(p) {
     valuesChanged();
   });
   const label = make("label", { for: id, class: "label" }, markup(p.mathml));
-  const unit = p.unit === "1" ? "" : p.unit;
+  const unit = p.unit === "1" ? "" : p.unit.replaceAll("^2", "²").replaceAll("^3", "³");
   return make("div", { class: "value" }, label, slider, box, make("span", { class: "unit" }, unit),
     make("span", { class: "meaning", id: `${id}-meaning` }, meaning));
 }
