@@ -601,23 +601,26 @@ fn what_keeps_it_from_starting_is_told() {
 fn an_interrupt_ends_it_and_what_is_asked_is_still_answered() {
     for signal in ["-INT", "-TERM"] {
         let mut server = server();
-        let answer = std::thread::scope(|scope| {
-            let asked = scope.spawn(|| {
-                server.post(
-                    "solution",
-                    &json!({"name": "problems/gymnast-between-bars.json"}),
-                )
-            });
-            // Long enough to be asked, not long enough to be answered.
-            std::thread::sleep(Duration::from_millis(150));
-            let id = server.child.id().to_string();
-            Command::new("kill")
-                .args([signal, &id])
-                .status()
-                .expect("kill");
-            asked.join().expect("an answer")
-        });
-        assert_eq!(answer.status, 200, "{signal}");
+        let body = json!({"expected": "a + b", "answer": "b + a"}).to_string();
+        let mut stream = TcpStream::connect(server.address).expect("a connection");
+        let head = format!(
+            "POST /v1/grade HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\nContent-Length: {}\r\n\r\n",
+            body.len()
+        );
+        stream.write_all(head.as_bytes()).expect("a head");
+        // The server waits for the body, so it is at work on this request.
+        let mut go_on = [0; 25];
+        stream.read_exact(&mut go_on).expect("a word to go on");
+        assert!(go_on.starts_with(b"HTTP/1.1 100"), "{go_on:?}");
+        let id = server.child.id().to_string();
+        let sent = Command::new("kill").args([signal, &id]).status();
+        assert!(sent.expect("kill").success());
+        std::thread::sleep(Duration::from_millis(100));
+        stream.write_all(body.as_bytes()).expect("a body");
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).expect("an answer");
+        assert!(answer.starts_with("HTTP/1.1 200"), "{signal}: {answer}");
+        assert!(answer.contains("equivalent"), "{signal}: {answer}");
         let status = server.child.wait().expect("it ends");
         assert_eq!(status.code(), Some(0), "{signal}");
     }

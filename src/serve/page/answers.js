@@ -40,7 +40,7 @@ async function draw(found) {
       symbols.push(a.symbol ?? a.name);
     }
     for (const w of one.where ?? []) formulas.push(`${w.name} = ${w.formula}`);
-    for (const c of one.conditions ?? []) if (c.left) formulas.push(`${c.left.formula} ${c.relation} ${c.right.formula}`);
+    for (const c of one.conditions ?? []) formulas.push(`${c.left.formula} ${c.relation} ${c.right.formula}`);
   }
   const set = await typeset(formulas, symbols);
   const parts = [];
@@ -92,13 +92,13 @@ function answer(a, set, numbered) {
 }
 
 function definition(w, set) {
-  const meaning = w.meaning ? make("span", { class: "meaning" }, ` ${w.meaning}`) : null;
-  return make("div", { class: "formula", tabindex: "0" }, written(set, `${w.name} = ${w.formula}`), meaning);
+  const line = make("div", { class: "formula", tabindex: "0" }, written(set, `${w.name} = ${w.formula}`));
+  return make("div", {}, line, w.meaning ? make("div", { class: "meaning" }, w.meaning) : null);
 }
 
 function conditions(one, set) {
-  const each = (one.conditions ?? []).map((c) => make("li", {}, c.left ? written(set, `${c.left.formula} ${c.relation} ${c.right.formula}`) : String(c)));
-  return each.length ? make("ul", {}, ...each) : null;
+  const each = (one.conditions ?? []).map((c) => written(set, `${c.left.formula} ${c.relation} ${c.right.formula}`));
+  return each.length ? make("ul", {}, ...each.map((c) => make("li", {}, make("div", { class: "formula", tabindex: "0" }, c)))) : null;
 }
 
 export function check(c) {

@@ -1,7 +1,7 @@
 // The worked solution, hint first, then section by section. It stands in a tree of its own, with its own style.
 
 import { $, ask, latest, make, told } from "/ask.js";
-import { scene } from "/main.js";
+import { scene, set } from "/main.js";
 import { cases, derived } from "/answers.js";
 
 const FRAME = `
@@ -17,10 +17,15 @@ export async function showSolution() {
   const panel = $("solution");
   panel.replaceChildren(make("p", { class: "note", role: "status" }, "Writing the solution …"));
   try {
-    const [page, found] = await Promise.all([
-      asked((signal) => ask("solution", { ...scene(), format: "html" }, signal)),
-      derived().catch(() => null),
-    ]);
+    const found = await derived().catch(() => null);
+    const write = (more) => asked((signal) => ask("solution", { ...scene(), ...more, format: "html" }, signal));
+    // Where friction leaves several cases, the values of the sliders pick the one that is worked out.
+    let note = null;
+    const page = await write({}).catch((error) => {
+      if (!found?.cases) throw error;
+      note = make("p", { class: "note" }, "Worked out for the case that the values of the sliders pick.");
+      return write({ set: set() });
+    });
     if (page === undefined) return;
     const written = new DOMParser().parseFromString(page, "text/html");
     const steps = [...hints(found), ...sections(written)];
@@ -42,7 +47,7 @@ export async function showSolution() {
     const tree = host.attachShadow({ mode: "open" });
     tree.append(style(written), make("style", {}, FRAME), ...steps);
     steps.forEach((s) => s.addEventListener("toggle", look));
-    panel.replaceChildren(make("div", { class: "bar" }, next, all), host);
+    panel.replaceChildren(...[note, make("div", { class: "bar" }, next, all), host].filter(Boolean));
   } catch (error) {
     panel.replaceChildren(make("p", { class: "wrong" }, told(error)));
   }
