@@ -1,7 +1,7 @@
 // The worked solution, hint first, then section by section. It stands in a tree of its own, with its own style.
 
 import { $, ask, latest, make, told } from "/ask.js";
-import { scene, set } from "/main.js";
+import { bench, scene, set } from "/main.js";
 import { cases, derived } from "/answers.js";
 
 const FRAME = `
@@ -24,7 +24,7 @@ export async function showSolution() {
     const page = await write({}).catch((error) => {
       if (!found?.cases) throw error;
       note = make("p", { class: "note" }, "Worked out for the case that the values of the sliders pick.");
-      return write({ set: set() });
+      return write({ set: exact(set()) });
     });
     if (page === undefined) return;
     const written = new DOMParser().parseFromString(page, "text/html");
@@ -51,6 +51,20 @@ export async function showSolution() {
   } catch (error) {
     panel.replaceChildren(make("p", { class: "wrong" }, told(error)));
   }
+}
+
+// The values with angles whose cosine and sine are fractions, to a millionth: a case is picked in exact arithmetic.
+function exact(values) {
+  const most = 1000000;
+  const out = { ...values };
+  for (const { name, unit } of bench.about.parameters) {
+    const angle = Number(out[name]);
+    if (unit !== "rad" || !(Math.abs(angle) < Math.PI) || angle === 0) continue;
+    const t = Math.round(most * Math.tan(Math.abs(angle) / 2));
+    const cosine = `${BigInt(most) ** 2n - BigInt(t) ** 2n}/${BigInt(most) ** 2n + BigInt(t) ** 2n}`;
+    out[name] = `${angle < 0 ? "-" : ""}acos(${cosine})`;
+  }
+  return out;
 }
 
 // The solution's own style; its font counts for the whole document only.
