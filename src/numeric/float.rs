@@ -15,7 +15,8 @@ use super::field::eliminate;
 use super::solution::{Contradiction, Solution};
 use super::system::System;
 use crate::expr::number::{from_f64, to_f64};
-use crate::interval::{Big, Certified, Outcome};
+use crate::interval::dyadic::Dyadic;
+use crate::interval::{Big, Enclosure, Outcome};
 
 /// Solves a system in doubles.
 pub fn solve_f64(system: &System<f64>) -> Result<Solution<f64>, Contradiction> {
@@ -73,13 +74,17 @@ fn lu(scaled: &Scaled, steps: usize, least: f64) -> Option<Vec<f64>> {
 /// The nearest doubles to the solution, the coefficients taken as exact: by enclosures, and by fractions where those are too
 /// wide to tell.
 fn nearest(system: &System<f64>) -> Option<Vec<f64>> {
-    let cells = system.matrix.iter().chain(&system.right);
-    let exact = cells.map(|v| from_f64(*v)).all(|v| v.is_some());
-    let exact = exact.then(|| system.map(|v| from_f64(*v).unwrap_or_default()))?;
-    let enclosed = eliminate(&exact.map(|v| Outcome::Value(Big::<128>::from_rational(v))));
+    let point = |v: &f64| match Dyadic::from_f64(*v) {
+        Some(v) => Outcome::Value(Big::<128>(Enclosure::point(v))),
+        None => Outcome::Unknown,
+    };
+    let enclosed = eliminate(&system.map(point));
     let rounded = |v: Outcome<Big<128>>| v.value()?.0.nearest();
     let found = enclosed.and_then(|x| x.into_iter().map(rounded).collect());
     found.or_else(|| {
+        let cells = system.matrix.iter().chain(&system.right);
+        let finite = cells.copied().all(f64::is_finite);
+        let exact = finite.then(|| system.map(|v| from_f64(*v).unwrap_or_default()))?;
         let exact = solve_exact(&exact).ok().filter(Solution::is_determined)?;
         Some(exact.values.iter().map(to_f64).collect())
     })
