@@ -4,6 +4,7 @@
 //! interrupted. Every derivation, solution or grade is a command of its own process with a limit of time, so that no input
 //! of a stranger can stop the server, and what comes back is what the command prints. Decides nothing about mechanics.
 
+mod commands;
 mod describe;
 mod folder;
 mod openapi;

@@ -2,7 +2,8 @@
 
 use serde_json::{Map, Value, json};
 
-use super::request::{COMMANDS, Command, Field, Gives, Kind, MANY, SCENE};
+use super::commands::{COMMANDS, Command, Field, Gives, Kind, SCENE};
+use super::request::MANY;
 
 /// The document, by OpenAPI 3.1.
 pub(super) fn document() -> Value {

@@ -15,7 +15,8 @@ use axum::routing::{get, post};
 use serde_json::{Map, Value, json};
 use tokio::time;
 
-use super::request::{self, Bad, COMMANDS, Command, Gives};
+use super::commands::{COMMANDS, Command, Gives};
+use super::request::{self, Bad};
 use super::work::{Done, Job, NoEnd};
 use super::{Shared, describe, openapi};
 
