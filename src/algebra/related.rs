@@ -198,6 +198,9 @@ mod tests {
         field.sign(&x)
     }
 
+    /// Left side, right side, and whether they may be equal.
+    type Granted = (Expr, Expr, bool);
+
     #[test]
     fn a_relation_decides_what_follows_from_it_and_no_more() {
         let two = || Expr::from(2);
@@ -206,7 +209,7 @@ mod tests {
         let half = [(s("c"), s("L") / two(), false)];
         let steep = [(s("b"), s("a") * s("theta").cos(), false)];
         let closed = [(s("m"), s("M"), true)];
-        let table: [(&[(Expr, Expr, bool)], Expr, Option<Sign>); 14] = [
+        let table: [(&[Granted], Expr, Option<Sign>); 14] = [
             (&heavier, s("M") - s("m"), Some(Sign::Positive)),
             (&heavier, s("m") - s("M"), Some(Sign::Negative)),
             (&heavier, two() * s("M") - s("m"), Some(Sign::Positive)),

@@ -431,7 +431,7 @@ impl Page<'_> {
                 if Self::is_end_energy(&self.told.stages[i], answer) {
                     math.extend([name("T", "", "+", false), Math::Op("=")]);
                 }
-                steps.extend(self.from_energy(&self.told.stages[i], *q, &symbol, formula));
+                steps.extend(self.energy_in(&self.told.stages[i], *q, &symbol, formula));
                 math.push(Math::Expr(formula.clone()));
                 lines.push(Line {
                     math,
@@ -474,7 +474,7 @@ impl Page<'_> {
     }
 
     /// The kinetic energy at the end in terms of the speed or spin that is asked for, ½ I ω² = T⁺, where that gives its value.
-    fn from_energy(
+    fn energy_in(
         &self,
         told: &StageTold,
         question: usize,
