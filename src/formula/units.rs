@@ -55,7 +55,12 @@ impl Lexer<'_> {
             return None;
         }
         let side = self.rest_of_side()?;
-        let whole = plain_unit(side).and_then(|plain| Some((dimension::unit(&plain).ok()?, plain)));
+        let plain = plain_unit(side);
+        // Units win only where nothing is declared of their letters; looking is cheaper than reading them.
+        if !marked && !self.units_first && !plain.as_deref().is_some_and(|p| self.is_free(p)) {
+            return None;
+        }
+        let whole = plain.and_then(|plain| Some((dimension::unit(&plain).ok()?, plain)));
         let (stop, (read, plain)) = match whole {
             Some(read) => (side.len(), read),
             // Units inside a formula of numbers.
@@ -67,29 +72,13 @@ impl Lexer<'_> {
             None => return None,
         };
         if !marked {
-            let words = || {
-                plain
-                    .split(|c: char| !c.is_ascii_alphabetic())
-                    .filter(|w| !w.is_empty())
-            };
             let declared = |w: &str| is_symbol_first(w) && self.symbols.find(w).is_some();
-            if words().any(declared) {
+            if words(&plain).any(declared) {
                 return None;
             }
             if !self.units_first {
-                if words().any(is_symbol_first) {
-                    return None;
-                }
-                if !self.symbols.is_open()
-                    || words().any(|w| {
-                        w.chars()
-                            .any(|c| self.symbols.find(c.encode_utf8(&mut [0; 4])).is_some())
-                    })
-                {
-                    return None;
-                }
                 // Without declarations 3 m g is a force more often than a unit.
-                let telling = words().any(|w| {
+                let telling = words(&plain).any(|w| {
                     matches!(
                         w,
                         "kg" | "rad"
@@ -134,6 +123,18 @@ impl Lexer<'_> {
         self.pos = start + stop;
         Some(Tok::Unit(Box::new(read)))
     }
+
+    /// Whether what could be a unit holds nothing that is declared, nor a letter that is a symbol first.
+    fn is_free(&self, plain: &str) -> bool {
+        let known = |c: char| self.symbols.find(c.encode_utf8(&mut [0; 4])).is_some();
+        self.symbols.is_open() && !words(plain).any(|w| is_symbol_first(w) || w.chars().any(known))
+    }
+}
+
+/// The runs of letters in a unit.
+fn words(plain: &str) -> impl Iterator<Item = &str> {
+    let words = plain.split(|c: char| !c.is_ascii_alphabetic());
+    words.filter(|w| !w.is_empty())
 }
 
 /// Whether a letter is a symbol rather than a unit where nothing is declared: 2.5 V is two and a half volumes as well.
