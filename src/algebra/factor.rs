@@ -163,10 +163,7 @@ pub(crate) fn square_part(value: &Int) -> (Int, Int) {
         if square > num_traits::Signed::abs(&rest) {
             break;
         }
-        while (&rest % &square).is_zero() {
-            rest /= &square;
-            root *= &prime;
-        }
+        root *= prime.pow(take_out(&mut rest, &square));
         p += if p == 2 { 1 } else { 2 };
     }
     if !num_traits::Signed::is_negative(&rest) {
@@ -188,11 +185,7 @@ pub(crate) fn primes_with_powers(value: &Int) -> Vec<(Int, u32)> {
         if &prime * &prime > rest {
             break;
         }
-        let mut k = 0;
-        while (&rest % &prime).is_zero() {
-            rest /= &prime;
-            k += 1;
-        }
+        let k = take_out(&mut rest, &prime);
         if k > 0 {
             out.push((prime, k));
         }
@@ -202,4 +195,18 @@ pub(crate) fn primes_with_powers(value: &Int) -> Vec<(Int, u32)> {
         out.push((rest, 1));
     }
     out
+}
+
+/// Divides by a factor as often as it goes, by its powers where it goes often; tells how often.
+fn take_out(rest: &mut Int, factor: &Int) -> u32 {
+    if rest.is_zero() || !(&*rest % factor).is_zero() {
+        return 0;
+    }
+    *rest /= factor;
+    let pairs = take_out(rest, &(factor * factor));
+    let odd = (&*rest % factor).is_zero();
+    if odd {
+        *rest /= factor;
+    }
+    1 + 2 * pairs + u32::from(odd)
 }

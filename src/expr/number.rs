@@ -67,7 +67,15 @@ impl Int {
     pub fn sqrt(&self) -> Int {
         match &self.0 {
             Small(value) => Int(Small(value.isqrt())),
-            Big(value) => Int::from(value.sqrt()),
+            Big(value) => {
+                // Powers of two, as in long decimals and halves, cost no search.
+                let half = value.trailing_zeros().unwrap_or(0) / 2;
+                let root = (value >> (2 * half)).sqrt();
+                match (&root * &root) << (2 * half) == *value {
+                    true => Int::from(root << half),
+                    false => Int::from(value.sqrt()),
+                }
+            }
         }
     }
 }
