@@ -123,13 +123,12 @@ def main():
     all_rows = rows()
     planted(all_rows, files)
     laid_out(folder, files)
-    tests = {t.partition(":")[0] for row in all_rows for t in row[4].split()} - {"lib"}
-    programs = built(folder, sorted(tests))
-    everything = {t for row in all_rows for t in row[4].split()}
+    first, last = (int(x) for x in (args.only or f"1-{len(all_rows)}").split("-"))
+    everything = {t for row in all_rows[first - 1 : last] for t in row[4].split()}
+    programs = built(folder, sorted({t.partition(":")[0] for t in everything} - {"lib"}))
     for test in sorted(everything):
         if notices(programs, folder, 0, test):
             sys.exit(f"{test} fails without any mutant")
-    first, last = (int(x) for x in (args.only or f"1-{len(all_rows)}").split("-"))
     survivors, killed = [], 0
     for number in range(first, last + 1):
         file, _, expression, mutant, tests, same = all_rows[number - 1]
