@@ -73,7 +73,7 @@ pub(super) fn list(work: &Work<'_>, counting: &Counting, asked: usize) -> Vec<Le
         if !uses(scene, &parameter.name) {
             add(
                 format!("parameter {}", parameter.name),
-                String::from("nothing in the scene depends on it"),
+                String::from("it stands in no equation of the impact"),
             );
         }
     }

@@ -119,6 +119,12 @@ mod tests {
     }
 
     #[test]
+    fn a_formula_without_symbols_has_a_point_whatever_the_relations() {
+        let all = samples(&roles(&[&Expr::one()]), &chain(), 3);
+        assert_eq!(all.len(), 1);
+    }
+
+    #[test]
     fn an_open_relation_excludes_equal_sides() {
         let domains = chain();
         let [open, closed] = domains.relations.as_slice() else {

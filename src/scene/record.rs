@@ -323,6 +323,8 @@ fn meant(word: &str) -> Option<&'static str> {
             "bodies that are one after the impact stick at two points: two contacts with \"law\": \"sticking\""
         }
         "omega" | "angular_velocity" | "rotation" => "an angular velocity is `spin`",
+        "stage" => "the stage a question asks about is `at`",
+        "position" | "place" | "location" => "a body stands at its `center`",
         "momentum" => {
             "\"balance\": \"momentum\" gives an equation, `angular_momentum` with `about` a quantity"
         }

@@ -197,7 +197,7 @@ pub(super) fn ask(
                 .push(fault.hint("\"tends\": \"phi\", \"to\": \"0\""));
             return None;
         };
-        let to = if to.text.trim() == "infinity" {
+        let to = if matches!(to.text.trim(), "infinity" | "inf" | "oo" | "∞") {
             None
         } else {
             Some(read(base, to)?)

@@ -25,7 +25,7 @@ fn scenes() -> BTreeMap<String, Scene> {
 fn every_shipped_scene_is_followed_at_points_of_its_domain() {
     for (file, scene) in scenes() {
         let mut whole = 0;
-        for seed in 0..12 {
+        for seed in 0..40 {
             let at = random_point(&scene, seed);
             let followed = follow(&scene, &at).unwrap_or_else(|u| panic!("{file}: {u}"));
             let mut got_through = true;
@@ -44,7 +44,7 @@ fn every_shipped_scene_is_followed_at_points_of_its_domain() {
                 break;
             }
         }
-        assert!(whole == 3, "{file}: followed at {whole} of 12 points");
+        assert!(whole == 3, "{file}: followed at {whole} of 40 points");
     }
 }
 
