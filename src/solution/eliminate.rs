@@ -1,4 +1,4 @@
-//! The algebra of a block line by line: earlier results put in, unknowns eliminated one after another, values put back.
+//! The algebra of a block line by line: earlier results substituted, unknowns eliminated one after another, values put back.
 
 use super::words::{self, say};
 use super::{Inline, Math, Writer};
@@ -35,9 +35,9 @@ impl Writer<'_> {
             rows.push((coeffs, self.tidy(&rhs)));
         }
         if put_in {
-            self.say("With what was found before put in,");
+            self.say("With the earlier results substituted,");
             for row in rows.clone() {
-                self.row_line(&block.unknowns, &row, "earlier results put in");
+                self.row_line(&block.unknowns, &row, "earlier results substituted");
             }
         }
         if let ([(coeffs, rhs)], [u]) = (rows.as_slice(), block.unknowns.as_slice()) {

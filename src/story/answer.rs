@@ -440,11 +440,11 @@ fn of_case(question: &StoryQuestion, case: &Case, several: bool) -> Vec<Answer> 
             a.text.push(sentence![
                 "derived and checked for any ",
                 name,
-                ", then ",
+                "; then ",
                 name,
                 " = ",
                 value,
-                " put in"
+                " is substituted"
             ]);
         }
         let taken = case

@@ -156,7 +156,7 @@ pub fn essential(e: &Expr, domains: &Domains) -> Expr {
 pub struct Root {
     /// The value.
     pub value: Expr,
-    /// Whether the expression with the value put in is identically zero.
+    /// Whether the expression with the value substituted is identically zero.
     pub proved: bool,
     /// What must hold for it to lie within the domain, where that is not sure.
     pub given: Vec<Sentence>,

@@ -532,7 +532,7 @@ fn kept(scene: &Scene, one_sided: &[OneSided], cases: &[Case]) -> Vec<Kept> {
             Kept {
                 what: "kinetic energy".into(),
                 conserved: true,
-                why: "put in, the loss comes out as 0".into(),
+                why: "the loss comes out as 0".into(),
             }
         } else {
             Kept {

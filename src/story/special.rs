@@ -162,7 +162,7 @@ pub(super) fn put(
                 &format!("its components are {x} and {y}"),
             ),
             None => refused(
-                format!("`{open}` has no single value that could be put in"),
+                format!("`{open}` has no single value that could be substituted"),
                 "name an earlier answer that is a formula",
             ),
         });
@@ -212,12 +212,12 @@ fn one(
             out.checks.push(Check {
                 kind: "identity",
                 words: String::from(
-                    "with the results put in, the difference is zero in the normal form",
+                    "with the results substituted, the difference is zero in the normal form",
                 ),
                 holds: is_zero(&(&raw.substitute(known) - &value), &scene.domains),
             });
             out.put_in
-                .push((raw, value.clone(), "with the results put in"));
+                .push((raw, value.clone(), "with the results substituted"));
             out.formula = Some(value);
             out.text.extend(with_words(with));
             out
@@ -307,7 +307,7 @@ fn one(
                 let raw = gathered(&asked.substitute(known).substitute(&with_known));
                 if let Some((a, b)) = &out.equation {
                     let value = if value == 0 { a } else { b };
-                    let shown = (raw, value.clone(), "with the results put in");
+                    let shown = (raw, value.clone(), "with the results substituted");
                     out.put_in.push(shown);
                 }
             }

@@ -54,7 +54,7 @@ pub(super) fn share(mut out: Answer, given: [&Expr; 3], domains: &Domains) -> Ve
     out.checks.push(Check {
         kind: "identity",
         words: String::from(
-            "put into the equation of motion and its beginning, this motion fulfils them, and its momentum at the end leaves the share",
+            "substituted into the equation of motion, this motion satisfies it and its initial conditions, and its momentum at the end leaves the share",
         ),
         holds,
     });

@@ -77,13 +77,13 @@ pub(super) fn fill(
             let put = BTreeMap::from([(parameter.clone(), root.value.clone())]);
             let sides = (left.substitute(&put), right.substitute(&put));
             out.put_in
-                .push((sides.0, sides.1, "both sides with the value put in"));
+                .push((sides.0, sides.1, "both sides with the value substituted"));
         }
         out.assumptions.extend(root.given.iter().cloned());
         out.checks.push(Check {
             kind: "identity",
             words: if root.proved {
-                String::from("with the value put in, both sides are identical")
+                String::from("with the value substituted, both sides are identical")
             } else {
                 String::from("whether both sides meet at this value was not proved")
             },

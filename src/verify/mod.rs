@@ -150,7 +150,9 @@ fn identity(scene: &Scene, derivation: &Derivation) -> Check {
     match identity_count(scene, derivation) {
         Ok((0, failed)) if failed.is_empty() => Check {
             kind: "identity",
-            words: String::from("nothing is determined, so nothing can be put into the equations"),
+            words: String::from(
+                "nothing is determined, so nothing can be substituted into the equations",
+            ),
             holds: None,
         },
         Ok((held, failed)) if failed.is_empty() => Check {

@@ -60,10 +60,7 @@ pub(super) fn lone(file: &SceneFile) -> Option<SceneFile> {
     for (_, q) in out.questions.iter_mut().flat_map(|m| &mut m.0) {
         let Some(q) = q else { continue };
         let elsewhere = q.at.as_ref().is_some_and(|at| at.text != stage.name.text);
-        if elsewhere
-            || q.angular_momentum.is_some()
-            || question::about_stage(q).iter().any(|(_, asked)| *asked)
-        {
+        if elsewhere || question::about_stage(q).iter().any(|(_, asked)| *asked) {
             return None;
         }
         q.at = None;

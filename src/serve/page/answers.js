@@ -13,6 +13,9 @@ let last = Promise.resolve(null);
 
 export const derived = () => last;
 
+// Words without the marks around names in them.
+const plain = (words) => words.replaceAll("`", "");
+
 export function showAnswers() {
   places = new Map();
   const panel = $("answers");
@@ -87,8 +90,8 @@ function answer(a, set, numbered) {
   // A formula that is a number needs none beside it.
   if (numbered && !/^-?\d+$/.test(a.formula ?? "")) places.set(a.name, number);
   const doubts = a.checks.filter((c) => c.holds !== true);
-  return make("article", { class: "answer" }, make("div", { class: "meaning" }, a.words), line,
-    ...(a.text ?? []).map((t) => make("p", {}, t)), number, ...doubts.map(check));
+  return make("article", { class: "answer" }, make("div", { class: "meaning" }, plain(a.words)), line,
+    ...(a.text ?? []).map((t) => make("p", {}, plain(t))), number, ...doubts.map(check));
 }
 
 function definition(w, set) {
@@ -103,7 +106,7 @@ function conditions(one, set) {
 
 export function check(c) {
   const [mark, kind, word] = { true: ["✓", "held", "holds"], false: ["✗", "failed", "fails"] }[c.holds] ?? ["?", "unsure", "open"];
-  return make("div", { class: `checks ${kind}` }, make("span", { "aria-label": word }, mark), ` ${c.words}`);
+  return make("div", { class: `checks ${kind}` }, make("span", { "aria-label": word }, mark), ` ${plain(c.words)}`);
 }
 
 // How everything is known, folded away.
