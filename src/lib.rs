@@ -36,7 +36,7 @@
 //! # Where trust ends
 //!
 //! Two ways lead from the file to a value, and they meet in [`verify`], [`story`] and [`check`] alone. The first one works with
-//! formulas: [`laws`] writes equations, [`derive`] picks and solves them with [`algebra`]. The second, [`numeric`], sees
+//! formulas: [`laws`] writes equations, [`derive`](mod@derive) picks and solves them with [`algebra`]. The second, [`numeric`], sees
 //! the scene and values of its parameters; it knows no law, no formula of an answer and no table of moments of inertia. A
 //! result counts as proved where the two agree and every law holds as an identity; whatever was not held against
 //! something is marked so. A test keeps the table of who may import whom.
