@@ -442,6 +442,11 @@ fn thresholds(scene: &Scene, table: &Table, forms: &mut Forms) -> Result<Vec<Sto
             question.ask = StoryAsk::Value {
                 formula,
                 with: Vec::new(),
+                meaning: String::from(match event {
+                    FrictionEvent::Sticks => "least coefficient of friction with which it sticks",
+                    FrictionEvent::Slides => "largest coefficient of friction with which it slides",
+                    FrictionEvent::Jams => "least coefficient of friction with which it jams",
+                }),
             };
         }
     }

@@ -229,7 +229,8 @@ pub fn answers(scene: &Scene, answers: &[Answer]) -> String {
             (Some(value), _) => line(format!("   {} = {value}", a.name)),
             (None, _) => line(format!("   {}:", a.name)),
         }
-        if let Some(value) = a.formula.as_ref().and_then(|e| super::value(scene, e)) {
+        let formula = a.formula.as_ref().filter(|e| !e.is_zero());
+        if let Some(value) = formula.and_then(|e| super::value(scene, e)) {
             let number = super::digits(value.approximate);
             line(format!("      ≈ {}", a.dimension.measured(&number)));
         }

@@ -166,6 +166,7 @@ pub(super) fn ask(
         return Some(StoryAsk::Value {
             formula: read(base, f)?,
             with: with(base, symbols, q.with.as_ref())?,
+            meaning: String::new(),
         });
     }
     if let Some(of) = &q.maximum {

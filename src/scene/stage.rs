@@ -413,6 +413,8 @@ pub enum StoryAsk {
         formula: Expr,
         /// Parameters and what stands for them.
         with: Vec<(Symbol, Expr)>,
+        /// What it is, such as the speed of a body; empty for a formula that a scene writes itself.
+        meaning: String,
     },
     /// The coefficient of friction from which a contact sticks or jams, or up to which it slides.
     Friction {

@@ -49,6 +49,7 @@ pub(super) fn resolve(
     };
     let is_start = q.when == Some(EndName::Start);
     let latex = q.latex.as_ref().map(|t| t.text.as_str());
+    let meaning = meaning(q);
     let push = |scene: &mut Scene, suffix: &str, formula: Expr| {
         scene.special.push(StoryQuestion {
             name: format!("{}{suffix}", name.text),
@@ -60,6 +61,10 @@ pub(super) fn resolve(
             ask: StoryAsk::Value {
                 formula,
                 with: Vec::new(),
+                meaning: match suffix {
+                    "" => meaning.clone(),
+                    axis => format!("{meaning}, {}", &axis[1..]),
+                },
             },
         });
     };
@@ -138,6 +143,34 @@ pub(super) fn resolve(
         }
     }
     Some(())
+}
+
+/// What one of these is, in words.
+pub(super) fn meaning(q: &QuestionFile) -> String {
+    let of = [
+        ("speed", &q.speed),
+        ("moment of inertia", &q.inertia),
+        ("instantaneous center", &q.instantaneous_center),
+        ("angular momentum", &q.angular_momentum),
+        ("velocity", &q.velocity),
+        ("angular velocity", &q.spin),
+    ];
+    let asked = of
+        .iter()
+        .find_map(|(what, body)| Some((*what, body.as_ref()?)));
+    let Some((what, body)) = asked else {
+        return String::new();
+    };
+    let when = match (what, q.when) {
+        ("moment of inertia", _) => "",
+        (_, Some(EndName::Start)) => " just before",
+        _ => " just after",
+    };
+    match &q.of {
+        // A velocity names the point, and `of` its body.
+        Some(of) => format!("{what} of {} of `{}`{when}", body.text, of.text),
+        None => format!("{what} of `{}`{when}", body.text),
+    }
 }
 
 /// The moment of inertia of a body about a point of it (Huygens and Steiner).

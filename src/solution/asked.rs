@@ -109,7 +109,10 @@ fn heading(scene: &Scene, ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
         ])
     };
     match ask {
-        StoryAsk::Value { formula, with } => {
+        StoryAsk::Value { meaning, .. } if !meaning.is_empty() => {
+            vec![say(words::capital(&called(scene, meaning)))]
+        }
+        StoryAsk::Value { formula, with, .. } => {
             let mut out = vec![math(formula)];
             for (i, (name, value)) in with.iter().enumerate() {
                 out.push(say(if i == 0 { " at " } else { " and " }));

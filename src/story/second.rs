@@ -395,7 +395,7 @@ impl Second<'_> {
         followed: &Followed,
     ) -> Option<f64> {
         match &question.ask {
-            StoryAsk::Value { formula, with } => {
+            StoryAsk::Value { formula, with, .. } => {
                 let mut moved = point.clone();
                 for (name, value) in with {
                     let value = value.evaluate(point)?;
@@ -429,7 +429,7 @@ impl Second<'_> {
         let mut out = point.clone();
         for question in &self.story.questions {
             let value = match &question.ask {
-                StoryAsk::Value { formula, with } if with.is_empty() => formula.evaluate(&out),
+                StoryAsk::Value { formula, with, .. } if with.is_empty() => formula.evaluate(&out),
                 _ => None,
             };
             let mut put = |name: String, value: f64| {

@@ -193,13 +193,17 @@ fn one(
     let domains = &scene.domains;
     let put = |e: &Expr, with: &[(Symbol, Expr)]| put(scene, &name, known, e, with);
     let out = match &question.ask {
-        StoryAsk::Value { formula, with } => {
+        StoryAsk::Value {
+            formula,
+            with,
+            meaning,
+        } => {
             let formula = of.unwrap_or(formula);
-            let mut out = blank(
-                question,
-                &name,
-                format!("value of {}", write_plain(formula)),
-            );
+            let words = match meaning.as_str() {
+                "" => format!("value of {}", write_plain(formula)),
+                meaning => meaning.to_string(),
+            };
+            let mut out = blank(question, &name, words);
             let value = put(formula, with)?;
             put_in_fits(scene, known, with, &name)?;
             out.dimension = match stated_dimension(scene, known, formula, &name)? {
@@ -345,6 +349,9 @@ fn gathered(e: &Expr) -> Expr {
             Some((_, k)) => *k = &*k + &exponent,
             None => bases.push((base, exponent)),
         }
+    }
+    if bases.iter().any(|(base, _)| base.is_zero()) {
+        return Expr::zero();
     }
     Expr::product(bases.into_iter().map(|(base, k)| base.power(k)))
 }

@@ -47,6 +47,7 @@ pub(super) fn read(
                 Some(_) => told::inertia(base, scene, name, q).map(|formula| StoryAsk::Value {
                     formula,
                     with: Vec::new(),
+                    meaning: told::meaning(q),
                 }),
                 None => story_ask(base, symbols, stages, name, q),
             }),
