@@ -474,45 +474,31 @@ fn by_struct(case: &Case, language: Language) -> (String, String) {
             .map(|a| format!("{:?}", value(&a.symbol)));
         format!("c_{}({})", f.name, list.collect::<Vec<_>>().join(", "))
     });
-    let calls: Vec<String> = calls.collect();
     let list = |of: &dyn Fn(&str, f64) -> String| {
         let each = given.iter().map(|(name, v)| of(name, *v));
         each.collect::<Vec<_>>().join(", ")
     };
-    let names = case.functions.iter().map(|f| f.name.as_str());
+    let fields = case.functions.iter().map(|f| format!("out.{}", f.name));
+    let printed: String = fields
+        .chain(calls)
+        .map(|value| match language {
+            Language::Rust => format!("    println!(\"{{:?}}\", {value});\n"),
+            Language::C => format!("    printf(\"%.17g\\n\", {value});\n"),
+            Language::Python => format!("print(repr({value}))\n"),
+        })
+        .collect();
     let program = match language {
         Language::Rust => format!(
-            "{text}\nfn main() {{\n    let out = c_solve(&CIn {{ {} }});\n{}{}}}\n",
+            "{text}\nfn main() {{\n    let out = c_solve(&CIn {{ {} }});\n{printed}}}\n",
             list(&|name, v| format!("{name}: {v:?}")),
-            names
-                .map(|n| format!("    println!(\"{{:?}}\", out.{n});\n"))
-                .collect::<String>(),
-            calls
-                .iter()
-                .map(|c| format!("    println!(\"{{:?}}\", {c});\n"))
-                .collect::<String>(),
         ),
         Language::C => format!(
-            "#include <stdio.h>\nint main(void) {{\n    const c_in given = {{ {} }};\n    const c_out out = c_solve(&given);\n{}{}    return 0;\n}}\n",
+            "#include <stdio.h>\nint main(void) {{\n    const c_in given = {{ {} }};\n    const c_out out = c_solve(&given);\n{printed}    return 0;\n}}\n",
             list(&|name, v| format!(".{name} = {v:?}")),
-            names
-                .map(|n| format!("    printf(\"%.17g\\n\", out.{n});\n"))
-                .collect::<String>(),
-            calls
-                .iter()
-                .map(|c| format!("    printf(\"%.17g\\n\", {c});\n"))
-                .collect::<String>(),
         ),
         Language::Python => format!(
-            "{text}\n\nout = c_solve(CIn({}))\n{}{}",
+            "{text}\n\nout = c_solve(CIn({}))\n{printed}",
             list(&|name, v| format!("{name}={v:?}")),
-            names
-                .map(|n| format!("print(repr(out.{n}))\n"))
-                .collect::<String>(),
-            calls
-                .iter()
-                .map(|c| format!("print(repr({c}))\n"))
-                .collect::<String>(),
         ),
     };
     (text, program)
