@@ -67,34 +67,38 @@ impl Dimension {
 
     /// Dimension of a product.
     pub fn times(&self, other: &Dimension) -> Dimension {
+        let added = |a: &Rational, b: &Rational| match (a.is_zero(), b.is_zero()) {
+            (_, true) => a.clone(),
+            (true, _) => b.clone(),
+            _ => a + b,
+        };
         Dimension {
-            mass: &self.mass + &other.mass,
-            length: &self.length + &other.length,
-            time: &self.time + &other.time,
-            current: &self.current + &other.current,
-            temperature: &self.temperature + &other.temperature,
+            mass: added(&self.mass, &other.mass),
+            length: added(&self.length, &other.length),
+            time: added(&self.time, &other.time),
+            current: added(&self.current, &other.current),
+            temperature: added(&self.temperature, &other.temperature),
         }
     }
 
     /// Dimension of a quotient.
     pub fn over(&self, other: &Dimension) -> Dimension {
-        Dimension {
-            mass: &self.mass - &other.mass,
-            length: &self.length - &other.length,
-            time: &self.time - &other.time,
-            current: &self.current - &other.current,
-            temperature: &self.temperature - &other.temperature,
-        }
+        self.times(&other.power(&-Rational::one()))
     }
 
     /// Dimension of a power.
     pub fn power(&self, exponent: &Rational) -> Dimension {
+        // Most exponents are zero.
+        let times = |a: &Rational| match a.is_zero() {
+            true => a.clone(),
+            false => a * exponent,
+        };
         Dimension {
-            mass: &self.mass * exponent,
-            length: &self.length * exponent,
-            time: &self.time * exponent,
-            current: &self.current * exponent,
-            temperature: &self.temperature * exponent,
+            mass: times(&self.mass),
+            length: times(&self.length),
+            time: times(&self.time),
+            current: times(&self.current),
+            temperature: times(&self.temperature),
         }
     }
 

@@ -49,6 +49,9 @@ impl Unit {
     }
 
     fn times(&self, other: &Unit, power: i64) -> Unit {
+        if *self == Unit::number() && power == 1 {
+            return other.clone();
+        }
         let k = ratio(power, 1);
         Unit {
             dimension: self.dimension.times(&other.dimension.power(&k)),
@@ -286,6 +289,9 @@ fn fault(message: String, start: usize, end: usize) -> UnitFault {
 }
 
 fn raise(value: &Rational, power: i64) -> Rational {
+    if value.is_one() {
+        return value.clone();
+    }
     let k = power.unsigned_abs().min(HIGHEST as u64) as u32;
     let up = Rational::new(value.numer().pow(k), value.denom().pow(k));
     if power < 0 { up.recip() } else { up }
