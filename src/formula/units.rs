@@ -51,12 +51,18 @@ impl Lexer<'_> {
     /// A unit that fills the rest of this side, where one can stand.
     pub(super) fn unit(&mut self, marked: bool) -> Option<Tok> {
         let start = self.pos;
-        if !marked && !starts_like_a_unit(&self.text[start..]) {
-            return None;
+        // Units win only where nothing is declared of their letters; looking is cheaper than reading them.
+        if !marked {
+            let word = first_word(&self.text[start..])?;
+            let side = self.rest_of_side()?;
+            let free = |text| self.units_first || self.is_free(text);
+            let bare = side.contains('\\') || free(side);
+            if !free(word) || !bare || dimension::unit(word).is_err() {
+                return None;
+            }
         }
         let side = self.rest_of_side()?;
         let plain = plain_unit(side);
-        // Units win only where nothing is declared of their letters; looking is cheaper than reading them.
         if !marked && !self.units_first && !plain.as_deref().is_some_and(|p| self.is_free(p)) {
             return None;
         }
@@ -134,7 +140,7 @@ impl Lexer<'_> {
 /// The runs of letters in a unit.
 fn words(plain: &str) -> impl Iterator<Item = &str> {
     let words = plain.split(|c: char| !c.is_ascii_alphabetic());
-    words.filter(|w| !w.is_empty())
+    words.filter(|w| !matches!(*w, "" | "per"))
 }
 
 /// Whether a letter is a symbol rather than a unit where nothing is declared: 2.5 V is two and a half volumes as well.
@@ -241,12 +247,12 @@ fn end_of_unit(side: &str) -> Option<usize> {
     None
 }
 
-/// Whether the text starts with a word that is a unit, so that trying is worth it.
-fn starts_like_a_unit(side: &str) -> bool {
+/// The word at the start of a text, where it is short enough for a unit.
+fn first_word(text: &str) -> Option<&str> {
     let letter = |c: &char| c.is_ascii_alphabetic() || matches!(c, 'µ' | 'μ' | 'Ω' | '\u{2126}');
-    let word = side.chars().take(12).take_while(letter);
+    let word = text.chars().take(12).take_while(letter);
     let length = word.map(char::len_utf8).sum();
-    (1..16).contains(&length) && dimension::unit(&side[..length]).is_ok()
+    (1..16).contains(&length).then(|| &text[..length])
 }
 
 /// Stands for `\frac` until its groups are found.
