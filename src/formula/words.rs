@@ -24,10 +24,6 @@ impl Lexer<'_> {
             };
             return self.resolve(start, start + 1, parts);
         }
-        if let Some(name) = self.bare_letter(start) {
-            self.pos = start + 1;
-            return Ok(Tok::Name(name));
-        }
         // A longer run is read in pieces.
         let run = rest
             .bytes()
@@ -56,6 +52,10 @@ impl Lexer<'_> {
             if let Some(tok) = self.unit(false) {
                 return Ok(tok);
             }
+        }
+        if let Some((name, end)) = self.bare_name(start) {
+            self.pos = end;
+            return Ok(Tok::Name(name));
         }
         if let Some(tok) = self.spelled_out(start) {
             return Ok(tok);
@@ -125,25 +125,48 @@ impl Lexer<'_> {
         self.unknown_word(start, run)
     }
 
-    /// A known name of one letter with nothing behind it that could belong to the name: most names are.
-    fn bare_letter(&self, start: usize) -> Option<Symbol> {
-        let rest = &self.text[start + 1..];
+    /// A name of one letter, or a letter with digits, with nothing behind it that could belong to the name, and the byte after
+    /// it: most names are such.
+    fn bare_name(&mut self, start: usize) -> Option<(Symbol, usize)> {
+        let digits = self.text[start + 1..].bytes().take(9);
+        let end = start + 1 + digits.take_while(u8::is_ascii_digit).count();
+        let rest = &self.text[end..];
+        let closes = |text: &str| {
+            let next = text.trim_start_matches(' ').bytes().next();
+            next.is_none_or(|b| b"+-*/)}=".contains(&b))
+        };
+        let indexed = |text: &str| text.trim_start_matches(' ').starts_with('_');
+        // A d could be that of a derivative.
+        let free = |text: &str| match self.text[start..].starts_with('d') {
+            true => closes(text),
+            false => !indexed(text),
+        };
         let ends = match rest.bytes().next() {
-            None | Some(b'+' | b'-' | b'*' | b'/' | b')' | b'}' | b'=') => true,
-            Some(b' ') => !rest.trim_start_matches(' ').starts_with('_'),
-            _ => false,
+            Some(b' ') => free(rest),
+            Some(b'^') => {
+                let power = rest[1..].strip_prefix(|c: char| c.is_ascii_digit());
+                power.is_some_and(free)
+            }
+            _ => closes(rest),
         };
         let inside = start > 0 && self.text.as_bytes()[start - 1].is_ascii_alphabetic();
-        let letter = &self.text[start..=start];
-        // A d could be that of a derivative, and what stands behind a number a unit.
-        if !ends || inside || letter == "d" || self.before != Before::Nothing {
+        if !ends || inside {
             return None;
         }
-        let known = || self.found.iter().find(|name| ***name == *letter);
-        match self.symbols.find(letter) {
-            Some(declared) => Some(declared.name.clone()),
-            None => known().cloned(),
+        let name = &self.text[start..end];
+        if let Some(declared) = self.symbols.find(name) {
+            return Some((declared.name.clone(), end));
         }
+        if let Some(found) = self.found.iter().find(|found| ***found == *name) {
+            return Some((found.clone(), end));
+        }
+        // With names declared it could be another spelling of one.
+        let new = self.symbols.is_open() && self.symbols.declared().is_empty();
+        if !new || self.found.len() >= MAX_NAMES {
+            return None;
+        }
+        self.found.push(Symbol::from(name));
+        self.found.last().map(|found| (found.clone(), end))
     }
 
     /// A logarithm to the base behind it: `log_10 x`, `\log_{2}(x)`, `log10(x)`; without one it is the natural one.
