@@ -107,7 +107,11 @@ impl Function {
 
 impl Expr {
     fn new(node: Node) -> Expr {
-        let hash = FxBuildHasher.hash_one(&node);
+        let hash = match &node {
+            // A fraction by itself hashes by Euclid's algorithm; this one is in lowest terms.
+            Node::Number(value) => FxBuildHasher.hash_one((value.numer(), value.denom())),
+            other => FxBuildHasher.hash_one(other),
+        };
         Expr(Arc::new(Tree { hash, node }))
     }
 
@@ -358,6 +362,17 @@ impl Expr {
         names
     }
 
+    /// Whether no symbol but `pi` occurs.
+    pub fn is_constant(&self) -> bool {
+        match self.node() {
+            Node::Number(_) => true,
+            Node::Symbol(name) => &**name == "pi",
+            Node::Sum(parts) | Node::Product(parts) => parts.iter().all(Expr::is_constant),
+            Node::Power(base, exponent) => base.is_constant() && exponent.is_constant(),
+            Node::Call(_, argument) => argument.is_constant(),
+        }
+    }
+
     /// Number of nodes; the measure of length that limits and tie-breaks use.
     pub fn size(&self) -> usize {
         let mut count = 0;
@@ -484,6 +499,12 @@ impl From<i32> for Expr {
 impl From<i64> for Expr {
     fn from(value: i64) -> Expr {
         Expr::from(ratio(value, 1))
+    }
+}
+
+impl From<Symbol> for Expr {
+    fn from(name: Symbol) -> Expr {
+        Expr::new(Node::Symbol(name))
     }
 }
 

@@ -40,7 +40,7 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
                 let along = |axis: &str| Expr::symbol(&format!("{name}_{axis}"));
                 Ok(Value::Vector([along("x"), along("y"), along("z")]))
             }
-            name => scalar(Expr::symbol(name)),
+            _ => scalar(Expr::from(name.clone())),
         },
         Shape::Sum(terms) => sum(w, terms, mode),
         Shape::Product(factors) => product(w, factors, mode),

@@ -174,7 +174,7 @@ impl Reading {
     /// The names that occur.
     pub fn symbols(&self) -> BTreeSet<Symbol> {
         let mut names = BTreeSet::new();
-        self.content.each(&mut |e| names.extend(e.symbols()));
+        self.content.each(&mut |e| names.append(&mut e.symbols()));
         names
     }
 }
@@ -207,11 +207,14 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
 
 /// `x = 3 or x = -3` and `2, -2` as one pair of values.
 fn two_values(text: &str, symbols: &Symbols) -> Option<Reading> {
-    if text.len() > MAX_BYTES || symbols.find("or").is_some() || symbols.find("and").is_some() {
+    if text.len() > MAX_BYTES {
         return None;
     }
     let (start, stop) = boxed(text).ok()?;
     let (end, next) = prose::alternatives(&text[start..stop])?;
+    if symbols.find("or").is_some() || symbols.find("and").is_some() {
+        return None;
+    }
     let part = |from: usize, to: usize| {
         let strict = read_inner(&text[..to], from, symbols, false, 0);
         let worded = |r: &Reading| r.notes.iter().any(|n| n.remark == Remark::Letters);
@@ -396,11 +399,11 @@ fn content(
             return Err(Fault::new("a pair of vectors is not read", start, end));
         }
         Value::Vector(v) => {
-            let constant = v.iter().all(|c| c.symbols().is_empty());
+            let constant = v.iter().all(|c| c.is_constant());
             (Content::Vector(v), constant)
         }
         Value::Scalar(e) => {
-            let constant = e.symbols().is_empty();
+            let constant = e.is_constant();
             match pair {
                 true => {
                     let lower = convert::one(&side.written, mode(false))?;
@@ -471,7 +474,8 @@ fn has_both_signs(w: &Written) -> bool {
 /// Start and end of the inside of the last `\boxed{}`; without one of the whole text.
 fn boxed(text: &str) -> Faulty<(usize, usize)> {
     const OPEN: &str = "\\boxed";
-    let Some(at) = text.rfind(OPEN) else {
+    let command = text.contains('\\').then(|| text.rfind(OPEN));
+    let Some(at) = command.flatten() else {
         return Ok((0, text.len()));
     };
     let behind = &text[at + OPEN.len()..];

@@ -124,7 +124,7 @@ pub(super) fn is_quantity(key: &Key, text: &str) -> bool {
         matches!(reading.content.answer(), Content::Quantity(_)) || {
             let mut none = true;
             let answer = reading.content.answer();
-            answer.each(&mut |e: &Expr| none &= e.symbols().is_empty());
+            answer.each(&mut |e: &Expr| none &= e.is_constant());
             none && !matches!(answer, Content::Relations(..))
         }
     })

@@ -389,7 +389,7 @@ impl<'a> Desk<'a> {
             let gap = pair[0].expr().zip(pair[1].expr()).map(|(a, b)| a - b);
             gap.is_some_and(|gap| self.all_zero(&[gap], &BTreeMap::new()) == Some(true))
         });
-        let constant = exact.symbols().is_empty() && number.symbols().is_empty();
+        let constant = exact.is_constant() && number.is_constant();
         constant && linked && super::number::within(number, &exact, &digits) == Some(true)
     }
 

@@ -18,7 +18,7 @@ pub(super) fn behind(key: &Key, reading: &Reading, finding: &mut Finding) {
     let mut constant = true;
     let mut zero = true;
     content.each(&mut |e: &Expr| {
-        constant &= e.symbols().is_empty();
+        constant &= e.is_constant();
         zero &= e.is_zero();
     });
     let asked = asked(key);
@@ -74,7 +74,7 @@ fn asked(key: &Key) -> Option<Dimension> {
     };
     let mut found = None;
     key.reading.content.answer().each(&mut |e: &Expr| {
-        if found.is_none() && !e.is_zero() && !e.symbols().is_empty() {
+        if found.is_none() && !e.is_zero() && !e.is_constant() {
             found = dimension::of(e, &known).ok().flatten();
         }
     });
@@ -154,7 +154,7 @@ pub(super) fn without(ctx: &Context, expected: &Quantity, answer: &Expr) -> Find
         return scalars(ctx, &expected.value, answer);
     }
     // A formula in symbols carries its unit with them.
-    if !answer.symbols().is_empty() {
+    if !answer.is_constant() {
         return scalars(ctx, &expected.value, answer);
     }
     if answer.is_zero() && expected.value.is_zero() {

@@ -221,7 +221,7 @@ fn tolerant(
     answer: &Expr,
     tolerance: &Tolerance,
 ) -> Option<Finding> {
-    let constant = expected.symbols().is_empty() && answer.symbols().is_empty();
+    let constant = expected.is_constant() && answer.is_constant();
     let inside = if constant {
         number::within(answer, expected, tolerance)?
     } else {
@@ -279,7 +279,7 @@ pub(crate) fn quotient(a: &Expr, b: &Expr, ctx: &Context) -> Option<Expr> {
         return None;
     }
     let q = field.expr(&q);
-    q.symbols().is_empty().then_some(q)
+    q.is_constant().then_some(q)
 }
 
 /// Whether two constants are plainly equal.
