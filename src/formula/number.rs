@@ -96,7 +96,6 @@ pub(crate) fn literal(
             .map_err(|_| Fault::new("this is no number", at, end))?
     };
     let place = power - fraction.len() as i64;
-    let scale = ten_to(place);
     let zeros = text[at..end]
         .bytes()
         .take_while(|b| matches!(b, b'0' | b'.'))
@@ -104,7 +103,10 @@ pub(crate) fn literal(
         .count();
     let significant = digits.saturating_sub(zeros).max(usize::from(digits > 0));
     let found = Literal {
-        value: Rational::from(value) * scale,
+        value: match place {
+            0 => Rational::from(value),
+            _ => Rational::from(value) * ten_to(place),
+        },
         digits: significant as u32,
         place: place as i32,
         decimal: decimal || scientific,
@@ -144,8 +146,9 @@ pub(crate) fn grouped(text: &str, at: usize) -> Option<Faulty<(Literal, usize)>>
     if !(1..=3).contains(&first) {
         return None;
     }
-    let mut plain = text[at..at + first].to_string();
     let mut end = at + first;
+    SPACES.iter().find(|s| text[end..].starts_with(**s))?;
+    let mut plain = text[at..end].to_string();
     while let Some(space) = SPACES.iter().find(|s| text[end..].starts_with(**s)) {
         let from = end + space.len();
         if digits(from) != 3 {

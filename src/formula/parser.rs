@@ -191,23 +191,19 @@ impl<'a> Parser<'a> {
 
     fn sum_here(&mut self) -> Faulty<Written> {
         let start = self.peek()?.start;
-        let mut terms: Vec<(Sign, Written)> = Vec::new();
-        let mut sign = self.sign()?;
-        let signed = sign.is_some();
-        loop {
+        let first = self.sign()?;
+        let term = self.term()?;
+        let term = self.measured(term)?;
+        let mut sign = self.signs()?;
+        if sign.is_none() && matches!(first, None | Some(Sign::Plus)) {
+            return Ok(term);
+        }
+        let mut terms = vec![(first.unwrap_or(Sign::Plus), term)];
+        while let Some(next) = sign {
             let term = self.term()?;
             let term = self.measured(term)?;
-            terms.push((sign.unwrap_or(Sign::Plus), term));
+            terms.push((next, term));
             sign = self.signs()?;
-            if sign.is_none() {
-                break;
-            }
-        }
-        if terms.len() == 1
-            && !(signed && terms[0].0 != Sign::Plus)
-            && let Some((_, term)) = terms.pop()
-        {
-            return Ok(term);
         }
         let end = terms.last().map_or(start, |(_, t)| t.end);
         Ok(Written::new(Shape::Sum(terms), start, end))

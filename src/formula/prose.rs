@@ -73,21 +73,24 @@ pub(super) fn conclusion(text: &str) -> Option<usize> {
         "answer",
         "it follows that",
     ];
-    let mark = |b: u8| !b.is_ascii() || matches!(b, b'\\' | b'=' | b',' | b':');
-    if !text.bytes().any(mark) {
+    // Nearly all texts hold no arrow: its first byte would be there.
+    let arrow = match text.bytes().any(|b| matches!(b, b'\\' | 0xe2)) {
+        true => ARROWS
+            .iter()
+            .filter_map(|arrow| text.rfind(arrow).map(|at| at + arrow.len()))
+            .max()
+            .filter(|at| !text[*at..].trim().is_empty()),
+        false => None,
+    };
+    if arrow.is_none() && !text.contains([',', ':', '=']) {
         return None;
     }
-    let arrow = ARROWS
-        .iter()
-        .filter_map(|arrow| text.rfind(arrow).map(|at| at + arrow.len()))
-        .max()
-        .filter(|at| !text[*at..].trim().is_empty());
     let from = arrow.unwrap_or(0);
     let rest = text[from..].trim_start();
     let start = text.len() - rest.len();
-    let lower = rest.to_ascii_lowercase();
     let word = WORDS.iter().find_map(|word| {
-        let behind = lower.strip_prefix(word)?;
+        let (said, behind) = rest.split_at_checked(word.len())?;
+        said.eq_ignore_ascii_case(word).then_some(())?;
         let mark = behind.starts_with([',', ':']);
         let gap = mark || (behind.starts_with(' ') && *word != "so" && *word != "then");
         (gap && behind.contains('=') || mark).then_some(word.len() + usize::from(mark))
@@ -101,6 +104,9 @@ pub(super) fn conclusion(text: &str) -> Option<usize> {
 
 /// Start and end of the only formula in a sentence; nothing where there are none or several, or no words around it.
 pub(super) fn formula_in_words(text: &str) -> Option<(usize, usize)> {
+    if !text.contains(['$', '\\']) {
+        return None;
+    }
     let (from, to, start, end) = [("$$", "$$"), ("$", "$"), ("\\(", "\\)"), ("\\[", "\\]")]
         .into_iter()
         .find_map(|(open, close)| {

@@ -215,7 +215,11 @@ pub(crate) fn parts_of(name: &str) -> Parts {
 }
 
 fn key_of(name: &str) -> String {
-    parts_of(name).key()
+    // Letters, then digits, are their own key.
+    match name.contains(['_', '\'', '^', '{', '}']) {
+        true => parts_of(name).key(),
+        false => name.to_string(),
+    }
 }
 
 /// Other spellings of a base, tried when the written one is not declared.
@@ -376,10 +380,9 @@ pub(crate) fn greek_letter(name: &str) -> Option<char> {
 pub(crate) fn is_angle_name(name: &str) -> bool {
     let base = name.find(['_', '\'', '^']).map_or(name, |end| &name[..end]);
     let base = base.trim_end_matches(|c: char| c.is_ascii_digit());
-    let accented = ACCENTS
-        .iter()
-        .any(|accent| name[base.len()..].starts_with(&format!("_{accent}")));
-    !accented
+    let index = name[base.len()..].strip_prefix('_');
+    let accented = |index: &str| ACCENTS.iter().any(|accent| index.starts_with(accent));
+    !index.is_some_and(accented)
         && matches!(
             base,
             "alpha"
