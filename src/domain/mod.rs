@@ -216,6 +216,7 @@ impl Domain {
         };
         let sign = |l: &Limit| if l.open { "<" } else { "≤" };
         match (&self.low, &self.high) {
+            _ if *self == Domain::positive() => [symbol, " > 0"].concat(),
             (None, None) => format!("{symbol} is real"),
             (Some(l), None) => format!("{symbol} {} {}", if l.open { ">" } else { "≥" }, end(l)),
             (None, Some(h)) => format!("{symbol} {} {}", sign(h), end(h)),

@@ -79,16 +79,13 @@ fn divide(factors: &[Expr], q: &mut Quotient) {
         match factor.node() {
             Node::Number(value) => {
                 q.negative ^= value.is_negative();
-                let size = value.abs();
-                let (n, d) = (
-                    Rational::from(size.numer().clone()),
-                    Rational::from(size.denom().clone()),
-                );
+                let n = value.numer().abs();
                 if !n.is_one() {
-                    q.above.push(Expr::from(n));
+                    q.above.push(Expr::from(Rational::from(n)));
                 }
-                if !d.is_one() {
-                    q.below.push(Expr::from(d));
+                if !value.is_integer() {
+                    q.below
+                        .push(Expr::from(Rational::from(value.denom().clone())));
                 }
             }
             Node::Power(base, exponent) => match exponent.as_number() {
@@ -216,7 +213,7 @@ impl Writer<'_> {
     fn factor(&mut self, e: &Expr) {
         match e.node() {
             Node::Number(value) if value.is_integer() && !value.is_negative() => {
-                self.out.push_str(&value.to_string())
+                self.out.push_str(&value.numer().to_string())
             }
             Node::Number(_) | Node::Sum(_) | Node::Product(_) => self.bracketed(e),
             Node::Symbol(name) => self.name(name),
@@ -282,7 +279,7 @@ impl Writer<'_> {
             }
             (_, Some(k)) => {
                 self.out.push('^');
-                self.out.push_str(&k.to_string());
+                self.out.push_str(&k.numer().to_string());
             }
             _ if exponent
                 .as_symbol()
@@ -373,6 +370,10 @@ impl Writer<'_> {
     }
 
     fn name(&mut self, name: &str) {
+        // Letters and digits are plain as they are; most names are.
+        if self.style == Style::Plain && name.bytes().all(|b| b.is_ascii_alphanumeric()) {
+            return self.out.push_str(name);
+        }
         let special = (self.names)(name);
         let text = match (self.style, special) {
             (Style::Plain, _) => plain_name(name),
