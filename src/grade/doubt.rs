@@ -7,14 +7,22 @@ use crate::formula::{self, Content, Fault, Note, Reading, Remark};
 
 /// `cosθ^2`, read as the cosine of a square, would be right as the square of the cosine.
 pub(super) fn power_of_function(content: &Content) -> Option<Content> {
-    fn lift(e: &Expr) -> Expr {
+    fn lifted(e: &Expr) -> Option<Expr> {
         if let Node::Call(f, x) = e.node()
             && let Node::Power(base, k) = x.node()
             && k.as_number().is_some_and(|k| k.is_integer())
         {
-            return Expr::call(*f, base.clone()).power(k.clone());
+            return Some(Expr::call(*f, base.clone()).power(k.clone()));
         }
-        e.map_parts(lift)
+        None
+    }
+    fn lift(e: &Expr) -> Expr {
+        lifted(e).unwrap_or_else(|| e.map_parts(lift))
+    }
+    let mut occurs = false;
+    content.each(&mut |e| e.walk(&mut |part| occurs |= lifted(part).is_some()));
+    if !occurs {
+        return None;
     }
     let changed = match content {
         Content::Scalar(e) => Content::Scalar(lift(e)),

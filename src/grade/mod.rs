@@ -268,11 +268,12 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     doubt::slashes(key, answer, options, &mut reading, &mut finding);
     unit::behind(key, &reading, &mut finding);
     let settled = finding.note == "EQUIV_READING";
-    let open_to_doubt = !settled
+    let open_to_doubt = options.strength == Strength::Identity
+        && !settled
         && (reading.choices > u32::from(reading.slashes)
             || doubt::power_of_function(&reading.content).is_some());
     doubt::euler(key, &reading, options, &mut finding);
-    if options.strength == Strength::Identity && open_to_doubt {
+    if open_to_doubt {
         doubt::ambiguity(key, answer, options, &reading, &mut finding);
     }
     if finding.verdict == Verdict::Equivalent
