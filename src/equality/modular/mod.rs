@@ -107,7 +107,7 @@ struct Place<'a> {
     name: &'a Symbol,
     /// What is known of its sign; nothing of a symbol that is known by its direction only.
     sign: Sign,
-    /// Whether it is an angle in the first quadrant.
+    /// Whether it occurs as an angle, and lies in the first quadrant.
     acute: bool,
     /// Real points are taken from here.
     range: [f64; 2],
@@ -144,7 +144,7 @@ fn place<'a>(name: &'a Symbol, role: &Role, domains: &'a Domains) -> Option<Plac
     Some(Place {
         name,
         sign,
-        acute: *domain == Domain::first_quadrant(),
+        acute: role.turns && *domain == Domain::first_quadrant(),
         range,
         divisor: role.divisor,
         unit: pair.map(|pair| (&pair[0], pair[1] == *name)),
