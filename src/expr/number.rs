@@ -23,7 +23,8 @@ pub struct Int(Repr);
 #[derive(Clone, PartialEq, Eq, Hash)]
 enum Repr {
     Small(i64),
-    Big(BigInt),
+    /// Behind a pointer: large numbers are rare, and every fraction of small ones is half as long.
+    Big(Box<BigInt>),
 }
 use Repr::{Big, Small};
 
@@ -40,7 +41,7 @@ impl Int {
     pub fn to_bigint(&self) -> BigInt {
         match &self.0 {
             Small(value) => BigInt::from(*value),
-            Big(value) => value.clone(),
+            Big(value) => (**value).clone(),
         }
     }
 
@@ -70,8 +71,8 @@ impl Int {
             Big(value) => {
                 // Powers of two, as in long decimals and halves, cost no search.
                 let half = value.trailing_zeros().unwrap_or(0) / 2;
-                let root = (value >> (2 * half)).sqrt();
-                match (&root * &root) << (2 * half) == *value {
+                let root = (&**value >> (2 * half)).sqrt();
+                match (&root * &root) << (2 * half) == **value {
                     true => Int::from(root << half),
                     false => Int::from(value.sqrt()),
                 }
@@ -96,7 +97,7 @@ impl From<i128> for Int {
     fn from(value: i128) -> Int {
         match i64::try_from(value) {
             Ok(small) => Int(Small(small)),
-            Err(_) => Int(Big(BigInt::from(value))),
+            Err(_) => Int(Big(Box::new(BigInt::from(value)))),
         }
     }
 }
@@ -105,7 +106,7 @@ impl From<BigInt> for Int {
     fn from(value: BigInt) -> Int {
         match value.to_i64() {
             Some(small) => Int(Small(small)),
-            None => Int(Big(value)),
+            None => Int(Big(Box::new(value))),
         }
     }
 }
@@ -158,7 +159,7 @@ impl Neg for Int {
     fn neg(self) -> Int {
         match self.0 {
             Small(value) => Int::from(-i128::from(value)),
-            Big(value) => Int::from(-value),
+            Big(value) => Int::from(-*value),
         }
     }
 }
