@@ -210,6 +210,7 @@ fn a_worked_solution_is_followed_beyond_its_first_slip() {
         v_B_y = -6*v*cos(theta)^2\n\
         v_B_x = 3*v*sin(theta)*cos(theta)";
     let found: Vec<Status> = check(&sheet, solution, &Options::default())
+        .lines
         .into_iter()
         .map(|l| l.status)
         .collect();
@@ -227,6 +228,33 @@ fn a_worked_solution_is_followed_beyond_its_first_slip() {
     );
 }
 
+/// A scene with its answers, those about answers and of all stages among them.
+fn with_stages(scene: scene::Scene) -> sheet::Sheet {
+    let (scene, derivation, answers) = match &scene.story {
+        Some(stages) => {
+            let told = carom::story::tell(&scene, stages).expect("a story");
+            let (flat, derivation) = carom::story::sheet(&scene, &told).expect("a derivation");
+            (flat, derivation, told.answers)
+        }
+        None => carom::story::with_special(scene).expect("answers"),
+    };
+    let ranges = answers
+        .iter()
+        .flat_map(|a| a.range.iter().map(move |r| (a, r)));
+    let bounds = ranges.map(|(a, (parameter, relation, value))| sheet::Bound {
+        name: a.name.clone(),
+        parameter: parameter.clone(),
+        relation: *relation,
+        value: value.clone(),
+    });
+    let bounds = bounds.collect();
+    sheet::Sheet {
+        scene,
+        derivation,
+        bounds,
+    }
+}
+
 #[test]
 fn worked_solutions_are_judged_line_by_line() {
     use carom::grade::steps::{Status, check};
@@ -236,16 +264,18 @@ fn worked_solutions_are_judged_line_by_line() {
         .map(|e| e.expect("an entry").path())
         .collect();
     files.sort();
-    assert!(files.len() >= 7);
+    assert!(files.len() >= 19);
     for file in files {
         let text = fs::read_to_string(&file).expect("a solution");
         let (head, rows) = text.split_once('\n').expect("a scene and lines");
         let path = head.split_whitespace().nth(1).expect("the scene's path");
         let scene = fs::read_to_string(root().join("derivations").join(path)).expect("a scene");
-        let sheet =
-            sheet::sheet(scene::read(&scene).expect("a sound scene")).expect("a derivation");
+        let sheet = with_stages(scene::read(&scene).expect("a sound scene"));
+        // The last rows tell the verdicts on the final answers.
+        let (finals, rows): (Vec<&str>, Vec<&str>) =
+            rows.lines().partition(|row| row.starts_with("answer\t"));
         let (told, lines): (Vec<&str>, Vec<&str>) = rows
-            .lines()
+            .into_iter()
             .map(|row| row.split_once('\t').expect("two cells"))
             .unzip();
         // A third cell names what is found to have led to the line.
@@ -253,7 +283,18 @@ fn worked_solutions_are_judged_line_by_line() {
             .into_iter()
             .map(|rest| rest.split_once('\t').unwrap_or((rest, "")))
             .unzip();
-        let found = check(&sheet, &lines.join("\n"), &Options::default());
+        let worked = check(&sheet, &lines.join("\n"), &Options::default());
+        for row in finals {
+            let (name, told) = row[7..].split_once('\t').expect("a name and a verdict");
+            let last = worked.finals.iter().find(|(asked, _)| asked == name);
+            let last = last.and_then(|(_, last)| last.as_ref());
+            let word = last.map_or("missing", |last| last.verdict.word());
+            if word != told {
+                let place = file.display();
+                let _ = writeln!(wrong, "{place} final {name} is {word}, not {told}");
+            }
+        }
+        let found = worked.lines;
         assert_eq!(found.len(), lines.len(), "{}", file.display());
         for ((line, told), code) in found.iter().zip(told).zip(codes) {
             if !code.is_empty() && line.diagnosis.iter().all(|d| d.code != code) {

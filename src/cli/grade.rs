@@ -115,7 +115,7 @@ pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
         return super::batch::batch(args, &options);
     }
     if let (Some(scene), Some(file)) = (&args.scene, &args.steps) {
-        return steps(scene, file, &options, args.format);
+        return steps(scene, file, args, &options);
     }
     let answer = args.answer.as_deref().unwrap_or_default();
     let grade = match (&args.scene, &args.expected) {
@@ -166,13 +166,22 @@ pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
 /// Longest worked solution, in bytes.
 const MAX_STEPS: usize = 1 << 18;
 
-fn steps(scene: &Path, file: &Path, options: &Options, format: Format) -> Result<u8, Failure> {
+fn steps(scene: &Path, file: &Path, args: &GradeArgs, options: &Options) -> Result<u8, Failure> {
     let text = files::read(file, MAX_STEPS)?;
     let sheet = open(scene)?;
-    let lines = grade::steps::check(&sheet, &text, options);
-    print(&match format {
-        Format::Text => render::grade::steps_text(&lines),
-        Format::Json => pretty(&render::grade::steps_json(&lines)),
+    let mut worked = grade::steps::check(&sheet, &text, options);
+    if let Some(name) = &args.quantity {
+        sheet.entry(name).map_err(Failure::Input)?;
+        worked.finals.retain(|(asked, _)| {
+            asked == name
+                || asked
+                    .strip_prefix(name.as_str())
+                    .is_some_and(|axis| axis.starts_with('_'))
+        });
+    }
+    print(&match args.format {
+        Format::Text => render::grade::steps_text(&worked),
+        Format::Json => pretty(&render::grade::steps_json(&worked)),
     })?;
     let wrong = |l: &grade::steps::Line| {
         matches!(
@@ -180,7 +189,7 @@ fn steps(scene: &Path, file: &Path, options: &Options, format: Format) -> Result
             grade::steps::Status::Wrong | grade::steps::Status::Carried(_)
         )
     };
-    Ok(u8::from(lines.iter().any(wrong)))
+    Ok(u8::from(worked.lines.iter().any(wrong)))
 }
 
 pub(super) fn only_quantity(sheet: &Sheet) -> Option<String> {

@@ -5,6 +5,8 @@
 //! introduces. It holds when it is an identity in the derived motion. After a line that does not hold, later lines are
 //! also tried in the motion that line would imply.
 
+mod link;
+mod names;
 mod text;
 mod why;
 
@@ -12,14 +14,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::relation::{follows, solve_for};
 use super::sheet::Sheet;
-use super::{Diagnosis, Options, Tolerance};
+use super::{Diagnosis, Options, Verdict};
 use crate::derive::Form;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Function, Node, Symbol};
-use crate::formula::{self, Content, Fault, Reading, Relation, Symbols};
+use crate::formula::{self, Content, Fault, Reading, Symbols};
 use crate::laws;
-use crate::scene::{Ask, ContactLaw, Scene};
-use text::{equation, is_near};
+use crate::scene::{Ask, ContactLaw, Question, Scene};
+use link::{Link, Weighed};
 
 /// What is found of one line.
 #[derive(Clone, PartialEq, Debug)]
@@ -38,6 +40,51 @@ pub enum Status {
     Comment,
     /// It could not be decided.
     Undecided,
+}
+
+impl Status {
+    /// What tells more of a line with several equations stands above what tells less.
+    fn weight(&self) -> u8 {
+        match self {
+            Status::Comment => 0,
+            Status::Defines => 1,
+            Status::Holds => 2,
+            Status::Carried(_) => 3,
+            Status::Undecided => 4,
+            Status::Unreadable(_) => 5,
+            Status::Wrong => 6,
+        }
+    }
+}
+
+/// What a solution says last of a quantity that is asked for, in terms of what is given.
+#[derive(Clone, Debug)]
+pub struct Final {
+    /// Number of the line.
+    pub line: usize,
+    /// The equation.
+    pub text: String,
+    /// Whether it is the right answer.
+    pub verdict: Verdict,
+}
+
+impl Final {
+    fn new(line: usize, text: &str, verdict: Verdict) -> Final {
+        Final {
+            line,
+            text: text.to_string(),
+            verdict,
+        }
+    }
+}
+
+/// A worked solution with what is found of it.
+#[derive(Clone, Debug)]
+pub struct Worked {
+    /// Its lines.
+    pub lines: Vec<Line>,
+    /// For each quantity of the scene its name, and the final answer where one is given.
+    pub finals: Vec<(String, Option<Final>)>,
 }
 
 /// One line of a worked solution.
@@ -60,13 +107,18 @@ const MOST_TERMS: usize = 12;
 /// Most wrong lines that are tried as the cause of a later one.
 const MOST_CAUSES: usize = 4;
 
+/// Code of the remark that a line states the condition of a question.
+const CONDITION: &str = "CONDITION";
+
 /// Longest worked solution, in lines.
 pub const MAX_LINES: usize = 400;
 
 /// Checks a worked solution.
-pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Vec<Line> {
+pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
     let mut desk = Desk::new(sheet);
-    text.lines()
+    desk.ahead = names::definitions(text);
+    let lines = text
+        .lines()
         .enumerate()
         .filter(|(_, line)| !line.trim().is_empty())
         .take(MAX_LINES)
@@ -80,7 +132,9 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Vec<Line> {
                 diagnosis,
             }
         })
-        .collect()
+        .collect();
+    let finals = desk.finals();
+    Worked { lines, finals }
 }
 
 struct Desk<'a> {
@@ -98,6 +152,18 @@ struct Desk<'a> {
     moving: BTreeSet<Symbol>,
     /// Names the student introduced.
     own: BTreeMap<Symbol, Expr>,
+    /// Names that were defined with a slip: the line, the name, and its value without the slip.
+    slipped: Vec<(usize, Symbol, Expr)>,
+    /// All definitions in the solution, as text.
+    ahead: Vec<(Symbol, String)>,
+    /// Own names that were used before the line that says what they are.
+    early: BTreeSet<Symbol>,
+    /// Spins as vectors: the name with an arrow, the spin, and whether it counts clockwise.
+    spins: BTreeMap<Symbol, (Symbol, bool)>,
+    /// Conditions of questions that were stated, as left minus right.
+    supposed: Vec<Expr>,
+    /// What is said last of each quantity.
+    finals: BTreeMap<String, Final>,
 }
 
 impl<'a> Desk<'a> {
@@ -146,7 +212,32 @@ impl<'a> Desk<'a> {
                 BTreeSet::new()
             },
             own: BTreeMap::new(),
+            slipped: Vec::new(),
+            ahead: Vec::new(),
+            early: BTreeSet::new(),
+            spins: spins(&sheet.scene),
+            supposed: Vec::new(),
+            finals: BTreeMap::new(),
         }
+    }
+
+    /// The final answers in the order of the questions; of a vector its components, where these stand alone.
+    fn finals(&self) -> Vec<(String, Option<Final>)> {
+        let mut out = Vec::new();
+        for q in &self.sheet.scene.questions {
+            let parts: Vec<String> = [format!("{}_x", q.name), format!("{}_y", q.name)].into();
+            let told = |name: &String| self.finals.contains_key(name);
+            if told(&q.name) || !parts.iter().any(told) {
+                out.push((q.name.clone(), self.finals.get(&q.name).cloned()));
+            } else {
+                out.extend(
+                    parts
+                        .into_iter()
+                        .map(|n| (n.clone(), self.finals.get(&n).cloned())),
+                );
+            }
+        }
+        out
     }
 
     fn symbols(&self) -> Symbols {
@@ -163,130 +254,198 @@ impl<'a> Desk<'a> {
             .keys()
             .chain(self.own.keys())
             .for_each(|name| symbols.declare(name));
-        // `ω⁺` is what is asked of the moment just after.
+        // `ω⁺` is what is asked of the moment just after, and a vector may wear its arrow.
         for name in self.closed.keys().filter(|name| !name.contains('^')) {
             let after = format!("{}^{{+}}", formula::latex_name(name));
             symbols.declare_as(name, Some(&after), None);
         }
+        let vectors = self.sheet.scene.questions.iter().map(|q| q.name.as_str());
+        let vectors = vectors.filter(|name| self.components(name).is_some());
+        let spins = self
+            .spins
+            .iter()
+            .map(|(arrow, (spin, _))| (&**arrow, &**spin));
+        for (name, plain) in vectors.map(|name| (name, name)).chain(spins) {
+            let latex = formula::latex_name(plain);
+            let (base, index) = latex.split_at(latex.find(['_', '^']).unwrap_or(latex.len()));
+            for moment in ["", "^{+}"] {
+                let arrow = format!("\\vec{{{base}}}{index}{moment}");
+                symbols.declare_as(name, Some(&arrow), None);
+            }
+        }
         symbols
     }
 
-    /// The components of a vector that is asked for.
-    fn components(&self, name: &str) -> Option<[Expr; 3]> {
-        let part = |axis: &str| {
-            let component = format!("{name}_{axis}");
-            let known = self.closed.contains_key(component.as_str());
-            known.then(|| Expr::symbol(&component))
-        };
-        Some([part("x")?, part("y")?, Expr::zero()])
-    }
-
-    /// Left minus right of every equation of a line, components of vectors one by one.
-    fn differences(&self, reading: &Reading) -> Option<Vec<Expr>> {
-        let Content::Relations(sides, signs) = &reading.content else {
-            return None;
-        };
-        let equal = |s: &Relation| matches!(s, Relation::Equal | Relation::Approximately);
-        if !signs.iter().all(equal) {
-            return None;
-        }
-        let vector = |side: &Content| match side {
-            Content::Vector(v) => Some(v.clone()),
-            other => self.components(other.expr()?.as_symbol()?),
-        };
-        let mut out = Vec::new();
-        for pair in sides.windows(2) {
-            match (vector(&pair[0]), vector(&pair[1])) {
-                (Some(a), Some(b)) => out.extend(a.iter().zip(&b).map(|(a, b)| a - b)),
-                _ => out.push(pair[0].expr()? - pair[1].expr()?),
-            }
-        }
-        Some(out)
-    }
-
+    /// A line is as good as its worst equation.
     fn line(&mut self, number: usize, text: &str, options: &Options) -> (Status, Vec<Diagnosis>) {
-        let none = Vec::new;
-        let text = equation(text);
-        if !text.contains(['=', '<', '>', '≤', '≥', '≈']) {
-            return (Status::Comment, none());
+        let mut line = (Status::Comment, Vec::new());
+        for equation in text::equations(text) {
+            let (status, diagnosis) = self.equation(number, equation, options);
+            if status.weight() > line.0.weight() {
+                line.0 = status;
+            }
+            line.1.extend(diagnosis);
         }
-        let symbols = self.symbols();
-        let reading = match formula::read(text, &symbols) {
+        line
+    }
+
+    fn equation(
+        &mut self,
+        number: usize,
+        text: &str,
+        options: &Options,
+    ) -> (Status, Vec<Diagnosis>) {
+        if let Some(found) = self.said_before(number, text, options) {
+            return found;
+        }
+        let reading = match formula::read(text, &self.symbols()) {
             Ok(reading) => reading,
-            Err(fault) => match self.definition(text) {
-                Some(status) => return (status, none()),
-                // A name that looks like one of the scene's is a slip of the pen rather than a new name.
-                None if !is_near(&fault) && self.new_name(text).is_some() => {
-                    return (Status::Defines, none());
+            Err(fault) => {
+                if let Some(found) = self.definition(number, text, options) {
+                    return found;
                 }
-                None => return (Status::Unreadable(fault), none()),
-            },
-        };
-        let Some(differences) = self.differences(&reading) else {
-            return (Status::Undecided, none());
-        };
-        match self.all_zero(&differences, &BTreeMap::new()) {
-            Some(true) => {
-                self.link(&reading);
-                self.state(None, &differences);
-                return (Status::Holds, none());
+                // A name that looks like one of the scene's is a slip of the pen rather than a new name.
+                let near = text::is_near(&fault, text);
+                match self.looked_ahead(text) {
+                    Some(reading) => reading,
+                    None if !near && self.new_name(text).is_some() => {
+                        return (Status::Defines, Vec::new());
+                    }
+                    None => return (Status::Unreadable(fault), Vec::new()),
+                }
             }
-            None => return (Status::Undecided, none()),
-            Some(false) => {}
+        };
+        if let Some(found) = self.bound(number, text, &reading, options) {
+            return found;
         }
-        if self.rounded(&reading) {
-            return (Status::Holds, none());
+        let found = self.judged(number, text, &reading, options);
+        if found.1.iter().all(|d| d.code != CONDITION) {
+            self.note_final(number, text, &reading);
         }
-        if let Some(cause) = self.cause(&differences) {
-            self.believe(cause, &differences);
-            self.state(Some(cause), &differences);
-            return (Status::Carried(cause), none());
-        }
-        // The student may have meant the other reading of a slash.
-        for other in formula::other_readings(text, &symbols, true)
-            .into_iter()
-            .take(4)
-        {
-            let Some(differences) = self.differences(&other) else {
-                continue;
-            };
-            if let Some(cause) = self.cause(&differences) {
-                self.believe(cause, &differences);
-                self.state(Some(cause), &differences);
-                return (Status::Carried(cause), none());
+        found
+    }
+
+    fn judged(
+        &mut self,
+        number: usize,
+        text: &str,
+        reading: &Reading,
+        options: &Options,
+    ) -> (Status, Vec<Diagnosis>) {
+        let Some(links) = self.links(reading) else {
+            return (self.inequality(reading), Vec::new());
+        };
+        let weighed = self.weigh(text, &links);
+        if let Weighed::Slip(_) = weighed {
+            if self.is_condition(&links) {
+                let words = "a condition the scene asks about, not a fact";
+                let found = Diagnosis::new(CONDITION, words, words);
+                return (Status::Holds, vec![found]);
             }
-            if self.all_zero(&differences, &BTreeMap::new()) == Some(true) {
-                self.link(&other);
+            // The student may have meant the other reading of a slash.
+            let others = formula::other_readings(text, &self.symbols(), true);
+            for other in others.into_iter().take(4) {
+                let Some(links) = self.links(&other) else {
+                    continue;
+                };
+                let again = self.weigh(text, &links);
+                if let Weighed::Slip(_) | Weighed::Open = again {
+                    continue;
+                }
                 let message = format!("holds when read as {}", super::show(&other.content));
                 let hint = "this line can be read in two ways; use brackets to say which is meant";
-                return (
-                    Status::Holds,
-                    vec![Diagnosis::new("AMBIGUOUS", message, hint)],
-                );
+                let found = match again {
+                    Weighed::Carried(_) => Vec::new(),
+                    _ => vec![Diagnosis::new("AMBIGUOUS", message, hint)],
+                };
+                return (self.note(number, &other, &links, &again), found);
             }
         }
-        self.believe(number, &differences);
-        self.state(Some(number), &differences);
-        if let [one] = differences.as_slice() {
-            self.wrong.push((number, self.with_own(one)));
+        let status = self.note(number, reading, &links, &weighed);
+        let found = match weighed {
+            Weighed::Slip(at) => self.diagnosis(reading, at, text, options),
+            _ => Vec::new(),
+        };
+        (status, found)
+    }
+
+    /// Keeps what later lines may hang on.
+    fn note(
+        &mut self,
+        number: usize,
+        reading: &Reading,
+        links: &[Link],
+        weighed: &Weighed,
+    ) -> Status {
+        // A chain also says that its ends are equal: what is read off goes on from there.
+        let ends = match (links.first(), links.last()) {
+            (Some(a), Some(b)) if links.len() > 1 => self.link(&a.sides[0], &b.sides[1]),
+            _ => None,
+        };
+        let all = ends.iter().chain(links).flat_map(|l| &l.differences);
+        let all: Vec<Expr> = all.cloned().collect();
+        match weighed {
+            Weighed::Holds => {
+                self.carry(reading);
+                self.state(None, &all);
+                Status::Holds
+            }
+            Weighed::Rounded => Status::Holds,
+            Weighed::Open => Status::Undecided,
+            Weighed::Carried(cause) => {
+                self.believe(*cause, &all);
+                self.state(Some(*cause), &all);
+                Status::Carried(*cause)
+            }
+            Weighed::Slip(_) => {
+                self.believe(number, &all);
+                self.state(Some(number), &all);
+                // That a product vanishes says too little, and too much follows from it.
+                let own = all.iter().map(|d| (number, self.with_own(d)));
+                let own: Vec<_> = own
+                    .filter(|(_, d)| matches!(d.node(), Node::Sum(_)))
+                    .collect();
+                self.wrong.extend(own);
+                Status::Wrong
+            }
         }
-        (Status::Wrong, self.diagnosis(&reading, text, options))
     }
 
     /// The wrong line from which equations follow: they hold in the motion it implies, or say the same.
-    fn cause(&self, differences: &[Expr]) -> Option<usize> {
+    fn cause(&self, text: &str, link: &Link) -> Option<usize> {
+        let differences = &link.differences;
+        // A name that was defined with a slip, had it been defined without.
+        let slipped = self.slipped.iter().rev().map(|(cause, name, value)| {
+            let meant = BTreeMap::from([(name.clone(), value.clone())]);
+            let meant: Vec<Expr> = differences.iter().map(|d| d.substitute(&meant)).collect();
+            (cause, meant)
+        });
+        let none = BTreeMap::new();
+        for (cause, meant) in slipped.filter(|(_, meant)| meant != differences) {
+            if self.all_zero(&meant, &none) == Some(true) {
+                return Some(*cause);
+            }
+        }
         // The latest first.
-        let implied = self.believed.iter().rev();
-        let found = implied
-            .filter(|(_, values)| self.all_zero(differences, values) == Some(true))
-            .map(|(cause, _)| *cause)
-            .next();
+        let mut implied = self.believed.iter().rev();
+        let found = implied.find(|(_, values)| {
+            self.all_zero(differences, values) == Some(true) || self.is_rounded(text, link, values)
+        });
+        let found = found.map(|(cause, _)| *cause);
         found.or_else(|| {
-            let [one] = differences else { return None };
+            let [one] = differences.as_slice() else {
+                return None;
+            };
             let one = self.with_own(one);
             let domains = &self.sheet.scene.domains;
+            let moves = |e: &Expr| e.symbols().iter().any(|n| self.closed.contains_key(n));
             let said = self.wrong.iter().rev().take(8);
-            said.filter(|(_, f)| follows(f, &one, domains))
+            // What is said of given quantities alone follows from nothing but itself.
+            if !moves(&one) {
+                let mut said = said.filter(|(_, f)| *f == one || *f == -&one);
+                return said.next().map(|(cause, _)| *cause);
+            }
+            said.filter(|(_, f)| moves(f) && follows(f, &one, domains))
                 .map(|(cause, _)| *cause)
                 .next()
                 .or_else(|| self.eliminated(&one))
@@ -334,65 +493,6 @@ impl<'a> Desk<'a> {
         })
     }
 
-    /// An equation with one name that is new: it says what the name stands for.
-    fn new_name(&mut self, text: &str) -> Option<Status> {
-        let mut open = Symbols::open();
-        for p in &self.sheet.scene.parameters {
-            open.declare_as(&p.name, p.latex.as_deref(), Some(p.dimension.clone()));
-        }
-        let known = self.closed.keys().chain(self.own.keys());
-        known.for_each(|name| open.declare(name));
-        let reading = formula::read(text, &open).ok()?;
-        let given = |name: &Symbol| {
-            let parameters = &self.sheet.scene.parameters;
-            self.closed.contains_key(name)
-                || self.own.contains_key(name)
-                || parameters.iter().any(|p| p.name == *name)
-        };
-        let letters = reading
-            .notes
-            .iter()
-            .any(|n| n.remark == formula::Remark::Letters);
-        let new: Vec<Symbol> = reading
-            .symbols()
-            .into_iter()
-            .filter(|n| !given(n))
-            .collect();
-        let ([name], false, true) = (new.as_slice(), letters, self.own.len() < 100) else {
-            return None;
-        };
-        let [one] = &self.differences(&reading)?[..] else {
-            return None;
-        };
-        let value = solve_for(&self.with_own(one), name, &self.sheet.scene.domains)?;
-        self.own.insert(name.clone(), value);
-        Some(Status::Defines)
-    }
-
-    /// Whether a line ends in a number that is the value of what stands before it, rounded to its digits: the scene's values
-    /// put in, at least two digits.
-    fn rounded(&self, reading: &Reading) -> bool {
-        let Content::Relations(sides, _) = &reading.content else {
-            return false;
-        };
-        let (Some(literal), [.., before, last]) = (&reading.literal, sides.as_slice()) else {
-            return false;
-        };
-        let (Some(before), Some(number)) = (before.expr(), last.expr()) else {
-            return false;
-        };
-        let values = super::believed::values(&self.sheet.scene);
-        let exact = self.put_in(before, &BTreeMap::new()).substitute(&values);
-        let digits = Tolerance::Significant(literal.digits.clamp(2, 12));
-        let links = &sides[..sides.len() - 1];
-        let linked = links.windows(2).all(|pair| {
-            let gap = pair[0].expr().zip(pair[1].expr()).map(|(a, b)| a - b);
-            gap.is_some_and(|gap| self.all_zero(&[gap], &BTreeMap::new()) == Some(true))
-        });
-        let constant = exact.is_constant() && number.is_constant();
-        constant && linked && super::number::within(number, &exact, &digits) == Some(true)
-    }
-
     /// |v| of a vector that is asked for, as the root of the squares of its components.
     fn magnitudes(&self, e: &Expr) -> Expr {
         if let Node::Call(Function::Abs, inner) = e.node()
@@ -408,22 +508,6 @@ impl<'a> Desk<'a> {
         // Own names may use one another.
         let rounds = 0..self.own.len().min(8);
         rounds.fold(e.clone(), |e, _| e.substitute(&self.own))
-    }
-
-    /// A new name for something: `h = l/2 sin(theta)`.
-    fn definition(&mut self, text: &str) -> Option<Status> {
-        let (left, right) = text.split_once('=')?;
-        let name = formula::read(left, &Symbols::open())
-            .ok()?
-            .expr()?
-            .as_symbol()?
-            .clone();
-        let value = formula::read(right, &self.symbols()).ok()?.expr()?.clone();
-        if self.own.len() >= 100 {
-            return None;
-        }
-        self.own.insert(name, value);
-        Some(Status::Defines)
     }
 
     /// Whether all differences vanish with the names' values put in; those of `instead` go first.
@@ -447,7 +531,7 @@ impl<'a> Desk<'a> {
     }
 
     /// A line `name = …` that holds says what the name is under every belief about the others.
-    fn link(&mut self, reading: &Reading) {
+    fn carry(&mut self, reading: &Reading) {
         let Content::Relations(sides, _) = &reading.content else {
             return;
         };
@@ -483,6 +567,18 @@ impl<'a> Desk<'a> {
             }
         }
     }
+}
+
+/// Spins that are asked for, as vectors out of the page.
+fn spins(scene: &Scene) -> BTreeMap<Symbol, (Symbol, bool)> {
+    let spin = |q: &Question| match q.ask {
+        Ask::Spin { clockwise, .. } => {
+            let arrow = Symbol::from(format!("{}_vec", q.name).as_str());
+            Some((arrow, (Symbol::from(q.name.as_str()), clockwise)))
+        }
+        _ => None,
+    };
+    scene.questions.iter().filter_map(spin).collect()
 }
 
 /// Whether hinges and sticking contacts leave the bodies one freedom, so that all velocities go in step.

@@ -3,8 +3,8 @@
 use serde_json::{Map, Value, json};
 
 use crate::formula::Fault;
-use crate::grade::steps::{Line, Status};
-use crate::grade::{Diagnosis, Grade};
+use crate::grade::steps::{Line, Status, Worked};
+use crate::grade::{Diagnosis, Grade, Verdict};
 
 /// A grade as data. `text` is the formula an error speaks of: its places are told in characters.
 pub fn json(id: Option<&Value>, grade: &Grade, text: &str) -> Value {
@@ -207,12 +207,13 @@ fn step_words(line: &Line) -> (&'static str, String) {
         ),
         Status::Unreadable(fault) => ("unread", fault.to_string()),
         Status::Comment => ("words", String::new()),
-        Status::Undecided => ("open", String::new()),
+        Status::Undecided => ("open", "could not be decided".into()),
     }
 }
 
-/// A worked solution for the terminal: each line with its verdict, then a summary.
-pub fn steps_text(lines: &[Line]) -> String {
+/// A worked solution for the terminal: each line with its verdict, a summary, and the verdict on each final answer.
+pub fn steps_text(worked: &Worked) -> String {
+    let lines = &worked.lines;
     let mut out = String::new();
     for line in lines {
         let (word, more) = step_words(line);
@@ -226,7 +227,35 @@ pub fn steps_text(lines: &[Line]) -> String {
     }
     out.push_str(&summary(lines));
     out.push('\n');
+    let mut missing = Vec::new();
+    for (name, last) in &worked.finals {
+        match last {
+            Some(last) => {
+                let word = match last.verdict {
+                    Verdict::Equivalent => "right",
+                    Verdict::Different => "wrong",
+                    Verdict::Invalid | Verdict::Undecided => "not decided",
+                };
+                out.push_str(&format!(
+                    "final answer for {name}: {word}, in line {}\n",
+                    last.line
+                ));
+            }
+            None => missing.push(name.as_str()),
+        }
+    }
+    if !missing.is_empty() {
+        out.push_str(&format!("no final answer for {}\n", missing.join(", ")));
+    }
     out
+}
+
+fn hold(lines: usize) -> &'static str {
+    if lines == 1 {
+        "line holds"
+    } else {
+        "lines hold"
+    }
 }
 
 fn summary(lines: &[Line]) -> String {
@@ -241,16 +270,25 @@ fn summary(lines: &[Line]) -> String {
     let wrong = count(&|s| matches!(s, Status::Wrong));
     let first = lines.iter().find(|l| l.status == Status::Wrong);
     match first {
-        None => format!("{holds} lines hold{defined}, none is wrong"),
+        None => format!("{} {}{defined}, none is wrong", holds, hold(holds)),
         Some(first) => format!(
-            "first wrong line: {}; {holds} lines hold{defined}, {carried} follow from a slip, {wrong} have a slip of their own",
-            first.number
+            "first wrong line: {}; {holds} {}{defined}, {carried} {} from a slip, {wrong} {} of {} own",
+            first.number,
+            hold(holds),
+            if carried == 1 { "follows" } else { "follow" },
+            if wrong == 1 {
+                "has a slip"
+            } else {
+                "have a slip"
+            },
+            if wrong == 1 { "its" } else { "their" },
         ),
     }
 }
 
 /// A worked solution as data.
-pub fn steps_json(lines: &[Line]) -> Value {
+pub fn steps_json(worked: &Worked) -> Value {
+    let lines = &worked.lines;
     let all: Vec<Value> = lines
         .iter()
         .map(|line| {
@@ -273,5 +311,15 @@ pub fn steps_json(lines: &[Line]) -> Value {
         .iter()
         .find(|l| l.status == Status::Wrong)
         .map(|l| l.number);
-    json!({"lines": all, "first_wrong": first, "summary": summary(lines)})
+    let answers = worked.finals.iter().map(|(name, last)| match last {
+        Some(last) => json!({
+            "quantity": name,
+            "verdict": last.verdict.word(),
+            "line": last.line,
+            "text": last.text,
+        }),
+        None => json!({"quantity": name, "verdict": "missing", "line": null, "text": null}),
+    });
+    let answers: Vec<Value> = answers.collect();
+    json!({"lines": all, "first_wrong": first, "summary": summary(lines), "answers": answers})
 }

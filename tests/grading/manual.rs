@@ -168,7 +168,7 @@ pub fn page(
             belief.code, belief.belief, belief.hint
         );
     }
-    out.push_str("\n## Worked solutions\n\n`carom grade SCENE --steps FILE` judges a solution line by line: a line holds, gives a name, is wrong, or follows from an\nearlier wrong line, alone or together with the lines above it. A wrong answer is explained as above; a law written with a slip\nby the belief under which it holds, or by the term whose sign is turned. `tests/grading/steps` has the cases.\n\n```text\n");
+    out.push_str("\n## Worked solutions\n\n`carom grade SCENE --steps FILE` judges a solution line by line: a line holds, gives a name, is wrong, or follows from an\nearlier wrong line, alone or together with the lines above it. A wrong answer is explained as above; a law written with a slip\nby the belief under which it holds, or by the term whose sign is turned.\nOf a chain `a = b = c` the first link that does not hold is named; a name may be said before or after it is used, and one\ndefined with a slip carries it; numbers may be rounded. At the end stands, for each quantity asked for, whether the last line\nthat gives it is right. `tests/grading/steps` has the cases.\n\n```text\n");
     out.push_str(steps);
     out.push_str(
         "```\n\n## Batches\n\n`carom grade --batch` reads one JSON object a line and writes one, in order, whatever comes in, for\na blank line too. An `error` tells the number of its line.\n\n\

@@ -1,34 +1,111 @@
-//! The equation in a line as students write it, with words around it.
+//! The equations in a line as students write them, with words and arrows around them.
 
 use crate::formula::Fault;
 
-/// The equation of a line, without the words before it: `AMB about C: …`, `so …`, `=> …`.
-pub(super) fn equation(text: &str) -> &str {
-    const LEADS: [&str; 18] = [
-        "=>",
-        "⇒",
-        "⟹",
-        "∴",
-        "→",
-        "->",
-        "\\Rightarrow",
-        "\\implies",
-        "\\therefore",
-        "therefore",
-        "hence",
-        "thus",
-        "so",
-        "then",
-        "with",
-        "and",
-        "where",
-        "gives",
-    ];
+/// Signs that relate two sides.
+const SIGNS: [char; 5] = ['<', '>', '≤', '≥', '≈'];
+
+/// Words and arrows before an equation.
+const LEADS: [&str; 18] = [
+    "=>",
+    "⇒",
+    "⟹",
+    "∴",
+    "→",
+    "->",
+    "\\Rightarrow",
+    "\\implies",
+    "\\therefore",
+    "therefore",
+    "hence",
+    "thus",
+    "so",
+    "then",
+    "with",
+    "and",
+    "where",
+    "gives",
+];
+
+/// What stands between two equations of one line.
+const BETWEEN: [&str; 16] = [
+    "<=>",
+    "⇔",
+    "\\Leftrightarrow",
+    "\\iff",
+    "=>",
+    "⇒",
+    "⟹",
+    "∴",
+    "\\Rightarrow",
+    "\\implies",
+    "\\therefore",
+    "; ",
+    ", ",
+    " so ",
+    " where ",
+    " with ",
+];
+
+/// Words behind an equation that tell the moment it speaks of.
+const MOMENTS: [&str; 6] = [
+    "(just before)",
+    "(just after)",
+    "(before)",
+    "(after)",
+    "just before",
+    "just after",
+];
+
+fn relates(text: &str) -> bool {
+    text.contains('=') || text.contains(SIGNS) || text.contains("\\le") || text.contains("\\ge")
+}
+
+/// The equations of a line one by one, without the words before, between and behind them: `AMB about C: …`, `so …`,
+/// `… => …`, `…, where I = …`.
+pub(super) fn equations(text: &str) -> Vec<&str> {
+    let mut out = Vec::new();
+    let (mut start, mut at, mut depth) = (0, 0, 0i32);
+    while at < text.len() {
+        let rest = &text[at..];
+        let sign = (depth == 0).then(|| BETWEEN.iter().find(|sign| rest.starts_with(**sign)));
+        match sign.flatten() {
+            // A comma may part components, and an arrow may begin the line: equations stand on both sides.
+            Some(sign) if relates(&text[start..at]) && parts(sign, &rest[sign.len()..]) => {
+                out.push(equation(&text[start..at]));
+                at += sign.len();
+                start = at;
+            }
+            _ => {
+                let c = rest.chars().next().map_or('\0', |c| c);
+                depth += i32::from("([{".contains(c)) - i32::from(")]}".contains(c));
+                at += c.len_utf8().max(1);
+            }
+        }
+    }
+    out.push(equation(&text[start..]));
+    out.retain(|part| relates(part));
+    out
+}
+
+/// Whether what follows a separator is an equation of its own; behind an arrow a chain may go on without a name.
+fn parts(sign: &str, behind: &str) -> bool {
+    let next = BETWEEN[5..].iter().filter_map(|s| behind.find(s)).min();
+    let own = &behind[..next.unwrap_or(behind.len())];
+    let words = |text: &str| {
+        let mut all = text.split_whitespace();
+        text.chars().all(|c| c.is_alphabetic() || " .,".contains(c)) && all.any(|w| w.len() > 3)
+    };
+    relates(own) || sign == ", " && words(own)
+}
+
+/// The equation of a piece of text, without the words before it.
+fn equation(text: &str) -> &str {
     let mut rest = text.trim().trim_start_matches('$').trim_start();
     // A law or body named before a colon; a definition `a := b` has its sign behind the colon.
     if let Some((words, behind)) = rest.split_once(':')
         && !behind.starts_with('=')
-        && behind.contains(['=', '<', '>', '≤', '≥', '≈'])
+        && relates(behind)
         && !words.contains(['=', '<', '>', '^', '*'])
         && words.chars().any(char::is_alphabetic)
     {
@@ -38,23 +115,28 @@ pub(super) fn equation(text: &str) -> &str {
         let lower = rest.to_ascii_lowercase();
         let lead = LEADS.iter().find(|lead| {
             let word = lead.ends_with(|c: char| c.is_ascii_alphabetic());
-            lower.strip_prefix(**lead).is_some_and(|behind| {
-                let apart = !word || behind.starts_with([' ', ',', '\\', '$']);
-                apart && behind.contains(['=', '<', '>', '≤', '≥', '≈'])
-            })
+            lower
+                .strip_prefix(&lead.to_ascii_lowercase())
+                .is_some_and(|behind| {
+                    let apart = !word || behind.starts_with([' ', ',', '\\', '$']);
+                    apart && relates(behind)
+                })
         });
         match lead {
             Some(lead) => rest = rest[lead.len()..].trim_start_matches([' ', ',', '$', '~']),
-            None => return rest.trim_end_matches('$').trim_end(),
+            None => break,
         }
     }
+    let rest = rest.trim_end_matches(['$', ' ', '.', ',', ';']);
+    let moment = MOMENTS.iter().find_map(|words| rest.strip_suffix(words));
+    moment.unwrap_or(rest).trim_end()
 }
 
-/// Whether a refused name of several letters resembles a declared one.
-pub(super) fn is_near(fault: &Fault) -> bool {
-    let offered = fault
-        .hint
-        .as_ref()
-        .is_some_and(|h| h.starts_with("did you"));
-    offered && fault.end - fault.start > 1
+/// Whether a refused name of several letters looks like a slip of the pen for a declared one, which begins alike.
+pub(super) fn is_near(fault: &Fault, text: &str) -> bool {
+    let offered = fault.hint.as_ref().and_then(|h| h.strip_prefix("did you"));
+    let first = |text: &str| text.chars().find(|c| c.is_alphabetic());
+    let meant = offered.and_then(|words| words.split_whitespace().last());
+    let own = text.get(fault.start..fault.end).unwrap_or_default();
+    own.len() > 1 && meant.is_some_and(|meant| first(meant) == first(own))
 }

@@ -46,10 +46,25 @@ impl Desk<'_> {
         self.believed.drain(..excess);
     }
 
-    /// For a line that states a quantity of the scene: the belief behind it.
+    /// For a line that states a quantity of the scene: the belief behind it. `at` tells the first wrong link of a chain.
     pub(super) fn diagnosis(
         &self,
         reading: &Reading,
+        at: usize,
+        text: &str,
+        options: &Options,
+    ) -> Vec<Diagnosis> {
+        let chain = matches!(&reading.content, Content::Relations(sides, _) if sides.len() > 2);
+        let broken = chain.then(|| self.broken(reading, at)).flatten();
+        let mut found: Vec<Diagnosis> = broken.into_iter().collect();
+        found.extend(self.behind_line(reading, at, text, options));
+        found
+    }
+
+    fn behind_line(
+        &self,
+        reading: &Reading,
+        at: usize,
         text: &str,
         options: &Options,
     ) -> Vec<Diagnosis> {
@@ -61,7 +76,12 @@ impl Desk<'_> {
             .and_then(Content::expr)
             .and_then(Expr::as_symbol);
         if let Some(entry) = name.and_then(|n| self.sheet.entry(n).ok()) {
-            return self.sheet.judge(&entry, text, options).diagnosis;
+            // The side behind the first wrong sign, with the student's own names put in.
+            let side = sides.get(at + 1).and_then(Content::expr);
+            let own = side.map(|side| (side, self.with_own(side)));
+            let own = own.filter(|(side, own)| *side != own || sides.len() > 2);
+            let text = own.map_or(text.to_string(), |(_, own)| formula::write_plain(&own));
+            return self.sheet.judge(&entry, &text, options).diagnosis;
         }
         // A law with a slip.
         let [left, right] = sides.as_slice() else {

@@ -1,0 +1,366 @@
+//! The links of a chain `a = b = c`: each is judged by itself.
+
+use std::collections::BTreeMap;
+
+use num_traits::Signed;
+
+use super::super::relation::follows;
+use super::super::sheet::Entry;
+use super::super::{Diagnosis, Options, Tolerance, Verdict, number};
+use super::{Desk, Final, Status};
+use crate::algebra::{Field, Sign};
+use crate::expr::{Expr, Function, Rational, Symbol};
+use crate::formula::{Content, Reading, Relation};
+use crate::scene::StoryAsk;
+
+/// One equality of a line.
+pub(super) struct Link {
+    /// Its two sides.
+    pub sides: [Content; 2],
+    /// Left minus right, components of vectors one by one.
+    pub differences: Vec<Expr>,
+}
+
+/// What is found of the links of a line.
+pub(super) enum Weighed {
+    /// All hold.
+    Holds,
+    /// All hold, some of them with rounded numbers.
+    Rounded,
+    /// One could not be decided, and none is wrong.
+    Open,
+    /// What does not hold follows from the wrong line of this number.
+    Carried(usize),
+    /// The link of this index is the first that does not hold and follows from nothing.
+    Slip(usize),
+}
+
+fn equal(sign: Relation) -> bool {
+    matches!(sign, Relation::Equal | Relation::Approximately)
+}
+
+impl Desk<'_> {
+    /// The components of a vector that is asked for, or of a spin as a vector out of the page.
+    pub(super) fn components(&self, name: &str) -> Option<[Expr; 3]> {
+        if let Some((spin, clockwise)) = self.spins.get(name) {
+            let along = Expr::symbol(spin);
+            let along = if *clockwise { -along } else { along };
+            return Some([Expr::zero(), Expr::zero(), along]);
+        }
+        let part = |axis: &str| {
+            let component = Symbol::from(format!("{name}_{axis}").as_str());
+            let known = self.closed.contains_key(&component) || self.own.contains_key(&component);
+            known.then(|| Expr::symbol(&component))
+        };
+        Some([part("x")?, part("y")?, part("z").unwrap_or(Expr::zero())])
+    }
+
+    fn vector(&self, side: &Content) -> Option<[Expr; 3]> {
+        match side {
+            Content::Vector(v) => Some(v.clone()),
+            other => self.components(other.expr()?.as_symbol()?),
+        }
+    }
+
+    /// The equality of two sides.
+    pub(super) fn link(&self, a: &Content, b: &Content) -> Option<Link> {
+        let mut sides = [a.clone(), b.clone()];
+        let differences = match (self.vector(a), self.vector(b)) {
+            (Some(a), Some(b)) => a.iter().zip(&b).map(|(a, b)| a - b).collect(),
+            // A velocity that is put equal to a number is meant as the speed.
+            (Some(_), None) if !b.expr()?.is_zero() => {
+                let speed = Expr::call(Function::Abs, a.expr()?.clone());
+                sides[0] = Content::Scalar(speed.clone());
+                vec![speed - b.expr()?]
+            }
+            _ => vec![a.expr()? - b.expr()?],
+        };
+        Some(Link { sides, differences })
+    }
+
+    /// The links of a chain of equalities.
+    pub(super) fn links(&self, reading: &Reading) -> Option<Vec<Link>> {
+        let Content::Relations(sides, signs) = &reading.content else {
+            return None;
+        };
+        if !signs.iter().all(|s| equal(*s)) {
+            return None;
+        }
+        let pairs = sides.windows(2);
+        pairs.map(|pair| self.link(&pair[0], &pair[1])).collect()
+    }
+
+    /// Judges links one by one.
+    pub(super) fn weigh(&self, text: &str, links: &[Link]) -> Weighed {
+        let none = BTreeMap::new();
+        let (mut rounded, mut open, mut carried) = (false, false, None);
+        for (at, link) in links.iter().enumerate() {
+            match self.all_zero(&link.differences, &none) {
+                Some(true) => {}
+                _ if self.is_rounded(text, link, &none) => rounded = true,
+                None => open = true,
+                Some(false) if self.follows_condition(link) => {}
+                Some(false) => match self.cause(text, link) {
+                    Some(cause) => carried = carried.or(Some(cause)),
+                    None => return Weighed::Slip(at),
+                },
+            }
+        }
+        match (carried, open, rounded) {
+            (Some(cause), ..) => Weighed::Carried(cause),
+            (_, true, _) => Weighed::Open,
+            (_, _, true) => Weighed::Rounded,
+            _ => Weighed::Holds,
+        }
+    }
+
+    /// Whether a side in numbers is the value of the other, up to the rounding of the numbers in the line; the scene's
+    /// values are put in. A number of the scene is exact.
+    pub(super) fn is_rounded(
+        &self,
+        text: &str,
+        link: &Link,
+        instead: &BTreeMap<Symbol, Expr>,
+    ) -> bool {
+        let values = super::super::believed::values(&self.sheet.scene);
+        let exact = |e: &Expr| self.put_in(e, instead).substitute(&values);
+        let sides = match (self.vector(&link.sides[0]), self.vector(&link.sides[1])) {
+            (Some(a), Some(b)) => a.into_iter().zip(b).collect(),
+            _ => match (link.sides[0].expr(), link.sides[1].expr()) {
+                (Some(a), Some(b)) => vec![(a.clone(), b.clone())],
+                _ => return false,
+            },
+        };
+        let Some(share) = coarsest(text, &values) else {
+            return false;
+        };
+        sides.iter().all(|(a, b)| {
+            if !(a.symbols().is_empty() || b.symbols().is_empty()) {
+                return false;
+            }
+            let (a, b) = (exact(a), exact(b));
+            let constant = a.symbols().is_empty() && b.symbols().is_empty();
+            let room = Tolerance::Relative(share.clone());
+            constant && number::within(&b, &a, &room) == Some(true)
+        })
+    }
+
+    /// What is asked with a condition, with its question and the difference of its sides.
+    fn conditions(&self) -> impl Iterator<Item = (&str, &Symbol, Expr)> {
+        let scene = &self.sheet.scene;
+        let told = scene.story.iter().flat_map(|s| &s.questions);
+        let all = scene.special.iter().chain(told);
+        all.filter_map(|q| match &q.ask {
+            StoryAsk::Condition {
+                parameter,
+                left,
+                right,
+                ..
+            } => Some((q.name.as_str(), parameter, left - right)),
+            _ => None,
+        })
+    }
+
+    /// Whether a line states the condition of a question: it is supposed from here on.
+    pub(super) fn is_condition(&mut self, links: &[Link]) -> bool {
+        let [link] = links else { return false };
+        let [one] = link.differences.as_slice() else {
+            return false;
+        };
+        let one = self.with_own(one);
+        let stated = self
+            .conditions()
+            .map(|(.., c)| c)
+            .find(|c| *c == one || *c == -&one);
+        let found = stated.is_some();
+        self.supposed.extend(stated);
+        found
+    }
+
+    /// Whether an equality follows from a condition that was stated.
+    fn follows_condition(&self, link: &Link) -> bool {
+        let [one] = link.differences.as_slice() else {
+            return false;
+        };
+        let none = BTreeMap::new();
+        let one = self.put_in(one, &none);
+        let domains = &self.sheet.scene.domains;
+        let mut supposed = self.supposed.iter();
+        supposed.any(|c| follows(&self.put_in(c, &none), &one, domains))
+    }
+
+    /// A line about the parameter a question asks for: `d = 4 l/3`, `d <= L/2`.
+    pub(super) fn bound(
+        &mut self,
+        number: usize,
+        text: &str,
+        reading: &Reading,
+        options: &Options,
+    ) -> Option<(Status, Vec<Diagnosis>)> {
+        let Content::Relations(sides, _) = &reading.content else {
+            return None;
+        };
+        let name = sides.first()?.expr()?.as_symbol()?;
+        let question = self
+            .conditions()
+            .find(|(_, p, _)| *p == name)?
+            .0
+            .to_string();
+        let entry: Entry = self.sheet.entry(&question).ok()?;
+        let grade = self.sheet.judge(&entry, text, options);
+        let status = match grade.verdict {
+            Verdict::Equivalent => Status::Holds,
+            Verdict::Different => Status::Wrong,
+            Verdict::Invalid | Verdict::Undecided => return None,
+        };
+        self.finals
+            .insert(question, Final::new(number, text, grade.verdict));
+        Some((status, grade.diagnosis))
+    }
+
+    /// A line with an inequality: it holds where its sign is proved, or where it says what a question supposes.
+    pub(super) fn inequality(&self, reading: &Reading) -> Status {
+        let Content::Relations(sides, signs) = &reading.content else {
+            return Status::Undecided;
+        };
+        let domains = &self.sheet.scene.domains;
+        let none = BTreeMap::new();
+        let mut status = Status::Holds;
+        for (pair, sign) in sides.windows(2).zip(signs) {
+            let (Some(a), Some(b)) = (pair[0].expr(), pair[1].expr()) else {
+                return Status::Undecided;
+            };
+            let plain = self.with_own(&(a - b));
+            let mut supposed = self.conditions().map(|(.., c)| c);
+            if supposed.any(|c| c == plain || c == -&plain) {
+                continue;
+            }
+            let difference = self.put_in(&plain, &none);
+            let mut field = Field::new(domains);
+            field.prepare([&difference]);
+            let element = field.element(&difference).ok();
+            let zero = element.as_ref().is_some_and(|e| field.is_zero(e));
+            let proved = element.and_then(|e| field.sign(&e));
+            let holds = match (sign, proved) {
+                (Relation::Equal | Relation::Approximately, _) => zero.then_some(true),
+                (Relation::LessEqual | Relation::GreaterEqual, _) if zero => Some(true),
+                (Relation::Greater | Relation::GreaterEqual, Some(Sign::Positive)) => Some(true),
+                (Relation::Greater | Relation::GreaterEqual, Some(Sign::Negative)) => Some(false),
+                (Relation::Less | Relation::LessEqual, Some(Sign::Negative)) => Some(true),
+                (Relation::Less | Relation::LessEqual, Some(Sign::Positive)) => Some(false),
+                (Relation::NotEqual, Some(Sign::Positive | Sign::Negative)) => Some(true),
+                _ => None,
+            };
+            match holds {
+                Some(true) => {}
+                Some(false) => return Status::Wrong,
+                None => status = Status::Undecided,
+            }
+        }
+        status
+    }
+
+    /// Keeps what a line says of a quantity that is asked for, where it ends in what is given.
+    pub(super) fn note_final(&mut self, number: usize, text: &str, reading: &Reading) {
+        let Content::Relations(sides, signs) = &reading.content else {
+            return;
+        };
+        let ([first, .., last], true) = (sides.as_slice(), signs.iter().all(|s| equal(*s))) else {
+            return;
+        };
+        let Some(name) = first.expr().and_then(Expr::as_symbol) else {
+            return;
+        };
+        let name = self.spins.get(&**name).map_or(name, |(spin, _)| spin);
+        let answers = &self.sheet.derivation.answers;
+        let asked = |a: &crate::derive::Answer| *a.name == **name || *a.question == **name;
+        let given = |e: &Expr| {
+            let parameters = &self.sheet.scene.parameters;
+            let used = self.with_own(e).symbols();
+            used.iter().all(|n| {
+                let told = n != name && self.finals.contains_key(&**n);
+                told || &**n == "pi" || parameters.iter().any(|p| p.name == *n)
+            })
+        };
+        // An answer may stand on another that was given.
+        let used: Vec<Verdict> = {
+            let mut used = Vec::new();
+            last.each(&mut |e| used.extend(self.with_own(e).symbols()));
+            let used = used.iter().filter(|n| *n != name);
+            used.filter_map(|n| Some(self.finals.get(&**n)?.verdict))
+                .collect()
+        };
+        let mut in_given = true;
+        last.each(&mut |e| in_given &= given(e));
+        let Some(ends) = self.link(first, last) else {
+            return;
+        };
+        // A speed is no answer where a velocity is asked for.
+        let whole = self.vector(first).is_some() == self.vector(last).is_some();
+        if !in_given || !whole || !answers.iter().any(asked) {
+            return;
+        }
+        let none = BTreeMap::new();
+        let end = &text[text.rfind(['=', '≈']).unwrap_or(0)..];
+        let verdict = match self.all_zero(&ends.differences, &none) {
+            Some(true) => Verdict::Equivalent,
+            _ if self.is_rounded(end, &ends, &none) => Verdict::Equivalent,
+            Some(false) => Verdict::Different,
+            None => Verdict::Undecided,
+        };
+        let verdict = match (verdict, used.iter().all(|v| *v == Verdict::Equivalent)) {
+            (verdict, true) => verdict,
+            (Verdict::Equivalent, _) if used.contains(&Verdict::Different) => Verdict::Different,
+            _ => Verdict::Undecided,
+        };
+        self.finals
+            .insert(name.to_string(), Final::new(number, text, verdict));
+    }
+
+    /// The finding about the link of a chain that does not hold.
+    pub(super) fn broken(&self, reading: &Reading, at: usize) -> Option<Diagnosis> {
+        let links = self.links(reading)?;
+        let link = links.get(at)?;
+        let [a, b] = link.sides.each_ref().map(super::super::show);
+        Some(Diagnosis::new(
+            "LINK",
+            format!("of this chain {a} = {b} does not hold"),
+            "compare the two sides of this equality sign",
+        ))
+    }
+}
+
+/// How far numbers of a line may be off, as a share: half a unit in the last digit of the coarsest one. What stands last
+/// counts from two digits, what leads to it from three; values of the scene are exact.
+fn coarsest(text: &str, values: &BTreeMap<Symbol, Expr>) -> Option<Rational> {
+    let last = text.rfind(['=', '≈']).unwrap_or(0);
+    let share = |word: &str, least: usize| {
+        let value = number::decimal(word).filter(Signed::is_positive)?;
+        let digits = word.trim_start_matches(['0', '.']).replace('.', "").len();
+        let mut known = values.values().filter_map(super::super::fraction);
+        if digits < least || known.any(|v| v == value) {
+            return None;
+        }
+        let digits = u32::try_from(digits.max(2)).ok()?.min(12);
+        Some(number::half_unit(&value, digits) / value)
+    };
+    let words = |text: &'_ str| -> Vec<String> {
+        let words = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
+        let words = words.map(|word| word.trim_end_matches('.').to_string());
+        words.collect()
+    };
+    let decimal = |word: &&String| word.contains('.');
+    let before = words(&text[..last]);
+    let behind = words(&text[last..]);
+    let led = before.iter().filter(decimal).filter_map(|w| share(w, 3));
+    let mut ends: Vec<Rational> = behind
+        .iter()
+        .filter(decimal)
+        .filter_map(|w| share(w, 2))
+        .collect();
+    if ends.is_empty() {
+        let whole = behind.iter().find(|w| !w.is_empty() && !w.contains('.'));
+        ends.extend(whole.and_then(|w| share(w, 1)));
+    }
+    led.chain(ends).max()
+}

@@ -1,0 +1,188 @@
+//! Names the student introduces: what they stand for, said before or further down, and with which slip.
+
+use super::super::relation::solve_for;
+use super::link::Weighed;
+use super::{Desk, Diagnosis, Options, Status};
+use crate::expr::{Expr, Symbol};
+use crate::formula::{self, Content, Reading, Symbols};
+
+/// Most names a student may introduce.
+const MOST_NAMES: usize = 100;
+
+/// The lone name left of the first equality sign, and what stands right of it.
+fn named(text: &str) -> Option<(Symbol, &str)> {
+    let (left, right) = text.split_once('=')?;
+    let left = left.trim_end_matches(':').trim();
+    let word = left.starts_with(|c: char| c.is_ascii_alphabetic())
+        && left.chars().all(|c| c.is_ascii_alphanumeric());
+    let read = formula::read(left, &Symbols::open()).ok();
+    let symbol = read.and_then(|reading| reading.expr()?.as_symbol().cloned());
+    let name = symbol.or_else(|| word.then(|| Symbol::from(left)))?;
+    Some((name, right))
+}
+
+/// The definitions `name = …` of a worked solution, for lines that use a name before it is said.
+pub(super) fn definitions(text: &str) -> Vec<(Symbol, String)> {
+    let lines = text.lines().take(super::MAX_LINES);
+    let parts = lines.flat_map(super::text::equations);
+    let named = parts.filter_map(named);
+    named.map(|(n, right)| (n, right.to_string())).collect()
+}
+
+impl Desk<'_> {
+    /// Whether a name is the scene's or was introduced.
+    fn is_known(&self, name: &Symbol) -> bool {
+        let parameters = &self.sheet.scene.parameters;
+        self.closed.contains_key(name)
+            || self.own.contains_key(name)
+            || parameters.iter().any(|p| p.name == *name)
+    }
+
+    /// A new name for something: `h = l/2 sin(theta)`; of a chain all further links are judged.
+    pub(super) fn definition(
+        &mut self,
+        number: usize,
+        text: &str,
+        options: &Options,
+    ) -> Option<(Status, Vec<Diagnosis>)> {
+        let (name, right) = named(text).filter(|(name, _)| !self.is_known(name))?;
+        let right = match formula::read(right, &self.symbols()) {
+            Ok(reading) => reading,
+            Err(_) => match self.looked_ahead(right) {
+                Some(reading) => reading,
+                None => return self.definition_by_parts(number, text, options),
+            },
+        };
+        let sides = match &right.content {
+            Content::Relations(sides, _) => sides.as_slice(),
+            one => std::slice::from_ref(one),
+        };
+        if self.own.len() >= MOST_NAMES {
+            return None;
+        }
+        if let [Content::Vector(v)] = sides {
+            for (axis, value) in ["x", "y", "z"].iter().zip(v) {
+                let part = Symbol::from(format!("{name}_{axis}").as_str());
+                self.own.insert(part, value.clone());
+            }
+            return Some((Status::Defines, Vec::new()));
+        }
+        let values: Option<Vec<&Expr>> = sides.iter().map(Content::expr).collect();
+        let values = values?;
+        let (first, last) = ((*values.first()?).clone(), (*values.last()?).clone());
+        if sides.len() == 1 {
+            self.own.insert(name, last);
+            return Some((Status::Defines, Vec::new()));
+        }
+        let links = self.links(&right)?;
+        let weighed = self.weigh(text, &links);
+        // What is rounded, or cannot be decided, stands for what it was rounded from.
+        let exact = !matches!(weighed, Weighed::Slip(_) | Weighed::Carried(_));
+        self.own
+            .insert(name.clone(), if exact { first.clone() } else { last });
+        Some(match weighed {
+            Weighed::Holds | Weighed::Rounded => (Status::Defines, Vec::new()),
+            Weighed::Open => (Status::Undecided, Vec::new()),
+            Weighed::Carried(cause) => {
+                self.slipped.push((cause, name, first));
+                (Status::Carried(cause), Vec::new())
+            }
+            Weighed::Slip(at) => {
+                self.slipped.push((number, name, first));
+                (Status::Wrong, self.broken(&right, at).into_iter().collect())
+            }
+        })
+    }
+
+    /// A chain such as `I_C = I_G + m d^2 = m l^2/12 + m d^2`, where a side has a new name: the other sides say what it is.
+    fn definition_by_parts(
+        &mut self,
+        number: usize,
+        text: &str,
+        options: &Options,
+    ) -> Option<(Status, Vec<Diagnosis>)> {
+        let (name, right) = text.split_once('=')?;
+        let symbols = self.symbols();
+        let sides = right.split('=').map(str::trim);
+        let (known, new): (Vec<&str>, Vec<&str>) =
+            sides.partition(|side| formula::read(side, &symbols).is_ok());
+        let first = known.first().filter(|_| new.len() == 1)?;
+        self.new_name(&format!("{} = {first}", new[0]))?;
+        self.definition(number, &format!("{name}= {}", known.join(" = ")), options)
+    }
+
+    /// The line that defines a name which lines above it used already.
+    pub(super) fn said_before(
+        &mut self,
+        number: usize,
+        text: &str,
+        options: &Options,
+    ) -> Option<(Status, Vec<Diagnosis>)> {
+        let (name, _) = named(text)?;
+        self.early.remove(&name).then(|| self.own.remove(&name))?;
+        self.definition(number, text, options)
+    }
+
+    /// A text with names that are said only further down.
+    pub(super) fn looked_ahead(&mut self, text: &str) -> Option<Reading> {
+        for _ in 0..8 {
+            let symbols = self.symbols();
+            let fault = match formula::read(text, &symbols) {
+                Ok(reading) => return Some(reading),
+                Err(fault) => fault,
+            };
+            let word = text.get(fault.start..fault.end)?;
+            let missing = formula::read(word, &Symbols::open()).ok();
+            let missing = missing.and_then(|r| r.expr()?.as_symbol().cloned());
+            let missing = missing.unwrap_or_else(|| Symbol::from(word.trim()));
+            let (name, right) = self
+                .ahead
+                .iter()
+                .find(|(name, _)| *name == missing && !self.is_known(name))?;
+            let reading = formula::read(right, &symbols).ok()?;
+            let value = match &reading.content {
+                Content::Relations(sides, _) => sides.last()?.expr()?.clone(),
+                one => one.expr()?.clone(),
+            };
+            let name = name.clone();
+            if self.own.len() >= MOST_NAMES {
+                return None;
+            }
+            self.early.insert(name.clone());
+            self.own.insert(name, value);
+        }
+        None
+    }
+
+    /// An equation with one name that is new: it says what the name stands for.
+    pub(super) fn new_name(&mut self, text: &str) -> Option<Status> {
+        let mut open = Symbols::open();
+        for p in &self.sheet.scene.parameters {
+            open.declare_as(&p.name, p.latex.as_deref(), Some(p.dimension.clone()));
+        }
+        let known = self.closed.keys().chain(self.own.keys());
+        known.for_each(|name| open.declare(name));
+        let reading = formula::read(text, &open).ok()?;
+        let letters = reading
+            .notes
+            .iter()
+            .any(|n| n.remark == formula::Remark::Letters);
+        let new: Vec<Symbol> = reading
+            .symbols()
+            .into_iter()
+            .filter(|n| !self.is_known(n))
+            .collect();
+        let ([name], false, true) = (new.as_slice(), letters, self.own.len() < MOST_NAMES) else {
+            return None;
+        };
+        let [link] = &self.links(&reading)?[..] else {
+            return None;
+        };
+        let [one] = link.differences.as_slice() else {
+            return None;
+        };
+        let value = solve_for(&self.with_own(one), name, &self.sheet.scene.domains)?;
+        self.own.insert(name.clone(), value);
+        Some(Status::Defines)
+    }
+}
