@@ -201,11 +201,14 @@ impl Desk<'_> {
             return None;
         };
         let name = sides.first()?.expr()?.as_symbol()?;
-        let question = self
-            .conditions()
-            .find(|(_, p, _)| *p == name)?
-            .0
-            .to_string();
+        let asked = self.conditions().find(|(_, p, _)| *p == name);
+        let question = match asked {
+            Some((question, ..)) => question.to_string(),
+            None => {
+                let mut bounds = self.sheet.bounds.iter();
+                bounds.find(|b| b.parameter == *name)?.name.clone()
+            }
+        };
         let entry: Entry = self.sheet.entry(&question).ok()?;
         let grade = self.sheet.judge(&entry, text, options);
         let status = match grade.verdict {
