@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use num_traits::Signed;
 
-use super::super::relation::follows;
+use super::super::relation::solve_for;
 use super::super::sheet::Entry;
 use super::super::{Diagnosis, Options, Tolerance, Verdict, number};
 use super::{Desk, Final, Status};
@@ -177,16 +177,22 @@ impl Desk<'_> {
         found
     }
 
-    /// Whether an equality follows from a condition that was stated.
+    /// Whether an equality holds where a condition that was stated does: at the value it gives its parameter.
     fn follows_condition(&self, link: &Link) -> bool {
-        let [one] = link.differences.as_slice() else {
-            return false;
-        };
         let none = BTreeMap::new();
-        let one = self.put_in(one, &none);
         let domains = &self.sheet.scene.domains;
-        let mut supposed = self.supposed.iter();
-        supposed.any(|c| follows(&self.put_in(c, &none), &one, domains))
+        let supposed = self
+            .conditions()
+            .filter(|(.., c)| self.supposed.contains(c));
+        let mut roots = supposed.filter_map(|(_, parameter, c)| {
+            let root = solve_for(&self.put_in(&c, &none), parameter, domains)?;
+            Some(BTreeMap::from([(parameter.clone(), root)]))
+        });
+        roots.any(|root| {
+            let there = link.differences.iter();
+            let there = there.map(|d| self.put_in(d, &none).substitute(&root));
+            self.all_zero(&there.collect::<Vec<_>>(), &none) == Some(true)
+        })
     }
 
     /// A line about the parameter a question asks for: `d = 4 l/3`, `d <= L/2`.
