@@ -17,26 +17,13 @@ impl Parser<'_> {
     pub(super) fn raised(&mut self, mut base: Written) -> Faulty<Written> {
         loop {
             match self.peek()?.tok {
-                Tok::Caret => {
-                    self.next()?;
-                    let exponent = self.exponent()?;
-                    let (start, end) = (base.start, exponent.end);
-                    base =
-                        Written::new(Shape::Power(Box::new(base), Box::new(exponent)), start, end);
-                    if let Tok::Caret | Tok::Raised(_) = self.peek()?.tok {
-                        let token = self.next()?;
-                        return Err(Fault::new(
-                            "two exponents on one base",
-                            token.start,
-                            token.end,
-                        )
-                        .hint("write brackets"));
-                    }
-                }
-                Tok::Raised(_) => {
+                Tok::Caret | Tok::Raised(_) => {
                     let token = self.next()?;
-                    let exponent = raised_number(&token);
-                    let (start, end) = (base.start, token.end);
+                    let exponent = match token.tok {
+                        Tok::Caret => self.exponent()?,
+                        _ => raised_number(&token),
+                    };
+                    let (start, end) = (base.start, exponent.end);
                     base =
                         Written::new(Shape::Power(Box::new(base), Box::new(exponent)), start, end);
                     if let Tok::Caret | Tok::Raised(_) = self.peek()?.tok {
