@@ -220,6 +220,16 @@ fn is_there(tool: &str) -> bool {
     found
 }
 
+/// Flags under which emitted C has to compile without a warning.
+const STRICT_C: [&str; 6] = [
+    "-std=c99",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-O1",
+    "-ffp-contract=off",
+];
+
 fn output(command: &mut Command) -> String {
     let done = command.output().expect("a tool that starts");
     assert!(
@@ -349,19 +359,11 @@ fn c_compiles_without_remarks_and_keeps_its_bound() {
             format!("{text}{main}    return 0;\n}}\n"),
         )
         .expect("written");
-        let flags = [
-            "-std=c99",
-            "-Wall",
-            "-Wextra",
-            "-Werror",
-            "-O1",
-            "-ffp-contract=off",
-        ];
         let target = folder.join(&case.name);
         output(
             Command::new("cc")
                 .current_dir(&folder)
-                .args(flags)
+                .args(STRICT_C)
                 .arg("-o")
                 .args([&target, Path::new(&source)])
                 .arg("-lm"),
@@ -535,16 +537,8 @@ fn one_struct_in_and_one_out_gives_what_the_functions_give() {
         fs::write(folder.join("d.h"), other).expect("written");
         let includes = "#include \"c.h\"\n#include \"c.h\"\n#include \"d.h\"\n";
         fs::write(folder.join("two.c"), format!("{includes}{}", program)).expect("written");
-        let flags = [
-            "-std=c99",
-            "-Wall",
-            "-Wextra",
-            "-Werror",
-            "-O1",
-            "-ffp-contract=off",
-        ];
         let mut cc = Command::new("cc");
-        cc.current_dir(&folder).args(flags);
+        cc.current_dir(&folder).args(STRICT_C);
         output(cc.args(["-o", "two", "two.c", "-lm"]));
         same_twice(case, &output(&mut Command::new(folder.join("two"))));
     }

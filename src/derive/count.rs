@@ -10,7 +10,7 @@ use num_traits::{One, Zero};
 use super::{Stop, Work};
 use crate::algebra;
 
-use crate::domain::sample::{Coordinate, roles, samples};
+use crate::domain::{Coordinate, roles, samples};
 use crate::expr::{Expr, Point, Rational, Vector, ratio};
 use crate::laws::{self, Geometry, Kinematics, Law, Linear, Place, Quantity, Unknown};
 use crate::scene::{ContactLaw, Scene};

@@ -3,8 +3,10 @@
 //! In: declared intervals and the formulas that use the symbols. Out: membership, the domain completed by the stated
 //! defaults, and a fixed sequence of sample points from simple to complicated. It knows nothing of equality.
 
+mod coordinate;
 mod relation;
-pub mod sample;
+mod roles;
+mod sample;
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -13,8 +15,10 @@ use num_traits::{Signed, Zero};
 
 use crate::expr::{Int, Rational, Symbol, ratio};
 
+pub use coordinate::Coordinate;
 pub use relation::Relation;
-pub use sample::{Coordinate, Role, Roles, Sample, at_ends, roles, samples};
+pub use roles::{Role, Roles, roles};
+pub use sample::{Sample, at_ends, samples, within};
 
 /// One end of an interval: `value`, or `value`·π.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -5,9 +5,11 @@
 //! closed form was found.
 
 pub mod arrange;
+mod comment;
 mod dd;
 pub mod function;
 mod helpers;
+mod names;
 pub mod program;
 mod range;
 mod record;

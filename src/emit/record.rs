@@ -3,7 +3,8 @@
 //! In: functions with the names they were given. Out: two types and a function in each language, and the guard of a header.
 
 use super::function::Function;
-use super::write::{Language, Names, Style};
+use super::names::Names;
+use super::write::{Language, Style};
 
 /// The two types, and the function from one to the other.
 pub(super) fn record(
@@ -61,20 +62,18 @@ pub(super) fn record(
         })
         .collect();
     // Answers that are constants need nothing of what is given, and a struct of C needs a member.
-    let unread = match (inputs.is_empty(), style.language) {
-        (true, Language::Rust) => "    let _ = given;\n",
-        (true, Language::C) => {
-            taken = line("none", "1");
-            "    (void)given;\n"
-        }
-        _ => "",
-    };
+    let mut unread = "";
+    if inputs.is_empty() && style.language == Language::C {
+        taken = line("none", "1");
+        unread = "    (void)given;\n";
+    }
     match style.language {
         Language::Rust => {
+            let given = if inputs.is_empty() { "_" } else { "given" };
             let kept = "#[allow(non_snake_case)]\n#[derive(Clone, Copy, Debug, PartialEq)]\n";
             format!(
                 "\n/// Everything the functions take.\n{kept}pub struct {inside} {{\n{taken}}}\n\n/// Everything they give.\n{kept}pub struct {outside} {{\n{made}}}\n\n\
-                 /// All values at once.\npub fn {solve}(given: &{inside}) -> {outside} {{\n{unread}    {outside} {{\n{values}    }}\n}}\n"
+                 /// All values at once.\npub fn {solve}({given}: &{inside}) -> {outside} {{\n    {outside} {{\n{values}    }}\n}}\n"
             )
         }
         Language::C => format!(

@@ -94,7 +94,7 @@ pub(super) fn points(
             zeros.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * a.abs().max(1e-9));
             for part in parts(domain, &zeros) {
                 let role = roles.symbols.get(&name).cloned().unwrap_or_default();
-                let Some(value) = crate::domain::sample::within(&part, domain, &role) else {
+                let Some(value) = crate::domain::within(&part, domain, &role) else {
                     continue;
                 };
                 let mut moved = start.clone();

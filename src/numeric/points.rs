@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use num_integer::Integer;
 use num_traits::{One, Zero};
 
-use crate::domain::sample::roles;
+use crate::domain::roles;
 use crate::domain::{Domain, Domains, Limit};
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Int, Point, Rational, Symbol, ratio};

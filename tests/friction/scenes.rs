@@ -168,25 +168,17 @@ fn every_check_of_every_case_holds() {
 #[test]
 fn a_wrong_form_is_refused_by_the_path() {
     let scene = read("rod-slides-into-floor", "");
+    let is_refused = |table: &Table| {
+        let mut checks = judge(&scene, table).checks.into_iter();
+        checks.any(|c| c.kind == "path" && c.holds == Some(false))
+    };
     let (mut table, _) = judged(&scene);
     let last = &mut table.cases.last_mut().expect("a case").impulse[0];
     *last = -last.clone();
-    let again = judge(&scene, &table);
-    assert!(
-        again
-            .checks
-            .iter()
-            .any(|c| c.kind == "path" && c.holds == Some(false))
-    );
+    assert!(is_refused(&table));
     let (mut table, _) = judged(&scene);
     table.cases[0].conditions[0].when.of = Expr::one();
-    let again = judge(&scene, &table);
-    assert!(
-        again
-            .checks
-            .iter()
-            .any(|c| c.kind == "path" && c.holds == Some(false))
-    );
+    assert!(is_refused(&table));
 }
 
 #[test]
