@@ -21,7 +21,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 
 use carom::render::pretty;
-use carom::{derive, numeric, render, scene, story, verify};
+use carom::{answer, derive, numeric, render, scene, story, verify};
 
 /// Collisions of rigid bodies in the plane: closed forms a teacher would reach, each one proved or marked.
 #[derive(Parser)]
@@ -208,7 +208,7 @@ fn derive_command(
     let derivation = derive::derive(&scene).map_err(stopped)?;
     let proof = verify::prove(&scene, &derivation);
     let possible = verify::possible::judge(&scene, &derivation);
-    let special = story::special(&scene, &derivation, &proof)
+    let special = verify::special(&scene, &derivation, &proof)
         .map_err(|reason| Failure::Input(format!("{}: {reason}", path.display())))?;
     print(&match format {
         Format::Text => render::text::derivation(&scene, &derivation, &proof, &possible, &special),
@@ -220,7 +220,7 @@ fn derive_command(
             &special,
         )),
     })?;
-    let special_holds = special.iter().all(story::Answer::holds);
+    let special_holds = special.iter().all(answer::Answer::holds);
     Ok(u8::from(
         !proof.holds() || !possible.holds() || !special_holds || derivation.counting.contradictory,
     ))

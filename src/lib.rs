@@ -50,7 +50,7 @@
 //! | [`scene::Question`] | what is asked: a velocity, a spin, an impulse, an energy, an equation, a matrix |
 //! | [`laws::Law`] | an equation the scene obeys, with its [`laws::Unknown`]s |
 //! | [`derive::Derivation`] | the equations chosen, solved in order, and the closed forms they give; it claims, and proves nothing |
-//! | [`verify::Check`] | one thing that was held against another: what, how, and whether it holds, fails or is undecided |
+//! | [`answer::Check`] | one thing that was held against another: what, how, and whether it holds, fails or is undecided |
 //! | [`verify::Proof`] | the checks of a derivation |
 //! | [`story::Told`] | the stages worked out one after the other, and the answers, each with its checks |
 //! | [`numeric::follow`](mod@numeric::follow) | the same scene in numbers, motions in time |
@@ -74,6 +74,8 @@ pub mod equality;
 pub mod formula;
 
 pub mod scene;
+
+pub mod answer;
 
 pub mod laws;
 

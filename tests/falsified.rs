@@ -177,7 +177,7 @@ fn a_falsified_body_is_refused_by_its_outline() {
                 // Laws and numeric solution agree with each other, and are both wrong.
                 let derivation = derive(&wrong).expect("a derivation");
                 let proof = prove(&wrong, &derivation);
-                let caught = |c: &&verify::Check| c.holds == Some(false);
+                let caught = |c: &&carom::answer::Check| c.holds == Some(false);
                 let kinds: Vec<&str> = proof.scene.iter().filter(caught).map(|c| c.kind).collect();
                 assert_eq!(kinds, ["inertia"], "{path}, {}, {reason}", body.name);
                 *refused.entry(format!("{what} {change}")).or_default() += 1;
@@ -257,7 +257,7 @@ fn written(text: &str, scene: &Scene) -> serde_json::Value {
         None => {
             let derivation = derive(scene).expect("a derivation");
             let proof = prove(scene, &derivation);
-            let special = story::special(scene, &derivation, &proof).expect("answers");
+            let special = verify::special(scene, &derivation, &proof).expect("answers");
             solution::write(scene, &derivation, &proof, &special, detail)
         }
     };

@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use std::thread;
 
 use carom::solution::{Detail, Solution};
-use carom::{check, derive, figure, render, scene, solution, story, verify};
+use carom::{answer, check, derive, figure, render, scene, solution, story, verify};
 
 /// A scene, worked out once for all tests.
 struct Case {
@@ -23,7 +23,7 @@ struct Case {
 /// What was found of a scene: a story, or a derivation with its proof and what is asked about its answers.
 enum Found {
     Told(Box<story::Told>),
-    Derived(Box<(derive::Derivation, verify::Proof, Vec<story::Answer>)>),
+    Derived(Box<(derive::Derivation, verify::Proof, Vec<answer::Answer>)>),
 }
 
 fn find(scene: &scene::Scene) -> Found {
@@ -33,7 +33,7 @@ fn find(scene: &scene::Scene) -> Found {
     }
     let derivation = derive::derive(scene).expect("a derivation");
     let proof = verify::prove(scene, &derivation);
-    let special = story::special(scene, &derivation, &proof).expect("answers");
+    let special = verify::special(scene, &derivation, &proof).expect("answers");
     Found::Derived(Box::new((derivation, proof, special)))
 }
 

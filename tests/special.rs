@@ -1,10 +1,10 @@
 //! What a scene asks about its answers: zeros, thresholds, limits, forms for a small parameter, identities. Each row of the table
 //! is a question about the scene below; a fact of its own stands in a test of its own.
 
+use carom::answer::{self, Answer};
 use carom::domain::Domains;
 use carom::equality::{Equality, decide};
 use carom::formula::{Symbols, read_expr, write_plain};
-use carom::story::{self, Answer};
 use carom::{derive, scene, verify};
 
 /// A bar hinged at A is hit by a ball that sticks at D; the parameters beside are for questions alone.
@@ -39,7 +39,7 @@ fn asked_where(relations: &str, questions: &str) -> Result<Vec<Answer>, String> 
     let scene = scene::read(&text).map_err(|faults| faults.render("scene", &text))?;
     let derivation = derive::derive(&scene).map_err(|stop| stop.to_string())?;
     let proof = verify::prove(&scene, &derivation);
-    story::special(&scene, &derivation, &proof).map_err(|refused| refused.to_string())
+    verify::special(&scene, &derivation, &proof).map_err(|refused| refused.to_string())
 }
 
 /// Everything an answer says, in one line.
@@ -112,11 +112,11 @@ fn book() -> (scene::Scene, String) {
     (scene::read(&text).expect("a valid scene"), text)
 }
 
-fn graphs(scene: &scene::Scene) -> Result<Vec<story::Graph>, story::Refused> {
+fn graphs(scene: &scene::Scene) -> Result<Vec<answer::Graph>, answer::Refused> {
     let derivation = derive::derive(scene).expect("a derivation");
     let proof = verify::prove(scene, &derivation);
-    let special = story::special(scene, &derivation, &proof).expect("answers");
-    story::graphs(scene, &story::known(&derivation), &special)
+    let special = verify::special(scene, &derivation, &proof).expect("answers");
+    answer::graphs(scene, &derivation.known(), &special)
 }
 
 #[test]

@@ -226,7 +226,7 @@ fn with(questions: &str) -> Result<Told, String> {
     tell(&scene, story).map_err(|reason| reason.to_string())
 }
 
-fn answer(questions: &str) -> carom::story::Answer {
+fn answer(questions: &str) -> carom::answer::Answer {
     let told = with(questions).unwrap_or_else(|reason| panic!("{reason}"));
     told.answers
         .into_iter()
@@ -234,7 +234,7 @@ fn answer(questions: &str) -> carom::story::Answer {
         .expect("the answer")
 }
 
-fn plain(all: &[carom::story::Sentence]) -> String {
+fn plain(all: &[carom::formula::Sentence]) -> String {
     let each: Vec<String> = all.iter().map(ToString::to_string).collect();
     each.join("; ")
 }
@@ -382,7 +382,7 @@ fn questions_about_formulas_need_no_stages() {
         .iter()
         .filter_map(|a| Some((a.name.as_str().into(), a.formula.clone()?)))
         .collect();
-    let alone = carom::story::about(&scene, &formulas, &known).expect("answers");
+    let alone = carom::answer::about(&scene, &formulas, &known).expect("answers");
     let with_stages: Vec<_> = found
         .answers
         .iter()

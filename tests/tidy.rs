@@ -17,12 +17,19 @@ const LAYERS: &[(&str, &str)] = &[
         "scene",
         "expr interval domain dimension algebra equality formula",
     ),
+    (
+        "answer",
+        "expr interval domain dimension algebra equality formula scene",
+    ),
     ("laws", "expr scene"),
     ("numeric", "expr interval domain scene"),
-    ("derive", "expr domain dimension algebra formula scene laws"),
+    (
+        "derive",
+        "expr domain dimension algebra formula scene answer laws",
+    ),
     (
         "verify",
-        "expr interval domain dimension algebra equality formula scene laws numeric derive",
+        "expr interval domain dimension algebra equality formula scene answer laws numeric derive",
     ),
     (
         "grade",
@@ -30,7 +37,7 @@ const LAYERS: &[(&str, &str)] = &[
     ),
     (
         "story",
-        "expr interval domain dimension algebra equality formula scene laws numeric derive verify",
+        "expr interval domain dimension algebra equality formula scene answer laws numeric derive verify",
     ),
     ("emit", "expr domain dimension formula scene numeric derive"),
     (
@@ -41,12 +48,12 @@ const LAYERS: &[(&str, &str)] = &[
     ("plot", "figure"),
     (
         "solution",
-        "expr domain dimension algebra formula scene laws derive verify story",
+        "expr domain dimension algebra formula scene answer laws derive verify story",
     ),
     ("check", "expr domain dimension formula scene numeric"),
     (
         "render",
-        "expr domain dimension formula scene laws numeric derive verify story grade emit report figure plot solution",
+        "expr domain dimension formula scene answer laws numeric derive verify story grade emit report figure plot solution",
     ),
     (
         "serve",

@@ -9,7 +9,7 @@ use super::solution::{chapters, plots};
 use super::{Failure, files, friction, print, read_scene};
 use carom::figure::{self, Chapter, Drawing, Subject, Which};
 use carom::scene::Scene;
-use carom::{derive, story, verify};
+use carom::{answer, derive, story, verify};
 
 /// Arguments of `carom draw`.
 #[derive(Args)]
@@ -132,13 +132,13 @@ fn plotted(args: &DrawArgs, scene: &mut Scene, name: &str) -> Result<Drawing, Fa
         *scene = friction::settled(&args.scene, scene.clone())?;
         let derivation = derive::derive(scene).map_err(|stop| refused(stop.to_string()))?;
         let proof = verify::prove(scene, &derivation);
-        let later = story::special(scene, &derivation, &proof);
+        let later = verify::special(scene, &derivation, &proof);
         (
-            story::known(&derivation),
+            derivation.known(),
             later.map_err(|r| refused(r.to_string()))?,
         )
     };
-    let graphs = story::graphs(scene, &known, &later).map_err(|r| refused(r.to_string()))?;
+    let graphs = answer::graphs(scene, &known, &later).map_err(|r| refused(r.to_string()))?;
     let drawn = plots(scene, &graphs)?.into_iter().next();
     drawn
         .map(|(picture, _)| Drawing {

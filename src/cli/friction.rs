@@ -9,7 +9,7 @@ use carom::derive::friction::table;
 use carom::render::friction::{self, Shown};
 use carom::scene::Scene;
 use carom::verify::compare::compare;
-use carom::{derive, plot, story, verify};
+use carom::{answer, derive, plot, verify};
 
 /// Arguments of `carom compare`.
 #[derive(Args)]
@@ -57,7 +57,7 @@ pub fn derive_cases(path: &Path, scene: &Scene, format: Format) -> Result<u8, Fa
         let derivation = derive::derive(&case.scene).map_err(|stop| refused(stop.to_string()))?;
         let proof = verify::prove(&case.scene, &derivation);
         let possible = verify::possible::judge(&case.scene, &derivation);
-        let special = story::special(&case.scene, &derivation, &proof)
+        let special = verify::special(&case.scene, &derivation, &proof)
             .map_err(|reason| refused(reason.to_string()))?;
         shown.push(Shown {
             case,
@@ -67,7 +67,7 @@ pub fn derive_cases(path: &Path, scene: &Scene, format: Format) -> Result<u8, Fa
             special,
         });
     }
-    let about = story::about(scene, &table.about, &std::collections::BTreeMap::new())
+    let about = answer::about(scene, &table.about, &std::collections::BTreeMap::new())
         .map_err(|reason| refused(reason.to_string()))?;
     print(&match format {
         Format::Text => friction::text(scene, &table, &judged, &shown, &about),
@@ -78,7 +78,7 @@ pub fn derive_cases(path: &Path, scene: &Scene, format: Format) -> Result<u8, Fa
         && judged.checks.iter().all(|c| c.holds != Some(false))
         && shown
             .iter()
-            .all(|s| s.proof.holds() && s.special.iter().all(story::Answer::holds));
+            .all(|s| s.proof.holds() && s.special.iter().all(answer::Answer::holds));
     Ok(u8::from(!holds))
 }
 

@@ -276,8 +276,8 @@ fn told_failures(told: &carom::story::Told) -> Vec<String> {
 }
 
 /// The answers that are one bound on a parameter.
-fn bounds(answers: &[carom::story::Answer]) -> Vec<Bound> {
-    let bound = |a: &carom::story::Answer| match a.range.as_slice() {
+fn bounds(answers: &[carom::answer::Answer]) -> Vec<Bound> {
+    let bound = |a: &carom::answer::Answer| match a.range.as_slice() {
         [(parameter, relation, value)]
             if a.name == a.question && a.formula.as_ref().is_none_or(|f| f == value) =>
         {

@@ -10,7 +10,7 @@ use super::{Failure, files, pretty, print, read_scene_text};
 use carom::figure::{self, Chapter, Which};
 use carom::render::html::Picture;
 use carom::solution::{self, Detail, Slot};
-use carom::{check, derive, render, scene::Scene, story, verify};
+use carom::{answer, check, derive, render, scene::Scene, story, verify};
 
 /// Arguments of `carom solution`.
 #[derive(Args)]
@@ -80,14 +80,14 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         for refusal in refusals.chain(told.ended.iter().map(|why| format!("{why}."))) {
             solution.begin_with(&refusal);
         }
-        let graphs = story::graphs(&scene, &BTreeMap::new(), &told.answers);
+        let graphs = answer::graphs(&scene, &BTreeMap::new(), &told.answers);
         let graphs = graphs.map_err(|r| refused(r.to_string()))?;
         (solution, told.holds(), Some(told), plots(&scene, &graphs)?)
     } else {
         let derivation = derive::derive(&scene).map_err(|stop| refused(stop.to_string()))?;
         let proof = verify::prove(&scene, &derivation);
         let special =
-            story::special(&scene, &derivation, &proof).map_err(|r| refused(r.to_string()))?;
+            verify::special(&scene, &derivation, &proof).map_err(|r| refused(r.to_string()))?;
         let possible = verify::possible::judge(&scene, &derivation);
         let mut solution = solution::write(&scene, &derivation, &proof, &special, detail);
         if let Some(refusal) = possible.refusal() {
@@ -95,9 +95,9 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         }
         let holds = proof.holds()
             && possible.holds()
-            && special.iter().all(story::Answer::holds)
+            && special.iter().all(answer::Answer::holds)
             && !derivation.counting.contradictory;
-        let graphs = story::graphs(&scene, &story::known(&derivation), &special);
+        let graphs = answer::graphs(&scene, &derivation.known(), &special);
         let graphs = graphs.map_err(|r| refused(r.to_string()))?;
         (solution, holds, None, plots(&scene, &graphs)?)
     };
@@ -214,7 +214,7 @@ fn typeset(document: &str) -> Result<Vec<u8>, Failure> {
 }
 
 /// The plots of a scene, each with a name for its file.
-pub fn plots(scene: &Scene, graphs: &[story::Graph]) -> Result<Vec<(Picture, String)>, Failure> {
+pub fn plots(scene: &Scene, graphs: &[answer::Graph]) -> Result<Vec<(Picture, String)>, Failure> {
     let mut out = Vec::new();
     for (i, graph) in graphs.iter().enumerate() {
         let picture = render::plots::picture(scene, graph)

@@ -28,6 +28,7 @@ pub use names::Names;
 pub use plan::{Attachment, Reduction, reduction};
 
 use crate::algebra::{self};
+use crate::answer::Known;
 use crate::expr::{Expr, Symbol};
 use crate::laws::{Law, Unknown};
 use crate::scene::Scene;
@@ -61,6 +62,32 @@ pub struct Derivation {
     pub left_out: Vec<LeftOut>,
     /// What must hold for the answers: expressions that must not vanish, and signs that were seen rather than proved.
     pub assumptions: Vec<String>,
+}
+
+impl Derivation {
+    /// The answers, by name, in parameters alone.
+    pub fn known(&self) -> Known {
+        let mut known = BTreeMap::new();
+        let mut defined = BTreeMap::new();
+        if self.in_steps {
+            for definition in &self.definitions {
+                let value = definition.value.substitute(&defined);
+                // Written out, a definition of a long chain may grow beyond use; what hangs on it is then not answered.
+                if value.size() <= crate::answer::LONGEST {
+                    defined.insert(definition.name.clone(), value);
+                }
+            }
+        }
+        for answer in &self.answers {
+            if let Form::Value { closed, .. } = &answer.form {
+                let value = closed.substitute(&defined);
+                if value.size() <= crate::answer::LONGEST {
+                    known.insert(Symbol::from(answer.name.as_str()), value);
+                }
+            }
+        }
+        known
+    }
 }
 
 /// Some equations solved together.

@@ -5,17 +5,18 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::{digits, latex, unicode};
+use crate::answer::Answer as Special;
+use crate::answer::Check;
 use crate::derive::friction::{Bound, Case, Table};
 use crate::derive::{Derivation, Form};
 use crate::expr::Expr;
 use crate::formula::write_plain;
 use crate::plot::{Axis, Curve, Mark, Plot};
 use crate::scene::{Friction, Hypothesis, Scene};
-use crate::story::Answer as Special;
+use crate::verify::Proof;
 use crate::verify::compare::{Comparison, Outcome};
 use crate::verify::friction::{Judged, Pick};
 use crate::verify::possible::Possible;
-use crate::verify::{Check, Proof};
 
 /// A case with everything derived for it.
 pub struct Shown<'a> {

@@ -3,14 +3,15 @@
 use serde_json::{Map, Value, json};
 
 use super::latex;
+use crate::answer::Answer as Special;
+use crate::answer::Check;
 use crate::derive::{Answer, Derivation, Equation, Form, Matrix};
 use crate::expr::{Expr, Symbol};
 use crate::formula::write_plain;
 use crate::laws;
 use crate::scene::Scene;
-use crate::story::Answer as Special;
+use crate::verify::Proof;
 use crate::verify::possible::Possible;
-use crate::verify::{Check, Proof};
 
 /// Everything about a derivation and its proof.
 pub fn derivation(

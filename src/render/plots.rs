@@ -1,16 +1,16 @@
 //! Plots of a scene: curves sampled, zeros marked with their exact values, axes with symbols and units.
 //!
-//! In: the curves of [`crate::story::graphs`] in closed form. Out: SVG with a caption.
+//! In: the curves of [`crate::answer::graphs`] in closed form. Out: SVG with a caption.
 
 use super::html::Picture;
 use super::unicode;
+use crate::answer::{Curve, Graph};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Point};
 use crate::figure::{Label, Piece};
 use crate::plot::{self, Axis, Mark, Plot, PlotFault};
 use crate::scene::Scene;
 use crate::solution::Slot;
-use crate::story::{Curve, Graph};
 
 /// Points of a curve.
 const POINTS: usize = 400;

@@ -3,9 +3,9 @@
 use serde_json::{Value, json};
 
 use super::{latex, unicode};
+use crate::answer::Check;
 use crate::formula::write_plain;
 use crate::scene::Scene;
-use crate::verify::Check;
 use crate::verify::possible::{Condition, Possible, Verdict, inequality};
 
 /// The conditions under which it is possible, such as `2 l ≥ d`.

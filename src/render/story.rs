@@ -3,10 +3,12 @@
 use serde_json::{Map, Value, json};
 
 use super::{latex, unicode};
+use crate::answer::Answer;
+use crate::answer::Check;
+use crate::formula::Sentence;
 use crate::formula::{Relation, write_plain};
 use crate::scene::Scene;
-use crate::story::{Answer, Case, Sentence, StageTold, Told};
-use crate::verify::Check;
+use crate::story::{Case, StageTold, Told};
 
 /// What an answer rests on: the domains, how the statement is read, and its own assumptions.
 fn assumptions(scene: &Scene, readings: &[String], answer: &Answer) -> Vec<String> {

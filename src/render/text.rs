@@ -3,12 +3,13 @@
 use std::fmt::Write;
 
 use super::unicode;
+use crate::answer::Answer as Special;
+use crate::answer::Check;
 use crate::derive::{Derivation, Form, Matrix};
 use crate::laws;
 use crate::scene::Scene;
-use crate::story::Answer as Special;
+use crate::verify::Proof;
 use crate::verify::possible::Possible;
-use crate::verify::{Check, Proof};
 
 /// The whole derivation as plain text.
 pub fn derivation(

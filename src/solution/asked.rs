@@ -3,11 +3,12 @@
 
 use super::words::{self, say};
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Solution};
+use crate::answer::Answer;
+use crate::answer::Check;
 use crate::expr::Expr;
 use crate::formula::Relation;
+use crate::formula::{Piece, Sentence};
 use crate::scene::{Scene, StoryAsk};
-use crate::story::{Answer, Piece, Sentence};
-use crate::verify::Check;
 
 /// Largest formula, in nodes, that is worth a line on the way to an identity.
 const READABLE: usize = 120;

@@ -22,11 +22,11 @@ pub use story::tell;
 pub use words::{assumptions, is_safe_latex};
 
 use crate::algebra::Field;
+use crate::answer::{Answer, Near};
 use crate::derive::{self, Derivation, Form, Reduction};
 use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Affine, Geometry, Kinematics, Unknown};
 use crate::scene::{ContactLaw, Mode, Scene};
-use crate::story::{Answer, Near};
 use crate::verify::Proof;
 
 /// How much is shown.

@@ -8,9 +8,11 @@ use super::words::{self, name, say};
 use super::{
     Before, Claim, Detail, Inline, Line, Math, Meaning, Part, Scope, Slot, Solution, Writer,
 };
+use crate::answer::Answer;
 use crate::expr::{Expr, Node, Symbol};
+use crate::formula::Sentence;
 use crate::scene::{Ask, Scene, Stage, StageKind, Story, StoryAsk};
-use crate::story::{Answer, Case, Sentence, StageTold, Told};
+use crate::story::{Case, StageTold, Told};
 
 /// Writes the solution of a story.
 pub fn tell(scene: &Scene, story: &Story, told: &Told, detail: Detail) -> Solution {
@@ -539,7 +541,7 @@ impl Page<'_> {
         }
         let stages = self.told.stages.iter().flat_map(|s| &s.checks);
         let answers = self.told.answers.iter().flat_map(|a| &a.checks);
-        let followed = |c: &&crate::verify::Check| c.kind == "integration";
+        let followed = |c: &&crate::answer::Check| c.kind == "integration";
         let mut followed = stages.chain(answers).filter(followed).peekable();
         let is_followed = followed.peek().is_some() && followed.all(|c| c.holds == Some(true));
         let words = match self.told.holds() {

@@ -2,18 +2,17 @@
 
 use std::collections::BTreeSet;
 
-use super::calc::{is_zero, tidy};
-use super::special::{self, Known, blank};
-use super::{Answer, Case, Refused, StageTold, State, Told, motion, second, spring, words, worlds};
-use super::{Sentence, sentence::sentence};
+use super::{Case, StageTold, State, Told, motion, second, spring, words, worlds};
+use crate::answer::calc::{is_zero, tidy};
+use crate::answer::{self, Answer, Check, Known, Refused};
 use crate::derive::{self, Form};
 use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector, cross, dot, minus};
+use crate::formula::{Sentence, sentence};
 use crate::scene::{
     Ask, EnergyWhen, Question, Scene, Stage, StageKind, Story, StoryAsk, StoryQuestion, Turn,
 };
-use crate::verify::Check;
 
 /// Answers all questions.
 pub(super) fn all(
@@ -66,7 +65,7 @@ pub(super) fn all(
 
 /// An answer that has no value, and why.
 fn unanswered(question: &StoryQuestion, why: &Sentence) -> Answer {
-    let mut out = blank(question, &question.name, "what is asked");
+    let mut out = Answer::blank(question, &question.name, "what is asked");
     out.text.push(sentence!["not determined: ", why]);
     out
 }
@@ -88,7 +87,7 @@ fn needs_open(ask: &StoryAsk, known: &Known, earlier: &[Answer]) -> Option<Sente
 
 /// The answers of a question about formulas, with what the answers before stand for.
 fn formula(scene: &Scene, question: &StoryQuestion, known: &Known) -> Result<Vec<Answer>, Refused> {
-    Ok(special::formulas(scene, question, known)?.unwrap_or_default())
+    Ok(answer::formulas(scene, question, known)?.unwrap_or_default())
 }
 
 fn one(
@@ -138,7 +137,7 @@ fn one(
             stiffness,
             during,
         } => {
-            let out = blank(
+            let out = Answer::blank(
                 question,
                 name,
                 "share of the blow that the spring takes while it lasts",
@@ -157,7 +156,7 @@ fn one(
                 StoryAsk::Describe { .. } => (name_of("what happens in"), |t| t.words.clone()),
                 _ => (format!("{} leaves open", name_of("what")), words::missing),
             };
-            let mut out = blank(question, name, words);
+            let mut out = Answer::blank(question, name, words);
             out.text = told.into_iter().flat_map(|(_, t, _)| each(t)).collect();
             out
         }
@@ -170,17 +169,17 @@ fn one(
         | StoryAsk::Approximate { .. }
         | StoryAsk::Show { .. } => return Ok(Vec::new()),
         StoryAsk::Remark(words) => {
-            let mut out = blank(question, name, "words of the scene's author, not derived");
+            let mut out = Answer::blank(question, name, "words of the scene's author, not derived");
             out.text.push(words.into());
             out
         }
         StoryAsk::Assumed => {
-            let mut out = blank(question, name, "what is assumed");
+            let mut out = Answer::blank(question, name, "what is assumed");
             out.text = words::assumed(&story.readings, stages);
             out
         }
         StoryAsk::Unused(of) => {
-            let mut out = blank(question, name, format!("data not needed for `{of}`"));
+            let mut out = Answer::blank(question, name, format!("data not needed for `{of}`"));
             let of = Symbol::from(of.as_str());
             let asked: Vec<Answer> = earlier
                 .iter()
@@ -194,7 +193,7 @@ fn one(
                 sentence![
                     &of,
                     " does not need ",
-                    super::special::list(&unused.iter().map(Sentence::from).collect::<Vec<_>>())
+                    Sentence::list(&unused.iter().map(Sentence::from).collect::<Vec<_>>())
                 ]
             });
             out
@@ -338,7 +337,7 @@ fn reaction_asked(
 ) -> Result<Answer, Refused> {
     let when = if at_end { "end" } else { "beginning" };
     let words = format!("force of the fixed point at the {when} of `{}`", told.name);
-    let mut out = blank(question, &question.name, words);
+    let mut out = Answer::blank(question, &question.name, words);
     out.dimension = Dimension::new(1, 1, -2);
     let StageKind::Turn(turn) = &told.placed.kind else {
         return Ok(out);
@@ -349,12 +348,8 @@ fn reaction_asked(
         return Ok(out);
     }
     let (way, _) = motion::sense(&told.placed, &told.before.spin[turn.body], turn)?;
-    let value = reaction(&told.placed, told, turn, way, along, at_end).map_err(|stop| Refused {
-        at: format!("question `{}`", question.name),
-        reason: format!("not calculated: {stop}"),
-        hint: String::new(),
-        contradicts: false,
-    })?;
+    let value = reaction(&told.placed, told, turn, way, along, at_end)
+        .map_err(|stop| Refused::question(&question.name, format!("not calculated: {stop}"), ""))?;
     if at_end {
         out.assumptions = told.assumptions.clone();
     }
@@ -379,18 +374,14 @@ fn angular_momentum(
         "angular momentum of `{}` at the {when} of `{}`",
         b.name, told.name
     );
-    let mut out = blank(question, &question.name, words);
+    let mut out = Answer::blank(question, &question.name, words);
     out.dimension = Dimension::new(1, 2, -1);
     if let Some(why) = state.why_open([&h]) {
         out.text.push(sentence!["not determined: ", why]);
         return Ok(out);
     }
-    let value = tidy(&h, &scene.domains).map_err(|stop| Refused {
-        at: format!("question `{}`", question.name),
-        reason: format!("not calculated: {stop}"),
-        hint: String::new(),
-        contradicts: false,
-    })?;
+    let value = tidy(&h, &scene.domains)
+        .map_err(|stop| Refused::question(&question.name, format!("not calculated: {stop}"), ""))?;
     out.checks.push(Check {
         kind: "identity",
         words: format!(
@@ -414,7 +405,7 @@ fn of_case(question: &StoryQuestion, case: &Case, several: bool) -> Vec<Answer> 
             true => format!("{}, {}", answer.words, words::active(case)),
             false => answer.words.clone(),
         };
-        let mut a = blank(question, &answer.name, words);
+        let mut a = Answer::blank(question, &answer.name, words);
         a.latex = answer.latex.clone();
         a.dimension = answer.dimension.clone();
         match &answer.form {
@@ -460,7 +451,7 @@ fn of_case(question: &StoryQuestion, case: &Case, several: bool) -> Vec<Answer> 
         out.push(a);
     }
     if out.is_empty() {
-        let mut a = blank(question, &question.name, words::active(case));
+        let mut a = Answer::blank(question, &question.name, words::active(case));
         a.formula = Some(Expr::zero());
         a.text.push(sentence![
             "nothing is transmitted there: ",
@@ -504,12 +495,7 @@ fn of_motion(
     asked: &Question,
 ) -> Result<Vec<Answer>, Refused> {
     let domains = &scene.domains;
-    let refuse = |reason: &str| Refused {
-        at: format!("question `{}`", question.name),
-        reason: reason.into(),
-        hint: String::new(),
-        contradicts: false,
-    };
+    let refuse = |reason: &str| Refused::question(&question.name, reason, "");
     let what = match &asked.ask {
         Ask::Spin { .. } => "angular velocity",
         Ask::Velocity { .. } => "velocity of the center of mass",
@@ -561,7 +547,7 @@ fn of_motion(
     let dimension = derive::dimension(&asked.ask);
     let mut out = Vec::new();
     for (suffix, value) in parts {
-        let mut a = blank(
+        let mut a = Answer::blank(
             question,
             &format!("{}{suffix}", question.name),
             words.clone(),

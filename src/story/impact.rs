@@ -6,13 +6,13 @@
 
 use std::collections::BTreeMap;
 
-use super::calc::{Seen, essential, is_zero, sign, tidy};
 use super::{Case, Kept, Part, Refused, StageTold, State};
-use super::{Sentence, sentence::sentence};
 use crate::algebra::Sign;
+use crate::answer::calc::{Seen, essential, is_zero, sign, tidy};
 use crate::derive::{self, Derivation, Form};
 use crate::domain::Domain;
 use crate::expr::{Expr, Node, Symbol};
+use crate::formula::{Sentence, sentence};
 use crate::scene::{
     Ask, Contact, ContactLaw, EnergyWhen, ImpulseAt, OneSided, Question, Scene, Stage, touch,
 };
@@ -508,7 +508,7 @@ fn kept(scene: &Scene, one_sided: &[OneSided], cases: &[Case]) -> Vec<Kept> {
                 [one] => sentence!["an impulse from outside acts at ", one],
                 several => {
                     let all: Vec<Sentence> = several.iter().map(Sentence::from).collect();
-                    sentence!["impulses from outside act at ", super::special::list(&all)]
+                    sentence!["impulses from outside act at ", Sentence::list(&all)]
                 }
             },
         },

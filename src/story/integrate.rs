@@ -4,9 +4,9 @@
 
 use std::collections::BTreeSet;
 
+use crate::answer::Check;
 use crate::domain::{Domains, Limit};
 use crate::expr::{Expr, Point, Symbol};
-use crate::verify::Check;
 
 /// Points at which the motion is integrated.
 const POINTS: u64 = 3;

@@ -5,41 +5,27 @@
 //! [`crate::derive`] and [`crate::verify`]; motions follow from work and energy, and are integrated apart from that.
 
 mod answer;
-mod calc;
-mod graph;
 mod impact;
 mod integrate;
-mod intervals;
-mod limit;
 mod motion;
-mod optimum;
-mod roots;
 mod second;
-mod sentence;
 mod sheet;
-mod special;
 mod spring;
-mod threshold;
 mod words;
 mod worlds;
-mod zeros;
 
 use std::collections::BTreeMap;
-use std::fmt;
 
-pub use graph::{Curve, Graph, graphs};
-pub use sentence::{Piece, Sentence};
 pub use sheet::{Unanswered, impact, impacts, is_clockwise, sheet, with_special};
-pub use special::{about, known, special};
 
+use crate::answer::{Answer, Check, Refused};
 use crate::derive::{Derivation, Stop};
-use crate::dimension::Dimension;
 use crate::domain::Domain;
 use crate::expr::{Expr, Symbol, Vector};
-use crate::formula::Relation;
+use crate::formula::Sentence;
 use crate::scene::{Ask, ContactLaw, Scene, Stage, StageKind, Story, StoryAsk};
+use crate::verify::Proof;
 use crate::verify::possible::Possible;
-use crate::verify::{Check, Proof};
 
 /// How a body has been taking part.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -222,67 +208,6 @@ impl StageTold {
     }
 }
 
-/// The answer to a question about a story.
-#[derive(Clone, Debug)]
-pub struct Answer {
-    /// Name of the question.
-    pub question: String,
-    /// The stage it belongs to, among those told, and the outcome there; `None` for an answer about formulas alone.
-    pub told: Option<(usize, usize)>,
-    /// The ways through the cases in which an answer about formulas holds, by index; empty for all.
-    pub worlds: Vec<usize>,
-    /// Name of the answer.
-    pub name: String,
-    /// The name typeset.
-    pub latex: String,
-    /// What it is, in words.
-    pub words: String,
-    /// The value, where the answer is one.
-    pub formula: Option<Expr>,
-    /// For which values of a parameter something holds: parameter, relation, value.
-    pub range: Vec<(Symbol, Relation, Expr)>,
-    /// An equation that was proved.
-    pub equation: Option<(Expr, Expr)>,
-    /// What is asked, put into parameters: an equation or inequality to be solved, or the formula that is to be largest.
-    pub stated: Option<(Expr, Relation, Expr)>,
-    /// Identities that show the answer: both sides are the same in the parameters, with the reason.
-    pub put_in: Vec<(Expr, Expr, &'static str)>,
-    /// The answer in sentences.
-    pub text: Vec<Sentence>,
-    /// Dimension of the value.
-    pub dimension: Dimension,
-    /// What it rests on beyond the domains.
-    pub assumptions: Vec<Sentence>,
-    /// Solutions that were discarded, with the reason.
-    pub discarded: Vec<Sentence>,
-    /// What stands for a formula close to a value of a parameter.
-    pub near: Vec<Near>,
-    /// What was checked.
-    pub checks: Vec<Check>,
-}
-
-/// The closer the parameter comes to the value, the less the sides differ, even divided by the distance to a power.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Near {
-    /// Left side.
-    pub left: Expr,
-    /// Right side.
-    pub right: Expr,
-    /// The parameter.
-    pub parameter: Symbol,
-    /// The value it comes to; `None` beyond all bounds.
-    pub to: Option<Expr>,
-    /// The power.
-    pub order: u32,
-}
-
-impl Answer {
-    /// Whether no check failed.
-    pub fn holds(&self) -> bool {
-        self.checks.iter().all(|c| c.holds != Some(false))
-    }
-}
-
 /// A story, told.
 #[derive(Clone, Debug)]
 pub struct Told {
@@ -328,44 +253,13 @@ impl Told {
     }
 }
 
-/// Why a story cannot be told.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Refused {
-    /// The stage or question.
-    pub at: String,
-    /// The reason.
-    pub reason: String,
-    /// What to do.
-    pub hint: String,
-    /// Whether the laws contradict each other, rather than that the file says something that does not fit.
-    pub contradicts: bool,
-}
-
-impl fmt::Display for Refused {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.at, self.reason)?;
-        if self.hint.is_empty() {
-            Ok(())
-        } else {
-            write!(f, "\nhint: {}", self.hint)
-        }
-    }
-}
-
-impl std::error::Error for Refused {}
-
 impl Refused {
-    fn new(at: &str, reason: impl Into<String>, hint: impl Into<String>) -> Refused {
-        Refused {
-            at: format!("stage `{at}`"),
-            reason: reason.into(),
-            hint: hint.into(),
-            contradicts: false,
-        }
+    fn new(stage: &str, reason: impl Into<String>, hint: impl Into<String>) -> Refused {
+        Refused::at(format!("stage `{stage}`"), reason, hint)
     }
 
-    fn stop(at: &str, stop: impl Into<Stop>) -> Refused {
-        Refused::new(at, stop.into().to_string(), "")
+    fn stop(stage: &str, stop: impl Into<Stop>) -> Refused {
+        Refused::new(stage, stop.into().to_string(), "")
     }
 }
 

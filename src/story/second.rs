@@ -9,13 +9,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::integrate::points_of;
 use super::worlds::World;
 use super::{Answer, StageTold, State};
+use crate::answer::Check;
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::formula::Relation;
 use crate::numeric::Answer as Found;
 use crate::numeric::follow::{self, BodyState, Component, Followed, Lost, Passed, What};
 use crate::scene::{Scene, Story, StoryAsk, StoryQuestion};
-use crate::verify::Check;
 
 /// Points at which each way through the cases is followed.
 const POINTS: usize = 2;

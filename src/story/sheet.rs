@@ -3,8 +3,9 @@
 //! In: a scene and its story as told. Out: the scene of an impact with the motion handed on put in, and its derivation with
 //! the answers of the whole story in place of its own. Nothing is derived here.
 
-use super::calc::sign;
 use super::{Case, StageTold, Told};
+use crate::answer::calc::sign;
+use crate::answer::{self, Refused, about};
 use crate::derive::{self, Answer, Derivation, Form, Stop};
 use crate::expr::{Expr, cross, minus};
 use crate::scene::{Ask, EnergyWhen, Question, Scene, StageKind, StoryAsk};
@@ -101,11 +102,11 @@ pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
 /// A scene of one impact with its questions about answers among the others.
 pub fn with_special(
     mut scene: Scene,
-) -> Result<(Scene, Derivation, Vec<super::Answer>), Unanswered> {
+) -> Result<(Scene, Derivation, Vec<answer::Answer>), Unanswered> {
     let mut derivation = derive::derive(&scene).map_err(Unanswered::Stopped)?;
-    let known = super::special::known(&derivation);
+    let known = derivation.known();
     let special = std::mem::take(&mut scene.special);
-    let answers = super::special::about(&scene, &special, &known).map_err(Unanswered::Refused)?;
+    let answers = about(&scene, &special, &known).map_err(Unanswered::Refused)?;
     derivation
         .answers
         .extend(answers.iter().filter_map(flat_answer));
@@ -138,7 +139,7 @@ pub enum Unanswered {
     /// The derivation stopped.
     Stopped(Stop),
     /// A question about answers was refused.
-    Refused(super::Refused),
+    Refused(Refused),
 }
 
 impl std::fmt::Display for Unanswered {
@@ -150,7 +151,7 @@ impl std::fmt::Display for Unanswered {
     }
 }
 
-fn flat_answer(a: &super::Answer) -> Option<Answer> {
+fn flat_answer(a: &answer::Answer) -> Option<Answer> {
     let form = match (&a.formula, &a.equation) {
         (Some(closed), _) => Form::Value {
             closed: closed.clone(),

@@ -4,11 +4,13 @@
 //! Out: the share 1 − sin φ/φ with φ = τ √(k/m), and its leading term φ²/6. The motion it comes from is put into the
 //! equation of motion; the share is held against an integration that does not know it.
 
-use super::calc::{is_zero, tidy};
-use super::{Answer, integrate, limit, sentence::sentence};
+use super::integrate;
+use crate::answer::Check;
+use crate::answer::calc::{is_zero, tidy};
+use crate::answer::{Answer, limit};
 use crate::domain::{Domain, Domains};
 use crate::expr::{Expr, Symbol};
-use crate::verify::Check;
+use crate::formula::sentence;
 
 /// The time since the blow began; no scene has such a name.
 const TIME: &str = "\u{1}time";

@@ -1,12 +1,12 @@
 //! Sentences about stages, made from what was found of them: what happens, which forces have impulses, what is open.
 
-use super::calc::{Seen, essential, is_zero, sign};
 use super::{Case, StageTold};
-use super::{Sentence, sentence::sentence};
 use crate::algebra::Sign;
+use crate::answer::calc::{Seen, essential, is_zero, sign};
 use crate::derive;
 use crate::domain::Domains;
 use crate::expr::{Expr, minus};
+use crate::formula::{Sentence, sentence};
 use crate::scene::{BlowImpulse, ContactLaw, FallEnd, Scene, Stage, StageKind, Turn};
 
 /// Which supports act in an outcome.

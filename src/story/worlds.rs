@@ -5,10 +5,11 @@
 
 use std::collections::BTreeMap;
 
+use super::StageTold;
 use super::answer::number_case;
-use super::special::Known;
-use super::{Answer, Refused, Sentence, StageTold, sentence::sentence};
+use crate::answer::{Answer, Known, Refused};
 use crate::expr::Symbol;
+use crate::formula::{Sentence, sentence};
 use crate::scene::{Scene, StoryAsk};
 
 /// One way a scene can go.

@@ -20,6 +20,7 @@ use std::collections::BTreeMap;
 use num_traits::Zero;
 
 use crate::algebra::{Field, Stop};
+use crate::answer::{self, Check, Refused};
 use crate::derive::{Answer, Derivation, Form};
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Point, Rational, Scalar, Symbol, Vector};
@@ -33,17 +34,6 @@ const POINTS: u64 = 3;
 
 /// Points tried at most where the first ones have no rational values.
 const MORE_POINTS: u64 = 60;
-
-/// One thing that was checked.
-#[derive(Clone, Debug)]
-pub struct Check {
-    /// Stable name of the kind of check.
-    pub kind: &'static str,
-    /// What was found, in words.
-    pub words: String,
-    /// Whether it held; `None` where it could not be carried out.
-    pub holds: Option<bool>,
-}
 
 /// The outcome of all checks.
 #[derive(Clone, Debug, Default)]
@@ -64,6 +54,27 @@ impl Proof {
             .chain(self.answers.iter().flatten())
             .all(|c| c.holds != Some(false))
     }
+}
+
+/// Answers the questions of a scene of one impact that are about its answers.
+pub fn special(
+    scene: &Scene,
+    derivation: &Derivation,
+    proof: &Proof,
+) -> Result<Vec<answer::Answer>, Refused> {
+    if scene.special.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut answers = answer::about(scene, &scene.special, &derivation.known())?;
+    for answer in &mut answers {
+        let given = derivation.assumptions.iter().chain(&proof.assumptions);
+        answer
+            .assumptions
+            .extend(given.map(crate::formula::Sentence::from));
+        answer.assumptions.sort();
+        answer.assumptions.dedup();
+    }
+    Ok(answers)
 }
 
 /// How far answers can be used to judge others.

@@ -2,15 +2,16 @@
 
 use std::collections::BTreeMap;
 
+use carom::answer::about;
 use carom::derive::friction::{Table, table};
 use carom::derive::{Derivation, Form, derive};
 use carom::equality::{Equality, decide};
 use carom::expr::{Expr, Symbol};
 use carom::formula::{Symbols, read_expr};
 use carom::scene::{Mode, Scene};
-use carom::story::{about, special};
 use carom::verify::compare::compare;
 use carom::verify::friction::{Judged, Pick, judge};
+use carom::verify::special;
 use carom::verify::{possible, prove};
 use carom::{numeric, scene};
 

@@ -1,10 +1,10 @@
 //! The direction of a vector as an angle a person would write.
 
 use crate::algebra::Sign;
+use crate::answer::calc::{Seen, is_zero, sign};
 use crate::domain::Domains;
 use crate::expr::{Expr, Function, Vector, cross, dot};
 use crate::scene::direction;
-use crate::story::calc::{Seen, is_zero, sign};
 
 /// The angle of a vector, counterclockwise from x and up to whole turns: a multiple of π/2, the angle of the body or a
 /// multiple of π/2 from it, else an arc tangent; `None` where no sign decides the quadrant.

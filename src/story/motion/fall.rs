@@ -2,11 +2,11 @@
 
 use super::{half, kept, meanwhile, tidied};
 use crate::algebra::Sign;
+use crate::answer::calc::{Seen, is_zero, sign};
 use crate::expr::Expr;
+use crate::formula::{Sentence, sentence};
 use crate::scene::{Fall, FallEnd, Stage};
-use crate::story::calc::{Seen, is_zero, sign};
 use crate::story::{Refused, StageTold, State};
-use crate::story::{Sentence, sentence::sentence};
 
 /// Free fall or flight.
 pub(in crate::story) fn fall(
@@ -110,7 +110,7 @@ fn duration(
                 }
                 Seen::Proved(s) if s.is_not_negative() => {}
                 _ => assumptions.push(sentence![
-                    &crate::story::calc::essential(&square, domains),
+                    &crate::answer::calc::essential(&square, domains),
                     " ≥ 0, so that `",
                     name,
                     "` gets there"
@@ -137,7 +137,7 @@ fn duration(
         Seen::Proved(s) if s.is_not_negative() => Ok((time, down)),
         _ => {
             assumptions.push(sentence![
-                &crate::story::calc::essential(&time, domains),
+                &crate::answer::calc::essential(&time, domains),
                 " ≥ 0, so that `",
                 &stage.name,
                 "` comes after what is before it"

@@ -4,10 +4,11 @@
 //! moves freely goes on uniformly, where no weight is named and the time is known. Of any other body nothing is said, and
 //! what is not said is open.
 
+use crate::answer::calc::{is_zero, tidy};
 use crate::expr::Expr;
+use crate::formula::{Sentence, sentence};
 use crate::scene::Stage;
-use crate::story::calc::{is_zero, tidy};
-use crate::story::{Part, Sentence, State, sentence::sentence};
+use crate::story::{Part, State};
 
 /// Carries on what the stage does not name; gives what that takes for granted.
 pub(super) fn others(

@@ -15,12 +15,12 @@ pub(super) use slide::slide;
 pub(super) use turn::{arms, inertia_about, sense, turn};
 pub(super) use wind::wind;
 
-use super::calc::{Seen, sign, tidy};
+use crate::answer::calc::{Seen, sign, tidy};
 
 use super::{Kept, Refused, StageTold, State};
-use super::{Sentence, sentence::sentence};
 use crate::algebra::Sign;
 use crate::expr::Expr;
+use crate::formula::{Sentence, sentence};
 use crate::scene::Stage;
 
 fn half(e: &Expr) -> Expr {
@@ -70,7 +70,7 @@ fn arrival(stage: &Stage, body: usize, end: &Expr, seen: Seen) -> Option<Sentenc
     let proved = matches!(seen, Seen::Proved(s) if s.is_not_negative());
     (!proved).then(|| {
         sentence![
-            &super::calc::essential(end, &stage.scene.domains),
+            &crate::answer::calc::essential(end, &stage.scene.domains),
             " ≥ 0, so that `",
             &stage.scene.bodies[body].name,
             "` gets to the end of `",

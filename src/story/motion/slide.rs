@@ -1,10 +1,10 @@
 //! Motion of a body along a straight line, without turning, under constant forces.
 
 use super::{arrival, balance, half, kept, meanwhile, tidied};
+use crate::answer::calc::{Seen, is_zero, sign};
 use crate::expr::{Expr, dot};
+use crate::formula::sentence;
 use crate::scene::{Slide, Stage};
-use crate::story::calc::{Seen, is_zero, sign};
-use crate::story::sentence::sentence;
 use crate::story::{Refused, StageTold, State};
 
 /// Motion along a line.

@@ -3,11 +3,11 @@
 use super::bearing::bearing;
 use super::{arrival, balance, half, kept, meanwhile, tidied};
 use crate::algebra::Sign;
+use crate::answer::calc::{Seen, is_zero, sign, tidy};
 use crate::expr::{Expr, Vector, cross, dot, minus};
+use crate::formula::{Sentence, sentence};
 use crate::scene::{Lump, Stage, Turn, Until, direction};
-use crate::story::calc::{Seen, is_zero, sign, tidy};
 use crate::story::{Refused, StageTold, State, integrate};
-use crate::story::{Sentence, sentence::sentence};
 
 /// Rotation about a fixed point.
 pub(in crate::story) fn turn(
@@ -551,7 +551,7 @@ fn hurdle(
                 "where the way through `",
                 &stage.name,
                 "` leads over its highest place, ",
-                &crate::story::calc::essential(&left, &stage.scene.domains),
+                &crate::answer::calc::essential(&left, &stage.scene.domains),
                 " ≥ 0, so that `",
                 &body.name,
                 "` gets over it"

@@ -2,11 +2,12 @@
 
 use super::{half, kept, meanwhile, tidied};
 use crate::algebra::Sign;
+use crate::answer::calc::{Seen, is_zero, sign};
 use crate::domain::Domains;
 use crate::expr::{Expr, dot, minus};
+use crate::formula::Sentence;
 use crate::scene::{Stage, Wind};
-use crate::story::calc::{Seen, is_zero, sign};
-use crate::story::{Refused, Sentence, StageTold, State};
+use crate::story::{Refused, StageTold, State};
 
 /// A rope that winds round a pole.
 pub(in crate::story) fn wind(

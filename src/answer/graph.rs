@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use super::calc::{solve, tidy};
-use super::special::{dimension_of, put};
+use super::formulas::{dimension_of, put};
 use super::{Answer, Refused};
 use crate::dimension::Dimension;
 use crate::domain::{Domain, Limit};
@@ -46,7 +46,7 @@ pub fn graphs(
     later: &[Answer],
 ) -> Result<Vec<Graph>, Refused> {
     let mut known = known.clone();
-    super::special::remember(scene, later, &mut known);
+    super::formulas::remember(scene, later, &mut known);
     scene
         .plots
         .iter()
@@ -55,12 +55,8 @@ pub fn graphs(
 }
 
 fn one(scene: &Scene, ask: &PlotAsk, known: &BTreeMap<Symbol, Expr>) -> Result<Graph, Refused> {
-    let refused = |reason: String, hint: &str| Refused {
-        at: format!("plot `{}`", ask.name),
-        reason,
-        hint: hint.to_string(),
-        contradicts: false,
-    };
+    let refused =
+        |reason: String, hint: &str| Refused::at(format!("plot `{}`", ask.name), reason, hint);
     let values: BTreeMap<Symbol, Expr> = scene
         .parameters
         .iter()

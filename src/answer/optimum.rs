@@ -6,15 +6,15 @@
 
 use std::collections::BTreeMap;
 
+use super::Check;
 use super::calc::{Seen, Unsolved, by_signs, essential, is_zero, sign, solve, tidy};
 use super::{Answer, Refused};
-use super::{Sentence, sentence::sentence};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Relation, write_plain};
+use crate::formula::{Sentence, sentence};
 use crate::scene::Scene;
-use crate::verify::Check;
 
 /// The symbol whose square stands for the parameter.
 const ROOT: &str = "\u{1}root";
@@ -30,13 +30,14 @@ pub(super) fn maximum(
 ) -> Result<Vec<Answer>, Refused> {
     let mut domains = scene.domains.clone();
     let name = out.name.clone();
-    let refused = |reason: &str| Refused {
-        at: format!("question `{name}`"),
-        reason: reason.to_string(),
-        hint: String::from(
-            "the largest value is found over one parameter, or two of which one combination matters",
-        ),
-        contradicts: false,
+    let refused = |reason: &str| {
+        Refused::question(
+            &name,
+            reason.to_string(),
+            String::from(
+                "the largest value is found over one parameter, or two of which one combination matters",
+            ),
+        )
     };
     let plays = |s: &Symbol| !tidy(&of.derivative(s), &domains).is_ok_and(|d| d.is_zero());
     let idle: Vec<&Symbol> = over.iter().filter(|s| !plays(s)).collect();
@@ -128,7 +129,7 @@ pub(super) fn maximum(
     let value = super::calc::shorter(&value, &domains);
     let place = tidy(&best.value.powi(2), &domains).map_err(|s| refused(&s.to_string()))?;
     out.discarded = discarded;
-    out.dimension = super::special::dimension_of(scene, &value, &name)?;
+    out.dimension = super::formulas::dimension_of(scene, &value, &name)?;
     out.checks.push(by_signs(
         "maximum",
         "the derivative vanishes there and nowhere else; the value rises before and falls after ({how})",
@@ -172,7 +173,7 @@ pub(super) fn maximum(
     } else {
         at.equation = Some((combination.clone(), place.clone()));
     }
-    at.dimension = super::special::dimension_of(scene, &combination, &name)?;
+    at.dimension = super::formulas::dimension_of(scene, &combination, &name)?;
     at.formula = Some(place);
     out.formula = Some(value);
     Ok(vec![out, at])
@@ -184,26 +185,20 @@ fn elsewhere(name: &str, variable: &Symbol, roots: &[super::calc::Root]) -> Refu
         1 => String::from("where the derivative vanishes there is no maximum"),
         count => format!("the derivative vanishes at {count} values of {variable}"),
     };
-    Refused {
-        at: format!("question `{name}`"),
+    Refused::question(
+        &name,
         reason,
-        hint: format!(
+        format!(
             "with a \"domain\" of `min` and `max` for {variable} the values at its ends are compared too"
         ),
-        contradicts: false,
-    }
+    )
 }
 
 /// The largest value over one parameter in an interval: where the derivative vanishes once, or at an end.
 fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<Answer>, Refused> {
     let domains = &scene.domains;
     let name = out.name.clone();
-    let refused = |reason: String| Refused {
-        at: format!("question `{name}`"),
-        reason,
-        hint: String::new(),
-        contradicts: false,
-    };
+    let refused = |reason: String| Refused::question(&name, reason, "");
     let domain = domains
         .symbols
         .get(p)
@@ -347,7 +342,7 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
         }
     };
     let value = at(&place, f).map_err(|s| refused(s.to_string()))?;
-    out.dimension = super::special::dimension_of(scene, &value, &name)?;
+    out.dimension = super::formulas::dimension_of(scene, &value, &name)?;
     let there = BTreeMap::from([(p.clone(), place.clone())]);
     out.put_in
         .push((f.substitute(&there), value.clone(), "the value there"));

@@ -3,41 +3,17 @@
 //! In: a question and what earlier answers stand for, in parameters. Out: answers with how each is known. A scene of one
 //! impact and a scene with stages come here alike; what happened in stages is not known here.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::calc::{essential, is_zero, tidy};
-use super::{Answer, Refused, limit, optimum, threshold, zeros};
-use super::{Sentence, sentence::sentence};
-use crate::derive::{Derivation, Form};
+use super::{Answer, Check, Known, Refused, limit, optimum, threshold, zeros};
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
 use crate::equality::{self, Equality, How};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Relation, write_plain};
+use crate::formula::{Sentence, sentence};
 use crate::scene::{Scene, StoryAsk, StoryQuestion};
-use crate::verify::{Check, Proof};
-
-/// What earlier answers stand for.
-pub(super) type Known = BTreeMap<Symbol, Expr>;
-
-/// Answers the questions of a scene of one impact that are about its answers.
-pub fn special(
-    scene: &Scene,
-    derivation: &Derivation,
-    proof: &Proof,
-) -> Result<Vec<Answer>, Refused> {
-    if scene.special.is_empty() {
-        return Ok(Vec::new());
-    }
-    let mut answers = about(scene, &scene.special, &known(derivation))?;
-    for answer in &mut answers {
-        let given = derivation.assumptions.iter().chain(&proof.assumptions);
-        answer.assumptions.extend(given.map(Sentence::from));
-        answer.assumptions.sort();
-        answer.assumptions.dedup();
-    }
-    Ok(answers)
-}
 
 /// Answers questions about formulas alone, in their order; `known` holds the answers found before. A question about a stage is
 /// refused.
@@ -50,12 +26,11 @@ pub fn about(
     let mut answers = Vec::new();
     for question in questions {
         let Some(new) = formulas(scene, question, &known)? else {
-            return Err(Refused {
-                at: format!("question `{}`", question.name),
-                reason: String::from("it asks about a stage, and there are none"),
-                hint: String::from("add \"stages\", or ask about a formula"),
-                contradicts: false,
-            });
+            return Err(Refused::question(
+                &question.name,
+                String::from("it asks about a stage, and there are none"),
+                String::from("add \"stages\", or ask about a formula"),
+            ));
         };
         remember(scene, &new, &mut known);
         answers.extend(new);
@@ -73,35 +48,11 @@ pub(super) fn remember(scene: &Scene, answers: &[Answer], known: &mut Known) {
     }
 }
 
-/// The answers of a derivation, by name, in parameters alone.
-pub fn known(derivation: &Derivation) -> BTreeMap<Symbol, Expr> {
-    let mut known = Known::new();
-    let mut defined = Known::new();
-    if derivation.in_steps {
-        for definition in &derivation.definitions {
-            let value = definition.value.substitute(&defined);
-            // Written out, a definition of a long chain may grow beyond use; what hangs on it is then not answered.
-            if value.size() <= LONGEST {
-                defined.insert(definition.name.clone(), value);
-            }
-        }
-    }
-    for answer in &derivation.answers {
-        if let Form::Value { closed, .. } = &answer.form {
-            let value = closed.substitute(&defined);
-            if value.size() <= LONGEST {
-                known.insert(Symbol::from(answer.name.as_str()), value);
-            }
-        }
-    }
-    known
-}
-
 /// Longest formula that is worked on, in nodes.
-const LONGEST: usize = 20_000;
+pub const LONGEST: usize = 20_000;
 
 /// Answers a question about formulas; `None` for a question of another kind.
-pub(super) fn formulas(
+pub fn formulas(
     scene: &Scene,
     question: &StoryQuestion,
     known: &Known,
@@ -145,12 +96,7 @@ pub(super) fn put(
     e: &Expr,
     with: &[(Symbol, Expr)],
 ) -> Result<Expr, Refused> {
-    let refused = |reason: String, hint: &str| Refused {
-        at: format!("question `{name}`"),
-        reason,
-        hint: hint.into(),
-        contradicts: false,
-    };
+    let refused = |reason: String, hint: &str| Refused::question(name, reason, hint);
     let open = e
         .symbols()
         .into_iter()
@@ -203,7 +149,7 @@ fn one(
                 "" => format!("value of {}", write_plain(formula)),
                 meaning => meaning.to_string(),
             };
-            let mut out = blank(question, &name, words);
+            let mut out = Answer::blank(question, &name, words);
             let value = put(formula, with)?;
             put_in_fits(scene, known, with, &name)?;
             out.dimension = match stated_dimension(scene, known, formula, &name)? {
@@ -242,7 +188,7 @@ fn one(
         StoryAsk::Maximum { of, over } => {
             let value = put(of, &[])?;
             let words = format!("largest value of {}", write_plain(of));
-            let mut open = blank(question, &name, words);
+            let mut open = Answer::blank(question, &name, words);
             return Ok(
                 optimum::maximum(scene, open.clone(), &value, over).unwrap_or_else(|why| {
                     // Not found is an answer too, and leaves the others alone.
@@ -268,7 +214,7 @@ fn one(
             let of = of.unwrap_or(whole);
             let target = to.as_ref().map_or_else(|| String::from("∞"), write_plain);
             let words = format!("limit of {} as {parameter} → {target}", write_plain(of));
-            let mut out = blank(question, &name, words);
+            let mut out = Answer::blank(question, &name, words);
             let value = put(of, &[])?;
             let to = to.as_ref().map(|t| put(t, &[])).transpose()?;
             limit::fill(&mut out, &value, parameter, to.as_ref(), domains);
@@ -290,7 +236,7 @@ fn one(
                 format!("{parameter} near {}", write_plain(to))
             };
             let words = format!("{} for {near}, to order {order}", write_plain(of));
-            let mut out = blank(question, &name, words);
+            let mut out = Answer::blank(question, &name, words);
             let value = put(of, &[])?;
             out.dimension = dimension_of(scene, &value, &name)?;
             let to = put(to, &[])?;
@@ -380,7 +326,7 @@ fn condition(
     } else {
         "threshold"
     };
-    let mut out = blank(
+    let mut out = Answer::blank(
         question,
         name,
         format!("{what} of {parameter} for {statement}"),
@@ -400,7 +346,7 @@ fn condition(
             .collect();
         if !idle.is_empty() {
             out.text
-                .push(sentence!["it does not depend on ", list(&idle)]);
+                .push(sentence!["it does not depend on ", Sentence::list(&idle)]);
         }
     }
     out.dimension = dimension_of(scene, &Expr::symbol(parameter), name)?;
@@ -419,12 +365,11 @@ fn same_kind(
     if l == r || left.is_zero() || right.is_zero() {
         return Ok(());
     }
-    Err(Refused {
-        at: format!("question `{name}`"),
-        reason: format!("the sides of {statement} are {l} and {r}"),
-        hint: String::from("compare quantities of the same kind"),
-        contradicts: false,
-    })
+    Err(Refused::question(
+        name,
+        format!("the sides of {statement} are {l} and {r}"),
+        String::from("compare quantities of the same kind"),
+    ))
 }
 
 fn show(
@@ -441,7 +386,7 @@ fn show(
         "" => equation,
         claim => claim.to_string(),
     };
-    let mut out = blank(question, name, format!("to be shown: {words}"));
+    let mut out = Answer::blank(question, name, format!("to be shown: {words}"));
     out.checks.push(identity(&left, &right, &scene.domains));
     out.dimension = dimension_of(scene, &left, name)?;
     let equation = sentence![shown.0, " = ", shown.1];
@@ -471,17 +416,6 @@ fn vanishing(name: &Symbol, square: &Expr, domains: &Domains) -> Sentence {
         name,
         " is zero and the statement is empty"
     ]
-}
-
-/// `a, b and c`.
-pub(super) fn list(all: &[Sentence]) -> Sentence {
-    match all {
-        [] => Sentence::default(),
-        [one] => one.clone(),
-        [first @ .., last] => {
-            sentence![Sentence::join(first.iter().cloned(), ", "), " and ", last]
-        }
-    }
 }
 
 /// An identity, decided.
@@ -517,33 +451,6 @@ fn with_words(with: &[(Symbol, Expr)]) -> Vec<Sentence> {
     with.iter()
         .map(|(s, v)| sentence!["taken at ", s, " = ", v])
         .collect()
-}
-
-/// An answer without content yet.
-pub(super) fn blank(question: &StoryQuestion, name: &str, words: impl Into<String>) -> Answer {
-    let latex = question
-        .latex
-        .clone()
-        .unwrap_or_else(|| crate::formula::latex_name(name));
-    Answer {
-        question: question.name.clone(),
-        told: None,
-        worlds: Vec::new(),
-        name: name.to_string(),
-        latex,
-        words: words.into(),
-        formula: None,
-        range: Vec::new(),
-        equation: None,
-        stated: None,
-        put_in: Vec::new(),
-        text: Vec::new(),
-        dimension: Dimension::none(),
-        assumptions: Vec::new(),
-        discarded: Vec::new(),
-        near: Vec::new(),
-        checks: Vec::new(),
-    }
 }
 
 /// Dimension of a formula of parameters and earlier answers, as it is stated: what is put in for a parameter may be a plain
@@ -591,12 +498,11 @@ fn put_in_fits(
 }
 
 fn clashes(at: &str, reason: String) -> Refused {
-    Refused {
-        at: format!("question `{at}`"),
+    Refused::question(
+        at,
         reason,
-        hint: String::from("both sides of a sum or relation have the same dimension"),
-        contradicts: false,
-    }
+        String::from("both sides of a sum or relation have the same dimension"),
+    )
 }
 
 /// Dimension of an expression in the scene's parameters.

@@ -9,14 +9,14 @@ use std::collections::BTreeMap;
 
 use num_traits::Signed;
 
+use super::Check;
 use super::calc::{essential, is_zero, sign, tidy, within};
 use super::{Answer, Near};
-use super::{Sentence, sentence::sentence};
 use crate::algebra::{Element, Field, Sign};
 use crate::domain::{Domain, Domains, roles, samples};
 use crate::expr::{Expr, Node, Point, Symbol};
+use crate::formula::{Sentence, sentence};
 use crate::interval::{Interval, Outcome, evaluate};
-use crate::verify::Check;
 
 /// The symbol whose square stands for the parameter.
 const ROOT: &str = "\u{1}root";
@@ -51,13 +51,7 @@ enum Side {
 }
 
 /// A limit: value, none, or not found, with the reason.
-pub(super) fn fill(
-    out: &mut Answer,
-    of: &Expr,
-    parameter: &Symbol,
-    to: Option<&Expr>,
-    domains: &Domains,
-) {
+pub fn fill(out: &mut Answer, of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) {
     if let Some(to) = to
         && let Some(words) = outside(to, parameter, domains)
     {

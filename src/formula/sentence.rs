@@ -5,8 +5,18 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use super::write_plain;
 use crate::expr::{Expr, Symbol};
-use crate::formula::write_plain;
+
+/// A sentence from words, formulas and other sentences, in order: `sentence!["it holds for ", &h, " ≤ ", &limit]`.
+macro_rules! sentence {
+    ($($piece:expr),* $(,)?) => {
+        $crate::formula::Sentence(
+            [$($crate::formula::Sentence::from($piece).0),*].concat()
+        )
+    };
+}
+pub(crate) use sentence;
 
 /// Words or a formula.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -62,6 +72,17 @@ impl Sentence {
         }
         out
     }
+
+    /// `a, b and c`.
+    pub fn list(all: &[Sentence]) -> Sentence {
+        match all {
+            [] => Sentence::default(),
+            [one] => one.clone(),
+            [first @ .., last] => {
+                sentence![Sentence::join(first.iter().cloned(), ", "), " and ", last]
+            }
+        }
+    }
 }
 
 impl From<&str> for Sentence {
@@ -99,13 +120,3 @@ impl From<&Sentence> for Sentence {
         other.clone()
     }
 }
-
-/// A sentence from words, formulas and other sentences, in order: `sentence!["it holds for ", &h, " ≤ ", &limit]`.
-macro_rules! sentence {
-    ($($piece:expr),* $(,)?) => {
-        $crate::story::Sentence(
-            [$($crate::story::Sentence::from($piece).0),*].concat()
-        )
-    };
-}
-pub(crate) use sentence;

@@ -7,12 +7,12 @@ use std::collections::BTreeMap;
 
 use num_integer::Integer;
 
-use super::{Sentence, sentence::sentence};
+use super::Check;
 use crate::algebra::{Element, Field, Powers, Sign, Stop};
 use crate::domain::{Domain, Domains, roles, samples};
 use crate::expr::{Expr, Function, Node, Symbol};
+use crate::formula::{Sentence, sentence};
 use crate::interval::{Interval, Outcome, evaluate};
-use crate::verify::Check;
 
 /// Points at which a sign that could not be proved is looked at.
 const POINTS: usize = 24;

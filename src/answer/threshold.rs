@@ -5,16 +5,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::Check;
 use super::calc::{Roots, Seen, Unsolved, by_signs, essential, sign, solve, tidy};
 use super::{Answer, intervals, limit};
-use super::{Sentence, sentence::sentence};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Relation, write_plain};
+use crate::formula::{Sentence, sentence};
 use crate::interval::enclosure::decimal;
 use crate::scene::Scene;
-use crate::verify::Check;
 
 /// A step away from a value, of any size.
 const STEP: &str = "\u{1}step";

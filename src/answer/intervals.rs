@@ -7,12 +7,13 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
+use super::Answer;
 use super::calc::{Root, Seen, by_signs, essential, sign};
 use super::threshold::beside;
-use super::{Answer, Sentence, sentence::sentence};
 use crate::domain::{Domain, Domains};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
+use crate::formula::{Sentence, sentence};
 
 /// Tells the intervals.
 pub(super) fn fill(

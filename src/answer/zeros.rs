@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 use num_integer::Integer;
 
 use super::calc::{Root, Roots, Unsolved, is_zero, real, sign, solve, tidy};
-use super::{Sentence, sentence::sentence};
 use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
+use crate::formula::{Sentence, sentence};
 
 /// The tangent of half the angle.
 const HALF: &str = "\u{1}half";

@@ -1,0 +1,170 @@
+//! Answers, and questions about answers: limits, thresholds, largest values, zeros, forms for a small parameter, identities.
+//!
+//! In: what is asked, what earlier answers stand for, the scene's parameters with their domains. Out: answers with how each is
+//! known. Nothing here knows mechanics: the answers may come from an impact, from a motion or from anywhere else.
+
+pub mod calc;
+mod formulas;
+mod graph;
+mod intervals;
+pub mod limit;
+mod optimum;
+mod roots;
+mod threshold;
+mod zeros;
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+pub use formulas::{LONGEST, about, formulas};
+pub use graph::{Curve, Graph, graphs};
+
+use crate::dimension::Dimension;
+use crate::expr::{Expr, Symbol};
+use crate::formula::{Relation, Sentence};
+use crate::scene::StoryQuestion;
+
+/// What earlier answers stand for, by name, in parameters alone.
+pub type Known = BTreeMap<Symbol, Expr>;
+
+/// One thing that was checked.
+#[derive(Clone, Debug)]
+pub struct Check {
+    /// Stable name of the kind of check.
+    pub kind: &'static str,
+    /// What was found, in words.
+    pub words: String,
+    /// Whether it held; `None` where it could not be carried out.
+    pub holds: Option<bool>,
+}
+
+/// The answer to a question about stages, or about other answers.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// Name of the question.
+    pub question: String,
+    /// The stage it belongs to, among those told, and the outcome there; `None` for an answer about formulas alone.
+    pub told: Option<(usize, usize)>,
+    /// The ways through the cases in which an answer about formulas holds, by index; empty for all.
+    pub worlds: Vec<usize>,
+    /// Name of the answer.
+    pub name: String,
+    /// The name typeset.
+    pub latex: String,
+    /// What it is, in words.
+    pub words: String,
+    /// The value, where the answer is one.
+    pub formula: Option<Expr>,
+    /// For which values of a parameter something holds: parameter, relation, value.
+    pub range: Vec<(Symbol, Relation, Expr)>,
+    /// An equation that was proved.
+    pub equation: Option<(Expr, Expr)>,
+    /// What is asked, put into parameters: an equation or inequality to be solved, or the formula that is to be largest.
+    pub stated: Option<(Expr, Relation, Expr)>,
+    /// Identities that show the answer: both sides are the same in the parameters, with the reason.
+    pub put_in: Vec<(Expr, Expr, &'static str)>,
+    /// The answer in sentences.
+    pub text: Vec<Sentence>,
+    /// Dimension of the value.
+    pub dimension: Dimension,
+    /// What it rests on beyond the domains.
+    pub assumptions: Vec<Sentence>,
+    /// Solutions that were discarded, with the reason.
+    pub discarded: Vec<Sentence>,
+    /// What stands for a formula close to a value of a parameter.
+    pub near: Vec<Near>,
+    /// What was checked.
+    pub checks: Vec<Check>,
+}
+
+/// The closer the parameter comes to the value, the less the sides differ, even divided by the distance to a power.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Near {
+    /// Left side.
+    pub left: Expr,
+    /// Right side.
+    pub right: Expr,
+    /// The parameter.
+    pub parameter: Symbol,
+    /// The value it comes to; `None` beyond all bounds.
+    pub to: Option<Expr>,
+    /// The power.
+    pub order: u32,
+}
+
+impl Answer {
+    /// An answer without content yet.
+    pub fn blank(question: &StoryQuestion, name: &str, words: impl Into<String>) -> Answer {
+        let latex = question
+            .latex
+            .clone()
+            .unwrap_or_else(|| crate::formula::latex_name(name));
+        Answer {
+            question: question.name.clone(),
+            told: None,
+            worlds: Vec::new(),
+            name: name.to_string(),
+            latex,
+            words: words.into(),
+            formula: None,
+            range: Vec::new(),
+            equation: None,
+            stated: None,
+            put_in: Vec::new(),
+            text: Vec::new(),
+            dimension: Dimension::none(),
+            assumptions: Vec::new(),
+            discarded: Vec::new(),
+            near: Vec::new(),
+            checks: Vec::new(),
+        }
+    }
+
+    /// Whether no check failed.
+    pub fn holds(&self) -> bool {
+        self.checks.iter().all(|c| c.holds != Some(false))
+    }
+}
+
+/// Why a stage, a question or a plot cannot be worked out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refused {
+    /// The stage, question or plot.
+    pub at: String,
+    /// The reason.
+    pub reason: String,
+    /// What to do.
+    pub hint: String,
+    /// Whether the laws contradict each other, rather than that the file says something that does not fit.
+    pub contradicts: bool,
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.at, self.reason)?;
+        if self.hint.is_empty() {
+            Ok(())
+        } else {
+            write!(f, "\nhint: {}", self.hint)
+        }
+    }
+}
+
+impl std::error::Error for Refused {}
+
+impl Refused {
+    /// Refuses what stands at a place.
+    pub fn at(at: String, reason: impl Into<String>, hint: impl Into<String>) -> Refused {
+        Refused {
+            at,
+            reason: reason.into(),
+            hint: hint.into(),
+            contradicts: false,
+        }
+    }
+
+    /// Refuses a question.
+    pub fn question(name: &str, reason: impl Into<String>, hint: impl Into<String>) -> Refused {
+        Refused::at(format!("question `{name}`"), reason, hint)
+    }
+}
