@@ -60,8 +60,8 @@ fn the_second_way_finds_the_numbers_of_every_formula() {
                 }
                 true
             };
-            for question in story.questions.iter().filter(|q| is_told(q.ask.stage())) {
-                let found = match follow::answer(&scene, &followed, &question.ask, &at) {
+            for question in story.questions.iter().filter(|q| is_told(q.stage)) {
+                let found = match follow::answer(&scene, &followed, question, &at) {
                     Ok(numeric::Answer::Scalar(v)) => vec![(question.name.clone(), v)],
                     Ok(numeric::Answer::Vector([x, y])) => vec![
                         (format!("{}_x", question.name), x),
@@ -84,7 +84,7 @@ fn the_second_way_finds_the_numbers_of_every_formula() {
                 }
             }
         }
-        let asks = story.questions.iter().any(|q| q.ask.stage().is_some());
+        let asks = story.questions.iter().any(|q| q.stage.is_some());
         assert!(held > 0 || !asks, "{name}: nothing was compared");
     }
 }
@@ -374,7 +374,7 @@ fn questions_about_formulas_need_no_stages() {
     let asks = scene.story.as_ref().expect("stages").questions.clone();
     let formulas: Vec<_> = asks
         .into_iter()
-        .filter(|q| q.ask.stage().is_none())
+        .filter(|q| q.stage.is_none())
         .collect();
     let found = told(&scene);
     let known = found

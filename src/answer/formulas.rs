@@ -13,15 +13,11 @@ use crate::equality::{self, Equality, How};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Relation, write_plain};
 use crate::formula::{Sentence, sentence};
-use crate::scene::{Scene, StoryAsk, StoryQuestion};
+use crate::scene::{Ask, Question, Scene};
 
 /// Answers questions about formulas alone, in their order; `known` holds the answers found before. A question about a stage is
 /// refused.
-pub fn about(
-    scene: &Scene,
-    questions: &[StoryQuestion],
-    known: &Known,
-) -> Result<Vec<Answer>, Refused> {
+pub fn about(scene: &Scene, questions: &[Question], known: &Known) -> Result<Vec<Answer>, Refused> {
     let mut known = known.clone();
     let mut answers = Vec::new();
     for question in questions {
@@ -54,13 +50,13 @@ pub const LONGEST: usize = 20_000;
 /// Answers a question about formulas; `None` for a question of another kind.
 pub fn formulas(
     scene: &Scene,
-    question: &StoryQuestion,
+    question: &Question,
     known: &Known,
 ) -> Result<Option<Vec<Answer>>, Refused> {
     let of = match &question.ask {
-        StoryAsk::Value { formula, .. } => formula,
-        StoryAsk::Limit { of, .. } | StoryAsk::Approximate { of, .. } => of,
-        StoryAsk::Condition { .. } | StoryAsk::Maximum { .. } | StoryAsk::Show { .. } => {
+        Ask::Value { formula, .. } => formula,
+        Ask::Limit { of, .. } | Ask::Approximate { of, .. } => of,
+        Ask::Condition { .. } | Ask::Maximum { .. } | Ask::Show { .. } => {
             return one(scene, question, question.name.clone(), None, known).map(Some);
         }
         _ => return Ok(None),
@@ -131,7 +127,7 @@ fn is_parameter(scene: &Scene, name: &Symbol) -> bool {
 /// One answer, of `of` in place of what the question names where a component is asked; a maximum also tells its place.
 fn one(
     scene: &Scene,
-    question: &StoryQuestion,
+    question: &Question,
     name: String,
     of: Option<&Expr>,
     known: &Known,
@@ -139,7 +135,7 @@ fn one(
     let domains = &scene.domains;
     let put = |e: &Expr, with: &[(Symbol, Expr)]| put(scene, &name, known, e, with);
     let out = match &question.ask {
-        StoryAsk::Value {
+        Ask::Value {
             formula,
             with,
             meaning,
@@ -172,7 +168,7 @@ fn one(
             out.text.extend(with_words(with));
             out
         }
-        StoryAsk::Condition {
+        Ask::Condition {
             parameter,
             left,
             relation,
@@ -185,7 +181,7 @@ fn one(
                 scene, question, &statement, parameter, *relation, sides, with,
             )?
         }
-        StoryAsk::Maximum { of, over } => {
+        Ask::Maximum { of, over } => {
             let value = put(of, &[])?;
             let words = format!("largest value of {}", write_plain(of));
             let mut open = Answer::blank(question, &name, words);
@@ -206,7 +202,7 @@ fn one(
                 }),
             );
         }
-        StoryAsk::Limit {
+        Ask::Limit {
             of: whole,
             parameter,
             to,
@@ -223,7 +219,7 @@ fn one(
             }
             out
         }
-        StoryAsk::Approximate {
+        Ask::Approximate {
             of: whole,
             parameter,
             to,
@@ -243,7 +239,7 @@ fn one(
             limit::approximate(&mut out, &value, parameter, &to, *order, domains);
             out
         }
-        StoryAsk::Show {
+        Ask::Show {
             left,
             right,
             with,
@@ -313,7 +309,7 @@ fn statement(left: &Expr, relation: Relation, right: &Expr) -> String {
 
 fn condition(
     scene: &Scene,
-    question: &StoryQuestion,
+    question: &Question,
     statement: &str,
     parameter: &Symbol,
     relation: Relation,
@@ -374,7 +370,7 @@ fn same_kind(
 
 fn show(
     scene: &Scene,
-    question: &StoryQuestion,
+    question: &Question,
     shown: (&Expr, &Expr),
     claim: &str,
     [left, right]: [Expr; 2],

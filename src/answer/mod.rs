@@ -22,7 +22,7 @@ pub use graph::{Curve, Graph, graphs};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Relation, Sentence};
-use crate::scene::StoryQuestion;
+use crate::scene::Question;
 
 /// What earlier answers stand for, by name, in parameters alone.
 pub type Known = BTreeMap<Symbol, Expr>;
@@ -94,7 +94,7 @@ pub struct Near {
 
 impl Answer {
     /// An answer without content yet.
-    pub fn blank(question: &StoryQuestion, name: &str, words: impl Into<String>) -> Answer {
+    pub fn blank(question: &Question, name: &str, words: impl Into<String>) -> Answer {
         let latex = question
             .latex
             .clone()

@@ -16,7 +16,7 @@ use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::formula::{self, Symbols};
 use crate::numeric::friction::happened;
 use crate::numeric::{self, Answer, Number};
-use crate::scene::{self, Ask, BlowImpulse, ImpulseAt, Scene};
+use crate::scene::{self, Ask, BlowImpulse, ImpulseAt, Question, Scene};
 use typeset::Known;
 
 /// Points tried; a wrong claim about rational functions is equal at a random point only by a rare chance, at three hardly ever.
@@ -145,7 +145,7 @@ fn unusable<T>(message: impl Into<String>) -> Result<T, Unusable> {
 enum Meaning {
     Asked(Ask, Option<usize>),
     /// A question to the motion at the end of a stage: its index, and that of the question there.
-    Staged(usize, usize, Option<usize>),
+    Staged(Question, Option<usize>),
     Defined,
 }
 
@@ -189,10 +189,7 @@ fn meaning(scene: &Scene, value: &Value) -> Option<Meaning> {
     }
     if let (Some(question), Some(story)) = (value["answer"].as_str(), &scene.story) {
         let found = story.questions.iter().find(|q| q.name == question)?;
-        let scene::StoryAsk::Quantity { stage, question } = found.ask else {
-            return None;
-        };
-        return Some(Meaning::Staged(stage, question, axis));
+        return (found.ask.is_motion()).then(|| Meaning::Staged(found.clone(), axis));
     }
     if let Some(question) = value["answer"].as_str() {
         let question = scene.questions.iter().find(|q| q.name == question)?;

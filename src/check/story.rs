@@ -16,7 +16,7 @@ use crate::expr::{Expr, Point, Symbol};
 use crate::formula::{self, Symbols};
 use crate::numeric::follow::{self, BodyState, Component, Followed, Passed, What};
 use crate::numeric::{self, Answer};
-use crate::scene::{Contact, ContactLaw, OneSided, Parameter, Scene, StageKind, Story, StoryAsk};
+use crate::scene::{Contact, ContactLaw, OneSided, Parameter, Scene, StageKind, Story};
 
 /// Points looked at before a motion that does not get to its end is given up.
 const TRIES: u64 = 60;
@@ -213,14 +213,10 @@ pub(super) fn replay(
             continue;
         }
         for (name, meaning) in meanings {
-            let Meaning::Staged(stage, question, axis) = meaning else {
+            let Meaning::Staged(question, axis) = meaning else {
                 continue;
             };
-            let ask = StoryAsk::Quantity {
-                stage: *stage,
-                question: *question,
-            };
-            let value = match (follow::answer(scene, &followed, &ask, &doubles), axis) {
+            let value = match (follow::answer(scene, &followed, question, &doubles), axis) {
                 (Ok(Answer::Scalar(value)), _) => Some(value),
                 (Ok(Answer::Vector(v)), Some(axis)) => Some(v[*axis]),
                 _ => None,

@@ -63,21 +63,6 @@ pub struct Matrix {
     pub rhs: Vec<Expr>,
 }
 
-/// Every formula a question brings along.
-pub fn formulas(question: &Question) -> Vec<Expr> {
-    match &question.ask {
-        Ask::Velocity { point, along, .. } => point
-            .iter()
-            .map(|(_, at)| at)
-            .chain(along)
-            .flat_map(|v| v.iter().cloned())
-            .collect(),
-        Ask::Impulse { along, .. } => along.iter().flat_map(|v| v.iter().cloned()).collect(),
-        Ask::Balance { along, .. } => along.to_vec(),
-        Ask::Spin { .. } | Ask::Energy { .. } | Ask::Matrix { .. } => Vec::new(),
-    }
-}
-
 /// The full system of a scene, every law and every unknown, as a matrix.
 pub fn full_matrix(scene: &Scene, names: &Names) -> Result<Matrix, Stop> {
     let mut work = Work::new(scene)?;
@@ -308,6 +293,8 @@ impl Work<'_> {
             Ask::Energy { when, of } => Asked::Energy(*when, *of),
             Ask::Balance { system, along } => Asked::Balance(system.clone(), along.clone()),
             Ask::Matrix { rows, unknowns } => Asked::Matrix(rows.clone(), unknowns.clone()),
+            // About stages or other answers: nothing of this impact.
+            _ => Asked::Linear(Vec::new()),
         }
     }
 
@@ -581,10 +568,11 @@ fn words(scene: &Scene, ask: &Ask) -> String {
             )
         }
         Ask::Matrix { .. } => String::from("the equations in matrix form"),
+        _ => String::new(),
     }
 }
 
-/// The dimension of what a question asks for.
+/// The dimension of what a question asks for; that of a number where only its answer tells.
 pub fn dimension(ask: &Ask) -> Dimension {
     let [zero, one, two] = [0, 1, 2].map(|k| ratio(k, 1));
     let minus = |k: &Rational| -k.clone();
@@ -593,7 +581,9 @@ pub fn dimension(ask: &Ask) -> Dimension {
         Ask::Spin { .. } => (zero.clone(), zero, minus(&one)),
         Ask::Impulse { .. } | Ask::Balance { .. } => (one.clone(), one.clone(), minus(&one)),
         Ask::Energy { .. } => (one, two.clone(), minus(&two)),
-        Ask::Matrix { .. } => (zero.clone(), zero.clone(), zero),
+        Ask::Reaction { .. } => (one.clone(), one, minus(&two)),
+        Ask::AngularMomentum { .. } => (one.clone(), two, minus(&one)),
+        _ => (zero.clone(), zero.clone(), zero),
     };
     Dimension {
         mass,

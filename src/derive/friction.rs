@@ -15,8 +15,8 @@ use crate::formula::Relation;
 use crate::laws::Affine;
 use crate::laws::friction::{ModeLaw, Side, When, modes, side, stopping_ratio};
 use crate::scene::{
-    Body, Condition, ContactLaw, ContactSpace, Decided, Friction, FrictionEvent, Hypothesis, Mode,
-    Scene, StoryAsk, StoryQuestion,
+    Ask, Body, Condition, ContactLaw, ContactSpace, Decided, Friction, FrictionEvent, Hypothesis,
+    Mode, Question, Scene,
 };
 
 /// Everything known of a contact with friction before values are given.
@@ -47,7 +47,7 @@ pub struct Table {
     /// does.
     pub jamming: Option<Expr>,
     /// Questions whose answers are the same in every case: thresholds, and what is asked about these.
-    pub about: Vec<StoryQuestion>,
+    pub about: Vec<Question>,
     /// What P_n tends to where it jams, as u_n⁻ → 0 from below: the normal impulse of a tangential impact, which is not 0.
     pub jump: Option<Expr>,
 }
@@ -411,21 +411,13 @@ impl Forms {
 }
 
 /// The questions that need no answer of a case.
-fn of_parameters(scene: &Scene, special: Vec<StoryQuestion>) -> Vec<StoryQuestion> {
+fn of_parameters(scene: &Scene, special: Vec<Question>) -> Vec<Question> {
     let mut known: BTreeSet<Symbol> = scene.parameters.iter().map(|p| p.name.clone()).collect();
     known.insert("pi".into());
     let mut out = Vec::new();
     for question in special {
-        let formulas: Vec<&Expr> = match &question.ask {
-            StoryAsk::Value { formula, .. } => vec![formula],
-            StoryAsk::Maximum { of, .. } | StoryAsk::Limit { of, .. } => vec![of],
-            StoryAsk::Approximate { of, .. } => vec![of],
-            StoryAsk::Condition { left, right, .. } | StoryAsk::Show { left, right, .. } => {
-                vec![left, right]
-            }
-            _ => continue,
-        };
-        if formulas.iter().all(|e| e.symbols().is_subset(&known)) {
+        let formulas = question.ask.formulas();
+        if !formulas.is_empty() && formulas.iter().all(|e| e.symbols().is_subset(&known)) {
             known.insert(question.name.as_str().into());
             out.push(question);
         }
@@ -434,12 +426,12 @@ fn of_parameters(scene: &Scene, special: Vec<StoryQuestion>) -> Vec<StoryQuestio
 }
 
 /// The questions about answers, with thresholds of friction as formulas.
-fn thresholds(scene: &Scene, table: &Table, forms: &mut Forms) -> Result<Vec<StoryQuestion>, Stop> {
+fn thresholds(scene: &Scene, table: &Table, forms: &mut Forms) -> Result<Vec<Question>, Stop> {
     let mut out = scene.special.clone();
     for question in &mut out {
-        if let StoryAsk::Friction { event, .. } = question.ask {
+        if let Ask::Friction { event, .. } = question.ask {
             let formula = threshold(table, forms, event)?;
-            question.ask = StoryAsk::Value {
+            question.ask = Ask::Value {
                 formula,
                 with: Vec::new(),
                 meaning: String::from(match event {

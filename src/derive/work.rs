@@ -9,7 +9,7 @@ use super::plan::{self, Planner};
 use super::steps;
 use super::{
     Block, Counting, Definition, Derivation, Equation, LONGEST, LONGEST_OF_TWO, Names, Reduction,
-    Stop, TRIED, WORK, answer,
+    Stop, TRIED, WORK,
 };
 use crate::algebra::{self, Element, Field, Row};
 use crate::expr::{Expr, Vector};
@@ -534,7 +534,7 @@ pub(super) fn formulas(scene: &Scene) -> Vec<Expr> {
         Ok::<_, std::convert::Infallible>(e.clone())
     });
     for question in &scene.questions {
-        all.extend(answer::formulas(question));
+        all.extend(question.ask.vectors().into_iter().flatten().cloned());
     }
     all
 }

@@ -164,7 +164,7 @@ pub fn answer<T: Number>(
                 EnergyWhen::Lost => energy_lost(given, motion, *of),
             }))
         }
-        Ask::Balance { .. } | Ask::Matrix { .. } => Err(NoAnswer::NotANumber),
+        _ => Err(NoAnswer::NotANumber),
     }
 }
 

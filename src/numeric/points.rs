@@ -15,7 +15,7 @@ use crate::domain::{Domain, Domains, Limit};
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Int, Point, Rational, Symbol, ratio};
 use crate::numeric::random::Rng;
-use crate::scene::{Ask, BlowImpulse, ContactLaw, KnownQuantity, Scene};
+use crate::scene::{BlowImpulse, ContactLaw, KnownQuantity, Scene};
 
 /// The symbols some formulas need values for: plain ones, and angles with the divisor N whose multiples occur.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -80,15 +80,7 @@ pub fn needed(scene: &Scene) -> Needed {
         }
     }
     for question in &scene.questions {
-        match &question.ask {
-            Ask::Velocity { point, along, .. } => {
-                vectors.extend(point.iter().map(|(_, at)| at));
-                vectors.extend(along);
-            }
-            Ask::Impulse { along, .. } => vectors.extend(along),
-            Ask::Balance { along, .. } => vectors.push(along),
-            Ask::Spin { .. } | Ask::Energy { .. } | Ask::Matrix { .. } => {}
-        }
+        vectors.extend(question.ask.vectors());
     }
     for v in vectors {
         v.iter().for_each(|e| needed.add(e));

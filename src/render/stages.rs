@@ -11,7 +11,7 @@ use crate::numeric::follow::{
     answer,
 };
 use crate::numeric::given::Freedom;
-use crate::scene::{Scene, StageKind, Story, StoryAsk};
+use crate::scene::{Scene, StageKind, Story};
 
 /// Names of the components of a body's state, with their units.
 const COMPONENTS: [(&str, &str); 6] = [
@@ -216,13 +216,8 @@ fn answers(
     let mut out = Vec::new();
     for question in &story.questions {
         let name = &question.name;
-        let found = answer(scene, followed, &question.ask, at);
-        let unit = match &question.ask {
-            StoryAsk::Quantity { stage, .. } => super::unit_of(&story.stages[*stage].scene, name),
-            StoryAsk::Reaction { .. } => "N".into(),
-            StoryAsk::AngularMomentum { .. } => "kg m^2/s".into(),
-            _ => String::new(),
-        };
+        let found = answer(scene, followed, question, at);
+        let unit = crate::derive::dimension(&question.ask).si();
         match found {
             Ok(Answer::Scalar(v)) => out.push((name.clone(), unit, Ok(v))),
             Ok(Answer::Vector([x, y])) => {

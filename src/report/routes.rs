@@ -102,7 +102,7 @@ pub fn quantities(scene: &Scene) -> Vec<Quantity> {
         let vector = match &q.ask {
             Ask::Velocity { along, .. } | Ask::Impulse { along, .. } => along.is_none(),
             Ask::Spin { .. } | Ask::Energy { .. } => false,
-            Ask::Balance { .. } | Ask::Matrix { .. } => continue,
+            _ => continue,
         };
         let suffixes: &[&str] = if vector { &["_x", "_y"] } else { &[""] };
         out.extend(suffixes.iter().map(|s| Quantity {

@@ -3,6 +3,7 @@
 //! Coordinates are absolute: x to the right, y up, counterclockwise positive. A contact normal points out of the first
 //! body into the second; the impulse of a contact is the one on the second body.
 
+mod ask;
 mod body;
 mod body_file;
 mod check;
@@ -37,15 +38,13 @@ use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector};
 
+pub use ask::{Ask, EnergyWhen, ImpulseAt, PlotAsk, Question};
 pub use drawing::{Drawn, Outline, Support};
 pub use fault::{Fault, Faults, Span};
 pub use friction::{Condition, ContactSpace, Decided, Friction, FrictionEvent, Hypothesis, Mode};
 pub use geometry::direction;
 pub use printed::{Print, Printed};
-pub use stage::{
-    Fall, FallEnd, Lump, OneSided, PlotAsk, Relation, Slide, Stage, StageKind, Story, StoryAsk,
-    StoryQuestion, Turn, Until, Wind,
-};
+pub use stage::{Fall, FallEnd, Lump, OneSided, Slide, Stage, StageKind, Story, Turn, Until, Wind};
 
 /// Longest text of a scene file, in bytes.
 pub const LONGEST: usize = 1 << 20;
@@ -175,7 +174,7 @@ pub struct Scene {
     pub questions: Vec<Question>,
     /// What is asked about the answers to those: zeros, limits, forms for a small parameter, identities. Empty for a scene with
     /// stages, whose [`Story`] holds all of its questions.
-    pub special: Vec<StoryQuestion>,
+    pub special: Vec<Question>,
     /// Curves to be drawn.
     pub plots: Vec<PlotAsk>,
     /// How it wants to be drawn.
@@ -450,105 +449,4 @@ pub struct Force {
     pub name: String,
     /// Index of the body it acts on.
     pub body: usize,
-}
-
-/// Something asked of the scene.
-#[derive(Clone, Debug)]
-pub struct Question {
-    /// Name of the answer; a vector's components are `name_x` and `name_y`.
-    pub name: String,
-    /// How the name is typeset.
-    pub latex: Option<String>,
-    /// What is asked.
-    pub ask: Ask,
-    /// Asked by carom itself, to find out which supports act and what is lost; not answered to the reader.
-    pub hidden: bool,
-}
-
-/// The kinds of question.
-#[derive(Clone, Debug)]
-pub enum Ask {
-    /// Velocity just after of the point of `body` at `at` (the center of mass if `None`), a vector, or its component.
-    Velocity {
-        /// Index of the body.
-        body: usize,
-        /// Name and position of the point.
-        point: Option<(String, Vector)>,
-        /// Direction for a component.
-        along: Option<Vector>,
-    },
-    /// Angular velocity just after; counterclockwise positive unless `clockwise`.
-    Spin {
-        /// Index of the body.
-        body: usize,
-        /// Count clockwise as positive.
-        clockwise: bool,
-    },
-    /// Impulse at a contact, hinge or blow, on `on`, a vector, or its component.
-    Impulse {
-        /// What transmits it.
-        from: ImpulseAt,
-        /// Index of the body it acts on.
-        on: usize,
-        /// Direction for a component.
-        along: Option<Vector>,
-    },
-    /// Kinetic energy of one body, or of all.
-    Energy {
-        /// Before, after, or the loss.
-        when: EnergyWhen,
-        /// Index of the body; `None` for all.
-        of: Option<usize>,
-    },
-    /// Linear momentum of a system before = after along a direction, as an equation.
-    Balance {
-        /// Indices of the bodies.
-        system: Vec<usize>,
-        /// Direction.
-        along: Vector,
-    },
-    /// The matrix form of the equations that determine these component unknowns.
-    Matrix {
-        /// Names of balance questions or of entries of [`Scene::after`], in order of rows.
-        rows: Vec<String>,
-        /// Names of component questions, in order of columns.
-        unknowns: Vec<String>,
-    },
-}
-
-impl Ask {
-    /// Places and directions in it.
-    fn vectors_mut(&mut self, put: &mut impl FnMut(&mut Expr)) {
-        let (point, along) = match self {
-            Ask::Velocity { point, along, .. } => {
-                (point.as_mut().map(|p| &mut p.1), along.as_mut())
-            }
-            Ask::Impulse { along, .. } => (None, along.as_mut()),
-            Ask::Balance { along, .. } => (None, Some(along)),
-            Ask::Spin { .. } | Ask::Energy { .. } | Ask::Matrix { .. } => (None, None),
-        };
-        point.into_iter().chain(along).flatten().for_each(put);
-    }
-}
-
-/// What transmits an impulse.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ImpulseAt {
-    /// Index of a contact.
-    Contact(usize),
-    /// Index of a hinge.
-    Hinge(usize),
-    /// Index of a blow.
-    Blow(usize),
-}
-
-/// When an energy is asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EnergyWhen {
-    /// Just before.
-    Before,
-    /// Just after.
-    After,
-    /// Before minus after.
-    Lost,
 }

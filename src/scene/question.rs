@@ -24,12 +24,7 @@ pub(super) fn resolve(resolver: &mut Resolver<'_>, scene: &mut Scene) {
         let ask = ask(resolver, scene, name, question);
         if let Some(ask) = ask {
             let latex = question.latex.as_ref().map(|t| t.text.clone());
-            scene.questions.push(Question {
-                name: name.text.clone(),
-                latex,
-                ask,
-                hidden: false,
-            });
+            scene.questions.push(Question::new(&name.text, latex, ask));
         }
     }
     for (name, question) in all.iter().filter(|(_, q)| told::is_told(q)) {

@@ -94,7 +94,7 @@ pub(super) fn resolve(file: &SceneFile, mut faults: Vec<Fault>) -> (Scene, Vec<F
         faults = check(&mut scene, &claims);
         let unused = unused(&scene, |name| symbols.is_used(name));
         // Data that a problem gives in vain are no oversight where the scene asks for them.
-        let asks = |q: &super::StoryQuestion| matches!(q.ask, super::StoryAsk::Unused(_));
+        let asks = |q: &super::Question| matches!(q.ask, super::Ask::Unused(_));
         if !scene
             .story
             .as_ref()

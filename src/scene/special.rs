@@ -1,4 +1,4 @@
-//! Questions about formulas of answers, and curves to be drawn: what the file says becomes a [`StoryAsk`] or [`PlotAsk`].
+//! Questions about formulas of answers, and curves to be drawn: what the file says becomes a [`Ask`] or [`PlotAsk`].
 //!
 //! Scenes of one impact and scenes with stages ask these alike: values, thresholds, equations to be solved, largest values,
 //! limits, forms for a small parameter, identities. Nothing is worked out here.
@@ -11,9 +11,8 @@ use super::question::is_motion;
 use super::question_file::{PlotFile, QuestionFile};
 use super::record::{Formula, Map, Text};
 use super::resolve::{Resolver, entries};
-use super::stage::{PlotAsk, StoryAsk, StoryQuestion};
 use super::told::is_own;
-use super::{Ask, FrictionEvent, Scene};
+use super::{Ask, FrictionEvent, PlotAsk, Question, Scene};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
 
@@ -79,11 +78,8 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
         }
         let ask = with_names(base, &names, |base, symbols| ask(base, symbols, name, q));
         if let Some(ask) = ask {
-            scene.special.push(StoryQuestion {
-                name: name.text.clone(),
-                latex: q.latex.as_ref().map(|t| t.text.clone()),
-                ask,
-            });
+            let latex = q.latex.as_ref().map(|t| t.text.clone());
+            scene.special.push(Question::new(&name.text, latex, ask));
         }
         if is_own {
             continue;
@@ -139,7 +135,7 @@ pub(super) fn ask(
     symbols: &Symbols,
     name: &Text,
     q: &QuestionFile,
-) -> Option<StoryAsk> {
+) -> Option<Ask> {
     let kinds: Vec<_> = asked(q)
         .into_iter()
         .filter(|(_, given, _)| *given)
@@ -163,7 +159,7 @@ pub(super) fn ask(
     }
     let read = |base: &mut Resolver<'_>, f: &Formula| formula(base, symbols, f);
     if let Some(f) = &q.value {
-        return Some(StoryAsk::Value {
+        return Some(Ask::Value {
             formula: read(base, f)?,
             with: with(base, symbols, q.with.as_ref())?,
             meaning: String::new(),
@@ -183,7 +179,7 @@ pub(super) fn ask(
             ));
             return None;
         }
-        return Some(StoryAsk::Maximum {
+        return Some(Ask::Maximum {
             of: read(base, of)?,
             over,
         });
@@ -203,7 +199,7 @@ pub(super) fn ask(
         } else {
             Some(read(base, to)?)
         };
-        return Some(StoryAsk::Limit {
+        return Some(Ask::Limit {
             of: read(base, of)?,
             parameter: parameter(base, tends)?,
             to,
@@ -227,7 +223,7 @@ pub(super) fn ask(
             .flatten()
             .filter_map(|t| answer_named(base, symbols, t))
             .collect();
-        return Some(StoryAsk::Show {
+        return Some(Ask::Show {
             left,
             right,
             with: with(base, symbols, q.with.as_ref())?,
@@ -254,7 +250,7 @@ pub(super) fn ask(
         base.faults.push(Fault::new(holds.span, message));
         return None;
     }
-    Some(StoryAsk::Condition {
+    Some(Ask::Condition {
         parameter: parameter(base, of)?,
         left,
         relation,
@@ -287,7 +283,7 @@ fn friction_threshold(
     base: &mut Resolver<'_>,
     parameter: &Text,
     (contact, file, event): (usize, &ContactFile, FrictionEvent),
-) -> Option<StoryAsk> {
+) -> Option<Ask> {
     let Some(mu) = file
         .mu
         .as_ref()
@@ -313,7 +309,7 @@ fn friction_threshold(
         );
         return None;
     }
-    Some(StoryAsk::Friction { contact, event })
+    Some(Ask::Friction { contact, event })
 }
 
 fn approximate(
@@ -322,7 +318,7 @@ fn approximate(
     name: &Text,
     q: &QuestionFile,
     of: &Formula,
-) -> Option<StoryAsk> {
+) -> Option<Ask> {
     let (Some(tends), Some(order)) = (&q.tends, &q.order) else {
         let fault = Fault::new(
             name.span,
@@ -339,7 +335,7 @@ fn approximate(
             format!("the order is a whole number from 0 to {ORDER}"),
         ));
     }
-    Some(StoryAsk::Approximate {
+    Some(Ask::Approximate {
         of: formula(base, symbols, of)?,
         parameter: parameter(base, tends)?,
         to: match &q.to {
@@ -357,7 +353,7 @@ pub(super) fn plots(base: &mut Resolver<'_>, scene: &mut Scene) {
         names.extend(names_of(&q.name, &q.ask));
     }
     let later = scene.story.iter().flat_map(|s| &s.questions);
-    let given = |q: &&StoryQuestion| scene.parameters.iter().any(|p| *p.name == *q.name);
+    let given = |q: &&Question| scene.parameters.iter().any(|p| *p.name == *q.name);
     for q in scene.special.iter().chain(later).filter(|q| !given(q)) {
         for suffix in ["", "_x", "_y", "_at"] {
             names.push(format!("{}{suffix}", q.name));

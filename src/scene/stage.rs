@@ -1,4 +1,4 @@
-//! A story: stages that hand the motion on, and what is asked of them. Types only.
+//! A story: stages that hand the motion on. Types only.
 //!
 //! Every stage carries a [`Scene`] with the bodies as they are when it begins. A stage that follows another does not know
 //! where that is: its formulas hold symbols for the places, [`Stage::places`], and each of the two ways puts in what it
@@ -6,9 +6,8 @@
 
 use std::collections::BTreeMap;
 
-use super::{BlowImpulse, Contact, ContactLaw, KnownQuantity, Scene};
+use super::{Ask, BlowImpulse, Contact, ContactLaw, KnownQuantity, Question, Scene};
 use crate::expr::{Expr, Symbol, Vector, dot, minus};
-pub use crate::formula::Relation;
 
 /// The stages of a scene and its questions.
 #[derive(Clone, Debug, Default)]
@@ -16,7 +15,7 @@ pub struct Story {
     /// Stages in the order of the file.
     pub stages: Vec<Stage>,
     /// What is asked, in the order of the file.
-    pub questions: Vec<StoryQuestion>,
+    pub questions: Vec<Question>,
     /// How an incomplete statement or a missing figure is read, in words.
     pub readings: Vec<String>,
 }
@@ -51,6 +50,13 @@ impl Stage {
         out.kind.formulas_mut(&mut put);
         out.scene.geometry_mut(&mut put);
         out
+    }
+
+    /// What a question about the end of this stage asks, with the places known here.
+    pub fn asked<'a>(&'a self, question: &'a Question) -> &'a Ask {
+        let mut own = self.scene.questions.iter();
+        let own = own.find(|q| q.name == question.name);
+        &own.unwrap_or(question).ask
     }
 }
 
@@ -89,7 +95,8 @@ impl Scene {
             }
         }
         for question in &mut self.questions {
-            question.ask.vectors_mut(put);
+            let vectors = question.ask.vectors_mut();
+            vectors.into_iter().flatten().for_each(&mut *put);
         }
     }
 }
@@ -335,198 +342,4 @@ pub struct Wind {
     pub around: Vector,
     /// Free length at the end \[m\].
     pub to: Expr,
-}
-
-/// Something asked of a story.
-#[derive(Clone, Debug)]
-pub struct StoryQuestion {
-    /// Name of the answer.
-    pub name: String,
-    /// How the name is typeset.
-    pub latex: Option<String>,
-    /// What is asked.
-    pub ask: StoryAsk,
-}
-
-impl StoryAsk {
-    /// The formulas of answers in it.
-    pub fn formulas(&self) -> Vec<&Expr> {
-        match self {
-            StoryAsk::Value { formula, .. } => vec![formula],
-            StoryAsk::Condition { left, right, .. } | StoryAsk::Show { left, right, .. } => {
-                vec![left, right]
-            }
-            StoryAsk::Maximum { of, .. } => vec![of],
-            StoryAsk::Limit { of, to, .. } => std::iter::once(of).chain(to).collect(),
-            StoryAsk::Approximate { of, to, .. } => vec![of, to],
-            _ => Vec::new(),
-        }
-    }
-
-    /// Index of the stage that is asked about; `None` for a question about formulas alone.
-    pub fn stage(&self) -> Option<usize> {
-        match self {
-            StoryAsk::Quantity { stage, .. }
-            | StoryAsk::Reaction { stage, .. }
-            | StoryAsk::AngularMomentum { stage, .. }
-            | StoryAsk::Impulsive { stage }
-            | StoryAsk::Describe { stage }
-            | StoryAsk::Missing { stage } => Some(*stage),
-            _ => None,
-        }
-    }
-}
-
-/// The kinds of question about a story. Formulas may hold names of earlier answers.
-#[derive(Clone, Debug)]
-pub enum StoryAsk {
-    /// A question about the end of a stage, by index of stage and of question in the stage's scene.
-    Quantity {
-        /// Index of the stage.
-        stage: usize,
-        /// Index in the questions of the stage's scene.
-        question: usize,
-    },
-    /// Force of the fixed point on a turning body, along a direction.
-    Reaction {
-        /// Index of the stage.
-        stage: usize,
-        /// Direction.
-        along: Vector,
-        /// At the end of the stage; else at its beginning.
-        at_end: bool,
-    },
-    /// Angular momentum of a body about a point.
-    AngularMomentum {
-        /// Index of the stage.
-        stage: usize,
-        /// Index of the body.
-        body: usize,
-        /// The point.
-        about: Vector,
-        /// At the end of the stage; else at its beginning.
-        at_end: bool,
-    },
-    /// A formula of earlier answers, with parameters replaced.
-    Value {
-        /// The formula.
-        formula: Expr,
-        /// Parameters and what stands for them.
-        with: Vec<(Symbol, Expr)>,
-        /// What it is, such as the speed of a body; empty for a formula that a scene writes itself.
-        meaning: String,
-    },
-    /// The coefficient of friction from which a contact sticks or jams, or up to which it slides.
-    Friction {
-        /// Index of the contact.
-        contact: usize,
-        /// What happens there.
-        event: super::FrictionEvent,
-    },
-    /// Where an inequality holds, or an equation: the value of a parameter at which its sides meet.
-    Condition {
-        /// The parameter.
-        parameter: Symbol,
-        /// Left side.
-        left: Expr,
-        /// Relation.
-        relation: Relation,
-        /// Right side.
-        right: Expr,
-        /// Parameters and what stands for them.
-        with: Vec<(Symbol, Expr)>,
-    },
-    /// The largest value over parameters within their domains.
-    Maximum {
-        /// What is to be largest.
-        of: Expr,
-        /// The parameters.
-        over: Vec<Symbol>,
-    },
-    /// The value a formula tends to.
-    Limit {
-        /// The formula.
-        of: Expr,
-        /// The parameter that tends.
-        parameter: Symbol,
-        /// To what; `None` beyond all bounds.
-        to: Option<Expr>,
-    },
-    /// What a formula is near a value of a parameter, as a polynomial in the small difference.
-    Approximate {
-        /// The formula.
-        of: Expr,
-        /// The parameter that is near `to`.
-        parameter: Symbol,
-        /// The value it is near to.
-        to: Expr,
-        /// Highest power of the difference.
-        order: u32,
-    },
-    /// An identity to be proved.
-    Show {
-        /// Left side.
-        left: Expr,
-        /// Right side.
-        right: Expr,
-        /// Parameters and what stands for them.
-        with: Vec<(Symbol, Expr)>,
-        /// Answers, single or with two components, that must not vanish for the statement to mean something.
-        unless: Vec<Symbol>,
-        /// What the identity says, in words; may be empty.
-        claim: String,
-    },
-    /// The share of a blow of constant force that a spring takes while the blow lasts.
-    Share {
-        /// Mass of the body that is struck \[kg\].
-        mass: Expr,
-        /// Stiffness of the spring \[N/m\].
-        stiffness: Expr,
-        /// How long the blow lasts \[s\].
-        during: Expr,
-    },
-    /// Which forces have an impulse in this stage, and why.
-    Impulsive {
-        /// Index of the stage.
-        stage: usize,
-    },
-    /// What happens in this stage, in words.
-    Describe {
-        /// Index of the stage.
-        stage: usize,
-    },
-    /// What the laws of this stage leave undetermined, and what would close them.
-    Missing {
-        /// Index of the stage.
-        stage: usize,
-    },
-    /// Words of the scene's author; nothing is derived.
-    Remark(String),
-    /// What is assumed.
-    Assumed,
-    /// Which given data an earlier answer, by name, does not need.
-    Unused(String),
-}
-
-/// A picture that is asked for: a quantity against a parameter.
-#[derive(Clone, Debug)]
-pub struct PlotAsk {
-    /// Name.
-    pub name: String,
-    /// Heading; may be empty.
-    pub title: String,
-    /// The quantity, in parameters and answers.
-    pub quantity: Expr,
-    /// What is written at its axis; `None` for the formula itself.
-    pub label: Option<String>,
-    /// What it is drawn against: a parameter, or a name for `stands_for`.
-    pub against: Symbol,
-    /// What the name stands for, and the parameter that varies.
-    pub stands_for: Option<(Expr, Symbol)>,
-    /// Smallest value shown.
-    pub from: Expr,
-    /// Largest value shown.
-    pub to: Expr,
-    /// One curve for each: parameters and what stands for them. Never empty; an entry may be.
-    pub curves: Vec<Vec<(Symbol, Expr)>>,
 }

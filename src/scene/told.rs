@@ -1,13 +1,12 @@
 //! Questions that are answered by a formula of the geometry and of velocities just after: speed, what was before, angular
 //! momentum and moment of inertia about a point, the instantaneous center.
 //!
-//! Each becomes a [`StoryAsk::Value`]; the velocities it takes are asked for too, unless they are already.
+//! Each becomes a [`Ask::Value`]; the velocities it takes are asked for too, unless they are already.
 
 use super::fault::Fault;
 use super::question_file::QuestionFile;
 use super::record::Text;
 use super::resolve::Resolver;
-use super::stage::{StoryAsk, StoryQuestion};
 use super::stage_file::EndName;
 use super::{Ask, Body, Question, Scene, geometry, question};
 use crate::expr::{Expr, Vector, cross, dot, minus};
@@ -51,14 +50,16 @@ pub(super) fn resolve(
     let latex = q.latex.as_ref().map(|t| t.text.as_str());
     let meaning = meaning(q);
     let push = |scene: &mut Scene, suffix: &str, formula: Expr| {
-        scene.special.push(StoryQuestion {
-            name: format!("{}{suffix}", name.text),
-            latex: latex.map(|l| match suffix {
-                "_x" => format!("{{{l}}}_x"),
-                "_y" => format!("{{{l}}}_y"),
-                _ => l.to_owned(),
-            }),
-            ask: StoryAsk::Value {
+        let latex = latex.map(|l| match suffix {
+            "_x" => format!("{{{l}}}_x"),
+            "_y" => format!("{{{l}}}_y"),
+            _ => l.to_owned(),
+        });
+        let name = format!("{}{suffix}", name.text);
+        scene.special.push(Question::new(
+            &name,
+            latex,
+            Ask::Value {
                 formula,
                 with: Vec::new(),
                 meaning: match suffix {
@@ -66,7 +67,7 @@ pub(super) fn resolve(
                     axis => format!("{meaning}, {}", &axis[1..]),
                 },
             },
-        });
+        ));
     };
     match *kind {
         "inertia" => {
@@ -271,12 +272,7 @@ fn named(
     while is_taken(&name) {
         name.push_str("_after");
     }
-    scene.questions.push(Question {
-        name: name.clone(),
-        latex: None,
-        ask,
-        hidden: false,
-    });
+    scene.questions.push(Question::new(&name, None, ask));
     name
 }
 

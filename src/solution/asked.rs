@@ -8,13 +8,13 @@ use crate::answer::Check;
 use crate::expr::Expr;
 use crate::formula::Relation;
 use crate::formula::{Piece, Sentence};
-use crate::scene::{Scene, StoryAsk};
+use crate::scene::{Ask, Scene};
 
 /// Largest formula, in nodes, that is worth a line on the way to an identity.
 const READABLE: usize = 120;
 
 /// Adds a section with the answers to one question, in the order they were found.
-pub fn answered(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answers: &[Answer]) {
+pub fn answered(solution: &mut Solution, scene: &Scene, ask: &Ask, answers: &[Answer]) {
     let Some(first) = answers.first() else {
         return;
     };
@@ -100,7 +100,7 @@ pub fn full_sentence(scene: &Scene, text: &Sentence) -> Vec<Inline> {
 }
 
 /// What is asked, in a line.
-fn heading(scene: &Scene, ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
+fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> {
     let math = |e: &Expr| words::formula(e);
     let related = |left: &Expr, relation: Relation, right: &Expr| {
         Inline::Math(vec![
@@ -110,10 +110,10 @@ fn heading(scene: &Scene, ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
         ])
     };
     match ask {
-        StoryAsk::Value { meaning, .. } if !meaning.is_empty() => {
+        Ask::Value { meaning, .. } if !meaning.is_empty() => {
             vec![say(words::capital(&called(scene, meaning)))]
         }
-        StoryAsk::Value { formula, with, .. } => {
+        Ask::Value { formula, with, .. } => {
             let mut out = vec![math(formula)];
             for (i, (name, value)) in with.iter().enumerate() {
                 out.push(say(if i == 0 { " at " } else { " and " }));
@@ -121,7 +121,7 @@ fn heading(scene: &Scene, ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
             }
             out
         }
-        StoryAsk::Condition {
+        Ask::Condition {
             parameter,
             left,
             relation: Relation::Equal,
@@ -134,7 +134,7 @@ fn heading(scene: &Scene, ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
             related(left, Relation::Equal, right),
             say("?"),
         ],
-        StoryAsk::Condition {
+        Ask::Condition {
             parameter,
             left,
             relation,
@@ -147,7 +147,7 @@ fn heading(scene: &Scene, ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
             related(left, *relation, right),
             say(" hold?"),
         ],
-        StoryAsk::Maximum { of, over } => {
+        Ask::Maximum { of, over } => {
             let mut out = vec![say("Largest value of "), math(of), say(" over ")];
             for (i, p) in over.iter().enumerate() {
                 if i > 0 {
@@ -157,7 +157,7 @@ fn heading(scene: &Scene, ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
             }
             out
         }
-        StoryAsk::Limit { of, parameter, to } => {
+        Ask::Limit { of, parameter, to } => {
             let p = Math::Expr(Expr::symbol(parameter));
             let end = match to {
                 Some(to) => Math::Expr(to.clone()),
@@ -170,7 +170,7 @@ fn heading(scene: &Scene, ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
                 Inline::Math(vec![p, Math::Op("→"), end]),
             ]
         }
-        StoryAsk::Approximate {
+        Ask::Approximate {
             of,
             parameter,
             to,
@@ -187,19 +187,19 @@ fn heading(scene: &Scene, ask: &StoryAsk, answer: &Answer) -> Vec<Inline> {
             out.push(say(format!(", to order {order}")));
             out
         }
-        StoryAsk::Show {
+        Ask::Show {
             left, right, claim, ..
         } => match claim.as_str() {
             "" => vec![say("To show: "), related(left, Relation::Equal, right)],
             claim => vec![say("To show: "), say(claim)],
         },
-        StoryAsk::Unused(of) => vec![say("Data not needed for "), math(&Expr::symbol(of))],
+        Ask::Unused(of) => vec![say("Data not needed for "), math(&Expr::symbol(of))],
         _ => vec![say(words::capital(&called(scene, &answer.words)))],
     }
 }
 
 /// One answer; `told` where its checks stand with the one before.
-fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer, told: bool) {
+fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told: bool) {
     let symbol = Expr::symbol(&answer.name);
     let name = crate::expr::Symbol::from(answer.name.as_str());
     let parameter = scene.parameters.iter().any(|p| *p.name == *answer.name);
@@ -241,7 +241,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer,
     let shown = claims(ask, answer, named.map(|f| (&symbol, f)));
     let reason = answer.put_in.first().map_or("what is asked", |p| p.2);
     let shown = (!shown.is_empty()).then(|| solution.step(Vec::new(), shown, reason));
-    if let StoryAsk::Show {
+    if let Ask::Show {
         left, right, with, ..
     } = ask
     {
@@ -303,7 +303,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer,
     }
     let named_step = defined.or_else(|| shown.clone());
     // A combination of parameters is called by its own formula.
-    let combination = answer.equation.is_some() && matches!(ask, StoryAsk::Maximum { .. });
+    let combination = answer.equation.is_some() && matches!(ask, Ask::Maximum { .. });
     if let Some(formula) = &answer.formula
         && answer.range.is_empty()
         && !combination
@@ -316,7 +316,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer,
     }
     if let Some((left, right)) = &answer.equation
         && answer.stated.is_none()
-        && !matches!(ask, StoryAsk::Show { .. })
+        && !matches!(ask, Ask::Show { .. })
     {
         found.push(line(left, "=", right, &named_step));
     }
@@ -337,7 +337,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer,
     }
     // At which values a formula is taken stands in the heading.
     let in_heading = match ask {
-        StoryAsk::Value { with, .. } => with.len(),
+        Ask::Value { with, .. } => with.len(),
         _ => 0,
     };
     let mut text: Vec<Vec<Inline>> = answer
@@ -346,7 +346,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer,
         .skip(in_heading)
         .map(|t| full_sentence(scene, t))
         .collect();
-    if let StoryAsk::Show { claim, with, .. } = ask
+    if let Ask::Show { claim, with, .. } = ask
         && holds
     {
         // What is proved stands above; the values put in, before it.
@@ -357,7 +357,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer,
         };
         text.insert(0, vec![say(end)]);
     }
-    if text.len() > 1 && matches!(ask, StoryAsk::Show { .. }) {
+    if text.len() > 1 && matches!(ask, Ask::Show { .. }) {
         let sentences = std::mem::take(&mut text);
         text.push(sentences.join(&say(" ")));
     }
@@ -393,7 +393,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &StoryAsk, answer: &Answer,
 }
 
 /// What shows an answer, about its name where it has one.
-fn claims(ask: &StoryAsk, answer: &Answer, named: Option<(&Expr, &Expr)>) -> Vec<Claim> {
+fn claims(ask: &Ask, answer: &Answer, named: Option<(&Expr, &Expr)>) -> Vec<Claim> {
     let claim = |left: &Expr, right: &Expr| Claim {
         left: left.clone(),
         right: right.clone(),
@@ -403,9 +403,7 @@ fn claims(ask: &StoryAsk, answer: &Answer, named: Option<(&Expr, &Expr)>) -> Vec
         return put_in.map(|(left, right, _)| claim(left, right)).collect();
     };
     match (ask, &answer.stated) {
-        (StoryAsk::Condition { parameter, .. }, Some((left, _, right)))
-            if answer.put_in.len() == 1 =>
-        {
+        (Ask::Condition { parameter, .. }, Some((left, _, right))) if answer.put_in.len() == 1 => {
             let at = std::collections::BTreeMap::from([(parameter.clone(), symbol.clone())]);
             vec![claim(&left.substitute(&at), &right.substitute(&at))]
         }
@@ -416,10 +414,10 @@ fn claims(ask: &StoryAsk, answer: &Answer, named: Option<(&Expr, &Expr)>) -> Vec
 }
 
 /// What an answer stands for near a value of a parameter, and how: the formula asked about, or its component.
-fn stands_for(ask: &StoryAsk, answer: &Answer) -> Option<(Expr, &'static str)> {
+fn stands_for(ask: &Ask, answer: &Answer) -> Option<(Expr, &'static str)> {
     let (of, op) = match ask {
-        StoryAsk::Approximate { of, .. } => (of, "≈"),
-        StoryAsk::Limit { of, .. } => (of, "→"),
+        Ask::Approximate { of, .. } => (of, "≈"),
+        Ask::Limit { of, .. } => (of, "→"),
         _ => return None,
     };
     let axis = answer.name.strip_prefix(answer.question.as_str())?;

@@ -218,6 +218,8 @@ impl Writer<'_> {
                 format!("Linear momentum of {}", words::bodies(self.scene, system))
             }
             Ask::Matrix { .. } => String::from("Matrix form"),
+            // About other answers: no block of equations is solved for it.
+            _ => String::new(),
         };
         vec![say(text)]
     }

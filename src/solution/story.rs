@@ -11,7 +11,7 @@ use super::{
 use crate::answer::Answer;
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::Sentence;
-use crate::scene::{Ask, Scene, Stage, StageKind, Story, StoryAsk};
+use crate::scene::{Ask, Scene, Stage, StageKind, Story};
 use crate::story::{Case, StageTold, Told};
 
 /// Writes the solution of a story.
@@ -397,9 +397,9 @@ impl Page<'_> {
         let mut steps = Vec::new();
         let mut numbers = Vec::new();
         for question in &self.story.questions {
-            let StoryAsk::Quantity { question: q, .. } = &question.ask else {
+            if !question.ask.is_motion() {
                 continue;
-            };
+            }
             let all = self.told.answers.iter();
             let mine: Vec<&Answer> = all
                 .filter(|a| a.told.is_some_and(|(t, _)| t == i) && a.question == question.name)
@@ -433,7 +433,7 @@ impl Page<'_> {
                 if Self::is_end_energy(&self.told.stages[i], answer) {
                     math.extend([name("T", "", "+", false), Math::Op("=")]);
                 }
-                steps.extend(self.energy_in(&self.told.stages[i], *q, &symbol, formula));
+                steps.extend(self.energy_in(&self.told.stages[i], &question.ask, &symbol, formula));
                 math.push(Math::Expr(formula.clone()));
                 lines.push(Line {
                     math,
@@ -479,13 +479,13 @@ impl Page<'_> {
     fn energy_in(
         &self,
         told: &StageTold,
-        question: usize,
+        ask: &Ask,
         symbol: &Symbol,
         value: &Expr,
     ) -> Option<Line> {
         let [_, end] = told.energy.as_ref()?;
         let scene = &told.placed.scene;
-        let inertia = match (&scene.questions.get(question)?.ask, &told.inertia) {
+        let inertia = match (ask, &told.inertia) {
             (Ask::Spin { .. }, Some([_, about])) => about,
             (Ask::Velocity { body, .. }, None) => &scene.bodies[*body].mass,
             _ => return None,
@@ -503,10 +503,7 @@ impl Page<'_> {
     fn questions(&mut self) {
         for question in &self.story.questions {
             // What happens in a stage stands where the stage is told.
-            if matches!(
-                question.ask,
-                StoryAsk::Quantity { .. } | StoryAsk::Assumed | StoryAsk::Describe { .. }
-            ) {
+            if question.ask.is_motion() || matches!(question.ask, Ask::Assumed | Ask::Describe) {
                 continue;
             }
             let mine = self.told.answers.iter();

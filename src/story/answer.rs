@@ -10,9 +10,7 @@ use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector, cross, dot, minus};
 use crate::formula::{Sentence, sentence};
-use crate::scene::{
-    Ask, EnergyWhen, Question, Scene, Stage, StageKind, Story, StoryAsk, StoryQuestion, Turn,
-};
+use crate::scene::{Ask, EnergyWhen, Question, Scene, Stage, StageKind, Story, Turn};
 
 /// Answers all questions.
 pub(super) fn all(
@@ -28,7 +26,7 @@ pub(super) fn all(
     let mut worlds = worlds::of(&stages);
     let mut answers: Vec<Answer> = Vec::new();
     for question in &story.questions {
-        let new = if worlds::about_formulas(&question.ask) {
+        let new = if !question.ask.formulas().is_empty() {
             worlds::each(scene, &mut worlds, |known| {
                 match needs_open(&question.ask, known, &answers) {
                     Some(why) => Ok(vec![unanswered(question, &why)]),
@@ -64,14 +62,14 @@ pub(super) fn all(
 }
 
 /// An answer that has no value, and why.
-fn unanswered(question: &StoryQuestion, why: &Sentence) -> Answer {
+fn unanswered(question: &Question, why: &Sentence) -> Answer {
     let mut out = Answer::blank(question, &question.name, "what is asked");
     out.text.push(sentence!["not determined: ", why]);
     out
 }
 
 /// What a question about formulas needs that has no value.
-fn needs_open(ask: &StoryAsk, known: &Known, earlier: &[Answer]) -> Option<Sentence> {
+fn needs_open(ask: &Ask, known: &Known, earlier: &[Answer]) -> Option<Sentence> {
     let symbols = ask.formulas().into_iter().flat_map(Expr::symbols);
     let mut missing = symbols.filter(|s| !known.contains_key(s));
     missing.find_map(|name| {
@@ -86,7 +84,7 @@ fn needs_open(ask: &StoryAsk, known: &Known, earlier: &[Answer]) -> Option<Sente
 }
 
 /// The answers of a question about formulas, with what the answers before stand for.
-fn formula(scene: &Scene, question: &StoryQuestion, known: &Known) -> Result<Vec<Answer>, Refused> {
+fn formula(scene: &Scene, question: &Question, known: &Known) -> Result<Vec<Answer>, Refused> {
     Ok(answer::formulas(scene, question, known)?.unwrap_or_default())
 }
 
@@ -94,45 +92,28 @@ fn one(
     scene: &Scene,
     story: &Story,
     stages: &[StageTold],
-    question: &StoryQuestion,
+    question: &Question,
     earlier: &[Answer],
 ) -> Result<Vec<Answer>, Refused> {
     let domains = &scene.domains;
     let name = question.name.as_str();
+    let stage = question.stage.map(|i| &story.stages[i]);
     let mut out = match &question.ask {
-        StoryAsk::Quantity { stage, question: q } => {
-            return quantity(scene, story, stages, question, *stage, *q);
+        Ask::Reaction { along, at_end } => {
+            return each_way(stages, stage, |told| {
+                reaction_asked(question, told, along, *at_end)
+            });
         }
-        StoryAsk::Reaction {
-            stage,
-            along,
-            at_end,
-        } => {
-            let mut out = Vec::new();
-            for (i, told, label) in ways(stages, &story.stages[*stage]) {
-                let mut one = reaction_asked(question, told, along, *at_end)?;
-                one.told = Some((i, 0));
-                label.put(&mut one);
-                out.push(one);
-            }
-            return Ok(out);
-        }
-        StoryAsk::AngularMomentum {
-            stage,
+        Ask::AngularMomentum {
             body,
             about,
             at_end,
         } => {
-            let mut out = Vec::new();
-            for (i, told, label) in ways(stages, &story.stages[*stage]) {
-                let mut one = angular_momentum(scene, question, told, (*body, about), *at_end)?;
-                one.told = Some((i, 0));
-                label.put(&mut one);
-                out.push(one);
-            }
-            return Ok(out);
+            return each_way(stages, stage, |told| {
+                angular_momentum(scene, question, told, (*body, about), *at_end)
+            });
         }
-        StoryAsk::Share {
+        Ask::Share {
             mass,
             stiffness,
             during,
@@ -144,41 +125,32 @@ fn one(
             );
             return Ok(spring::share(out, [mass, stiffness, during], domains));
         }
-        StoryAsk::Impulsive { stage }
-        | StoryAsk::Describe { stage }
-        | StoryAsk::Missing { stage } => {
-            let told = ways(stages, &story.stages[*stage]);
-            let name_of = |what: &str| format!("{what} `{}`", story.stages[*stage].name);
+        Ask::Impulsive | Ask::Describe | Ask::Missing => {
+            let Some(stage) = stage else {
+                return Ok(Vec::new());
+            };
+            let told = ways(stages, stage);
+            let name_of = |what: &str| format!("{what} `{}`", stage.name);
             let (words, each): (String, fn(&StageTold) -> Vec<Sentence>) = match &question.ask {
-                StoryAsk::Impulsive { .. } => {
-                    (name_of("forces with an impulse in"), words::impulsive)
-                }
-                StoryAsk::Describe { .. } => (name_of("what happens in"), |t| t.words.clone()),
+                Ask::Impulsive => (name_of("forces with an impulse in"), words::impulsive),
+                Ask::Describe => (name_of("what happens in"), |t| t.words.clone()),
                 _ => (format!("{} leaves open", name_of("what")), words::missing),
             };
             let mut out = Answer::blank(question, name, words);
             out.text = told.into_iter().flat_map(|(_, t, _)| each(t)).collect();
             out
         }
-        // Those about formulas have been answered above.
-        StoryAsk::Value { .. }
-        | StoryAsk::Condition { .. }
-        | StoryAsk::Friction { .. }
-        | StoryAsk::Maximum { .. }
-        | StoryAsk::Limit { .. }
-        | StoryAsk::Approximate { .. }
-        | StoryAsk::Show { .. } => return Ok(Vec::new()),
-        StoryAsk::Remark(words) => {
+        Ask::Remark(words) => {
             let mut out = Answer::blank(question, name, "words of the scene's author, not derived");
             out.text.push(words.into());
             out
         }
-        StoryAsk::Assumed => {
+        Ask::Assumed => {
             let mut out = Answer::blank(question, name, "what is assumed");
             out.text = words::assumed(&story.readings, stages);
             out
         }
-        StoryAsk::Unused(of) => {
+        Ask::Unused(of) => {
             let mut out = Answer::blank(question, name, format!("data not needed for `{of}`"));
             let of = Symbol::from(of.as_str());
             let asked: Vec<Answer> = earlier
@@ -198,6 +170,11 @@ fn one(
             });
             out
         }
+        _ => match stage {
+            Some(stage) => return quantity(scene, stages, question, stage),
+            // Those about formulas have been answered before.
+            None => return Ok(Vec::new()),
+        },
     };
     out.assumptions.sort();
     out.assumptions.dedup();
@@ -269,16 +246,30 @@ fn ways<'a>(stages: &'a [StageTold], stage: &Stage) -> Vec<(usize, &'a StageTold
     .collect()
 }
 
+/// The answers to a question about a stage, one for each way it may come about.
+fn each_way(
+    stages: &[StageTold],
+    stage: Option<&Stage>,
+    answer: impl Fn(&StageTold) -> Result<Answer, Refused>,
+) -> Result<Vec<Answer>, Refused> {
+    let ways = stage.map_or_else(Vec::new, |stage| ways(stages, stage));
+    let each = ways.into_iter().map(|(i, told, way)| {
+        let mut one = answer(told)?;
+        one.told = Some((i, 0));
+        way.put(&mut one);
+        Ok(one)
+    });
+    each.collect()
+}
+
 /// Velocities, spins, impulses and energies at the end of a stage.
 fn quantity(
     scene: &Scene,
-    story: &Story,
     stages: &[StageTold],
-    question: &StoryQuestion,
-    stage: usize,
-    index: usize,
+    question: &Question,
+    stage: &Stage,
 ) -> Result<Vec<Answer>, Refused> {
-    let ways = ways(stages, &story.stages[stage]);
+    let ways = ways(stages, stage);
     if ways.is_empty() {
         let why = Sentence::words("the laws contradict each other before");
         let mut out = unanswered(question, &why);
@@ -289,9 +280,8 @@ fn quantity(
     let mut number = 0;
     let mut out = Vec::new();
     for (i, told, way) in ways {
-        let asked = &told.placed.scene.questions[index];
         let mut own = if told.cases.is_empty() {
-            of_motion(scene, question, told, asked)?
+            of_motion(scene, question, told)?
         } else {
             told.cases
                 .iter()
@@ -330,7 +320,7 @@ fn quantity(
 
 /// The force of the fixed point on a turning body, as asked.
 fn reaction_asked(
-    question: &StoryQuestion,
+    question: &Question,
     told: &StageTold,
     along: &Vector,
     at_end: bool,
@@ -360,7 +350,7 @@ fn reaction_asked(
 /// The angular momentum of a body about a point at the beginning or end of a stage.
 fn angular_momentum(
     scene: &Scene,
-    question: &StoryQuestion,
+    question: &Question,
     told: &StageTold,
     (body, about): (usize, &Vector),
     at_end: bool,
@@ -395,7 +385,7 @@ fn angular_momentum(
 }
 
 /// The answers of one outcome of an impact.
-fn of_case(question: &StoryQuestion, case: &Case, several: bool) -> Vec<Answer> {
+fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
     let mut out = Vec::new();
     for (answer, checks) in case.derivation.answers.iter().zip(&case.proof.answers) {
         if answer.question != question.name {
@@ -488,22 +478,18 @@ fn numbered(latex: &str, number: usize) -> String {
 }
 
 /// Quantities at the end of a motion.
-fn of_motion(
-    scene: &Scene,
-    question: &StoryQuestion,
-    told: &StageTold,
-    asked: &Question,
-) -> Result<Vec<Answer>, Refused> {
+fn of_motion(scene: &Scene, question: &Question, told: &StageTold) -> Result<Vec<Answer>, Refused> {
     let domains = &scene.domains;
     let refuse = |reason: &str| Refused::question(&question.name, reason, "");
-    let what = match &asked.ask {
+    let ask = told.placed.asked(question);
+    let what = match ask {
         Ask::Spin { .. } => "angular velocity",
         Ask::Velocity { .. } => "velocity of the center of mass",
         _ => "kinetic energy",
     };
     let words = format!("{what}, at the end of `{}`", told.name);
     let mut parts: Vec<(String, Expr)> = Vec::new();
-    match &asked.ask {
+    match ask {
         Ask::Spin { body, clockwise } => {
             let w = &told.after.spin[*body];
             parts.push((String::new(), if *clockwise { -w } else { w.clone() }));
@@ -544,7 +530,7 @@ fn of_motion(
         }
         _ => return Err(refuse("a motion transmits no impulse; ask it of an impact")),
     }
-    let dimension = derive::dimension(&asked.ask);
+    let dimension = derive::dimension(ask);
     let mut out = Vec::new();
     for (suffix, value) in parts {
         let mut a = Answer::blank(
@@ -557,7 +543,7 @@ fn of_motion(
         a.checks.extend(energy_check(told, domains));
         a.formula = Some(value);
         a.dimension = dimension.clone();
-        if !matches!(asked.ask, Ask::Energy { .. }) {
+        if !matches!(ask, Ask::Energy { .. }) {
             a.assumptions = told.assumptions.clone();
         }
         out.push(a);

@@ -146,10 +146,8 @@ fn case(
     });
     let mut wanted: Vec<(String, String)> = Vec::new();
     let hidden = |name: String, ask: Ask| Question {
-        name,
-        latex: None,
-        ask,
         hidden: true,
+        ..Question::new(&name, None, ask)
     };
     for (i, o) in one_sided.iter().enumerate() {
         let [first, second] = o.bodies;

@@ -23,7 +23,7 @@ use crate::derive::{Derivation, Stop};
 use crate::domain::Domain;
 use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::Sentence;
-use crate::scene::{Ask, ContactLaw, Scene, Stage, StageKind, Story, StoryAsk};
+use crate::scene::{Ask, ContactLaw, Scene, Stage, StageKind, Story};
 use crate::verify::Proof;
 use crate::verify::possible::Possible;
 
@@ -409,15 +409,15 @@ fn left_behind(story: &Story, stage: &Stage) -> Result<(), Refused> {
 fn named(story: &Story, stages: &[StageTold]) -> Vec<(Symbol, Expr)> {
     let mut out = Vec::new();
     for question in &story.questions {
-        let StoryAsk::Quantity { stage, question: q } = &question.ask else {
+        let Some(stage) = question.stage else {
             continue;
         };
-        let name = &story.stages[*stage].name;
+        let name = &story.stages[stage].name;
         let is_it = |s: &&StageTold| s.placed.name == *name && s.cases.is_empty();
         let Some(told) = stages.iter().find(is_it) else {
             continue;
         };
-        let value = match &story.stages[*stage].scene.questions[*q].ask {
+        let value = match told.placed.asked(question) {
             Ask::Spin { body, clockwise } => {
                 let w = &told.after.spin[*body];
                 if *clockwise { -w } else { w.clone() }

@@ -15,7 +15,7 @@ use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::formula::Relation;
 use crate::numeric::Answer as Found;
 use crate::numeric::follow::{self, BodyState, Component, Followed, Lost, Passed, What};
-use crate::scene::{Scene, Story, StoryAsk, StoryQuestion};
+use crate::scene::{Ask, Question, Scene, Story};
 
 /// Points at which each way through the cases is followed.
 const POINTS: usize = 2;
@@ -324,12 +324,7 @@ impl Second<'_> {
     }
 
     /// Holds an answer against what was followed; `None` for one that no number is asked of.
-    pub fn answer(
-        &self,
-        worlds: &[World],
-        question: &StoryQuestion,
-        answer: &Answer,
-    ) -> Option<Check> {
+    pub fn answer(&self, worlds: &[World], question: &Question, answer: &Answer) -> Option<Check> {
         let formula = answer.formula.as_ref()?;
         let mut compared = Compared::default();
         let mut seen_any = false;
@@ -344,7 +339,7 @@ impl Second<'_> {
             }
             let size = seen.units.size(&answer.dimension);
             match &question.ask {
-                StoryAsk::Condition { parameter, .. } => {
+                Ask::Condition { parameter, .. } => {
                     let [(_, relation, value)] = answer.range.as_slice() else {
                         return None;
                     };
@@ -382,20 +377,20 @@ impl Second<'_> {
                 }
             }
         }
-        let asks_motion = question.ask.stage().is_some();
+        let asks_motion = question.stage.is_some();
         (seen_any || asks_motion).then(|| compared.check("this answer", self))
     }
 
     /// The number a question asks for, from what was followed.
     fn number(
         &self,
-        question: &StoryQuestion,
+        question: &Question,
         answer: &Answer,
         point: &Point<f64>,
         followed: &Followed,
     ) -> Option<f64> {
         match &question.ask {
-            StoryAsk::Value { formula, with, .. } => {
+            Ask::Value { formula, with, .. } => {
                 let mut moved = point.clone();
                 for (name, value) in with {
                     let value = value.evaluate(point)?;
@@ -414,8 +409,8 @@ impl Second<'_> {
                 };
                 formula.evaluate(&env)
             }
-            ask if ask.stage().is_some() => {
-                match follow::answer(self.scene, followed, ask, point).ok()? {
+            _ if question.stage.is_some() => {
+                match follow::answer(self.scene, followed, question, point).ok()? {
                     Found::Scalar(value) => Some(value),
                     Found::Vector(v) => Some(v[axis_of(question, answer)?]),
                 }
@@ -429,20 +424,20 @@ impl Second<'_> {
         let mut out = point.clone();
         for question in &self.story.questions {
             let value = match &question.ask {
-                StoryAsk::Value { formula, with, .. } if with.is_empty() => formula.evaluate(&out),
+                Ask::Value { formula, with, .. } if with.is_empty() => formula.evaluate(&out),
                 _ => None,
             };
             let mut put = |name: String, value: f64| {
                 out.values.insert(Symbol::from(name.as_str()), value);
             };
             match &question.ask {
-                StoryAsk::Value { .. } => {
+                Ask::Value { .. } => {
                     if let Some(value) = value {
                         put(question.name.clone(), value);
                     }
                 }
-                ask if ask.stage().is_some() => {
-                    match follow::answer(self.scene, followed, ask, point) {
+                _ if question.stage.is_some() => {
+                    match follow::answer(self.scene, followed, question, point) {
                         Ok(Found::Scalar(value)) => put(question.name.clone(), value),
                         Ok(Found::Vector([x, y])) => {
                             put(format!("{}_x", question.name), x);
@@ -458,8 +453,8 @@ impl Second<'_> {
     }
 
     /// Left side less right side of a relation, with everything followed at a point.
-    fn gap(&self, question: &StoryQuestion, point: &Point<f64>) -> Option<f64> {
-        let StoryAsk::Condition {
+    fn gap(&self, question: &Question, point: &Point<f64>) -> Option<f64> {
+        let Ask::Condition {
             left, right, with, ..
         } = &question.ask
         else {
@@ -497,7 +492,7 @@ fn tips(told: Relation, gaps: &[Option<f64>; 3]) -> Option<bool> {
 }
 
 /// Which component an answer is.
-fn axis_of(question: &StoryQuestion, answer: &Answer) -> Option<usize> {
+fn axis_of(question: &Question, answer: &Answer) -> Option<usize> {
     let rest = answer.name.strip_prefix(question.name.as_str())?;
     ["_x", "_y"].iter().position(|axis| rest.starts_with(axis))
 }

@@ -8,7 +8,7 @@ use crate::answer::calc::sign;
 use crate::answer::{self, Refused, about};
 use crate::derive::{self, Answer, Derivation, Form, Stop};
 use crate::expr::{Expr, cross, minus};
-use crate::scene::{Ask, EnergyWhen, Question, Scene, StageKind, StoryAsk};
+use crate::scene::{Ask, EnergyWhen, Question, Scene, StageKind};
 
 /// The scene of an impact, by name of its stage; the first one for `None`. `None` where there is no such impact.
 pub fn impact(scene: &Scene, told: &Told, stage: Option<&str>) -> Option<Scene> {
@@ -74,22 +74,11 @@ pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
     }
     let asked = scene.story.iter().flat_map(|s| &s.questions);
     flat.questions = asked
-        .map(|q| Question {
-            name: q.name.clone(),
-            latex: q.latex.clone(),
-            ask: match &q.ask {
-                StoryAsk::Quantity { .. } => first
-                    .and_then(|s| {
-                        s.placed
-                            .scene
-                            .questions
-                            .iter()
-                            .find(|own| own.name == q.name)
-                    })
-                    .map_or_else(elsewhere, |q| q.ask.clone()),
-                _ => elsewhere(),
-            },
-            hidden: false,
+        .map(|q| {
+            let own =
+                first.and_then(|s| s.placed.scene.questions.iter().find(|o| o.name == q.name));
+            let ask = own.map_or_else(elsewhere, |own| own.ask.clone());
+            Question::new(&q.name, q.latex.clone(), ask)
         })
         .collect();
     derivation.definitions.clear();
@@ -110,12 +99,9 @@ pub fn with_special(
     derivation
         .answers
         .extend(answers.iter().filter_map(flat_answer));
-    scene.questions.extend(special.iter().map(|q| Question {
-        name: q.name.clone(),
-        latex: q.latex.clone(),
-        ask: elsewhere(),
-        hidden: false,
-    }));
+    let asked = special.iter();
+    let asked = asked.map(|q| Question::new(&q.name, q.latex.clone(), elsewhere()));
+    scene.questions.extend(asked);
     scene.special = special;
     let has_answer = |q: &Question| derivation.answers.iter().any(|a| a.question == q.name);
     scene

@@ -10,7 +10,7 @@ use super::answer::number_case;
 use crate::answer::{Answer, Known, Refused};
 use crate::expr::Symbol;
 use crate::formula::{Sentence, sentence};
-use crate::scene::{Scene, StoryAsk};
+use crate::scene::Scene;
 
 /// One way a scene can go.
 #[derive(Clone, Default)]
@@ -51,19 +51,6 @@ pub(super) fn of(stages: &[StageTold]) -> Vec<World> {
         worlds = next;
     }
     worlds
-}
-
-/// Whether a question is about formulas of answers.
-pub(super) fn about_formulas(ask: &StoryAsk) -> bool {
-    matches!(
-        ask,
-        StoryAsk::Value { .. }
-            | StoryAsk::Condition { .. }
-            | StoryAsk::Maximum { .. }
-            | StoryAsk::Limit { .. }
-            | StoryAsk::Approximate { .. }
-            | StoryAsk::Show { .. }
-    )
 }
 
 /// Answers in every way; where they differ each is told with what it needs, and remembered where it holds.

@@ -11,7 +11,7 @@ use super::{Desk, Final, Status};
 use crate::algebra::{Field, Sign};
 use crate::expr::{Expr, Function, Rational, Symbol};
 use crate::formula::{Content, Reading, Relation};
-use crate::scene::StoryAsk;
+use crate::scene::Ask;
 
 /// One equality of a line.
 pub(super) struct Link {
@@ -151,7 +151,7 @@ impl Desk<'_> {
         let told = scene.story.iter().flat_map(|s| &s.questions);
         let all = scene.special.iter().chain(told);
         all.filter_map(|q| match &q.ask {
-            StoryAsk::Condition {
+            Ask::Condition {
                 parameter,
                 left,
                 right,

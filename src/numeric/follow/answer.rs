@@ -11,7 +11,7 @@ use crate::expr::{Point, Vector};
 use crate::numeric::Answer;
 use crate::numeric::given::{Freedom, Undefined, vector};
 use crate::numeric::number::{cross, dot};
-use crate::scene::{Ask, EnergyWhen, ImpulseAt, Scene, StoryAsk};
+use crate::scene::{Ask, EnergyWhen, ImpulseAt, Question, Scene};
 
 /// Why a question has no number.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,10 +49,10 @@ impl From<Open> for Unanswered {
 pub fn answer(
     scene: &Scene,
     followed: &Followed,
-    ask: &StoryAsk,
+    question: &Question,
     values: &Point<f64>,
 ) -> Result<Answer<f64>, Unanswered> {
-    let index = ask.stage().ok_or(Unanswered::NotANumber)?;
+    let index = question.stage.ok_or(Unanswered::NotANumber)?;
     let stage = scene.story.as_ref().and_then(|s| s.stages.get(index));
     let stage = stage.ok_or(Unanswered::NotANumber)?;
     let passed = match &followed.stages[index] {
@@ -67,27 +67,18 @@ pub fn answer(
         solids: &followed.solids,
         values: &values,
     };
-    match ask {
-        StoryAsk::Quantity { question, .. } => {
-            let question = stage.scene.questions.get(*question);
-            about_end(
-                &course,
-                passed,
-                &question.ok_or(Unanswered::NotANumber)?.ask,
-            )
-        }
-        StoryAsk::Reaction { along, at_end, .. } => {
+    match &question.ask {
+        Ask::Reaction { along, at_end } => {
             let What::Motion(moved) = &passed.what else {
                 return Err(Unanswered::NotANumber);
             };
             let reaction = moved.reaction.as_ref().ok_or(Unanswered::NotANumber)?;
             component(&course, reaction[usize::from(*at_end)].clone(), Some(along))
         }
-        StoryAsk::AngularMomentum {
+        Ask::AngularMomentum {
             body,
             about,
             at_end,
-            ..
         } => {
             let about = pair(&course, about)?;
             let state = if *at_end {
@@ -105,7 +96,7 @@ pub fn answer(
             };
             Ok(Answer::Scalar(orbital + own))
         }
-        _ => Err(Unanswered::NotANumber),
+        ask => about_end(&course, passed, ask),
     }
 }
 
@@ -151,7 +142,7 @@ pub(super) fn about_end(
                 EnergyWhen::Lost => energy(before)? - energy(after)?,
             }))
         }
-        Ask::Balance { .. } | Ask::Matrix { .. } => Err(Unanswered::NotANumber),
+        _ => Err(Unanswered::NotANumber),
     }
 }
 

@@ -45,14 +45,7 @@ fn scaled(seed: u64, scales: &Scales) -> Scene {
             stretch(impulse, speed + scales.mass[blow.body]);
         }
     }
-    let mut ask = |name: String, ask: Ask| {
-        scene.questions.push(Question {
-            name,
-            latex: None,
-            ask,
-            hidden: false,
-        })
-    };
+    let mut ask = |name: String, ask: Ask| scene.questions.push(Question::new(&name, None, ask));
     for body in 1..scene.bodies.len() {
         ask(
             format!("v{body}"),

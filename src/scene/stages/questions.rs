@@ -11,9 +11,9 @@ use crate::scene::formulas::{Quantity, Symbols};
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
 use crate::scene::resolve::Resolver;
-use crate::scene::stage::{Story, StoryAsk, StoryQuestion};
+use crate::scene::stage::Story;
 use crate::scene::stage_file::{EndName, StageFile};
-use crate::scene::{Scene, question, special, told};
+use crate::scene::{Ask, Question, Scene, question, special, told};
 
 const STIFFNESS: Quantity =
     Quantity::other([1, 0, -2], "a stiffness is a force divided by a length");
@@ -33,30 +33,31 @@ pub(super) fn read(
         question::name_is_free(base, name, Some(q));
         let ask = match homes.get(&k) {
             Some(stage) => {
-                let found = story.stages[*stage]
-                    .scene
-                    .questions
-                    .iter()
-                    .position(|s| s.name == name.text);
-                found.map(|question| StoryAsk::Quantity {
-                    stage: *stage,
-                    question,
-                })
+                let mut own = story.stages[*stage].scene.questions.iter();
+                let found = own.find(|s| s.name == name.text);
+                found.map(|q| (Some(*stage), q.ask.clone()))
             }
             None => special::with_names(base, &names, |base, symbols| match &q.inertia {
-                Some(_) => told::inertia(base, scene, name, q).map(|formula| StoryAsk::Value {
-                    formula,
-                    with: Vec::new(),
-                    meaning: told::meaning(q),
+                Some(_) => told::inertia(base, scene, name, q).map(|formula| {
+                    let meaning = told::meaning(q);
+                    let with = Vec::new();
+                    (
+                        None,
+                        Ask::Value {
+                            formula,
+                            with,
+                            meaning,
+                        },
+                    )
                 }),
                 None => story_ask(base, symbols, stages, name, q),
             }),
         };
-        if let Some(ask) = ask {
-            story.questions.push(StoryQuestion {
-                name: name.text.clone(),
-                latex: q.latex.as_ref().map(|t| t.text.clone()),
-                ask,
+        if let Some((stage, ask)) = ask {
+            let latex = q.latex.as_ref().map(|t| t.text.clone());
+            story.questions.push(Question {
+                stage,
+                ..Question::new(&name.text, latex, ask)
             });
         }
         if told::is_own(name, Some(q)) {
@@ -74,7 +75,7 @@ fn story_ask(
     stages: &[StageFile],
     name: &Text,
     q: &QuestionFile,
-) -> Option<StoryAsk> {
+) -> Option<(Option<usize>, Ask)> {
     let kinds = special::asked(q).map(|(kind, given, _)| (kind, given));
     let angular = ("angular_momentum", q.angular_momentum.is_some());
     let kinds: Vec<_> = kinds
@@ -105,7 +106,7 @@ fn story_ask(
     }
     let at_end = q.when != Some(EndName::Start);
     if special::is_asked(q) {
-        return special::ask(base, symbols, name, q);
+        return Some((None, special::ask(base, symbols, name, q)?));
     }
     if let Some(stage) = &q.reaction {
         let i = stage_named(&mut base.faults, stages, Some(stage))?;
@@ -123,11 +124,8 @@ fn story_ask(
             ));
             return None;
         };
-        return Some(StoryAsk::Reaction {
-            stage: i,
-            along: base.direction(along)?,
-            at_end,
-        });
+        let along = base.direction(along)?;
+        return Some((Some(i), Ask::Reaction { along, at_end }));
     }
     if let Some(body) = &q.angular_momentum {
         let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
@@ -138,38 +136,32 @@ fn story_ask(
             ));
             return None;
         };
-        return Some(StoryAsk::AngularMomentum {
-            stage: i,
+        let ask = Ask::AngularMomentum {
             body: base.moving(body)?,
             about: base.position(about)?,
             at_end,
-        });
+        };
+        return Some((Some(i), ask));
     }
     if let Some(share) = &q.share {
-        return Some(StoryAsk::Share {
+        let ask = Ask::Share {
             mass: symbols.read(&share.mass, Quantity::MASS, &mut base.faults)?,
             stiffness: symbols.read(&share.stiffness, STIFFNESS, &mut base.faults)?,
             during: symbols.read(&share.during, TIME, &mut base.faults)?,
-        });
+        };
+        return Some((None, ask));
     }
     if let Some(words) = &q.remark {
-        return Some(StoryAsk::Remark(words.text.clone()));
+        return Some((None, Ask::Remark(words.text.clone())));
     }
-    let mut stage = |name: &Text| stage_named(&mut base.faults, stages, Some(name));
-    if let Some(text) = &q.impulsive {
-        return Some(StoryAsk::Impulsive {
-            stage: stage(text)?,
-        });
-    }
-    if let Some(text) = &q.describe {
-        return Some(StoryAsk::Describe {
-            stage: stage(text)?,
-        });
-    }
-    if let Some(text) = &q.missing {
-        return Some(StoryAsk::Missing {
-            stage: stage(text)?,
-        });
+    let in_words = [
+        (&q.impulsive, Ask::Impulsive),
+        (&q.describe, Ask::Describe),
+        (&q.missing, Ask::Missing),
+    ];
+    if let Some((stage, ask)) = in_words.into_iter().find(|(stage, _)| stage.is_some()) {
+        let stage = stage_named(&mut base.faults, stages, stage.as_ref())?;
+        return Some((Some(stage), ask));
     }
     if let Some(of) = &q.unused {
         let names = symbols
@@ -186,7 +178,7 @@ fn story_ask(
             ));
             return None;
         }
-        return Some(StoryAsk::Unused(of.text.clone()));
+        return Some((None, Ask::Unused(of.text.clone())));
     }
-    Some(StoryAsk::Assumed)
+    Some((None, Ask::Assumed))
 }

@@ -1,0 +1,293 @@
+//! What is asked of a scene: of an impact, of a motion, of the answers; and the curves to be drawn. Types only.
+
+use super::FrictionEvent;
+use crate::expr::{Expr, Symbol, Vector};
+use crate::formula::Relation;
+
+/// Something asked of the scene.
+#[derive(Clone, Debug)]
+pub struct Question {
+    /// Name of the answer; a vector's components are `name_x` and `name_y`.
+    pub name: String,
+    /// How the name is typeset.
+    pub latex: Option<String>,
+    /// Index of the stage that is asked about; `None` in a scene without stages, and for a question about answers alone.
+    pub stage: Option<usize>,
+    /// What is asked.
+    pub ask: Ask,
+    /// Asked by carom itself, to find out which supports act and what is lost; not answered to the reader.
+    pub hidden: bool,
+}
+
+impl Question {
+    /// A question to be answered to the reader, about no stage in particular.
+    pub fn new(name: &str, latex: Option<String>, ask: Ask) -> Question {
+        Question {
+            name: name.to_string(),
+            latex,
+            stage: None,
+            ask,
+            hidden: false,
+        }
+    }
+}
+
+/// The kinds of question: about an impact, about a motion, about answers (their formulas may hold names of earlier ones), and
+/// in words.
+#[derive(Clone, Debug)]
+pub enum Ask {
+    /// Velocity just after of the point of `body` at `at` (the center of mass if `None`), a vector, or its component.
+    Velocity {
+        /// Index of the body.
+        body: usize,
+        /// Name and position of the point.
+        point: Option<(String, Vector)>,
+        /// Direction for a component.
+        along: Option<Vector>,
+    },
+    /// Angular velocity just after; counterclockwise positive unless `clockwise`.
+    Spin {
+        /// Index of the body.
+        body: usize,
+        /// Count clockwise as positive.
+        clockwise: bool,
+    },
+    /// Impulse at a contact, hinge or blow, on `on`, a vector, or its component.
+    Impulse {
+        /// What transmits it.
+        from: ImpulseAt,
+        /// Index of the body it acts on.
+        on: usize,
+        /// Direction for a component.
+        along: Option<Vector>,
+    },
+    /// Kinetic energy of one body, or of all.
+    Energy {
+        /// Before, after, or the loss.
+        when: EnergyWhen,
+        /// Index of the body; `None` for all.
+        of: Option<usize>,
+    },
+    /// Linear momentum of a system before = after along a direction, as an equation.
+    Balance {
+        /// Indices of the bodies.
+        system: Vec<usize>,
+        /// Direction.
+        along: Vector,
+    },
+    /// The matrix form of the equations that determine these component unknowns.
+    Matrix {
+        /// Names of balance questions or of entries of [`Scene::after`], in order of rows.
+        rows: Vec<String>,
+        /// Names of component questions, in order of columns.
+        unknowns: Vec<String>,
+    },
+    /// Force of the fixed point on a turning body, along a direction.
+    Reaction {
+        /// Direction.
+        along: Vector,
+        /// At the end of the stage; else at its beginning.
+        at_end: bool,
+    },
+    /// Angular momentum of a body about a point.
+    AngularMomentum {
+        /// Index of the body.
+        body: usize,
+        /// The point.
+        about: Vector,
+        /// At the end of the stage; else at its beginning.
+        at_end: bool,
+    },
+    /// A formula of earlier answers, with parameters replaced.
+    Value {
+        /// The formula.
+        formula: Expr,
+        /// Parameters and what stands for them.
+        with: Vec<(Symbol, Expr)>,
+        /// What it is, such as the speed of a body; empty for a formula that a scene writes itself.
+        meaning: String,
+    },
+    /// The coefficient of friction from which a contact sticks or jams, or up to which it slides.
+    Friction {
+        /// Index of the contact.
+        contact: usize,
+        /// What happens there.
+        event: FrictionEvent,
+    },
+    /// Where an inequality holds, or an equation: the value of a parameter at which its sides meet.
+    Condition {
+        /// The parameter.
+        parameter: Symbol,
+        /// Left side.
+        left: Expr,
+        /// Relation.
+        relation: Relation,
+        /// Right side.
+        right: Expr,
+        /// Parameters and what stands for them.
+        with: Vec<(Symbol, Expr)>,
+    },
+    /// The largest value over parameters within their domains.
+    Maximum {
+        /// What is to be largest.
+        of: Expr,
+        /// The parameters.
+        over: Vec<Symbol>,
+    },
+    /// The value a formula tends to.
+    Limit {
+        /// The formula.
+        of: Expr,
+        /// The parameter that tends.
+        parameter: Symbol,
+        /// To what; `None` beyond all bounds.
+        to: Option<Expr>,
+    },
+    /// What a formula is near a value of a parameter, as a polynomial in the small difference.
+    Approximate {
+        /// The formula.
+        of: Expr,
+        /// The parameter that is near `to`.
+        parameter: Symbol,
+        /// The value it is near to.
+        to: Expr,
+        /// Highest power of the difference.
+        order: u32,
+    },
+    /// An identity to be proved.
+    Show {
+        /// Left side.
+        left: Expr,
+        /// Right side.
+        right: Expr,
+        /// Parameters and what stands for them.
+        with: Vec<(Symbol, Expr)>,
+        /// Answers, single or with two components, that must not vanish for the statement to mean something.
+        unless: Vec<Symbol>,
+        /// What the identity says, in words; may be empty.
+        claim: String,
+    },
+    /// The share of a blow of constant force that a spring takes while the blow lasts.
+    Share {
+        /// Mass of the body that is struck \[kg\].
+        mass: Expr,
+        /// Stiffness of the spring \[N/m\].
+        stiffness: Expr,
+        /// How long the blow lasts \[s\].
+        during: Expr,
+    },
+    /// Which forces have an impulse in this stage, and why.
+    Impulsive,
+    /// What happens in this stage, in words.
+    Describe,
+    /// What the laws of this stage leave undetermined, and what would close them.
+    Missing,
+    /// Words of the scene's author; nothing is derived.
+    Remark(String),
+    /// What is assumed.
+    Assumed,
+    /// Which given data an earlier answer, by name, does not need.
+    Unused(String),
+}
+
+impl Ask {
+    /// Whether it is about the motion just after an impact or at the end of a motion, or about the impulses and equations of
+    /// an impact.
+    pub fn is_motion(&self) -> bool {
+        matches!(
+            self,
+            Ask::Velocity { .. }
+                | Ask::Spin { .. }
+                | Ask::Impulse { .. }
+                | Ask::Energy { .. }
+                | Ask::Balance { .. }
+                | Ask::Matrix { .. }
+        )
+    }
+
+    /// The formulas of answers in it; none where it is not about answers.
+    pub fn formulas(&self) -> Vec<&Expr> {
+        match self {
+            Ask::Value { formula, .. } => vec![formula],
+            Ask::Condition { left, right, .. } | Ask::Show { left, right, .. } => {
+                vec![left, right]
+            }
+            Ask::Maximum { of, .. } => vec![of],
+            Ask::Limit { of, to, .. } => std::iter::once(of).chain(to).collect(),
+            Ask::Approximate { of, to, .. } => vec![of, to],
+            _ => Vec::new(),
+        }
+    }
+
+    /// Places and directions in it.
+    pub fn vectors(&self) -> Vec<&Vector> {
+        match self {
+            Ask::Velocity { point, along, .. } => {
+                point.iter().map(|(_, at)| at).chain(along).collect()
+            }
+            Ask::Impulse { along, .. } => along.iter().collect(),
+            Ask::Balance { along, .. } | Ask::Reaction { along, .. } => vec![along],
+            Ask::AngularMomentum { about, .. } => vec![about],
+            _ => Vec::new(),
+        }
+    }
+
+    /// The same, to be changed.
+    pub(super) fn vectors_mut(&mut self) -> Vec<&mut Vector> {
+        match self {
+            Ask::Velocity { point, along, .. } => {
+                let at = point.iter_mut().map(|(_, at)| at);
+                at.chain(along).collect()
+            }
+            Ask::Impulse { along, .. } => along.iter_mut().collect(),
+            Ask::Balance { along, .. } | Ask::Reaction { along, .. } => vec![along],
+            Ask::AngularMomentum { about, .. } => vec![about],
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// What transmits an impulse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ImpulseAt {
+    /// Index of a contact.
+    Contact(usize),
+    /// Index of a hinge.
+    Hinge(usize),
+    /// Index of a blow.
+    Blow(usize),
+}
+
+/// When an energy is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EnergyWhen {
+    /// Just before.
+    Before,
+    /// Just after.
+    After,
+    /// Before minus after.
+    Lost,
+}
+
+/// A picture that is asked for: a quantity against a parameter.
+#[derive(Clone, Debug)]
+pub struct PlotAsk {
+    /// Name.
+    pub name: String,
+    /// Heading; may be empty.
+    pub title: String,
+    /// The quantity, in parameters and answers.
+    pub quantity: Expr,
+    /// What is written at its axis; `None` for the formula itself.
+    pub label: Option<String>,
+    /// What it is drawn against: a parameter, or a name for `stands_for`.
+    pub against: Symbol,
+    /// What the name stands for, and the parameter that varies.
+    pub stands_for: Option<(Expr, Symbol)>,
+    /// Smallest value shown.
+    pub from: Expr,
+    /// Largest value shown.
+    pub to: Expr,
+    /// One curve for each: parameters and what stands for them. Never empty; an entry may be.
+    pub curves: Vec<Vec<(Symbol, Expr)>>,
+}
