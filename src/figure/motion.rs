@@ -13,7 +13,7 @@ use super::sheet::{Ink, Line, SIZE, SMALL, Sheet, arc};
 use super::stage::{Stage, spanning};
 use super::values::{Pair, Values, size};
 use crate::expr::Expr;
-use crate::scene::{Body, FallEnd, Hinge, Scene, StageKind, Turn, Until};
+use crate::scene::{Body, FallEnd, Hinge, Scene, SlideEnd, StageKind, Turn, Until};
 
 /// The scene as it is drawn: a point that is turned about is a hinge here, so that its support is seen.
 pub fn stand_in(scene: &Scene, kind: &StageKind) -> Scene {
@@ -53,6 +53,7 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
     let path = way(scene, values, kind, clockwise, from)?;
     let with: &[usize] = match kind {
         StageKind::Turn(turn) => &turn.with,
+        StageKind::Slide(slide) => &slide.with,
         _ => &[],
     };
     let end = path
@@ -111,7 +112,11 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
     }
     match kind {
         StageKind::Turn(turn) => angle(&stage, &mut sheet, turn, from, &end, clockwise),
-        StageKind::Slide(s) => along(&stage, &mut sheet, &points, &s.distance),
+        StageKind::Slide(s) => {
+            if let SlideEnd::Distance(distance) = &s.until {
+                along(&stage, &mut sheet, &points, distance);
+            }
+        }
         StageKind::Fall(f) => {
             if let FallEnd::Drop(h) = &f.until {
                 along(&stage, &mut sheet, &points, h);
@@ -176,7 +181,14 @@ fn way(
             (0..=STEPS).map(at).collect()
         }
         StageKind::Slide(s) => {
-            let (along, far) = (values.pair(&s.along)?, values.of(&s.distance)?);
+            let along = values.pair(&s.along)?;
+            let far = match &s.until {
+                SlideEnd::Distance(distance) => values.of(distance)?,
+                // How far it gets is the result; the picture shows which way.
+                _ => 3.0 * from.outline().iter().fold(0.1, |far: f64, p| {
+                    far.max(size([p[0] - from.center[0], p[1] - from.center[1]]))
+                }),
+            };
             straight([along[0] * far, along[1] * far])
         }
         StageKind::Fall(f) => match &f.until {

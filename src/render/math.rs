@@ -395,11 +395,7 @@ pub fn unicode(solution: &Solution, math: &[Math]) -> String {
 }
 
 fn unicode_name(name: &Name) -> String {
-    let letter = if name.letter == "omega" {
-        "ω"
-    } else {
-        name.letter
-    };
+    let letter = name.glyph();
     let mark = match name.mark {
         "+" => "⁺",
         "-" => "⁻",
@@ -466,15 +462,14 @@ fn latex_op(op: &str) -> &str {
 }
 
 fn latex_name(name: &Name) -> String {
-    let letter = if name.letter == "omega" {
-        "\\omega"
-    } else {
-        name.letter
+    let letter = match name.glyph() {
+        glyph if glyph == name.letter => glyph.to_string(),
+        _ => format!("\\{}", name.letter),
     };
     let letter = if name.vector {
         format!("\\vec{{{letter}}}")
     } else {
-        letter.to_string()
+        letter
     };
     let mark = if name.mark.is_empty() {
         String::new()

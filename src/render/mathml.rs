@@ -75,11 +75,7 @@ fn vector(solution: &Solution, v: &[(Expr, usize)]) -> String {
 }
 
 fn quantity(name: &Name) -> String {
-    let letter = if name.letter == "omega" {
-        "ω"
-    } else {
-        name.letter
-    };
+    let letter = name.glyph();
     let base = if name.vector {
         format!("<mover accent=\"true\"><mi>{letter}</mi><mo stretchy=\"false\">→</mo></mover>")
     } else {

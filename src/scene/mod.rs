@@ -44,7 +44,9 @@ pub use fault::{Fault, Faults, Span};
 pub use friction::{Condition, ContactSpace, Decided, Friction, FrictionEvent, Hypothesis, Mode};
 pub use geometry::direction;
 pub use printed::{Print, Printed};
-pub use stage::{Fall, FallEnd, Lump, OneSided, Slide, Stage, StageKind, Story, Turn, Until, Wind};
+pub use stage::{
+    Fall, FallEnd, Lump, OneSided, Slide, SlideEnd, Stage, StageKind, Story, Turn, Until, Wind,
+};
 
 /// Longest text of a scene file, in bytes.
 pub const LONGEST: usize = 1 << 20;
@@ -337,6 +339,18 @@ pub enum Shape {
         /// The parts; only shape, mass, inertia, center and angle of each mean something.
         parts: Vec<Body>,
     },
+}
+
+impl Shape {
+    /// Radius of a disk, ring or sphere \[m\]; `None` for anything that is not round.
+    pub fn radius(&self) -> Option<&Expr> {
+        match self {
+            Shape::Disk { radius } | Shape::Ring { radius } | Shape::Sphere { radius } => {
+                Some(radius)
+            }
+            _ => None,
+        }
+    }
 }
 
 /// A frictionless hinge between two bodies, of which one may be fixed.

@@ -113,7 +113,7 @@ pub enum StageKind {
     },
     /// One body turns about a point that stays where it is.
     Turn(Turn),
-    /// One body moves along a straight line without turning.
+    /// One body moves along a straight line.
     Slide(Slide),
     /// Bodies fall or fly freely.
     Fall(Fall),
@@ -141,10 +141,12 @@ impl StageKind {
                     .for_each(put);
             }
             StageKind::Slide(slide) => {
-                let own = [&mut slide.distance];
-                let others = slide.gravity.iter_mut().chain(&mut slide.force);
-                own.into_iter()
-                    .chain(others)
+                if let SlideEnd::Distance(e) | SlideEnd::Time(e) = &mut slide.until {
+                    put(e);
+                }
+                let forces = slide.gravity.iter_mut().chain(&mut slide.force);
+                forces
+                    .chain(&mut slide.friction)
                     .chain(&mut slide.along)
                     .for_each(put);
             }
@@ -176,7 +178,7 @@ impl StageKind {
         match self {
             StageKind::Impact { .. } => Vec::new(),
             StageKind::Turn(turn) => turn.bodies(),
-            StageKind::Slide(slide) => vec![slide.body],
+            StageKind::Slide(slide) => slide.bodies(),
             StageKind::Fall(fall) => fall.bodies(),
             StageKind::Wind(wind) => vec![wind.body],
         }
@@ -287,19 +289,45 @@ pub enum Until {
     For(Expr),
 }
 
-/// Motion of a body along a line.
+/// Motion of a body along a straight line under constant forces: on a guide, or on a surface below it.
 #[derive(Clone, Debug)]
 pub struct Slide {
     /// Index of the body.
     pub body: usize,
+    /// Indices of bodies that move along with it.
+    pub with: Vec<usize>,
     /// Direction.
     pub along: Vector,
-    /// Distance \[m\].
-    pub distance: Expr,
+    /// How the stage ends.
+    pub until: SlideEnd,
     /// Gravity g \[m/s²\], downwards.
     pub gravity: Option<Expr>,
-    /// Constant force along the direction \[N\].
+    /// Constant force along the direction, at the center of mass \[N\].
     pub force: Option<Expr>,
+    /// Coefficient of sliding friction μ of the surface; `None` for a smooth guide.
+    pub friction: Option<Expr>,
+    /// Whether a round body rolls, by as much friction as that takes.
+    pub rolling: bool,
+}
+
+impl Slide {
+    /// All bodies that move.
+    pub fn bodies(&self) -> Vec<usize> {
+        [&[self.body], self.with.as_slice()].concat()
+    }
+}
+
+/// How a motion along a line ends.
+#[derive(Clone, Debug)]
+pub enum SlideEnd {
+    /// After this distance \[m\].
+    Distance(Expr),
+    /// After this time \[s\].
+    Time(Expr),
+    /// When the body comes to rest.
+    Stops,
+    /// When the point of contact of a round body no longer slips.
+    Rolls,
 }
 
 /// Free fall, or free flight where there is no gravity.

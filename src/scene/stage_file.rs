@@ -18,7 +18,7 @@ record! {
         impact: Option<ImpactFile>,
         /// One body turns about a fixed point.
         turn: Option<TurnFile>,
-        /// One body moves along a line without turning.
+        /// One body moves along a straight line: on a guide, on a rough surface, or rolling.
         slide: Option<SlideFile>,
         /// One body falls or flies freely.
         fall: Option<FallFile>,
@@ -105,19 +105,39 @@ record! {
     }
 }
 
+choice! {
+    /// Where a motion along a line ends.
+    SlideEndName {
+        /// The body comes to rest.
+        Stops = "stops",
+        /// The point of contact of a round body no longer slips.
+        Rolls = "rolls",
+    }
+}
+
 record! {
-    /// Motion along a line without turning.
+    /// Motion along a straight line; its end is given by one of `distance`, `for` and `until`.
     SlideFile {
         /// Name of the body.
         body: Text,
+        /// Names of bodies that move along with it, such as a car that it is locked with.
+        with: Option<Vec<Text>>,
         /// Direction.
         along: DirectionFile,
         /// Distance.
-        distance: Formula,
-        /// Gravity, such as "g", where weight does work.
+        distance: Option<Formula>,
+        /// Time.
+        time as "for": Option<Formula>,
+        /// What ends the motion.
+        until: Option<SlideEndName>,
+        /// Gravity, such as "g", where weight does work or presses the body on a rough surface.
         gravity: Option<Formula>,
-        /// Constant force in that direction.
+        /// Constant force in that direction, at the center of mass.
         force: Option<Formula>,
+        /// Coefficient of sliding friction of the surface below the body; a disk, ring or sphere turns on it.
+        friction: Option<Formula>,
+        /// Whether a disk, ring or sphere rolls on the surface below it without slipping, however much friction that takes.
+        rolling: Option<bool>,
     }
 }
 

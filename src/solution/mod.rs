@@ -214,7 +214,7 @@ pub enum Math {
 /// A quantity with a letter, an index and a mark.
 #[derive(Clone, Debug)]
 pub struct Name {
-    /// The letter; `omega` for ω.
+    /// The letter; `omega` for ω, `alpha` for α.
     pub letter: &'static str,
     /// The index, such as `G/C` or `bar`; may be empty.
     pub index: String,
@@ -222,6 +222,17 @@ pub struct Name {
     pub mark: &'static str,
     /// Whether an arrow stands above.
     pub vector: bool,
+}
+
+impl Name {
+    /// The letter as it is printed.
+    pub fn glyph(&self) -> &'static str {
+        match self.letter {
+            "omega" => "ω",
+            "alpha" => "α",
+            other => other,
+        }
+    }
 }
 
 /// Two sides that are equal.

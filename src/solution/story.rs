@@ -279,8 +279,61 @@ impl Page<'_> {
         self.solution.text(text);
     }
 
+    /// A motion by Newton's laws: what the letters stand for, then forces, accelerations, and what they come to.
+    fn steps(&mut self, told: &StageTold) {
+        let taken = |letter: &str| self.scene.parameters.iter().any(|p| *p.name == *letter);
+        let scene = &told.placed.scene;
+        let moved = told.placed.kind.moved();
+        let index = moved
+            .first()
+            .map_or("", |b| scene.bodies[*b].name.as_str());
+        let mut lines = Vec::new();
+        let mut letters = vec![say("Let ")];
+        for (i, step) in told.steps.iter().enumerate() {
+            let mark = if matches!(step.letter, "v" | "omega") {
+                "+"
+            } else {
+                ""
+            };
+            let index = if taken(step.letter) { index } else { "" };
+            let letter = name(step.letter, index, mark, false);
+            letters.push(say(match (i, told.steps.len() - i) {
+                (0, _) => "",
+                (_, 1) => " and ",
+                _ => ", ",
+            }));
+            let be = if i == 0 { " be " } else { " " };
+            letters.extend([
+                Inline::Math(vec![letter.clone()]),
+                say(format!("{be}{}", step.why)),
+            ]);
+            let mut math = vec![letter, Math::Op("=")];
+            if crate::formula::write_plain(&step.raw) != crate::formula::write_plain(&step.value) {
+                math.extend([Math::Expr(step.raw.clone()), Math::Op("=")]);
+            }
+            math.push(Math::Expr(step.value.clone()));
+            let claim = Claim {
+                left: step.raw.clone(),
+                right: step.value.clone(),
+            };
+            let claimed = self.solution.step(Vec::new(), vec![claim], step.why);
+            lines.push(Line {
+                math,
+                step: Some(claimed),
+            });
+        }
+        letters.push(say("."));
+        if self.solution.detail != Detail::Brief {
+            self.solution.text(letters);
+        }
+        self.solution.push(Part::Display(lines));
+    }
+
     /// A motion: inertia, work and energy, from the beginning to the end.
     fn motion(&mut self, stage: &Stage, told: &StageTold) {
+        if !told.steps.is_empty() {
+            return self.steps(told);
+        }
         let Some([start, end]) = &told.energy else {
             return;
         };

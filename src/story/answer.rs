@@ -485,9 +485,21 @@ fn of_motion(scene: &Scene, question: &Question, told: &StageTold) -> Result<Vec
     let what = match ask {
         Ask::Spin { .. } => "angular velocity",
         Ask::Velocity { .. } => "velocity of the center of mass",
+        Ask::Energy {
+            when: EnergyWhen::Lost,
+            ..
+        } => "kinetic energy lost",
         _ => "kinetic energy",
     };
-    let words = format!("{what}, at the end of `{}`", told.name);
+    let when = match &asked.ask {
+        Ask::Energy { when, .. } => match when {
+            EnergyWhen::Before => "at the beginning",
+            EnergyWhen::After => "at the end",
+            EnergyWhen::Lost => "from the beginning to the end",
+        },
+        _ => "at the end",
+    };
+    let words = format!("{what}, {when} of `{}`", told.name);
     let mut parts: Vec<(String, Expr)> = Vec::new();
     match ask {
         Ask::Spin { body, clockwise } => {

@@ -144,6 +144,30 @@ pub struct Case {
     pub possible: Possible,
 }
 
+/// A quantity that is worked out on the way.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// Its letter; `alpha` for α.
+    pub letter: &'static str,
+    /// What it is made of.
+    pub raw: Expr,
+    /// The same, tidy.
+    pub value: Expr,
+    /// What it is.
+    pub why: &'static str,
+}
+
+impl Step {
+    fn new(letter: &'static str, raw: &Expr, value: &Expr, why: &'static str) -> Step {
+        Step {
+            letter,
+            raw: raw.clone(),
+            value: value.clone(),
+            why,
+        }
+    }
+}
+
 /// A stage, worked out.
 #[derive(Clone, Debug)]
 pub struct StageTold {
@@ -167,6 +191,10 @@ pub struct StageTold {
     pub kept: Vec<Kept>,
     /// Outcomes of an impact, the one told first in front; empty for a motion.
     pub cases: Vec<Case>,
+    /// Distance along the line of a motion along one \[m\].
+    pub way: Option<Expr>,
+    /// What forces give by Newton's laws, where a motion does not follow from its energy alone.
+    pub steps: Vec<Step>,
     /// Kinetic energy at the beginning and at the end, of a motion \[J\].
     pub energy: Option<[Expr; 2]>,
     /// The same at the end, put together from velocity and spin.
@@ -193,6 +221,8 @@ impl StageTold {
             given: Vec::new(),
             needs: Vec::new(),
             time: None,
+            way: None,
+            steps: Vec::new(),
             before,
             after,
             kept: Vec::new(),

@@ -7,7 +7,9 @@ use crate::derive;
 use crate::domain::Domains;
 use crate::expr::{Expr, minus};
 use crate::formula::{Sentence, sentence};
-use crate::scene::{BlowImpulse, ContactLaw, FallEnd, Scene, Stage, StageKind, Turn};
+use crate::scene::{
+    BlowImpulse, ContactLaw, FallEnd, Scene, Slide, SlideEnd, Stage, StageKind, Turn,
+};
 
 /// Which supports act in an outcome.
 pub(super) fn active(case: &Case) -> String {
@@ -92,12 +94,7 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
             }
         }
         StageKind::Turn(turn) => out.push(turning(stage, told, turn)),
-        StageKind::Slide(slide) => out.push(sentence![
-            "`",
-            &scene.bodies[slide.body].name,
-            "` moves along a line through ",
-            &slide.distance
-        ]),
+        StageKind::Slide(slide) => out.push(sliding(stage, told, slide)),
         StageKind::Fall(fall) => {
             let name = &scene.bodies[fall.body].name;
             out.push(match (&fall.until, &fall.gravity) {
@@ -130,6 +127,34 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
         ]),
     }
     out
+}
+
+/// A motion along a line: what moves, on what, and how far.
+fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
+    let all = slide.bodies().into_iter();
+    let names: Vec<String> = all
+        .map(|b| format!("`{}`", stage.scene.bodies[b].name))
+        .collect();
+    let one = names.len() == 1;
+    let is_round = one && stage.scene.bodies[slide.body].shape.radius().is_some();
+    let slips = told.work.iter().any(|(what, _)| *what == "friction");
+    let how = match (is_round && !slips && told.way.is_some(), &slide.friction, one) {
+        (true, Some(_), _) => " rolls without slipping",
+        _ if slide.rolling => " rolls without slipping",
+        (_, Some(_), true) if is_round => " slips on a rough surface, which turns it,",
+        (_, Some(_), true) => " slides on a rough surface",
+        (_, Some(_), false) => " slide together on a rough surface",
+        (_, None, true) => " moves along a line",
+        (_, None, false) => " move together along a line",
+    };
+    let lead = format!("{}{how}", names.join(" and "));
+    match &slide.until {
+        SlideEnd::Distance(s) => sentence![lead, " through ", s],
+        SlideEnd::Time(t) => sentence![lead, " for ", t],
+        SlideEnd::Stops if one => sentence![lead, " until it stops"],
+        SlideEnd::Stops => sentence![lead, " until they stop"],
+        SlideEnd::Rolls => sentence![lead, " until it rolls"],
+    }
 }
 
 /// A distance without the minus sign it may begin with, and the word for its direction.

@@ -46,7 +46,7 @@ use std::fmt;
 use super::given::{Freedom, GivenBody, Reason, Undefined, value};
 use super::points::{self, Needed, needed};
 use crate::expr::{Expr, Point, Symbol, Vector};
-use crate::scene::{FallEnd, Scene, Stage, StageKind, Until};
+use crate::scene::{FallEnd, Scene, SlideEnd, Stage, StageKind, Until};
 
 pub use answer::{Unanswered, answer};
 pub use impact::{Breach, Impact, Impulse, Opening};
@@ -371,9 +371,13 @@ fn of_kind(kind: &StageKind) -> Vec<&Expr> {
             turn.about.iter().chain(end).chain(forces).collect()
         }
         StageKind::Slide(slide) => {
+            let end = match &slide.until {
+                SlideEnd::Distance(e) | SlideEnd::Time(e) => Some(e),
+                SlideEnd::Stops | SlideEnd::Rolls => None,
+            };
             let forces = slide.gravity.iter().chain(&slide.force);
-            let way = slide.along.iter().chain([&slide.distance]);
-            way.chain(forces).collect()
+            let way = slide.along.iter().chain(end);
+            way.chain(forces).chain(&slide.friction).collect()
         }
         StageKind::Fall(fall) => {
             let (FallEnd::Drop(end) | FallEnd::Range(end) | FallEnd::Time(end)) = &fall.until;

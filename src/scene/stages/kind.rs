@@ -4,13 +4,14 @@
 
 use crate::expr::Expr;
 use crate::scene::Scene;
+use crate::scene::check::{Claim, Claimed};
 use crate::scene::fault::{Fault, Span};
 use crate::scene::formulas::Quantity;
 use crate::scene::place_file::PositionFile;
 use crate::scene::record::Formula;
 use crate::scene::resolve::Resolver;
-use crate::scene::stage::{Fall, FallEnd, OneSided, Slide, StageKind, Turn, Until, Wind};
-use crate::scene::stage_file::{FallFile, ImpactFile, StageFile, TurnFile, UntilName};
+use crate::scene::stage::{Fall, FallEnd, OneSided, Slide, SlideEnd, StageKind, Turn, Until, Wind};
+use crate::scene::stage_file::{FallFile, ImpactFile, SlideEndName, SlideFile, StageFile, TurnFile, UntilName};
 
 pub(super) const TIME: Quantity =
     Quantity::other([0, 0, 1], "a time, such as t, or a number of seconds");
@@ -51,18 +52,7 @@ pub(super) fn kind(
         return turn_of(r, turn, stage.name.span).map(StageKind::Turn);
     }
     if let Some(slide) = &stage.slide {
-        let body = r.moving(&slide.body);
-        let along = r.direction(&slide.along);
-        let distance = r
-            .symbols
-            .read(&slide.distance, Quantity::LENGTH, &mut r.faults);
-        return Some(StageKind::Slide(Slide {
-            body: body?,
-            along: along?,
-            distance: distance?,
-            gravity: optional(r, slide.gravity.as_ref(), ACCELERATION)?,
-            force: optional(r, slide.force.as_ref(), FORCE)?,
-        }));
+        return slide_of(r, scene, slide, stage.name.span).map(StageKind::Slide);
     }
     if let Some(fall) = &stage.fall {
         return fall_of(r, fall, stage.name.span).map(StageKind::Fall);
@@ -152,6 +142,82 @@ fn impact_of(
         one_sided,
         supposed,
     })
+}
+
+fn slide_of(
+    r: &mut Resolver<'_>,
+    scene: &Scene,
+    slide: &SlideFile,
+    span: Span,
+) -> Option<Slide> {
+    let ends = usize::from(slide.distance.is_some())
+        + usize::from(slide.until.is_some())
+        + usize::from(slide.time.is_some());
+    if ends != 1 {
+        let message =
+            "a motion along a line ends after a `distance`, a time `for`, or where `until` says";
+        r.faults
+            .push(Fault::new(span, message).hint("give one of them"));
+        return None;
+    }
+    let body = r.moving(&slide.body);
+    let with = slide.with.iter().flatten().map(|name| r.moving(name));
+    let with = with.collect::<Option<Vec<usize>>>();
+    let along = r.direction(&slide.along);
+    let gravity = optional(r, slide.gravity.as_ref(), ACCELERATION)?;
+    let force = optional(r, slide.force.as_ref(), FORCE)?;
+    let friction = optional(r, slide.friction.as_ref(), Quantity::NUMBER)?;
+    if let (Some(mu), Some(f)) = (&friction, &slide.friction) {
+        r.claims.push(Claimed {
+            span: f.span,
+            claim: Claim::Friction(mu.clone()),
+        });
+    }
+    let until = match (&slide.distance, &slide.time, slide.until) {
+        (Some(s), ..) => SlideEnd::Distance(r.symbols.read(s, Quantity::LENGTH, &mut r.faults)?),
+        (_, Some(t), _) => SlideEnd::Time(r.symbols.read(t, TIME, &mut r.faults)?),
+        (.., Some(SlideEndName::Stops)) => SlideEnd::Stops,
+        (.., Some(SlideEndName::Rolls)) => SlideEnd::Rolls,
+        _ => return None,
+    };
+    let (body, with) = (body?, with?);
+    let shape = &scene.bodies[body];
+    let is_round = with.is_empty() && shape.shape.radius().is_some();
+    let mut refuse = |message: String, hint: &str| {
+        r.faults.push(Fault::new(span, message).hint(hint));
+    };
+    let rolls = slide.rolling == Some(true) || matches!(until, SlideEnd::Rolls);
+    match () {
+        () if rolls && !is_round => refuse(
+            format!("`{}` does not roll", shape.name),
+            "a disk, ring or sphere by itself does",
+        ),
+        () if friction.is_some() && gravity.is_none() => refuse(
+            String::from("what presses the body on the rough surface is not said"),
+            "add \"gravity\": \"g\"",
+        ),
+        () if slide.rolling == Some(true) && friction.is_some() => refuse(
+            String::from("a body that rolls takes as much friction as that needs"),
+            "leave out `friction`, or leave out `rolling` and say where the slip ends with \"until\": \"rolls\"",
+        ),
+        () if friction.is_none() && matches!(until, SlideEnd::Rolls) => refuse(
+            String::from("without friction a body that slips never begins to roll"),
+            "add \"friction\": \"mu\"",
+        ),
+        () => {
+            return Some(Slide {
+                body,
+                with,
+                along: along?,
+                until,
+                gravity,
+                force,
+                friction,
+                rolling: slide.rolling == Some(true),
+            });
+        }
+    }
+    None
 }
 
 fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {

@@ -1,11 +1,54 @@
-//! Motion of a body along a straight line, without turning, under constant forces.
+//! Motion of a body along a straight line under constant forces: on a smooth guide, on a rough surface, or rolling.
+//!
+//! The acceleration is constant, so that v² − v₀² = 2 a s and v − v₀ = a t. A round body on a rough surface slips by
+//! v + R ω at its lowest point, counted along a line to the right; friction acts against the slip until there is none.
 
-use super::{arrival, balance, half, kept, meanwhile, tidied};
-use crate::answer::calc::{Seen, is_zero, sign};
+use super::{arrival, half, kept, meanwhile, tidied};
+use crate::algebra::Sign;
+use crate::answer::calc::{Seen, essential, is_zero, sign};
+use crate::domain::Domains;
 use crate::expr::{Expr, dot};
-use crate::formula::sentence;
-use crate::scene::{Slide, Stage};
-use crate::story::{Refused, StageTold, State};
+use crate::formula::{Sentence, sentence};
+use crate::scene::{Slide, SlideEnd, Stage};
+use crate::story::{Refused, StageTold, State, Step};
+
+/// How a body moves along a line.
+struct Line<'a> {
+    stage: &'a Stage,
+    slide: &'a Slide,
+    /// Mass of all that moves \[kg\].
+    mass: Expr,
+    /// Velocity along the line at the beginning \[m/s\].
+    speed: Expr,
+    /// Angular velocity at the beginning \[rad/s\].
+    spin: Expr,
+    /// Weight and applied force along the line \[N\].
+    pull: Expr,
+    /// Friction along the line \[N\].
+    friction: Expr,
+    /// Acceleration along the line \[m/s²\].
+    acceleration: Expr,
+    /// Angular acceleration \[rad/s²\].
+    angular: Expr,
+    /// Of a round body on a surface.
+    round: Option<Round>,
+}
+
+/// A round body on a surface below it.
+struct Round {
+    /// Radius, negative where the line leads to the left: the lowest point moves along the line at v + arm × ω \[m\].
+    arm: Expr,
+    /// Slip of the lowest point at the beginning, along the line \[m/s\]; zero where it rolls.
+    slip: Expr,
+}
+
+/// The course from the beginning to the end.
+struct Course {
+    time: Option<Expr>,
+    distance: Expr,
+    speed: Expr,
+    spin: Expr,
+}
 
 /// Motion along a line.
 pub(in crate::story) fn slide(
@@ -13,91 +56,505 @@ pub(in crate::story) fn slide(
     before: State,
     slide: &Slide,
 ) -> Result<StageTold, Refused> {
-    let domains = &stage.scene.domains;
-    let body = &stage.scene.bodies[slide.body];
-    let v = &before.velocity[slide.body];
-    let across = [-&slide.along[1], slide.along[0].clone()];
-    if is_zero(&dot(v, &across), domains) == Some(false)
-        || is_zero(&before.spin[slide.body], domains) == Some(false)
-    {
-        return Err(Refused::new(
-            &stage.name,
-            format!(
-                "`{}` does not begin to move along this line without turning",
-                body.name
-            ),
-            "an impact before it may stop what does not fit",
-        ));
-    }
-    let speed = tidied(stage, &dot(v, &slide.along))?;
     let mut assumptions = Vec::new();
-    for (what, size) in [("speed", &speed), ("distance", &slide.distance)] {
-        match sign(size, domains) {
-            Seen::Proved(s) if s.is_not_negative() => {}
-            Seen::Proved(_) | Seen::Negative => {
-                return Err(Refused::new(
-                    &stage.name,
-                    format!(
-                        "`{}` is to move along the line, and its {what} along it, {}, is negative",
-                        body.name,
-                        crate::formula::write_plain(size)
-                    ),
-                    "turn the direction round",
-                ));
-            }
-            _ => assumptions.push(sentence![size, " ≥ 0"]),
+    let mut needs = Vec::new();
+    fits(stage, &before, slide)?;
+    let line = Line::of(stage, &before, slide, &mut needs)?;
+    not_negative(stage, slide, "speed", &line.speed, &mut assumptions)?;
+    if let SlideEnd::Distance(distance) = &slide.until {
+        not_negative(stage, slide, "distance", distance, &mut assumptions)?;
+    }
+    let mut steps = line.steps();
+    let course = line.course(&mut steps, &mut assumptions, &mut needs)?;
+    if !matches!(slide.until, SlideEnd::Distance(_)) || line.round.is_some() {
+        line.told(&course, &mut steps);
+    } else {
+        steps.clear();
+    }
+    let domains = &stage.scene.domains;
+    for need in &needs {
+        let proved = matches!(sign(need, domains), Seen::Proved(s) if s.is_not_negative());
+        if !proved {
+            assumptions.push(sentence![
+                &essential(need, domains),
+                " ≥ 0, so that `",
+                &stage.scene.bodies[slide.body].name,
+                match (&line.round, line.slips()) {
+                    (Some(_), false) => "` does not slip",
+                    (Some(_), true) => "` slips to the end of the stage",
+                    (None, _) => "` does not stop before",
+                }
+            ]);
         }
     }
-    let start = tidied(stage, &half(&(&body.mass * &speed.powi(2))))?;
-    let mut work = Vec::new();
-    if let Some(g) = &slide.gravity {
-        let lost = -&(&slide.along[1] * &slide.distance);
-        work.push(("weight", &(&body.mass * g) * &lost));
-    }
-    if let Some(force) = &slide.force {
-        work.push(("the applied force", force * &slide.distance));
-    }
-    let parts = work;
-    let (work, end, reaches) = balance(stage, slide.body, &start, &parts)?;
-    if !work.is_zero() {
-        assumptions.extend(arrival(stage, slide.body, &end, reaches));
-    }
-    let begins = speed.clone();
-    let speed = if work.is_zero() {
-        speed
-    } else {
-        tidied(stage, &(&(&Expr::from(2) * &end) / &body.mass).sqrt())?
-    };
     let mut after = before.clone();
-    for k in 0..2 {
-        after.center[slide.body][k] =
-            &after.center[slide.body][k] + &(&slide.along[k] * &slide.distance);
+    for b in slide.bodies() {
+        for k in 0..2 {
+            after.center[b][k] = &after.center[b][k] + &(&slide.along[k] * &course.distance);
+            after.velocity[b][k] = tidied(stage, &(&course.speed * &slide.along[k]))?;
+        }
     }
-    for k in 0..2 {
-        after.velocity[slide.body][k] = tidied(stage, &(&speed * &slide.along[k]))?;
+    if line.round.is_some() {
+        let b = slide.body;
+        after.spin[b] = course.spin.clone();
+        after.angle[b] = match &course.time {
+            Some(t) => {
+                let turned = half(&(&(&line.spin + &course.spin) * t));
+                tidied(stage, &(&before.angle[b] + &turned))?
+            }
+            None => before.angle[b].clone(),
+        };
     }
-    let time = if work.is_zero() {
-        &slide.distance / &begins
-    } else {
-        // A constant force F over the distance s does the work F s, and F t is the momentum gained.
-        &(&(&speed - &begins) * &(&body.mass * &slide.distance)) / &work
-    };
-    let rests = is_zero(&speed, domains) == Some(true) && work.is_zero();
-    let time = (!rests).then(|| tidied(stage, &time)).transpose()?;
-    assumptions.extend(meanwhile::others(stage, &before, &mut after, time.as_ref()));
+    assumptions.extend(meanwhile::others(
+        stage,
+        &before,
+        &mut after,
+        course.time.as_ref(),
+    ));
     let mut out = StageTold::new(stage, before, after);
-    out.time = time;
-    out.kept = vec![kept(
-        "energy",
-        slide.force.is_none(),
-        if slide.force.is_none() {
-            "the guide does no work, and weight has a potential"
-        } else {
-            "the force does work, its size times the distance"
-        },
-    )];
-    out.energy = Some([start, end]);
-    out.work = parts;
+    out.kept = vec![line.energy_kept()];
+    out.energy = Some([
+        line.energy(&line.speed, &line.spin)?,
+        line.energy(&course.speed, &course.spin)?,
+    ]);
+    out.work = line.work(&course);
+    out.time = course.time;
+    out.way = Some(course.distance);
+    out.steps = steps;
     out.assumptions = assumptions;
+    out.needs = needs;
     Ok(out)
+}
+
+/// Refuses a body that does not begin to move along the line, or turns where nothing lets it.
+fn fits(stage: &Stage, before: &State, slide: &Slide) -> Result<(), Refused> {
+    let domains = &stage.scene.domains;
+    let across = [-&slide.along[1], slide.along[0].clone()];
+    let turns = slide.rolling || slide.friction.is_some();
+    for b in slide.bodies() {
+        let body = &stage.scene.bodies[b];
+        let v = &before.velocity[b];
+        let may_turn = turns && slide.with.is_empty() && body.shape.radius().is_some();
+        let leaves = is_zero(&dot(v, &across), domains) == Some(false);
+        if leaves || !may_turn && is_zero(&before.spin[b], domains) == Some(false) {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "`{}` does not begin to move along this line without turning",
+                    body.name
+                ),
+                "an impact before it may stop what does not fit",
+            ));
+        }
+        let along = &before.velocity[slide.body];
+        let same = (0..2).all(|k| is_zero(&(&v[k] - &along[k]), domains) != Some(false));
+        if !same {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "`{}` does not begin to move like `{}`",
+                    body.name, stage.scene.bodies[slide.body].name
+                ),
+                "bodies move along together after an impact in which they stick",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a speed or distance that is negative; one that may be is assumed not to be.
+fn not_negative(
+    stage: &Stage,
+    slide: &Slide,
+    what: &str,
+    size: &Expr,
+    assumptions: &mut Vec<Sentence>,
+) -> Result<(), Refused> {
+    match sign(size, &stage.scene.domains) {
+        Seen::Proved(s) if s.is_not_negative() => {}
+        Seen::Proved(_) | Seen::Negative => {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "`{}` is to move along the line, and its {what} along it, {}, is negative",
+                    stage.scene.bodies[slide.body].name,
+                    crate::formula::write_plain(size)
+                ),
+                "turn the direction round",
+            ));
+        }
+        _ => assumptions.push(sentence![size, " ≥ 0"]),
+    }
+    Ok(())
+}
+
+/// 1, 0 or −1; `None` where that is not proved.
+fn proved(e: &Expr, domains: &Domains) -> Option<i64> {
+    if is_zero(e, domains) == Some(true) {
+        return Some(0);
+    }
+    match sign(e, domains) {
+        Seen::Proved(Sign::Positive | Sign::NotNegative) => Some(1),
+        Seen::Proved(Sign::Negative | Sign::NotPositive) => Some(-1),
+        _ => None,
+    }
+}
+
+impl<'a> Line<'a> {
+    fn of(
+        stage: &'a Stage,
+        before: &State,
+        slide: &'a Slide,
+        needs: &mut Vec<Expr>,
+    ) -> Result<Line<'a>, Refused> {
+        let scene = &stage.scene;
+        let domains = &scene.domains;
+        let mass = slide.bodies().into_iter();
+        let mass = tidied(stage, &Expr::sum(mass.map(|b| scene.bodies[b].mass.clone())))?;
+        let speed = tidied(stage, &dot(&before.velocity[slide.body], &slide.along))?;
+        let weight = slide.gravity.as_ref().map(|g| &mass * g);
+        let mut pull = slide.force.clone().unwrap_or_else(Expr::zero);
+        if let Some(weight) = &weight {
+            pull = &pull - &(weight * &slide.along[1]);
+        }
+        let mut line = Line {
+            stage,
+            slide,
+            mass,
+            speed,
+            spin: before.spin[slide.body].clone(),
+            pull: tidied(stage, &pull)?,
+            friction: Expr::zero(),
+            acceleration: Expr::zero(),
+            angular: Expr::zero(),
+            round: None,
+        };
+        let rough = slide.rolling || slide.friction.is_some();
+        let right = proved(&slide.along[0], domains).filter(|_| rough);
+        if rough && !matches!(right, Some(1 | -1)) {
+            return Err(line.refused(
+                "whether its line leads to the right or to the left is not decided, and so is which side the surface is on",
+                "say it by the domain of an angle, or by `relations`",
+            ));
+        }
+        let right = Expr::from(right.unwrap_or(1));
+        // What presses the body on the surface: the weight across the line.
+        let limit = match (&slide.friction, &weight) {
+            (Some(mu), Some(weight)) => mu * &(weight * &(&right * &slide.along[0])),
+            _ => Expr::zero(),
+        };
+        let body = &scene.bodies[slide.body];
+        let radius = body.shape.radius();
+        match radius.filter(|_| rough && slide.with.is_empty()) {
+            None => line.friction = -limit,
+            Some(radius) => {
+                let arm = &right * radius;
+                let slip = tidied(stage, &(&line.speed + &(&arm * &line.spin)))?;
+                let way = proved(&slip, domains);
+                if slide.rolling && way != Some(0) {
+                    return Err(line.refused(
+                        "it slips when the stage begins",
+                        "give `friction` with \"until\": \"rolls\" for the stage before, or a spin that fits",
+                    ));
+                }
+                let Some(way) = way else {
+                    return Err(line.refused(
+                        &format!(
+                            "which way its lowest point slips, {}, is not decided",
+                            crate::formula::write_plain(&slip)
+                        ),
+                        "say it by `relations`",
+                    ));
+                };
+                if way == 0 {
+                    // It rolls on: as much friction as keeps it rolling, up to the limit.
+                    let apparent = &body.inertia / &radius.powi(2);
+                    let a = &line.pull / &(&line.mass + &apparent);
+                    line.friction = tidied(stage, &-(&apparent * &a))?;
+                    if slide.friction.is_some() {
+                        needs.push(tidied(stage, &(&limit - &line.friction))?);
+                        needs.push(tidied(stage, &(&limit + &line.friction))?);
+                    }
+                } else {
+                    line.friction = &Expr::from(-way) * &limit;
+                }
+                let moment = &arm * &line.friction;
+                line.angular = tidied(stage, &(&moment / &body.inertia))?;
+                line.round = Some(Round { arm, slip });
+            }
+        }
+        line.acceleration = tidied(stage, &(&(&line.pull + &line.friction) / &line.mass))?;
+        Ok(line)
+    }
+
+    fn domains(&self) -> &'a Domains {
+        &self.stage.scene.domains
+    }
+
+    fn name(&self) -> &'a str {
+        &self.stage.scene.bodies[self.slide.body].name
+    }
+
+    fn refused(&self, why: &str, hint: &str) -> Refused {
+        Refused::new(
+            &self.stage.name,
+            format!("`{}`: {why}", self.name()),
+            hint,
+        )
+    }
+
+    fn inertia(&self) -> &'a Expr {
+        &self.stage.scene.bodies[self.slide.body].inertia
+    }
+
+    /// Whether the lowest point slips.
+    fn slips(&self) -> bool {
+        self.slide.friction.is_some()
+            && self
+                .round
+                .as_ref()
+                .is_none_or(|r| is_zero(&r.slip, self.domains()) != Some(true))
+    }
+
+    /// Forces and accelerations, as they follow from each other.
+    fn steps(&self) -> Vec<Step> {
+        let mut out = Vec::new();
+        if self.slips() {
+            let why = "the friction along the line, its coefficient times the force that presses the body on the surface";
+            out.push(Step::new("F", &self.friction, &self.friction, why));
+        }
+        let net = &self.pull + &self.friction;
+        if self.round.is_some() && !self.slips() {
+            let apparent = self.inertia() / &self.radius().powi(2);
+            let raw = &self.pull / &(&self.mass + &apparent);
+            let why = "the acceleration, with the inertia of turning added to the mass";
+            out.push(Step::new("a", &raw, &self.acceleration, why));
+        } else {
+            let why = "the acceleration along the line";
+            out.push(Step::new("a", &(&net / &self.mass), &self.acceleration, why));
+        }
+        if let Some(round) = self.round.as_ref().filter(|_| self.slips()) {
+            let raw = &(&round.arm * &self.friction) / self.inertia();
+            let why = "the angular acceleration, by the moment of friction about the center";
+            out.push(Step::new("alpha", &raw, &self.angular, why));
+        }
+        out
+    }
+
+    fn radius(&self) -> Expr {
+        let body = &self.stage.scene.bodies[self.slide.body];
+        body.shape.radius().cloned().unwrap_or_else(Expr::zero)
+    }
+
+    /// How the motion goes to its end.
+    fn course(
+        &self,
+        steps: &mut Vec<Step>,
+        assumptions: &mut Vec<Sentence>,
+        needs: &mut Vec<Expr>,
+    ) -> Result<Course, Refused> {
+        let a = &self.acceleration;
+        let still = is_zero(a, self.domains()) == Some(true);
+        let (time, distance, speed) = match &self.slide.until {
+            SlideEnd::Distance(s) => {
+                let speed = match still {
+                    true => self.speed.clone(),
+                    false => self.arrival(s, assumptions)?,
+                };
+                let rests = still && is_zero(&speed, self.domains()) == Some(true);
+                let time = match still {
+                    true => s / &speed,
+                    false => &(&speed - &self.speed) / a,
+                };
+                let time = (!rests).then(|| self.tidied(&time)).transpose()?;
+                (time, s.clone(), speed)
+            }
+            SlideEnd::Time(t) => {
+                let speed = self.tidied(&(&self.speed + &(a * t)))?;
+                if self.slips() && self.round.is_none() {
+                    // Friction stops the body and does not draw it back.
+                    needs.push(speed.clone());
+                }
+                (Some(t.clone()), self.distance(t)?, speed)
+            }
+            SlideEnd::Stops => {
+                let slowing = -a;
+                match sign(&slowing, self.domains()) {
+                    Seen::Proved(Sign::Positive) => {}
+                    Seen::Proved(_) | Seen::Negative => {
+                        return Err(self.refused("nothing slows it down", "add \"friction\": \"mu\""));
+                    }
+                    _ => assumptions.push(sentence![
+                        &essential(&slowing, self.domains()),
+                        " > 0, so that `",
+                        self.name(),
+                        "` slows down"
+                    ]),
+                }
+                let raw = &self.speed / &slowing;
+                let time = self.tidied(&raw)?;
+                let why = "the time until it stops";
+                steps.push(Step::new("t", &raw, &time, why));
+                (Some(time), self.tidied(&(&self.speed.powi(2) / &(&Expr::from(2) * &slowing)))?, Expr::zero())
+            }
+            SlideEnd::Rolls => {
+                let Some(round) = &self.round else {
+                    return Err(self.refused("it does not roll", "a disk, ring or sphere does"));
+                };
+                let gain = &self.acceleration + &(&round.arm * &self.angular);
+                let raw = -(&round.slip / &gain);
+                let time = self.tidied(&raw)?;
+                match sign(&time, self.domains()) {
+                    Seen::Proved(s) if s.is_not_negative() => {}
+                    Seen::Proved(_) | Seen::Negative => {
+                        return Err(self.refused(
+                            "its slip grows, so that it never rolls",
+                            "the surface is too steep or too smooth",
+                        ));
+                    }
+                    _ => assumptions.push(sentence![
+                        &essential(&time, self.domains()),
+                        " ≥ 0, so that `",
+                        self.name(),
+                        "` comes to roll"
+                    ]),
+                }
+                let why = "the time until its lowest point no longer slips";
+                steps.push(Step::new("t", &raw, &time, why));
+                let speed = self.tidied(&(&self.speed + &(a * &time)))?;
+                let distance = self.distance(&time)?;
+                (Some(time), distance, speed)
+            }
+        };
+        let spin = match (&self.round, &time) {
+            (Some(_), Some(t)) => self.tidied(&(&self.spin + &(&self.angular * t)))?,
+            _ => self.spin.clone(),
+        };
+        if let Some(round) = self.round.as_ref().filter(|_| self.slips())
+            && !matches!(self.slide.until, SlideEnd::Rolls)
+        {
+            let end = &speed + &(&round.arm * &spin);
+            let way = proved(&round.slip, self.domains()).unwrap_or(1);
+            needs.push(self.tidied(&(&Expr::from(way) * &end))?);
+        }
+        Ok(Course {
+            time,
+            distance,
+            speed,
+            spin,
+        })
+    }
+
+    /// Velocity along the line after a distance.
+    fn arrival(&self, s: &Expr, assumptions: &mut Vec<Sentence>) -> Result<Expr, Refused> {
+        let gain = &(&Expr::from(2) * &self.acceleration) * s;
+        let square = self.tidied(&(&self.speed.powi(2) + &gain))?;
+        let seen = sign(&square, self.domains());
+        if let Seen::Proved(Sign::Negative | Sign::NotPositive) = seen {
+            let end = self.tidied(&half(&(&self.mass * &square)))?;
+            return Err(Refused::new(
+                &self.stage.name,
+                format!(
+                    "`{}` never gets there: its kinetic energy at the end would be {}, which is negative",
+                    self.name(),
+                    crate::formula::write_plain(&end)
+                ),
+                "end the stage earlier, or give it more energy",
+            ));
+        }
+        assumptions.extend(arrival(self.stage, self.slide.body, &square, seen));
+        self.tidied(&square.sqrt())
+    }
+
+    fn distance(&self, t: &Expr) -> Result<Expr, Refused> {
+        self.tidied(&(&(&self.speed * t) + &half(&(&self.acceleration * &t.powi(2)))))
+    }
+
+    /// Time, distance, velocity and spin at the end.
+    fn told(&self, course: &Course, steps: &mut Vec<Step>) {
+        let Some(t) = &course.time else { return };
+        let at = |start: &Expr, rate: &Expr| start + &(rate * t);
+        if !matches!(self.slide.until, SlideEnd::Distance(_)) {
+            let raw = match &self.slide.until {
+                SlideEnd::Stops => -(&self.speed.powi(2) / &(&Expr::from(2) * &self.acceleration)),
+                _ => &(&self.speed * t) + &half(&(&self.acceleration * &t.powi(2))),
+            };
+            steps.push(Step::new("s", &raw, &course.distance, "the distance covered"));
+        }
+        if !matches!(self.slide.until, SlideEnd::Stops) {
+            let raw = match &self.slide.until {
+                SlideEnd::Distance(s) => {
+                    let gain = &(&Expr::from(2) * &self.acceleration) * s;
+                    (&self.speed.powi(2) + &gain).sqrt()
+                }
+                _ => at(&self.speed, &self.acceleration),
+            };
+            let why = "the velocity along the line at the end";
+            steps.push(Step::new("v", &raw, &course.speed, why));
+        }
+        if self.round.is_some() {
+            let raw = match &self.round {
+                // Rolling, the center is as fast as the rim.
+                Some(round) if !self.slips() || matches!(self.slide.until, SlideEnd::Rolls) => {
+                    -(&course.speed / &round.arm)
+                }
+                _ => at(&self.spin, &self.angular),
+            };
+            let why = "the angular velocity at the end, counterclockwise";
+            steps.push(Step::new("omega", &raw, &course.spin, why));
+        }
+    }
+
+    fn energy(&self, speed: &Expr, spin: &Expr) -> Result<Expr, Refused> {
+        let mut twice = &self.mass * &speed.powi(2);
+        if self.round.is_some() {
+            twice = &twice + &(self.inertia() * &spin.powi(2));
+        }
+        self.tidied(&half(&twice))
+    }
+
+    fn energy_kept(&self) -> crate::story::Kept {
+        let (conserved, why) = match () {
+            () if self.slips() => (false, "friction does work against the slip"),
+            () if self.slide.force.is_some() => {
+                (false, "the force does work, its size times the distance")
+            }
+            () if self.round.is_some() => (
+                true,
+                "the lowest point is at rest, so that friction there does no work, and weight has a potential",
+            ),
+            () => (true, "the guide does no work, and weight has a potential"),
+        };
+        kept("energy", conserved, why)
+    }
+
+    /// Work of each force, along the way of the point where it acts.
+    fn work(&self, course: &Course) -> Vec<(&'static str, Expr)> {
+        let mut out = Vec::new();
+        if let Some(g) = &self.slide.gravity
+            && !self.slide.along[1].is_zero()
+        {
+            let lost = -&(&self.slide.along[1] * &course.distance);
+            out.push(("weight", &(&self.mass * g) * &lost));
+        }
+        if let Some(force) = &self.slide.force {
+            out.push(("the applied force", force * &course.distance));
+        }
+        if self.slips() {
+            let way = match (&self.round, &course.time) {
+                // The slip changes uniformly.
+                (Some(round), Some(t)) => {
+                    let end = &course.speed + &(&round.arm * &course.spin);
+                    half(&(&(&round.slip + &end) * t))
+                }
+                _ => course.distance.clone(),
+            };
+            out.push(("friction", &self.friction * &way));
+        }
+        out
+    }
+
+    fn tidied(&self, e: &Expr) -> Result<Expr, Refused> {
+        tidied(self.stage, e)
+    }
 }

@@ -1,12 +1,66 @@
-//! Motion of a body along a straight guide, without turning.
+//! Motion of bodies along a straight line: on a smooth guide, on a rough surface, or rolling on it.
+//!
+//! What presses a body on a rough surface is the multiplier of the constraint that keeps it there. Friction of that size
+//! times its coefficient acts at the point of contact against the way this point moves, for as long as it moves.
 
 use super::{Moved, Movers, REST, ROUNDING, Units, all_open, others, stopped};
 use crate::numeric::follow::impact::first_open;
-use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism};
+use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Run, Turning};
 use crate::numeric::follow::{Course, Lost, Passed, State, What, Why};
 use crate::numeric::number::{cross, dot};
-use crate::scene::Slide;
+use crate::scene::{Slide, SlideEnd};
 use std::cell::Cell;
+
+/// What acts along the line, in numbers.
+struct Acting {
+    along: [f64; 2],
+    gravity: f64,
+    force: f64,
+    /// Coefficient of friction.
+    rough: Option<f64>,
+    /// From the center to the point of contact, of a round body.
+    contact: Option<[f64; 2]>,
+}
+
+impl Acting {
+    fn of(course: &Course<'_>, slide: &Slide) -> Result<Acting, Lost> {
+        let along = course.pair(&slide.along, "direction")?;
+        let is_on_surface = slide.rolling || slide.friction.is_some();
+        let body = &course.scene.bodies[slide.body];
+        let radius = match body.shape.radius() {
+            Some(radius) if is_on_surface && slide.with.is_empty() => {
+                Some(course.number(radius, "radius")?)
+            }
+            _ => None,
+        };
+        // The surface is below: of the two directions across the line the one that leads down.
+        let down = if along[0] > 0.0 {
+            [along[1], -along[0]]
+        } else {
+            [-along[1], along[0]]
+        };
+        Ok(Acting {
+            along,
+            gravity: course.optional(slide.gravity.as_ref(), "gravity")?,
+            force: course.optional(slide.force.as_ref(), "force")?,
+            rough: (slide.friction.as_ref())
+                .map(|mu| course.number(mu, "coefficient of friction"))
+                .transpose()?,
+            contact: radius.map(|r| [r * down[0], r * down[1]]),
+        })
+    }
+
+    /// Velocity of the point of contact along the line; of the body where it has no such point.
+    fn slip(&self, [u, v]: [f64; 2], spin: f64) -> f64 {
+        let [x, y] = self.contact.unwrap_or_default();
+        dot(&[u - spin * y, v + spin * x], &self.along)
+    }
+
+    /// How much a spin of 1 adds to the slip.
+    fn arm(&self) -> f64 {
+        self.slip([0.0; 2], 1.0)
+    }
+}
 
 /// Motion along a line.
 pub(in crate::numeric::follow) fn slide(
@@ -14,76 +68,89 @@ pub(in crate::numeric::follow) fn slide(
     before: State,
     slide: &Slide,
 ) -> Result<Passed, Lost> {
-    let bodies = [slide.body];
+    let bodies = slide.bodies();
     let has_forces = slide.gravity.is_some() || slide.force.is_some();
-    let from = match before.bodies[slide.body].known() {
-        Ok([x, y, ..]) => [x, y],
-        Err(_) if first_open(before.bodies[slide.body].components()).is_some() => {
-            let time = Err(course.open(Why::Needed));
-            return Ok(all_open(course, before, &bodies, has_forces, time));
+    let mut from = [0.0; 2];
+    for b in &bodies {
+        let body = &before.bodies[*b];
+        match body.known() {
+            Ok([x, y, ..]) if *b == slide.body => from = [x, y],
+            Err(_) if first_open(body.components()).is_some() => {
+                let time = Err(course.open(Why::Needed));
+                return Ok(all_open(course, before, &bodies, has_forces, time));
+            }
+            _ => {}
         }
-        Err(_) => [0.0; 2],
-    };
-    let along = course.pair(&slide.along, "direction")?;
-    let distance = course.number(&slide.distance, "distance")?;
-    let gravity = course.optional(slide.gravity.as_ref(), "gravity")?;
-    let force = course.optional(slide.force.as_ref(), "force")?;
+    }
+    let acting = Acting::of(course, slide)?;
     let movers = Movers::of(course, &bodies, &before, from)
         .map_err(|_| course.out_of_reach("the place of the body is open"))?;
-    if distance < 0.0 {
-        return Err(course.contradiction("the distance is negative"));
-    }
-    let [mass, _] = movers.inertias[0];
+    let mass: f64 = movers.inertias.iter().map(|i| i[0]).sum();
     if mass <= 0.0 {
         return Err(course.contradiction("what slides has no mass"));
     }
     let [.., u, v, spin] = movers.states[0];
-    let speed = dot(&[u, v], &along);
-    let across = cross(&along, &[u, v]);
-    let pull = force / mass - gravity * along[1];
-    let fastest = u.hypot(v) + (pull.abs() * distance).sqrt();
-    let turning = spin.abs() * distance;
-    if across.abs().max(turning) > ROUNDING * fastest {
+    let speed = dot(&[u, v], &acting.along);
+    let pull = acting.force / mass - acting.gravity * acting.along[1];
+    let rubs = acting.rough.unwrap_or(0.0) * acting.gravity;
+    let size = sizes(course, slide, &movers, &acting, [speed, pull, rubs])?;
+    let turns = acting.contact.is_some();
+    let off = cross(&acting.along, &[u, v]).abs();
+    let turning = if turns { 0.0 } else { spin.abs() * size.length };
+    if off.max(turning) > ROUNDING * size.speed {
         return Err(
             course.contradiction("it does not begin to move along the line without turning")
         );
     }
-    let never = "it comes to rest before, or moves the other way";
-    if distance > 0.0 && speed <= REST * fastest && pull <= 0.0 {
-        return Err(course.never(never));
+    for [.., a, b, _] in &movers.states[1..] {
+        if (a - u).abs().max((b - v).abs()) > ROUNDING * size.speed {
+            return Err(course.contradiction("the bodies do not begin to move together"));
+        }
     }
-    let time = distance / fastest / 8.0;
     let units = Units {
-        length: if distance > 0.0 { distance } else { 1.0 },
-        time: if time > 0.0 { time } else { 1.0 },
+        length: size.length,
+        time: size.time,
         mass,
     };
-    let mechanism = Mechanism {
-        inertias: movers.scaled(&units),
-        constraints: vec![Constraint::Guide { body: 0, along }],
-        forces: vec![[
-            force * along[0] / units.force(),
-            (force * along[1] - mass * gravity) / units.force(),
-            0.0,
-        ]],
-        looks: Cell::new(0),
+    let slip = acting.slip([u, v], spin);
+    let slips = acting.rough.is_some() && !(turns && slip.abs() <= ROUNDING * size.speed);
+    if slide.rolling && slip.abs() > ROUNDING * size.speed {
+        return Err(course.contradiction("it slips when it is to begin to roll"));
+    }
+    let turn = match (turns, slips) {
+        (false, _) => Turning::No,
+        (true, true) => Turning::Free,
+        (true, false) => Turning::Rolls(acting.arm() / units.length),
     };
+    let mut mechanism = on_line(&movers, &units, &acting, turn);
     let mut start = movers.start(&units);
-    // What is across the line, and the spin, are rounding.
-    (start[3], start[4], start[5]) = (
-        speed * along[0] / units.speed(),
-        speed * along[1] / units.speed(),
-        0.0,
-    );
-    let rate = |y: &[f64]| dot(&[y[3], y[4]], &along);
-    let mut goal = Goal {
-        left: &|y| dot(&[y[0], y[1]], &along) - distance / units.length,
-        rate: &rate,
-        never: &mut |y, _| rate(y) <= 0.0 && pull <= 0.0,
-    };
-    let run = mechanism
-        .until(&start, &mut goal)
-        .map_err(|stop| stopped(course, stop, never))?;
+    let n = start.len() / 2;
+    // What is across the line is rounding, and so is the spin of what does not turn.
+    for i in 0..bodies.len() {
+        start[n + 3 * i] = speed * acting.along[0] / units.speed();
+        start[n + 3 * i + 1] = speed * acting.along[1] / units.speed();
+        if !turns {
+            start[n + 3 * i + 2] = 0.0;
+        }
+    }
+    let at_start = mechanism.accelerations(&start);
+    let (_, held) =
+        at_start.ok_or_else(|| course.out_of_reach("the equations of motion have no solution"))?;
+    if let Some(mu) = acting.rough {
+        let press = held[0].abs();
+        if slips {
+            let way = if turns && slip < 0.0 { -1.0 } else { 1.0 };
+            rub(&mut mechanism, &acting, &units, -way * mu * press);
+        } else if held[1].abs() > mu * press * (1.0 + ROUNDING) {
+            return Err(course.contradiction("the surface is too smooth for it to roll"));
+        }
+    }
+    let way = if slip < 0.0 { -1.0 } else { 1.0 };
+    let run = to_the_end(course, slide, &acting, &units, &mechanism, &start, way)?;
+    let still = |y: &[f64]| way * slipping(&acting, &units, y) < -ROUNDING * size.speed;
+    if turns && slips && still(&run.end) {
+        return Err(course.never("it rolls before"));
+    }
     let (mut after, samples) = movers.ended(course, &units, &run, &before);
     let time = Ok(run.time * units.time);
     others(course, &before, &mut after, &bodies, &time, has_forces);
@@ -94,4 +161,173 @@ pub(in crate::numeric::follow) fn slide(
         samples,
     };
     Ok(course.passed(time, before, after, What::Motion(moved)))
+}
+
+/// A length, a time and a speed of the order of the motion's.
+struct Sizes {
+    length: f64,
+    time: f64,
+    speed: f64,
+}
+
+fn sizes(
+    course: &Course<'_>,
+    slide: &Slide,
+    movers: &Movers,
+    acting: &Acting,
+    [speed, pull, rubs]: [f64; 3],
+) -> Result<Sizes, Lost> {
+    let rim = movers.states[0][5].abs() * acting.arm().abs();
+    let begins = movers.states[0][3].hypot(movers.states[0][4]) + rim;
+    let rate = pull.abs() + rubs;
+    let (length, fastest, time) = match &slide.until {
+        SlideEnd::Distance(s) => {
+            let s = course.number(s, "distance")?;
+            if s < 0.0 {
+                return Err(course.contradiction("the distance is negative"));
+            }
+            let fastest = begins + (rate * s).sqrt();
+            if s > 0.0 && speed <= REST * fastest && pull <= 0.0 && rim == 0.0 {
+                return Err(course.never(NEVER));
+            }
+            (s, fastest, s / fastest / 8.0)
+        }
+        SlideEnd::Time(t) => {
+            let t = course.number(t, "time")?;
+            if t < 0.0 {
+                return Err(course.contradiction("the time is negative"));
+            }
+            let fastest = begins + rate * t;
+            (fastest * t, fastest, t / 8.0)
+        }
+        SlideEnd::Stops | SlideEnd::Rolls => {
+            let time = begins / rate;
+            (begins * time, begins, time / 8.0)
+        }
+    };
+    let or_one = |v: f64| if v > 0.0 && v.is_finite() { v } else { 1.0 };
+    Ok(Sizes {
+        length: or_one(length),
+        time: or_one(time),
+        speed: fastest,
+    })
+}
+
+const NEVER: &str = "it comes to rest before, or moves the other way";
+
+/// The bodies on the line, without friction.
+fn on_line(movers: &Movers, units: &Units, acting: &Acting, turn: Turning) -> Mechanism {
+    let along = acting.along;
+    let guide = Constraint::Guide {
+        body: 0,
+        along,
+        turn,
+    };
+    let welds = (1..movers.bodies.len()).map(|i| Constraint::Weld {
+        bodies: [0, i],
+        arm: movers.arm(i).map(|r| r / units.length),
+    });
+    let weights = movers.inertias.iter().map(|[m, _]| -m * acting.gravity);
+    let mut forces: Vec<[f64; 3]> = weights.map(|w| [0.0, w / units.force(), 0.0]).collect();
+    for k in 0..2 {
+        forces[0][k] += acting.force * along[k] / units.force();
+    }
+    let mut inertias = movers.scaled(units);
+    for inertia in &mut inertias {
+        // What does not turn needs no inertia; none would leave the equations open.
+        if inertia[1] <= 0.0 {
+            inertia[1] = 1.0;
+        }
+    }
+    Mechanism {
+        inertias,
+        constraints: std::iter::once(guide).chain(welds).collect(),
+        forces,
+        looks: Cell::new(0),
+    }
+}
+
+/// Adds friction of this size along the line, in units of force, at the point of contact.
+fn rub(mechanism: &mut Mechanism, acting: &Acting, units: &Units, size: f64) {
+    let force = acting.along.map(|u| size * u);
+    let arm = acting.contact.unwrap_or_default().map(|r| r / units.length);
+    let moment = cross(&arm, &force);
+    for (total, part) in mechanism.forces[0].iter_mut().zip([force[0], force[1], moment]) {
+        *total += part;
+    }
+}
+
+/// The slip of a state in the units \[m/s\].
+fn slipping(acting: &Acting, units: &Units, y: &[f64]) -> f64 {
+    let n = y.len() / 2;
+    let velocity = [y[n], y[n + 1]].map(|v| v * units.speed());
+    acting.slip(velocity, y[n + 2] / units.time)
+}
+
+fn to_the_end(
+    course: &Course<'_>,
+    slide: &Slide,
+    acting: &Acting,
+    units: &Units,
+    mechanism: &Mechanism,
+    start: &[f64],
+    way: f64,
+) -> Result<Run, Lost> {
+    let n = start.len() / 2;
+    let along = acting.along;
+    let rate = |y: &[f64]| dot(&[y[n], y[n + 1]], &along);
+    let gains = |f: &dyn Fn(&[f64]) -> f64| {
+        // The change of something in a short time, at the rate with which it begins.
+        let run = mechanism.lasting(start, 0.1).ok();
+        run.is_none_or(|r| f(&r.end) >= f(start))
+    };
+    let stopped = |never: &'static str| move |stop| stopped(course, stop, never);
+    match &slide.until {
+        SlideEnd::Distance(distance) => {
+            let far = course.number(distance, "distance")? / units.length;
+            let slows = !gains(&rate);
+            let mut goal = Goal {
+                left: &|y| dot(&[y[0], y[1]], &along) - far,
+                rate: &rate,
+                never: &mut |y, _| rate(y) <= 0.0 && slows,
+            };
+            mechanism.until(start, &mut goal).map_err(stopped(NEVER))
+        }
+        SlideEnd::Time(time) => {
+            let time = course.number(time, "time")? / units.time;
+            let run = mechanism.lasting(start, time).map_err(stopped(NEVER))?;
+            let is_rubbed = acting.rough.is_some() && acting.contact.is_none();
+            match is_rubbed && rate(&run.end) < -ROUNDING {
+                true => Err(course.never("friction stops it before")),
+                false => Ok(run),
+            }
+        }
+        SlideEnd::Stops => {
+            if gains(&rate) && rate(start) > 0.0 {
+                return Err(course.never("nothing slows it down"));
+            }
+            let mut goal = Goal {
+                left: &|y| -rate(y),
+                rate: &|_| 1.0,
+                never: &mut |_, _| false,
+            };
+            mechanism
+                .until(start, &mut goal)
+                .map_err(stopped("nothing slows it down"))
+        }
+        SlideEnd::Rolls => {
+            let slip = |y: &[f64]| way * slipping(acting, units, y) / units.speed();
+            if gains(&slip) && slip(start) > 0.0 {
+                return Err(course.never("its slip grows"));
+            }
+            let mut goal = Goal {
+                left: &|y| -slip(y),
+                rate: &|_| 1.0,
+                never: &mut |_, _| false,
+            };
+            mechanism
+                .until(start, &mut goal)
+                .map_err(stopped("its slip grows"))
+        }
+    }
 }
