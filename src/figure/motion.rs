@@ -62,6 +62,11 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
     let poses: Vec<Pose> = path.iter().map(|(pose, _)| pose.clone()).collect();
     let stage = spanning(scene, values, begin.clone(), &poses)?;
     stage.fixed(&mut sheet, &[]);
+    if let StageKind::Slide(slide) = kind
+        && (slide.rolling || slide.friction.is_some())
+    {
+        stage.surface(&mut sheet, from, &end, values.pair(&slide.along)?);
+    }
     for (i, pose) in begin.iter().enumerate() {
         if i != body && !with.contains(&i) {
             stage.body(&mut sheet, pose, [0.0, 0.0]);
@@ -185,9 +190,11 @@ fn way(
             let far = match &s.until {
                 SlideEnd::Distance(distance) => values.of(distance)?,
                 // How far it gets is the result; the picture shows which way.
-                _ => 3.0 * from.outline().iter().fold(0.1, |far: f64, p| {
-                    far.max(size([p[0] - from.center[0], p[1] - from.center[1]]))
-                }),
+                _ => {
+                    3.0 * from.outline().iter().fold(0.1, |far: f64, p| {
+                        far.max(size([p[0] - from.center[0], p[1] - from.center[1]]))
+                    })
+                }
             };
             straight([along[0] * far, along[1] * far])
         }

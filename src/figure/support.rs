@@ -85,6 +85,29 @@ impl Stage<'_> {
         }
     }
 
+    /// The surface below a body that moves along a line from one place to another.
+    pub(super) fn surface(&self, sheet: &mut Sheet, from: &Pose, end: &Pose, along: Pair) {
+        let way = if along[0] < 0.0 { -1.0 } else { 1.0 };
+        let down = [way * along[1], -way * along[0]];
+        let lowest = |pose: &Pose| {
+            let center = self.px(pose.center);
+            let below = pose.outline().into_iter().map(|p| {
+                let p = self.px(p);
+                (p[0] - center[0]) * down[0] + (p[1] - center[1]) * down[1]
+            });
+            let deep = below.fold(6.0, f64::max) + 0.8;
+            [center[0] + deep * down[0], center[1] + deep * down[1]]
+        };
+        let ends = [(from, -40.0), (end, 40.0)].map(|(pose, more)| {
+            let foot = lowest(pose);
+            [foot[0] + more * along[0], foot[1] + more * along[1]]
+        });
+        match way > 0.0 {
+            true => hatched(sheet, ends[0], ends[1], down),
+            false => hatched(sheet, ends[1], ends[0], down),
+        }
+    }
+
     /// A taut string and what it is fastened to.
     fn string(
         &self,

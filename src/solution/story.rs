@@ -284,9 +284,7 @@ impl Page<'_> {
         let taken = |letter: &str| self.scene.parameters.iter().any(|p| *p.name == *letter);
         let scene = &told.placed.scene;
         let moved = told.placed.kind.moved();
-        let index = moved
-            .first()
-            .map_or("", |b| scene.bodies[*b].name.as_str());
+        let index = moved.first().map_or("", |b| scene.bodies[*b].name.as_str());
         let mut lines = Vec::new();
         let mut letters = vec![say("Let ")];
         for (i, step) in told.steps.iter().enumerate() {

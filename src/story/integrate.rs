@@ -7,17 +7,27 @@ use std::collections::BTreeSet;
 use crate::answer::Check;
 use crate::domain::{Domains, Limit};
 use crate::expr::{Expr, Point, Symbol};
+use crate::numeric::points;
 
 /// Points at which the motion is integrated.
-const POINTS: u64 = 3;
+const POINTS: usize = 3;
 /// The first of the points that are tried are of ordinary size.
 const ORDINARY: u64 = 12;
 /// Relative difference that counts as agreement; the integrator works to 1e-12.
 const CLOSE: f64 = 1e-7;
 
+/// Most points drawn to find some that keep to the relations.
+const DRAWS: u64 = 2000;
+
 /// Points of the domain in doubles for some symbols: every symbol at its own golden fraction of the interval, the same on
-/// every machine.
-pub(super) fn points_of(names: BTreeSet<Symbol>, domains: &Domains, count: u64) -> Vec<Point<f64>> {
+/// every machine; of these, points that keep to the relations.
+pub(super) fn points_of(
+    mut names: BTreeSet<Symbol>,
+    domains: &Domains,
+    count: usize,
+) -> Vec<Point<f64>> {
+    let bearing = domains.relations_of(&names);
+    names.extend(bearing.iter().flat_map(|r| r.excess.symbols()));
     let value = |name: &Symbol, k: u64, seed: u64| {
         let domain = domains.symbols.get(name);
         let fraction =
@@ -37,14 +47,15 @@ pub(super) fn points_of(names: BTreeSet<Symbol>, domains: &Domains, count: u64) 
             (None, None) => (4.0 * fraction - 2.0) * size,
         }
     };
-    (1..=count)
-        .map(|seed| Point {
-            values: (0..)
-                .zip(&names)
-                .map(|(k, name)| (name.clone(), value(name, k, seed)))
-                .collect(),
-            ..Point::default()
-        })
+    let all = (1..=DRAWS).map(|seed| Point {
+        values: (0..)
+            .zip(&names)
+            .map(|(k, name)| (name.clone(), value(name, k, seed)))
+            .collect(),
+        ..Point::default()
+    });
+    all.filter(|point| points::keeps(domains, point))
+        .take(count)
         .collect()
 }
 

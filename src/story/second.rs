@@ -20,7 +20,7 @@ use crate::scene::{Ask, Question, Scene, Story};
 /// Points at which each way through the cases is followed.
 const POINTS: usize = 2;
 /// Points that are tried to find them.
-const TRIED: u64 = 40;
+const TRIED: usize = 40;
 /// Difference that counts as agreement, in parts of the largest quantity of its kind; the integrator works to 1e-12.
 const CLOSE: f64 = 1e-7;
 /// How far from a threshold its sides are looked at, in parts of it.

@@ -138,7 +138,11 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
     let one = names.len() == 1;
     let is_round = one && stage.scene.bodies[slide.body].shape.radius().is_some();
     let slips = told.work.iter().any(|(what, _)| *what == "friction");
-    let how = match (is_round && !slips && told.way.is_some(), &slide.friction, one) {
+    let how = match (
+        is_round && !slips && told.way.is_some(),
+        &slide.friction,
+        one,
+    ) {
         (true, Some(_), _) => " rolls without slipping",
         _ if slide.rolling => " rolls without slipping",
         (_, Some(_), true) if is_round => " slips on a rough surface, which turns it,",

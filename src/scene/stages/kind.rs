@@ -11,7 +11,9 @@ use crate::scene::place_file::PositionFile;
 use crate::scene::record::Formula;
 use crate::scene::resolve::Resolver;
 use crate::scene::stage::{Fall, FallEnd, OneSided, Slide, SlideEnd, StageKind, Turn, Until, Wind};
-use crate::scene::stage_file::{FallFile, ImpactFile, SlideEndName, SlideFile, StageFile, TurnFile, UntilName};
+use crate::scene::stage_file::{
+    FallFile, ImpactFile, SlideEndName, SlideFile, StageFile, TurnFile, UntilName,
+};
 
 pub(super) const TIME: Quantity =
     Quantity::other([0, 0, 1], "a time, such as t, or a number of seconds");
@@ -144,12 +146,7 @@ fn impact_of(
     })
 }
 
-fn slide_of(
-    r: &mut Resolver<'_>,
-    scene: &Scene,
-    slide: &SlideFile,
-    span: Span,
-) -> Option<Slide> {
+fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) -> Option<Slide> {
     let ends = usize::from(slide.distance.is_some())
         + usize::from(slide.until.is_some())
         + usize::from(slide.time.is_some());

@@ -73,18 +73,33 @@ pub(in crate::story) fn slide(
     }
     let domains = &stage.scene.domains;
     for need in &needs {
-        let proved = matches!(sign(need, domains), Seen::Proved(s) if s.is_not_negative());
-        if !proved {
-            assumptions.push(sentence![
+        let (name, rolls) = (line.name(), !line.slips());
+        match sign(need, domains) {
+            Seen::Proved(s) if s.is_not_negative() => {}
+            Seen::Proved(Sign::Negative) => {
+                let (why, hint) = match (&line.round, rolls) {
+                    (Some(_), true) => ("it slips", "the surface is too smooth for it to roll"),
+                    (Some(_), false) => (
+                        "it rolls before the stage ends",
+                        "end the stage with \"until\": \"rolls\", and let it roll in the next one",
+                    ),
+                    (None, _) => (
+                        "it stops before the stage ends",
+                        "end the stage with \"until\": \"stops\"",
+                    ),
+                };
+                return Err(line.refused(why, hint));
+            }
+            _ => assumptions.push(sentence![
                 &essential(need, domains),
                 " ≥ 0, so that `",
-                &stage.scene.bodies[slide.body].name,
-                match (&line.round, line.slips()) {
-                    (Some(_), false) => "` does not slip",
-                    (Some(_), true) => "` slips to the end of the stage",
+                name,
+                match (&line.round, rolls) {
+                    (Some(_), true) => "` does not slip",
+                    (Some(_), false) => "` slips to the end of the stage",
                     (None, _) => "` does not stop before",
                 }
-            ]);
+            ]),
         }
     }
     let mut after = before.clone();
@@ -210,7 +225,10 @@ impl<'a> Line<'a> {
         let scene = &stage.scene;
         let domains = &scene.domains;
         let mass = slide.bodies().into_iter();
-        let mass = tidied(stage, &Expr::sum(mass.map(|b| scene.bodies[b].mass.clone())))?;
+        let mass = tidied(
+            stage,
+            &Expr::sum(mass.map(|b| scene.bodies[b].mass.clone())),
+        )?;
         let speed = tidied(stage, &dot(&before.velocity[slide.body], &slide.along))?;
         let weight = slide.gravity.as_ref().map(|g| &mass * g);
         let mut pull = slide.force.clone().unwrap_or_else(Expr::zero);
@@ -296,11 +314,7 @@ impl<'a> Line<'a> {
     }
 
     fn refused(&self, why: &str, hint: &str) -> Refused {
-        Refused::new(
-            &self.stage.name,
-            format!("`{}`: {why}", self.name()),
-            hint,
-        )
+        Refused::new(&self.stage.name, format!("`{}`: {why}", self.name()), hint)
     }
 
     fn inertia(&self) -> &'a Expr {
@@ -331,7 +345,12 @@ impl<'a> Line<'a> {
             out.push(Step::new("a", &raw, &self.acceleration, why));
         } else {
             let why = "the acceleration along the line";
-            out.push(Step::new("a", &(&net / &self.mass), &self.acceleration, why));
+            out.push(Step::new(
+                "a",
+                &(&net / &self.mass),
+                &self.acceleration,
+                why,
+            ));
         }
         if let Some(round) = self.round.as_ref().filter(|_| self.slips()) {
             let raw = &(&round.arm * &self.friction) / self.inertia();
@@ -362,6 +381,9 @@ impl<'a> Line<'a> {
                     false => self.arrival(s, assumptions)?,
                 };
                 let rests = still && is_zero(&speed, self.domains()) == Some(true);
+                if rests && is_zero(s, self.domains()) == Some(false) {
+                    return Err(self.refused("it is at rest, and nothing moves it", ""));
+                }
                 let time = match still {
                     true => s / &speed,
                     false => &(&speed - &self.speed) / a,
@@ -382,7 +404,9 @@ impl<'a> Line<'a> {
                 match sign(&slowing, self.domains()) {
                     Seen::Proved(Sign::Positive) => {}
                     Seen::Proved(_) | Seen::Negative => {
-                        return Err(self.refused("nothing slows it down", "add \"friction\": \"mu\""));
+                        return Err(
+                            self.refused("nothing slows it down", "add \"friction\": \"mu\"")
+                        );
                     }
                     _ => assumptions.push(sentence![
                         &essential(&slowing, self.domains()),
@@ -395,7 +419,11 @@ impl<'a> Line<'a> {
                 let time = self.tidied(&raw)?;
                 let why = "the time until it stops";
                 steps.push(Step::new("t", &raw, &time, why));
-                (Some(time), self.tidied(&(&self.speed.powi(2) / &(&Expr::from(2) * &slowing)))?, Expr::zero())
+                (
+                    Some(time),
+                    self.tidied(&(&self.speed.powi(2) / &(&Expr::from(2) * &slowing)))?,
+                    Expr::zero(),
+                )
             }
             SlideEnd::Rolls => {
                 let Some(round) = &self.round else {
@@ -479,7 +507,12 @@ impl<'a> Line<'a> {
                 SlideEnd::Stops => -(&self.speed.powi(2) / &(&Expr::from(2) * &self.acceleration)),
                 _ => &(&self.speed * t) + &half(&(&self.acceleration * &t.powi(2))),
             };
-            steps.push(Step::new("s", &raw, &course.distance, "the distance covered"));
+            steps.push(Step::new(
+                "s",
+                &raw,
+                &course.distance,
+                "the distance covered",
+            ));
         }
         if !matches!(self.slide.until, SlideEnd::Stops) {
             let raw = match &self.slide.until {

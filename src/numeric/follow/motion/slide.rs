@@ -252,7 +252,10 @@ fn rub(mechanism: &mut Mechanism, acting: &Acting, units: &Units, size: f64) {
     let force = acting.along.map(|u| size * u);
     let arm = acting.contact.unwrap_or_default().map(|r| r / units.length);
     let moment = cross(&arm, &force);
-    for (total, part) in mechanism.forces[0].iter_mut().zip([force[0], force[1], moment]) {
+    for (total, part) in mechanism.forces[0]
+        .iter_mut()
+        .zip([force[0], force[1], moment])
+    {
         *total += part;
     }
 }
