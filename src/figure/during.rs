@@ -160,7 +160,15 @@ pub(super) fn impulses(stage: &Stage, system: &[usize], motion: Option<&Motion<f
             .filter_map(|(b, sign)| b.filter(|b| system.contains(b)).map(|b| (b, sign)))
             .collect();
         // Between two bodies of the system it cancels.
-        let ([(body, sign)], Some(at)) = (inside.as_slice(), stage.values.pair(at)) else {
+        let [(body, sign)] = inside.as_slice() else {
+            return;
+        };
+        // A string pulls a particle where that is, not where its other end is.
+        let at = match scene.bodies[*body].is_particle() {
+            true => &scene.bodies[*body].center,
+            false => at,
+        };
+        let Some(at) = stage.values.pair(at) else {
             return;
         };
         let is_blow = matches!(from, ImpulseAt::Blow(_));

@@ -24,6 +24,13 @@ impl Stage<'_> {
             let (fixed, other) = match (self.scene.bodies.get(a), self.scene.bodies.get(b)) {
                 (Some(x), Some(_)) if x.is_fixed() => (a, b),
                 (Some(_), Some(y)) if y.is_fixed() => (b, a),
+                (Some(_), Some(_)) if hints.string(&contact.name).is_some() => {
+                    if let [Some(from), Some(to)] = [a, b].map(|i| self.poses.get(i)) {
+                        let ends = [self.px(from.center), self.px(to.center)];
+                        sheet.segment(ends[0], ends[1], Line::thin(Ink::Body), 1.0);
+                    }
+                    continue;
+                }
                 _ => continue,
             };
             let Some(at) = self.values.pair(&contact.at) else {

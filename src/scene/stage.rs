@@ -210,6 +210,19 @@ pub struct OneSided {
     pub is_string: bool,
 }
 
+impl OneSided {
+    /// Where it acts, as seen from a place: of a string only the part across its pull, since it acts anywhere on its line.
+    pub fn gap(&self, from: &Vector) -> Vector {
+        let gap = minus(&self.at, from);
+        if !self.is_string {
+            return gap;
+        }
+        let across = [-&self.normal[1], self.normal[0].clone()];
+        let aside = dot(&gap, &across);
+        across.map(|c| &aside * &c)
+    }
+}
+
 /// Rotation of a body about a fixed point, between two configurations.
 #[derive(Clone, Debug)]
 pub struct Turn {

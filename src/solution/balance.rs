@@ -638,7 +638,10 @@ impl Writer<'_> {
             return;
         };
         let (first, second) = (words::body(self.scene, one), words::body(self.scene, two));
-        let rule = if restitution.is_one() {
+        let is_string = self.scene.figure.string(&at).is_some();
+        let rule = if is_string {
+            "The string does not stretch: its ends move alike along it"
+        } else if restitution.is_one() {
             "Restitution with e = 1: the points in contact separate along the normal as fast as they approached"
         } else if restitution.is_zero() {
             "Restitution with e = 0: the points in contact do not separate along the normal"
@@ -649,10 +652,20 @@ impl Writer<'_> {
             Some(symbol) => rule.replace(" e times", &format!(" {symbol} times")),
             None => rule.to_string(),
         };
+        let (lead, place) = match is_string {
+            true => (
+                "With the direction ",
+                format!("in which it pulls {second},"),
+            ),
+            false => (
+                "With the normal ",
+                format!("at {at} from {first} to {second},"),
+            ),
+        };
         self.text(vec![
-            say(format!("{rule}. With the normal ")),
+            say(format!("{rule}. {lead}")),
             Inline::Math(vec![name("n", "", "", true)]),
-            say(format!(" at {at} from {first} to {second},")),
+            say(format!(" {place}")),
         ]);
         let first = words::center(self.scene, one);
         let second = words::center(self.scene, two);

@@ -417,13 +417,20 @@ fn touches(
     let contacts = scene.contacts.iter().map(|c| (&c.name, c.bodies, &c.at));
     let hinges = scene.hinges.iter().map(|h| (&h.name, h.bodies, &h.at));
     let blows = scene.blows.iter().map(|b| (&b.name, [b.body; 2], &b.at));
-    let supports = one_sided.iter().map(|o| (&o.name, o.bodies, &o.at));
-    for (name, bodies, at) in contacts.chain(hinges).chain(blows).chain(supports) {
+    let joints = contacts.chain(hinges).chain(blows);
+    let joints = joints.map(|(name, bodies, at)| (name, bodies, at, None));
+    let supports = one_sided
+        .iter()
+        .map(|o| (&o.name, o.bodies, &o.at, Some(o)));
+    for (name, bodies, at, one_sided) in joints.chain(supports) {
         for body in bodies.map(|b| &scene.bodies[b]) {
             if !body.is_particle() {
                 continue;
             }
-            let gap = crate::expr::minus(at, &body.center);
+            let gap = one_sided.map_or_else(
+                || crate::expr::minus(at, &body.center),
+                |o| o.gap(&body.center),
+            );
             if let Some(why) = before.why_open(&gap) {
                 return Err(Refused::new(
                     &stage.name,

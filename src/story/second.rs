@@ -152,10 +152,18 @@ impl Units {
         let length = largest(&mut radii.chain(centers));
         let speeds = bodies().flat_map(|b| b.velocity.iter().map(known));
         let spins = bodies().map(|b| known(&b.spin) * length);
-        let speed = largest(&mut speeds.chain(spins));
+        // Where everything is at rest, before and after, an impulse tells what is fast.
+        let heavy = largest(&mut solids().map(|s| s.mass));
+        let impulses = passed().filter_map(|p| match &p.what {
+            What::Impact(impact) => Some(impact),
+            What::Motion(_) => None,
+        });
+        let impulses = impulses.flat_map(|i| i.contacts.iter().chain(&i.hinges).chain(&i.blows));
+        let kicks = impulses.flat_map(|i| i.impulse.iter().map(|c| known(c) / heavy));
+        let speed = largest(&mut speeds.chain(spins).chain(kicks));
         let or_one = |v: f64| if v > 0.0 { v } else { 1.0 };
         Units {
-            mass: or_one(largest(&mut solids().map(|s| s.mass))),
+            mass: or_one(heavy),
             length: or_one(length),
             speed: or_one(speed),
         }

@@ -18,7 +18,7 @@ use crate::scene::formulas::{Quantity, Symbols};
 use crate::scene::place::Place;
 use crate::scene::record::{Map, Text};
 use crate::scene::resolve::{Resolver, entries};
-use crate::scene::stage::{Stage, Story};
+use crate::scene::stage::{Stage, StageKind, Story};
 use crate::scene::stage_file::{EndName, StageFile, StartFile};
 use crate::scene::{Scene, geometry, question};
 
@@ -314,10 +314,19 @@ fn one(
     }
     let starts = starts(&mut r, &scene, stage, from);
     let kind = kind::kind(&mut r, &mut scene, stage);
-    if let Some(crate::scene::stage::StageKind::Impact { one_sided, .. }) = &kind {
+    if let Some(StageKind::Impact { one_sided, .. }) = &kind {
         for string in one_sided.iter().filter(|o| o.is_string) {
             if scene.figure.string(&string.name).is_none() {
                 scene.figure.strings.push((string.name.clone(), None));
+            }
+        }
+    }
+    if let Some(StageKind::Impact { one_sided, .. }) = &kind {
+        for claimed in &mut r.claims {
+            if let Claim::AtParticle { offset, at, body } = &mut claimed.claim
+                && let Some(string) = one_sided.iter().find(|o| o.is_string && o.name == *at)
+            {
+                *offset = string.gap(&scene.bodies[*body].center);
             }
         }
     }

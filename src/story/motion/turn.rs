@@ -414,7 +414,7 @@ pub(in crate::story) fn sense(
                 Err(Refused::new(
                     &stage.name,
                     format!("`{body}` is at rest, and nothing says which way it begins to turn"),
-                    "add \"clockwise\": true or false, or a moment",
+                    "add \"clockwise\": true or false, a moment, or the domain of the angle at which it begins",
                 ))
             }
         }
