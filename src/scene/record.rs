@@ -323,6 +323,21 @@ fn meant(word: &str) -> Option<&'static str> {
             "bodies that are one after the impact stick at two points: two contacts with \"law\": \"sticking\""
         }
         "omega" | "angular_velocity" | "rotation" => "an angular velocity is `spin`",
+        "box" | "block" | "square" | "plate" | "brick" => {
+            "a box is a `rectangle` with `width` and `height`"
+        }
+        "circle" | "cylinder" | "wheel" => {
+            "a uniform wheel is a `disk` with `radius`, a thin one a `ring`"
+        }
+        "ball" | "billiard" => "a ball is a `sphere` with `radius`, or a `particle`",
+        "bar" | "stick" | "beam" | "plank" | "line" => "a thin bar is a `rod` with `length`",
+        "wall" | "ground" | "floor" | "static" => "what does not move is `fixed`",
+        "point" | "mass_point" | "point_mass" => "a point mass is a `particle`",
+        "roll" | "rolls" | "rolling" => {
+            "a body rolls in a `slide` with \"rolling\": true, or with `friction` and \"until\": \"rolls\""
+        }
+        "swing" | "rotate" | "pivot" => "a body turns about a point in a `turn`",
+        "fly" | "flight" | "throw" => "a body flies in a `fall`, with `gravity` or without",
         "stage" => "the stage a question asks about is `at`",
         "position" | "place" | "location" => "a body stands at its `center`",
         "momentum" => {
