@@ -8,8 +8,8 @@ use super::{Failure, Format, files, pretty, print, read_scene};
 use carom::derive::friction::table;
 use carom::render::friction::{self, Shown};
 use carom::scene::Scene;
-use carom::verify::compare::compare;
-use carom::{answer, derive, plot, verify};
+use carom::verify::compare::{NoComparison, compare};
+use carom::{answer, derive, numeric, plot, render, verify};
 
 /// Arguments of `carom compare`.
 #[derive(Args)]
@@ -31,6 +31,9 @@ pub struct CompareArgs {
 pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     let scene = read_scene(&args.scene, &args.set)?;
     let refused = |reason: String| Failure::Input(format!("{}: {reason}", args.scene.display()));
+    if scene.friction().is_none() && scene.contacts.len() > 1 {
+        return several(&scene, args, &refused);
+    }
     let found = compare(&scene).map_err(|why| refused(why.to_string()))?;
     if let Some(path) = &args.output {
         let svg = plot::curve(&friction::plane(&scene, &found));
@@ -40,6 +43,27 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     print(&match args.format {
         Format::Text => friction::comparison(&scene, &found),
         Format::Json => pretty(&friction::comparison_json(&scene, &found)),
+    })?;
+    Ok(0)
+}
+
+/// Lays what laws for several contacts at once give side by side.
+fn several(
+    scene: &Scene,
+    args: &CompareArgs,
+    refused: &dyn Fn(String) -> Failure,
+) -> Result<u8, Failure> {
+    if args.output.is_some() {
+        let reason = "the plane of impulses is that of one contact with friction";
+        return Err(refused(reason.into()));
+    }
+    let at =
+        numeric::values(scene).map_err(|why| refused(NoComparison::NoPoint(why).to_string()))?;
+    let given = numeric::given(scene, &at).map_err(|why| refused(why.to_string()))?;
+    let all = numeric::several::candidates(&given).map_err(|why| refused(why.to_string()))?;
+    print(&match args.format {
+        Format::Text => render::several::text(scene, &all),
+        Format::Json => pretty(&render::several::json(scene, &all)),
     })?;
     Ok(0)
 }

@@ -20,6 +20,7 @@ pub mod path;
 pub mod points;
 pub mod random;
 pub mod redundant;
+pub mod several;
 pub mod solution;
 pub mod system;
 pub mod values;

@@ -17,6 +17,7 @@ pub mod possible;
 pub mod printed;
 pub mod report;
 mod report_pareto;
+pub mod several;
 pub mod stages;
 pub mod steps;
 pub mod story;

@@ -311,7 +311,7 @@ impl Run {
 }
 
 /// The state after a time; `None` where the rates have no value on the way.
-pub(super) fn integrated(
+pub(in crate::numeric) fn integrated(
     rates: &dyn Fn(&[f64]) -> Option<Vec<f64>>,
     start: &[f64],
     time: f64,

@@ -50,6 +50,7 @@ use crate::scene::{FallEnd, Scene, SlideEnd, Stage, StageKind, Until};
 
 pub use answer::{Unanswered, answer};
 pub use impact::{Breach, Impact, Impulse, Opening};
+pub(in crate::numeric) use mechanism::integrated;
 pub use motion::{Moved, Sample};
 pub use outline::Solid;
 

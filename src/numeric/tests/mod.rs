@@ -6,6 +6,7 @@ mod cases;
 mod extreme;
 mod laws;
 pub(in crate::numeric) mod random;
+mod several;
 
 use super::*;
 use crate::expr::{Point, Rational};
