@@ -372,10 +372,7 @@ fn limits_are_found_by_value_by_powers_and_by_derivatives() {
 fn questions_about_formulas_need_no_stages() {
     let scene = scene("tipping-box");
     let asks = scene.story.as_ref().expect("stages").questions.clone();
-    let formulas: Vec<_> = asks
-        .into_iter()
-        .filter(|q| q.stage.is_none())
-        .collect();
+    let formulas: Vec<_> = asks.into_iter().filter(|q| q.stage.is_none()).collect();
     let found = told(&scene);
     let known = found
         .answers

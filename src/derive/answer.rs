@@ -582,6 +582,8 @@ pub fn dimension(ask: &Ask) -> Dimension {
         Ask::Impulse { .. } | Ask::Balance { .. } => (one.clone(), one.clone(), minus(&one)),
         Ask::Energy { .. } => (one, two.clone(), minus(&two)),
         Ask::Reaction { .. } => (one.clone(), one, minus(&two)),
+        Ask::Time => (zero.clone(), zero, one),
+        Ask::Distance | Ask::Position { .. } => (zero.clone(), one, zero),
         Ask::AngularMomentum { .. } => (one.clone(), two, minus(&one)),
         _ => (zero.clone(), zero.clone(), zero),
     };

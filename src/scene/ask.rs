@@ -98,6 +98,19 @@ pub enum Ask {
         /// At the end of the stage; else at its beginning.
         at_end: bool,
     },
+    /// How long a motion lasts.
+    Time,
+    /// How far a motion along a line leads.
+    Distance,
+    /// Where the center of mass of a body is, a vector, or its component.
+    Position {
+        /// Index of the body.
+        body: usize,
+        /// Direction for a component.
+        along: Option<Vector>,
+        /// At the end of the stage; else at its beginning.
+        at_end: bool,
+    },
     /// A formula of earlier answers, with parameters replaced.
     Value {
         /// The formula.
@@ -191,8 +204,8 @@ pub enum Ask {
 }
 
 impl Ask {
-    /// Whether it is about the motion just after an impact or at the end of a motion, or about the impulses and equations of
-    /// an impact.
+    /// Whether it is about the motion just after an impact or at the end of a motion, about how long and how far it went, or
+    /// about the impulses and equations of an impact.
     pub fn is_motion(&self) -> bool {
         matches!(
             self,
@@ -202,6 +215,9 @@ impl Ask {
                 | Ask::Energy { .. }
                 | Ask::Balance { .. }
                 | Ask::Matrix { .. }
+                | Ask::Time
+                | Ask::Distance
+                | Ask::Position { .. }
         )
     }
 
@@ -225,7 +241,7 @@ impl Ask {
             Ask::Velocity { point, along, .. } => {
                 point.iter().map(|(_, at)| at).chain(along).collect()
             }
-            Ask::Impulse { along, .. } => along.iter().collect(),
+            Ask::Impulse { along, .. } | Ask::Position { along, .. } => along.iter().collect(),
             Ask::Balance { along, .. } | Ask::Reaction { along, .. } => vec![along],
             Ask::AngularMomentum { about, .. } => vec![about],
             _ => Vec::new(),
@@ -239,7 +255,7 @@ impl Ask {
                 let at = point.iter_mut().map(|(_, at)| at);
                 at.chain(along).collect()
             }
-            Ask::Impulse { along, .. } => along.iter_mut().collect(),
+            Ask::Impulse { along, .. } | Ask::Position { along, .. } => along.iter_mut().collect(),
             Ask::Balance { along, .. } | Ask::Reaction { along, .. } => vec![along],
             Ask::AngularMomentum { about, .. } => vec![about],
             _ => Vec::new(),

@@ -64,8 +64,11 @@ pub(super) fn things_asked(kinds: &[&str]) -> String {
 }
 
 /// The kinds of question that only a scene with stages can answer, and which of them are asked.
-pub(super) fn about_stage(q: &QuestionFile) -> [(&'static str, bool); 8] {
+pub(super) fn about_stage(q: &QuestionFile) -> [(&'static str, bool); 11] {
     [
+        ("time", q.time.is_some()),
+        ("distance", q.distance.is_some()),
+        ("position", q.position.is_some()),
         ("reaction", q.reaction.is_some()),
         ("share", q.share.is_some()),
         ("impulsive", q.impulsive.is_some()),

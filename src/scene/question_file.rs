@@ -68,6 +68,12 @@ record! {
         instantaneous_center: Option<Text>,
         /// Force of the fixed point on the body that turns in this stage, along `along`.
         reaction: Option<Text>,
+        /// Name of a stage: how long does it last?
+        time: Option<Text>,
+        /// Name of a stage in which a body slides or rolls: how far does it get?
+        distance: Option<Text>,
+        /// Where the center of mass of this body is at the end of the stage `at`: coordinates by `_x` and `_y`, or along `along`.
+        position: Option<Text>,
         /// Angular momentum of this body about the point `about`.
         angular_momentum: Option<Text>,
         /// Point to which an angular momentum or a moment of inertia refers.

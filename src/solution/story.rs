@@ -281,7 +281,12 @@ impl Page<'_> {
 
     /// A motion by Newton's laws: what the letters stand for, then forces, accelerations, and what they come to.
     fn steps(&mut self, told: &StageTold) {
-        let taken = |letter: &str| self.scene.parameters.iter().any(|p| *p.name == *letter);
+        let taken = |step: &crate::story::Step| {
+            let mut answers = self.told.answers.iter().filter(|a| a.name == step.letter);
+            let mut parameters = self.scene.parameters.iter();
+            parameters.any(|p| *p.name == *step.letter)
+                || answers.any(|a| a.formula.as_ref() != Some(&step.value))
+        };
         let scene = &told.placed.scene;
         let moved = told.placed.kind.moved();
         let index = moved.first().map_or("", |b| scene.bodies[*b].name.as_str());
@@ -293,7 +298,7 @@ impl Page<'_> {
             } else {
                 ""
             };
-            let index = if taken(step.letter) { index } else { "" };
+            let index = if taken(step) { index } else { "" };
             let letter = name(step.letter, index, mark, false);
             letters.push(say(match (i, told.steps.len() - i) {
                 (0, _) => "",

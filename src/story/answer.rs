@@ -104,6 +104,56 @@ fn one(
                 reaction_asked(question, told, along, *at_end)
             });
         }
+        Ask::Time => {
+            return each_way(stages, stage, |told| {
+                let mut out =
+                    Answer::blank(question, name, format!("time that `{}` takes", told.name));
+                out.dimension = Dimension::new(0, 0, 1);
+                match &told.time {
+                    Some(time) => valued(&mut out, time, &told.assumptions),
+                    None => out
+                        .text
+                        .push(Sentence::words("not determined: it has no closed form")),
+                }
+                Ok(out)
+            });
+        }
+        Ask::Distance => {
+            return each_way(stages, stage, |told| {
+                let words = format!("distance covered in `{}`", told.name);
+                let mut out = Answer::blank(question, name, words);
+                out.dimension = Dimension::new(0, 1, 0);
+                match &told.way {
+                    Some(way) => valued(&mut out, way, &told.assumptions),
+                    None => out
+                        .text
+                        .push(Sentence::words("not determined: where it leads is open")),
+                }
+                Ok(out)
+            });
+        }
+        Ask::Position {
+            body,
+            along,
+            at_end,
+        } => {
+            let axes = match along {
+                Some(_) => vec![("", None)],
+                None => vec![("_x", Some(0)), ("_y", Some(1))],
+            };
+            let mut out = Vec::new();
+            for (suffix, axis) in axes {
+                let along = match (along, axis) {
+                    (Some(along), _) => along.clone(),
+                    (_, axis) => [0, 1].map(|k| Expr::from(i64::from(axis == Some(k)))),
+                };
+                let all = each_way(stages, stage, |told| {
+                    position(question, suffix, told, *body, &along, *at_end)
+                });
+                out.extend(all?);
+            }
+            return Ok(out);
+        }
         Ask::AngularMomentum {
             body,
             about,
@@ -347,6 +397,47 @@ fn reaction_asked(
     Ok(out)
 }
 
+/// Gives an answer its value, and what that takes for granted.
+fn valued(answer: &mut Answer, value: &Expr, assumptions: &[Sentence]) {
+    answer.formula = Some(value.clone());
+    answer.assumptions = assumptions.to_vec();
+}
+
+/// Where the center of mass of a body is at the beginning or end of a stage, along a direction.
+fn position(
+    question: &Question,
+    suffix: &str,
+    told: &StageTold,
+    body: usize,
+    along: &Vector,
+    at_end: bool,
+) -> Result<Answer, Refused> {
+    let scene = &told.placed.scene;
+    let (state, when) = match at_end {
+        true => (&told.after, "end"),
+        false => (&told.before, "beginning"),
+    };
+    let words = format!(
+        "position of the center of mass of `{}` at the {when} of `{}`",
+        scene.bodies[body].name, told.name
+    );
+    let mut out = Answer::blank(question, &format!("{}{suffix}", question.name), words);
+    out.dimension = Dimension::new(0, 1, 0);
+    if let Some(why) = state.why_open(&state.center[body]) {
+        out.text.push(sentence!["not determined: ", why]);
+        return Ok(out);
+    }
+    let value = tidy(&dot(&state.center[body], along), &scene.domains)
+        .map_err(|stop| Refused::question(&question.name, format!("not calculated: {stop}"), ""))?;
+    let assumptions = if at_end {
+        told.assumptions.as_slice()
+    } else {
+        &[]
+    };
+    valued(&mut out, &value, assumptions);
+    Ok(out)
+}
+
 /// The angular momentum of a body about a point at the beginning or end of a stage.
 fn angular_momentum(
     scene: &Scene,
@@ -491,7 +582,7 @@ fn of_motion(scene: &Scene, question: &Question, told: &StageTold) -> Result<Vec
         } => "kinetic energy lost",
         _ => "kinetic energy",
     };
-    let when = match &asked.ask {
+    let when = match &question.ask {
         Ask::Energy { when, .. } => match when {
             EnergyWhen::Before => "at the beginning",
             EnergyWhen::After => "at the end",

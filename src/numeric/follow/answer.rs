@@ -11,7 +11,7 @@ use crate::expr::{Point, Vector};
 use crate::numeric::Answer;
 use crate::numeric::given::{Freedom, Undefined, vector};
 use crate::numeric::number::{cross, dot};
-use crate::scene::{Ask, EnergyWhen, ImpulseAt, Question, Scene};
+use crate::scene::{Ask, EnergyWhen, ImpulseAt, Question, Scene, StageKind};
 
 /// Why a question has no number.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,6 +74,27 @@ pub fn answer(
             };
             let reaction = moved.reaction.as_ref().ok_or(Unanswered::NotANumber)?;
             component(&course, reaction[usize::from(*at_end)].clone(), Some(along))
+        }
+        Ask::Time => Ok(Answer::Scalar(passed.time.clone()?)),
+        Ask::Distance => {
+            let StageKind::Slide(slide) = &stage.kind else {
+                return Err(Unanswered::NotANumber);
+            };
+            let [from, to] = [before, &passed.after].map(|s| s.bodies[slide.body].center.clone());
+            let along = pair(&course, &slide.along)?;
+            let mut far = 0.0;
+            for ((from, to), way) in from.into_iter().zip(to).zip(along) {
+                far += (to? - from?) * way;
+            }
+            Ok(Answer::Scalar(far))
+        }
+        Ask::Position {
+            body,
+            along,
+            at_end,
+        } => {
+            let state = if *at_end { &passed.after } else { before };
+            component(&course, state.bodies[*body].center.clone(), along.as_ref())
         }
         Ask::AngularMomentum {
             body,

@@ -127,6 +127,37 @@ fn story_ask(
         let along = base.direction(along)?;
         return Some((Some(i), Ask::Reaction { along, at_end }));
     }
+    if let Some(stage) = q.time.as_ref().or(q.distance.as_ref()) {
+        let i = stage_named(&mut base.faults, stages, Some(stage))?;
+        let (what, hint, fits) = match q.time {
+            Some(_) => ("time", "an impact takes none", stages[i].impact.is_none()),
+            None => (
+                "distance",
+                "a distance is that of a `slide`; elsewhere ask for the `position` of a body",
+                stages[i].slide.is_some(),
+            ),
+        };
+        if !fits {
+            let message = format!("no {what} can be asked of the stage `{}`", stage.text);
+            base.faults.push(Fault::new(stage.span, message).hint(hint));
+            return None;
+        }
+        let ask = q.time.as_ref().map_or(Ask::Distance, |_| Ask::Time);
+        return Some((Some(i), ask));
+    }
+    if let Some(body) = &q.position {
+        let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
+        let along = q.along.as_ref();
+        let ask = Ask::Position {
+            body: base.moving(body)?,
+            along: along
+                .map(|d| base.direction(d).ok_or(()))
+                .transpose()
+                .ok()?,
+            at_end,
+        };
+        return Some((Some(i), ask));
+    }
     if let Some(body) = &q.angular_momentum {
         let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
         let Some(about) = &q.about else {
