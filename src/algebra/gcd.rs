@@ -8,15 +8,13 @@ use std::cell::Cell;
 use num_integer::Integer;
 use num_traits::One;
 
-use super::Stop;
-use super::mono::{exponent, mono_min};
+use super::mono::{exponent, mono_div, mono_min, mono_of};
 use super::poly::Poly;
+use super::{Stop, image};
 use crate::expr::Int;
 
 /// Most terms of a polynomial inside a remainder sequence.
 const MOST_TERMS: usize = 4_000;
-/// 2⁶¹ − 1.
-const PRIME: u64 = (1 << 61) - 1;
 
 /// Greatest common divisor, with positive leading coefficient.
 pub(crate) fn gcd(a: &Poly, b: &Poly, fuel: &Fuel) -> Result<Poly, Stop> {
@@ -94,90 +92,65 @@ impl Fuel {
 }
 
 /// Of two polynomials without numeric or monomial content.
-fn primitive_gcd(mut a: Poly, mut b: Poly, fuel: &Fuel) -> Result<Poly, Stop> {
-    loop {
-        if a.is_constant() || b.is_constant() {
-            return Ok(Poly::one());
-        }
-        if a == b {
-            return Ok(a);
-        }
-        fuel.burn((a.len() + b.len()) * 4)?;
-        // A variable that only one of them has cannot occur in the divisor.
-        let (va, vb) = (a.variables(), b.variables());
-        if let Some(v) = va.iter().find(|v| !vb.contains(v)) {
-            a = fold_coefficients(&a, *v, b.clone(), fuel)?;
-            if a.is_constant() {
-                return Ok(Poly::one());
-            }
-            continue;
-        }
-        if let Some(v) = vb.iter().find(|v| !va.contains(v)) {
-            b = fold_coefficients(&b, *v, a.clone(), fuel)?;
-            if b.is_constant() {
-                return Ok(Poly::one());
-            }
-            continue;
-        }
-        let (small, large) = if a.len() <= b.len() {
-            (&a, &b)
-        } else {
-            (&b, &a)
-        };
-        if large.try_div(small).is_some() {
-            return Ok(small.clone());
-        }
-        // Images modulo a prime bound the degree of the divisor in each variable.
-        let bounds: Vec<(usize, Option<u32>)> =
-            va.iter().map(|v| (*v, image_degree(&a, &b, *v))).collect();
-        if bounds.iter().all(|(_, d)| *d == Some(0)) {
-            return Ok(Poly::one());
-        }
-        if let Some((v, _)) = bounds.iter().find(|(_, d)| *d == Some(0)) {
-            let g = fold_coefficients(&a, *v, b.clone(), fuel)?;
-            return Ok(g);
-        }
-        let Some(v) = va
-            .iter()
-            .copied()
-            .min_by_key(|v| a.degree(*v).max(b.degree(*v)))
-        else {
-            return Ok(Poly::one());
-        };
-        if let Some(g) = by_values(&a, &b, fuel) {
-            return Ok(g);
-        }
-        return remainder_sequence(&a, &b, v, fuel);
+fn primitive_gcd(a: Poly, b: Poly, fuel: &Fuel) -> Result<Poly, Stop> {
+    if a.is_constant() || b.is_constant() {
+        return Ok(Poly::one());
     }
+    if a == b {
+        return Ok(a);
+    }
+    fuel.burn((a.len() + b.len()) * 4)?;
+    let parts = [a, b];
+    let shared = image::shared(&parts);
+    let [a, b] = &parts;
+    if [a, b].iter().any(|p| p.variables() != shared) {
+        return common(&parts, &shared, fuel);
+    }
+    let (small, large) = if a.len() <= b.len() { (a, b) } else { (b, a) };
+    if large.try_div(small).is_some() {
+        return Ok(small.clone());
+    }
+    if let Some(g) = by_values(a, b, fuel) {
+        return Ok(g);
+    }
+    let v = shared
+        .into_iter()
+        .min_by_key(|v| a.degree(*v).max(b.degree(*v)));
+    v.map_or(Ok(Poly::one()), |v| remainder_sequence(a, b, v, fuel))
 }
 
-/// gcd of `seed` and all coefficients of p in v, without numeric content.
-fn fold_coefficients(p: &Poly, v: usize, seed: Poly, fuel: &Fuel) -> Result<Poly, Stop> {
-    let mut g = seed;
-    let mut parts = p.by_power(v);
-    parts.sort();
-    for part in parts.iter().filter(|p| !p.is_zero()) {
+/// The common divisor of polynomials, numbers aside, of which only some variables can occur in it: it divides each of their
+/// coefficients with respect to the others, which are short.
+fn common(parts: &[Poly], shared: &[usize], fuel: &Fuel) -> Result<Poly, Stop> {
+    if shared.is_empty() {
+        return Ok(Poly::one());
+    }
+    let mut coefficients: Vec<Poly> = parts.iter().flat_map(|p| p.coefficients(shared)).collect();
+    coefficients.sort();
+    coefficients.dedup();
+    let mut g = Poly::zero();
+    for part in &coefficients {
         g = gcd(&g, part, fuel)?;
         if g.is_constant() {
             return Ok(Poly::one());
         }
     }
-    let (_, mono, rest) = g.split();
-    rest.mul_term(&mono, &Int::one())
+    Ok(g)
 }
 
 /// Content with respect to v: the greatest common divisor of the coefficients, numbers included.
 pub(crate) fn content_in(p: &Poly, v: usize, fuel: &Fuel) -> Result<Poly, Stop> {
+    let (number, mono, p) = p.split();
     let mut parts = p.by_power(v);
-    parts.sort();
-    let mut g = Poly::zero();
-    for part in parts.iter().filter(|p| !p.is_zero()) {
-        g = gcd(&g, part, fuel)?;
-        if g.is_one() {
-            break;
-        }
-    }
-    Ok(g)
+    parts.retain(|part| !part.is_zero());
+    let g = match parts.as_slice() {
+        [only] => only.clone(),
+        _ => common(&parts, &image::shared(&parts), fuel)?,
+    };
+    let outside = mono_div(&mono, &mono_of(v, exponent(&mono, v)));
+    g.split()
+        .2
+        .mul_term(&outside, &num_traits::Signed::abs(&number))
 }
 
 fn remainder_sequence(a: &Poly, b: &Poly, v: usize, fuel: &Fuel) -> Result<Poly, Stop> {
@@ -236,91 +209,6 @@ fn pseudo_remainder(x: &Poly, y: &Poly, v: usize, fuel: &Fuel) -> Result<Poly, S
         }
     }
     Poly::from_powers(&rest, v)
-}
-
-fn mul_mod(a: u64, b: u64) -> u64 {
-    (u128::from(a) * u128::from(b) % u128::from(PRIME)) as u64
-}
-
-fn pow_mod(base: u64, mut exponent: u64) -> u64 {
-    let (mut result, mut square) = (1, base);
-    while exponent > 0 {
-        if exponent & 1 == 1 {
-            result = mul_mod(result, square);
-        }
-        square = mul_mod(square, square);
-        exponent >>= 1;
-    }
-    result
-}
-
-fn residue(value: &Int) -> u64 {
-    match value.as_i64() {
-        Some(v) => v.rem_euclid(PRIME as i64) as u64,
-        None => value
-            .mod_floor(&Int::from(PRIME as i64))
-            .as_i64()
-            .unwrap_or(0) as u64,
-    }
-}
-
-/// A fixed residue for each variable; any choice that keeps the leading coefficients is valid.
-fn value_of(v: usize) -> u64 {
-    let mut z = (v as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    (z ^ (z >> 27)) % (PRIME - 2) + 1
-}
-
-/// Image in one variable modulo the prime, ascending.
-fn image(p: &Poly, v: usize) -> Vec<u64> {
-    let mut out = vec![0; p.degree(v) as usize + 1];
-    let others: Vec<usize> = p.variables().into_iter().filter(|w| *w != v).collect();
-    for (mono, coeff) in p.terms() {
-        let mut value = residue(coeff);
-        for w in &others {
-            let k = exponent(mono, *w);
-            if k > 0 {
-                value = mul_mod(
-                    value,
-                    if k == 1 {
-                        value_of(*w)
-                    } else {
-                        pow_mod(value_of(*w), u64::from(k))
-                    },
-                );
-            }
-        }
-        let place = &mut out[exponent(mono, v) as usize];
-        *place = (*place + value) % PRIME;
-    }
-    out
-}
-
-/// Bound for the degree in v of the common divisor; `None` when the image tells nothing.
-fn image_degree(a: &Poly, b: &Poly, v: usize) -> Option<u32> {
-    let (mut x, mut y) = (image(a, v), image(b, v));
-    if x.last() == Some(&0) || y.last() == Some(&0) {
-        return None;
-    }
-    if x.len() < y.len() {
-        std::mem::swap(&mut x, &mut y);
-    }
-    while !y.is_empty() {
-        let inverse = pow_mod(*y.last()?, PRIME - 2);
-        while x.len() >= y.len() {
-            let top = x.pop()?;
-            let factor = mul_mod(top, inverse);
-            let shift = x.len() + 1 - y.len();
-            for k in 0..y.len() - 1 {
-                x[shift + k] = (x[shift + k] + PRIME - mul_mod(factor, y[k])) % PRIME;
-            }
-        }
-        while x.last() == Some(&0) {
-            x.pop();
-        }
-        std::mem::swap(&mut x, &mut y);
-    }
-    u32::try_from(x.len() - 1).ok()
 }
 
 /// The divisor read off its value at a large integer: gcd of the values, expanded in powers of that integer. A candidate

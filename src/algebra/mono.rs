@@ -5,6 +5,8 @@
 
 use std::cmp::Ordering;
 
+use smallvec::{SmallVec, smallvec};
+
 use super::Stop;
 
 /// The guard bit of every exponent field.
@@ -12,8 +14,8 @@ pub(crate) const GUARD: u64 = 0x8080_8080_8080_8080;
 /// Variables per word.
 pub(crate) const FIELDS: usize = 8;
 
-/// A packed monomial; missing words at the end count as zero exponents.
-pub(crate) type Mono = Vec<u64>;
+/// A packed monomial; missing words at the end count as zero exponents. Two words cost no allocation.
+pub(crate) type Mono = SmallVec<[u64; 2]>;
 
 pub(crate) fn place(v: usize) -> (usize, u32) {
     (v / FIELDS, 56 - 8 * (v % FIELDS) as u32)
@@ -22,7 +24,7 @@ pub(crate) fn place(v: usize) -> (usize, u32) {
 /// v raised to k < 128.
 pub(crate) fn mono_of(v: usize, k: u32) -> Mono {
     let (word, shift) = place(v);
-    let mut mono = vec![0; word + 1];
+    let mut mono: Mono = smallvec![0; word + 1];
     mono[word] = u64::from(k) << shift;
     mono
 }

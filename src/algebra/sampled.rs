@@ -5,6 +5,7 @@ use super::field::Field;
 use super::field::{AngleOf, Kind};
 use super::mono::powers;
 use super::poly::Poly;
+use super::prime::{PLAIN, prime, random, seed};
 use super::sign::Interval;
 use crate::expr::number::to_f64;
 use crate::expr::{Int, Rational};
@@ -12,7 +13,9 @@ use num_traits::{One, Signed};
 
 /// Points at which an unproved sign is looked at. Enough that a sign change over a tenth of the domain is hardly missed;
 /// what is missed still stands in the list of assumptions.
-const SAMPLES: usize = 48;
+const SAMPLES: usize = 80;
+/// How many of them are near a corner of the domain: what is linear in each symbol changes sign there if anywhere.
+const CORNERS: usize = 32;
 
 impl Field {
     /// Signs seen at the sample points: (somewhere positive, somewhere negative).
@@ -136,21 +139,14 @@ impl Field {
 /// A number in (0, 1), fixed by name and index: near the ends first, then well spread.
 fn fraction(name: &str, k: usize) -> f64 {
     const NEAR: f64 = 1e-6;
-    let mut hash = 0xcbf2_9ce4_8422_2325u64;
-    for byte in name.bytes() {
-        hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    let z = random::<PLAIN>(seed(name), k as u64);
+    match (k, z & 1) {
+        (0, _) => NEAR,
+        (1, _) => 1.0 - NEAR,
+        (2..CORNERS, 0) => NEAR,
+        (2..CORNERS, _) => 1.0 - NEAR,
+        _ => z as f64 / prime::<PLAIN>() as f64 * 0.998 + 0.001,
     }
-    let mut z = hash.wrapping_add((k as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    match (k, z >> 63) {
-        (0, _) => return NEAR,
-        (1, _) => return 1.0 - NEAR,
-        (2..6, 0) => return NEAR,
-        (2..6, _) => return 1.0 - NEAR,
-        _ => {}
-    }
-    ((z ^ (z >> 31)) >> 12) as f64 / (1u64 << 52) as f64 * 0.998 + 0.001
 }
 
 fn pick(range: &Interval, u: f64) -> f64 {

@@ -326,7 +326,7 @@ impl Field {
         let mut terms: Vec<Term> = p
             .terms()
             .map(|(m, c)| Term {
-                mono: m.to_vec(),
+                mono: Mono::from_slice(m),
                 coeff: c.clone(),
                 gathered: None,
             })
@@ -394,6 +394,10 @@ fn join(
     second: &[u64],
     joined: impl Fn(bool) -> Option<(Mono, Option<Expr>)>,
 ) {
+    let holds = |mono: &[u64]| terms.iter().any(|t| mono_divides(mono, &t.mono));
+    if !holds(first) || !holds(second) {
+        return;
+    }
     while let Some((i, j, term)) = joinable(terms, first, second, &joined) {
         terms[i] = term;
         terms.remove(j);

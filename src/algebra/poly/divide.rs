@@ -5,7 +5,8 @@ use std::cmp::Ordering;
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
-use super::{MOST_COPIED, MOST_TERMS, MOST_UNDER_ROOT, Poly};
+use super::{Coeffs, MOST_COPIED, MOST_TERMS, MOST_UNDER_ROOT, Poly, put};
+use crate::algebra::image;
 use crate::algebra::mono::{
     Mono, cmp_mono, mono_add, mono_div, mono_divides, mono_is_one, word_min,
 };
@@ -29,7 +30,7 @@ impl Poly {
         if self.is_zero() {
             return Mono::new();
         }
-        let mut least = self.mono(0).to_vec();
+        let mut least = Mono::from_slice(self.mono(0));
         for i in 1..self.len() {
             for (a, b) in least.iter_mut().zip(self.mono(i)) {
                 *a = word_min(*a, *b);
@@ -74,20 +75,20 @@ impl Poly {
             }
             return Some(self.div_mono(divisor.mono(0)).div_int(&divisor.coeffs[0]));
         }
-        if !mono_divides(&divisor.degrees(), &self.degrees()) {
+        if !mono_divides(&divisor.degrees(), &self.degrees()) || image::refuses(divisor, self) {
             return None;
         }
         let stride = self.stride.max(divisor.stride);
         let (dividend, divisor) = (self.widened(stride), divisor.widened(stride));
         let smallest = dividend.mono(self.len() - 1);
-        let (mut exps, mut coeffs) = (Vec::new(), Vec::new());
+        let (mut exps, mut coeffs) = (Mono::new(), Coeffs::new());
         // The remainder without its leading term is merged with the next multiple of the divisor, back and forth between
         // two buffers.
         let mut rest = dividend.clone().into_owned();
         let mut next = Poly {
             stride,
-            exps: Vec::with_capacity(rest.exps.len()),
-            coeffs: Vec::with_capacity(rest.len()),
+            exps: Mono::with_capacity(rest.exps.len()),
+            coeffs: Coeffs::with_capacity(rest.len()),
         };
         let mut copied = 0;
         while !rest.is_zero() {
@@ -128,7 +129,7 @@ impl Poly {
                 next.push(rest.mono(k), rest.coeffs[k].clone());
             }
             std::mem::swap(&mut rest, &mut next);
-            exps.extend_from_slice(&mono);
+            put(&mut exps, &mono);
             coeffs.push(quotient);
         }
         Some(Poly {
@@ -141,7 +142,7 @@ impl Poly {
     /// Appends a term below the last one, unless its coefficient is zero.
     fn push(&mut self, mono: &[u64], coeff: Int) {
         if !coeff.is_zero() {
-            self.exps.extend_from_slice(mono);
+            put(&mut self.exps, mono);
             self.coeffs.push(coeff);
         }
     }

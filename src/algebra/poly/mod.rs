@@ -10,9 +10,10 @@ use std::borrow::Cow;
 use std::cmp::Ordering;
 
 use num_traits::{One, Signed, Zero};
+use smallvec::{SmallVec, smallvec};
 
 use crate::algebra::Stop;
-use crate::algebra::mono::{GUARD, cmp_mono, mono_of};
+use crate::algebra::mono::{GUARD, Mono, cmp_mono, mono_of};
 use crate::expr::Int;
 
 /// Most term products formed by one multiplication.
@@ -30,9 +31,12 @@ const MOST_BITS: u64 = 20_000;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Poly {
     stride: usize,
-    exps: Vec<u64>,
-    coeffs: Vec<Int>,
+    exps: Mono,
+    coeffs: Coeffs,
 }
+
+/// Most polynomials are a single term, which costs no allocation.
+type Coeffs = SmallVec<[Int; 1]>;
 
 impl Poly {
     pub fn zero() -> Poly {
@@ -45,8 +49,8 @@ impl Poly {
         } else {
             Poly {
                 stride: 0,
-                exps: Vec::new(),
-                coeffs: vec![value],
+                exps: Mono::new(),
+                coeffs: smallvec![value],
             }
         }
     }
@@ -65,8 +69,8 @@ impl Poly {
         }
         Poly {
             stride: mono.len(),
-            exps: mono.to_vec(),
-            coeffs: vec![coeff],
+            exps: Mono::from_slice(mono),
+            coeffs: smallvec![coeff],
         }
     }
 
@@ -114,7 +118,7 @@ impl Poly {
         if self.stride == stride {
             return Cow::Borrowed(self);
         }
-        let mut exps = vec![0; stride * self.len()];
+        let mut exps: Mono = smallvec![0; stride * self.len()];
         for i in 0..self.len() {
             exps[i * stride..i * stride + self.stride].copy_from_slice(self.mono(i));
         }
@@ -156,8 +160,8 @@ impl Poly {
         let (stride, a, b) = Poly::aligned(self, other);
         let mut out = Poly {
             stride,
-            exps: Vec::with_capacity((a.len() + b.len()) * stride),
-            coeffs: Vec::with_capacity(a.len() + b.len()),
+            exps: Mono::with_capacity((a.len() + b.len()) * stride),
+            coeffs: Coeffs::with_capacity(a.len() + b.len()),
         };
         let (mut i, mut j) = (0, 0);
         while i < a.len() || j < b.len() {
@@ -180,7 +184,7 @@ impl Poly {
                 Ordering::Equal => (a.mono(i), &a.coeffs[i] + &b.coeffs[j]),
             };
             if !coeff.is_zero() {
-                out.exps.extend_from_slice(mono);
+                put(&mut out.exps, mono);
                 out.coeffs.push(coeff);
             }
             i += usize::from(order != Ordering::Less);
@@ -224,7 +228,7 @@ impl Poly {
         for (mono, coeff) in self.terms() {
             let value = f(coeff);
             if !value.is_zero() {
-                out.exps.extend_from_slice(mono);
+                put(&mut out.exps, mono);
                 out.coeffs.push(value);
             }
         }
@@ -374,6 +378,12 @@ impl Ord for Poly {
     }
 }
 
+/// Appends the words of a monomial, one or two of them mostly.
+#[inline]
+fn put(exps: &mut Mono, mono: &[u64]) {
+    mono.iter().for_each(|word| exps.push(*word));
+}
+
 fn mul_sorting<const S: usize>(a: &Poly, b: &Poly) -> Result<Poly, Stop> {
     let mut products: Vec<([u64; S], u32, u32)> = Vec::with_capacity(a.len() * b.len());
     for i in 0..a.len() {
@@ -393,8 +403,8 @@ fn mul_sorting<const S: usize>(a: &Poly, b: &Poly) -> Result<Poly, Stop> {
     products.sort_unstable_by_key(|product| std::cmp::Reverse(product.0));
     let mut out = Poly {
         stride: S,
-        exps: Vec::new(),
-        coeffs: Vec::new(),
+        exps: Mono::new(),
+        coeffs: Coeffs::new(),
     };
     let mut at = 0;
     while at < products.len() {
@@ -405,7 +415,7 @@ fn mul_sorting<const S: usize>(a: &Poly, b: &Poly) -> Result<Poly, Stop> {
             at += 1;
         }
         if !total.is_zero() {
-            out.exps.extend_from_slice(&mono);
+            put(&mut out.exps, &mono);
             out.coeffs.push(total);
         }
     }

@@ -1,8 +1,10 @@
 //! Polynomials by powers of one variable.
 
 use num_traits::One;
+use rustc_hash::FxHashMap;
+use smallvec::smallvec;
 
-use super::Poly;
+use super::{Coeffs, Poly, put};
 use crate::algebra::Stop;
 use crate::algebra::mono::{Mono, exponent, mono_of, mono_variables, place, word_max};
 use crate::expr::Int;
@@ -17,7 +19,7 @@ impl Poly {
 
     /// Highest exponent of every variable, packed.
     pub fn degrees(&self) -> Mono {
-        let mut most = vec![0; self.stride];
+        let mut most: Mono = smallvec![0; self.stride];
         for i in 0..self.len() {
             for (a, b) in most.iter_mut().zip(self.mono(i)) {
                 *a = word_max(*a, *b);
@@ -48,13 +50,41 @@ impl Poly {
         for (mono, coeff) in self.terms() {
             let target = &mut out[exponent(mono, v) as usize];
             let start = target.exps.len();
-            target.exps.extend_from_slice(mono);
+            put(&mut target.exps, mono);
             if word < mono.len() {
                 target.exps[start + word] &= !(0x7f << shift);
             }
             target.coeffs.push(coeff.clone());
         }
         // Clearing one field of terms that agree in it keeps their order.
+        out
+    }
+
+    /// The coefficients of the polynomial in all variables but some, as polynomials in these.
+    pub fn coefficients(&self, some: &[usize]) -> Vec<Poly> {
+        let mut mask: Mono = smallvec![0; self.stride];
+        for v in some {
+            let (word, shift) = place(*v);
+            if let Some(mask) = mask.get_mut(word) {
+                *mask |= 0xff << shift;
+            }
+        }
+        let mut places: FxHashMap<Mono, usize> = FxHashMap::default();
+        let mut out: Vec<Poly> = Vec::new();
+        for (mono, coeff) in self.terms() {
+            let outside = mono.iter().zip(&mask).map(|(w, m)| w & !m).collect();
+            let at = *places.entry(outside).or_insert(out.len());
+            if at == out.len() {
+                out.push(Poly {
+                    stride: self.stride,
+                    ..Poly::default()
+                });
+            }
+            // Terms that agree in the others keep their order without them.
+            let own = mono.iter().zip(&mask).map(|(w, m)| w & m);
+            out[at].exps.extend(own);
+            out[at].coeffs.push(coeff.clone());
+        }
         out
     }
 
@@ -83,14 +113,14 @@ impl Poly {
         let (word, shift) = place(v);
         let part = |n: usize| Poly {
             stride: self.stride,
-            exps: Vec::with_capacity(n * self.stride),
-            coeffs: Vec::with_capacity(n),
+            exps: Mono::with_capacity(n * self.stride),
+            coeffs: Coeffs::with_capacity(n),
         };
         let (mut low, mut high) = (part(self.len() - count), part(count));
         for (mono, coeff) in self.terms() {
             let target = if is_high(mono) { &mut high } else { &mut low };
             let start = target.exps.len();
-            target.exps.extend_from_slice(mono);
+            put(&mut target.exps, mono);
             if is_high(mono) {
                 target.exps[start + word] -= u64::from(n) << shift;
             }
@@ -109,7 +139,7 @@ impl Poly {
             let k = exponent(mono, v);
             if k > 0 {
                 let start = out.exps.len();
-                out.exps.extend_from_slice(mono);
+                put(&mut out.exps, mono);
                 out.exps[start + word] -= 1 << shift;
                 out.coeffs.push(coeff * &Int::from(i64::from(k)));
             }

@@ -1,10 +1,10 @@
 //! The pieces of an expression as values in all lanes.
 
 use super::lanes::Lanes;
-use super::prime::{negative, one};
 use super::real::Real;
 use super::value::{Bound, Circle, Sign, Value};
 use super::walk::{Builder, Turn};
+use crate::algebra::prime::{negative, one};
 use crate::expr::Function;
 
 /// Largest number taken, so that it stays below every prime used.

@@ -11,10 +11,12 @@
 //! and either choice of its sign in the lanes is as good as the real one. Lanes where it has no root are dead from there.
 
 use super::Place;
-use super::prime::{self, ROOTS, add, each, negative, one, random, residue, roots, seed, times};
 use super::real::Real;
 use super::value::{Bound, Circle, Sign, Value, odd_primes, real};
 use super::{AtPoints, walk};
+use crate::algebra::prime::{
+    self, ROOTS, add, each, negative, one, random, residue, roots, seed, times,
+};
 use crate::expr::Expr;
 
 /// Most generators in a pair of formulas.

@@ -14,16 +14,16 @@ mod drawn;
 mod exact;
 mod lanes;
 mod poly;
-mod prime;
 mod radical;
 mod real;
 mod value;
 mod walk;
 
+use crate::algebra::prime::{PLAIN, ROOTS};
 use crate::domain::{Domain, Domains, Role, Roles};
 use crate::expr::{Expr, Symbol};
 use lanes::Lanes;
-use prime::{PLAIN, ROOTS};
+
 use value::Sign;
 
 /// Points for formulas without roots; each divides the chance of an error by p over the degree.

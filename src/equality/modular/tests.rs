@@ -1,6 +1,7 @@
 //! Pairs that are decided at points, and pairs that are left to the proof.
 
 use super::*;
+use crate::algebra::prime;
 use crate::domain::roles;
 
 fn found(a: &Expr, b: &Expr, domains: &Domains) -> Option<AtPoints> {

@@ -1,7 +1,7 @@
 //! What is known of a formula at several points: residues, real numbers, its sign, and bounds on the polynomials behind it.
 
-use super::prime::{self, SMOOTH, add, each, negative, random, times};
 use super::real::Real;
+use crate::algebra::prime::{self, SMOOTH, add, each, negative, random, times};
 
 /// Bounds on a polynomial.
 #[derive(Clone, Copy, Debug)]

@@ -1,23 +1,23 @@
 //! Arithmetic modulo a prime 2⁶¹ − C, on machine words.
 
 /// The prime for formulas without roots: C = 1.
-pub(super) const PLAIN: u64 = 1;
+pub(crate) const PLAIN: u64 = 1;
 /// The prime for roots, found by trying: it is 7 modulo 8, and every prime up to [`SMOOTH`] is a square modulo it, so that
 /// a root of a positive constant made of them can be taken, and −1 is no square.
-pub(super) const ROOTS: u64 = 139_666_593;
+pub(crate) const ROOTS: u64 = 139_666_593;
 /// The largest prime of which, and of all below, the roots exist.
-pub(super) const SMOOTH: u64 = 83;
+pub(crate) const SMOOTH: u64 = 83;
 
 const MASK: u64 = (1 << 61) - 1;
 
 /// The modulus.
-pub(super) const fn prime<const C: u64>() -> u64 {
+pub(crate) const fn prime<const C: u64>() -> u64 {
     (1 << 61) - C
 }
 
 /// a + b of residues.
 #[inline]
-pub(super) fn add<const C: u64>(a: u64, b: u64) -> u64 {
+pub(crate) fn add<const C: u64>(a: u64, b: u64) -> u64 {
     let sum = a + b;
     if sum >= prime::<C>() {
         sum - prime::<C>()
@@ -28,14 +28,14 @@ pub(super) fn add<const C: u64>(a: u64, b: u64) -> u64 {
 
 /// −a of a residue.
 #[inline]
-pub(super) fn negative<const C: u64>(a: u64) -> u64 {
+pub(crate) fn negative<const C: u64>(a: u64) -> u64 {
     if a == 0 { 0 } else { prime::<C>() - a }
 }
 
 /// a·b of residues. Modulo the Mersenne prime they stand for themselves; modulo the other one a residue stands for itself
 /// times 2⁶⁴, so that products are reduced without division (Montgomery).
 #[inline]
-pub(super) fn times<const C: u64>(a: u64, b: u64) -> u64 {
+pub(crate) fn times<const C: u64>(a: u64, b: u64) -> u64 {
     let wide = u128::from(a) * u128::from(b);
     if C == PLAIN {
         let sum = (wide as u64 & MASK) + (wide >> 61) as u64;
@@ -69,7 +69,7 @@ const fn inverse<const C: u64>() -> u64 {
 }
 
 /// What stands for 1.
-pub(super) const fn one<const C: u64>() -> u64 {
+pub(crate) const fn one<const C: u64>() -> u64 {
     if C == PLAIN {
         1
     } else {
@@ -78,7 +78,7 @@ pub(super) const fn one<const C: u64>() -> u64 {
 }
 
 /// What stands for a number.
-pub(super) fn residue<const C: u64>(x: u64) -> u64 {
+pub(crate) fn residue<const C: u64>(x: u64) -> u64 {
     let x = x % prime::<C>();
     if C == PLAIN {
         return x;
@@ -88,7 +88,7 @@ pub(super) fn residue<const C: u64>(x: u64) -> u64 {
 }
 
 /// a to a power.
-pub(super) fn power<const C: u64>(mut a: u64, mut k: u64) -> u64 {
+pub(crate) fn power<const C: u64>(mut a: u64, mut k: u64) -> u64 {
     let mut result = one::<C>();
     while k > 0 {
         if k & 1 == 1 {
@@ -102,7 +102,7 @@ pub(super) fn power<const C: u64>(mut a: u64, mut k: u64) -> u64 {
 
 /// The same power of several residues; they are raised side by side, which a processor likes.
 #[inline]
-pub(super) fn powers<const C: u64, const L: usize>(mut a: [u64; L], mut k: u64) -> [u64; L] {
+pub(crate) fn powers<const C: u64, const L: usize>(mut a: [u64; L], mut k: u64) -> [u64; L] {
     let mut result = [one::<C>(); L];
     while k > 0 {
         if k & 1 == 1 {
@@ -115,7 +115,7 @@ pub(super) fn powers<const C: u64, const L: usize>(mut a: [u64; L], mut k: u64) 
 }
 
 /// For each residue its root that is a square itself; what is none comes out as something whose square is not the residue.
-pub(super) fn roots<const C: u64, const L: usize>(a: [u64; L]) -> [u64; L] {
+pub(crate) fn roots<const C: u64, const L: usize>(a: [u64; L]) -> [u64; L] {
     // p is 3 modulo 4. The exponent is mostly ones in binary: runs of them are built by doubling.
     let up = |mut x: [u64; L], count: u32| {
         for _ in 0..count {
@@ -143,7 +143,7 @@ pub(super) fn roots<const C: u64, const L: usize>(a: [u64; L]) -> [u64; L] {
 
 /// Applies an operation lane by lane.
 #[inline]
-pub(super) fn each<const L: usize>(
+pub(crate) fn each<const L: usize>(
     mut a: [u64; L],
     b: [u64; L],
     f: impl Fn(u64, u64) -> u64,
@@ -156,7 +156,7 @@ pub(super) fn each<const L: usize>(
 
 /// A hash of a name, from which its values are drawn.
 #[inline]
-pub(super) fn seed(name: &str) -> u64 {
+pub(crate) fn seed(name: &str) -> u64 {
     name.bytes().fold(0xcbf2_9ce4_8422_2325u64, |h, b| {
         (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3)
     })
@@ -164,7 +164,7 @@ pub(super) fn seed(name: &str) -> u64 {
 
 /// A residue for a seed and a round; the same on every machine and in every run.
 #[inline]
-pub(super) fn random<const C: u64>(seed: u64, round: u64) -> u64 {
+pub(crate) fn random<const C: u64>(seed: u64, round: u64) -> u64 {
     let mut z = seed ^ (round + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
