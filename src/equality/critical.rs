@@ -4,7 +4,7 @@
 //! points, each symbol is led to both sides of every place where an argument changes sign; one point is kept for each
 //! new pattern of signs. Also whether the arguments forbid a value on the whole domain, by enclosures over its parts.
 
-use num_traits::Zero;
+use num_traits::{One, Zero};
 
 use super::Assumption;
 use super::line::{doubles, rough_zeros};
@@ -109,6 +109,20 @@ pub(super) fn points(
                 if out.len() >= MOST {
                     return out;
                 }
+            }
+        }
+    }
+    // Of an argument that was seen with one sign only, the corners.
+    for (k, e) in arguments.iter().enumerate() {
+        let one_sign = seen.iter().all(|signs| signs[k] == seen[0][k]);
+        let Some(start) = near.first().filter(|_| one_sign) else {
+            continue;
+        };
+        for corner in corners(e, start, domains) {
+            let signs = pattern(&doubles(&corner));
+            if out.len() < MOST && !seen.contains(&signs) && domains.admits(&corner) {
+                seen.push(signs);
+                out.push(corner);
             }
         }
     }
@@ -280,6 +294,11 @@ pub(super) fn tested(
             continue;
         }
         let mut all = points(std::slice::from_ref(e), near, domains, roles);
+        all.extend(
+            near.iter()
+                .take(1)
+                .flat_map(|start| corners(e, start, domains)),
+        );
         for start in near {
             for name in free_symbols(std::slice::from_ref(e), domains, start) {
                 if let (Some(domain), Some(Coordinate::Number(_))) =
@@ -300,6 +319,51 @@ pub(super) fn tested(
         left.push(assumption.clone());
     }
     Ok(left)
+}
+
+/// A point with the numbers of an expression led towards the ends of their domains in every combination: what is linear in
+/// each of them changes sign at a corner if anywhere.
+fn corners(e: &Expr, start: &Sample, domains: &Domains) -> Vec<Sample> {
+    let mut out = vec![start.clone()];
+    for name in free_symbols(std::slice::from_ref(e), domains, start) {
+        let (Some(domain), Some(Coordinate::Number(_))) =
+            (domains.symbols.get(&name), start.coordinates.get(&name))
+        else {
+            continue;
+        };
+        let [low, high] = near_ends(domain);
+        let led = |at: &Sample, to: &Rational| {
+            let mut moved = at.clone();
+            let to = Coordinate::Number(to.clone());
+            moved.coordinates.insert(name.clone(), to);
+            moved
+        };
+        out = out
+            .iter()
+            .flat_map(|at| [led(at, &low), led(at, &high)])
+            .collect();
+    }
+    out
+}
+
+/// A number at or near each end of a domain, far out where there is none.
+fn near_ends(domain: &Domain) -> [Rational; 2] {
+    let far = Rational::from(Int::from(1000));
+    let ends = [&domain.low, &domain.high].map(|l| l.as_ref().filter(|l| !l.of_pi));
+    let width = match ends {
+        [Some(low), Some(high)] => &high.value - &low.value,
+        _ => Rational::one(),
+    };
+    let inside = |l: &Limit| match l.open {
+        true => &width / &far,
+        false => Rational::zero(),
+    };
+    match ends {
+        [Some(low), Some(high)] => [&low.value + inside(low), &high.value - inside(high)],
+        [Some(low), None] => [&low.value + inside(low), &low.value + &far],
+        [None, Some(high)] => [&high.value - &far, &high.value - inside(high)],
+        [None, None] => [-far.clone(), far],
+    }
 }
 
 /// Numbers far out and near the ends of a domain.

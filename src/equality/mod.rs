@@ -371,7 +371,8 @@ impl Search<'_> {
             arcs::prove(a, b, domains)
         };
         arcs.or_else(|| constants::prove(a, b, domains))
-            .or_else(|| self.proof_where_defined())
+            .or_else(|| self.proof_where_defined(a, b))
+            .or_else(|| self.proof_where_defined(b, a))
             // What is read first may decide how the other is written: neither order knows more than the other.
             .or_else(|| match proof::compare(b, a, domains) {
                 turned @ Proof::Equal(..) => Some(turned),
@@ -381,10 +382,10 @@ impl Search<'_> {
     }
 
     /// Both have values only where what they take roots of is not negative.
-    fn proof_where_defined(&self) -> Option<Proof> {
+    fn proof_where_defined(&self, a: &Expr, b: &Expr) -> Option<Proof> {
         let needed = self.unsure.iter().filter(|(_, needed)| *needed);
         let needed: Vec<Expr> = needed.map(|(e, _)| e.clone()).collect();
-        let (proof, used) = proof::compare_where_defined(self.a, self.b, self.domains, &needed)?;
+        let (proof, used) = proof::compare_where_defined(a, b, self.domains, &needed)?;
         match proof {
             Proof::Equal(mut assumed, ground) => {
                 assumed.extend(used.into_iter().map(Assumption::HasRoot));
