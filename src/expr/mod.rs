@@ -400,17 +400,18 @@ impl Expr {
                 }
             }
             Node::Sum(terms) => Expr::sum(terms.iter().map(|t| t.derivative(by))),
-            Node::Product(factors) => Expr::sum((0..factors.len()).map(|i| {
-                Expr::product(
-                    factors
-                        .iter()
-                        .enumerate()
-                        .map(|(j, f)| if i == j { f.derivative(by) } else { f.clone() }),
-                )
+            Node::Product(factors) => Expr::sum(factors.iter().enumerate().filter_map(|(i, f)| {
+                let slope = f.derivative(by);
+                let (before, after) = factors.split_at(i);
+                let all = before.iter().chain([&slope]).chain(&after[1..]);
+                (!slope.is_zero()).then(|| Expr::product(all.cloned()))
             })),
             Node::Power(base, exponent) => {
-                let outer = exponent * &base.power(exponent - &Expr::one()) * base.derivative(by);
-                let inner = exponent.derivative(by);
+                let (slope, inner) = (base.derivative(by), exponent.derivative(by));
+                let outer = match slope.is_zero() {
+                    true => slope,
+                    false => exponent * &base.power(exponent - &Expr::one()) * slope,
+                };
                 if inner.is_zero() {
                     outer
                 } else {
@@ -419,6 +420,10 @@ impl Expr {
             }
             Node::Call(function, x) => {
                 let one = Expr::one;
+                let slope = x.derivative(by);
+                if slope.is_zero() {
+                    return slope;
+                }
                 let outer = match function {
                     Function::Sin => x.cos(),
                     Function::Cos => -x.sin(),
@@ -433,7 +438,7 @@ impl Expr {
                     Function::Ln => x.powi(-1),
                     Function::Abs => self / x,
                 };
-                outer * x.derivative(by)
+                outer * slope
             }
         }
     }

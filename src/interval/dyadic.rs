@@ -210,6 +210,26 @@ impl Dyadic {
         }
     }
 
+    /// The nearest double, ties to even, where its exponent is well inside the range of doubles.
+    pub fn nearest(&self) -> Option<f64> {
+        if self.mantissa.is_zero() {
+            return Some(0.0);
+        }
+        if self.top().abs() > 960 {
+            return None;
+        }
+        // 64 bits, the last of them set where anything is cut off: it never makes a tie and never hides one.
+        let cut = self.mantissa.bits().saturating_sub(64);
+        let size = self.mantissa.magnitude();
+        let mut high = u64::try_from(size >> cut).ok()?;
+        high |= u64::from(size.trailing_zeros().is_some_and(|zeros| zeros < cut));
+        let (m, e) = (high as f64, self.exponent + cut as i64);
+        // The product is exact; the power alone may leave the range of doubles.
+        let half = e / 2;
+        let value = m * 2f64.powi(half as i32) * 2f64.powi((e - half) as i32);
+        Some(if self.sign() < 0 { -value } else { value })
+    }
+
     /// A double on the given side.
     pub fn to_f64(&self, to: Round) -> f64 {
         let x = self.clone().round(53, to);

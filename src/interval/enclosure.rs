@@ -179,7 +179,8 @@ impl Enclosure {
         if [&self.low, &self.high].iter().any(|x| x.top().abs() > 1200) {
             return None;
         }
-        let [low, high] = [&self.low, &self.high].map(|end| to_f64(&end.to_rational()));
+        let [low, high] = [&self.low, &self.high]
+            .map(|end| end.nearest().unwrap_or_else(|| to_f64(&end.to_rational())));
         (low == high && low.is_finite()).then_some(low)
     }
 
