@@ -1,19 +1,29 @@
 //! Proves two plain formulas equal as quotients of polynomials with whole coefficients.
 //!
-//! In: two expressions, piece by piece. Out: a proof or none; none says nothing. All numbers are machine words: what grows
-//! beyond them is left to the normal form of `algebra`, which takes ten times as long. The generators of the polynomials are symbols, a cosine and a sine for each angle with c² + s² = 1, and square roots, which are not
-//! negative and of which the square is known: two roots with equal squares are one generator.
+//! In: two expressions, piece by piece. Out: a proof or none; none says nothing. Nothing is cancelled on the way, and what
+//! grows long is left to the normal form of `algebra`, which takes ten times as long. The generators of the polynomials
+//! are symbols, a cosine and a sine for each angle with c² + s² = 1, and square roots, which are not negative and of which
+//! the square is known: two roots with equal squares are one generator.
 //! A proof stands for all points at which both formulas have a value; it is given only if they have values at the same
 //! points: every divisor is positive on the domain, or a power of one on the other side, and both take the same roots
 //! of what may be negative.
 
 use std::borrow::Cow;
 
+use num_integer::Integer;
+use num_traits::{One, Signed};
+
 use super::Place;
-use super::poly::{GENERATORS, Monomial, OVERFLOW, Poly, exponent};
 use super::value::Sign;
 use super::walk::{self, Builder, Turn};
-use crate::expr::{Expr, Function};
+use crate::algebra::mono::{Mono, mono_add, mono_div, mono_max, mono_of, powers};
+use crate::algebra::poly::Poly;
+use crate::expr::{Expr, Function, Int};
+
+/// Most generators.
+pub(super) const GENERATORS: usize = 16;
+/// Most terms of a polynomial.
+const TERMS: usize = 4096;
 
 /// Largest multiple of the unit of an angle.
 const MOST_TURNS: i64 = 8;
@@ -23,8 +33,8 @@ const MOST_TURNS: i64 = 8;
 pub(super) struct Quotient {
     pub above: Poly,
     /// Positive.
-    pub number: i64,
-    pub monomial: Monomial,
+    pub number: Int,
+    pub monomial: Mono,
     pub factors: Vec<(Poly, u32)>,
 }
 
@@ -32,8 +42,8 @@ impl Quotient {
     fn whole(above: Poly) -> Quotient {
         Quotient {
             above,
-            number: 1,
-            monomial: 0,
+            number: Int::one(),
+            monomial: Mono::new(),
             factors: Vec::new(),
         }
     }
@@ -98,7 +108,7 @@ impl Exact<'_> {
         })
     }
 
-    pub fn generator(&mut self, generator: Generator) -> Option<Monomial> {
+    fn generator(&mut self, generator: Generator) -> Option<Poly> {
         let known = self.generators.iter().position(|g| *g == generator);
         let at = known.unwrap_or(self.generators.len());
         if at >= GENERATORS {
@@ -107,7 +117,7 @@ impl Exact<'_> {
         if known.is_none() {
             self.generators.push(generator);
         }
-        Some(1 << (8 * at))
+        Some(Poly::var(at))
     }
 
     /// What is known of the sign of a generator on the domain, wherever it has a value.
@@ -127,28 +137,27 @@ impl Exact<'_> {
         }
     }
 
-    fn sign_of_monomial(&self, monomial: Monomial) -> Sign {
-        let factor = |at| match exponent(monomial, at) {
-            0 => Sign::Positive,
-            even if even % 2 == 0 => self.sign(at).max(Sign::NotNegative),
+    fn sign_of_monomial(&self, monomial: &[u64]) -> Sign {
+        let factor = |(at, k): (usize, u32)| match k % 2 {
+            0 => self.sign(at).max(Sign::NotNegative),
             _ => self.sign(at),
         };
-        (0..GENERATORS).map(factor).min().unwrap_or(Sign::Positive)
+        powers(monomial).map(factor).min().unwrap_or(Sign::Positive)
     }
 
     /// What is known of the sign of a polynomial: something where no term is negative.
     pub fn sign_of(&self, poly: &Poly) -> Sign {
         let mut sign = Sign::NotNegative;
-        for (monomial, k) in &poly.0 {
-            match self.sign_of_monomial(*monomial) {
-                known if known > Sign::Unknown && *k > 0 => sign = sign.max(known),
+        for (monomial, k) in poly.terms() {
+            match self.sign_of_monomial(monomial) {
+                known if known > Sign::Unknown && k.is_positive() => sign = sign.max(known),
                 _ => return Sign::Unknown,
             }
         }
         sign
     }
 
-    pub fn is_positive(&self, monomial: Monomial) -> bool {
+    pub fn is_positive(&self, monomial: &[u64]) -> bool {
         self.sign_of_monomial(monomial) == Sign::Positive
     }
 
@@ -159,7 +168,7 @@ impl Exact<'_> {
             Generator::Sine(index) => {
                 let cosine = Generator::Cosine(*index);
                 let cosine = self.generators.iter().position(|g| *g == cosine)?;
-                Some(Cow::Owned(Poly(vec![(2 << (8 * cosine), -1), (0, 1)])))
+                Some(Cow::Owned(one_less_square(cosine)))
             }
             _ => None,
         }
@@ -170,7 +179,7 @@ impl Exact<'_> {
         let mut poly = Cow::Borrowed(poly);
         // The square of a root has generators from before it, that of a sine has the cosine.
         for at in (0..self.generators.len().min(GENERATORS)).rev() {
-            if poly.0.iter().all(|(m, _)| exponent(*m, at) < 2) {
+            if poly.degree(at) < 2 {
                 continue;
             }
             if let Some(square) = self.square(at) {
@@ -184,13 +193,12 @@ impl Exact<'_> {
     pub fn lighter(&self, mut poly: Poly) -> Option<Poly> {
         for (at, generator) in self.generators.iter().enumerate().take(GENERATORS) {
             if let Generator::Cosine(index) = generator
-                && poly.0.iter().any(|(m, _)| exponent(*m, at) > 1)
+                && poly.degree(at) > 1
             {
                 let sine = Generator::Sine(*index);
                 let sine = self.generators.iter().position(|g| *g == sine)?;
-                let square = Poly::gather(vec![(2 << (8 * sine), -1), (0, 1)])?;
-                let other = replaced(&poly, at, &square)?;
-                if other.0.len() < poly.0.len() {
+                let other = replaced(&poly, at, &one_less_square(sine))?;
+                if other.len() < poly.len() {
                     poly = other;
                 }
             }
@@ -210,18 +218,18 @@ impl Exact<'_> {
         for (factor, power) in &b.factors {
             let mine = a.factors.iter().find(|(f, _)| f == factor);
             let extra = power.saturating_sub(mine.map_or(0, |m| m.1));
-            left = left.times(&factor.power(extra)?)?;
+            left = times(&left, &raised(factor, extra)?)?;
         }
         for (factor, power) in &a.factors {
             let theirs = b.factors.iter().find(|(f, _)| f == factor);
             let extra = power.saturating_sub(theirs.map_or(0, |t| t.1));
-            right = right.times(&factor.power(extra)?)?;
+            right = times(&right, &raised(factor, extra)?)?;
         }
-        let common = num_integer::gcd(a.number, b.number);
-        left = left.scaled(b.monomial, b.number / common)?;
-        right = right.scaled(a.monomial, a.number / common)?;
-        let difference = left.minus(&right)?;
-        if !self.reduced(&difference)?.0.is_empty() {
+        let common = a.number.gcd(&b.number);
+        left = left.mul_term(&b.monomial, &(&b.number / &common)).ok()?;
+        right = right.mul_term(&a.monomial, &(&a.number / &common)).ok()?;
+        let difference = left.sub(&right);
+        if !self.reduced(&difference)?.is_zero() {
             return None;
         }
         let same = self.divides(a, b)? && self.divides(b, a)?;
@@ -230,9 +238,9 @@ impl Exact<'_> {
 
     /// Whether every divisor of the one is positive or among those of the other, up to a power.
     fn divides(&self, a: &Quotient, b: &Quotient) -> Option<bool> {
-        let bare = (0..GENERATORS).all(|at| {
-            let occurs = |m| exponent(m, at) > 0;
-            !occurs(a.monomial) || occurs(b.monomial) || self.sign(at) == Sign::Positive
+        let bare = powers(&a.monomial).all(|(at, _)| {
+            let theirs = powers(&b.monomial).any(|(other, _)| other == at);
+            theirs || self.sign(at) == Sign::Positive
         });
         let mut all = bare;
         for (factor, _) in &a.factors {
@@ -242,11 +250,11 @@ impl Exact<'_> {
             }
             // Up to a number and a monomial, which are looked at by themselves.
             let (_, own, plain) = self.reduced(factor)?.split();
-            all &= self.is_positive(own);
+            all &= self.is_positive(&own);
             let mut found = false;
             for (other, _) in &b.factors {
                 for power in 1..=2 {
-                    let raised = other.power(power)?;
+                    let raised = raised(other, power)?;
                     found |= self.reduced(&raised)?.split().2 == plain;
                 }
             }
@@ -258,42 +266,53 @@ impl Exact<'_> {
     fn inverse(&self, a: &Quotient) -> Option<Quotient> {
         // What stands below and comes up could be 0, and that would be forgotten.
         let below = a.factors.iter().map(|(factor, _)| self.sign_of(factor));
-        let lost = below.chain([self.sign_of_monomial(a.monomial)]);
-        if a.above.0.is_empty() || lost.min() != Some(Sign::Positive) {
+        let lost = below.chain([self.sign_of_monomial(&a.monomial)]);
+        if a.above.is_zero() || lost.min() != Some(Sign::Positive) {
             return None;
         }
         let (number, monomial, rest) = a.above.split();
-        let mut above = Poly(vec![(a.monomial, a.number.checked_mul(number.signum())?)]);
+        let mut above = Poly::term(&a.monomial, &a.number * &number.signum());
         for (factor, power) in &a.factors {
-            above = above.times(&factor.power(*power)?)?;
+            above = times(&above, &raised(factor, *power)?)?;
         }
         let mut out = Quotient {
             above,
-            number: number.checked_abs()?,
+            number: number.abs(),
             monomial,
             factors: Vec::new(),
         };
-        if rest.0.len() > 1 {
+        if rest.len() > 1 {
             out.factors.push((rest, 1));
         }
         Some(out)
     }
 }
 
+/// The product, within the limit.
+pub(super) fn times(a: &Poly, b: &Poly) -> Option<Poly> {
+    (a.len() * b.len() <= TERMS).then_some(())?;
+    a.mul(b).ok()
+}
+
+fn raised(p: &Poly, k: u32) -> Option<Poly> {
+    match k {
+        0 => Some(Poly::one()),
+        _ => (1..k).try_fold(p.clone(), |power, _| times(&power, p)),
+    }
+}
+
+/// 1 − x².
+fn one_less_square(x: usize) -> Poly {
+    Poly::one().sub(&Poly::term(&mono_of(x, 2), Int::one()))
+}
+
 /// A polynomial with the square of a generator replaced until it stands in no square.
 fn replaced(poly: &Poly, at: usize, square: &Poly) -> Option<Poly> {
-    let mut terms = Vec::with_capacity(poly.0.len() * 2);
-    for (monomial, k) in &poly.0 {
-        let twice = exponent(*monomial, at) / 2;
-        let less = monomial - (Monomial::from(2 * twice) << (8 * at));
-        if twice == 0 {
-            terms.push((*monomial, *k));
-        } else {
-            let power = square.power(u32::from(twice))?;
-            terms.extend(power.scaled(less, *k)?.0);
-        }
+    let mut poly = Cow::Borrowed(poly);
+    while let Some((low, high)) = poly.divide_by_power(at, 2) {
+        poly = Cow::Owned(low.add(&times(&high, square)?));
     }
-    Poly::gather(terms)
+    Some(poly.into_owned())
 }
 
 /// Enters a factor among others.
@@ -308,8 +327,8 @@ impl Builder for Exact<'_> {
     type Value = Quotient;
 
     fn number(&mut self, above: i64, below: i64) -> Option<Quotient> {
-        let mut out = Quotient::whole(Poly::constant(above));
-        out.number = below;
+        let mut out = Quotient::whole(Poly::constant(Int::from(above)));
+        out.number = Int::from(below);
         Some(out)
     }
 
@@ -317,26 +336,25 @@ impl Builder for Exact<'_> {
         if self.places[index].unit.is_some() {
             return None;
         }
-        let generator = self.generator(Generator::Symbol(index))?;
-        Some(Quotient::whole(Poly(vec![(generator, 1)])))
+        self.generator(Generator::Symbol(index))
+            .map(Quotient::whole)
     }
 
     fn pi(&mut self) -> Option<Quotient> {
-        let generator = self.generator(Generator::Symbol(usize::MAX))?;
-        Some(Quotient::whole(Poly(vec![(generator, 1)])))
+        self.generator(Generator::Symbol(usize::MAX))
+            .map(Quotient::whole)
     }
 
     fn sum(&mut self, a: Quotient, b: Quotient) -> Option<Quotient> {
         let level = a.number == b.number && a.monomial == b.monomial && a.factors == b.factors;
         if level {
             return Some(Quotient {
-                above: a.above.plus(&b.above)?,
+                above: a.above.add(&b.above),
                 ..a
             });
         }
-        let number = num_integer::lcm(a.number, b.number);
-        let (x, y) = (a.monomial.to_ne_bytes(), b.monomial.to_ne_bytes());
-        let monomial = Monomial::from_ne_bytes(std::array::from_fn(|i| x[i].max(y[i])));
+        let number = a.number.lcm(&b.number);
+        let monomial = mono_max(&a.monomial, &b.monomial);
         let mut factors = a.factors.clone();
         for (factor, power) in &b.factors {
             match factors.iter_mut().find(|(f, _)| f == factor) {
@@ -344,17 +362,18 @@ impl Builder for Exact<'_> {
                 None => factors.push((factor.clone(), *power)),
             }
         }
-        let raised = |q: &Quotient| {
-            let mut above = q.above.scaled(monomial - q.monomial, number / q.number)?;
+        let over = |q: &Quotient| {
+            let missing = mono_div(&monomial, &q.monomial);
+            let mut above = q.above.mul_term(&missing, &(&number / &q.number)).ok()?;
             for (factor, power) in &factors {
                 let mine = q.factors.iter().find(|(f, _)| f == factor);
                 let missing = power - mine.map_or(0, |m| m.1);
-                above = above.times(&factor.power(missing)?)?;
+                above = times(&above, &raised(factor, missing)?)?;
             }
             Some(above)
         };
         Some(Quotient {
-            above: raised(&a)?.plus(&raised(&b)?)?,
+            above: over(&a)?.add(&over(&b)?),
             number,
             monomial,
             factors,
@@ -366,12 +385,10 @@ impl Builder for Exact<'_> {
         for (factor, power) in b.factors {
             enter(&mut factors, factor, power);
         }
-        let monomial = a.monomial.checked_add(b.monomial)?;
-        (monomial & OVERFLOW == 0).then_some(())?;
         Some(Quotient {
-            above: a.above.times(&b.above)?,
-            number: a.number.checked_mul(b.number)?,
-            monomial,
+            above: times(&a.above, &b.above)?,
+            number: a.number * b.number,
+            monomial: mono_add(&a.monomial, &b.monomial).ok()?,
             factors,
         })
     }
@@ -398,10 +415,10 @@ impl Builder for Exact<'_> {
     }
 
     fn turn(&mut self, function: Function, turn: &Turn) -> Option<Quotient> {
-        let mut total = [Poly::constant(1), Poly::constant(0)];
+        let mut total = [Poly::one(), Poly::zero()];
         let turned = |a: &[Poly; 2], b: &[Poly; 2]| -> Option<[Poly; 2]> {
-            let cos = a[0].times(&b[0])?.minus(&a[1].times(&b[1])?)?;
-            Some([cos, a[1].times(&b[0])?.plus(&a[0].times(&b[1])?)?])
+            let cos = times(&a[0], &b[0])?.sub(&times(&a[1], &b[1])?);
+            Some([cos, times(&a[1], &b[0])?.add(&times(&a[0], &b[1])?)])
         };
         for (index, k) in &turn.parts {
             if k.abs() > MOST_TURNS {
@@ -409,14 +426,14 @@ impl Builder for Exact<'_> {
             }
             let cos = self.generator(Generator::Cosine(*index))?;
             let sin = self.generator(Generator::Sine(*index))?;
-            let unit = [(cos, 1), (sin, k.signum())].map(|term| Poly(vec![term]));
+            let unit = [cos, if *k < 0 { sin.neg() } else { sin }];
             for _ in 0..k.abs() {
                 total = turned(&total, &unit)?;
             }
         }
         for _ in 0..turn.quarters {
             let [cos, sin] = total;
-            total = [sin.scaled(0, -1)?, cos];
+            total = [sin.neg(), cos];
         }
         let [cos, sin] = total.map(Quotient::whole);
         match function {

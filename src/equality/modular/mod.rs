@@ -13,7 +13,6 @@ mod build;
 mod drawn;
 mod exact;
 mod lanes;
-mod poly;
 mod radical;
 mod real;
 mod value;

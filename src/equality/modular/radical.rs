@@ -3,9 +3,13 @@
 //! Every root here is real and not negative. √(A/D) is √(A D)/D only where D is positive, √(a b) is √a √b only where one of
 //! the two is positive: where that is not known, no root is taken.
 
-use super::exact::{Exact, Generator, Quotient};
-use super::poly::{EACH, GENERATORS, Monomial, OVERFLOW, Poly, exponent};
+use num_traits::Signed;
+
+use super::exact::{Exact, GENERATORS, Generator, Quotient, times};
 use super::value::Sign;
+use crate::algebra::mono::{Mono, mono_add, powers};
+use crate::algebra::poly::Poly;
+use crate::expr::Int;
 
 /// Numbers are taken apart into primes up to here.
 const LARGEST_PRIME: i64 = 100;
@@ -14,46 +18,49 @@ impl Exact<'_> {
     /// The root of a quotient.
     pub(super) fn root(&mut self, a: &Quotient) -> Option<Quotient> {
         let positive = |e: &Self, f: &Poly| e.sign_of(f) == Sign::Positive;
-        if !self.is_positive(a.monomial) || !a.factors.iter().all(|(f, _)| positive(self, f)) {
+        if !self.is_positive(&a.monomial) || !a.factors.iter().all(|(f, _)| positive(self, f)) {
             return None;
         }
         // With odd exponents made even, what stands below comes out.
-        let odd = a.monomial & EACH;
-        let mut inside = a.above.scaled(odd, a.number)?;
+        let (_, odd) = halves(&a.monomial);
+        let mut inside = a.above.mul_term(&odd, &a.number).ok()?;
         let mut factors = Vec::with_capacity(a.factors.len());
         for (factor, power) in &a.factors {
             if power % 2 == 1 {
-                inside = inside.times(factor)?;
+                inside = times(&inside, factor)?;
             }
             factors.push((factor.clone(), power.div_ceil(2)));
         }
         // Powers of roots come out before they are replaced by what they are roots of, squares of sines after.
-        let (first, powers, rest) = inside.split();
+        let (first, squares, rest) = inside.split();
         let rest = self.reduced(&rest)?.into_owned();
         let (second, more, rest) = self.lighter(rest)?.split();
-        let content = first.checked_mul(second)?;
-        let common = powers
-            .checked_add(more)
-            .filter(|common| common & OVERFLOW == 0)?;
-        if !self.is_positive(common) {
+        let content = first * second;
+        let common = mono_add(&squares, &more).ok()?;
+        if !self.is_positive(&common) {
             return None;
         }
-        let (outside, primes) = taken_apart(content.checked_abs()?);
-        let mut above = Poly(vec![((common - (common & EACH)) >> 1, outside)]);
+        let (outside, primes) = taken_apart(content.abs().as_i64()?);
+        let (half, rooted) = halves(&common);
+        let mut above = Poly::term(&half, Int::from(outside));
         for prime in primes {
-            above = above.times(&self.adjoined(Poly::constant(prime))?)?;
+            above = times(&above, &self.adjoined(Poly::constant(Int::from(prime)))?)?;
         }
-        for at in (0..GENERATORS).filter(|at| exponent(common, *at) % 2 == 1) {
-            above = above.times(&self.adjoined(Poly(vec![(1 << (8 * at), 1)]))?)?;
+        for (at, _) in powers(&rooted) {
+            above = times(&above, &self.adjoined(Poly::var(at))?)?;
         }
-        let rest = rest.scaled(0, content.signum())?;
-        if rest != Poly::constant(1) {
-            above = above.times(&self.root_of_rest(&rest)?)?;
+        let rest = if content.is_negative() {
+            rest.neg()
+        } else {
+            rest
+        };
+        if !rest.is_one() {
+            above = times(&above, &self.root_of_rest(&rest)?)?;
         }
         Some(Quotient {
             above,
-            number: a.number,
-            monomial: (a.monomial + odd) >> 1,
+            number: a.number.clone(),
+            monomial: halves(&mono_add(&a.monomial, &odd).ok()?).0,
             factors,
         })
     }
@@ -61,12 +68,12 @@ impl Exact<'_> {
     /// The root of a polynomial without a common factor.
     fn root_of_rest(&mut self, rest: &Poly) -> Option<Poly> {
         let rest = self.reduced(rest)?.into_owned();
-        if rest.0.len() < 2 {
+        if rest.len() < 2 {
             return None;
         }
-        let square = rest.root();
-        for root in [square.clone(), square.and_then(|r| r.scaled(0, -1))] {
-            if let Some(root) = root.filter(|r| self.sign_of(r) > Sign::Unknown) {
+        if let Some(root) = rest.sqrt() {
+            let both = [root.clone(), root.neg()];
+            if let Some(root) = both.into_iter().find(|r| self.sign_of(r) > Sign::Unknown) {
                 return Some(root);
             }
         }
@@ -92,14 +99,13 @@ impl Exact<'_> {
             };
             // Whatever else it takes has to stand in this formula as well.
             let others = needs & !(1 << at);
-            let usable = square.0.len() > 1 && others & !self.used == 0;
+            let usable = square.len() > 1 && others & !self.used == 0;
             usable.then_some((at, square, *sign, *needs))
         });
         for (i, a, sign, _) in known.clone() {
             for (j, b, _, needs) in known.clone() {
-                if i != j && sign == Sign::Positive && *self.reduced(&a.times(b)?)? == *rest {
-                    let product: Monomial = (1 << (8 * i)) + (1 << (8 * j));
-                    return Some(Some((Poly(vec![(product, 1)]), needs)));
+                if i != j && sign == Sign::Positive && *self.reduced(&times(a, b)?)? == *rest {
+                    return Some(Some((times(&Poly::var(i), &Poly::var(j))?, needs)));
                 }
             }
         }
@@ -121,7 +127,7 @@ impl Exact<'_> {
             let mut needs = u32::from(sign == Sign::Unknown) << at;
             for (older, generator) in self.generators.iter().enumerate() {
                 if let Generator::Root { needs: more, .. } = generator
-                    && square.0.iter().any(|(m, _)| exponent(*m, older) > 0)
+                    && square.has(older)
                 {
                     needs |= more;
                 }
@@ -135,8 +141,15 @@ impl Exact<'_> {
         if let Generator::Root { needs, .. } = &self.generators[at] {
             self.used |= needs;
         }
-        Some(Poly(vec![(1 << (8 * at), 1)]))
+        Some(Poly::var(at))
     }
+}
+
+/// Half of every exponent, rounded down, and what is left of each.
+fn halves(monomial: &[u64]) -> (Mono, Mono) {
+    const EACH: u64 = 0x0101_0101_0101_0101;
+    let half = monomial.iter().map(|w| (w & !EACH) >> 1);
+    (half.collect(), monomial.iter().map(|w| w & EACH).collect())
 }
 
 /// A positive number as the square of one times different primes; the last of these may be a product of large ones.
