@@ -1,15 +1,20 @@
 //! Relations in one symbol: their solutions along its domain, exactly.
 //!
-//! The zeros of all differences cut the domain into numbers and intervals on which every relation holds or does not.
+//! The zeros of all differences cut the domain into numbers and intervals on which every relation holds or does not. Absolute
+//! values are cut where what they are taken of changes sign: on each part they are that or its negative.
 
 use std::cmp::Ordering;
 
 use super::Normal;
+use super::solved::replaced;
 use crate::algebra::{Cell, Field};
 use crate::domain::{Domains, roles};
-use crate::expr::{Expr, Rational, Symbol};
+use crate::expr::{Expr, Function, Node, Rational, Symbol};
 use crate::formula::Relation;
 use crate::interval::Enclosure;
+
+/// Most different absolute values.
+const MOST_FOLDED: usize = 3;
 
 /// Where two systems of relations hold.
 #[derive(Debug)]
@@ -32,17 +37,31 @@ pub(super) fn compare(first: &[Normal], second: &[Normal], domains: &Domains) ->
         return None;
     }
     let (domains, _) = domains.completed(&uses);
+    // The differences for every choice of signs, then what absolute values are taken of.
+    let folded = folded(&all)?;
+    let choices = (0..1 << folded.len()).flat_map(|signs| {
+        let folded = &folded;
+        all.iter().map(move |e| unfolded(e, folded, signs))
+    });
+    let choices: Vec<Expr> = choices.chain(folded.iter().cloned()).collect();
     let mut field = Field::new(&domains);
-    field.prepare(all.iter().copied());
-    let elements: Option<Vec<_>> = all.iter().map(|e| field.element(e).ok()).collect();
-    let cells = field.signs_along(name, &elements?)?;
+    field.prepare(&choices);
+    let elements: Option<Vec<_>> = choices.iter().map(|e| field.element(e).ok()).collect();
+    let mut cells = field.signs_along(name, &elements?)?;
+    for cell in &mut cells {
+        let arguments = cell.signs.split_off(all.len() << folded.len());
+        let signs = arguments.iter().enumerate().try_fold(0, |signs, (k, s)| {
+            Some(signs | usize::from(s.as_ref()?.is_lt()) << k)
+        })?;
+        cell.signs.drain(..signs * all.len());
+    }
     let mut out = Along {
         lost: None,
         gained: None,
         holds: [[false; 2]; 2],
     };
     for cell in &cells {
-        let (mine, theirs) = cell.signs.split_at(first.len());
+        let (mine, theirs) = cell.signs[..all.len()].split_at(first.len());
         let truth = [(first, mine), (second, theirs)].map(|(system, signs)| {
             let links = system.iter().zip(signs);
             links
@@ -59,6 +78,33 @@ pub(super) fn compare(first: &[Normal], second: &[Normal], domains: &Domains) ->
         }
     }
     Some(out)
+}
+
+/// What absolute values are taken of; `None` where these are too many or one stands inside another.
+fn folded(all: &[&Expr]) -> Option<Vec<Expr>> {
+    let arguments = |e: &Expr| {
+        let mut found = Vec::new();
+        e.walk(&mut |part| {
+            if let Node::Call(Function::Abs, x) = part.node() {
+                found.push(x.clone());
+            }
+        });
+        found
+    };
+    let mut out: Vec<Expr> = all.iter().flat_map(|e| arguments(e)).collect();
+    out.sort();
+    out.dedup();
+    let plain = out.len() <= MOST_FOLDED && out.iter().all(|x| arguments(x).is_empty());
+    plain.then_some(out)
+}
+
+/// A formula with each absolute value taken as what stands inside, or as its negative where the bit is set.
+fn unfolded(e: &Expr, folded: &[Expr], signs: usize) -> Expr {
+    let arguments = folded.iter().enumerate();
+    arguments.fold(e.clone(), |e, (k, x)| {
+        let branch = if signs >> k & 1 == 1 { -x } else { x.clone() };
+        replaced(&e, &Expr::call(Function::Abs, x.clone()), &branch)
+    })
 }
 
 /// Whether `difference relation 0` holds for a difference of this sign.

@@ -205,7 +205,8 @@ fn angle_of(f: &Expr, name: &Symbol, domain: &Domain, domains: &Domains) -> Opti
     Some(turned * Expr::from(factor.recip()))
 }
 
-fn replaced(e: &Expr, old: &Expr, new: &Expr) -> Expr {
+/// A formula with one part replaced throughout.
+pub(super) fn replaced(e: &Expr, old: &Expr, new: &Expr) -> Expr {
     match e == old {
         true => new.clone(),
         false => e.map_parts(|part| replaced(part, old, new)),
