@@ -41,23 +41,21 @@ impl Field {
         if !independent || angles.iter().any(|(_, d, ..)| *d != divisor) {
             return None;
         }
+        // How the polynomial changes as each angle is turned by itself.
+        let rate = |&(_, _, c, s): &(&Symbol, u32, usize, usize)| {
+            let by_cos = self.mul_poly(&p.derivative(c), &Poly::var(s)).ok()?;
+            let by_sin = self.mul_poly(&p.derivative(s), &Poly::var(c)).ok()?;
+            Some(by_sin.sub(&by_cos))
+        };
+        let rates: Vec<Poly> = angles.iter().map(rate).collect::<Option<_>>()?;
         // Senses of turning, the last angle's being positive.
         let senses = (0..1_u32 << others.len()).find(|senses| {
-            let turned =
-                angles
-                    .iter()
-                    .enumerate()
-                    .try_fold(Poly::zero(), |total, (k, &(_, _, c, s))| {
-                        let by_cos = self.mul_poly(&p.derivative(c), &Poly::var(s)).ok()?;
-                        let by_sin = self.mul_poly(&p.derivative(s), &Poly::var(c)).ok()?;
-                        let rate = by_sin.sub(&by_cos);
-                        Some(if senses >> k & 1 == 1 {
-                            total.sub(&rate)
-                        } else {
-                            total.add(&rate)
-                        })
-                    });
-            turned.is_some_and(|rate| rate.is_zero())
+            let all = rates.iter().enumerate();
+            let turned = all.fold(Poly::zero(), |total, (k, rate)| match senses >> k & 1 {
+                1 => total.sub(rate),
+                _ => total.add(rate),
+            });
+            turned.is_zero()
         })?;
         let &(_, _, c, s) = angles.last()?;
         let without_sine = p.by_power(s).into_iter().next()?;

@@ -3,6 +3,7 @@
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
 
 use super::element::Element;
 use super::field::{AngleOf, Field, Kind};
@@ -415,8 +416,8 @@ fn joinable(
         let all = terms.iter().enumerate();
         all.filter(|(_, t)| t.gathered.is_none())
     };
-    let mut places: FxHashMap<&[u64], Vec<usize>> = FxHashMap::default();
-    for (j, term) in plain() {
+    let mut places: FxHashMap<&[u64], SmallVec<[usize; 1]>> = FxHashMap::default();
+    for (j, term) in plain().filter(|(_, t)| mono_divides(second, &t.mono)) {
         places.entry(trimmed(&term.mono)).or_default().push(j);
     }
     plain().find_map(|(i, term)| {

@@ -1,11 +1,12 @@
 //! Contents, exact quotients and square roots of polynomials.
 
 use std::cmp::Ordering;
+use std::collections::BinaryHeap;
 
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
-use super::{Coeffs, MOST_COPIED, MOST_TERMS, MOST_UNDER_ROOT, Poly, put};
+use super::{MOST_TAKEN, MOST_TERMS, MOST_UNDER_ROOT, Poly, put};
 use crate::algebra::image;
 use crate::algebra::mono::{
     Mono, cmp_mono, mono_add, mono_div, mono_divides, mono_is_one, word_min,
@@ -81,70 +82,67 @@ impl Poly {
         let stride = self.stride.max(divisor.stride);
         let (dividend, divisor) = (self.widened(stride), divisor.widened(stride));
         let smallest = dividend.mono(self.len() - 1);
-        let (mut exps, mut coeffs) = (Mono::new(), Coeffs::new());
-        // The remainder without its leading term is merged with the next multiple of the divisor, back and forth between
-        // two buffers.
-        let mut rest = dividend.clone().into_owned();
-        let mut next = Poly {
+        let mut out = Poly {
             stride,
-            exps: Mono::with_capacity(rest.exps.len()),
-            coeffs: Coeffs::with_capacity(rest.len()),
+            ..Poly::default()
         };
-        let mut copied = 0;
-        while !rest.is_zero() {
-            copied += rest.len();
-            if copied > MOST_COPIED {
-                return None;
+        // For each term of the divisor its next product with a term of the quotient, the highest on top (Johnson 1974);
+        // `waiting` has come to the end of what is known of the quotient.
+        let mut products: BinaryHeap<(Mono, usize, usize)> = BinaryHeap::with_capacity(last);
+        let mut waiting: Vec<usize> = (1..divisor.len()).collect();
+        let (mut taken, mut at) = (0, 0);
+        loop {
+            let top = products.peek().map(|(mono, ..)| mono.as_slice());
+            let own = (at < dividend.len()).then(|| dividend.mono(at));
+            let Some(mono) = top.max(own).map(Mono::from_slice) else {
+                return Some(out);
+            };
+            let mut coeff = Int::zero();
+            if own == Some(mono.as_slice()) {
+                coeff = dividend.coeffs[at].clone();
+                at += 1;
             }
-            let (quotient, remainder) = rest.coeffs[0].div_rem(&divisor.coeffs[0]);
+            while let Some((_, j, k)) = products.peek().filter(|(m, ..)| *m == mono) {
+                let (j, k) = (*j, *k);
+                products.pop();
+                coeff -= &out.coeffs[k] * &divisor.coeffs[j];
+                match k + 1 < out.len() {
+                    true => {
+                        let next = mono_add(out.mono(k + 1), divisor.mono(j)).ok()?;
+                        products.push((next, j, k + 1));
+                    }
+                    false => waiting.push(j),
+                }
+                taken += 1;
+            }
+            if coeff.is_zero() {
+                continue;
+            }
+            let (quotient, remainder) = coeff.div_rem(&divisor.coeffs[0]);
             if !remainder.is_zero()
-                || !mono_divides(divisor.mono(0), rest.mono(0))
-                || coeffs.len() > MOST_TERMS
+                || !mono_divides(divisor.mono(0), &mono)
+                || out.len() > MOST_TERMS
+                || taken > MOST_TAKEN
             {
                 return None;
             }
-            let mono = mono_div(rest.mono(0), divisor.mono(0));
+            let mono = mono_div(&mono, divisor.mono(0));
             // The quotient's terms times the divisor's last term stay above the dividend's last term.
             if cmp_mono(&mono_add(&mono, divisor.mono(last)).ok()?, smallest) == Ordering::Less {
                 return None;
             }
-            next.exps.clear();
-            next.coeffs.clear();
-            let mut i = 1;
-            for j in 1..divisor.len() {
-                let shifted = mono_add(&mono, divisor.mono(j)).ok()?;
-                let taken = &quotient * &divisor.coeffs[j];
-                while i < rest.len() && rest.mono(i) > shifted.as_slice() {
-                    next.push(rest.mono(i), rest.coeffs[i].clone());
-                    i += 1;
-                }
-                if i < rest.len() && rest.mono(i) == shifted.as_slice() {
-                    next.push(&shifted, &rest.coeffs[i] - &taken);
-                    i += 1;
-                } else {
-                    next.push(&shifted, -taken);
-                }
+            for j in waiting.drain(..) {
+                let next = mono_add(&mono, divisor.mono(j)).ok()?;
+                products.push((next, j, out.len()));
             }
-            for k in i..rest.len() {
-                next.push(rest.mono(k), rest.coeffs[k].clone());
-            }
-            std::mem::swap(&mut rest, &mut next);
-            put(&mut exps, &mono);
-            coeffs.push(quotient);
+            out.push(&mono, quotient);
         }
-        Some(Poly {
-            stride,
-            exps,
-            coeffs,
-        })
     }
 
-    /// Appends a term below the last one, unless its coefficient is zero.
+    /// Appends a term below the last one.
     fn push(&mut self, mono: &[u64], coeff: Int) {
-        if !coeff.is_zero() {
-            put(&mut self.exps, mono);
-            self.coeffs.push(coeff);
-        }
+        put(&mut self.exps, mono);
+        self.coeffs.push(coeff);
     }
 
     /// The square root with positive leading coefficient, when the polynomial is a square.

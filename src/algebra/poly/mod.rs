@@ -20,8 +20,8 @@ use crate::expr::Int;
 const MOST_PRODUCTS: usize = 400_000;
 /// Most terms kept.
 const MOST_TERMS: usize = 40_000;
-/// Most terms moved by one division; what needs more counts as not divisible.
-const MOST_COPIED: usize = 1_000_000;
+/// Most products of terms in one division; what needs more counts as not divisible.
+const MOST_TAKEN: usize = 1_000_000;
 /// Most terms of a polynomial whose square root is looked for.
 pub(crate) const MOST_UNDER_ROOT: usize = 2_000;
 /// Most bits of a coefficient.
