@@ -20,8 +20,9 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 
+use carom::command::{self, Numbers, Output};
 use carom::render::pretty;
-use carom::{answer, derive, numeric, render, scene, story, verify};
+use carom::{derive, render, scene, story};
 
 /// Collisions of rigid bodies in the plane: closed forms a teacher would reach, each one proved or marked.
 #[derive(Parser)]
@@ -116,6 +117,15 @@ enum Format {
     Json,
 }
 
+impl From<Format> for command::Format {
+    fn from(format: Format) -> command::Format {
+        match format {
+            Format::Text => command::Format::Text,
+            Format::Json => command::Format::Json,
+        }
+    }
+}
+
 /// Why a command ended without a result.
 enum Failure {
     /// Unusable input: the message is complete.
@@ -140,7 +150,14 @@ pub fn run() -> ExitCode {
             set,
             exact,
             certify,
-        } => solve_command(&scene, format, &set, exact, certify),
+        } => {
+            let numbers = match (exact, certify) {
+                (_, true) => Numbers::Certified,
+                (true, _) => Numbers::Exact,
+                _ => Numbers::Doubles,
+            };
+            solve_command(&scene, format, &set, numbers)
+        }
         Command::Compare(args) => friction::run(&args),
         Command::Draw(args) => draw::run(&args),
         Command::Emit(args) => emit::run(&args),
@@ -182,141 +199,34 @@ fn derive_command(
     if matrix || stage.is_some() {
         scene = impact_of(scene, path, stage)?;
     }
-    if let Some(stages) = &scene.story {
-        let refused = |reason| Failure::Input(format!("{}: {reason}", path.display()));
-        let told = story::tell(&scene, stages).map_err(refused)?;
-        print(&match format {
-            Format::Text => render::story::text(&scene, &told),
-            Format::Json => pretty(&render::story::json(&scene, &told)),
-        })?;
-        return Ok(u8::from(!told.holds()));
+    if !matrix {
+        return print_output(path, command::derive(&scene, format.into()));
     }
-    if scene.friction().is_some() && !matrix {
-        return friction::derive_cases(path, &scene, format);
-    }
-    let scene = friction::settled(path, scene)?;
-    let stopped = |stop: derive::Stop| Failure::Input(format!("{}: {stop}", path.display()));
-    if matrix {
-        let names = derive::Names::of(&scene);
-        let full = derive::full_matrix(&scene, &names).map_err(stopped)?;
-        print(&match format {
-            Format::Text => render::text::matrix(&scene, &full),
-            Format::Json => pretty(&render::json::matrix(&full)),
-        })?;
-        return Ok(0);
-    }
-    let derivation = derive::derive(&scene).map_err(stopped)?;
-    let proof = verify::prove(&scene, &derivation);
-    let possible = verify::possible::judge(&scene, &derivation);
-    let special = verify::special(&scene, &derivation, &proof)
-        .map_err(|reason| Failure::Input(format!("{}: {reason}", path.display())))?;
+    let names = derive::Names::of(&scene);
+    let full = derive::full_matrix(&scene, &names)
+        .map_err(|stop| Failure::Input(format!("{}: {stop}", path.display())))?;
     print(&match format {
-        Format::Text => render::text::derivation(&scene, &derivation, &proof, &possible, &special),
-        Format::Json => pretty(&render::json::derivation(
-            &scene,
-            &derivation,
-            &proof,
-            &possible,
-            &special,
-        )),
+        Format::Text => render::text::matrix(&scene, &full),
+        Format::Json => pretty(&render::json::matrix(&full)),
     })?;
-    let special_holds = special.iter().all(answer::Answer::holds);
-    Ok(u8::from(
-        !proof.holds() || !possible.holds() || !special_holds || derivation.counting.contradictory,
-    ))
+    Ok(0)
 }
 
 fn solve_command(
     path: &Path,
     format: Format,
     set: &[String],
-    exact: bool,
-    certify: bool,
+    numbers: Numbers,
 ) -> Result<u8, Failure> {
     let scene = read_scene(path, set)?;
-    let name = path.display();
-    if let Some(story) = &scene.story {
-        if exact || certify {
-            return Err(Failure::Input(format!(
-                "{name}: a scene with stages is followed in doubles, for its motions are integrated\nhint: leave out --exact and --certify"
-            )));
-        }
-        return follow_command(path, &scene, story, format);
-    }
-    let no_point = |reason: numeric::NoPoint| {
-        Failure::Input(match reason {
-            numeric::NoPoint::Missing(symbols) => {
-                let list = symbols.join(", ");
-                format!(
-                    "{name}: no value for {list}\nhint: give values in the scene or with --set {}=…",
-                    symbols[0]
-                )
-            }
-            numeric::NoPoint::Irrational(symbol) => format!(
-                "{name}: the value of {symbol} has no exact fraction\nhint: leave out --exact, or take an angle with rational cosine and sine, such as --set {symbol}=acos(3/5)"
-            ),
-        })
-    };
-    let no_answer = |reason: numeric::NoAnswer| Failure::Input(format!("{name}: {reason}"));
-    if certify {
-        if scene.friction().is_some() {
-            return Err(Failure::Input(format!(
-                "{name}: an impact with friction is not rounded for sure\nhint: take --exact, which decides its mode in fractions"
-            )));
-        }
-        let answers = numeric::correct(&scene).map_err(|reason| match reason {
-            numeric::NoCorrect::NoPoint(reason) => no_point(reason),
-            numeric::NoCorrect::Contradiction(laws) => no_answer(numeric::NoAnswer::Contradiction(laws)),
-            numeric::NoCorrect::Undecided => Failure::Input(format!(
-                "{name}: the values are irrational and the equations cannot be told from singular ones\nhint: take angles with rational cosine and sine, such as acos(3/5)"
-            )),
-        })?;
-        print(&match format {
-            Format::Text => render::certified::text(&scene, &answers),
-            Format::Json => pretty(&render::certified::json(&scene, &answers)),
-        })?;
-        // An answer that could not be rounded for sure is an undecided one.
-        return Ok(if answers.is_complete() { 0 } else { 3 });
-    }
-    let numbers = if exact {
-        let point = numeric::exact_values(&scene).map_err(no_point)?;
-        let answers = numeric::answers(&scene, &point, numeric::solve_exact).map_err(no_answer)?;
-        render::exact_numbers(answers)
-    } else {
-        render::double_numbers(numeric::doubles(&scene).map_err(|reason| match reason {
-            numeric::NoDoubles::NoPoint(reason) => no_point(reason),
-            numeric::NoDoubles::NoAnswer(reason) => no_answer(reason),
-        })?)
-    };
-    print(&match format {
-        Format::Text => render::text::numbers(&scene, &numbers),
-        Format::Json => pretty(&render::json::numbers(&scene, &numbers)),
-    })?;
-    Ok(0)
+    print_output(path, command::solve(&scene, numbers, format.into()))
 }
 
-/// Follows a scene with stages in numbers; a stage that is lost makes the status 1.
-fn follow_command(
-    path: &Path,
-    scene: &scene::Scene,
-    story: &scene::Story,
-    format: Format,
-) -> Result<u8, Failure> {
-    let name = path.display();
-    let point = numeric::follow::values(scene).map_err(|missing| {
-        let first = &missing[0];
-        let list = missing.join(", ");
-        Failure::Input(format!(
-            "{name}: no value for {list}\nhint: give values in the scene or with --set {first}=…"
-        ))
-    })?;
-    let followed = numeric::follow(scene, &point)
-        .map_err(|undefined| Failure::Input(format!("{name}: {undefined}")))?;
-    print(&match format {
-        Format::Text => render::stages::text(scene, story, &followed, &point),
-        Format::Json => pretty(&render::stages::json(scene, story, &followed, &point)),
-    })?;
-    Ok(u8::from(followed.stages.iter().any(Result::is_err)))
+/// Prints what a command found, and gives its status.
+fn print_output(path: &Path, output: Result<Output, String>) -> Result<u8, Failure> {
+    let output = output.map_err(|why| Failure::Input(format!("{}: {why}", path.display())))?;
+    print(&output.text)?;
+    Ok(output.status)
 }
 
 fn list(folder: &Path) -> Result<u8, Failure> {
@@ -394,35 +304,10 @@ fn read_scene(path: &Path, set: &[String]) -> Result<scene::Scene, Failure> {
 
 /// The same, with the text of the scene.
 fn read_scene_text(path: &Path, set: &[String]) -> Result<(scene::Scene, String), Failure> {
-    let name = path.display().to_string();
     let text = files::read(path, scene::LONGEST)?;
-    let mut scene =
-        scene::read(&text).map_err(|faults| Failure::Input(faults.render(&name, &text)))?;
-    for assignment in set {
-        let Some((symbol, value)) = assignment.split_once('=') else {
-            return Err(Failure::Input(format!(
-                "--set {assignment}: expected NAME=VALUE, such as v=2"
-            )));
-        };
-        scene::set(&mut scene, symbol.trim(), value.trim()).map_err(|fault| {
-            Failure::Input(format!(
-                "--set {assignment}: {}",
-                with_hint(&fault.message, fault.hint.as_deref())
-            ))
-        })?;
-    }
-    scene::values_fit(&scene)
-        .map_err(|fault| Failure::Input(with_hint(&fault.message, fault.hint.as_deref())))?;
+    let scene = command::scene(&path.display().to_string(), &text, set).map_err(Failure::Input)?;
     Ok((scene, text))
 }
-
-fn with_hint(message: &str, hint: Option<&str>) -> String {
-    match hint {
-        Some(hint) => format!("{message}\nhint: {hint}"),
-        None => message.to_string(),
-    }
-}
-
 /// Prints to standard output. Where nobody reads on, the command still ends with the status of what it found.
 /// What a shell needs to complete the commands.
 fn completions(shell: clap_complete::Shell) -> String {

@@ -103,5 +103,7 @@ pub mod check;
 
 pub mod render;
 
+pub mod command;
+
 #[cfg(feature = "serve")]
 pub mod serve;

@@ -4,22 +4,20 @@
 //! thread writes. Memory is bounded whatever comes in, and lines that are there are not made to wait for more. Where a
 //! signal ends the program, what stands in the output is whole lines.
 
-use std::collections::HashMap;
 use std::io::{IsTerminal, Read, Write};
 use std::path::Path;
+use std::sync::Mutex;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
-use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use rayon::prelude::*;
 
 use super::Failure;
 use super::files::Held;
-use super::grade::{GradeArgs, only_quantity, open};
-use carom::grade::entry::{self, Entry, Keys};
-use carom::grade::sheet::Sheet;
-use carom::grade::{self, Grade, Options};
-use carom::render;
+use super::grade::{GradeArgs, open};
+use carom::command::{Lines, refuse};
+use carom::grade::Options;
+use carom::grade::entry::{self, Keys};
 
 /// Bytes asked of standard input at a time.
 const READ: usize = 1 << 20;
@@ -43,7 +41,7 @@ enum Block {
 }
 
 /// Runs a batch over standard input.
-pub(super) fn batch(args: &GradeArgs, options: &Options) -> Result<u8, Failure> {
+pub(super) fn batch(args: &GradeArgs, options: Options) -> Result<u8, Failure> {
     let mut pool = rayon::ThreadPoolBuilder::new();
     if let Some(jobs) = args.jobs {
         pool = pool.num_threads(jobs.clamp(1, 1024));
@@ -53,8 +51,11 @@ pub(super) fn batch(args: &GradeArgs, options: &Options) -> Result<u8, Failure> 
         .map_err(|e| Failure::Input(format!("--jobs: {e}")))?;
     let held = Held::new();
     let judges = Judges {
-        options,
-        sheets: Sheets::default(),
+        lines: Lines::new(options, |path| {
+            open(Path::new(path)).map_err(|why| match why {
+                Failure::Input(words) | Failure::Output(words) => words,
+            })
+        }),
         idle: Mutex::default(),
         held: &held,
     };
@@ -216,8 +217,7 @@ fn cut<'a>(mut bytes: &'a [u8], read: &mut u64, tasks: &mut Vec<Task<'a>>) {
 
 /// What all tasks share.
 struct Judges<'a> {
-    options: &'a Options,
-    sheets: Sheets,
+    lines: Lines,
     /// Keys read so far, while no task is at work with them.
     idle: Mutex<Vec<Keys>>,
     held: &'a Held,
@@ -247,7 +247,7 @@ impl Judges<'_> {
                         return false;
                     }
                     match line {
-                        Ok(text) => self.line(&mut keys, text, number, &mut out),
+                        Ok(text) => self.lines.judge(&mut keys, text, number, &mut out),
                         Err(line) => {
                             let good = String::from_utf8_lossy(line);
                             let at = good.find('\u{fffd}').unwrap_or_default();
@@ -270,106 +270,5 @@ impl Judges<'_> {
             idle.push(keys);
         }
         (out, whole)
-    }
-
-    /// Judges a line.
-    fn line(&self, keys: &mut Keys, line: &str, number: u64, out: &mut String) {
-        if line.bytes().all(|b| b.is_ascii_whitespace()) {
-            return refuse(&[], number, String::from("the line is blank"), out);
-        }
-        match entry::entry(line, self.options) {
-            Ok(entry) => {
-                let scenes = |entry: &Entry, scene: &str| self.sheets.judge(entry, scene);
-                let grade = entry::judge(&entry, keys, &scenes);
-                let text = match grade.note {
-                    "INVALID_EXPECTED" => entry.expected.as_deref().unwrap_or_default(),
-                    "INVALID_LINE" => "",
-                    _ => &entry.answer,
-                };
-                render::grade::line(out, &entry.id, number, &grade, text);
-            }
-            Err(bad) => {
-                render::grade::line(out, &bad.id, number, &entry::refused(bad.message), "");
-            }
-        }
-    }
-}
-
-/// Answers a line that cannot be read, with its `id` where that can.
-fn refuse(line: &[u8], number: u64, message: String, out: &mut String) {
-    let id = entry::id_in(&String::from_utf8_lossy(line));
-    render::grade::line(out, &id, number, &entry::refused(message), "");
-}
-
-/// Scenes named in a batch, each derived once.
-#[derive(Default)]
-struct Sheets {
-    known: Mutex<HashMap<String, Arc<Result<Sheet, String>>>>,
-}
-
-/// Scenes kept at a time.
-const SHEETS: usize = 256;
-
-impl Sheets {
-    fn judge(&self, entry: &Entry, path: &str) -> Result<Grade, String> {
-        let sheet = self.sheet(path);
-        let sheet = sheet.as_ref().as_ref().map_err(Clone::clone)?;
-        // With a formula of its own a line takes from the scene what its symbols mean.
-        if let Some(expected) = &entry.expected {
-            let mut question = sheet.question();
-            if let Some(name) = &entry.quantity {
-                question.asked = sheet.entry(name)?.key.question.asked;
-            }
-            return Ok(grade::judge(
-                expected,
-                &entry.answer,
-                &question,
-                &entry.options,
-            ));
-        }
-        let name = entry
-            .quantity
-            .clone()
-            .or_else(|| only_quantity(sheet))
-            .ok_or_else(|| {
-                format!(
-                    "\"quantity\" is missing: one of {}",
-                    sheet.quantities().join(", ")
-                )
-            })?;
-        let found = sheet.entry(&name)?;
-        Ok(sheet.judge(&found, &entry.answer, &entry.options))
-    }
-
-    fn sheet(&self, path: &str) -> Arc<Result<Sheet, String>> {
-        let lock = |known: &Mutex<HashMap<String, Arc<Result<Sheet, String>>>>| match known.lock() {
-            Ok(map) => map.get(path).cloned(),
-            Err(poisoned) => poisoned.into_inner().get(path).cloned(),
-        };
-        if let Some(sheet) = lock(&self.known) {
-            return sheet;
-        }
-        // Lines come from strangers: no way out of the folder, and nothing of a file's text in a message.
-        let inside = Path::new(path).components().all(|c| {
-            matches!(
-                c,
-                std::path::Component::Normal(_) | std::path::Component::CurDir
-            )
-        });
-        let sheet = Arc::new(match inside {
-            true => open(Path::new(path)).map_err(|_| {
-                format!("{path}: not a readable scene; `carom derive {path}` tells why")
-            }),
-            false => Err(format!(
-                "{path}: a scene is named by a path below the working folder, without `..`"
-            )),
-        });
-        if let Ok(mut map) = self.known.lock() {
-            if map.len() >= SHEETS {
-                map.clear();
-            }
-            map.insert(path.to_string(), sheet.clone());
-        }
-        sheet
     }
 }

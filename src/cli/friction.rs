@@ -1,15 +1,14 @@
-//! Scenes with friction on the command line: the table of cases for `carom derive`, laws side by side for `carom compare`.
+//! Scenes with friction on the command line: the case they are in, and laws side by side for `carom compare`.
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::{Failure, Format, files, pretty, print, read_scene};
-use carom::derive::friction::table;
-use carom::render::friction::{self, Shown};
+use carom::render::friction;
 use carom::scene::Scene;
 use carom::verify::compare::{NoComparison, compare};
-use carom::{answer, derive, numeric, plot, render, verify};
+use carom::{command, numeric, plot, render};
 
 /// Arguments of `carom compare`.
 #[derive(Args)]
@@ -68,70 +67,8 @@ fn several(
     Ok(0)
 }
 
-/// Derives every case that a scene with friction is about.
-pub fn derive_cases(path: &Path, scene: &Scene, format: Format) -> Result<u8, Failure> {
-    let refused = |reason: String| Failure::Input(format!("{}: {reason}", path.display()));
-    let Some(table) = table(scene).map_err(|stop| refused(stop.to_string()))? else {
-        return Err(refused(String::from("no contact has friction")));
-    };
-    let judged = verify::friction::judge(scene, &table);
-    let mut shown = Vec::new();
-    for i in judged.pick.cases(&table) {
-        let case = &table.cases[i];
-        let derivation = derive::derive(&case.scene).map_err(|stop| refused(stop.to_string()))?;
-        let proof = verify::prove(&case.scene, &derivation);
-        let possible = verify::possible::judge(&case.scene, &derivation);
-        let special = verify::special(&case.scene, &derivation, &proof)
-            .map_err(|reason| refused(reason.to_string()))?;
-        shown.push(Shown {
-            case,
-            derivation,
-            proof,
-            possible,
-            special,
-        });
-    }
-    let about = answer::about(scene, &table.about, &std::collections::BTreeMap::new())
-        .map_err(|reason| refused(reason.to_string()))?;
-    print(&match format {
-        Format::Text => friction::text(scene, &table, &judged, &shown, &about),
-        Format::Json => pretty(&friction::json(scene, &table, &judged, &shown)),
-    })?;
-    let holds = judged.supposed_holds != Some(false)
-        && !shown.is_empty()
-        && judged.checks.iter().all(|c| c.holds != Some(false))
-        && shown
-            .iter()
-            .all(|s| s.proof.holds() && s.special.iter().all(answer::Answer::holds));
-    Ok(u8::from(!holds))
-}
-
-/// The same for grading. Where several cases are left, what is the same in all of them can still be asked, and is told.
-pub fn gradable(path: &Path, scene: Scene) -> Result<Scene, Failure> {
-    let why = match settled(path, scene.clone()) {
-        Err(Failure::Input(why)) => why,
-        other => return other,
-    };
-    let Ok(Some(mut table)) = table(&scene) else {
-        return Err(Failure::Input(why));
-    };
-    if table.about.is_empty() || table.cases.is_empty() {
-        return Err(Failure::Input(why));
-    }
-    eprintln!("{why}\nwhat is the same in every case can be graded");
-    let mut common = table.cases.swap_remove(0).scene;
-    common.questions.clear();
-    common.special = table.about;
-    Ok(common)
-}
-
 /// A scene whose contact with friction is in the case that its values pick or that it supposes.
 pub fn settled(path: &Path, scene: Scene) -> Result<Scene, Failure> {
-    if scene.friction().is_none() {
-        return Ok(scene);
-    }
     let refused = |reason: String| Failure::Input(format!("{}: {reason}", path.display()));
-    Ok(verify::friction::settled(&scene)
-        .map_err(refused)?
-        .unwrap_or(scene))
+    command::settled(scene).map_err(refused)
 }

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
-use super::{Failure, Format, files, pretty, print, read_scene};
+use super::{Failure, Format, complain, files, pretty, print, read_scene};
 use carom::grade::entry;
-use carom::grade::sheet::{Bound, Sheet};
+use carom::grade::sheet::Sheet;
 use carom::grade::{Form, Given, Options, Question, Strength, Verdict};
-use carom::{dimension, formula, grade, render, verify};
+use carom::{command, dimension, formula, grade, render};
 
 /// Arguments of `carom grade`.
 #[derive(Args)]
@@ -112,7 +112,7 @@ enum SlashArg {
 pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
     let options = options(args)?;
     if args.batch {
-        return super::batch::batch(args, &options);
+        return super::batch::batch(args, options);
     }
     if let (Some(scene), Some(file)) = (&args.scene, &args.steps) {
         return steps(scene, file, args, &options);
@@ -124,7 +124,7 @@ pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
             let name = args
                 .quantity
                 .clone()
-                .or_else(|| only_quantity(&sheet))
+                .or_else(|| command::only_quantity(&sheet))
                 .ok_or_else(|| {
                     Failure::Input(format!(
                         "--quantity is missing: one of {}",
@@ -163,6 +163,17 @@ pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
     })
 }
 
+/// The answers of a scene, proved; what is to be said of them goes to standard error.
+pub(super) fn open(path: &Path) -> Result<Sheet, Failure> {
+    let named = |words: String| format!("{}: {words}", path.display());
+    let (sheet, notes) =
+        command::sheet(read_scene(path, &[])?).map_err(|why| Failure::Input(named(why)))?;
+    for note in notes {
+        complain(&named(note));
+    }
+    Ok(sheet)
+}
+
 /// Longest worked solution, in bytes.
 const MAX_STEPS: usize = 1 << 18;
 
@@ -190,107 +201,6 @@ fn steps(scene: &Path, file: &Path, args: &GradeArgs, options: &Options) -> Resu
         )
     };
     Ok(u8::from(worked.lines.iter().any(wrong)))
-}
-
-pub(super) fn only_quantity(sheet: &Sheet) -> Option<String> {
-    match sheet.scene.questions.as_slice() {
-        [one] => Some(one.name.clone()),
-        _ => None,
-    }
-}
-
-pub(super) fn open(path: &Path) -> Result<Sheet, Failure> {
-    let scene = read_scene(path, &[])?;
-    if let Some(stages) = &scene.story {
-        let told = carom::story::tell(&scene, stages)
-            .map_err(|reason| Failure::Input(format!("{}: {reason}", path.display())))?;
-        if !told.holds() {
-            return Err(refuted(path, &told_failures(&told)));
-        }
-        let (scene, derivation) = carom::story::sheet(&scene, &told)
-            .map_err(|stop| Failure::Input(format!("{}: {stop}", path.display())))?;
-        let bounds = bounds(&told.answers);
-        return Ok(Sheet {
-            scene,
-            derivation,
-            bounds,
-        });
-    }
-    let scene = super::friction::gradable(path, scene)?;
-    prove(path, &scene)?;
-    let (scene, derivation, answers) = carom::story::with_special(scene)
-        .map_err(|reason| Failure::Input(format!("{}: {reason}", path.display())))?;
-    let failed = answers.iter().flat_map(|a| &a.checks);
-    let failed = failed.filter(|c| c.holds == Some(false));
-    let failed: Vec<String> = failed.map(|c| c.words.clone()).collect();
-    if !failed.is_empty() {
-        return Err(refuted(path, &failed));
-    }
-    Ok(Sheet {
-        scene,
-        derivation,
-        bounds: bounds(&answers),
-    })
-}
-
-/// Proves the answers of a scene before anything is judged by them; what is not proved is said.
-fn prove(path: &Path, scene: &carom::scene::Scene) -> Result<(), Failure> {
-    let Ok(derivation) = carom::derive::derive(scene) else {
-        // Why it stopped is told where the answers are put together.
-        return Ok(());
-    };
-    let proof = verify::prove(scene, &derivation);
-    match verify::trust(&derivation, &proof) {
-        verify::Trust::Refuted(failed) => return Err(refuted(path, &failed)),
-        verify::Trust::NotProved(names) => {
-            eprintln!("{}: not proved: {}", path.display(), names.join(", "));
-        }
-        verify::Trust::Proved => {}
-    }
-    let possible = verify::possible::judge(scene, &derivation);
-    if let Some(refusal) = possible.refusal() {
-        eprintln!("{}: {refusal}", path.display());
-    }
-    Ok(())
-}
-
-fn refuted(path: &Path, failed: &[String]) -> Failure {
-    Failure::Input(format!(
-        "{}: the derived answers are refuted, and nothing is judged by them: {}",
-        path.display(),
-        failed.join("; ")
-    ))
-}
-
-/// The checks of a story that failed, in words.
-fn told_failures(told: &carom::story::Told) -> Vec<String> {
-    let cases = told.stages.iter().flat_map(|s| &s.cases);
-    let proofs = cases.flat_map(|c| c.proof.scene.iter().chain(c.proof.answers.iter().flatten()));
-    let stages = told.stages.iter().flat_map(|s| &s.checks);
-    let answers = told.answers.iter().flat_map(|a| &a.checks);
-    let failed = proofs
-        .chain(stages)
-        .chain(answers)
-        .filter(|c| c.holds == Some(false));
-    failed.map(|c| c.words.clone()).collect()
-}
-
-/// The answers that are one bound on a parameter.
-fn bounds(answers: &[carom::answer::Answer]) -> Vec<Bound> {
-    let bound = |a: &carom::answer::Answer| match a.range.as_slice() {
-        [(parameter, relation, value)]
-            if a.name == a.question && a.formula.as_ref().is_none_or(|f| f == value) =>
-        {
-            Some(Bound {
-                name: a.name.clone(),
-                parameter: parameter.clone(),
-                relation: *relation,
-                value: value.clone(),
-            })
-        }
-        _ => None,
-    };
-    answers.iter().filter_map(bound).collect()
 }
 
 fn options(args: &GradeArgs) -> Result<Options, Failure> {

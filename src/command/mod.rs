@@ -1,0 +1,245 @@
+//! What a command works out: a scene in, text or JSON out, with no file, terminal or process. The command line prints it;
+//! programs that hold carom in their own process ask it.
+//!
+//! A refusal is words without the name of the file; whoever has the file puts it in front.
+
+mod lines;
+mod sheet;
+
+use std::collections::BTreeMap;
+
+use crate::derive::friction::table;
+use crate::render::friction::Shown;
+use crate::render::{self, pretty};
+use crate::scene::{self, Scene, Story};
+use crate::{answer, derive, numeric, story, verify};
+
+pub use lines::{Lines, refuse};
+pub use sheet::{only_quantity, sheet};
+
+/// How a result is written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Format {
+    /// For people.
+    Text,
+    /// For programs.
+    Json,
+}
+
+/// What a command found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Output {
+    /// The result, in the format asked for.
+    pub text: String,
+    /// 0 done and everything held; 1 something does not hold; 3 undecided.
+    pub status: u8,
+}
+
+impl Output {
+    fn new(text: String, holds: bool) -> Output {
+        let status = u8::from(!holds);
+        Output { text, status }
+    }
+}
+
+/// Which numbers are wanted.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Numbers {
+    /// Doubles.
+    Doubles,
+    /// Fractions.
+    Exact,
+    /// The double nearest to each true value.
+    Certified,
+}
+
+/// Reads a scene and puts values in, each as `name=value`; `name` is what its messages call the scene.
+pub fn scene(name: &str, text: &str, set: &[String]) -> Result<Scene, String> {
+    let mut scene = scene::read(text).map_err(|faults| faults.render(name, text))?;
+    for assignment in set {
+        let Some((symbol, value)) = assignment.split_once('=') else {
+            return Err(format!(
+                "--set {assignment}: expected NAME=VALUE, such as v=2"
+            ));
+        };
+        scene::set(&mut scene, symbol.trim(), value.trim()).map_err(|fault| {
+            format!(
+                "--set {assignment}: {}",
+                with_hint(&fault.message, fault.hint.as_deref())
+            )
+        })?;
+    }
+    scene::values_fit(&scene).map_err(|fault| with_hint(&fault.message, fault.hint.as_deref()))?;
+    Ok(scene)
+}
+
+fn with_hint(message: &str, hint: Option<&str>) -> String {
+    match hint {
+        Some(hint) => format!("{message}\nhint: {hint}"),
+        None => message.to_string(),
+    }
+}
+
+/// Derives the closed forms a scene asks for, and proves them.
+pub fn derive(scene: &Scene, format: Format) -> Result<Output, String> {
+    if let Some(stages) = &scene.story {
+        let told = story::tell(scene, stages).map_err(|reason| reason.to_string())?;
+        let text = match format {
+            Format::Text => render::story::text(scene, &told),
+            Format::Json => pretty(&render::story::json(scene, &told)),
+        };
+        return Ok(Output::new(text, told.holds()));
+    }
+    if scene.friction().is_some() {
+        return cases(scene, format);
+    }
+    let derivation = derive::derive(scene).map_err(|stop| stop.to_string())?;
+    let proof = verify::prove(scene, &derivation);
+    let possible = verify::possible::judge(scene, &derivation);
+    let special =
+        verify::special(scene, &derivation, &proof).map_err(|reason| reason.to_string())?;
+    let text = match format {
+        Format::Text => render::text::derivation(scene, &derivation, &proof, &possible, &special),
+        Format::Json => pretty(&render::json::derivation(
+            scene,
+            &derivation,
+            &proof,
+            &possible,
+            &special,
+        )),
+    };
+    let holds = proof.holds()
+        && possible.holds()
+        && special.iter().all(answer::Answer::holds)
+        && !derivation.counting.contradictory;
+    Ok(Output::new(text, holds))
+}
+
+/// Derives every case that a scene with friction is about.
+fn cases(scene: &Scene, format: Format) -> Result<Output, String> {
+    let table = table(scene).map_err(|stop| stop.to_string())?;
+    let table = table.ok_or("no contact has friction")?;
+    let judged = verify::friction::judge(scene, &table);
+    let mut shown = Vec::new();
+    for i in judged.pick.cases(&table) {
+        let case = &table.cases[i];
+        let derivation = derive::derive(&case.scene).map_err(|stop| stop.to_string())?;
+        let proof = verify::prove(&case.scene, &derivation);
+        let possible = verify::possible::judge(&case.scene, &derivation);
+        let special =
+            verify::special(&case.scene, &derivation, &proof).map_err(|r| r.to_string())?;
+        shown.push(Shown {
+            case,
+            derivation,
+            proof,
+            possible,
+            special,
+        });
+    }
+    let about =
+        answer::about(scene, &table.about, &BTreeMap::new()).map_err(|reason| reason.to_string())?;
+    let text = match format {
+        Format::Text => render::friction::text(scene, &table, &judged, &shown, &about),
+        Format::Json => pretty(&render::friction::json(scene, &table, &judged, &shown)),
+    };
+    let holds = judged.supposed_holds != Some(false)
+        && !shown.is_empty()
+        && judged.checks.iter().all(|c| c.holds != Some(false))
+        && shown
+            .iter()
+            .all(|s| s.proof.holds() && s.special.iter().all(answer::Answer::holds));
+    Ok(Output::new(text, holds))
+}
+
+/// A scene whose contact with friction is in the case that its values pick or that it supposes.
+pub fn settled(scene: Scene) -> Result<Scene, String> {
+    if scene.friction().is_none() {
+        return Ok(scene);
+    }
+    Ok(verify::friction::settled(&scene)?.unwrap_or(scene))
+}
+
+/// Solves a scene in numbers, from its geometry alone; a scene with stages is followed from one to the next.
+pub fn solve(scene: &Scene, numbers: Numbers, format: Format) -> Result<Output, String> {
+    match &scene.story {
+        None => solve_impact(scene, numbers, format),
+        Some(story) if numbers == Numbers::Doubles => follow(scene, story, format),
+        Some(_) => Err(String::from(
+            "a scene with stages is followed in doubles, for its motions are integrated\nhint: leave out --exact and --certify",
+        )),
+    }
+}
+
+fn solve_impact(scene: &Scene, numbers: Numbers, format: Format) -> Result<Output, String> {
+    let found = match numbers {
+        Numbers::Certified => return certified(scene, format),
+        Numbers::Exact => {
+            let point = numeric::exact_values(scene).map_err(|why| no_point(&why))?;
+            let answers = numeric::answers(scene, &point, numeric::solve_exact);
+            render::exact_numbers(answers.map_err(|why| why.to_string())?)
+        }
+        Numbers::Doubles => {
+            render::double_numbers(numeric::doubles(scene).map_err(|why| match why {
+                numeric::NoDoubles::NoPoint(why) => no_point(&why),
+                numeric::NoDoubles::NoAnswer(why) => why.to_string(),
+            })?)
+        }
+    };
+    let text = match format {
+        Format::Text => render::text::numbers(scene, &found),
+        Format::Json => pretty(&render::json::numbers(scene, &found)),
+    };
+    Ok(Output::new(text, true))
+}
+
+/// The double nearest to each true value.
+fn certified(scene: &Scene, format: Format) -> Result<Output, String> {
+    if scene.friction().is_some() {
+        return Err(String::from(
+            "an impact with friction is not rounded for sure\nhint: take --exact, which decides its mode in fractions",
+        ));
+    }
+    let answers = numeric::correct(scene).map_err(|why| match why {
+        numeric::NoCorrect::NoPoint(why) => no_point(&why),
+        numeric::NoCorrect::Contradiction(laws) => {
+            numeric::NoAnswer::Contradiction(laws).to_string()
+        }
+        numeric::NoCorrect::Undecided => String::from(
+            "the values are irrational and the equations cannot be told from singular ones\nhint: take angles with rational cosine and sine, such as acos(3/5)",
+        ),
+    })?;
+    let text = match format {
+        Format::Text => render::certified::text(scene, &answers),
+        Format::Json => pretty(&render::certified::json(scene, &answers)),
+    };
+    // An answer that could not be rounded for sure is an undecided one.
+    let status = if answers.is_complete() { 0 } else { 3 };
+    Ok(Output { text, status })
+}
+
+fn no_point(why: &numeric::NoPoint) -> String {
+    match why {
+        numeric::NoPoint::Missing(symbols) => no_value(symbols),
+        numeric::NoPoint::Irrational(symbol) => format!(
+            "the value of {symbol} has no exact fraction\nhint: leave out --exact, or take an angle with rational cosine and sine, such as --set {symbol}=acos(3/5)"
+        ),
+    }
+}
+
+fn no_value<T: AsRef<str>>(symbols: &[T]) -> String {
+    let names: Vec<&str> = symbols.iter().map(AsRef::as_ref).collect();
+    let first = names.first().unwrap_or(&"v");
+    let list = names.join(", ");
+    format!("no value for {list}\nhint: give values in the scene or with --set {first}=…")
+}
+
+/// Follows a scene with stages in numbers; a stage that is lost does not hold.
+fn follow(scene: &Scene, story: &Story, format: Format) -> Result<Output, String> {
+    let point = numeric::follow::values(scene).map_err(|missing| no_value(&missing))?;
+    let followed = numeric::follow(scene, &point).map_err(|undefined| undefined.to_string())?;
+    let text = match format {
+        Format::Text => render::stages::text(scene, story, &followed, &point),
+        Format::Json => pretty(&render::stages::json(scene, story, &followed, &point)),
+    };
+    Ok(Output::new(text, followed.stages.iter().all(Result::is_ok)))
+}
