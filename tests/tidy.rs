@@ -55,7 +55,10 @@ const LAYERS: &[(&str, &str)] = &[
         "render",
         "expr domain dimension formula scene answer laws numeric derive verify story grade emit report figure plot solution",
     ),
-    ("command", "scene numeric derive verify grade story render"),
+    (
+        "command",
+        "expr dimension formula scene numeric derive verify grade story render",
+    ),
     (
         "serve",
         "expr domain formula scene grade figure solution render",

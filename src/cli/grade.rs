@@ -1,6 +1,5 @@
 //! `carom grade` and `carom read`: one answer, a batch of answers, or how a formula is understood.
 
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -10,7 +9,7 @@ use super::{Failure, Format, complain, files, pretty, print, read_scene};
 use carom::grade::entry;
 use carom::grade::sheet::Sheet;
 use carom::grade::{Form, Given, Options, Question, Strength, Verdict};
-use carom::{command, dimension, formula, grade, render};
+use carom::{command, grade, render};
 
 /// Arguments of `carom grade`.
 #[derive(Args)]
@@ -304,138 +303,9 @@ pub fn verify(args: &VerifyArgs) -> Result<u8, Failure> {
 
 /// Runs `carom read`.
 pub fn read(args: &ReadArgs) -> Result<u8, Failure> {
-    let (symbols, question) = match &args.scene {
-        Some(path) => {
-            let sheet = open(path)?;
-            let question = sheet.question();
-            let mut symbols = formula::Symbols::strict();
-            for g in &question.symbols {
-                symbols.declare_as(&g.name, g.latex.as_deref(), g.dimension.clone());
-            }
-            for q in &sheet.scene.questions {
-                symbols.declare_as(&q.name, q.latex.as_deref(), None);
-            }
-            (symbols, question)
-        }
-        None => (formula::Symbols::open(), Question::default()),
-    };
-    let reading = match formula::read(&args.formula, &symbols) {
-        Ok(reading) => reading,
-        Err(fault) => {
-            if args.format == Format::Json {
-                print(&pretty(
-                    &json!({"error": render::grade::error(&fault, &args.formula)}),
-                ))?;
-                return Ok(2);
-            }
-            return Err(Failure::Input(fault.show(&args.formula)));
-        }
-    };
-    let plain = grade::show(&reading.content);
-    let latex = latex(&reading.content, &question);
-    let known = |name: &str| {
-        question
-            .symbols
-            .iter()
-            .find(|g| *g.name == *name)?
-            .dimension
-            .clone()
-    };
-    let dimension = reading
-        .content
-        .answer()
-        .expr()
-        .and_then(|e| match dimension::of(e, &known) {
-            Ok(found) => found.map(|d| format!("{} ({d})", d.si())),
-            Err(clash) if matches!(*clash, dimension::Clash::Unknown(_)) => None,
-            Err(clash) => Some(format!("none: {}", clash.message(&formula::write_plain))),
-        });
-    let notes: Vec<String> = reading
-        .notes
-        .iter()
-        .map(|n| n.message(&args.formula))
-        .collect();
-    let others: Vec<String> = match reading.choices {
-        0 => Vec::new(),
-        _ => formula::other_readings(&args.formula, &symbols, true)
-            .iter()
-            .map(|r| grade::show(&r.content))
-            .collect(),
-    };
-    let names: Vec<String> = reading.symbols().iter().map(|s| s.to_string()).collect();
-    if args.format == Format::Json {
-        print(&pretty(&json!({
-            "plain": plain, "latex": latex, "symbols": names, "dimension": dimension, "notes": notes, "other_readings": others,
-        })))?;
-        return Ok(0);
-    }
-    let mut out = format!(
-        "plain     {plain}\nLaTeX     {latex}\nsymbols   {}\n",
-        names.join(", ")
-    );
-    if let Some(d) = dimension {
-        out.push_str(&format!("dimension {d}\n"));
-    }
-    for note in notes {
-        out.push_str(&format!("note      {note}\n"));
-    }
-    for other in others {
-        out.push_str(&format!("or        {other}\n"));
-    }
-    print(&out)?;
-    Ok(0)
-}
-
-fn latex(content: &formula::Content, question: &Question) -> String {
-    let names: HashMap<&str, &str> = question
-        .symbols
-        .iter()
-        .filter_map(|g| Some((&*g.name, g.latex.as_deref()?)))
-        .collect();
-    let write = |e: &carom::expr::Expr| {
-        formula::write_latex(e, &|name| names.get(name).map(|l| (*l).to_string()))
-    };
-    match content {
-        formula::Content::Scalar(e) => write(e),
-        formula::Content::Either([a, b]) => format!("{} \\text{{ or }} {}", write(a), write(b)),
-        formula::Content::Vector([x, y, z]) => {
-            let parts = [
-                (x, "\\hat{\\imath}"),
-                (y, "\\hat{\\jmath}"),
-                (z, "\\hat{k}"),
-            ];
-            let terms: Vec<String> = parts
-                .iter()
-                .filter(|(e, _)| !e.is_zero())
-                .map(|(e, unit)| format!("\\left({}\\right) {unit}", write(e)))
-                .collect();
-            if terms.is_empty() {
-                "\\vec{0}".into()
-            } else {
-                terms.join(" + ")
-            }
-        }
-        formula::Content::Quantity(q) => {
-            format!("{}\\,\\mathrm{{{}}}", write(&q.written), q.unit_text)
-        }
-        formula::Content::Relations(sides, signs) => {
-            let mut out = sides
-                .first()
-                .map(|s| latex(s, question))
-                .unwrap_or_default();
-            for (side, sign) in sides.iter().skip(1).zip(signs) {
-                let sign = match sign {
-                    formula::Relation::Equal => "=",
-                    formula::Relation::NotEqual => "\\neq",
-                    formula::Relation::Less => "<",
-                    formula::Relation::LessEqual => "\\le",
-                    formula::Relation::Greater => ">",
-                    formula::Relation::GreaterEqual => "\\ge",
-                    formula::Relation::Approximately => "\\approx",
-                };
-                out.push_str(&format!(" {sign} {}", latex(side, question)));
-            }
-            out
-        }
-    }
+    let sheet = args.scene.as_deref().map(open).transpose()?;
+    let output = command::read(&args.formula, sheet.as_ref(), args.format.into());
+    let output = output.map_err(Failure::Input)?;
+    print(&output.text)?;
+    Ok(output.status)
 }

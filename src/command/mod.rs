@@ -4,6 +4,7 @@
 //! A refusal is words without the name of the file; whoever has the file puts it in front.
 
 mod lines;
+mod read;
 mod sheet;
 
 use std::collections::BTreeMap;
@@ -15,6 +16,7 @@ use crate::scene::{self, Scene, Story};
 use crate::{answer, derive, numeric, story, verify};
 
 pub use lines::{Lines, refuse};
+pub use read::read;
 pub use sheet::{only_quantity, sheet};
 
 /// How a result is written.

@@ -78,6 +78,31 @@ pub struct Function {
     pub units: Option<Units>,
 }
 
+impl Function {
+    /// The value in doubles at arguments in SI units; NaN or infinite where there is none or doubles do not reach. Sums of
+    /// angles are taken in double-doubles, their cosines and sines to first order in the second double. `inputs` and
+    /// `slots` are scratch space.
+    pub fn value(&self, arguments: &[f64], inputs: &mut Vec<f64>, slots: &mut Vec<Dd>) -> f64 {
+        inputs.clear();
+        inputs.extend_from_slice(arguments);
+        inputs.resize(self.program.inputs, 0.0);
+        for turn in &self.turns {
+            let terms = turn.terms.iter();
+            let angle = terms.fold(turn.pi, |sum, (k, a)| {
+                sum + Dd::exact(*k) * Dd::exact(arguments[*a])
+            });
+            let (sin, cos) = angle.high.sin_cos();
+            if let Some(at) = turn.cos {
+                inputs[at] = cos - angle.low * sin;
+            }
+            if let Some(at) = turn.sin {
+                inputs[at] = sin + angle.low * cos;
+            }
+        }
+        self.program.value(inputs, slots)
+    }
+}
+
 /// Error of a cosine or sine of the library, one unit in the last place, in units of 2⁻⁵³.
 pub const LIBRARY: f64 = 2.0;
 /// Relative error of a cosine or sine in double-doubles of an angle up to 100, in units of 2⁻⁵³: no double below 100 but 0
