@@ -6,6 +6,7 @@
 mod batch;
 mod draw;
 mod emit;
+mod export;
 mod files;
 mod friction;
 mod grade;
@@ -81,6 +82,8 @@ enum Command {
     Grade(grade::GradeArgs),
     /// Write the closed forms of a scene as code: arranged for accuracy, with a bound of the error
     Emit(emit::EmitArgs),
+    /// Write a scene as questions of a learning platform: STACK, Moodle or Numbas
+    Export(export::ExportArgs),
     /// Measure error against run time of every route a scene has, towards every extreme
     Report(report::ReportArgs),
     /// Hold what a book prints about a scene against what is derived
@@ -161,6 +164,7 @@ pub fn run() -> ExitCode {
         Command::Compare(args) => friction::run(&args),
         Command::Draw(args) => draw::run(&args),
         Command::Emit(args) => emit::run(&args),
+        Command::Export(args) => export::run(&args),
         Command::Report(args) => report::run(&args),
         Command::Solution(args) => solution::run(&args),
         Command::Check(args) => solution::check(&args),

@@ -105,5 +105,7 @@ pub mod render;
 
 pub mod command;
 
+pub mod export;
+
 #[cfg(feature = "serve")]
 pub mod serve;

@@ -60,6 +60,10 @@ const LAYERS: &[(&str, &str)] = &[
         "expr dimension formula scene numeric derive verify grade story render",
     ),
     (
+        "export",
+        "expr domain formula scene numeric derive grade figure render",
+    ),
+    (
         "serve",
         "expr domain formula scene grade figure solution render",
     ),

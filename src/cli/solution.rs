@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use super::{Failure, files, pretty, print, read_scene_text};
 use carom::figure::{self, Chapter, Which};
 use carom::render::html::Picture;
-use carom::solution::{self, Detail, Slot};
+use carom::solution::{self, Detail, Slot, Solution};
 use carom::{answer, check, derive, render, scene::Scene, story, verify};
 
 /// Arguments of `carom solution`.
@@ -72,51 +72,15 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         DetailArg::Normal => Detail::Normal,
         DetailArg::Full => Detail::Full,
     };
-    let refused = |reason: String| Failure::Input(format!("{}: {reason}", args.scene.display()));
-    let (solution, holds, told, plots) = if let Some(stages) = &scene.story {
-        let told = story::tell(&scene, stages).map_err(|r| refused(r.to_string()))?;
-        let mut solution = solution::tell(&scene, stages, &told, detail);
-        let refusals = told.refusals().into_iter().map(|why| format!("{why}."));
-        for refusal in refusals.chain(told.ended.iter().map(|why| format!("{why}."))) {
-            solution.begin_with(&refusal);
-        }
-        let graphs = answer::graphs(&scene, &BTreeMap::new(), &told.answers);
-        let graphs = graphs.map_err(|r| refused(r.to_string()))?;
-        (solution, told.holds(), Some(told), plots(&scene, &graphs)?)
-    } else {
-        let derivation = derive::derive(&scene).map_err(|stop| refused(stop.to_string()))?;
-        let proof = verify::prove(&scene, &derivation);
-        let special =
-            verify::special(&scene, &derivation, &proof).map_err(|r| refused(r.to_string()))?;
-        let possible = verify::possible::judge(&scene, &derivation);
-        let mut solution = solution::write(&scene, &derivation, &proof, &special, detail);
-        if let Some(refusal) = possible.refusal() {
-            solution.begin_with(&format!("{refusal}."));
-        }
-        let holds = proof.holds()
-            && possible.holds()
-            && special.iter().all(answer::Answer::holds)
-            && !derivation.counting.contradictory;
-        let graphs = answer::graphs(&scene, &derivation.known(), &special);
-        let graphs = graphs.map_err(|r| refused(r.to_string()))?;
-        (solution, holds, None, plots(&scene, &graphs)?)
-    };
-    let drawn = || {
-        let mut all = match &told {
-            Some(told) => stage_pictures(&scene, told),
-            None => pictures(&scene),
-        };
-        all.extend(plots.iter().cloned());
-        all
-    };
-    let held = || {
-        drawn()
-            .into_iter()
-            .map(|(p, _)| p)
-            .collect::<Vec<Picture>>()
-    };
+    let worked = compose(&args.scene, &scene, detail)?;
+    let Worked {
+        solution,
+        holds,
+        drawn,
+    } = &worked;
+    let held = || worked.pictures();
     let linked = match (args.figures, &args.output) {
-        (true, Some(path)) if format == FormatArg::Markdown => link(path, &args.scene, drawn())?,
+        (true, Some(path)) if format == FormatArg::Markdown => link(path, &args.scene, drawn)?,
         (true, _) if !matches!(format, FormatArg::Latex | FormatArg::LatexFragment) => {
             return Err(Failure::Input(String::from(
                 "--figures: this format links no files\nhint: markdown does; pages and LaTeX documents hold their figures",
@@ -126,23 +90,87 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
     };
     let output = match format {
         FormatArg::Text => render::plain::solution(&solution),
-        FormatArg::Markdown => render::markdown::solution(&solution, &linked),
-        FormatArg::Latex => render::latex_document::document(&solution, &held()),
-        FormatArg::LatexFragment => render::latex_document::fragment(&solution, &held()),
-        FormatArg::Html => render::html::page(&solution, &held()),
-        FormatArg::Json => pretty(&render::steps::solution(&solution, &text, &args.set)),
+        FormatArg::Markdown => render::markdown::solution(solution, &linked),
+        FormatArg::Latex => render::latex_document::document(solution, &held()),
+        FormatArg::LatexFragment => render::latex_document::fragment(solution, &held()),
+        FormatArg::Html => render::html::page(solution, &held()),
+        FormatArg::Json => pretty(&render::steps::solution(solution, &text, &args.set)),
         FormatArg::Pdf => {
-            let document = render::latex_document::document(&solution, &held());
+            let document = render::latex_document::document(solution, &held());
             let path = args.output.as_deref().unwrap_or(Path::new("solution.pdf"));
             files::save(path, &typeset(&document)?, &[&args.scene])?;
-            return Ok(u8::from(!holds));
+            return Ok(u8::from(!*holds));
         }
     };
     match &args.output {
         Some(path) => files::save(path, output.as_bytes(), &[&args.scene])?,
         None => print(&output)?,
     }
-    Ok(u8::from(!holds))
+    Ok(u8::from(!*holds))
+}
+
+/// A worked solution with its pictures.
+pub struct Worked {
+    /// The solution.
+    pub solution: Solution,
+    /// Whether every check holds.
+    pub holds: bool,
+    /// Each picture with a name for its file.
+    drawn: Vec<(Picture, String)>,
+}
+
+impl Worked {
+    /// The pictures.
+    pub fn pictures(&self) -> Vec<Picture> {
+        self.drawn
+            .iter()
+            .map(|(picture, _)| picture.clone())
+            .collect()
+    }
+}
+
+/// Works out the solution of a scene, stages and plots included.
+pub fn compose(path: &Path, scene: &Scene, detail: Detail) -> Result<Worked, Failure> {
+    let refused = |reason: String| Failure::Input(format!("{}: {reason}", path.display()));
+    let (solution, holds, mut drawn, plots) = if let Some(stages) = &scene.story {
+        let told = story::tell(scene, stages).map_err(|r| refused(r.to_string()))?;
+        let mut solution = solution::tell(scene, stages, &told, detail);
+        let refusals = told.refusals().into_iter().map(|why| format!("{why}."));
+        for refusal in refusals.chain(told.ended.iter().map(|why| format!("{why}."))) {
+            solution.begin_with(&refusal);
+        }
+        let graphs = answer::graphs(scene, &BTreeMap::new(), &told.answers);
+        let graphs = graphs.map_err(|r| refused(r.to_string()))?;
+        (
+            solution,
+            told.holds(),
+            stage_pictures(scene, &told),
+            plots(scene, &graphs)?,
+        )
+    } else {
+        let derivation = derive::derive(scene).map_err(|stop| refused(stop.to_string()))?;
+        let proof = verify::prove(scene, &derivation);
+        let special =
+            verify::special(scene, &derivation, &proof).map_err(|r| refused(r.to_string()))?;
+        let possible = verify::possible::judge(scene, &derivation);
+        let mut solution = solution::write(scene, &derivation, &proof, &special, detail);
+        if let Some(refusal) = possible.refusal() {
+            solution.begin_with(&format!("{refusal}."));
+        }
+        let holds = proof.holds()
+            && possible.holds()
+            && special.iter().all(answer::Answer::holds)
+            && !derivation.counting.contradictory;
+        let graphs = answer::graphs(scene, &derivation.known(), &special);
+        let graphs = graphs.map_err(|r| refused(r.to_string()))?;
+        (solution, holds, pictures(scene), plots(scene, &graphs)?)
+    };
+    drawn.extend(plots);
+    Ok(Worked {
+        solution,
+        holds,
+        drawn,
+    })
 }
 
 /// The format that is asked for, or that the name of the output tells.
@@ -283,7 +311,7 @@ fn picture(slot: Slot, drawing: figure::Drawing) -> Picture {
 fn link(
     output: &Path,
     scene: &Path,
-    pictures: Vec<(Picture, String)>,
+    pictures: &[(Picture, String)],
 ) -> Result<Vec<(Picture, String)>, Failure> {
     files::writable(output, &[scene])?;
     let stem = output.file_stem().unwrap_or_default().to_string_lossy();
@@ -292,7 +320,7 @@ fn link(
         let file = output.with_file_name(format!("{stem}-{name}.svg"));
         files::save(&file, picture.svg.as_bytes(), &[scene])?;
         let name = file.file_name().unwrap_or_default().to_string_lossy();
-        linked.push((picture, name.replace(' ', "%20")));
+        linked.push((picture.clone(), name.replace(' ', "%20")));
     }
     Ok(linked)
 }

@@ -3,6 +3,7 @@
 //! The altered scene is solved in doubles at a few points; only what agrees there is held against exact fractions. So
 //! hundreds of beliefs, and pairs of them, cost less than one derivation.
 
+mod formula;
 mod others;
 mod outcome;
 
@@ -10,6 +11,7 @@ use std::collections::BTreeMap;
 
 use super::Diagnosis;
 use super::belief::{BELIEFS, Belief, Slip};
+use crate::algebra::Field;
 use crate::expr::{Expr, Node, Point, Rational, Symbol};
 use crate::numeric;
 use crate::scene::{Ask, Scene};
@@ -73,6 +75,52 @@ pub fn explain(written: &Written, whole: bool) -> (Vec<Diagnosis>, Vec<Diagnosis
     let mut later = other_quantities(written, &trials, quantities);
     later.extend(rest);
     (found, later)
+}
+
+/// A wrong answer that a belief leads to.
+#[derive(Clone, Debug)]
+pub struct Believed {
+    /// The belief, in the words that a grade has for it.
+    pub diagnosis: Diagnosis,
+    /// The answer: one expression, or two components.
+    pub values: Vec<Expr>,
+}
+
+/// The wrong answers that single beliefs lead to, each in closed form and once: of beliefs with one answer the first is
+/// named. `asked` holds the right answer.
+pub fn answers(asked: &Written) -> Vec<Believed> {
+    let mut known = vec![asked.values.clone()];
+    let mut out = Vec::new();
+    for belief in BELIEFS {
+        for slip in (belief.slips)(asked.scene) {
+            let Some(values) = formula::formulas(asked, &slip) else {
+                continue;
+            };
+            let is_known = |other: &Vec<Expr>| {
+                let mut pairs = values.iter().zip(other);
+                other.len() == values.len() && pairs.all(|(a, b)| is_same(asked, a, b))
+            };
+            if known.iter().any(is_known) {
+                continue;
+            }
+            known.push(values.clone());
+            out.push(Believed {
+                diagnosis: words(belief, &slip, false),
+                values,
+            });
+        }
+    }
+    out
+}
+
+/// Whether two closed forms are one function, as far as the normal form tells.
+fn is_same(asked: &Written, a: &Expr, b: &Expr) -> bool {
+    let difference = a - b;
+    let mut field = Field::new(&asked.scene.domains);
+    field.prepare([&difference]);
+    field
+        .element(&difference)
+        .is_ok_and(|found| field.is_zero(&found))
 }
 
 /// The beliefs that give exactly the written answer, single ones before pairs where these are evidence.

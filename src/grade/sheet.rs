@@ -1,6 +1,6 @@
 //! A scene as an answer sheet: its derived answers are the keys, its parameters and domains the declarations.
 
-use super::believed::{self, Written};
+use super::believed::{self, Believed, Written};
 use super::{
     Diagnosis, Given, Grade, Key, Options, Question, Strength, Tolerance, Verdict, judge_against,
     key_of,
@@ -261,6 +261,23 @@ impl Sheet {
         all.append(&mut grade.diagnosis);
         grade.diagnosis = all;
         grade
+    }
+
+    /// The wrong answers to a quantity that single beliefs lead to, in closed form; those to one component of a vector where
+    /// the entry is about one.
+    pub fn believed(&self, entry: &Entry) -> Vec<Believed> {
+        let values = match &entry.key.reading.content {
+            Content::Scalar(e) => vec![e.clone()],
+            Content::Vector([x, y, _]) => vec![x.clone(), y.clone()],
+            _ => return Vec::new(),
+        };
+        believed::answers(&Written {
+            scene: &self.scene,
+            ask: &entry.ask,
+            component: entry.component,
+            values,
+            rounding: None,
+        })
     }
 
     /// Adds to findings about printed formulas and numbers the belief that produces exactly what is printed.

@@ -23,6 +23,21 @@ pub struct Picture {
     pub alternative: String,
 }
 
+impl Picture {
+    /// The same as an image that stands by itself: its style and its names meet nobody else's.
+    pub fn standalone(&self) -> Picture {
+        let svg = format!(
+            "<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">",
+            escape(&self.alternative),
+            fonts::base64(self.svg.as_bytes())
+        );
+        Picture {
+            svg,
+            ..self.clone()
+        }
+    }
+}
+
 /// Longest formula, in characters as they are set, that a line of a narrow window holds.
 const IN_TEXT: usize = 36;
 /// Longest row of a display in a wide window; what cannot be broken to it is set smaller.
@@ -80,6 +95,14 @@ pub fn page(s: &Solution, pictures: &[Picture]) -> String {
     if !s.source.is_empty() {
         out.push_str(&format!("<p class=\"source\">{}</p>\n", escape(&s.source)));
     }
+    out.push_str(&sections(s, pictures));
+    out.push_str("</main>\n</body>\n</html>\n");
+    out
+}
+
+/// What stands below the title, to be put into a page of somebody else.
+pub fn sections(s: &Solution, pictures: &[Picture]) -> String {
+    let mut out = String::new();
     for section in &s.sections {
         out.push_str("<section>\n");
         if !section.heading.is_empty() {
@@ -94,7 +117,6 @@ pub fn page(s: &Solution, pictures: &[Picture]) -> String {
         }
         out.push_str("</section>\n");
     }
-    out.push_str("</main>\n</body>\n</html>\n");
     out
 }
 

@@ -15,7 +15,9 @@ pub(in crate::grade) fn doubles(
     point: &Point<f64>,
 ) -> Option<Vec<f64>> {
     if slip.changes.iter().any(|c| matches!(c, Change::EnergyKept)) {
-        return energy_kept(written, slip, point);
+        return energy_kept(written, slip, point, has_one_freedom, |system| {
+            numeric::solve_f64(system).ok()
+        });
     }
     outcome(written, slip, point, |system| {
         numeric::solve_f64(system).ok()
@@ -270,12 +272,47 @@ fn alter<T: Number>(
 }
 
 /// The motion with the joints' one freedom and the energy before.
-fn energy_kept(written: &Written, slip: &Slip, point: &Point<f64>) -> Option<Vec<f64>> {
+pub(super) fn energy_kept<T: Number>(
+    written: &Written,
+    slip: &Slip,
+    point: &Point<T>,
+    has_one_freedom: impl Fn(&System<T>) -> bool,
+    solve: impl Fn(&System<T>) -> Option<Solution<T>>,
+) -> Option<Vec<T>> {
     let given = numeric::given(&slip.scene, point).ok()?;
-    if !given.known.is_empty() {
+    // Impulses do not scale with the motion.
+    if !given.known.is_empty() || matches!(written.ask, Ask::Impulse { .. }) {
         return None;
     }
     let mut system = numeric::assemble(&given);
+    // The shape of the motion: what the laws themselves give, which has the joints' freedom.
+    let mut solution = solve(&system)?;
+    if !has_one_freedom(&system) {
+        return None;
+    }
+    let motion = numeric::motion(&given, &system, &solution);
+    let after = numeric::energy_after(&given, &motion, None);
+    let before = numeric::energy_before(&given, None);
+    let scale = before.times(&after.recip()?).sqrt()?;
+    if !scale.size().is_finite() {
+        return None;
+    }
+    let scaled = |v: &mut T| *v = v.times(&scale);
+    solution.values.iter_mut().for_each(scaled);
+    system.right.iter_mut().for_each(scaled);
+    let motion = numeric::motion(&given, &system, &solution);
+    if let Ask::Energy {
+        when: EnergyWhen::Lost,
+        of: None,
+    } = written.ask
+    {
+        return Some(vec![T::zero()]);
+    }
+    read_off(written, slip, point, given, &motion)
+}
+
+/// Whether hinges and sticking contacts leave the bodies one freedom.
+fn has_one_freedom(system: &System<f64>) -> bool {
     let velocity = |u: &Unknown| {
         matches!(
             u,
@@ -283,8 +320,6 @@ fn energy_kept(written: &Written, slip: &Slip, point: &Point<f64>) -> Option<Vec
         )
     };
     let n = system.unknowns.len();
-    // The shape of the motion: what the laws themselves give, which has the joints' freedom.
-    let real = numeric::solve_f64(&system).ok()?;
     let kinematic: Vec<usize> = (0..system.laws.len())
         .filter(|i| {
             use numeric::Law::*;
@@ -303,32 +338,5 @@ fn energy_kept(written: &Written, slip: &Slip, point: &Point<f64>) -> Option<Vec
         });
     let singular = matrix.singular_values();
     let largest = singular.iter().copied().fold(0.0, f64::max);
-    if singular.iter().filter(|s| **s <= 1e-10 * largest).count() != 1 {
-        return None;
-    }
-    let mut solution = real;
-    let motion = numeric::motion(&given, &system, &solution);
-    let (before, after) = (
-        numeric::energy_before(&given, None),
-        numeric::energy_after(&given, &motion, None),
-    );
-    if after <= 0.0 || !before.is_finite() {
-        return None;
-    }
-    let scale = (before / after).sqrt();
-    solution.values.iter_mut().for_each(|v| *v *= scale);
-    system.right.iter_mut().for_each(|v| *v *= scale);
-    // Impulses do not scale with the motion.
-    if matches!(written.ask, Ask::Impulse { .. }) {
-        return None;
-    }
-    let motion = numeric::motion(&given, &system, &solution);
-    if let Ask::Energy {
-        when: EnergyWhen::Lost,
-        of: None,
-    } = written.ask
-    {
-        return Some(vec![0.0]);
-    }
-    read_off(written, slip, point, given, &motion)
+    singular.iter().filter(|s| **s <= 1e-10 * largest).count() == 1
 }

@@ -1,0 +1,71 @@
+//! `carom export`: a scene as questions of a learning platform.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::grade::open;
+use super::solution::compose;
+use super::{Failure, complain, files, friction, print, read_scene};
+use carom::export::{exercise, moodle, numbas, stack};
+use carom::render::html;
+use carom::solution::Detail;
+
+/// Arguments of `carom export`.
+#[derive(Args)]
+pub struct ExportArgs {
+    /// Scene file
+    scene: PathBuf,
+    /// The platform
+    #[arg(long, value_enum)]
+    to: Platform,
+    /// File to write instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Platform {
+    /// Questions for STACK, as Moodle XML: formulas and numbers, a branch for every belief
+    Stack,
+    /// Numerical questions of plain Moodle
+    Moodle,
+    /// An exam of Numbas
+    Numbas,
+}
+
+/// Runs `carom export`.
+pub fn run(args: &ExportArgs) -> Result<u8, Failure> {
+    let refused = |why: String| Failure::Input(format!("{}: {why}", args.scene.display()));
+    let sheet = open(&args.scene)?;
+    let scene = friction::settled(&args.scene, read_scene(&args.scene, &[])?)?;
+    let worked = compose(&args.scene, &scene, Detail::Normal)?;
+    if !worked.holds {
+        return Err(refused(String::from(
+            "the worked solution does not hold, and nothing is asked by it\nhint: `carom derive` tells what failed",
+        )));
+    }
+    let pictures: Vec<_> = worked
+        .pictures()
+        .iter()
+        .map(html::Picture::standalone)
+        .collect();
+    let solution = html::sections(&worked.solution, &pictures);
+    let exercise = exercise(&sheet, solution).map_err(refused)?;
+    for left_out in &exercise.left_out {
+        complain(&format!(
+            "{}: no question for {left_out}",
+            args.scene.display()
+        ));
+    }
+    let text = match args.to {
+        Platform::Stack => stack(&exercise),
+        Platform::Moodle => moodle(&exercise).map_err(refused)?,
+        Platform::Numbas => numbas(&exercise),
+    };
+    match &args.output {
+        Some(path) => files::save(path, text.as_bytes(), &[&args.scene])?,
+        None => print(&text)?,
+    }
+    Ok(0)
+}

@@ -1,0 +1,207 @@
+//! Scenes as questions of learning platforms: a question for each number asked, its wrong answers with what leads to them,
+//! and variants with exact values.
+//!
+//! In: a proved answer sheet and the worked solution as HTML. Out: a STACK quiz, plain Moodle questions or a Numbas exam.
+//! Each format has one writer and one function that escapes.
+
+mod moodle;
+mod names;
+mod numbas;
+mod stack;
+mod variant;
+
+use crate::derive::Form;
+use crate::expr::{Expr, Symbol};
+use crate::figure::escape;
+use crate::formula::{latex_name, write_plain};
+use crate::grade::believed::Believed;
+use crate::grade::sheet::{Entry, Sheet};
+use variant::Variant;
+
+pub use moodle::moodle;
+pub use numbas::numbas;
+pub use stack::stack;
+
+/// Longest closed form of an answer, in nodes; more is no answer to type.
+const LARGEST: usize = 400;
+/// Variants of a question.
+const VARIANTS: usize = 5;
+
+/// A scene as questions.
+#[derive(Clone, Debug)]
+pub struct Exercise {
+    title: String,
+    /// What is told, as plain text.
+    statement: String,
+    /// The worked solution, as HTML.
+    solution: String,
+    symbols: Vec<Given>,
+    items: Vec<Item>,
+    /// What became no question, and why.
+    pub left_out: Vec<String>,
+}
+
+/// A symbol an answer may hold.
+#[derive(Clone, Debug)]
+struct Given {
+    name: Symbol,
+    latex: String,
+    unit: String,
+    meaning: String,
+    /// Whether the symbol is never negative.
+    is_positive: bool,
+}
+
+/// A question.
+#[derive(Clone, Debug)]
+struct Item {
+    name: String,
+    /// What is asked, in words.
+    words: String,
+    latex: String,
+    unit: String,
+    answer: Expr,
+    wrong: Vec<Wrong>,
+    variants: Vec<Variant>,
+}
+
+/// A wrong answer that a belief leads to.
+#[derive(Clone, Debug)]
+struct Wrong {
+    code: &'static str,
+    belief: String,
+    hint: String,
+    answer: Expr,
+}
+
+/// The questions of a sheet; `solution` is the worked solution as HTML. The words say why there are none, and what would help.
+pub fn exercise(sheet: &Sheet, solution: String) -> Result<Exercise, String> {
+    let scene = &sheet.scene;
+    let symbols = scene.parameters.iter().map(|p| Given {
+        name: p.name.clone(),
+        latex: p.latex.clone().unwrap_or_else(|| latex_name(&p.name)),
+        unit: p.unit.clone(),
+        meaning: p.meaning.clone(),
+        is_positive: match scene.domains.symbols.get(&p.name) {
+            Some(domain) => domain.low.as_ref().is_some_and(|l| l.approximate() >= 0.0),
+            None => true,
+        },
+    });
+    let mut exercise = Exercise {
+        title: scene.title.clone(),
+        statement: scene.statement.clone(),
+        solution,
+        symbols: symbols.collect(),
+        items: Vec::new(),
+        left_out: Vec::new(),
+    };
+    for answer in &sheet.derivation.answers {
+        let item = match &answer.form {
+            Form::Value { .. } => sheet
+                .entry(&answer.name)
+                .and_then(|entry| item(sheet, &entry)),
+            Form::Open(_) => Err(String::from("the laws do not determine it")),
+            Form::Equation { .. } => Err(String::from("an equation has no one formula to type")),
+            Form::Matrix(_) => Err(String::from("a matrix is no answer to type")),
+        };
+        match item {
+            Ok(item) => exercise.items.push(Item {
+                latex: answer.latex.clone(),
+                unit: answer.dimension.si(),
+                ..item
+            }),
+            Err(why) => exercise.left_out.push(format!("{}: {why}", answer.name)),
+        }
+    }
+    match exercise.items.is_empty() {
+        false => Ok(exercise),
+        true => Err(format!(
+            "nothing to ask on a learning platform: {}\nhint: add a question for a velocity, a spin, an impulse or an energy that has a closed form",
+            exercise.left_out.join("; ")
+        )),
+    }
+}
+
+fn item(sheet: &Sheet, entry: &Entry) -> Result<Item, String> {
+    let scene = &sheet.scene;
+    let Some(answer) = entry.key.reading.content.expr() else {
+        return Err(String::from("its components are asked one by one"));
+    };
+    let is_given = |s: &Symbol| scene.parameters.iter().any(|p| p.name == *s);
+    if !answer.symbols().iter().all(is_given) || answer.size() > LARGEST {
+        return Err(String::from("its closed form goes over several lines"));
+    }
+    if answer.symbols().is_empty() {
+        return Err(format!("it is {} whatever the values", write_plain(answer)));
+    }
+    let wrong: Vec<Wrong> = sheet
+        .believed(entry)
+        .into_iter()
+        .filter_map(wrong)
+        .collect();
+    Ok(Item {
+        name: entry.name.clone(),
+        words: entry.words.clone(),
+        latex: String::new(),
+        unit: String::new(),
+        variants: variant::variants(scene, answer, &wrong),
+        answer: answer.clone(),
+        wrong,
+    })
+}
+
+fn wrong(believed: Believed) -> Option<Wrong> {
+    let [answer] = believed.values.try_into().ok()?;
+    Some(Wrong {
+        code: believed.diagnosis.code,
+        belief: believed.diagnosis.message,
+        hint: believed.diagnosis.hint,
+        answer,
+    })
+}
+
+/// HTML of others in which a platform and its typesetting see no marks of their own: these are parted by an empty element.
+fn quiet(html: &str) -> String {
+    ["[[", "{@", "{#", "\\(", "\\[", "$$"]
+        .iter()
+        .fold(html.to_string(), |text, mark| {
+            let (first, rest) = mark.split_at(1);
+            text.replace(mark, &format!("{first}<span></span>{rest}"))
+        })
+}
+
+/// A text, HTML among it, as the content of an XML element.
+fn xml(text: &str) -> String {
+    let allowed = |c: &char| !c.is_control() || matches!(c, '\n' | '\t');
+    let kept: String = text.chars().filter(allowed).collect();
+    kept.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+}
+
+/// Words of a scene as such HTML.
+fn words(text: &str) -> String {
+    quiet(&escape(text))
+}
+
+impl Exercise {
+    /// What is told and what the symbols mean, as HTML: `words` brings words of the scene into it, `written` spells the
+    /// symbols as they are typed.
+    fn told(&self, words: fn(&str) -> String, written: &dyn Fn(&Symbol) -> String) -> String {
+        let rows = self.symbols.iter().map(|g| {
+            let unit = if g.unit == "1" { "" } else { &g.unit };
+            format!(
+                "<tr><td>\\({}\\)</td><td><code>{}</code></td><td>{}</td><td>{}</td></tr>",
+                escape(&g.latex),
+                words(&written(&g.name)),
+                words(&g.meaning),
+                words(unit)
+            )
+        });
+        format!(
+            "<p>{}</p><table><tr><th>symbol</th><th>typed as</th><th>meaning</th><th>unit</th></tr>{}</table>",
+            words(&self.statement),
+            rows.collect::<String>()
+        )
+    }
+}

@@ -1,0 +1,363 @@
+//! A quiz for STACK, as Moodle XML: each question takes a formula, and its number at exact values; two potential-response
+//! trees hold a branch for the right answer and one for every belief.
+
+use std::fmt::Write;
+
+use super::names::Names;
+use super::variant::Variant;
+use super::{Exercise, Item, quiet, words, xml};
+use crate::expr::Symbol;
+use crate::figure::escape;
+
+/// Names that mean something in STACK: constants, and functions of Maxima that hold no other value.
+const TAKEN: &[&str] = &[
+    "e", "i", "j", "pi", "inf", "minf", "ind", "und", "infinity", "true", "false", "if", "then",
+    "else", "do", "for", "from", "in", "next", "step", "thru", "unless", "while", "and", "or",
+    "not", "simp", "ev", "at", "diff", "lambda", "beta", "gamma", "psi", "vals", "ta1", "tn",
+];
+
+/// Functions and constants by their names in Maxima.
+const WORDS: &[(&str, &str)] = &[("ln", "log"), ("pi", "%pi")];
+
+/// How far a number may be off.
+const TOLERANCE: &str = "0.01";
+
+/// The quiz.
+pub fn stack(exercise: &Exercise) -> String {
+    let all = exercise.symbols.iter().map(|g| &g.name);
+    let names = Names::new(all, TAKEN, str::to_string, WORDS);
+    let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<quiz>\n");
+    for item in &exercise.items {
+        question(&mut out, exercise, item, &names);
+    }
+    out.push_str("</quiz>\n");
+    out
+}
+
+/// A field with a text inside.
+fn text(out: &mut String, field: &str, content: &str) {
+    let content = xml(content);
+    let _ = writeln!(
+        out,
+        "<{field} format=\"html\"><text>{content}</text></{field}>"
+    );
+}
+
+/// Fields with plain contents.
+fn fields(out: &mut String, all: &[(&str, &str)]) {
+    for (field, content) in all {
+        let _ = writeln!(out, "<{field}>{}</{field}>", xml(content));
+    }
+}
+
+fn question(out: &mut String, exercise: &Exercise, item: &Item, names: &Names) {
+    let with_numbers = !item.variants.is_empty();
+    let spelled = |s: &Symbol| names.name(s);
+    let name = format!("{} · {}", exercise.title, item.name);
+    let _ = writeln!(
+        out,
+        "<question type=\"stack\">\n<name><text>{}</text></name>",
+        xml(&name)
+    );
+    let unit = if item.unit == "1" { "" } else { &item.unit };
+    let mut asked = exercise.told(words, &spelled);
+    let _ = write!(
+        asked,
+        "<p>As a formula, with * between factors: {}, \\({}\\) = [[input:ans1]] [[validation:ans1]]</p>",
+        words(&item.words),
+        escape(&item.latex)
+    );
+    if with_numbers {
+        let _ = write!(
+            asked,
+            "<p>And where {{@vals@}}, all in SI units: [[input:ans2]] {} [[validation:ans2]]</p>",
+            escape(unit)
+        );
+    }
+    text(out, "questiontext", &asked);
+    text(out, "generalfeedback", &quiet(&exercise.solution));
+    fields(
+        out,
+        &[
+            ("defaultgrade", "1"),
+            ("penalty", "0.1"),
+            ("hidden", "0"),
+            ("idnumber", ""),
+        ],
+    );
+    let _ = writeln!(
+        out,
+        "<stackversion><text></text></stackversion>\n<questionvariables><text>{}</text></questionvariables>",
+        xml(&variables(item, names))
+    );
+    let second = if with_numbers {
+        "<p>[[feedback:prt2]]</p>"
+    } else {
+        ""
+    };
+    text(
+        out,
+        "specificfeedback",
+        &format!("<p>[[feedback:prt1]]</p>{second}"),
+    );
+    text(
+        out,
+        "questionnote",
+        if with_numbers { "{@vals@}" } else { "" },
+    );
+    text(out, "questiondescription", "");
+    let positive = exercise.symbols.iter().all(|g| g.is_positive);
+    let flag = |on: bool| if on { "1" } else { "0" };
+    fields(
+        out,
+        &[
+            ("questionsimplify", "1"),
+            ("assumepositive", flag(positive)),
+            ("assumereal", flag(!positive)),
+        ],
+    );
+    text(out, "prtcorrect", "<p>Right.</p>");
+    text(out, "prtpartiallycorrect", "<p>Right in part.</p>");
+    text(out, "prtincorrect", "<p>Not right.</p>");
+    fields(
+        out,
+        &[
+            ("decimals", "."),
+            ("scientificnotation", "*10"),
+            ("multiplicationsign", "dot"),
+            ("sqrtsign", "1"),
+            ("complexno", "i"),
+            ("inversetrig", "arccos"),
+            ("logicsymbol", "lang"),
+            ("matrixparens", "["),
+            ("variantsselectionseed", ""),
+        ],
+    );
+    input(out, "ans1", "ta1", false);
+    if with_numbers {
+        input(out, "ans2", "float(tn)", true);
+    }
+    tree(out, item, &Tree::formula());
+    if with_numbers {
+        tree(out, item, &Tree::number());
+        for seed in 1..=item.variants.len() {
+            fields(out, &[("deployedseed", &seed.to_string())]);
+        }
+    }
+    tests(out, item, with_numbers);
+    out.push_str("</question>\n");
+}
+
+/// The right answer, the wrong ones, and the values of the variant with the numbers there.
+fn variables(item: &Item, names: &Names) -> String {
+    let mut out = String::new();
+    let list = |v: &Variant| {
+        let each = v.values.iter();
+        let each = each.map(|(s, value)| format!("{}={}", names.name(s), value.written("acos")));
+        format!("[{}]", each.collect::<Vec<_>>().join(","))
+    };
+    if !item.variants.is_empty() {
+        let variants: Vec<String> = item.variants.iter().map(list).collect();
+        let _ = writeln!(out, "vals: rand([{}]);", variants.join(",\n "));
+    }
+    let answers = item.wrong.iter().map(|w| &w.answer);
+    for (k, answer) in std::iter::once(&item.answer).chain(answers).enumerate() {
+        let (own, number) = match k {
+            0 => (String::from("ta1"), String::from("tn")),
+            k => (format!("w{k}"), format!("wn{k}")),
+        };
+        let _ = writeln!(out, "{own}: {};", names.written(answer));
+        if !item.variants.is_empty() {
+            let _ = writeln!(out, "{number}: ratsimp(trigexpand(subst(vals, {own})));");
+        }
+    }
+    out
+}
+
+fn input(out: &mut String, name: &str, answer: &str, is_number: bool) {
+    out.push_str("<input>\n");
+    fields(
+        out,
+        &[
+            ("name", name),
+            ("type", if is_number { "numerical" } else { "algebraic" }),
+            ("tans", answer),
+            ("boxsize", if is_number { "12" } else { "30" }),
+            ("strictsyntax", "1"),
+            ("insertstars", "0"),
+            ("syntaxhint", ""),
+            ("syntaxattribute", "0"),
+            ("forbidwords", ""),
+            ("allowwords", ""),
+            ("forbidfloat", "0"),
+            ("requirelowestterms", "0"),
+            ("checkanswertype", if is_number { "0" } else { "1" }),
+            ("mustverify", "1"),
+            ("showvalidation", "1"),
+            ("options", ""),
+        ],
+    );
+    out.push_str("</input>\n");
+}
+
+/// A potential-response tree: its input, the variables it compares with, and how.
+struct Tree {
+    name: &'static str,
+    input: &'static str,
+    right: &'static str,
+    wrong: &'static str,
+    test: &'static str,
+    options: &'static str,
+}
+
+impl Tree {
+    fn formula() -> Tree {
+        Tree {
+            name: "prt1",
+            input: "ans1",
+            right: "ta1",
+            wrong: "w",
+            test: "AlgEquiv",
+            options: "",
+        }
+    }
+
+    fn number() -> Tree {
+        Tree {
+            name: "prt2",
+            input: "ans2",
+            right: "float(tn)",
+            wrong: "wn",
+            test: "NumRelative",
+            options: TOLERANCE,
+        }
+    }
+
+    /// What a branch compares with.
+    fn against(&self, k: usize) -> String {
+        match (k, self.test) {
+            (0, _) => self.right.to_string(),
+            (k, "NumRelative") => format!("float({}{k})", self.wrong),
+            (k, _) => format!("{}{k}", self.wrong),
+        }
+    }
+
+    /// The note of a branch.
+    fn note(&self, item: &Item, k: usize) -> String {
+        match k {
+            0 => format!("{}-RIGHT", self.name),
+            k => format!("{}-{}-{k}", self.name, item.wrong[k - 1].code),
+        }
+    }
+}
+
+/// The tree: the right answer, then each belief; every branch that holds ends it.
+fn tree(out: &mut String, item: &Item, tree: &Tree) {
+    out.push_str("<prt>\n");
+    fields(
+        out,
+        &[
+            ("name", tree.name),
+            ("value", "1"),
+            ("autosimplify", "1"),
+            ("feedbackstyle", "1"),
+        ],
+    );
+    out.push_str("<feedbackvariables><text></text></feedbackvariables>\n");
+    for k in 0..=item.wrong.len() {
+        let wrong = k.checked_sub(1).map(|k| &item.wrong[k]);
+        let next = if k < item.wrong.len() { k + 1 } else { 0 };
+        let next = if next == 0 {
+            String::from("-1")
+        } else {
+            next.to_string()
+        };
+        let belief: String = wrong
+            .map_or("the right answer", |w| &w.belief)
+            .chars()
+            .take(250)
+            .collect();
+        let score = if k == 0 { "1" } else { "0" };
+        out.push_str("<node>\n");
+        fields(
+            out,
+            &[
+                ("name", &k.to_string()),
+                ("description", &belief),
+                ("answertest", tree.test),
+                ("sans", tree.input),
+                ("tans", &tree.against(k)),
+                ("testoptions", tree.options),
+                ("quiet", "1"),
+                ("truescoremode", "="),
+                ("truescore", score),
+                ("truepenalty", ""),
+                ("truenextnode", "-1"),
+                ("trueanswernote", &tree.note(item, k)),
+            ],
+        );
+        let hint = wrong.map_or(String::new(), |w| format!("<p>{}</p>", words(&w.hint)));
+        text(out, "truefeedback", &hint.as_str());
+        let other = format!("{}-OTHER-{k}", tree.name);
+        fields(
+            out,
+            &[
+                ("falsescoremode", "="),
+                ("falsescore", "0"),
+                ("falsepenalty", ""),
+                ("falsenextnode", &next),
+                ("falseanswernote", &other),
+            ],
+        );
+        text(out, "falsefeedback", "");
+        out.push_str("</node>\n");
+    }
+    out.push_str("</prt>\n");
+}
+
+/// STACK's own tests of the question: the right answer, and each belief's.
+fn tests(out: &mut String, item: &Item, with_numbers: bool) {
+    for k in 0..=item.wrong.len() {
+        let score = if k == 0 { "1" } else { "0" };
+        let penalty = if k == 0 { "0" } else { "0.1" };
+        let note = |tree: &Tree| tree.note(item, k);
+        let mut trees = vec![(Tree::formula(), note(&Tree::formula()))];
+        // Two numbers may be near each other at some values: then the branch before is as good.
+        let is_told = k == 0 || item.variants.iter().all(|v| v.wrong[k - 1].is_some());
+        if with_numbers && is_told {
+            trees.push((Tree::number(), note(&Tree::number())));
+        }
+        out.push_str("<qtest>\n");
+        let what = if k == 0 {
+            "the right answer"
+        } else {
+            item.wrong[k - 1].code
+        };
+        fields(
+            out,
+            &[("testcase", &(k + 1).to_string()), ("description", what)],
+        );
+        for (tree, _) in &trees {
+            let value = tree.against(k);
+            let _ = writeln!(
+                out,
+                "<testinput><name>{}</name><value>{value}</value></testinput>",
+                tree.input
+            );
+        }
+        for (tree, note) in &trees {
+            out.push_str("<expected>\n");
+            fields(
+                out,
+                &[
+                    ("name", tree.name),
+                    ("expectedscore", score),
+                    ("expectedpenalty", penalty),
+                    ("expectedanswernote", note),
+                ],
+            );
+            out.push_str("</expected>\n");
+        }
+        out.push_str("</qtest>\n");
+    }
+}

@@ -1,0 +1,161 @@
+//! The formula that comes out of a scene under a slip: its altered equations, solved with symbols.
+//!
+//! In: what is asked, and a slip. Out: closed forms, each held against the doubles of the same slip at points of the domain.
+
+use super::super::belief::{Change, Slip};
+use super::{POINTS, Written, outcome};
+use crate::algebra::{Field, Row, solve};
+use crate::domain::Domains;
+use crate::expr::{Expr, Function, Point, Rational, Scalar};
+use crate::numeric::{self, Number, Solution, System};
+
+/// Largest closed form; what is longer nobody writes.
+const LARGEST: usize = 400;
+
+/// An expression as a number.
+#[derive(Clone)]
+struct Symbolic(Expr);
+
+impl Scalar for Symbolic {
+    fn from_rational(value: &Rational) -> Symbolic {
+        Symbolic(Expr::from(value.clone()))
+    }
+
+    fn pi() -> Option<Symbolic> {
+        Some(Symbolic(Expr::symbol("pi")))
+    }
+
+    fn plus(&self, other: &Symbolic) -> Symbolic {
+        Symbolic(&self.0 + &other.0)
+    }
+
+    fn times(&self, other: &Symbolic) -> Symbolic {
+        Symbolic(&self.0 * &other.0)
+    }
+
+    fn recip(&self) -> Option<Symbolic> {
+        (!self.0.is_zero()).then(|| Symbolic(self.0.powi(-1)))
+    }
+
+    fn sqrt(&self) -> Option<Symbolic> {
+        Some(Symbolic(self.0.sqrt()))
+    }
+
+    fn pow(&self, exponent: &Symbolic) -> Option<Symbolic> {
+        Some(Symbolic(self.0.power(exponent.0.clone())))
+    }
+
+    fn call(&self, function: Function) -> Option<Symbolic> {
+        Some(Symbolic(Expr::call(function, self.0.clone())))
+    }
+}
+
+impl Number for Symbolic {
+    fn zero() -> Symbolic {
+        Symbolic(Expr::zero())
+    }
+
+    fn one() -> Symbolic {
+        Symbolic(Expr::one())
+    }
+
+    fn is_zero(&self) -> bool {
+        self.0.is_zero()
+    }
+
+    fn minus(&self, other: &Symbolic) -> Symbolic {
+        Symbolic(&self.0 - &other.0)
+    }
+
+    fn negated(&self) -> Symbolic {
+        Symbolic(-&self.0)
+    }
+
+    fn halved(&self) -> Symbolic {
+        Symbolic(&self.0 * &Expr::from(2).powi(-1))
+    }
+
+    fn size(&self) -> f64 {
+        1.0
+    }
+}
+
+/// The closed forms of what is asked under a slip; `None` where there are none, or where they do not meet the doubles.
+pub(in crate::grade) fn formulas(written: &Written, slip: &Slip) -> Option<Vec<Expr>> {
+    let domains = &written.scene.domains;
+    let mut point = Point::<Symbolic>::default();
+    for p in &slip.scene.parameters {
+        point
+            .values
+            .insert(p.name.clone(), Symbolic(Expr::symbol(&p.name)));
+    }
+    let kept = slip.changes.iter().any(|c| matches!(c, Change::EnergyKept));
+    let values = match kept {
+        true => outcome::energy_kept(written, slip, &point, |_| true, |s| solved(s, domains))?,
+        false => outcome::outcome(written, slip, &point, |s| solved(s, domains))?,
+    };
+    let tidy = |value: Symbolic| {
+        let mut field = Field::new(domains);
+        field.prepare([&value.0]);
+        let value = field.element(&value.0).ok()?;
+        Some(field.expr(&value)).filter(|e| e.size() <= LARGEST)
+    };
+    let values: Vec<Expr> = values.into_iter().map(tidy).collect::<Option<_>>()?;
+    meets_doubles(written, slip, &values).then_some(values)
+}
+
+/// The solution of a regular system.
+fn solved(system: &System<Symbolic>, domains: &Domains) -> Option<Solution<Symbolic>> {
+    let n = system.unknowns.len();
+    let mut field = Field::new(domains);
+    let entries = system.matrix.iter().chain(&system.right);
+    field.prepare(entries.map(|e| &e.0));
+    let mut rows = Vec::new();
+    for (i, right) in system.right.iter().enumerate() {
+        let mut coeffs = Vec::new();
+        for (j, entry) in system.row(i).iter().enumerate() {
+            if !entry.0.is_zero() {
+                coeffs.push((j, field.element(&entry.0).ok()?));
+            }
+        }
+        let rhs = field.element(&right.0).ok()?;
+        rows.push(Row { coeffs, rhs });
+    }
+    let found = solve(&field, &rows, n).ok()?;
+    if found.contradiction.is_some() {
+        return None;
+    }
+    let unique: Vec<bool> = found.values.iter().map(Option::is_some).collect();
+    let value = |v: &Option<_>| v.as_ref().map_or_else(Expr::zero, |v| field.expr(v));
+    Some(Solution {
+        values: found.values.iter().map(|v| Symbolic(value(v))).collect(),
+        unique,
+        rank: found.rank,
+    })
+}
+
+/// Whether formulas have the values that the slip leads to in doubles, at two points at least.
+fn meets_doubles(written: &Written, slip: &Slip, values: &[Expr]) -> bool {
+    let mut needed = numeric::needed(written.scene);
+    values.iter().for_each(|e| needed.add(e));
+    let mut met = 0;
+    for seed in 0..2 * POINTS {
+        let point = numeric::random_point(&needed, &written.scene.domains, seed);
+        let point = numeric::rounded(&point);
+        let Some(doubles) = outcome::doubles(written, slip, &point) else {
+            continue;
+        };
+        let found: Option<Vec<f64>> = values.iter().map(|e| e.evaluate(&point)).collect();
+        let close = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-9 * a.abs().max(b.abs()).max(1e-12);
+        match found {
+            Some(found) if found.len() == doubles.len() => {
+                if !found.iter().zip(&doubles).all(close) {
+                    return false;
+                }
+                met += 1;
+            }
+            _ => return false,
+        }
+    }
+    met >= 2
+}

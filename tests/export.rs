@@ -1,0 +1,236 @@
+//! Scenes as questions of learning platforms: well-formed, a branch for every belief, nothing of a scene acted on as markup.
+//! That the branches end where they should is tried in Maxima by `tests/platforms/stack.py`.
+
+use carom::command;
+use carom::export::{Exercise, exercise, moodle, numbas, stack};
+use carom::grade::sheet::Sheet;
+use carom::grade::{Options, Verdict};
+use roxmltree::{Document, Node};
+
+fn opened(text: &str) -> (Sheet, Exercise) {
+    let scene = command::scene("scene", text, &[]).expect("a sound scene");
+    let (sheet, _) = command::sheet(scene).expect("proved answers");
+    let exercise = exercise(
+        &sheet,
+        String::from("<p>[[input:ans9]] {@1@} \\(x\\) $y$ {z}</p>"),
+    );
+    (sheet, exercise.expect("questions"))
+}
+
+fn scene(name: &str) -> (Sheet, Exercise) {
+    let path = format!("derivations/{name}.json");
+    opened(&std::fs::read_to_string(path).expect("a shipped scene"))
+}
+
+const SCENES: [&str; 2] = ["book/two-masses", "book/billiard-ball"];
+
+fn field<'a>(node: Node<'a, '_>, name: &str) -> &'a str {
+    let found = node.descendants().find(|n| n.has_tag_name(name));
+    found.and_then(|n| n.text()).unwrap_or_default()
+}
+
+fn all<'a, 'b>(node: Node<'a, 'b>, name: &'static str) -> impl Iterator<Item = Node<'a, 'b>> {
+    node.descendants().filter(move |n| n.has_tag_name(name))
+}
+
+#[test]
+fn every_belief_has_a_branch() {
+    for name in SCENES {
+        let (sheet, exercise) = scene(name);
+        let quiz = stack(&exercise);
+        let quiz = Document::parse(&quiz).expect("XML");
+        let mut beliefs = 0;
+        for question in all(quiz.root(), "question") {
+            let title = field(
+                question
+                    .children()
+                    .find(|n| n.has_tag_name("name"))
+                    .expect("a name"),
+                "text",
+            );
+            let (_, quantity) = title
+                .rsplit_once(" · ")
+                .expect("the quantity behind the title");
+            let entry = sheet.entry(quantity).expect("a quantity of the scene");
+            let expected = sheet.believed(&entry);
+            let tree = all(question, "prt").next().expect("a tree");
+            let notes: Vec<&str> = all(tree, "trueanswernote")
+                .filter_map(|n| n.text())
+                .collect();
+            assert_eq!(notes.len(), expected.len() + 1, "{title}");
+            for (k, (believed, note)) in expected.iter().zip(&notes[1..]).enumerate() {
+                let code = believed.diagnosis.code;
+                assert_eq!(*note, format!("prt1-{code}-{}", k + 1), "{title}");
+                beliefs += 1;
+            }
+        }
+        assert!(beliefs > 0, "{name} has no wrong answer");
+    }
+}
+
+#[test]
+fn a_belief_s_answer_is_wrong_and_the_grader_names_the_belief() {
+    let (sheet, _) = scene("book/falling-stick");
+    let entry = sheet.entry("omega").expect("omega");
+    for believed in sheet.believed(&entry) {
+        let answer = carom::formula::write_plain(&believed.values[0]);
+        let grade = sheet.judge(&entry, &answer, &Options::default());
+        assert_eq!(grade.verdict, Verdict::Different, "{answer}");
+        let codes: Vec<&str> = grade.diagnosis.iter().map(|d| d.code).collect();
+        assert!(
+            codes.contains(&believed.diagnosis.code),
+            "{answer}: {codes:?}"
+        );
+    }
+}
+
+#[test]
+fn branches_follow_each_other_and_end() {
+    let (_, exercise) = scene("book/billiard-ball");
+    let quiz = stack(&exercise);
+    let quiz = Document::parse(&quiz).expect("XML");
+    for tree in all(quiz.root(), "prt") {
+        let nodes: Vec<Node> = all(tree, "node").collect();
+        for (k, node) in nodes.iter().enumerate() {
+            let next = if k + 1 < nodes.len() {
+                (k + 1).to_string()
+            } else {
+                String::from("-1")
+            };
+            assert_eq!(field(*node, "name"), k.to_string());
+            assert_eq!(field(*node, "truenextnode"), "-1");
+            assert_eq!(field(*node, "falsenextnode"), next);
+            assert_eq!(field(*node, "truescore"), if k == 0 { "1" } else { "0" });
+            assert_eq!(
+                k > 0,
+                all(*node, "truefeedback").any(|n| !field(n, "text").is_empty())
+            );
+        }
+    }
+}
+
+#[test]
+fn other_platforms_hold_the_same_beliefs() {
+    for name in SCENES {
+        let (sheet, exercise) = scene(name);
+        let exam = numbas(&exercise);
+        let (heading, exam) = exam.split_once('\n').expect("a heading");
+        assert_eq!(heading, "// Numbas version: exam_results_page_options");
+        let exam: serde_json::Value = serde_json::from_str(exam).expect("JSON");
+        let questions = exam["question_groups"][0]["questions"]
+            .as_array()
+            .expect("questions");
+        let alternatives = questions
+            .iter()
+            .map(|q| q["parts"][0]["alternatives"].as_array().map_or(0, Vec::len));
+        let quiz = moodle(&exercise).expect("exact values");
+        let quiz = Document::parse(&quiz).expect("XML");
+        for question in all(quiz.root(), "question") {
+            let right = all(question, "answer").filter(|a| a.attribute("fraction") == Some("100"));
+            assert_eq!(right.count(), 1, "{name}");
+            for answer in all(question, "answer") {
+                assert!(
+                    field(answer, "text")
+                        .parse::<f64>()
+                        .is_ok_and(f64::is_finite)
+                );
+            }
+        }
+        let entries = sheet
+            .derivation
+            .answers
+            .iter()
+            .filter_map(|a| sheet.entry(&a.name).ok());
+        let asked = |e: &carom::grade::sheet::Entry| {
+            e.key
+                .reading
+                .content
+                .expr()
+                .is_some_and(|e| !e.symbols().is_empty())
+        };
+        let beliefs: usize = entries
+            .filter(asked)
+            .map(|e| sheet.believed(&e).len())
+            .sum();
+        assert_eq!(alternatives.sum::<usize>(), beliefs, "{name}");
+    }
+}
+
+/// A scene whose words try every format, and whose names mean something on the platforms.
+const HOSTILE: &str = r#"{
+    "title": "]]></text><script>alert(1)</script> {@1@}",
+    "statement": "[[input:ans3]] \\(a\\) $b$ {c} & <b>",
+    "parameters": {
+        "e": {"unit": "1", "domain": {"min": 0, "max": 1}}, "i": {"unit": "m/s", "meaning": "<i> ]]>"},
+        "m": {"unit": "kg"}, "M": {"unit": "kg"}, "gamma": {"unit": "m/s"}
+    },
+    "points": {"A": [0, 0]},
+    "bodies": {
+        "one": {"shape": "particle", "mass": "m", "velocity": ["i", 0]},
+        "two": {"shape": "particle", "mass": "M", "velocity": ["-gamma", 0]}
+    },
+    "contacts": {"A": {"bodies": ["one", "two"], "at": "A", "normal": [1, 0], "law": "frictionless", "restitution": "e"}},
+    "questions": {"v": {"velocity": "two", "along": [1, 0]}}
+}"#;
+
+#[test]
+fn words_of_a_scene_stay_words_and_names_keep_their_meaning() {
+    let (_, exercise) = opened(HOSTILE);
+    for quiz in [stack(&exercise), moodle(&exercise).expect("exact values")] {
+        let quiz = Document::parse(&quiz).expect("XML");
+        assert!(all(quiz.root(), "script").next().is_none());
+        let inner = field(
+            all(quiz.root(), "questiontext").next().expect("a text"),
+            "text",
+        );
+        assert!(!inner.contains("<b>") && !inner.contains("<i>"), "{inner}");
+    }
+    let quiz = stack(&exercise);
+    let quiz = Document::parse(&quiz).expect("XML");
+    let feedback = all(quiz.root(), "generalfeedback")
+        .next()
+        .expect("a solution");
+    let asked = all(quiz.root(), "questiontext").next().expect("a text");
+    for text in [field(feedback, "text"), field(asked, "text")] {
+        assert!(
+            !text.contains("[[input:ans9]]")
+                && !text.contains("[[input:ans3]]")
+                && !text.contains("{@1@}"),
+            "{text}"
+        );
+    }
+    let variables = field(
+        all(quiz.root(), "questionvariables")
+            .next()
+            .expect("variables"),
+        "text",
+    );
+    let right = variables
+        .lines()
+        .find(|l| l.starts_with("ta1"))
+        .expect("the answer");
+    for name in ["e_s", "i_s", "gamma_s", "M", "m"] {
+        assert!(right.contains(name), "{right}");
+    }
+    let exam = numbas(&exercise);
+    let answer = exam
+        .lines()
+        .find(|l| l.contains("\"answer\""))
+        .expect("an answer");
+    assert!(
+        answer.contains("M_s") && !answer.contains("e_s"),
+        "{answer}"
+    );
+}
+
+#[test]
+fn a_scene_that_asks_for_no_formula_says_what_would_help() {
+    let text = HOSTILE.replace(
+        r#"{"velocity": "two", "along": [1, 0]}"#,
+        r#"{"balance": "momentum", "system": ["one", "two"], "along": [1, 0]}"#,
+    );
+    let scene = command::scene("scene", &text, &[]).expect("a sound scene");
+    let (sheet, _) = command::sheet(scene).expect("answers");
+    let refused = exercise(&sheet, String::new()).expect_err("nothing to ask");
+    assert!(refused.contains("hint: add a question"), "{refused}");
+}
