@@ -97,6 +97,14 @@ enum Command {
     #[cfg(feature = "serve")]
     #[command(hide = true)]
     Describe(serve::DescribeArgs),
+    /// Tell what is wrong with a scene file, and where: for editors, with --format json
+    CheckScene {
+        /// Scene file, `-` for standard input
+        scene: PathBuf,
+        /// Output format
+        #[arg(long, value_enum, default_value_t = Format::Text)]
+        format: Format,
+    },
     /// Print the JSON Schema of scene files
     Schema,
     /// Print what a shell needs to complete carom's commands
@@ -175,6 +183,7 @@ pub fn run() -> ExitCode {
         Command::Serve(args) => serve::run(&args),
         #[cfg(feature = "serve")]
         Command::Describe(args) => serve::describe(&args),
+        Command::CheckScene { scene, format } => check_scene(&scene, format),
         Command::Schema => print(&scene::schema()).map(|()| 0),
         Command::Completions { shell } => print(&completions(shell)).map(|()| 0),
         Command::Man => print(&manual()).map(|()| 0),
@@ -231,6 +240,22 @@ fn print_output(path: &Path, output: Result<Output, String>) -> Result<u8, Failu
     let output = output.map_err(|why| Failure::Input(format!("{}: {why}", path.display())))?;
     print(&output.text)?;
     Ok(output.status)
+}
+
+/// Tells what is wrong with a scene file: status 0 where nothing is, else 2.
+fn check_scene(path: &Path, format: Format) -> Result<u8, Failure> {
+    let text = files::read(path, scene::LONGEST)?;
+    match (scene::read(&text), format) {
+        (Ok(_), Format::Text) => Ok(0),
+        (Ok(_), Format::Json) => print("{\"faults\": [], \"untold\": 0}").map(|()| 0),
+        (Err(faults), Format::Json) => {
+            print(&pretty(&render::faults::json(&faults, &text))).map(|()| 2)
+        }
+        (Err(faults), Format::Text) => {
+            let name = path.display().to_string();
+            Err(Failure::Input(faults.render(&name, &text)))
+        }
+    }
 }
 
 fn list(folder: &Path) -> Result<u8, Failure> {

@@ -44,3 +44,33 @@ fn every_refused_scene_is_refused_with_the_text_beside_it() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
+
+#[test]
+fn editors_are_told_the_places_as_data() {
+    let told = |scene: &str| {
+        let run = std::process::Command::new(env!("CARGO_BIN_EXE_carom"))
+            .args(["check-scene", "--format", "json", scene])
+            .output()
+            .expect("the program starts");
+        let told: serde_json::Value = serde_json::from_slice(&run.stdout).expect("JSON");
+        (run.status.code(), told)
+    };
+    let (status, sound) = told("derivations/book/falling-stick.json");
+    assert_eq!(
+        (status, sound["faults"].as_array().map(Vec::len)),
+        (Some(0), Some(0))
+    );
+    let (status, told) = told("derivations/refused/broken-formula.json");
+    let fault = &told["faults"][0];
+    assert_eq!(status, Some(2));
+    let text = fs::read_to_string("derivations/refused/broken-formula.json").expect("a scene");
+    let place = |name: &str| fault[name].as_u64().expect("a place") as usize;
+    let line = text.lines().nth(place("line") - 1).expect("the line");
+    let found: String = text
+        .encode_utf16()
+        .skip(place("start"))
+        .take(place("end") - place("start"))
+        .map(|u| char::from_u32(u.into()).unwrap_or(' '))
+        .collect();
+    assert!(!found.is_empty() && line.contains(&found), "{found}");
+}

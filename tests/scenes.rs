@@ -1,4 +1,6 @@
 //! Every scene in `derivations/` is read, and the schema knows every field it uses.
+//!
+//! `UPDATE=1 cargo test --test scenes` writes `schema/scene.schema.json` anew.
 
 mod shared;
 
@@ -113,6 +115,31 @@ fn the_schema_fits_every_shipped_scene() {
     for (path, text) in scenes() {
         let value: Value = serde_json::from_str(&text).expect("shipped scenes are plain JSON");
         assert_eq!(misfit(&value, &schema, &schema), None, "{}", path.display());
+    }
+}
+
+#[test]
+fn the_schema_lies_where_every_shipped_scene_names_it() {
+    let file = "schema/scene.schema.json";
+    let schema = scene::schema() + "\n";
+    if std::env::var_os("UPDATE").is_some() {
+        fs::write(file, &schema).expect("a writable schema");
+    }
+    let kept = fs::read_to_string(file).expect("the schema");
+    assert_eq!(kept, schema, "UPDATE=1 cargo test --test scenes");
+    let schema: Value = serde_json::from_str(&schema).expect("JSON");
+    assert!(schema["$id"].is_string());
+    let file = fs::canonicalize(file).expect("a path");
+    for (path, text) in scenes() {
+        let scene: Value = serde_json::from_str(&text).expect("JSON");
+        let named = scene["$schema"].as_str().expect("a scene names its schema");
+        let named = path.parent().expect("a folder").join(named);
+        assert_eq!(
+            fs::canonicalize(named).ok(),
+            Some(file.clone()),
+            "{}",
+            path.display()
+        );
     }
 }
 

@@ -2,6 +2,7 @@
 //! and reason comes in ready.
 
 pub mod certified;
+pub mod faults;
 mod fonts;
 pub mod friction;
 pub mod grade;

@@ -99,9 +99,13 @@ pub fn read_printed(text: &str) -> Result<Vec<Printed>, Faults> {
     Err(faults)
 }
 
+/// Name of the schema of scene files, wherever a copy of it lies; the number grows when a scene that was right no longer is.
+const SCHEMA_ID: &str = "urn:carom:schema:scene:1";
+
 /// The JSON Schema of scene files, for editors.
 pub fn schema() -> String {
-    let schema = schemars::schema_for!(file::SceneFile);
+    let mut schema = schemars::schema_for!(file::SceneFile);
+    schema.insert(String::from("$id"), String::from(SCHEMA_ID).into());
     serde_json::to_string_pretty(schema.as_value()).unwrap_or_default()
 }
 

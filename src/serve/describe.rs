@@ -11,7 +11,7 @@ use crate::figure;
 use crate::formula::{self, Content, Symbols, latex_name};
 use crate::grade;
 use crate::render::{self, mathml};
-use crate::scene::{self, Faults, Parameter, Scene, StageKind};
+use crate::scene::{self, Parameter, Scene, StageKind};
 use crate::solution::{Detail, Math, Solution};
 
 /// What is asked about a scene.
@@ -37,7 +37,7 @@ pub enum Wrong {
 /// Describes the scene of a text, and reads formulas about it.
 pub fn describe(text: &str, asked: &Asked) -> Result<Value, Wrong> {
     let read = scene::read(text);
-    let mut scene = read.map_err(|faults| Wrong::Scene(self::faults(&faults, text)))?;
+    let mut scene = read.map_err(|faults| Wrong::Scene(render::faults::json(&faults, text)))?;
     for (name, value) in &asked.set {
         scene::set(&mut scene, name, value)
             .map_err(|fault| Wrong::Value(format!("{name}: {}", fault.message)))?;
@@ -62,26 +62,6 @@ pub fn describe(text: &str, asked: &Asked) -> Result<Value, Wrong> {
         "symbols": symbols.map(|s| math(&mathml::from_latex(s))).collect::<Vec<_>>(),
         "outlines": outlines.map(|(b, lines)| json!({"body": b.name, "lines": lines})).collect::<Vec<_>>(),
     }))
-}
-
-/// What is wrong with a scene; places count in UTF-16 units, as pages count.
-fn faults(faults: &Faults, text: &str) -> Value {
-    let place = |byte: usize| {
-        let before = text.char_indices().take_while(|(at, _)| *at < byte);
-        before.map(|(_, c)| c.len_utf16()).sum::<usize>()
-    };
-    let list = faults.list.iter().map(|f| {
-        json!({
-            "pointer": f.pointer,
-            "line": f.line,
-            "column": f.column,
-            "start": place(f.span.start),
-            "end": place(f.span.end),
-            "message": f.message,
-            "hint": f.hint,
-        })
-    });
-    json!({"faults": list.collect::<Vec<_>>(), "untold": faults.untold})
 }
 
 fn parameter(scene: &Scene, p: &Parameter, shown: &Point<f64>) -> Value {
