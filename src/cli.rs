@@ -13,6 +13,8 @@ mod grade;
 mod report;
 #[cfg(feature = "serve")]
 mod serve;
+#[cfg(feature = "site")]
+mod site;
 mod solution;
 
 use std::io::Write;
@@ -93,6 +95,9 @@ enum Command {
     /// Serve a folder of scenes: a workbench in the browser, and HTTP for programs
     #[cfg(feature = "serve")]
     Serve(serve::ServeArgs),
+    /// Write scenes, worked solutions, figures and documents as pages that need no server
+    #[cfg(feature = "site")]
+    Site(site::SiteArgs),
     /// Describe a scene for pages and editors, as JSON
     #[cfg(feature = "serve")]
     #[command(hide = true)]
@@ -181,6 +186,8 @@ pub fn run() -> ExitCode {
         Command::Read(args) => grade::read(&args),
         #[cfg(feature = "serve")]
         Command::Serve(args) => serve::run(&args),
+        #[cfg(feature = "site")]
+        Command::Site(args) => site::run(&args),
         #[cfg(feature = "serve")]
         Command::Describe(args) => serve::describe(&args),
         Command::CheckScene { scene, format } => check_scene(&scene, format),

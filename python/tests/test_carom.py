@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import subprocess
 import sys
 import threading
@@ -123,6 +124,17 @@ def test_notebooks_are_shown_something():
 def test_cases_of_friction_are_kept_apart():
     found = carom.derive(SCENES / "friction" / "rod-slides-into-floor.json")
     assert found.verified and (len(found) > 0) != (len(found.cases) > 0)
+
+
+def test_the_python_of_the_guide_runs(tmp_path, monkeypatch):
+    guide = (ROOT / "docs" / "guide.md").read_text()
+    for name, text in re.findall(r"^cat > (\S+) <<'END'\n(.*?)^END$", guide, re.DOTALL | re.MULTILINE):
+        (tmp_path / name).write_text(text)
+    monkeypatch.chdir(tmp_path)
+    blocks = re.findall(r"```python\n(.*?)```", guide, re.DOTALL)
+    assert blocks
+    for block in blocks:
+        exec(block, {})
 
 
 HOSTILE = [

@@ -79,25 +79,43 @@ figcaption{font-size:.86rem;color:#555;text-align:left}
 
 /// The whole page.
 pub fn page(s: &Solution, pictures: &[Picture]) -> String {
+    page_among(s, pictures, "", "")
+}
+
+/// The same as one of several: HTML in front of the title, and at the end.
+pub fn page_among(s: &Solution, pictures: &[Picture], above: &str, below: &str) -> String {
     let title = if s.title.is_empty() {
         "Worked solution"
     } else {
         &s.title
     };
+    let mut body = String::new();
+    if !s.source.is_empty() {
+        body.push_str(&format!("<p class=\"source\">{}</p>\n", escape(&s.source)));
+    }
+    body.push_str(&sections(s, pictures));
+    body.push_str(below);
+    shell(title, above, &body, None)
+}
+
+/// A page in the style of solutions. `above` is HTML in front of the title, `body` behind it; a page with a script of its
+/// own runs that one and loads none.
+pub fn shell(title: &str, above: &str, body: &str, script: Option<&str>) -> String {
     let title = escape(title);
-    let mut out = format!(
+    let (allowed, script) = match script {
+        Some(script) => (
+            "; script-src 'unsafe-inline'",
+            format!("<script>\n{script}</script>\n"),
+        ),
+        None => ("", String::new()),
+    };
+    format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; font-src data:\">\n\
-         <title>{title}</title>\n<style>{}{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n",
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; font-src data:{allowed}\">\n\
+         <title>{title}</title>\n<style>{}{STYLE}</style>\n</head>\n<body>\n{above}<main>\n<h1>{title}</h1>\n{body}</main>\n{script}</body>\n</html>\n",
         fonts::face()
-    );
-    if !s.source.is_empty() {
-        out.push_str(&format!("<p class=\"source\">{}</p>\n", escape(&s.source)));
-    }
-    out.push_str(&sections(s, pictures));
-    out.push_str("</main>\n</body>\n</html>\n");
-    out
+    )
 }
 
 /// What stands below the title, to be put into a page of somebody else.

@@ -19,6 +19,8 @@ pub mod printed;
 pub mod report;
 mod report_pareto;
 pub mod several;
+#[cfg(feature = "site")]
+pub mod site;
 pub mod stages;
 pub mod steps;
 pub mod story;

@@ -10,6 +10,7 @@ below; what they cannot show equal counts as different, as in STACK.
 
 import subprocess
 import sys
+import tempfile
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
@@ -82,10 +83,12 @@ def check(quiz):
         runs = [script(question, v + 1) for v in range(variants)]
         # Each variant in a fresh Maxima: assumptions and values do not outlive it.
         for number, (commands, expected) in enumerate(runs, 1):
-            run = subprocess.run(
-                ["maxima", "--very-quiet", "--batch-string=" + PRELUDE.replace("\n", " ") + commands.replace("\n", " ")],
-                capture_output=True, text=True, timeout=600,
-            )
+            with tempfile.NamedTemporaryFile("w", suffix=".mac") as file:
+                file.write(PRELUDE + commands + "\n")
+                file.flush()
+                run = subprocess.run(
+                    ["maxima", "--very-quiet", f"--batch={file.name}"], capture_output=True, text=True, timeout=600
+                )
             got = [line.split("@@", 1)[1].strip() for line in run.stdout.splitlines() if line.startswith("@@")]
             where = f"{text(question, 'name/text')}, variant {number}"
             if len(got) != len(expected):

@@ -1,0 +1,158 @@
+//! `carom site`: scenes, worked solutions, figures and documents as pages to read from a folder, without a server.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use rayon::prelude::*;
+
+use super::solution::compose;
+use super::{Failure, collect, complain, files};
+use carom::command;
+use carom::figure::{self, Which};
+use carom::render::{html, site};
+use carom::scene::{self, Scene};
+use carom::solution::Detail;
+
+/// Arguments of `carom site`.
+#[derive(Args)]
+pub struct SiteArgs {
+    /// Folder with the scenes
+    #[arg(default_value = "derivations")]
+    folder: PathBuf,
+    /// Folder to write the pages into
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+}
+
+/// The documents of a site: file, title, page, text.
+const DOCUMENTS: [(&str, &str, &str, &str); 2] = [
+    (
+        "GRADING.md",
+        "How carom grades",
+        "grading.html",
+        include_str!("../../GRADING.md"),
+    ),
+    (
+        "guide.md",
+        "Guide",
+        "guide.html",
+        include_str!("../../docs/guide.md"),
+    ),
+];
+
+/// Writes the site; status 1 where a scene has no sound solution.
+pub fn run(args: &SiteArgs) -> Result<u8, Failure> {
+    let named = |e: std::io::Error| Failure::Input(format!("{}: {e}", args.folder.display()));
+    let mut scenes = Vec::new();
+    collect(&args.folder, &mut scenes).map_err(named)?;
+    scenes.sort();
+    if scenes.is_empty() {
+        return Err(Failure::Input(format!(
+            "{}: no scenes\nhint: name a folder with scene files (.json), such as derivations",
+            args.folder.display()
+        )));
+    }
+    let pages: Vec<Result<(site::Listed, bool), Failure>> =
+        scenes.par_iter().map(|path| page(args, path)).collect();
+    let mut listed = Vec::new();
+    let mut status = 0;
+    for page in pages {
+        match page {
+            Ok((scene, sound)) => {
+                status = status.max(u8::from(!sound));
+                listed.push(scene);
+            }
+            Err(Failure::Input(words)) => {
+                complain(&words);
+                status = 1;
+            }
+            Err(other) => return Err(other),
+        }
+    }
+    let known: Vec<(&str, &str)> = DOCUMENTS.iter().map(|d| (d.0, d.2)).collect();
+    for (_, title, page, text) in DOCUMENTS {
+        save(
+            &args.output.join(page),
+            &site::document(title, text, &known),
+        )?;
+    }
+    save(&args.output.join("index.html"), &site::index(&listed))?;
+    Ok(status)
+}
+
+fn save(path: &Path, text: &str) -> Result<(), Failure> {
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder)
+            .map_err(|e| Failure::Output(format!("{}: {e}", folder.display())))?;
+    }
+    files::save(path, text.as_bytes(), &[])
+}
+
+/// The page of a scene beside a copy of its file, and whether its solution holds.
+fn page(args: &SiteArgs, path: &Path) -> Result<(site::Listed, bool), Failure> {
+    let text = files::read(path, scene::LONGEST)?;
+    let scene = command::scene(&path.display().to_string(), &text, &[]).map_err(Failure::Input)?;
+    let below = path.strip_prefix(&args.folder).unwrap_or(path);
+    let target = args.output.join(below);
+    let name = below
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    let up = "../".repeat(below.components().count() - 1);
+    let (above, file) = (site::above(&up), site::source(&name, &text));
+    let (html, sound) = match command::settled(scene.clone()) {
+        Ok(settled) => {
+            let worked = compose(path, &settled, Detail::Normal)?;
+            let page = html::page_among(&worked.solution, &worked.pictures(), &above, &file);
+            (page, worked.holds)
+        }
+        // Friction leaves several cases: all of them, as they are derived.
+        Err(_) => {
+            let found = command::derive(&scene, command::Format::Text)
+                .map_err(|why| Failure::Input(format!("{}: {why}", path.display())))?;
+            let page = site::printed(&scene.title, &found.text, &above, &file);
+            (page, found.status == 0)
+        }
+    };
+    save(&target, &text)?;
+    save(&target.with_extension("html"), &html)?;
+    let folder = below
+        .parent()
+        .map(|p| p.display().to_string())
+        .unwrap_or_default();
+    let words: Vec<&str> = [scene.statement.as_str(), &name]
+        .into_iter()
+        .chain(scene.bodies.iter().map(|b| b.name.as_str()))
+        .chain(scene.questions.iter().map(|q| q.name.as_str()))
+        .collect();
+    let listed = site::Listed {
+        page: address(&below.with_extension("html")),
+        folder: if folder.is_empty() {
+            String::from("scenes")
+        } else {
+            folder
+        },
+        title: scene.title.clone(),
+        source: scene.source.clone(),
+        words: words.join(" "),
+        svg: thumbnail(&scene),
+    };
+    Ok((listed, sound))
+}
+
+/// A path as an address; what ends a path there is escaped.
+fn address(path: &Path) -> String {
+    let path = path.to_string_lossy().replace('\\', "/");
+    [("%", "%25"), ("#", "%23"), ("?", "%3F")]
+        .iter()
+        .fold(path, |path, (mark, code)| path.replace(mark, code))
+}
+
+/// The bodies before, small.
+fn thumbnail(scene: &Scene) -> String {
+    match &scene.story {
+        None => figure::draw(scene, Which::Before).svg,
+        Some(_) => String::new(),
+    }
+}
