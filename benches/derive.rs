@@ -1,7 +1,8 @@
 //! From a scene file to proved closed forms: reading, deriving and proving each sample of the book, and how the cost grows
 //! with the number of hinged rods in a chain.
 
-use carom::derive::{Form, derive};
+use carom::answer::Form;
+use carom::derive::derive;
 use carom::formula::write_plain;
 use carom::scene::{Scene, read};
 use carom::verify::prove;

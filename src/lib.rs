@@ -17,7 +17,7 @@
 //! let proof = carom::verify::prove(&scene, &derivation);
 //!
 //! let answer = &derivation.answers[0];
-//! let carom::derive::Form::Value { short, .. } = &answer.form else {
+//! let carom::answer::Form::Value { short, .. } = &answer.form else {
 //!     panic!("a value");
 //! };
 //! assert_eq!(carom::formula::write_plain(short), "3*v/(2*l)");
@@ -33,6 +33,9 @@
 //!            └─ numeric, numeric::follow: geometry and values, in numbers ──┘
 //! ```
 //!
+//! What is asked about the answers of either (a threshold, a maximum, a limit) is the affair of [`answer`], which knows no
+//! mechanics.
+//!
 //! # Where trust ends
 //!
 //! Two ways lead from the file to a value, and they meet in [`verify`], [`story`] and [`check`] alone. The first one works with
@@ -47,7 +50,8 @@
 //! | --- | --- |
 //! | [`scene::Scene`] | bodies, contacts, hinges, what is known and what is asked; with [`scene::Story`] where it has stages |
 //! | [`scene::Stage`] | one impact or one motion, with the scene as it is when the stage begins |
-//! | [`scene::Question`] | what is asked: a velocity, a spin, an impulse, an energy, an equation, a matrix |
+//! | [`scene::Question`] | what is asked: of an impact, of a motion at the end of a stage, of other answers, or in words |
+//! | [`answer::Answer`] | the answer to it: a value, an equation, a matrix, a range of a parameter, words, or what leaves it open |
 //! | [`laws::Law`] | an equation the scene obeys, with its [`laws::Unknown`]s |
 //! | [`derive::Derivation`] | the equations chosen, solved in order, and the closed forms they give; it claims, and proves nothing |
 //! | [`answer::Check`] | one thing that was held against another: what, how, and whether it holds, fails or is undecided |

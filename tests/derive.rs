@@ -5,7 +5,8 @@ mod shared;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use carom::derive::{Derivation, Form, derive};
+use carom::answer::Form;
+use carom::derive::{Derivation, derive};
 use carom::equality::{Equality, decide};
 use carom::expr::Expr;
 use carom::formula::{Symbols, read_expr, write_plain};

@@ -13,7 +13,8 @@ use std::fs;
 use std::path::PathBuf;
 
 use carom::algebra::{Field, Sign};
-use carom::derive::{Derivation, Form, derive};
+use carom::answer::Form;
+use carom::derive::{Derivation, derive};
 use carom::equality::{Equality, decide};
 use carom::expr::{Expr, Point, Rational, ratio};
 use carom::grade::{Options, sheet};

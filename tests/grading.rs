@@ -241,11 +241,13 @@ fn with_stages(scene: scene::Scene) -> sheet::Sheet {
     let ranges = answers
         .iter()
         .flat_map(|a| a.range.iter().map(move |r| (a, r)));
-    let bounds = ranges.map(|(a, (parameter, relation, value))| sheet::Bound {
-        name: a.name.clone(),
-        parameter: parameter.clone(),
-        relation: *relation,
-        value: value.clone(),
+    let bounds = ranges.filter_map(|(a, (of, relation, value))| {
+        Some(sheet::Bound {
+            name: a.name.clone(),
+            parameter: of.as_symbol()?.clone(),
+            relation: *relation,
+            value: value.clone(),
+        })
     });
     let bounds = bounds.collect();
     sheet::Sheet {

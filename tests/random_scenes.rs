@@ -1,6 +1,7 @@
 //! Laws that hold for every scene: random ones are read, derived and proved from end to end.
 
-use carom::derive::{Form, derive};
+use carom::answer::Form;
+use carom::derive::derive;
 use carom::formula::write_plain;
 use carom::scene::read;
 use carom::verify::prove;

@@ -271,7 +271,7 @@ fn every_check_of_a_random_story_holds_and_many_stories_can_be_told() {
             .collect();
         prop_assert!(wrong.is_empty() && found.holds(), "{wrong:?}\n{text}");
         for a in &found.answers {
-            prop_assert!(a.formula.is_none() || !a.checks.is_empty(), "{} is not marked\n{text}", a.name);
+            prop_assert!(a.formula().is_none() || !a.checks.is_empty(), "{} is not marked\n{text}", a.name);
         }
     });
     let (told, all) = (told.into_inner(), all.into_inner());

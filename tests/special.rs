@@ -46,10 +46,11 @@ fn asked_where(relations: &str, questions: &str) -> Result<Vec<Answer>, String> 
 fn said(answers: &[Answer]) -> String {
     let mut all = Vec::new();
     for a in answers {
-        if let Some(formula) = &a.formula {
+        if let Some(formula) = a.formula() {
             all.push(format!("{} = {}", a.name, write_plain(formula)));
         }
         for (s, relation, e) in &a.range {
+            let s = write_plain(s);
             all.push(format!("{s} {} {}", relation.sign(), write_plain(e)));
         }
         let sentences = a.text.iter().chain(&a.discarded);
@@ -270,7 +271,7 @@ fn what_was_before_and_what_belongs_to_a_point_can_be_asked() {
         assert_eq!(found.len(), expected.len(), "{question}");
         for (answer, (name, formula)) in found.iter().zip(expected) {
             let formula = read_expr(formula, &Symbols::open()).expect("a formula");
-            let got = answer.formula.as_ref().expect("a formula");
+            let got = answer.formula().expect("a formula");
             let same = decide(got, &formula, &Domains::default()).equality;
             let is_same = matches!(same, Equality::Same { .. });
             assert!(

@@ -33,16 +33,19 @@ const LAYERS: &[(&str, &str)] = &[
     ),
     (
         "grade",
-        "expr interval domain dimension algebra equality formula scene laws numeric derive verify",
+        "expr interval domain dimension algebra equality formula scene answer laws numeric derive verify",
     ),
     (
         "story",
         "expr interval domain dimension algebra equality formula scene answer laws numeric derive verify",
     ),
-    ("emit", "expr domain dimension formula scene numeric derive"),
+    (
+        "emit",
+        "expr domain dimension formula scene answer numeric derive",
+    ),
     (
         "report",
-        "expr interval domain dimension scene laws numeric derive emit",
+        "expr interval domain dimension scene answer laws numeric derive emit",
     ),
     ("figure", "expr domain dimension formula scene numeric"),
     ("plot", "figure"),

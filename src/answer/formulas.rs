@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use super::calc::{essential, is_zero, tidy};
-use super::{Answer, Check, Known, Refused, limit, optimum, threshold, zeros};
+use super::{Answer, Check, Form, Known, Refused, limit, optimum, threshold, zeros};
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
 use crate::equality::{self, Equality, How};
@@ -38,7 +38,7 @@ pub fn about(scene: &Scene, questions: &[Question], known: &Known) -> Result<Vec
 pub(super) fn remember(scene: &Scene, answers: &[Answer], known: &mut Known) {
     let is_given = |a: &Answer| scene.parameters.iter().any(|p| *p.name == *a.name);
     for answer in answers.iter().filter(|a| !is_given(a)) {
-        if let Some(formula) = &answer.formula {
+        if let Some(formula) = answer.formula() {
             known.insert(Symbol::from(answer.name.as_str()), formula.clone());
         }
     }
@@ -164,7 +164,7 @@ fn one(
             });
             out.put_in
                 .push((raw, value.clone(), "with the results substituted"));
-            out.formula = Some(value);
+            out.form = Form::value(value);
             out.text.extend(with_words(with));
             out
         }
@@ -214,7 +214,7 @@ fn one(
             let value = put(of, &[])?;
             let to = to.as_ref().map(|t| put(t, &[])).transpose()?;
             limit::fill(&mut out, &value, parameter, to.as_ref(), domains);
-            if let Some(formula) = &out.formula {
+            if let Some(formula) = out.formula() {
                 out.dimension = dimension_of(scene, formula, &name)?;
             }
             out
@@ -251,8 +251,8 @@ fn one(
             let with_known: Known = with.iter().cloned().collect();
             for (asked, value) in [(left, 0), (right, 1)] {
                 let raw = gathered(&asked.substitute(known).substitute(&with_known));
-                if let Some((a, b)) = &out.equation {
-                    let value = if value == 0 { a } else { b };
+                if let Form::Equation { left, right } = &out.form {
+                    let value = if value == 0 { left } else { right };
                     let shown = (raw, value.clone(), "with the results substituted");
                     out.put_in.push(shown);
                 }
@@ -331,7 +331,7 @@ fn condition(
     out.text.extend(with_words(with));
     out.stated = Some((left.clone(), relation, right.clone()));
     threshold::fill(&mut out, parameter, &left, relation, &right, scene);
-    if let Some(root) = &out.formula {
+    if let Some(root) = out.formula() {
         // What stands in the equation and not in its solution plays no part, which is worth saying.
         let used = root.symbols();
         let all: BTreeSet<Symbol> = left.symbols().union(&right.symbols()).cloned().collect();
@@ -391,7 +391,7 @@ fn show(
         Some(false) => sentence![equation, " does not hold: ", &left, " against ", &right],
         None => sentence![equation, " could not be decided"],
     });
-    out.equation = Some((left, right));
+    out.form = Form::Equation { left, right };
     Ok(out)
 }
 

@@ -11,7 +11,7 @@ use num_traits::Signed;
 
 use super::Check;
 use super::calc::{essential, is_zero, sign, tidy, within};
-use super::{Answer, Near};
+use super::{Answer, Form, Near};
 use crate::algebra::{Element, Field, Sign};
 use crate::domain::{Domain, Domains, roles, samples};
 use crate::expr::{Expr, Node, Point, Symbol};
@@ -92,7 +92,7 @@ pub fn fill(out: &mut Answer, of: &Expr, parameter: &Symbol, to: Option<&Expr>, 
                 to: to.cloned(),
                 order: 0,
             });
-            out.formula = Some(value);
+            out.form = Form::value(value);
         }
         Tends::Beyond(Some(true)) => {
             out.text.push(Sentence::words(
@@ -184,7 +184,7 @@ pub(super) fn approximate(
         to: Some(to.clone()),
         order,
     });
-    out.formula = Some(polynomial);
+    out.form = Form::value(polynomial);
 }
 
 fn open(kind: &'static str) -> Check {

@@ -38,7 +38,7 @@ pub struct Check {
     pub holds: Option<bool>,
 }
 
-/// The answer to a question about stages, or about other answers.
+/// The answer to a question, or to one component of it.
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// Name of the question.
@@ -53,12 +53,10 @@ pub struct Answer {
     pub latex: String,
     /// What it is, in words.
     pub words: String,
-    /// The value, where the answer is one.
-    pub formula: Option<Expr>,
-    /// For which values of a parameter something holds: parameter, relation, value.
-    pub range: Vec<(Symbol, Relation, Expr)>,
-    /// An equation that was proved.
-    pub equation: Option<(Expr, Expr)>,
+    /// The value, equation or matrix.
+    pub form: Form,
+    /// For which values of a parameter, or of a combination of parameters, something holds: that, relation, value.
+    pub range: Vec<(Expr, Relation, Expr)>,
     /// What is asked, put into parameters: an equation or inequality to be solved, or the formula that is to be largest.
     pub stated: Option<(Expr, Relation, Expr)>,
     /// Identities that show the answer: both sides are the same in the parameters, with the reason.
@@ -75,6 +73,86 @@ pub struct Answer {
     pub near: Vec<Near>,
     /// What was checked.
     pub checks: Vec<Check>,
+}
+
+/// What an answer looks like.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Form {
+    /// A closed form.
+    Value {
+        /// In parameters alone; where a derivation went in steps, in its definitions too.
+        closed: Expr,
+        /// The same, shorter, in parameters and the derivation's definitions; equal to `closed` where that is short.
+        short: Expr,
+    },
+    /// An equation; of a balance, before = after.
+    Equation {
+        /// Left side.
+        left: Expr,
+        /// Right side.
+        right: Expr,
+    },
+    /// A system in matrix form, entries as the equations give them.
+    Matrix(Matrix),
+    /// Not determined by the laws; names of the unknowns it hangs on.
+    Open(Vec<String>),
+    /// None of these: a range of a parameter, or words.
+    #[default]
+    Words,
+}
+
+impl Form {
+    /// A closed form that is short as it is.
+    pub fn value(closed: Expr) -> Form {
+        Form::Value {
+            short: closed.clone(),
+            closed,
+        }
+    }
+
+    /// Every formula in it, the closed one of a value.
+    pub fn formulas(&self) -> Vec<&Expr> {
+        match self {
+            Form::Value { closed, .. } => vec![closed],
+            Form::Equation { left, right } => vec![left, right],
+            Form::Matrix(m) => m.entries.iter().flatten().chain(&m.rhs).collect(),
+            Form::Open(_) | Form::Words => Vec::new(),
+        }
+    }
+
+    /// The same with every formula changed.
+    pub fn map(&self, put: impl Fn(&Expr) -> Expr) -> Form {
+        match self {
+            Form::Value { closed, .. } => Form::value(put(closed)),
+            Form::Equation { left, right } => Form::Equation {
+                left: put(left),
+                right: put(right),
+            },
+            Form::Matrix(m) => Form::Matrix(Matrix {
+                entries: m
+                    .entries
+                    .iter()
+                    .map(|row| row.iter().map(&put).collect())
+                    .collect(),
+                rhs: m.rhs.iter().map(&put).collect(),
+                ..m.clone()
+            }),
+            other => other.clone(),
+        }
+    }
+}
+
+/// Entries × unknowns = right side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Matrix {
+    /// Which equation each row is, in words.
+    pub rows: Vec<String>,
+    /// Names of the unknowns.
+    pub unknowns: Vec<String>,
+    /// Entries, row by row.
+    pub entries: Vec<Vec<Expr>>,
+    /// Right sides.
+    pub rhs: Vec<Expr>,
 }
 
 /// The closer the parameter comes to the value, the less the sides differ, even divided by the distance to a power.
@@ -106,9 +184,8 @@ impl Answer {
             name: name.to_string(),
             latex,
             words: words.into(),
-            formula: None,
+            form: Form::Words,
             range: Vec::new(),
-            equation: None,
             stated: None,
             put_in: Vec::new(),
             text: Vec::new(),
@@ -118,6 +195,21 @@ impl Answer {
             near: Vec::new(),
             checks: Vec::new(),
         }
+    }
+
+    /// The value in parameters, where the answer is one.
+    pub fn formula(&self) -> Option<&Expr> {
+        match &self.form {
+            Form::Value { closed, .. } => Some(closed),
+            _ => None,
+        }
+    }
+
+    /// Which component of a vector it is: 0 for x, 1 for y.
+    pub fn axis(&self) -> Option<usize> {
+        let rest = self.name.strip_prefix(self.question.as_str())?;
+        let is = |axis: &&str| rest == *axis || rest.starts_with(&format!("{axis}_case"));
+        ["_x", "_y"].iter().position(is)
     }
 
     /// Whether no check failed.

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use super::Check;
 use super::calc::{Seen, Unsolved, by_signs, essential, is_zero, sign, solve, tidy};
-use super::{Answer, Refused};
+use super::{Answer, Form, Refused};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Node, Symbol};
@@ -47,7 +47,7 @@ pub(super) fn maximum(
     let free: Vec<Symbol> = over.iter().filter(|s| !idle.contains(s)).cloned().collect();
     let (reduced, variable, combination) = match free.as_slice() {
         [] => {
-            out.formula = Some(of.clone());
+            out.form = Form::value(of.clone());
             return Ok(vec![out]);
         }
         [p] => (of.clone(), p.clone(), Expr::symbol(p)),
@@ -167,15 +167,11 @@ pub(super) fn maximum(
         ]],
         _ => Vec::new(),
     };
-    if free.len() == 1 {
-        at.range
-            .push((free[0].clone(), Relation::Equal, place.clone()));
-    } else {
-        at.equation = Some((combination.clone(), place.clone()));
-    }
+    at.range
+        .push((combination.clone(), Relation::Equal, place.clone()));
     at.dimension = super::formulas::dimension_of(scene, &combination, &name)?;
-    at.formula = Some(place);
-    out.formula = Some(value);
+    at.form = Form::value(place);
+    out.form = Form::value(value);
     Ok(vec![out, at])
 }
 
@@ -186,7 +182,7 @@ fn elsewhere(name: &str, variable: &Symbol, roots: &[super::calc::Root]) -> Refu
         count => format!("the derivative vanishes at {count} values of {variable}"),
     };
     Refused::question(
-        &name,
+        name,
         reason,
         format!(
             "with a \"domain\" of `min` and `max` for {variable} the values at its ends are compared too"
@@ -346,8 +342,8 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
     let there = BTreeMap::from([(p.clone(), place.clone())]);
     out.put_in
         .push((f.substitute(&there), value.clone(), "the value there"));
-    out.range.push((p.clone(), Relation::Equal, place));
-    out.formula = Some(value);
+    out.range.push((Expr::symbol(p), Relation::Equal, place));
+    out.form = Form::value(value);
     Ok(vec![out])
 }
 

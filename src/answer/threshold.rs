@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Check;
 use super::calc::{Roots, Seen, Unsolved, by_signs, essential, sign, solve, tidy};
-use super::{Answer, intervals, limit};
+use super::{Answer, Form, intervals, limit};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Symbol};
@@ -93,10 +93,10 @@ pub(super) fn fill(
     if relation == Relation::Equal {
         for root in &roots.inside {
             out.range
-                .push((parameter.clone(), Relation::Equal, root.value.clone()));
+                .push((Expr::symbol(parameter), Relation::Equal, root.value.clone()));
         }
         if let [root] = roots.inside.as_slice() {
-            out.formula = Some(root.value.clone());
+            out.form = Form::value(root.value.clone());
         } else {
             out.text
                 .push(sentence![roots.inside.len().to_string(), " solutions"]);
@@ -128,7 +128,7 @@ fn sides(
             ", so that it is not told where it holds"
         ]);
         if let [root] = roots.inside.as_slice() {
-            out.formula = Some(root.value.clone());
+            out.form = Form::value(root.value.clone());
         }
         return;
     }
@@ -171,10 +171,11 @@ fn sides(
     } else {
         None
     };
-    out.formula = Some(value.clone());
+    out.form = Form::value(value.clone());
     match found {
         Some(relation) => {
-            out.range.push((parameter.clone(), relation, value.clone()));
+            out.range
+                .push((Expr::symbol(parameter), relation, value.clone()));
             let proved = below.is_proved() && above.is_proved();
             let words = "below and above that value the sides differ with opposite signs ({how}), and there is no other value at which they meet";
             out.checks.push(by_signs("sign", words, proved));

@@ -107,12 +107,12 @@ fn told_failures(told: &crate::story::Told) -> Vec<String> {
 /// The answers that are one bound on a parameter.
 fn bounds(answers: &[crate::answer::Answer]) -> Vec<Bound> {
     let bound = |a: &crate::answer::Answer| match a.range.as_slice() {
-        [(parameter, relation, value)]
-            if a.name == a.question && a.formula.as_ref().is_none_or(|f| f == value) =>
+        [(of, relation, value)]
+            if a.name == a.question && a.formula().is_none_or(|f| f == value) =>
         {
             Some(Bound {
                 name: a.name.clone(),
-                parameter: parameter.clone(),
+                parameter: of.as_symbol()?.clone(),
                 relation: *relation,
                 value: value.clone(),
             })

@@ -2,66 +2,12 @@
 
 use super::{Names, Stop, Work};
 use crate::algebra::{self, Element, Row};
+use crate::answer::{Answer, Form, Matrix};
 use crate::derive::count::Counting;
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Rational, Vector, ratio};
 use crate::laws::{self, Affine, Direction, Kinematics, Law, Place, Unknown};
 use crate::scene::{Ask, EnergyWhen, ImpulseAt, KnownQuantity, Question, Scene};
-
-/// The answer to a question, or to one component of it.
-#[derive(Clone, Debug)]
-pub struct Answer {
-    /// Name of the question.
-    pub question: String,
-    /// Name of the answer: that of the question, with `_x` or `_y` for a component.
-    pub name: String,
-    /// The name typeset.
-    pub latex: String,
-    /// Which component of a vector it is: 0 for x, 1 for y.
-    pub axis: Option<usize>,
-    /// What it is, in words.
-    pub words: String,
-    /// The answer.
-    pub form: Form,
-    /// Dimension of the value; of either side of an equation.
-    pub dimension: Dimension,
-}
-
-/// What an answer looks like.
-#[derive(Clone, Debug)]
-pub enum Form {
-    /// A closed form.
-    Value {
-        /// In parameters alone; where a derivation went in steps, in its definitions too.
-        closed: Expr,
-        /// The same, shorter, in parameters and the derivation's definitions; equal to `closed` where that is short.
-        short: Expr,
-    },
-    /// An equation.
-    Equation {
-        /// Left side: before.
-        left: Expr,
-        /// Right side: after.
-        right: Expr,
-    },
-    /// A system in matrix form, entries as the equations give them.
-    Matrix(Matrix),
-    /// Not determined by the laws; the unknowns it hangs on.
-    Open(Vec<Unknown>),
-}
-
-/// Entries × unknowns = right side.
-#[derive(Clone, Debug)]
-pub struct Matrix {
-    /// Which equation each row is, in words.
-    pub rows: Vec<String>,
-    /// Names of the unknowns.
-    pub unknowns: Vec<String>,
-    /// Entries, row by row.
-    pub entries: Vec<Vec<Expr>>,
-    /// Right sides.
-    pub rhs: Vec<Expr>,
-}
 
 /// The full system of a scene, every law and every unknown, as a matrix.
 pub fn full_matrix(scene: &Scene, names: &Names) -> Result<Matrix, Stop> {
@@ -148,19 +94,14 @@ impl Work<'_> {
         let latex = question
             .latex
             .clone()
-            .unwrap_or_else(|| super::names::latex_name(&question.name));
+            .unwrap_or_else(|| crate::formula::latex_name(&question.name));
         let words = words(self.scene, &question.ask);
         let dimension = dimension(&question.ask);
         let make = |name: String, latex: String, words: String, form: Form| Answer {
-            question: question.name.clone(),
-            axis: ["_x", "_y"]
-                .iter()
-                .position(|axis| name == format!("{}{axis}", question.name)),
-            name,
             latex,
-            words,
             form,
             dimension: dimension.clone(),
+            ..Answer::blank(question, &name, words)
         };
         match self.asked(&question.ask, &self.reduced) {
             Asked::Linear(forms) => {
@@ -177,7 +118,7 @@ impl Work<'_> {
                     };
                     let form = match value {
                         Some(value) => self.value(&value)?,
-                        None => Form::Open(open),
+                        None => Form::Open(self.called(&open)),
                     };
                     let (name, latex, words) = match suffix {
                         "" => (question.name.clone(), latex.clone(), words.clone()),
@@ -193,7 +134,7 @@ impl Work<'_> {
             Asked::Energy(when, of) => {
                 let form = match self.energy(when, of)? {
                     Some(terms) => self.sum(&terms)?,
-                    None => Form::Open(counting.open.clone()),
+                    None => Form::Open(self.called(&counting.open)),
                 };
                 out.push(make(question.name.clone(), latex, words, form));
             }
@@ -209,15 +150,16 @@ impl Work<'_> {
         Ok(())
     }
 
+    fn called(&self, unknowns: &[Unknown]) -> Vec<String> {
+        let names = unknowns.iter().map(|u| self.names.plain(*u));
+        names.map(String::from).collect()
+    }
+
     fn value(&mut self, value: &Element) -> Result<Form, Stop> {
         if !self.in_steps && value.size() > self.longest() {
             return Err(Stop::Limit(String::from("the length of an answer")));
         }
-        let closed = self.field.expr(value);
-        Ok(Form::Value {
-            short: closed.clone(),
-            closed,
-        })
+        Ok(Form::value(self.field.expr(value)))
     }
 
     /// A sum; in steps term by term where it would be long.
@@ -230,8 +172,7 @@ impl Work<'_> {
             Err(stop) if !self.in_steps => Err(stop.into()),
             _ => {
                 let closed = Expr::sum(terms.iter().map(|term| self.field.expr(term)));
-                let short = closed.clone();
-                Ok(Form::Value { closed, short })
+                Ok(Form::value(closed))
             }
         }
     }

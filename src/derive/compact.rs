@@ -7,9 +7,9 @@
 
 use std::collections::BTreeMap;
 
-use super::answer::{Answer, Form};
 use super::{Definition, Stop, Work};
 use crate::algebra::Element;
+use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Vector, cross, minus};
 use crate::formula::write_plain;
 use crate::laws::{Kinematics, Unknown};

@@ -21,14 +21,14 @@ mod work;
 use std::collections::BTreeMap;
 use std::fmt;
 
-pub use answer::{Answer, Form, Matrix, dimension, full_matrix};
+pub use answer::{dimension, full_matrix};
 pub use count::{Counting, count};
 pub use left_out::LeftOut;
 pub use names::Names;
 pub use plan::{Attachment, Reduction, reduction};
 
 use crate::algebra::{self};
-use crate::answer::Known;
+use crate::answer::{Answer, Form, Known};
 use crate::expr::{Expr, Symbol};
 use crate::laws::{Law, Unknown};
 use crate::scene::Scene;

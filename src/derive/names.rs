@@ -72,7 +72,7 @@ fn asked_name(scene: &Scene, unknown: Unknown) -> Option<(String, String)> {
     let latex = question
         .latex
         .clone()
-        .unwrap_or_else(|| latex_name(&question.name));
+        .unwrap_or_else(|| crate::formula::latex_name(&question.name));
     Some(match axis {
         Some(axis) => (
             format!("{}_{}", question.name, AXES[axis]),
@@ -203,11 +203,6 @@ fn identifier(name: &str) -> String {
 
 fn escape(name: &str) -> String {
     name.replace('_', "\\_")
-}
-
-/// LaTeX for a plain symbol.
-pub fn latex_name(name: &str) -> String {
-    crate::formula::write_latex(&crate::expr::Expr::symbol(name), &|_| None)
 }
 
 /// A typeset symbol with one more subscript; the arrow of a vector goes, for a component is none.

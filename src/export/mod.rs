@@ -10,7 +10,7 @@ mod numbas;
 mod stack;
 mod variant;
 
-use crate::derive::Form;
+use crate::answer::Form;
 use crate::expr::{Expr, Symbol};
 use crate::figure::escape;
 use crate::formula::{latex_name, write_plain};
@@ -103,6 +103,7 @@ pub fn exercise(sheet: &Sheet, solution: String) -> Result<Exercise, String> {
             Form::Open(_) => Err(String::from("the laws do not determine it")),
             Form::Equation { .. } => Err(String::from("an equation has no one formula to type")),
             Form::Matrix(_) => Err(String::from("a matrix is no answer to type")),
+            Form::Words => Err(String::from("it is told in words")),
         };
         match item {
             Ok(item) => exercise.items.push(Item {

@@ -5,7 +5,8 @@ use super::{
     Diagnosis, Given, Grade, Key, Options, Question, Strength, Tolerance, Verdict, judge_against,
     key_of,
 };
-use crate::derive::{self, Answer, Derivation, Form};
+use crate::answer::{Answer, Form};
+use crate::derive::{self, Derivation};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Quantity, Reading, Relation};
 use crate::scene::{Ask, Print, Scene};
@@ -160,7 +161,7 @@ impl Sheet {
                         "{name} is a matrix; its entries are checked by `carom verify`"
                     ));
                 }
-                Form::Open(_) => {
+                Form::Open(_) | Form::Words => {
                     return Err(format!("{name} is not determined by the laws of the scene"));
                 }
             }

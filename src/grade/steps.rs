@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::sheet::Sheet;
 use super::{Diagnosis, Options, Verdict};
-use crate::derive::Form;
+use crate::answer::Form;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{self, Fault, Reading, Symbols};

@@ -5,10 +5,9 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::{digits, latex, unicode};
-use crate::answer::Answer as Special;
-use crate::answer::Check;
+use crate::answer::{Answer, Check, Form};
+use crate::derive::Derivation;
 use crate::derive::friction::{Bound, Case, Table};
-use crate::derive::{Derivation, Form};
 use crate::expr::Expr;
 use crate::formula::write_plain;
 use crate::plot::{Axis, Curve, Mark, Plot};
@@ -29,7 +28,7 @@ pub struct Shown<'a> {
     /// Whether the collision can happen.
     pub possible: Possible,
     /// What is asked about its answers.
-    pub special: Vec<Special>,
+    pub special: Vec<Answer>,
 }
 
 /// The table for the terminal.
@@ -38,7 +37,7 @@ pub fn text(
     table: &Table,
     judged: &Judged,
     shown: &[Shown],
-    about: &[Special],
+    about: &[Answer],
 ) -> String {
     let mut out = String::new();
     let mut say = |line: &str| {
@@ -323,7 +322,7 @@ pub fn json(scene: &Scene, table: &Table, judged: &Judged, shown: &[Shown]) -> V
         "jams": judged.at_values.as_ref().map(|v| v.jams),
         "cases": cases,
         "checks": judged.checks.iter().map(|c| json!({"kind": c.kind, "words": c.words, "holds": c.holds})).collect::<Vec<_>>(),
-        "verified": holds && shown.iter().all(|s| s.proof.holds() && s.special.iter().all(Special::holds)),
+        "verified": holds && shown.iter().all(|s| s.proof.holds() && s.special.iter().all(Answer::holds)),
     })
 }
 

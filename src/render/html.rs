@@ -3,7 +3,7 @@
 use super::fonts;
 use super::math::{Cells, pieces, rows, rows_within, width};
 use super::mathml::{escape, expr, formula, from_latex};
-use crate::derive::Matrix;
+use crate::answer::Matrix;
 use crate::expr::Expr;
 use crate::figure::Piece;
 use crate::solution::{Inline, Line, Math, Part, Slot, Solution};

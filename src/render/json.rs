@@ -3,11 +3,10 @@
 use serde_json::{Map, Value, json};
 
 use super::latex;
-use crate::answer::Answer as Special;
-use crate::answer::Check;
-use crate::derive::{Answer, Derivation, Equation, Form, Matrix};
+use crate::answer::{Answer, Check, Form, Matrix};
+use crate::derive::{Derivation, Equation};
 use crate::expr::{Expr, Symbol};
-use crate::formula::write_plain;
+use crate::formula::{Sentence, write_plain};
 use crate::laws;
 use crate::scene::Scene;
 use crate::verify::Proof;
@@ -19,14 +18,18 @@ pub fn derivation(
     derivation: &Derivation,
     proof: &Proof,
     possible: &Possible,
-    special: &[Special],
+    special: &[Answer],
 ) -> Value {
     let counting = &derivation.counting;
     let mut answers: Vec<Value> = derivation
         .answers
         .iter()
         .zip(&proof.answers)
-        .map(|(a, checks)| answer(scene, derivation, a, checks, proof))
+        .map(|(a, checks)| {
+            let identities = proof.scene.iter().filter(|c| c.kind == "identity");
+            let under = super::assumptions(scene, derivation, proof);
+            answer(scene, Some(derivation), a, under, identities.chain(checks))
+        })
         .collect();
     // What is asked about these answers stands behind them.
     answers.extend(special.iter().map(|a| super::story::answer(scene, &[], a)));
@@ -55,7 +58,7 @@ pub fn derivation(
         "assumptions": super::assumptions(scene, derivation, proof),
         "checks": proof.scene.iter().map(check).collect::<Vec<_>>(),
         "admissible": super::possible::json(scene, possible),
-        "verified": proof.holds() && special.iter().all(Special::holds),
+        "verified": proof.holds() && special.iter().all(Answer::holds),
     })
 }
 
@@ -86,29 +89,36 @@ pub fn matrix(m: &Matrix) -> Value {
     })
 }
 
-fn answer(
+/// An answer: what it is, what it rests on, and how it was checked. Its formulas may hold definitions of the derivation.
+pub fn answer<'c>(
     scene: &Scene,
-    derivation: &Derivation,
+    derivation: Option<&Derivation>,
     a: &Answer,
-    checks: &[Check],
-    proof: &Proof,
+    assumptions: Vec<String>,
+    checks: impl Iterator<Item = &'c Check>,
 ) -> Value {
     let mut out = Map::new();
     out.insert("name".into(), json!(a.name));
     out.insert("question".into(), json!(a.question));
     out.insert("words".into(), json!(a.words));
+    out.insert("formula".into(), Value::Null);
+    out.insert("latex".into(), Value::Null);
     match &a.form {
         Form::Value { closed, short } => {
             out.insert("formula".into(), json!(write_plain(short)));
             out.insert("latex".into(), json!(latex(scene, short)));
-            if short != closed {
+            if let Some(derivation) = derivation.filter(|_| short != closed) {
                 out.insert(
                     "where".into(),
                     json!(definitions(scene, derivation, Some(short))),
                 );
                 out.insert("closed".into(), json!(write_plain(closed)));
             }
-            if let Some(value) = super::answer_value(scene, derivation, closed) {
+            let value = match derivation {
+                Some(derivation) => super::answer_value(scene, derivation, closed),
+                None => super::value(scene, closed),
+            };
+            if let Some(value) = value {
                 out.insert("value".into(), json!(value.approximate));
                 if let Some(exact) = value.exact {
                     out.insert("value_exact".into(), json!(exact.to_string()));
@@ -116,49 +126,47 @@ fn answer(
             }
         }
         Form::Equation { left, right } => {
-            out.insert(
-                "formula".into(),
-                json!(format!("{} = {}", write_plain(left), write_plain(right))),
-            );
+            let equation = format!("{} = {}", write_plain(left), write_plain(right));
+            out.insert("formula".into(), json!(equation));
+            out.insert("equation".into(), json!(equation));
             out.insert(
                 "latex".into(),
                 json!(format!("{} = {}", latex(scene, left), latex(scene, right))),
             );
         }
         Form::Matrix(m) => {
-            out.insert("formula".into(), Value::Null);
             out.insert("latex".into(), json!(super::latex_matrix(scene, m)));
             out.insert("matrix".into(), matrix(m));
         }
-        Form::Open(unknowns) => {
-            out.insert("formula".into(), Value::Null);
-            out.insert("latex".into(), Value::Null);
-            let names: Vec<&str> = unknowns
-                .iter()
-                .map(|u| derivation.names.plain(*u))
-                .collect();
+        Form::Open(names) => {
             out.insert("undetermined".into(), json!(names));
+        }
+        Form::Words => {}
+    }
+    let range = a.range.iter();
+    let range =
+        range.map(|(s, r, e)| format!("{} {} {}", write_plain(s), r.sign(), write_plain(e)));
+    let plain = |all: &[Sentence]| all.iter().map(ToString::to_string).collect::<Vec<_>>();
+    for (key, all) in [
+        ("range", range.collect()),
+        ("text", plain(&a.text)),
+        ("discarded", plain(&a.discarded)),
+    ] {
+        if !all.is_empty() {
+            out.insert(key.into(), json!(all));
         }
     }
     out.insert("symbol".into(), json!(a.latex));
     out.insert("dimension".into(), json!(a.dimension.plain()));
     out.insert("unit".into(), json!(a.dimension.si()));
-    out.insert(
-        "assumptions".into(),
-        json!(super::assumptions(scene, derivation, proof)),
-    );
-    let mut all: Vec<Value> = proof
-        .scene
-        .iter()
-        .filter(|c| c.kind == "identity")
-        .map(check)
-        .collect();
-    all.extend(checks.iter().map(check));
-    out.insert("checks".into(), json!(all));
+    out.insert("assumptions".into(), json!(assumptions));
+    let checks: Vec<Value> = checks.map(check).collect();
+    out.insert("checks".into(), json!(checks));
     Value::Object(out)
 }
 
-fn check(check: &Check) -> Value {
+/// A check as data.
+pub fn check(check: &Check) -> Value {
     json!({"kind": check.kind, "words": check.words, "holds": check.holds})
 }
 

@@ -2,7 +2,7 @@
 
 use super::html::Picture;
 use super::math::{latex, rows};
-use crate::derive::Matrix;
+use crate::answer::Matrix;
 use crate::figure::plain;
 use crate::formula::visible;
 use crate::solution::{Inline, Line, Part, Solution};

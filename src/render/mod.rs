@@ -28,7 +28,8 @@ pub mod text;
 
 use std::collections::BTreeMap;
 
-use crate::derive::{Derivation, Equation, Matrix};
+use crate::answer::Matrix;
+use crate::derive::{Derivation, Equation};
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::formula::{is_hidden, visible};
 use crate::numeric::{self, Answered};

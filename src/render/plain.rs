@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::math::{rows, unicode};
-use crate::derive::Matrix;
+use crate::answer::Matrix;
 use crate::formula::visible;
 use crate::solution::{Inline, Part, Solution};
 

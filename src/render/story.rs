@@ -1,12 +1,10 @@
 //! A told story for the terminal and as data: stages with what they keep, answers with their checks.
 
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{latex, unicode};
-use crate::answer::Answer;
-use crate::answer::Check;
-use crate::formula::Sentence;
-use crate::formula::{Relation, write_plain};
+use super::unicode;
+use crate::answer::{Answer, Check, Form};
+use crate::formula::{Relation, Sentence, write_plain};
 use crate::scene::Scene;
 use crate::story::{Case, StageTold, Told};
 
@@ -36,50 +34,8 @@ pub fn json(scene: &Scene, told: &Told) -> Value {
 
 /// An answer as data.
 pub fn answer(scene: &Scene, readings: &[String], a: &Answer) -> Value {
-    let mut out = Map::new();
-    out.insert("name".into(), json!(a.name));
-    out.insert("question".into(), json!(a.question));
-    out.insert("words".into(), json!(a.words));
-    out.insert("formula".into(), json!(a.formula.as_ref().map(write_plain)));
-    out.insert(
-        "latex".into(),
-        json!(a.formula.as_ref().map(|e| latex(scene, e))),
-    );
-    if let Some(value) = a.formula.as_ref().and_then(|e| super::value(scene, e)) {
-        out.insert("value".into(), json!(value.approximate));
-        if let Some(exact) = value.exact {
-            out.insert("value_exact".into(), json!(exact.to_string()));
-        }
-    }
-    if !a.range.is_empty() {
-        let range: Vec<String> = a
-            .range
-            .iter()
-            .map(|(s, r, e)| format!("{s} {} {}", r.sign(), write_plain(e)))
-            .collect();
-        out.insert("range".into(), json!(range));
-    }
-    if let Some((left, right)) = &a.equation {
-        out.insert(
-            "equation".into(),
-            json!(format!("{} = {}", write_plain(left), write_plain(right))),
-        );
-    }
-    if !a.text.is_empty() {
-        out.insert("text".into(), json!(plain(&a.text)));
-    }
-    if !a.discarded.is_empty() {
-        out.insert("discarded".into(), json!(plain(&a.discarded)));
-    }
-    out.insert("symbol".into(), json!(a.latex));
-    out.insert("dimension".into(), json!(a.dimension.plain()));
-    out.insert("unit".into(), json!(a.dimension.si()));
-    out.insert("assumptions".into(), json!(assumptions(scene, readings, a)));
-    out.insert(
-        "checks".into(),
-        json!(a.checks.iter().map(check).collect::<Vec<_>>()),
-    );
-    Value::Object(out)
+    let under = assumptions(scene, readings, a);
+    super::json::answer(scene, None, a, under, a.checks.iter())
 }
 
 fn stage(scene: &Scene, s: &StageTold) -> Value {
@@ -113,16 +69,12 @@ fn stage(scene: &Scene, s: &StageTold) -> Value {
         "energy": s.energy.as_ref().map(|[a, b]| json!({"before": write_plain(a), "after": write_plain(b)})),
         "bodies": bodies,
         "assumptions": plain(&s.assumptions),
-        "checks": s.checks.iter().map(check).collect::<Vec<_>>(),
+        "checks": s.checks.iter().map(super::json::check).collect::<Vec<_>>(),
     })
 }
 
 fn plain(all: &[Sentence]) -> Vec<String> {
     all.iter().map(ToString::to_string).collect()
-}
-
-fn check(c: &Check) -> Value {
-    json!({"kind": c.kind, "words": c.words, "holds": c.holds})
 }
 
 /// The story as plain text: a section for each stage, then the answers.
@@ -200,11 +152,11 @@ pub fn answers(scene: &Scene, answers: &[Answer]) -> String {
     };
     for a in answers {
         line(String::new());
-        let value = a.formula.as_ref().map(|e| unicode(scene, e));
+        let value = a.formula().map(|e| unicode(scene, e));
         match (&value, a.range.as_slice()) {
             // A largest value, and where it is.
             (Some(value), [(s, Relation::Equal, e)]) if *value != unicode(scene, e) => {
-                let s = unicode(scene, &crate::expr::Expr::symbol(s));
+                let s = unicode(scene, s);
                 line(format!(
                     "   {} = {value}, at {s} = {}",
                     a.name,
@@ -214,7 +166,7 @@ pub fn answers(scene: &Scene, answers: &[Answer]) -> String {
             (_, [(s, relation, e)]) => line(format!(
                 "   {}: {} {} {}",
                 a.name,
-                unicode(scene, &crate::expr::Expr::symbol(s)),
+                unicode(scene, s),
                 relation.sign(),
                 unicode(scene, e)
             )),
@@ -222,19 +174,31 @@ pub fn answers(scene: &Scene, answers: &[Answer]) -> String {
                 if several.iter().all(|(_, r, _)| *r == Relation::Equal) =>
             {
                 let all = several.iter().map(|(s, _, e)| {
-                    let s = unicode(scene, &crate::expr::Expr::symbol(s));
+                    let s = unicode(scene, s);
                     format!("{s} = {}", unicode(scene, e))
                 });
                 let all: Vec<String> = all.collect();
                 line(format!("   {}: {}", a.name, all.join(" or ")));
             }
             (Some(value), _) => line(format!("   {} = {value}", a.name)),
-            (None, _) => line(format!("   {}:", a.name)),
+            (None, _) => match &a.form {
+                // An identity that was to be shown stands in its text.
+                Form::Equation { left, right } if a.told.is_some() => {
+                    let [left, right] = [left, right].map(|e| unicode(scene, e));
+                    line(format!("   {}: {left} = {right}", a.name));
+                }
+                _ => line(format!("   {}:", a.name)),
+            },
         }
-        let formula = a.formula.as_ref().filter(|e| !e.is_zero());
+        let formula = a.formula().filter(|e| !e.is_zero());
         if let Some(value) = formula.and_then(|e| super::value(scene, e)) {
             let number = super::digits(value.approximate);
             line(format!("      ≈ {}", a.dimension.measured(&number)));
+        }
+        if let Form::Matrix(m) = &a.form {
+            super::text::matrix(scene, m)
+                .lines()
+                .for_each(|l| line(format!("      {l}")));
         }
         line(format!("      {}", a.words));
         for words in &a.text {

@@ -3,9 +3,10 @@
 use std::fmt::Write;
 
 use super::unicode;
-use crate::answer::Answer as Special;
+use crate::answer::Answer;
 use crate::answer::Check;
-use crate::derive::{Derivation, Form, Matrix};
+use crate::answer::{Form, Matrix};
+use crate::derive::Derivation;
 use crate::laws;
 use crate::scene::Scene;
 use crate::verify::Proof;
@@ -17,7 +18,7 @@ pub fn derivation(
     d: &Derivation,
     proof: &Proof,
     possible: &Possible,
-    special: &[Special],
+    special: &[Answer],
 ) -> String {
     let mut out = String::new();
     if let Some(refusal) = possible.refusal() {
@@ -69,8 +70,8 @@ pub fn derivation(
                 );
                 matrix_lines(&mut out, scene, m);
             }
-            Form::Open(unknowns) => {
-                let names: Vec<&str> = unknowns.iter().map(|u| d.names.plain(*u)).collect();
+            Form::Words => {}
+            Form::Open(names) => {
                 line(
                     &mut out,
                     "  ",

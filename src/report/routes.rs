@@ -8,7 +8,8 @@ use num_traits::Zero;
 use serde::Serialize;
 
 use super::reduced;
-use crate::derive::{Derivation, Form};
+use crate::answer::Form;
+use crate::derive::Derivation;
 use crate::emit::{Atoms, Program, arranged, as_derived, signs, without_angles};
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Int, Point, Rational, Symbol};

@@ -77,7 +77,7 @@ pub enum Ask {
     },
     /// The matrix form of the equations that determine these component unknowns.
     Matrix {
-        /// Names of balance questions or of entries of [`Scene::after`], in order of rows.
+        /// Names of balance questions or of entries of [`super::Scene::after`], in order of rows.
         rows: Vec<String>,
         /// Names of component questions, in order of columns.
         unknowns: Vec<String>,

@@ -2,7 +2,7 @@
 
 use super::words::{self, name, say};
 use super::{Claim, Detail, Line, Math, Part, Writer};
-use crate::derive::{Answer, Form};
+use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Place};
 use crate::scene::{Ask, EnergyWhen, ImpulseAt, Question};

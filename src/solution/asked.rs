@@ -3,8 +3,7 @@
 
 use super::words::{self, say};
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Solution};
-use crate::answer::Answer;
-use crate::answer::Check;
+use crate::answer::{Answer, Check, Form};
 use crate::expr::Expr;
 use crate::formula::Relation;
 use crate::formula::{Piece, Sentence};
@@ -222,7 +221,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     }
     // The name of the answer comes first, so that what shows the answer is a claim about it. A parameter that is asked for keeps
     // its name.
-    let named = answer.formula.as_ref().filter(|_| !parameter);
+    let named = answer.formula().filter(|_| !parameter);
     let defined = named.map(|formula| {
         let claim = Claim {
             left: symbol.clone(),
@@ -299,14 +298,11 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     };
     let mut found: Vec<Line> = Vec::new();
     for (p, relation, value) in &answer.range {
-        found.push(line(&Expr::symbol(p), relation.sign(), value, &shown));
+        found.push(line(p, relation.sign(), value, &shown));
     }
     let named_step = defined.or_else(|| shown.clone());
-    // A combination of parameters is called by its own formula.
-    let combination = answer.equation.is_some() && matches!(ask, Ask::Maximum { .. });
-    if let Some(formula) = &answer.formula
+    if let Some(formula) = answer.formula()
         && answer.range.is_empty()
-        && !combination
     {
         let (left, op) = match stands_for(ask, answer) {
             Some((of, op)) => (of, op),
@@ -314,7 +310,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
         };
         found.push(line(&left, op, formula, &named_step));
     }
-    if let Some((left, right)) = &answer.equation
+    if let Form::Equation { left, right } = &answer.form
         && answer.stated.is_none()
         && !matches!(ask, Ask::Show { .. })
     {
@@ -328,7 +324,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     }
     // Of a parameter that is solved for, the number is its own.
     let of = match answer.range.as_slice() {
-        [(solved, Relation::Equal, _)] => Expr::symbol(solved),
+        [(solved, Relation::Equal, _)] if solved.as_symbol().is_some() => solved.clone(),
         _ => symbol,
     };
     let stands = stands_for(ask, answer).is_some();
@@ -429,7 +425,7 @@ fn stands_for(ask: &Ask, answer: &Answer) -> Option<(Expr, &'static str)> {
 
 /// ` = 1.2 m/s` where the scene gives every value.
 pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
-    let formula = answer.formula.as_ref()?;
+    let formula = answer.formula()?;
     if formula.symbols().iter().all(|s| s.as_ref() == "pi") {
         return None;
     }

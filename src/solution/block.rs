@@ -435,7 +435,7 @@ impl Writer<'_> {
     fn short(&self, unknown: Unknown, value: &Expr) -> Expr {
         let name = self.d.names.plain(unknown);
         for answer in &self.d.answers {
-            if let crate::derive::Form::Value { closed, short } = &answer.form
+            if let crate::answer::Form::Value { closed, short } = &answer.form
                 && answer.name == name
                 && closed == value
                 && short.size() < value.size()

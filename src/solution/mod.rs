@@ -22,8 +22,8 @@ pub use story::tell;
 pub use words::{assumptions, is_safe_latex};
 
 use crate::algebra::Field;
-use crate::answer::{Answer, Near};
-use crate::derive::{self, Derivation, Form, Reduction};
+use crate::answer::{Answer, Form, Near};
+use crate::derive::{self, Derivation, Reduction};
 use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Affine, Geometry, Kinematics, Unknown};
 use crate::scene::{ContactLaw, Mode, Scene};
@@ -152,7 +152,7 @@ pub enum Part {
     /// Items.
     List(Vec<Vec<Inline>>),
     /// A system in matrix form.
-    Matrix(derive::Matrix),
+    Matrix(crate::answer::Matrix),
     /// The place of a figure.
     Figure(Slot),
 }

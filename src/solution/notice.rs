@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use super::words::{self, say};
 use super::{Claim, Inline, Math, Part, Writer};
 use crate::algebra::{Field, Sign};
-use crate::derive::{Answer, Form};
+use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Symbol};
 use crate::laws::Unknown;
 use crate::scene::{Ask, EnergyWhen};

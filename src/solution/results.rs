@@ -2,7 +2,7 @@
 
 use super::words::{self, say};
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Writer};
-use crate::derive::Form;
+use crate::answer::Form;
 use crate::expr::{Expr, Symbol};
 
 impl Writer<'_> {
@@ -58,7 +58,7 @@ impl Writer<'_> {
                     });
                 }
                 Form::Open(_) => open.push(Expr::symbol(&answer.name)),
-                Form::Equation { .. } | Form::Matrix(_) => {}
+                Form::Equation { .. } | Form::Matrix(_) | Form::Words => {}
             }
         }
         if !lines.is_empty() {

@@ -285,7 +285,7 @@ impl Page<'_> {
             let mut answers = self.told.answers.iter().filter(|a| a.name == step.letter);
             let mut parameters = self.scene.parameters.iter();
             parameters.any(|p| *p.name == *step.letter)
-                || answers.any(|a| a.formula.as_ref() != Some(&step.value))
+                || answers.any(|a| a.formula() != Some(&step.value))
         };
         let scene = &told.placed.scene;
         let moved = told.placed.kind.moved();
@@ -431,7 +431,7 @@ impl Page<'_> {
             let minus = -e;
             let named = self.told.answers.iter().find(|a| {
                 let known = self.solution.meanings.contains_key(a.name.as_str());
-                known && a.formula.as_ref().is_some_and(|f| f == e || *f == minus)
+                known && a.formula().is_some_and(|f| f == e || *f == minus)
             });
             match named {
                 Some(answer) if !e.symbols().is_empty() => Expr::symbol(&answer.name).powi(2),
@@ -461,7 +461,7 @@ impl Page<'_> {
                 .filter(|a| a.told.is_some_and(|(t, _)| t == i) && a.question == question.name)
                 .collect();
             for answer in mine {
-                let Some(formula) = &answer.formula else {
+                let Some(formula) = answer.formula() else {
                     continue;
                 };
                 let symbol = Symbol::from(answer.name.as_str());
@@ -527,7 +527,7 @@ impl Page<'_> {
             return false;
         };
         let mut asked = told.placed.scene.questions.iter();
-        answer.formula.as_ref() == Some(end)
+        answer.formula() == Some(end)
             && asked.any(|q| q.name == answer.name && matches!(q.ask, Ask::Energy { .. }))
     }
 

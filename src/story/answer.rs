@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use super::{Case, StageTold, State, Told, motion, second, spring, words, worlds};
 use crate::answer::calc::{is_zero, tidy};
-use crate::answer::{self, Answer, Check, Known, Refused};
-use crate::derive::{self, Form};
+use crate::answer::{self, Answer, Check, Form, Known, Refused};
+use crate::derive;
 use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector, cross, dot, minus};
@@ -77,7 +77,7 @@ fn needs_open(ask: &Ask, known: &Known, earlier: &[Answer]) -> Option<Sentence> 
         let open = earlier
             .iter()
             .filter(is_it)
-            .find(|a| a.formula.is_none() && a.told.is_some())?;
+            .find(|a| a.formula().is_none() && a.told.is_some())?;
         let why = open.text.first().cloned().unwrap_or_default();
         Some(sentence!["it needs `", &open.name, "`, which is ", why])
     })
@@ -235,11 +235,14 @@ fn one(
 fn unused(scene: &Scene, answers: &[Answer]) -> Vec<Symbol> {
     let mut used: BTreeSet<Symbol> = BTreeSet::new();
     for a in answers {
-        used.extend(a.formula.iter().flat_map(Expr::symbols));
+        // An identity that was shown holds for any data; what a stage is asked for needs what stands in it.
+        let shown = a.told.is_none() && matches!(a.form, Form::Equation { .. });
+        let formulas = a.form.formulas().into_iter().filter(|_| !shown);
+        used.extend(formulas.flat_map(Expr::symbols));
         used.extend(
             a.range
                 .iter()
-                .flat_map(|(s, _, e)| std::iter::once(s.clone()).chain(e.symbols())),
+                .flat_map(|(s, _, e)| s.symbols().into_iter().chain(e.symbols())),
         );
     }
     scene
@@ -344,14 +347,12 @@ fn quantity(
                 Some(case) => &case.after,
                 None => &told.after,
             };
-            if let Some(formula) = &answer.formula
-                && let Some(why) = state.why_open([formula])
-            {
-                answer.formula = None;
+            if let Some(why) = state.why_open(answer.form.formulas()) {
+                answer.form = Form::Words;
                 answer.checks.clear();
                 answer.text = vec![sentence!["not determined: ", why]];
             }
-            if answer.formula.is_none() && answer.equation.is_none() {
+            if matches!(answer.form, Form::Open(_) | Form::Words) {
                 answer.checks.clear();
             }
             let way = Way {
@@ -393,13 +394,13 @@ fn reaction_asked(
     if at_end {
         out.assumptions = told.assumptions.clone();
     }
-    out.formula = Some(value);
+    out.form = Form::value(value);
     Ok(out)
 }
 
 /// Gives an answer its value, and what that takes for granted.
 fn valued(answer: &mut Answer, value: &Expr, assumptions: &[Sentence]) {
-    answer.formula = Some(value.clone());
+    answer.form = Form::value(value.clone());
     answer.assumptions = assumptions.to_vec();
 }
 
@@ -471,7 +472,7 @@ fn angular_momentum(
         ),
         holds: is_zero(&(&h - &value), &scene.domains),
     });
-    out.formula = Some(value);
+    out.form = Form::value(value);
     Ok(out)
 }
 
@@ -486,27 +487,15 @@ fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
             true => format!("{}, {}", answer.words, words::active(case)),
             false => answer.words.clone(),
         };
-        let mut a = Answer::blank(question, &answer.name, words);
-        a.latex = answer.latex.clone();
-        a.dimension = answer.dimension.clone();
-        match &answer.form {
-            Form::Value { closed, .. } => a.formula = Some(case.put_in(closed)),
-            Form::Equation { left, right } => {
-                a.equation = Some((case.put_in(left), case.put_in(right)));
-            }
-            Form::Matrix(_) => a
-                .text
-                .push(Sentence::words("a matrix; ask it of the impact by itself")),
-            Form::Open(unknowns) => {
-                let names: Vec<&str> = unknowns
-                    .iter()
-                    .map(|u| case.derivation.names.plain(*u))
-                    .collect();
-                a.text.push(sentence![
-                    "not determined: it depends on ",
-                    names.join(", ")
-                ]);
-            }
+        let mut a = Answer {
+            words,
+            form: answer.form.map(|e| case.put_in(e)),
+            ..answer.clone()
+        };
+        if let Form::Open(names) = &a.form {
+            let names = names.join(", ");
+            a.text
+                .push(sentence!["not determined: it depends on ", names]);
         }
         for (name, value) in &case.handed {
             a.text.push(sentence![
@@ -533,7 +522,7 @@ fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
     }
     if out.is_empty() {
         let mut a = Answer::blank(question, &question.name, words::active(case));
-        a.formula = Some(Expr::zero());
+        a.form = Form::value(Expr::zero());
         a.text.push(sentence![
             "nothing is transmitted there: ",
             words::active(case)
@@ -644,7 +633,7 @@ fn of_motion(scene: &Scene, question: &Question, told: &StageTold) -> Result<Vec
         let value = tidy(&value, domains).map_err(|stop| refuse(&stop.to_string()))?;
         a.checks.extend(told.checks.iter().cloned());
         a.checks.extend(energy_check(told, domains));
-        a.formula = Some(value);
+        a.form = Form::value(value);
         a.dimension = dimension.clone();
         if !matches!(ask, Ask::Energy { .. }) {
             a.assumptions = told.assumptions.clone();

@@ -8,8 +8,9 @@ use std::collections::BTreeMap;
 
 use super::{Case, Kept, Part, Refused, StageTold, State};
 use crate::algebra::Sign;
+use crate::answer::Form;
 use crate::answer::calc::{Seen, essential, is_zero, sign, tidy};
-use crate::derive::{self, Derivation, Form};
+use crate::derive::{self, Derivation};
 use crate::domain::Domain;
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Sentence, sentence};

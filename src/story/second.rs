@@ -333,7 +333,7 @@ impl Second<'_> {
 
     /// Holds an answer against what was followed; `None` for one that no number is asked of.
     pub fn answer(&self, worlds: &[World], question: &Question, answer: &Answer) -> Option<Check> {
-        let formula = answer.formula.as_ref()?;
+        let formula = answer.formula()?;
         let mut compared = Compared::default();
         let mut seen_any = false;
         for seen in &self.points {
@@ -408,7 +408,7 @@ impl Second<'_> {
                     true => self.answers(point, followed),
                     false => self.answers(&moved, &follow::follow(self.scene, &moved).ok()?),
                 };
-                let formula = match axis_of(question, answer) {
+                let formula = match answer.axis() {
                     Some(axis) if formula.as_symbol().is_some() => {
                         let name = format!("{}_{}", formula.as_symbol()?, ["x", "y"][axis]);
                         Expr::symbol(&name)
@@ -420,7 +420,7 @@ impl Second<'_> {
             _ if question.stage.is_some() => {
                 match follow::answer(self.scene, followed, question, point).ok()? {
                     Found::Scalar(value) => Some(value),
-                    Found::Vector(v) => Some(v[axis_of(question, answer)?]),
+                    Found::Vector(v) => Some(v[answer.axis()?]),
                 }
             }
             _ => None,
@@ -497,12 +497,6 @@ fn tips(told: Relation, gaps: &[Option<f64>; 3]) -> Option<bool> {
         (Some(a), Some(b)) => Some(a * b <= 0.0 && a != b),
         _ => None,
     }
-}
-
-/// Which component an answer is.
-fn axis_of(question: &Question, answer: &Answer) -> Option<usize> {
-    let rest = answer.name.strip_prefix(question.name.as_str())?;
-    ["_x", "_y"].iter().position(|axis| rest.starts_with(axis))
 }
 
 /// Checks of all answers, by index.

@@ -5,8 +5,8 @@
 
 use super::{Case, StageTold, Told};
 use crate::answer::calc::sign;
-use crate::answer::{self, Refused, about};
-use crate::derive::{self, Answer, Derivation, Form, Stop};
+use crate::answer::{Answer, Form, Refused, about};
+use crate::derive::{self, Derivation, Stop};
 use crate::expr::{Expr, cross, minus};
 use crate::scene::{Ask, EnergyWhen, Question, Scene, StageKind};
 
@@ -89,9 +89,7 @@ pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
 }
 
 /// A scene of one impact with its questions about answers among the others.
-pub fn with_special(
-    mut scene: Scene,
-) -> Result<(Scene, Derivation, Vec<answer::Answer>), Unanswered> {
+pub fn with_special(mut scene: Scene) -> Result<(Scene, Derivation, Vec<Answer>), Unanswered> {
     let mut derivation = derive::derive(&scene).map_err(Unanswered::Stopped)?;
     let known = derivation.known();
     let special = std::mem::take(&mut scene.special);
@@ -137,34 +135,13 @@ impl std::fmt::Display for Unanswered {
     }
 }
 
-fn flat_answer(a: &answer::Answer) -> Option<Answer> {
-    let form = match (&a.formula, &a.equation) {
-        (Some(closed), _) => Form::Value {
-            closed: closed.clone(),
-            short: closed.clone(),
-        },
-        (None, Some((left, right))) => Form::Equation {
-            left: left.clone(),
-            right: right.clone(),
-        },
-        (None, None) => return None,
-    };
-    // Further outcomes and places of maxima are answers of their own.
-    let is_component = |suffix: &str| a.name == format!("{}{suffix}", a.question);
-    let question = if is_component("_x") || is_component("_y") || a.name == a.question {
-        a.question.clone()
-    } else {
-        return None;
-    };
-    Some(Answer {
-        question,
-        name: a.name.clone(),
-        latex: a.latex.clone(),
-        axis: ["_x", "_y"].iter().position(|s| is_component(s)),
-        words: a.words.clone(),
-        form,
-        dimension: a.dimension.clone(),
-    })
+/// An answer under the name of its question; further outcomes and places of maxima are answers of their own.
+fn flat_answer(a: &Answer) -> Option<Answer> {
+    let has_form = matches!(a.form, Form::Value { .. } | Form::Equation { .. });
+    let is_whole = ["", "_x", "_y"]
+        .iter()
+        .any(|suffix| a.name == format!("{}{suffix}", a.question));
+    (has_form && is_whole).then(|| a.clone())
 }
 
 /// The scene of an outcome, with what was handed on put in.

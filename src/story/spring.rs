@@ -7,7 +7,7 @@
 use super::integrate;
 use crate::answer::Check;
 use crate::answer::calc::{is_zero, tidy};
-use crate::answer::{Answer, limit};
+use crate::answer::{Answer, Form, limit};
 use crate::domain::{Domain, Domains};
 use crate::expr::{Expr, Symbol};
 use crate::formula::sentence;
@@ -86,13 +86,13 @@ pub(super) fn share(mut out: Answer, given: [&Expr; 3], domains: &Domains) -> Ve
         Some(&Expr::zero()),
         &wider,
     );
-    let sixth = found.formula.as_ref().map(|f| *f == Expr::ratio(1, 6));
+    let sixth = found.formula().map(|f| *f == Expr::ratio(1, 6));
     short.checks.push(Check {
         kind: "limit",
         words: String::from("the share divided by φ² tends to 1/6 as φ → 0"),
         holds: sixth,
     });
-    short.formula = Some(leading);
-    out.formula = Some(share);
+    short.form = Form::value(leading);
+    out.form = Form::value(share);
     vec![out, short]
 }

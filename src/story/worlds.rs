@@ -66,7 +66,7 @@ pub(super) fn each(
         let is_given = |a: &&Answer| scene.parameters.iter().any(|p| *p.name == *a.name);
         for a in answers.iter().filter(|a| !is_given(a)) {
             let name = Symbol::from(a.name.as_str());
-            match &a.formula {
+            match a.formula() {
                 Some(formula) => world.known.insert(name, formula.clone()),
                 None => world.known.remove(&name),
             };
@@ -74,7 +74,7 @@ pub(super) fn each(
         let says = |all: &[Answer]| -> Vec<_> {
             let parts = all.iter();
             parts
-                .map(|a| (a.formula.clone(), a.range.clone(), a.text.clone()))
+                .map(|a| (a.form.clone(), a.range.clone(), a.text.clone()))
                 .collect()
         };
         match found.iter_mut().find(|(f, ..)| says(f) == says(&answers)) {
@@ -100,7 +100,7 @@ pub(super) fn each(
 /// Later formulas may use the other answers by the name of their question, each where it holds, and by their own.
 pub(super) fn remember(worlds: &mut [World], answers: &[Answer]) {
     for a in answers {
-        let Some(formula) = &a.formula else { continue };
+        let Some(formula) = a.formula() else { continue };
         let numbered = a.name.rsplit_once("_case");
         let numbered = numbered.filter(|(_, k)| k.bytes().all(|c| c.is_ascii_digit()));
         let plain = numbered.map_or(a.name.as_str(), |(plain, _)| plain);

@@ -5,7 +5,8 @@
 //! make of it, as the independent solution shows.
 
 use super::{Check, POINTS, evaluate, numeric_value};
-use crate::derive::{Answer, Derivation};
+use crate::answer::Answer;
+use crate::derive::Derivation;
 use crate::expr::{Expr, Point};
 use crate::numeric;
 use crate::scene::Scene;
@@ -38,7 +39,9 @@ pub(super) fn check(
         let siblings: Vec<&Answer> = derivation
             .answers
             .iter()
-            .filter(|a| a.question == answer.question && a.axis.is_some() && answer.axis.is_some())
+            .filter(|a| {
+                a.question == answer.question && a.axis().is_some() && answer.axis().is_some()
+            })
             .collect();
         let Some((expected, length)) = solved(scene, answer, &siblings, &point) else {
             continue;

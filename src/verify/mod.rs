@@ -20,8 +20,8 @@ use std::collections::BTreeMap;
 use num_traits::Zero;
 
 use crate::algebra::{Field, Stop};
-use crate::answer::{self, Check, Refused};
-use crate::derive::{Answer, Derivation, Form};
+use crate::answer::{self, Answer, Check, Form, Refused};
+use crate::derive::Derivation;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Point, Rational, Scalar, Symbol, Vector};
 use crate::laws::{self, Geometry, Kinematics, Unknown};
@@ -61,7 +61,7 @@ pub fn special(
     scene: &Scene,
     derivation: &Derivation,
     proof: &Proof,
-) -> Result<Vec<answer::Answer>, Refused> {
+) -> Result<Vec<Answer>, Refused> {
     if scene.special.is_empty() {
         return Ok(Vec::new());
     }
@@ -416,7 +416,7 @@ fn numeric_value<T: numeric::Number>(
     let question = scene.questions.iter().find(|q| q.name == answer.question)?;
     let mut ask = question.ask.clone();
     // A component is asked for on its own: it may be determined where its vector is not.
-    if let Some(axis) = answer.axis {
+    if let Some(axis) = answer.axis() {
         let unit = [0, 1].map(|i| if i == axis { Expr::one() } else { Expr::zero() });
         match &mut ask {
             Ask::Velocity { along, .. } | Ask::Impulse { along, .. } => *along = Some(unit),

@@ -11,7 +11,8 @@ mod remainder;
 
 use std::collections::BTreeMap;
 
-use crate::derive::{Answer, Derivation, Form};
+use crate::answer::{Answer, Form};
+use crate::derive::Derivation;
 use crate::dimension::Dimension;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol};

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use carom::answer::Form;
 use carom::answer::about;
 use carom::derive::friction::{Table, table};
-use carom::derive::{Derivation, Form, derive};
+use carom::derive::{Derivation, derive};
 use carom::equality::{Equality, decide};
 use carom::expr::{Expr, Symbol};
 use carom::formula::{Symbols, read_expr};
@@ -59,7 +60,7 @@ fn answers(scene: &Scene) -> BTreeMap<String, Expr> {
         }
     }
     for answer in special(scene, &derivation, &proof).expect("answers") {
-        out.extend(answer.formula.map(|f| (answer.name, f)));
+        out.extend(answer.formula().map(|f| (answer.name.clone(), f.clone())));
     }
     out
 }
@@ -96,7 +97,7 @@ fn the_answers_are_those_of_the_table() {
             true => {
                 let all = about(&scene, &table.about, &BTreeMap::new()).expect("answers");
                 all.into_iter()
-                    .filter_map(|a| Some((a.name, a.formula?)))
+                    .filter_map(|a| Some((a.name.clone(), a.formula()?.clone())))
                     .collect()
             }
             false => {

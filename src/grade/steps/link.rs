@@ -282,7 +282,7 @@ impl Desk<'_> {
         };
         let name = self.spins.get(&**name).map_or(name, |(spin, _)| spin);
         let answers = &self.sheet.derivation.answers;
-        let asked = |a: &crate::derive::Answer| *a.name == **name || *a.question == **name;
+        let asked = |a: &crate::answer::Answer| *a.name == **name || *a.question == **name;
         let given = |e: &Expr| {
             let parameters = &self.sheet.scene.parameters;
             let used = self.with_own(e).symbols();
