@@ -371,8 +371,7 @@ impl Search<'_> {
             arcs::prove(a, b, domains)
         };
         arcs.or_else(|| constants::prove(a, b, domains))
-            .or_else(|| self.proof_where_defined(a, b))
-            .or_else(|| self.proof_where_defined(b, a))
+            .or_else(|| self.proof_where_defined())
             // What is read first may decide how the other is written: neither order knows more than the other.
             .or_else(|| match proof::compare(b, a, domains) {
                 turned @ Proof::Equal(..) => Some(turned),
@@ -382,17 +381,21 @@ impl Search<'_> {
     }
 
     /// Both have values only where what they take roots of is not negative.
-    fn proof_where_defined(&self, a: &Expr, b: &Expr) -> Option<Proof> {
+    fn proof_where_defined(&self) -> Option<Proof> {
         let needed = self.unsure.iter().filter(|(_, needed)| *needed);
         let needed: Vec<Expr> = needed.map(|(e, _)| e.clone()).collect();
-        let (proof, used) = proof::compare_where_defined(a, b, self.domains, &needed)?;
-        match proof {
-            Proof::Equal(mut assumed, ground) => {
-                assumed.extend(used.into_iter().map(Assumption::HasRoot));
-                Some(Proof::Equal(assumed, ground))
+        // What is read first may decide how the other is written.
+        let orders = [(self.a, self.b), (self.b, self.a)];
+        orders.into_iter().find_map(|(a, b)| {
+            let (proof, used) = proof::compare_where_defined(a, b, self.domains, &needed)?;
+            match proof {
+                Proof::Equal(mut assumed, ground) => {
+                    assumed.extend(used.into_iter().map(Assumption::HasRoot));
+                    Some(Proof::Equal(assumed, ground))
+                }
+                _ => None,
             }
-            _ => None,
-        }
+        })
     }
 
     /// The verdict for a proved identity, once signs that were only seen are put to the test.
