@@ -297,7 +297,7 @@ fn tree(out: &mut String, item: &Item, tree: &Tree) {
             ],
         );
         let hint = wrong.map_or(String::new(), |w| format!("<p>{}</p>", words(&w.hint)));
-        text(out, "truefeedback", &hint.as_str());
+        text(out, "truefeedback", &hint);
         let other = format!("{}-OTHER-{k}", tree.name);
         fields(
             out,
