@@ -8,7 +8,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-const GUIDE: &str = "docs/guide.md";
+const GUIDE: &str = "GUIDE.md";
 
 /// What a block of commands prints in the folder, standard error included.
 fn printed(commands: &str, folder: &Path) -> String {

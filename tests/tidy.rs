@@ -60,11 +60,11 @@ const LAYERS: &[(&str, &str)] = &[
     ),
     (
         "command",
-        "expr dimension formula scene numeric derive verify grade story render",
+        "expr dimension formula scene answer numeric derive verify grade story render",
     ),
     (
         "export",
-        "expr domain formula scene numeric derive grade figure render",
+        "expr domain formula scene answer numeric derive grade figure render",
     ),
     (
         "serve",

@@ -127,7 +127,7 @@ def test_cases_of_friction_are_kept_apart():
 
 
 def test_the_python_of_the_guide_runs(tmp_path, monkeypatch):
-    guide = (ROOT / "docs" / "guide.md").read_text()
+    guide = (ROOT / "GUIDE.md").read_text()
     for name, text in re.findall(r"^cat > (\S+) <<'END'\n(.*?)^END$", guide, re.DOTALL | re.MULTILINE):
         (tmp_path / name).write_text(text)
     monkeypatch.chdir(tmp_path)

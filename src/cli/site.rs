@@ -33,10 +33,10 @@ const DOCUMENTS: [(&str, &str, &str, &str); 2] = [
         include_str!("../../GRADING.md"),
     ),
     (
-        "guide.md",
+        "GUIDE.md",
         "Guide",
         "guide.html",
-        include_str!("../../docs/guide.md"),
+        include_str!("../../GUIDE.md"),
     ),
 ];
 

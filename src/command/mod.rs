@@ -138,8 +138,8 @@ fn cases(scene: &Scene, format: Format) -> Result<Output, String> {
             special,
         });
     }
-    let about =
-        answer::about(scene, &table.about, &BTreeMap::new()).map_err(|reason| reason.to_string())?;
+    let about = answer::about(scene, &table.about, &BTreeMap::new())
+        .map_err(|reason| reason.to_string())?;
     let text = match format {
         Format::Text => render::friction::text(scene, &table, &judged, &shown, &about),
         Format::Json => pretty(&render::friction::json(scene, &table, &judged, &shown)),

@@ -225,6 +225,9 @@ fn within_limits(a: &Expr, b: &Expr) -> Option<(Size, Roles)> {
     Some((size.with(&roles)?, roles))
 }
 
+/// Most points at which two formulas both have values that count as ends where they meet.
+const MEETINGS: usize = 2;
+
 /// A pair with what is known of it so far.
 struct Search<'a> {
     a: &'a Expr,
@@ -442,6 +445,9 @@ impl Search<'_> {
         if let Some(found) = found {
             return self.different(found);
         }
+        if let Some(found) = self.live_apart(&proof) {
+            return Equality::Different(found);
+        }
         match proof {
             _ if self.tally.both_defined == 0 => self.undecided(Reason::NoPoint),
             // A point at which both have a value was found only now.
@@ -452,6 +458,31 @@ impl Search<'_> {
             // It has values all the same.
             Proof::Invalid(_) => self.undecided(Reason::NoPointApart),
         }
+    }
+
+    /// A point at which only the left side has a value, where each has values that the other has not and they hardly meet: at
+    /// ends of what their roots allow, as those of 2 − x and x − 2 do.
+    fn live_apart(&self, proof: &Proof) -> Option<Counterexample> {
+        let is_known = matches!(proof, Proof::Unequal { settled: true, .. });
+        let meets = self.tally.exact_equal > MEETINGS || self.tally.enclosed > 0;
+        if meets || !(is_known || self.tally.both_defined == 0) {
+            return None;
+        }
+        let only = |side: Side| {
+            let has = |v: &Value| *v != Value::None;
+            let mut apart = self.tally.apart.iter();
+            apart.find(|(_, left, right)| match side {
+                Side::Left => has(left) && !has(right),
+                Side::Right => has(right) && !has(left),
+            })
+        };
+        only(Side::Right)?;
+        only(Side::Left).map(|(at, left, right)| Counterexample {
+            at: at.clone(),
+            left: left.clone(),
+            right: right.clone(),
+            confirmed: true,
+        })
     }
 
     fn different(&self, found: Counterexample) -> Equality {
