@@ -89,7 +89,7 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         _ => Vec::new(),
     };
     let output = match format {
-        FormatArg::Text => render::plain::solution(&solution),
+        FormatArg::Text => render::plain::solution(solution),
         FormatArg::Markdown => render::markdown::solution(solution, &linked),
         FormatArg::Latex => render::latex_document::document(solution, &held()),
         FormatArg::LatexFragment => render::latex_document::fragment(solution, &held()),
