@@ -198,7 +198,7 @@ fn not_negative(
                 "turn the direction round",
             ));
         }
-        _ => assumptions.push(sentence![size, " ≥ 0"]),
+        _ => assumptions.push(sentence![&essential(size, &stage.scene.domains), " ≥ 0"]),
     }
     Ok(())
 }
