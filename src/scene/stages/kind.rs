@@ -8,7 +8,7 @@ use crate::scene::check::{Claim, Claimed};
 use crate::scene::fault::{Fault, Span};
 use crate::scene::formulas::Quantity;
 use crate::scene::place_file::PositionFile;
-use crate::scene::record::Formula;
+use crate::scene::record::{Formula, Text};
 use crate::scene::resolve::Resolver;
 use crate::scene::stage::{Fall, FallEnd, OneSided, Slide, SlideEnd, StageKind, Turn, Until, Wind};
 use crate::scene::stage_file::{
@@ -146,6 +146,29 @@ fn impact_of(
     })
 }
 
+/// A body and those that move along with it, each of them once.
+fn company(
+    r: &mut Resolver<'_>,
+    body: &Text,
+    with: Option<&[Text]>,
+) -> Option<(usize, Vec<usize>)> {
+    let names: Vec<&Text> = std::iter::once(body)
+        .chain(with.into_iter().flatten())
+        .collect();
+    let all: Vec<Option<usize>> = names.iter().map(|name| r.moving(name)).collect();
+    let mut all = all.into_iter().collect::<Option<Vec<usize>>>()?;
+    for (i, name) in names.iter().enumerate() {
+        if all[..i].contains(&all[i]) {
+            let message = format!("`{}` moves along with itself", name.text);
+            r.faults
+                .push(Fault::new(name.span, message).hint("name each body once"));
+            return None;
+        }
+    }
+    let with = all.split_off(1);
+    Some((all[0], with))
+}
+
 fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) -> Option<Slide> {
     let ends = usize::from(slide.distance.is_some())
         + usize::from(slide.until.is_some())
@@ -157,9 +180,7 @@ fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) 
             .push(Fault::new(span, message).hint("give one of them"));
         return None;
     }
-    let body = r.moving(&slide.body);
-    let with = slide.with.iter().flatten().map(|name| r.moving(name));
-    let with = with.collect::<Option<Vec<usize>>>();
+    let all = company(r, &slide.body, slide.with.as_deref());
     let along = r.direction(&slide.along);
     let gravity = optional(r, slide.gravity.as_ref(), ACCELERATION)?;
     let force = optional(r, slide.force.as_ref(), FORCE)?;
@@ -177,7 +198,7 @@ fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) 
         (.., Some(SlideEndName::Rolls)) => SlideEnd::Rolls,
         _ => return None,
     };
-    let (body, with) = (body?, with?);
+    let (body, with) = all?;
     let shape = &scene.bodies[body];
     let is_round = with.is_empty() && shape.shape.radius().is_some();
     let mut refuse = |message: String, hint: &str| {
@@ -229,9 +250,7 @@ fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {
         r.faults.push(fault.hint("give one of them"));
         return None;
     }
-    let body = r.moving(&fall.body);
-    let with = fall.with.iter().flatten().map(|name| r.moving(name));
-    let with = with.collect::<Option<Vec<usize>>>();
+    let all = company(r, &fall.body, fall.with.as_deref());
     let gravity = optional(r, fall.gravity.as_ref(), ACCELERATION)?;
     let until = match (&fall.height, &fall.range, &fall.time) {
         (Some(height), ..) => {
@@ -243,9 +262,10 @@ fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {
         (.., Some(time)) => FallEnd::Time(r.symbols.read(time, TIME, &mut r.faults)?),
         _ => return None,
     };
+    let (body, with) = all?;
     Some(Fall {
-        body: body?,
-        with: with?,
+        body,
+        with,
         gravity,
         until,
     })
@@ -272,9 +292,7 @@ fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
             .push(fault.hint("where it is after a time has no closed form; give `by` or `until`"));
         return None;
     }
-    let body = r.moving(&turn.body);
-    let with = turn.with.iter().flatten().map(|name| r.moving(name));
-    let with = with.collect::<Option<Vec<usize>>>()?;
+    let all = company(r, &turn.body, turn.with.as_deref());
     let about = r.position(&turn.about);
     let about_name = match &turn.about {
         PositionFile::Name(name) => name.text.clone(),
@@ -287,8 +305,9 @@ fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
         (_, _, Some(time)) => Until::For(r.symbols.read(time, TIME, &mut r.faults)?),
         _ => return None,
     };
+    let (body, with) = all?;
     Some(Turn {
-        body: body?,
+        body,
         with,
         about: about?,
         about_name,
