@@ -42,7 +42,7 @@ fn writing(bencher: divan::Bencher, name: &str) {
     let stages = scene.story.as_ref().expect("stages");
     let told = tell(&scene, stages).expect("a story that fits");
     bencher.bench(|| {
-        let solution = solution::tell(&scene, stages, &told, Detail::Normal);
+        let solution = solution::tell(&scene, &told, Detail::Normal);
         markdown::solution(&solution, &[]).len()
     });
 }

@@ -25,7 +25,9 @@ use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 
 use carom::command::{self, Numbers, Output};
 use carom::render::pretty;
-use carom::{derive, render, scene, story};
+use carom::verify::friction::settled;
+use carom::worked::{self, Worked};
+use carom::{derive, render, scene};
 
 /// Collisions of rigid bodies in the plane: closed forms a teacher would reach, each one proved or marked.
 #[derive(Parser)]
@@ -217,14 +219,13 @@ fn derive_command(
 ) -> Result<u8, Failure> {
     let mut scene = read_scene(path, set)?;
     if matrix || stage.is_some() {
-        scene = impact_of(scene, path, stage)?;
+        scene = impact_of(&scene, path, stage)?;
     }
     if !matrix {
         return print_output(path, command::derive(&scene, format.into()));
     }
     let names = derive::Names::of(&scene);
-    let full = derive::full_matrix(&scene, &names)
-        .map_err(|stop| Failure::Input(format!("{}: {stop}", path.display())))?;
+    let full = derive::full_matrix(&scene, &names).map_err(|stop| refused(path, stop))?;
     print(&match format {
         Format::Text => render::text::matrix(&scene, &full),
         Format::Json => pretty(&render::json::matrix(&full)),
@@ -242,9 +243,19 @@ fn solve_command(
     print_output(path, command::solve(&scene, numbers, format.into()))
 }
 
+/// Why a command has no result for the scene of a file.
+fn refused(path: &Path, why: impl std::fmt::Display) -> Failure {
+    Failure::Input(format!("{}: {why}", path.display()))
+}
+
+/// Works the scene of a file out.
+fn work_out(path: &Path, scene: &scene::Scene) -> Result<Worked, Failure> {
+    worked::out(scene).map_err(|why| refused(path, why))
+}
+
 /// Prints what a command found, and gives its status.
 fn print_output(path: &Path, output: Result<Output, String>) -> Result<u8, Failure> {
-    let output = output.map_err(|why| Failure::Input(format!("{}: {why}", path.display())))?;
+    let output = output.map_err(|why| refused(path, why))?;
     print(&output.text)?;
     Ok(output.status)
 }
@@ -267,8 +278,7 @@ fn check_scene(path: &Path, format: Format) -> Result<u8, Failure> {
 
 fn list(folder: &Path) -> Result<u8, Failure> {
     let mut files = Vec::new();
-    collect(folder, &mut files)
-        .map_err(|e| Failure::Input(format!("{}: {e}", folder.display())))?;
+    collect(folder, &mut files).map_err(|e| refused(folder, e))?;
     files.sort();
     for file in files {
         let Ok(text) = std::fs::read_to_string(&file) else {
@@ -300,21 +310,20 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
 
 /// The one impact a command works on: the scene itself, or the one of a stage with the motion that goes into it.
 fn impact_of(
-    scene: scene::Scene,
+    scene: &scene::Scene,
     path: &Path,
     stage: Option<&str>,
 ) -> Result<scene::Scene, Failure> {
-    let refused = |reason: String| Failure::Input(format!("{}: {reason}", path.display()));
-    let Some(stages) = &scene.story else {
+    let refused = |why: String| refused(path, why);
+    if scene.story.is_none() {
         return match stage {
             Some(name) => Err(refused(format!(
                 "no stage {name}: this scene is one impact"
             ))),
-            None => friction::settled(path, scene),
+            None => settled(scene).map_err(refused),
         };
-    };
-    let told = story::tell(&scene, stages).map_err(|r| refused(r.to_string()))?;
-    let mut impacts = story::impacts(&scene, &told);
+    }
+    let mut impacts = work_out(path, scene)?.impacts();
     let names: Vec<&str> = impacts.iter().map(|(name, _)| name.as_str()).collect();
     let names = names.join("; ");
     if let Some(stage) = stage {

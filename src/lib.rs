@@ -59,6 +59,7 @@
 //! | [`story::Told`] | the stages worked out one after the other, and the answers, each with its checks |
 //! | [`numeric::follow`](mod@numeric::follow) | the same scene in numbers, motions in time |
 //! | [`solution::Solution`] | a worked solution: text and steps, each step a claim that [`check`] replays |
+//! | [`worked::Worked`] | a scene worked out, whichever way it goes: what every command works with |
 //! | [`grade::Grade`] | the verdict on a formula: same, different with a point that shows it, or undecided; and what explains it |
 //!
 //! The modules below stand in reading order: each imports only what stands above it.
@@ -102,6 +103,8 @@ pub mod figure;
 pub mod plot;
 
 pub mod solution;
+
+pub mod worked;
 
 pub mod check;
 

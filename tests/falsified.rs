@@ -22,7 +22,7 @@ use carom::interval::{Interval, Outcome, evaluate};
 use carom::numeric::{self, Motion};
 use carom::scene::{self, Scene, Shape};
 use carom::verify::{Trust, prove, trust};
-use carom::{check, render, solution, story, verify};
+use carom::{check, render, solution, worked};
 
 /// The rows of a table, cell by cell.
 fn rows(name: &str) -> Vec<Vec<String>> {
@@ -250,18 +250,9 @@ fn a_falsified_motion_violates_a_balance_or_a_law() {
 /// The written solution of a scene, as data.
 fn written(text: &str, scene: &Scene) -> serde_json::Value {
     let detail = solution::Detail::Normal;
-    let solution = match &scene.story {
-        Some(stages) => {
-            let told = story::tell(scene, stages).expect("a story that fits");
-            solution::tell(scene, stages, &told, detail)
-        }
-        None => {
-            let derivation = derive(scene).expect("a derivation");
-            let proof = prove(scene, &derivation);
-            let special = verify::special(scene, &derivation, &proof).expect("answers");
-            solution::write(scene, &derivation, &proof, &special, detail)
-        }
-    };
+    let solution = worked::out(scene)
+        .expect("a scene that is worked out")
+        .solution(detail);
     render::steps::solution(&solution, text, &[])
 }
 

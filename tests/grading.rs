@@ -230,15 +230,9 @@ fn a_worked_solution_is_followed_beyond_its_first_slip() {
 
 /// A scene with its answers, those about answers and of all stages among them.
 fn with_stages(scene: scene::Scene) -> sheet::Sheet {
-    let (scene, derivation, answers) = match &scene.story {
-        Some(stages) => {
-            let told = carom::story::tell(&scene, stages).expect("a story");
-            let (flat, derivation) = carom::story::sheet(&scene, &told).expect("a derivation");
-            (flat, derivation, told.answers)
-        }
-        None => carom::story::with_special(scene).expect("answers"),
-    };
-    let ranges = answers
+    let worked = carom::worked::out(&scene).expect("answers");
+    let ranges = worked
+        .asked()
         .iter()
         .flat_map(|a| a.range.iter().map(move |r| (a, r)));
     let bounds = ranges.filter_map(|(a, (of, relation, value))| {
@@ -250,6 +244,7 @@ fn with_stages(scene: scene::Scene) -> sheet::Sheet {
         })
     });
     let bounds = bounds.collect();
+    let (scene, derivation) = worked.sheet().expect("a derivation");
     sheet::Sheet {
         scene,
         derivation,

@@ -10,58 +10,32 @@ use std::sync::OnceLock;
 use std::thread;
 
 use carom::solution::{Detail, Solution};
-use carom::{answer, check, derive, figure, render, scene, solution, story, verify};
+use carom::worked::{self, Worked};
+use carom::{check, figure, render, scene, solution, verify};
 
 /// A scene, worked out once for all tests.
 struct Case {
     path: PathBuf,
     text: String,
     scene: scene::Scene,
-    found: Found,
-}
-
-/// What was found of a scene: a story, or a derivation with its proof and what is asked about its answers.
-enum Found {
-    Told(Box<story::Told>),
-    Derived(Box<(derive::Derivation, verify::Proof, Vec<answer::Answer>)>),
-}
-
-fn find(scene: &scene::Scene) -> Found {
-    if let Some(stages) = &scene.story {
-        let told = story::tell(scene, stages).expect("a story that fits");
-        return Found::Told(Box::new(told));
-    }
-    let derivation = derive::derive(scene).expect("a derivation");
-    let proof = verify::prove(scene, &derivation);
-    let special = verify::special(scene, &derivation, &proof).expect("answers");
-    Found::Derived(Box::new((derivation, proof, special)))
-}
-
-fn written(scene: &scene::Scene, found: &Found, detail: Detail) -> Solution {
-    match (found, &scene.story) {
-        (Found::Derived(all), _) => solution::write(scene, &all.0, &all.1, &all.2, detail),
-        (Found::Told(told), Some(stages)) => solution::tell(scene, stages, told, detail),
-        (Found::Told(_), None) => unreachable!("only a scene with stages is told"),
-    }
+    worked: Worked,
 }
 
 impl Case {
     fn read(path: PathBuf) -> Case {
         let text = fs::read_to_string(&path).expect("a readable scene");
         let scene = scene::read(&text).unwrap_or_else(|f| panic!("{}", f.render("scene", &text)));
-        let settled = verify::friction::settled(&scene).expect("a case");
-        let scene = settled.unwrap_or(scene);
-        let found = find(&scene);
+        let worked = worked::out(&scene).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
         Case {
             path,
             text,
-            scene,
-            found,
+            scene: worked.scene.clone(),
+            worked,
         }
     }
 
     fn solution(&self, detail: Detail) -> Solution {
-        written(&self.scene, &self.found, detail)
+        self.worked.solution(detail)
     }
 }
 
@@ -90,7 +64,9 @@ fn cases() -> &'static [Case] {
 }
 
 fn solved(scene: &scene::Scene, detail: Detail) -> Solution {
-    written(scene, &find(scene), detail)
+    worked::out(scene)
+        .expect("a scene that is worked out")
+        .solution(detail)
 }
 
 #[test]
@@ -486,24 +462,14 @@ fn the_name_of_the_output_tells_the_format() {
 
 /// Every picture of a case, as its page and its document hold it.
 fn pictures(case: &Case) -> Vec<figure::Drawing> {
-    let Found::Told(told) = &case.found else {
+    if case.scene.story.is_none() {
         return figure::all(&case.scene);
-    };
-    let each = told.stages.iter();
-    each.flat_map(|t| {
-        let chapter = match story::impact(&case.scene, told, Some(&t.placed.name)) {
-            Some(impact) => figure::Chapter::Impact(impact),
-            None => figure::Chapter::Motion(
-                t.placed.scene.clone(),
-                t.placed.kind.clone(),
-                story::is_clockwise(t),
-            ),
-        };
-        figure::chapter(&t.placed.name, &chapter)
-            .into_iter()
-            .map(|d| d.0)
-    })
-    .collect()
+    }
+    let chapters = case.worked.chapters();
+    let each = chapters
+        .iter()
+        .flat_map(|(name, c)| figure::chapter(name, c));
+    each.map(|d| d.0).collect()
 }
 
 fn held(drawing: figure::Drawing) -> render::html::Picture {

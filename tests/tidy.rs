@@ -53,14 +53,15 @@ const LAYERS: &[(&str, &str)] = &[
         "solution",
         "expr domain dimension algebra formula scene answer laws derive verify story",
     ),
+    ("worked", "scene answer derive verify story figure solution"),
     ("check", "expr domain dimension formula scene numeric"),
     (
         "render",
-        "expr domain dimension formula scene answer laws numeric derive verify story grade emit report figure plot solution",
+        "expr domain dimension formula scene answer laws numeric derive verify story grade emit report figure plot solution worked",
     ),
     (
         "command",
-        "expr dimension formula scene answer numeric derive verify grade story render",
+        "expr dimension formula scene answer numeric derive verify grade render worked",
     ),
     (
         "export",

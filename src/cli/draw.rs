@@ -1,15 +1,14 @@
 //! `carom draw`: the pictures of a scene as SVG or PNG.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::solution::{chapters, plots};
-use super::{Failure, files, friction, print, read_scene};
+use super::solution::plots;
+use super::{Failure, files, print, read_scene, refused, work_out};
 use carom::figure::{self, Chapter, Drawing, Subject, Which};
 use carom::scene::Scene;
-use carom::{answer, derive, story, verify};
+use carom::verify::friction::settled;
 
 /// Arguments of `carom draw`.
 #[derive(Args)]
@@ -54,19 +53,15 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
     if let Some(name) = &args.plot {
         return write(args, &plotted(args, &mut scene, name)?);
     }
-    if let Some(stages) = &scene.story {
-        let refused =
-            |reason: String| Failure::Input(format!("{}: {reason}", args.scene.display()));
-        let told = carom::story::tell(&scene, stages).map_err(|r| refused(r.to_string()))?;
-        let mut all = chapters(&scene, &told);
+    if scene.story.is_some() {
+        let mut all = work_out(&args.scene, &scene)?.chapters();
         if let Some(name) = &args.stage {
             let names: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();
             all.retain(|(stage, _)| stage == name);
             if all.is_empty() {
                 let known = names.join(", ");
-                return Err(refused(format!(
-                    "no stage {name}\nhint: stages here: {known}"
-                )));
+                let why = format!("no stage {name}\nhint: stages here: {known}");
+                return Err(refused(&args.scene, why));
             }
         }
         match all.as_slice() {
@@ -77,9 +72,11 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
     }
     // What comes after is drawn in the case that the values pick; without one the pictures before and during stand.
     if matches!(args.which, Picture::After | Picture::All) {
-        match friction::settled(&args.scene, scene.clone()) {
+        match settled(&scene) {
             Ok(settled) => scene = settled,
-            Err(why) if matches!(args.which, Picture::After) => return Err(why),
+            Err(why) if matches!(args.which, Picture::After) => {
+                return Err(refused(&args.scene, why));
+            }
             Err(_) => {}
         }
     }
@@ -96,11 +93,8 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
             };
             let found = scene.bodies.iter().position(|b| b.name == *name);
             Subject::Body(found.ok_or_else(|| {
-                Failure::Input(format!(
-                    "{}: no body {name}\nhint: the scene has {}",
-                    args.scene.display(),
-                    known()
-                ))
+                let why = format!("no body {name}\nhint: the scene has {}", known());
+                refused(&args.scene, why)
             })?)
         }
     };
@@ -115,7 +109,7 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
 
 /// One plot of the scene.
 fn plotted(args: &DrawArgs, scene: &mut Scene, name: &str) -> Result<Drawing, Failure> {
-    let refused = |reason: String| Failure::Input(format!("{}: {reason}", args.scene.display()));
+    let refused = |why: String| refused(&args.scene, why);
     let names: Vec<String> = scene.plots.iter().map(|p| p.name.clone()).collect();
     scene.plots.retain(|p| p.name == name);
     if scene.plots.is_empty() {
@@ -125,21 +119,9 @@ fn plotted(args: &DrawArgs, scene: &mut Scene, name: &str) -> Result<Drawing, Fa
         };
         return Err(refused(format!("no plot {name}\nhint: {hint}")));
     }
-    let (known, later) = if let Some(stages) = &scene.story {
-        let told = story::tell(scene, stages).map_err(|r| refused(r.to_string()))?;
-        (BTreeMap::new(), told.answers)
-    } else {
-        *scene = friction::settled(&args.scene, scene.clone())?;
-        let derivation = derive::derive(scene).map_err(|stop| refused(stop.to_string()))?;
-        let proof = verify::prove(scene, &derivation);
-        let later = verify::special(scene, &derivation, &proof);
-        (
-            derivation.known(),
-            later.map_err(|r| refused(r.to_string()))?,
-        )
-    };
-    let graphs = answer::graphs(scene, &known, &later).map_err(|r| refused(r.to_string()))?;
-    let drawn = plots(scene, &graphs)?.into_iter().next();
+    let worked = work_out(&args.scene, scene)?;
+    let graphs = worked.graphs().map_err(|why| refused(why.to_string()))?;
+    let drawn = plots(&worked.scene, &graphs)?.into_iter().next();
     drawn
         .map(|(picture, _)| Drawing {
             svg: picture.svg,

@@ -4,9 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{Failure, complain, files, impact_of, print, read_scene};
+use super::{Failure, complain, files, impact_of, print, read_scene, refused, work_out};
 use carom::emit::{Heading, Language, Style, file_as, functions};
-use carom::{derive, render, story, verify};
 
 /// Arguments of `carom emit`.
 #[derive(Args)]
@@ -48,27 +47,17 @@ enum Lang {
 
 /// Runs `carom emit`: exit status 0, or 1 where the closed forms did not stand their proof and nothing is written.
 pub fn run(args: &EmitArgs) -> Result<u8, Failure> {
-    let scene = read_scene(&args.scene, &[])?;
+    let mut scene = read_scene(&args.scene, &[])?;
     let name = args.scene.display();
-    let refused = |reason: String| Failure::Input(format!("{name}: {reason}"));
-    let (scene, derivation, assumptions, holds) = match (&scene.story, &args.stage) {
-        // All answers of all stages, in parameters.
-        (Some(stages), None) => {
-            let told = story::tell(&scene, stages).map_err(|r| refused(r.to_string()))?;
-            let assumed = told.assumed().iter().map(ToString::to_string).collect();
-            let (flat, derivation) =
-                story::sheet(&scene, &told).map_err(|stop| refused(stop.to_string()))?;
-            (flat, derivation, assumed, told.holds())
-        }
-        _ => {
-            let scene = impact_of(scene, &args.scene, args.stage.as_deref())?;
-            let derivation = derive::derive(&scene).map_err(|stop| refused(stop.to_string()))?;
-            let proof = verify::prove(&scene, &derivation);
-            let assumed = render::assumptions(&scene, &derivation, &proof);
-            let holds = proof.holds() && !derivation.counting.contradictory;
-            (scene, derivation, assumed, holds)
-        }
-    };
+    if scene.story.is_none() || args.stage.is_some() {
+        scene = impact_of(&scene, &args.scene, args.stage.as_deref())?;
+        // Numbers of the motion are written, and not what is asked about them.
+        scene.special.clear();
+    }
+    let worked = work_out(&args.scene, &scene)?;
+    let holds = worked.failed().is_empty();
+    let assumptions = worked.assumptions();
+    let (scene, derivation) = worked.sheet().map_err(|why| refused(&args.scene, why))?;
     if !holds {
         complain(&format!(
             "{name}: the closed forms are not proved, so no code is written\nhint: `carom derive` tells what failed"

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::grade::open;
-use super::solution::compose;
-use super::{Failure, complain, files, friction, print, read_scene};
+use super::solution::pictures;
+use super::{Failure, complain, files, print, read_scene, refused, work_out};
 use carom::export::{exercise, moodle, numbas, stack};
 use carom::render::html;
 use carom::solution::Detail;
@@ -36,21 +36,17 @@ enum Platform {
 
 /// Runs `carom export`.
 pub fn run(args: &ExportArgs) -> Result<u8, Failure> {
-    let refused = |why: String| Failure::Input(format!("{}: {why}", args.scene.display()));
+    let refused = |why: String| refused(&args.scene, why);
     let sheet = open(&args.scene)?;
-    let scene = friction::settled(&args.scene, read_scene(&args.scene, &[])?)?;
-    let worked = compose(&args.scene, &scene, Detail::Normal)?;
-    if !worked.holds {
+    let worked = work_out(&args.scene, &read_scene(&args.scene, &[])?)?;
+    if !worked.holds() {
         return Err(refused(String::from(
             "the worked solution does not hold, and nothing is asked by it\nhint: `carom derive` tells what failed",
         )));
     }
-    let pictures: Vec<_> = worked
-        .pictures()
-        .iter()
-        .map(html::Picture::standalone)
-        .collect();
-    let solution = html::sections(&worked.solution, &pictures);
+    let pictures = pictures(&args.scene, &worked)?;
+    let pictures: Vec<_> = pictures.iter().map(html::Picture::standalone).collect();
+    let solution = html::sections(&worked.solution(Detail::Normal), &pictures);
     let exercise = exercise(&sheet, solution).map_err(refused)?;
     for left_out in &exercise.left_out {
         complain(&format!(

@@ -1,6 +1,6 @@
 //! Scenes with friction on the command line: the case they are in, and laws side by side for `carom compare`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
@@ -8,7 +8,7 @@ use super::{Failure, Format, files, pretty, print, read_scene};
 use carom::render::friction;
 use carom::scene::Scene;
 use carom::verify::compare::{NoComparison, compare};
-use carom::{command, numeric, plot, render};
+use carom::{numeric, plot, render};
 
 /// Arguments of `carom compare`.
 #[derive(Args)]
@@ -65,10 +65,4 @@ fn several(
         Format::Json => pretty(&render::several::json(scene, &all)),
     })?;
     Ok(0)
-}
-
-/// A scene whose contact with friction is in the case that its values pick or that it supposes.
-pub fn settled(path: &Path, scene: Scene) -> Result<Scene, Failure> {
-    let refused = |reason: String| Failure::Input(format!("{}: {reason}", path.display()));
-    command::settled(scene).map_err(refused)
 }

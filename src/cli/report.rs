@@ -63,7 +63,7 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
     let mut scenes = Vec::new();
     for path in &args.scenes {
         let scene = read_scene(path, &args.set)?;
-        let scene = impact_of(scene, path, args.stage.as_deref())?;
+        let scene = impact_of(&scene, path, args.stage.as_deref())?;
         scenes.push((path, scene));
     }
     let stop = Arc::new(AtomicBool::new(false));

@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use rayon::prelude::*;
 
-use super::solution::compose;
-use super::{Failure, collect, complain, files};
+use super::solution::pictures;
+use super::{Failure, collect, complain, files, refused, work_out};
 use carom::command;
 use carom::figure::{self, Which};
 use carom::render::{html, site};
 use carom::scene::{self, Scene};
 use carom::solution::Detail;
+use carom::verify::friction::settled;
 
 /// Arguments of `carom site`.
 #[derive(Args)]
@@ -101,16 +102,17 @@ fn page(args: &SiteArgs, path: &Path) -> Result<(site::Listed, bool), Failure> {
         .into_owned();
     let up = "../".repeat(below.components().count() - 1);
     let (above, file) = (site::above(&up), site::source(&name, &text));
-    let (html, sound) = match command::settled(scene.clone()) {
+    let (html, sound) = match settled(&scene) {
         Ok(settled) => {
-            let worked = compose(path, &settled, Detail::Normal)?;
-            let page = html::page_among(&worked.solution, &worked.pictures(), &above, &file);
-            (page, worked.holds)
+            let worked = work_out(path, &settled)?;
+            let solution = worked.solution(Detail::Normal);
+            let page = html::page_among(&solution, &pictures(path, &worked)?, &above, &file);
+            (page, worked.holds())
         }
         // Friction leaves several cases: all of them, as they are derived.
         Err(_) => {
-            let found = command::derive(&scene, command::Format::Text)
-                .map_err(|why| Failure::Input(format!("{}: {why}", path.display())))?;
+            let found =
+                command::derive(&scene, command::Format::Text).map_err(|why| refused(path, why))?;
             let page = site::printed(&scene.title, &found.text, &above, &file);
             (page, found.status == 0)
         }

@@ -1,16 +1,16 @@
 //! `carom solution` and `carom check`: the worked solution of a scene in any format, and the replay of its steps.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use clap::{Args, ValueEnum};
 
-use super::{Failure, files, pretty, print, read_scene_text};
-use carom::figure::{self, Chapter, Which};
+use super::{Failure, files, pretty, print, read_scene_text, refused, work_out};
+use carom::figure::{self, Which};
 use carom::render::html::Picture;
-use carom::solution::{self, Detail, Slot, Solution};
-use carom::{answer, check, derive, render, scene::Scene, story, verify};
+use carom::solution::{Detail, Slot};
+use carom::worked::{Found, Worked};
+use carom::{answer, check, render, scene::Scene};
 
 /// Arguments of `carom solution`.
 #[derive(Args)]
@@ -66,21 +66,18 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
     }
     let format = format(args)?;
     let (scene, text) = read_scene_text(&args.scene, &args.set)?;
-    let scene = super::friction::settled(&args.scene, scene)?;
     let detail = match args.detail {
         DetailArg::Brief => Detail::Brief,
         DetailArg::Normal => Detail::Normal,
         DetailArg::Full => Detail::Full,
     };
-    let worked = compose(&args.scene, &scene, detail)?;
-    let Worked {
-        solution,
-        holds,
-        drawn,
-    } = &worked;
-    let held = || worked.pictures();
+    let worked = work_out(&args.scene, &scene)?;
+    let solution = &worked.solution(detail);
+    let drawn = drawn(&args.scene, &worked)?;
+    let holds = worked.holds();
+    let held = || drawn.iter().map(|d| d.0.clone()).collect::<Vec<_>>();
     let linked = match (args.figures, &args.output) {
-        (true, Some(path)) if format == FormatArg::Markdown => link(path, &args.scene, drawn)?,
+        (true, Some(path)) if format == FormatArg::Markdown => link(path, &args.scene, &drawn)?,
         (true, _) if !matches!(format, FormatArg::Latex | FormatArg::LatexFragment) => {
             return Err(Failure::Input(String::from(
                 "--figures: this format links no files\nhint: markdown does; pages and LaTeX documents hold their figures",
@@ -99,78 +96,31 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
             let document = render::latex_document::document(solution, &held());
             let path = args.output.as_deref().unwrap_or(Path::new("solution.pdf"));
             files::save(path, &typeset(&document)?, &[&args.scene])?;
-            return Ok(u8::from(!*holds));
+            return Ok(u8::from(!holds));
         }
     };
     match &args.output {
         Some(path) => files::save(path, output.as_bytes(), &[&args.scene])?,
         None => print(&output)?,
     }
-    Ok(u8::from(!*holds))
+    Ok(u8::from(!holds))
 }
 
-/// A worked solution with its pictures.
-pub struct Worked {
-    /// The solution.
-    pub solution: Solution,
-    /// Whether every check holds.
-    pub holds: bool,
-    /// Each picture with a name for its file.
-    drawn: Vec<(Picture, String)>,
-}
-
-impl Worked {
-    /// The pictures.
-    pub fn pictures(&self) -> Vec<Picture> {
-        self.drawn
-            .iter()
-            .map(|(picture, _)| picture.clone())
-            .collect()
-    }
-}
-
-/// Works out the solution of a scene, stages and plots included.
-pub fn compose(path: &Path, scene: &Scene, detail: Detail) -> Result<Worked, Failure> {
-    let refused = |reason: String| Failure::Input(format!("{}: {reason}", path.display()));
-    let (solution, holds, mut drawn, plots) = if let Some(stages) = &scene.story {
-        let told = story::tell(scene, stages).map_err(|r| refused(r.to_string()))?;
-        let mut solution = solution::tell(scene, stages, &told, detail);
-        let refusals = told.refusals().into_iter().map(|why| format!("{why}."));
-        for refusal in refusals.chain(told.ended.iter().map(|why| format!("{why}."))) {
-            solution.begin_with(&refusal);
-        }
-        let graphs = answer::graphs(scene, &BTreeMap::new(), &told.answers);
-        let graphs = graphs.map_err(|r| refused(r.to_string()))?;
-        (
-            solution,
-            told.holds(),
-            stage_pictures(scene, &told),
-            plots(scene, &graphs)?,
-        )
-    } else {
-        let derivation = derive::derive(scene).map_err(|stop| refused(stop.to_string()))?;
-        let proof = verify::prove(scene, &derivation);
-        let special =
-            verify::special(scene, &derivation, &proof).map_err(|r| refused(r.to_string()))?;
-        let possible = verify::possible::judge(scene, &derivation);
-        let mut solution = solution::write(scene, &derivation, &proof, &special, detail);
-        if let Some(refusal) = possible.refusal() {
-            solution.begin_with(&format!("{refusal}."));
-        }
-        let holds = proof.holds()
-            && possible.holds()
-            && special.iter().all(answer::Answer::holds)
-            && !derivation.counting.contradictory;
-        let graphs = answer::graphs(scene, &derivation.known(), &special);
-        let graphs = graphs.map_err(|r| refused(r.to_string()))?;
-        (solution, holds, pictures(scene), plots(scene, &graphs)?)
+/// The pictures of a scene, stages and plots included, each with a name for its file.
+fn drawn(path: &Path, worked: &Worked) -> Result<Vec<(Picture, String)>, Failure> {
+    let graphs = worked.graphs().map_err(|why| refused(path, why))?;
+    let mut drawn = match &worked.found {
+        Found::Impact(_) => impact_pictures(&worked.scene),
+        Found::Stages(_) => stage_pictures(worked),
     };
-    drawn.extend(plots);
-    Ok(Worked {
-        solution,
-        holds,
-        drawn,
-    })
+    drawn.extend(plots(&worked.scene, &graphs)?);
+    Ok(drawn)
+}
+
+/// The pictures of a scene, stages and plots included.
+pub fn pictures(path: &Path, worked: &Worked) -> Result<Vec<Picture>, Failure> {
+    let drawn = drawn(path, worked)?.into_iter();
+    Ok(drawn.map(|(picture, _)| picture).collect())
 }
 
 /// The format that is asked for, or that the name of the output tells.
@@ -253,9 +203,9 @@ pub fn plots(scene: &Scene, graphs: &[answer::Graph]) -> Result<Vec<(Picture, St
 }
 
 /// The pictures of a story, by stage.
-fn stage_pictures(scene: &Scene, told: &story::Told) -> Vec<(Picture, String)> {
+fn stage_pictures(worked: &Worked) -> Vec<(Picture, String)> {
     let mut out = Vec::new();
-    for (i, (name, chapter)) in chapters(scene, told).iter().enumerate() {
+    for (i, (name, chapter)) in worked.chapters().iter().enumerate() {
         for (drawing, kind) in figure::chapter(name, chapter) {
             out.push((
                 picture(Slot::Stage(i), drawing),
@@ -266,24 +216,8 @@ fn stage_pictures(scene: &Scene, told: &story::Told) -> Vec<(Picture, String)> {
     out
 }
 
-/// What is to be drawn of every stage.
-pub fn chapters(scene: &Scene, told: &story::Told) -> Vec<(String, Chapter)> {
-    let each = told.stages.iter();
-    each.map(|t| {
-        let chapter = match story::impact(scene, told, Some(&t.placed.name)) {
-            Some(impact) => Chapter::Impact(impact),
-            None => {
-                let clockwise = story::is_clockwise(t);
-                Chapter::Motion(t.placed.scene.clone(), t.placed.kind.clone(), clockwise)
-            }
-        };
-        (t.name.clone(), chapter)
-    })
-    .collect()
-}
-
-/// The pictures of a scene, each with a name for its file.
-fn pictures(scene: &Scene) -> Vec<(Picture, String)> {
+/// The pictures of one impact, each with a name for its file.
+fn impact_pictures(scene: &Scene) -> Vec<(Picture, String)> {
     let mut out = Vec::new();
     for which in figure::kinds(scene) {
         let slot = match which {

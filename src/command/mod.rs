@@ -13,7 +13,8 @@ use crate::derive::friction::table;
 use crate::render::friction::Shown;
 use crate::render::{self, pretty};
 use crate::scene::{self, Scene, Story};
-use crate::{answer, derive, numeric, story, verify};
+use crate::worked::{self, Found};
+use crate::{answer, numeric, verify};
 
 pub use lines::{Lines, refuse};
 pub use read::read;
@@ -84,37 +85,17 @@ fn with_hint(message: &str, hint: Option<&str>) -> String {
 
 /// Derives the closed forms a scene asks for, and proves them.
 pub fn derive(scene: &Scene, format: Format) -> Result<Output, String> {
-    if let Some(stages) = &scene.story {
-        let told = story::tell(scene, stages).map_err(|reason| reason.to_string())?;
-        let text = match format {
-            Format::Text => render::story::text(scene, &told),
-            Format::Json => pretty(&render::story::json(scene, &told)),
-        };
-        return Ok(Output::new(text, told.holds()));
-    }
     if scene.friction().is_some() {
         return cases(scene, format);
     }
-    let derivation = derive::derive(scene).map_err(|stop| stop.to_string())?;
-    let proof = verify::prove(scene, &derivation);
-    let possible = verify::possible::judge(scene, &derivation);
-    let special =
-        verify::special(scene, &derivation, &proof).map_err(|reason| reason.to_string())?;
-    let text = match format {
-        Format::Text => render::text::derivation(scene, &derivation, &proof, &possible, &special),
-        Format::Json => pretty(&render::json::derivation(
-            scene,
-            &derivation,
-            &proof,
-            &possible,
-            &special,
-        )),
+    let worked = worked::out(scene)?;
+    let text = match (&worked.found, format) {
+        (Found::Impact(impact), Format::Text) => render::text::derivation(scene, impact),
+        (Found::Impact(impact), Format::Json) => pretty(&render::json::derivation(scene, impact)),
+        (Found::Stages(told), Format::Text) => render::story::text(scene, told),
+        (Found::Stages(told), Format::Json) => pretty(&render::story::json(scene, told)),
     };
-    let holds = proof.holds()
-        && possible.holds()
-        && special.iter().all(answer::Answer::holds)
-        && !derivation.counting.contradictory;
-    Ok(Output::new(text, holds))
+    Ok(Output::new(text, worked.holds()))
 }
 
 /// Derives every case that a scene with friction is about.
@@ -125,18 +106,8 @@ fn cases(scene: &Scene, format: Format) -> Result<Output, String> {
     let mut shown = Vec::new();
     for i in judged.pick.cases(&table) {
         let case = &table.cases[i];
-        let derivation = derive::derive(&case.scene).map_err(|stop| stop.to_string())?;
-        let proof = verify::prove(&case.scene, &derivation);
-        let possible = verify::possible::judge(&case.scene, &derivation);
-        let special =
-            verify::special(&case.scene, &derivation, &proof).map_err(|r| r.to_string())?;
-        shown.push(Shown {
-            case,
-            derivation,
-            proof,
-            possible,
-            special,
-        });
+        let impact = worked::impact(&case.scene)?;
+        shown.push(Shown { case, impact });
     }
     let about = answer::about(scene, &table.about, &BTreeMap::new())
         .map_err(|reason| reason.to_string())?;
@@ -147,18 +118,8 @@ fn cases(scene: &Scene, format: Format) -> Result<Output, String> {
     let holds = judged.supposed_holds != Some(false)
         && !shown.is_empty()
         && judged.checks.iter().all(|c| c.holds != Some(false))
-        && shown
-            .iter()
-            .all(|s| s.proof.holds() && s.special.iter().all(answer::Answer::holds));
+        && shown.iter().all(|s| s.impact.is_proved());
     Ok(Output::new(text, holds))
-}
-
-/// A scene whose contact with friction is in the case that its values pick or that it supposes.
-pub fn settled(scene: Scene) -> Result<Scene, String> {
-    if scene.friction().is_none() {
-        return Ok(scene);
-    }
-    Ok(verify::friction::settled(&scene)?.unwrap_or(scene))
 }
 
 /// Solves a scene in numbers, from its geometry alone; a scene with stages is followed from one to the next.

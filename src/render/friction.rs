@@ -6,7 +6,6 @@ use serde_json::{Value, json};
 
 use super::{digits, latex, unicode};
 use crate::answer::{Answer, Check, Form};
-use crate::derive::Derivation;
 use crate::derive::friction::{Bound, Case, Table};
 use crate::expr::Expr;
 use crate::formula::write_plain;
@@ -15,20 +14,14 @@ use crate::scene::{Friction, Hypothesis, Scene};
 use crate::verify::Proof;
 use crate::verify::compare::{Comparison, Outcome};
 use crate::verify::friction::{Judged, Pick};
-use crate::verify::possible::Possible;
+use crate::worked::Impact;
 
 /// A case with everything derived for it.
 pub struct Shown<'a> {
     /// The case.
     pub case: &'a Case,
     /// Its closed forms.
-    pub derivation: Derivation,
-    /// Their proof.
-    pub proof: Proof,
-    /// Whether the collision can happen.
-    pub possible: Possible,
-    /// What is asked about its answers.
-    pub special: Vec<Answer>,
+    pub impact: Impact,
 }
 
 /// The table for the terminal.
@@ -71,13 +64,7 @@ pub fn text(
             one.case.mode.words(),
             holds_where(scene, &table.law, one.case)
         ));
-        let full = super::text::derivation(
-            &one.case.scene,
-            &one.derivation,
-            &one.proof,
-            &one.possible,
-            &one.special,
-        );
+        let full = super::text::derivation(&one.case.scene, &one.impact);
         // The heading stands above already.
         let rest = full.split_once('\n').map_or("", |(_, rest)| rest);
         say(rest.trim_end());
@@ -93,19 +80,19 @@ pub fn text(
                 each.case.mode.words(),
                 holds_where(scene, &table.law, each.case)
             ));
-            for answer in &each.derivation.answers {
+            for answer in &each.impact.derivation.answers {
                 if let Form::Value { short, .. } = &answer.form {
                     say(&format!("  {} = {}", answer.name, unicode(scene, short)));
                 }
             }
-            for definition in &each.derivation.definitions {
+            for definition in &each.impact.derivation.definitions {
                 say(&format!(
                     "    with {} = {}",
                     definition.name,
                     unicode(scene, &definition.value)
                 ));
             }
-            say(&format!("  {}", proved(&each.proof)));
+            say(&format!("  {}", proved(&each.impact.proof)));
         }
         if !about.is_empty() {
             say("\nin every case:");
@@ -126,9 +113,8 @@ pub fn text(
 
 /// How far a case is proved: a check that was not decided is no proof.
 fn proved(proof: &Proof) -> String {
-    let all = proof.scene.iter().chain(proof.answers.iter().flatten());
     let words = |holds: Option<bool>| {
-        let some = all.clone().filter(|c| c.holds == holds);
+        let some = proof.checks().filter(|c| c.holds == holds);
         some.map(|c| c.words.as_str())
             .collect::<Vec<_>>()
             .join("; ")
@@ -266,13 +252,7 @@ pub fn json(scene: &Scene, table: &Table, judged: &Judged, shown: &[Shown]) -> V
     let cases: Vec<Value> = shown
         .iter()
         .map(|each| {
-            let mut value = super::json::derivation(
-                &each.case.scene,
-                &each.derivation,
-                &each.proof,
-                &each.possible,
-                &each.special,
-            );
+            let mut value = super::json::derivation(&each.case.scene, &each.impact);
             if let Value::Object(fields) = &mut value {
                 fields.insert("mode".into(), json!(each.case.mode.words()));
                 fields.insert("direction".into(), json!(each.case.direction));
@@ -322,7 +302,7 @@ pub fn json(scene: &Scene, table: &Table, judged: &Judged, shown: &[Shown]) -> V
         "jams": judged.at_values.as_ref().map(|v| v.jams),
         "cases": cases,
         "checks": judged.checks.iter().map(|c| json!({"kind": c.kind, "words": c.words, "holds": c.holds})).collect::<Vec<_>>(),
-        "verified": holds && shown.iter().all(|s| s.proof.holds() && s.special.iter().all(Answer::holds)),
+        "verified": holds && shown.iter().all(|s| s.impact.is_proved()),
     })
 }
 

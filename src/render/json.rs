@@ -9,17 +9,16 @@ use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, write_plain};
 use crate::laws;
 use crate::scene::Scene;
-use crate::verify::Proof;
-use crate::verify::possible::Possible;
+use crate::worked::Impact;
 
 /// Everything about a derivation and its proof.
-pub fn derivation(
-    scene: &Scene,
-    derivation: &Derivation,
-    proof: &Proof,
-    possible: &Possible,
-    special: &[Answer],
-) -> Value {
+pub fn derivation(scene: &Scene, impact: &Impact) -> Value {
+    let Impact {
+        derivation,
+        proof,
+        possible,
+        special,
+    } = impact;
     let counting = &derivation.counting;
     let mut answers: Vec<Value> = derivation
         .answers
@@ -58,7 +57,7 @@ pub fn derivation(
         "assumptions": super::assumptions(scene, derivation, proof),
         "checks": proof.scene.iter().map(check).collect::<Vec<_>>(),
         "admissible": super::possible::json(scene, possible),
-        "verified": proof.holds() && special.iter().all(Answer::holds),
+        "verified": impact.is_proved(),
     })
 }
 

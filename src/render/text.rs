@@ -3,23 +3,21 @@
 use std::fmt::Write;
 
 use super::unicode;
-use crate::answer::Answer;
 use crate::answer::Check;
 use crate::answer::{Form, Matrix};
 use crate::derive::Derivation;
 use crate::laws;
 use crate::scene::Scene;
-use crate::verify::Proof;
-use crate::verify::possible::Possible;
+use crate::worked::Impact;
 
 /// The whole derivation as plain text.
-pub fn derivation(
-    scene: &Scene,
-    d: &Derivation,
-    proof: &Proof,
-    possible: &Possible,
-    special: &[Answer],
-) -> String {
+pub fn derivation(scene: &Scene, impact: &Impact) -> String {
+    let Impact {
+        derivation: d,
+        proof,
+        possible,
+        special,
+    } = impact;
     let mut out = String::new();
     if let Some(refusal) = possible.refusal() {
         line(&mut out, "", &refusal);

@@ -11,14 +11,13 @@ use super::{
 use crate::answer::Answer;
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::Sentence;
-use crate::scene::{Ask, Scene, Stage, StageKind, Story};
+use crate::scene::{Ask, Scene, Stage, StageKind};
 use crate::story::{Case, StageTold, Told};
 
 /// Writes the solution of a story.
-pub fn tell(scene: &Scene, story: &Story, told: &Told, detail: Detail) -> Solution {
+pub fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
     let mut page = Page {
         scene,
-        story,
         told,
         solution: blank(scene, told, detail),
     };
@@ -70,7 +69,6 @@ fn blank(scene: &Scene, told: &Told, detail: Detail) -> Solution {
 /// A solution under way.
 struct Page<'a> {
     scene: &'a Scene,
-    story: &'a Story,
     told: &'a Told,
     solution: Solution,
 }
@@ -452,7 +450,7 @@ impl Page<'_> {
         let mut lines = Vec::new();
         let mut steps = Vec::new();
         let mut numbers = Vec::new();
-        for question in &self.story.questions {
+        for question in self.scene.story.iter().flat_map(|s| &s.questions) {
             if !question.ask.is_motion() {
                 continue;
             }
@@ -557,7 +555,7 @@ impl Page<'_> {
 
     /// What is asked beyond the motion.
     fn questions(&mut self) {
-        for question in &self.story.questions {
+        for question in self.scene.story.iter().flat_map(|s| &s.questions) {
             // What happens in a stage stands where the stage is told.
             if question.ask.is_motion() || matches!(question.ask, Ask::Assumed | Ask::Describe) {
                 continue;

@@ -16,7 +16,7 @@ mod worlds;
 
 use std::collections::BTreeMap;
 
-pub use sheet::{Unanswered, impact, impacts, is_clockwise, sheet, with_special};
+pub use sheet::{impact, impacts, is_clockwise, sheet, with_special};
 
 use crate::answer::{Answer, Check, Refused};
 use crate::derive::{Derivation, Stop};
@@ -271,15 +271,19 @@ impl Told {
 
     /// Whether no check failed, and no laws contradict each other.
     pub fn holds(&self) -> bool {
-        let stages = self.stages.iter();
-        let proofs = stages
-            .clone()
-            .flat_map(|s| &s.cases)
-            .all(|c| c.proof.holds() && c.possible.holds());
-        let checks = stages
-            .flat_map(|s| &s.checks)
-            .chain(self.answers.iter().flat_map(|a| &a.checks));
-        self.ended.is_empty() && proofs && checks.clone().all(|c| c.holds != Some(false))
+        let answers = self.answers.iter().flat_map(|a| &a.checks);
+        let mut checks = self.checks().chain(answers);
+        let mut cases = self.stages.iter().flat_map(|s| &s.cases);
+        self.ended.is_empty()
+            && cases.all(|c| c.possible.holds())
+            && checks.all(|c| c.holds != Some(false))
+    }
+
+    /// The checks of the stages.
+    pub fn checks(&self) -> impl Iterator<Item = &Check> {
+        let cases = self.stages.iter().flat_map(|s| &s.cases);
+        let proofs = cases.flat_map(|c| c.proof.checks());
+        proofs.chain(self.stages.iter().flat_map(|s| &s.checks))
     }
 }
 

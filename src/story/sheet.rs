@@ -5,7 +5,7 @@
 
 use super::{Case, StageTold, Told};
 use crate::answer::calc::sign;
-use crate::answer::{Answer, Form, Refused, about};
+use crate::answer::{Answer, Form};
 use crate::derive::{self, Derivation, Stop};
 use crate::expr::{Expr, cross, minus};
 use crate::scene::{Ask, EnergyWhen, Question, Scene, StageKind};
@@ -89,23 +89,19 @@ pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
 }
 
 /// A scene of one impact with its questions about answers among the others.
-pub fn with_special(mut scene: Scene) -> Result<(Scene, Derivation, Vec<Answer>), Unanswered> {
-    let mut derivation = derive::derive(&scene).map_err(Unanswered::Stopped)?;
-    let known = derivation.known();
-    let special = std::mem::take(&mut scene.special);
-    let answers = about(&scene, &special, &known).map_err(Unanswered::Refused)?;
+pub fn with_special(
+    mut scene: Scene,
+    mut derivation: Derivation,
+    special: &[Answer],
+) -> (Scene, Derivation) {
     derivation
         .answers
-        .extend(answers.iter().filter_map(flat_answer));
-    let asked = special.iter();
+        .extend(special.iter().filter_map(flat_answer));
+    let has_answer = |name: &str| derivation.answers.iter().any(|a| a.question == name);
+    let asked = scene.special.iter().filter(|q| has_answer(&q.name));
     let asked = asked.map(|q| Question::new(&q.name, q.latex.clone(), elsewhere()));
     scene.questions.extend(asked);
-    scene.special = special;
-    let has_answer = |q: &Question| derivation.answers.iter().any(|a| a.question == q.name);
-    scene
-        .questions
-        .retain(|q| has_answer(q) || !scene.special.iter().any(|s| s.name == q.name));
-    Ok((scene, derivation, answers))
+    (scene, derivation)
 }
 
 /// A question of another stage, or about formulas, has no meaning under changed laws; what was before hangs on no law and
@@ -114,24 +110,6 @@ fn elsewhere() -> Ask {
     Ask::Energy {
         when: EnergyWhen::Before,
         of: None,
-    }
-}
-
-/// Why a scene has no sheet.
-#[derive(Debug)]
-pub enum Unanswered {
-    /// The derivation stopped.
-    Stopped(Stop),
-    /// A question about answers was refused.
-    Refused(Refused),
-}
-
-impl std::fmt::Display for Unanswered {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Unanswered::Stopped(stop) => stop.fmt(f),
-            Unanswered::Refused(refused) => refused.fmt(f),
-        }
     }
 }
 

@@ -119,11 +119,11 @@ pub fn judge(scene: &Scene, table: &Table) -> Judged {
 }
 
 /// The scene in the one case that its values pick or that it supposes; the words say why there is none. A scene without
-/// friction has none to be settled.
-pub fn settled(scene: &Scene) -> Result<Option<Scene>, String> {
+/// friction is as it is.
+pub fn settled(scene: &Scene) -> Result<Scene, String> {
     let table = match crate::derive::friction::table(scene) {
         Ok(Some(table)) => table,
-        Ok(None) => return Ok(None),
+        Ok(None) => return Ok(scene.clone()),
         Err(stop) => return Err(stop.to_string()),
     };
     let judged = judge(scene, &table);
@@ -131,7 +131,7 @@ pub fn settled(scene: &Scene) -> Result<Option<Scene>, String> {
         return Err(failed.words.clone());
     }
     match judged.pick.cases(&table).as_slice() {
-        [one] => Ok(Some(table.cases[*one].scene.clone())),
+        [one] => Ok(table.cases[*one].scene.clone()),
         [] => Err(String::from(
             "what the scene supposes of its contact never happens",
         )),

@@ -49,10 +49,12 @@ pub struct Proof {
 impl Proof {
     /// Whether no check failed.
     pub fn holds(&self) -> bool {
-        self.scene
-            .iter()
-            .chain(self.answers.iter().flatten())
-            .all(|c| c.holds != Some(false))
+        self.checks().all(|c| c.holds != Some(false))
+    }
+
+    /// All checks.
+    pub fn checks(&self) -> impl Iterator<Item = &Check> {
+        self.scene.iter().chain(self.answers.iter().flatten())
     }
 }
 
@@ -90,8 +92,8 @@ pub enum Trust {
 
 /// How far the answers of a derivation can be trusted.
 pub fn trust(derivation: &Derivation, proof: &Proof) -> Trust {
-    let all = proof.scene.iter().chain(proof.answers.iter().flatten());
-    let failed: Vec<String> = all
+    let failed: Vec<String> = proof
+        .checks()
         .filter(|c| c.holds == Some(false))
         .map(|c| c.words.clone())
         .collect();
