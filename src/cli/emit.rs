@@ -56,6 +56,9 @@ pub fn run(args: &EmitArgs) -> Result<u8, Failure> {
     }
     let worked = work_out(&args.scene, &scene)?;
     let holds = worked.failed().is_empty();
+    for why in worked.refusals() {
+        complain(&format!("{name}: {why}"));
+    }
     let assumptions = worked.assumptions();
     let (scene, derivation) = worked.sheet().map_err(|why| refused(&args.scene, why))?;
     if !holds {
