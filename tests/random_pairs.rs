@@ -407,7 +407,7 @@ fn no_verdict_on_formulas_is_wrong_and_order_does_not_matter() {
         }
         if verdicts[0].verdict == Verdict::Undecided && cases() <= 5_000 {
             println!(
-                "undecided, case {case} ({known:?}): {a} | {b}: {}",
+                "undecided, case {case} ({known:?}): {a} | {b}: {}\n{domains:?}",
                 verdicts[0].proof.words
             );
         }

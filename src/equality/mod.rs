@@ -13,6 +13,7 @@ mod gap;
 mod line;
 mod measure;
 mod modular;
+mod pinned;
 mod proof;
 mod refute;
 
@@ -23,6 +24,7 @@ pub(crate) use line::zero_apart;
 use measure::Size;
 pub(crate) use measure::work;
 pub use modular::AtPoints;
+use pinned::Pin;
 use proof::Proof;
 use refute::{Probe, Tally};
 
@@ -242,6 +244,8 @@ struct Search<'a> {
     apart: bool,
     /// What roots and logarithms are taken of, where that may be negative.
     unsure: Vec<(Expr, bool)>,
+    /// Symbols whose only value these allow is an end of the domain.
+    pins: Vec<Pin>,
 }
 
 fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -> Equality {
@@ -266,6 +270,7 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
         tally: Tally::default(),
         apart: agree == Some(false),
         unsure: Vec::new(),
+        pins: Vec::new(),
     };
     if let Some(found) = search.before_proof() {
         return search.different(found);
@@ -324,6 +329,13 @@ impl Search<'_> {
                 return Some(found);
             }
         }
+        self.pins = pinned::pins(&self.needed(), self.domains);
+        if !self.pins.is_empty() {
+            let points = self.points_with(&self.pins, 8);
+            if let Some(found) = self.probe.points(&points, &mut self.tally) {
+                return Some(found);
+            }
+        }
         // A root may have its only values at closed ends.
         if self.tally.both_defined == 0 {
             let near = samples(self.roles, self.domains, FIRST);
@@ -374,22 +386,22 @@ impl Search<'_> {
             arcs::prove(a, b, domains)
         };
         arcs.or_else(|| constants::prove(a, b, domains))
-            .or_else(|| self.proof_where_defined())
-            // What is read first may decide how the other is written: neither order knows more than the other.
-            .or_else(|| match proof::compare(b, a, domains) {
-                turned @ Proof::Equal(..) => Some(turned),
-                _ => None,
-            })
+            .or_else(|| self.other_proofs().next())
             .unwrap_or(open)
     }
 
-    /// Both have values only where what they take roots of is not negative.
-    fn proof_where_defined(&self) -> Option<Proof> {
+    /// What must not be negative where both have values.
+    fn needed(&self) -> Vec<Expr> {
         let needed = self.unsure.iter().filter(|(_, needed)| *needed);
-        let needed: Vec<Expr> = needed.map(|(e, _)| e.clone()).collect();
-        // What is read first may decide how the other is written.
+        needed.map(|(e, _)| e.clone()).collect()
+    }
+
+    /// Proofs where both have values, and in either order: what is read first may decide how the other is written, and
+    /// neither order knows more than the other.
+    fn other_proofs(&self) -> impl Iterator<Item = Proof> {
         let orders = [(self.a, self.b), (self.b, self.a)];
-        orders.into_iter().find_map(|(a, b)| {
+        let needed = self.needed();
+        let where_defined = orders.into_iter().filter_map(move |(a, b)| {
             let (proof, used) = proof::compare_where_defined(a, b, self.domains, &needed)?;
             match proof {
                 Proof::Equal(mut assumed, ground) => {
@@ -398,21 +410,44 @@ impl Search<'_> {
                 }
                 _ => None,
             }
-        })
+        });
+        let pinned = (!self.pins.is_empty()).then_some(&self.pins).into_iter();
+        let pinned = pinned.filter_map(|pins| self.proof_with(pins));
+        let turned = std::iter::once_with(|| proof::compare(self.b, self.a, self.domains));
+        let found = |proof: &Proof| matches!(proof, Proof::Equal(..));
+        pinned.chain(where_defined).chain(turned).filter(found)
     }
 
     /// The verdict for a proved identity, once signs that were only seen are put to the test.
     fn equal(&mut self, assumptions: Vec<Assumption>, ground: Ground) -> Equality {
+        if let Some(known) = self.tested(assumptions, ground) {
+            return known;
+        }
+        // A sign may fail where the two have no values or agree all the same: that spoils one proof, not the others.
+        let others: Vec<Proof> = self.other_proofs().collect();
+        for proof in others {
+            if let Proof::Equal(assumptions, ground) = proof
+                && let Some(known) = self.tested(assumptions, ground)
+            {
+                return known;
+            }
+        }
+        self.undecided(Reason::NoPointApart)
+    }
+
+    /// The verdict of a proof, unless a sign that it took for granted fails.
+    fn tested(&mut self, assumptions: Vec<Assumption>, ground: Ground) -> Option<Equality> {
         let near = samples(self.roles, self.domains, FIRST + 2);
         match critical::tested(&assumptions, &near, self.domains, self.roles) {
             Ok(assumptions) => {
                 let pair = (self.a, self.b);
-                gap::same(pair, self.domains, assumptions, ground, &self.tally)
+                let known = gap::same(pair, self.domains, assumptions, ground, &self.tally);
+                Some(known)
             }
-            Err(points) => match self.probe.points(&points, &mut self.tally) {
-                Some(found) => self.different(found),
-                None => self.undecided(Reason::NoPointApart),
-            },
+            Err(points) => {
+                let found = self.probe.points(&points, &mut self.tally)?;
+                Some(self.different(found))
+            }
         }
     }
 

@@ -1,7 +1,7 @@
 //! Intervals with doubles as ends: fast, and right because every operation rounds outwards.
 //!
 //! IEEE 754 rounds +, −, ×, ÷ and √ to nearest, so one step outwards (`next_down`, `next_up`) encloses the exact result,
-//! overflow and underflow included. The other functions are taken from the dyadic series.
+//! overflow and underflow included; a sum or product known to be exact stays where it is. The other functions are taken from the dyadic series.
 
 use num_traits::Zero;
 
@@ -49,9 +49,32 @@ fn back(e: &Enclosure) -> Outcome<Interval> {
     Interval::of(e.low.to_f64(Round::Down), e.high.to_f64(Round::Up))
 }
 
-/// The product of two ends, where 0·∞ is the product of a zero and something finite but large.
-fn end(a: f64, b: f64) -> f64 {
-    if a == 0.0 || b == 0.0 { 0.0 } else { a * b }
+/// Bounds of a + b. The rounding error of a sum is a double, which Knuth's two-sum finds: a sum without one is kept, so that
+/// roots and arcs of what vanishes at the end of a domain have values there.
+fn sum(a: f64, b: f64) -> (f64, f64) {
+    let near = a + b;
+    let of_b = near - a;
+    let error = (a - (near - of_b)) + (b - of_b);
+    // Not a number where a sum overflows: then both ends step.
+    let low = if error >= 0.0 { near } else { near.next_down() };
+    let high = if error <= 0.0 { near } else { near.next_up() };
+    (low, high)
+}
+
+/// Bounds of a·b, where 0·∞ is the product of a zero and something finite but large. Factors that have 53 digits between
+/// them have an exact product.
+fn product(a: f64, b: f64) -> (f64, f64) {
+    let near = a * b;
+    let zeros_below = |x: f64| x.to_bits().trailing_zeros().min(52);
+    if a == 0.0 || b == 0.0 {
+        (0.0, 0.0)
+    } else if near.is_normal() && zeros_below(a) + zeros_below(b) >= 53 {
+        (near, near)
+    } else if near == 0.0 && (a > 0.0) == (b > 0.0) {
+        (0.0, 0f64.next_up())
+    } else {
+        (near.next_down(), near.next_up())
+    }
 }
 
 impl Certified for Interval {
@@ -87,40 +110,20 @@ impl Certified for Interval {
         })
     }
     fn plus(&self, other: &Self) -> Outcome<Self> {
-        // Adding an exact zero keeps the ends.
-        if other.low == 0.0 && other.high == 0.0 {
-            return Value(*self);
-        }
-        if self.low == 0.0 && self.high == 0.0 {
-            return Value(*other);
-        }
-        Interval::of(
-            (self.low + other.low).next_down(),
-            (self.high + other.high).next_up(),
-        )
+        Interval::of(sum(self.low, other.low).0, sum(self.high, other.high).1)
     }
     fn times(&self, other: &Self) -> Outcome<Self> {
         let ends = [
-            end(self.low, other.low),
-            end(self.low, other.high),
-            end(self.high, other.low),
-            end(self.high, other.high),
+            product(self.low, other.low),
+            product(self.low, other.high),
+            product(self.high, other.low),
+            product(self.high, other.high),
         ];
-        let low = ends.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        // A zero end is exact only if a factor is exactly zero there; a product that underflowed is not, so step anyway.
-        if (self.low == 0.0 && self.high == 0.0) || (other.low == 0.0 && other.high == 0.0) {
-            return Value(Interval {
-                low: 0.0,
-                high: 0.0,
-            });
-        }
-        let low = if low == 0.0 && self.low >= 0.0 && other.low >= 0.0 {
-            0.0
-        } else {
-            low.next_down()
-        };
-        Interval::of(low, high.next_up())
+        let low = ends.iter().fold(f64::INFINITY, |low, end| low.min(end.0));
+        let high = ends
+            .iter()
+            .fold(f64::NEG_INFINITY, |high, end| high.max(end.1));
+        Interval::of(low, high)
     }
     fn recip(&self) -> Outcome<Self> {
         if self.low > 0.0 || self.high < 0.0 {
@@ -135,10 +138,10 @@ impl Certified for Interval {
         if self.high < 0.0 {
             Undefined
         } else if self.low >= 0.0 {
-            let low = self.low.sqrt();
+            let (low, high) = (self.low.sqrt(), self.high.sqrt());
             Interval::of(
                 if low == 0.0 { 0.0 } else { low.next_down() },
-                self.high.sqrt().next_up(),
+                if high == 0.0 { 0.0 } else { high.next_up() },
             )
         } else {
             Unknown

@@ -210,3 +210,28 @@ fn numbers<T: Scalar>(
     }
     point
 }
+
+#[test]
+fn sums_and_products_of_short_numbers_are_exact_in_doubles() {
+    let value = |n: i64, d: i64| Interval::from_rational(&ratio(n, d));
+    let point = |x: f64| Outcome::Value(Interval { low: x, high: x });
+    assert_eq!(value(5, 2).plus(&value(-3, 2)), point(1.0));
+    assert_eq!(value(-1, 1).times(&value(3, 2)), point(-1.5));
+    assert_eq!(value(0, 1).sqrt(), point(0.0));
+    // One digit more than a double has.
+    let long = value((1 << 53) - 1, 1);
+    for sum in [long.plus(&value(1, 2)), long.times(&value(3, 1))] {
+        assert!(
+            matches!(sum, Outcome::Value(v) if v.low < v.high),
+            "{sum:?}"
+        );
+    }
+    let tiny = Interval {
+        low: 1e-200,
+        high: 1e-200,
+    };
+    let Outcome::Value(square) = tiny.times(&tiny) else {
+        panic!("a product has a value")
+    };
+    assert!(square.low == 0.0 && square.high > 0.0, "{square:?}");
+}
