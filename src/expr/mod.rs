@@ -15,6 +15,7 @@ use std::hash::{BuildHasher, Hash, Hasher};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::Arc;
 
+use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 use rustc_hash::FxBuildHasher;
 
@@ -252,10 +253,13 @@ impl Expr {
                 }
             }
             if let (Node::Power(inner, by), true) = (self.node(), power.is_integer()) {
-                // (x^a)^n = x^(a n) holds for every integer n wherever the left side is defined.
+                // (x^a)^n = x^(a n) for every integer n, unless the even root that forbids a negative x is lost.
                 if let Some(a) = by.as_number() {
                     let total = a * power;
-                    if !total.is_zero() {
+                    let lost = a.denom().is_even()
+                        && total.denom().is_odd()
+                        && inner.as_number().is_none_or(Signed::is_negative);
+                    if !total.is_zero() && !lost {
                         return inner.power(Expr::from(total));
                     }
                 }
@@ -634,6 +638,15 @@ mod tests {
     fn an_even_root_of_a_square_keeps_its_root() {
         let x = Expr::symbol("x");
         assert_ne!(x.powi(2).sqrt(), x);
+    }
+
+    #[test]
+    fn the_square_of_an_even_root_keeps_its_gap() {
+        let x = Expr::symbol("x");
+        assert_ne!(x.sqrt().powi(2), x);
+        assert_eq!(x.sqrt().powi(3), x.power(Expr::ratio(3, 2)));
+        assert_eq!(x.power(Expr::ratio(1, 3)).powi(3), x);
+        assert_eq!(Expr::from(2).sqrt().powi(2), Expr::from(2));
     }
 
     #[test]

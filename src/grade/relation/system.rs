@@ -3,15 +3,16 @@
 use super::super::compare::{Context, Finding};
 use super::super::{Apart, Diagnosis, Verdict};
 use super::cells::{self, Along};
-use super::solved::{rounded, solve_for, unknowns};
+use super::solved::{replaced, rounded, solve_for, unknowns};
 use super::{
     Normal, REALS, apart_at_points, link, over_reals, same_solutions, says_nothing, undecided,
 };
-use crate::domain::{Domains, roles, samples};
+use crate::domain::{Domain, Domains, Limit, roles, samples};
 use crate::equality::{self, Equality, How};
-use crate::expr::{Expr, Symbol};
-use crate::formula::Relation;
+use crate::expr::{Expr, Function, Node, Symbol, ratio};
+use crate::formula::{Relation, write_plain};
 use crate::interval::{Big, Outcome, evaluate};
+use num_traits::Zero;
 use std::collections::BTreeMap;
 
 /// The verdict on relations in one symbol, whose solutions are found.
@@ -138,8 +139,9 @@ pub(super) fn compare(
     }
     let equations = |system: &[Normal]| system.iter().all(|n| n.relation == Relation::Equal);
     if equations(expected) && equations(answer) {
-        let [lost, gained] = [(expected, answer), (answer, expected)]
-            .map(|(system, other)| fulfilled(system, other, domains));
+        let ([expected, answer], domains) = with_distances([expected, answer], domains);
+        let [lost, gained] = [(&expected, &answer), (&answer, &expected)]
+            .map(|(system, other)| fulfilled(system, other, &domains));
         match (lost, gained) {
             (Some(Ok(())), Some(Ok(()))) => {
                 return same_solutions("each system of equations, solved, fulfils the other");
@@ -177,6 +179,48 @@ fn matched(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Option<Find
     assumed.dedup();
     finding.assumed = assumed;
     Some(finding)
+}
+
+/// Two systems with a letter of their own, not negative, for every |k x + c| of a real x that they know no other way:
+/// each such number is the distance of some x, so that solutions are neither lost nor gained.
+fn with_distances(systems: [&[Normal]; 2], domains: &Domains) -> ([Vec<Normal>; 2], Domains) {
+    let mut systems = systems.map(<[Normal]>::to_vec);
+    let mut domains = domains.clone();
+    let mut bars: Vec<Expr> = Vec::new();
+    for n in systems.iter().flatten() {
+        n.difference.walk(&mut |part| {
+            if matches!(part.node(), Node::Call(Function::Abs, _)) && !bars.contains(part) {
+                bars.push(part.clone());
+            }
+        });
+    }
+    for bar in &bars {
+        let Node::Call(_, inside) = bar.node() else {
+            continue;
+        };
+        let letter: Symbol = write_plain(bar).into();
+        let put = |n: &Normal| Normal {
+            difference: replaced(&n.difference, bar, &Expr::symbol(&letter)),
+            relation: n.relation,
+        };
+        let without = systems
+            .each_ref()
+            .map(|s| s.iter().map(put).collect::<Vec<_>>());
+        let reaches_all = |name: &Symbol| {
+            let real = domains.symbols.get(name) == Some(&Domain::real());
+            let slope = inside.derivative(name);
+            let elsewhere = |n: &Normal| n.difference.symbols().contains(name);
+            real && !domains.unit_vectors.iter().flatten().any(|s| s == name)
+                && slope.as_number().is_some_and(|k| !k.is_zero())
+                && !without.iter().flatten().any(elsewhere)
+        };
+        if inside.symbols().iter().any(reaches_all) {
+            let low = Some(Limit::number(ratio(0, 1), false));
+            domains.symbols.insert(letter, Domain { low, high: None });
+            systems = without;
+        }
+    }
+    (systems, domains)
 }
 
 /// Where a point parts two systems.
