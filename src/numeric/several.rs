@@ -16,6 +16,8 @@ use super::{assemble, motion, solve_f64};
 
 /// Velocities below this share of the fastest are none.
 const REST: f64 = 1e-10;
+/// Shares of the energy below this are rounding.
+const ROUNDING: f64 = 1e-9;
 /// Most contacts: their subsets and orders are tried one by one.
 const MOST: usize = 8;
 /// Most contacts whose orders are all tried.
@@ -59,8 +61,18 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// Whether a contact would have to pull, or closes further.
+    /// Whether energy comes from nowhere.
+    pub fn gains_energy(&self) -> bool {
+        self.energy[1] > self.energy[0] * (1.0 + ROUNDING)
+    }
+
+    /// Whether every contact pushes, none closes further, and no energy is gained.
     pub fn is_possible(&self) -> bool {
+        !self.gains_energy() && self.pushes()
+    }
+
+    /// Whether every contact pushes and none closes further.
+    pub fn pushes(&self) -> bool {
         let small = |all: &[f64]| REST * all.iter().fold(0.0, |a: f64, v| a.max(v.abs()));
         let holds = |all: &[f64]| all.iter().all(|v| *v >= -small(all));
         holds(&self.impulses) && holds(&self.openings)

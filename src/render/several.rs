@@ -29,12 +29,11 @@ fn judged(candidate: &Candidate) -> String {
     let [before, after] = candidate.energy;
     let share = |energy: f64| digits(100.0 * energy / before);
     match () {
-        () if !candidate.is_possible() => {
-            String::from("not possible: a contact would have to pull")
-        }
-        () if after > before * (1.0 + 1e-9) => {
-            format!("gains {} % of the energy", share(after - before))
-        }
+        () if !candidate.pushes() => String::from("not possible: a contact would have to pull"),
+        () if candidate.gains_energy() => format!(
+            "not possible: gains {} % of the energy",
+            share(after - before)
+        ),
         () if after >= before * (1.0 - 1e-9) => String::from("keeps the energy"),
         () => format!("loses {} % of the energy", share(before - after)),
     }
@@ -45,7 +44,7 @@ fn verdict(all: &[Candidate]) -> &'static str {
     match all.iter().filter(|c| c.is_possible()).count() {
         0 | 1 => "Every law that is possible gives the same motion.",
         _ => {
-            "Rigid-body mechanics does not decide between these motions: that takes to know how the bodies yield where they touch."
+            "Rigid-body mechanics does not decide between these motions; how the bodies yield where they touch does."
         }
     }
 }
