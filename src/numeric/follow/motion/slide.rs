@@ -305,32 +305,24 @@ fn to_the_end(
                 false => Ok(run),
             }
         }
-        SlideEnd::Stops => {
-            if gains(&rate) && rate(start) > 0.0 {
-                return Err(course.never("nothing slows it down"));
-            }
-            let mut goal = Goal {
-                left: &|y| -rate(y),
-                rate: &|_| 1.0,
-                never: &mut |_, _| false,
-            };
-            mechanism
-                .until(start, &mut goal)
-                .map_err(stopped("nothing slows it down"))
-        }
-        SlideEnd::Rolls => {
+        SlideEnd::Stops | SlideEnd::Rolls => {
             let slip = |y: &[f64]| way * slipping(acting, units, y) / units.speed();
-            if gains(&slip) && slip(start) > 0.0 {
-                return Err(course.never("its slip grows"));
+            // What comes to nothing in the end.
+            let stops = matches!(slide.until, SlideEnd::Stops);
+            let wanes: &dyn Fn(&[f64]) -> f64 = if stops { &rate } else { &slip };
+            let never = match stops {
+                true => "nothing slows it down",
+                false => "its slip grows",
+            };
+            if gains(wanes) && wanes(start) > 0.0 {
+                return Err(course.never(never));
             }
             let mut goal = Goal {
-                left: &|y| -slip(y),
+                left: &|y| -wanes(y),
                 rate: &|_| 1.0,
                 never: &mut |_, _| false,
             };
-            mechanism
-                .until(start, &mut goal)
-                .map_err(stopped("its slip grows"))
+            mechanism.until(start, &mut goal).map_err(stopped(never))
         }
     }
 }

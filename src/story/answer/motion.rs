@@ -1,0 +1,320 @@
+//! What is asked of a motion: its end, how long and how far it went, places, angular momenta, the force of a fixed point.
+
+use crate::answer::calc::{is_zero, tidy};
+use crate::answer::{Answer, Check, Form, Refused};
+use crate::derive;
+use crate::dimension::Dimension;
+use crate::domain::Domains;
+use crate::expr::{Expr, Vector, cross, dot, minus};
+use crate::formula::{Sentence, sentence};
+use crate::scene::{Ask, EnergyWhen, Question, Scene, Stage, StageKind, Turn};
+use crate::story::motion as stage;
+use crate::story::{StageTold, State};
+
+/// The force of the fixed point on a turning body, as asked.
+pub(super) fn reaction(
+    question: &Question,
+    told: &StageTold,
+    along: &Vector,
+    at_end: bool,
+) -> Result<Answer, Refused> {
+    let when = if at_end { "end" } else { "beginning" };
+    let words = format!("force of the fixed point at the {when} of `{}`", told.name);
+    let mut out = Answer::blank(question, &question.name, words);
+    out.dimension = Dimension::new(1, 1, -2);
+    let StageKind::Turn(turn) = &told.placed.kind else {
+        return Ok(out);
+    };
+    let state = if at_end { &told.after } else { &told.before };
+    if let Some(why) = state.why_open(state.spin.iter().take(turn.body + 1).skip(turn.body)) {
+        out.text.push(sentence!["not determined: ", why]);
+        return Ok(out);
+    }
+    let (way, _) = stage::sense(&told.placed, &told.before.spin[turn.body], turn)?;
+    let value = bearing(&told.placed, told, turn, way, along, at_end)
+        .map_err(|stop| Refused::question(&question.name, format!("not calculated: {stop}"), ""))?;
+    if at_end {
+        out.assumptions = told.assumptions.clone();
+    }
+    out.form = Form::value(value);
+    Ok(out)
+}
+
+/// Gives an answer its value, and what that takes for granted.
+fn valued(answer: &mut Answer, value: &Expr, assumptions: &[Sentence]) {
+    answer.form = Form::value(value.clone());
+    answer.assumptions = assumptions.to_vec();
+}
+
+/// An answer that is a quantity of the whole motion, or why it has none.
+fn measured(
+    question: &Question,
+    told: &StageTold,
+    words: String,
+    dimension: Dimension,
+    (value, why): (&Option<Expr>, &str),
+) -> Answer {
+    let mut out = Answer::blank(question, &question.name, words);
+    out.dimension = dimension;
+    match value {
+        Some(value) => valued(&mut out, value, &told.assumptions),
+        None => out
+            .text
+            .push(Sentence::words(format!("not determined: {why}"))),
+    }
+    out
+}
+
+/// How long a motion lasts.
+pub(super) fn time(question: &Question, told: &StageTold) -> Answer {
+    let words = format!("time that `{}` takes", told.name);
+    let value = (&told.time, "it has no closed form");
+    measured(question, told, words, Dimension::new(0, 0, 1), value)
+}
+
+/// How far a motion along a line leads.
+pub(super) fn distance(question: &Question, told: &StageTold) -> Answer {
+    let words = format!("distance covered in `{}`", told.name);
+    let value = (&told.way, "where it leads is open");
+    measured(question, told, words, Dimension::new(0, 1, 0), value)
+}
+
+/// Where the center of mass of a body is at the beginning or end of a stage, along a direction.
+pub(super) fn position(
+    question: &Question,
+    suffix: &str,
+    told: &StageTold,
+    body: usize,
+    along: &Vector,
+    at_end: bool,
+) -> Result<Answer, Refused> {
+    let scene = &told.placed.scene;
+    let (state, when) = match at_end {
+        true => (&told.after, "end"),
+        false => (&told.before, "beginning"),
+    };
+    let words = format!(
+        "position of the center of mass of `{}` at the {when} of `{}`",
+        scene.bodies[body].name, told.name
+    );
+    let mut out = Answer::blank(question, &format!("{}{suffix}", question.name), words);
+    out.dimension = Dimension::new(0, 1, 0);
+    if let Some(why) = state.why_open(&state.center[body]) {
+        out.text.push(sentence!["not determined: ", why]);
+        return Ok(out);
+    }
+    let value = tidy(&dot(&state.center[body], along), &scene.domains)
+        .map_err(|stop| Refused::question(&question.name, format!("not calculated: {stop}"), ""))?;
+    let assumptions = if at_end {
+        told.assumptions.as_slice()
+    } else {
+        &[]
+    };
+    valued(&mut out, &value, assumptions);
+    Ok(out)
+}
+
+/// The angular momentum of a body about a point at the beginning or end of a stage.
+pub(super) fn angular_momentum(
+    scene: &Scene,
+    question: &Question,
+    told: &StageTold,
+    (body, about): (usize, &Vector),
+    at_end: bool,
+) -> Result<Answer, Refused> {
+    let state = if at_end { &told.after } else { &told.before };
+    let b = &scene.bodies[body];
+    let arm = minus(&state.center[body], about);
+    let h = &(&b.mass * &cross(&arm, &state.velocity[body])) + &(&b.inertia * &state.spin[body]);
+    let when = if at_end { "end" } else { "beginning" };
+    let words = format!(
+        "angular momentum of `{}` at the {when} of `{}`",
+        b.name, told.name
+    );
+    let mut out = Answer::blank(question, &question.name, words);
+    out.dimension = Dimension::new(1, 2, -1);
+    if let Some(why) = state.why_open([&h]) {
+        out.text.push(sentence!["not determined: ", why]);
+        return Ok(out);
+    }
+    let value = tidy(&h, &scene.domains)
+        .map_err(|stop| Refused::question(&question.name, format!("not calculated: {stop}"), ""))?;
+    out.checks.push(Check {
+        kind: "identity",
+        words: format!(
+            "r × m v + I ω of the motion told in `{}`: the difference is zero in the normal form",
+            told.name
+        ),
+        holds: is_zero(&(&h - &value), &scene.domains),
+    });
+    out.form = Form::value(value);
+    Ok(out)
+}
+
+/// Quantities at the end of a motion.
+pub(super) fn at_end(
+    scene: &Scene,
+    question: &Question,
+    told: &StageTold,
+) -> Result<Vec<Answer>, Refused> {
+    let domains = &scene.domains;
+    let refuse = |reason: &str| Refused::question(&question.name, reason, "");
+    let ask = told.placed.asked(question);
+    let what = match ask {
+        Ask::Spin { .. } => "angular velocity",
+        Ask::Velocity { .. } => "velocity of the center of mass",
+        Ask::Energy {
+            when: EnergyWhen::Lost,
+            ..
+        } => "kinetic energy lost",
+        _ => "kinetic energy",
+    };
+    let when = match &question.ask {
+        Ask::Energy { when, .. } => match when {
+            EnergyWhen::Before => "at the beginning",
+            EnergyWhen::After => "at the end",
+            EnergyWhen::Lost => "from the beginning to the end",
+        },
+        _ => "at the end",
+    };
+    let words = format!("{what}, {when} of `{}`", told.name);
+    let mut parts: Vec<(String, Expr)> = Vec::new();
+    match ask {
+        Ask::Spin { body, clockwise } => {
+            let w = &told.after.spin[*body];
+            parts.push((String::new(), if *clockwise { -w } else { w.clone() }));
+        }
+        Ask::Velocity {
+            body,
+            point: None,
+            along,
+        } => {
+            let v = &told.after.velocity[*body];
+            match along {
+                Some(along) => parts.push((String::new(), dot(v, along))),
+                None => parts.extend([
+                    ("_x".to_string(), v[0].clone()),
+                    ("_y".to_string(), v[1].clone()),
+                ]),
+            }
+        }
+        Ask::Velocity { .. } => {
+            return Err(refuse(
+                "at the end of a motion the velocity of the center of mass is known; a point of the body is elsewhere by then",
+            ));
+        }
+        Ask::Energy { when, of } => {
+            let whole = told.energy.as_ref().filter(|_| is_alone(told, *of));
+            let [before, after] = match whole {
+                Some(energy) => energy.clone(),
+                None => [&told.before, &told.after].map(|state| kinetic(scene, state, *of)),
+            };
+            parts.push((
+                String::new(),
+                match when {
+                    EnergyWhen::Before => before,
+                    EnergyWhen::After => after,
+                    EnergyWhen::Lost => before - after,
+                },
+            ));
+        }
+        _ => return Err(refuse("a motion transmits no impulse; ask it of an impact")),
+    }
+    let dimension = derive::dimension(ask);
+    let mut out = Vec::new();
+    for (suffix, value) in parts {
+        let mut a = Answer::blank(
+            question,
+            &format!("{}{suffix}", question.name),
+            words.clone(),
+        );
+        let value = tidy(&value, domains).map_err(|stop| refuse(&stop.to_string()))?;
+        a.checks.extend(told.checks.iter().cloned());
+        a.checks.extend(energy_check(told, domains));
+        a.form = Form::value(value);
+        a.dimension = dimension.clone();
+        if !matches!(ask, Ask::Energy { .. }) {
+            a.assumptions = told.assumptions.clone();
+        }
+        out.push(a);
+    }
+    Ok(out)
+}
+
+/// Whether the motion of a stage is all that moves of what is asked about.
+fn is_alone(told: &StageTold, of: Option<usize>) -> bool {
+    let moved = told.placed.kind.moved();
+    let scene = &told.placed.scene;
+    let rests = |b: usize| {
+        let mut parts = told.before.velocity[b].iter().chain([&told.before.spin[b]]);
+        parts.all(|c| is_zero(c, &scene.domains) == Some(true))
+    };
+    match of {
+        Some(body) => moved == [body],
+        None => (0..scene.bodies.len()).all(|b| moved.contains(&b) || rests(b)),
+    }
+}
+
+/// Kinetic energy of a body, or of all.
+fn kinetic(scene: &Scene, state: &State, of: Option<usize>) -> Expr {
+    let half = Expr::ratio(1, 2);
+    let moving = scene
+        .bodies
+        .iter()
+        .enumerate()
+        .filter(|(_, b)| !b.is_fixed());
+    let parts = moving
+        .filter(|(b, _)| of.is_none_or(|of| of == *b))
+        .map(|(b, body)| {
+            let v = &state.velocity[b];
+            let moves = &body.mass * &dot(v, v);
+            // A particle that goes round a point has an angular velocity, but no energy beyond that of its velocity.
+            let turns = &body.inertia * &state.spin[b].powi(2);
+            &half * &(&moves + &turns)
+        });
+    Expr::sum(parts)
+}
+
+/// The kinetic energy of the end, put together again from the motion at the end, where that came from a root.
+fn energy_check(told: &StageTold, domains: &Domains) -> Option<Check> {
+    let [_, end] = told.energy.as_ref()?;
+    let again = told.kinetic.as_ref()?;
+    Some(Check {
+        kind: "identity",
+        words: String::from(
+            "velocity and spin at the end give the energy at the beginning and the work",
+        ),
+        holds: is_zero(&(again - end), domains),
+    })
+}
+
+/// Force of the fixed point on a turning body along a direction: m a_G less the weight.
+fn bearing(
+    stage: &Stage,
+    told: &StageTold,
+    turn: &Turn,
+    way: i64,
+    along: &Vector,
+    at_end: bool,
+) -> Result<Expr, crate::algebra::Stop> {
+    let body = turn.lump(&stage.scene);
+    let inertia = stage::inertia_about(stage, turn);
+    let [r0, r1] = stage::arms(stage, turn, &told.before.spin[turn.body]);
+    let r = if at_end { &r1 } else { &r0 };
+    let square = match &told.energy {
+        Some([start, end]) => &(&Expr::from(2) * if at_end { end } else { start }) / &inertia,
+        None => Expr::zero(),
+    };
+    let zero = Expr::zero();
+    let g = turn.gravity.as_ref().unwrap_or(&zero);
+    // The moment counts in the sense of the rotation.
+    let applied = Expr::from(way) * turn.torque.clone().unwrap_or_else(Expr::zero);
+    let weight = &body.mass * g;
+    let angular = &(&applied - &(&weight * &r[0])) / &inertia;
+    let a = [
+        -(&(&angular * &r[1])) - &square * &r[0],
+        &angular * &r[0] - &square * &r[1],
+    ];
+    let force = [&body.mass * &a[0], &body.mass * &a[1] + &weight];
+    tidy(&dot(&force, along), &stage.scene.domains)
+}
