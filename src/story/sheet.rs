@@ -73,6 +73,11 @@ pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
         }
     }
     let asked = scene.story.iter().flat_map(|s| &s.questions);
+    // What is sought by a condition may stand in a student's lines as that condition.
+    let conditions = asked
+        .clone()
+        .filter(|q| matches!(q.ask, Ask::Condition { .. }));
+    flat.special = conditions.cloned().collect();
     flat.questions = asked
         .map(|q| {
             let own =

@@ -161,7 +161,8 @@ impl Desk<'_> {
         })
     }
 
-    /// Whether a line states the condition of a question: it is supposed from here on.
+    /// Whether a line states the condition of a question, as the scene does or in what the answers stand for: it is supposed
+    /// from here on.
     pub(super) fn is_condition(&mut self, links: &[Link]) -> bool {
         let [link] = links else { return false };
         let [one] = link.differences.as_slice() else {
@@ -171,7 +172,17 @@ impl Desk<'_> {
         let stated = self
             .conditions()
             .map(|(.., c)| c)
-            .find(|c| *c == one || *c == -&one);
+            .find(|c| *c == one || *c == -&one)
+            .or_else(|| {
+                // An equation for what is sought may come without the names of the scene: ½ m u² = μ m g d for s = d.
+                let mut sought = self
+                    .conditions()
+                    .filter(|(q, p, c)| self.brings_in(&one, (q, p, c)));
+                let found = sought.find(|(question, parameter, c)| {
+                    self.holds_where(link, (*question, *parameter, c))
+                });
+                found.map(|(.., c)| c)
+            });
         let found = stated.is_some();
         self.supposed.extend(stated);
         found
@@ -179,19 +190,50 @@ impl Desk<'_> {
 
     /// Whether an equality holds where a condition that was stated does: at the value it gives its parameter.
     fn follows_condition(&self, link: &Link) -> bool {
+        let mut conditions = self.conditions();
+        conditions.any(|(question, parameter, c)| {
+            self.supposed.contains(&c) && self.holds_where(link, (question, parameter, &c))
+        })
+    }
+
+    /// Whether an equality holds at the value that a condition gives its parameter.
+    fn holds_where(
+        &self,
+        link: &Link,
+        (question, parameter, condition): (&str, &Symbol, &Expr),
+    ) -> bool {
         let none = BTreeMap::new();
         let domains = &self.sheet.scene.domains;
-        let supposed = self
-            .conditions()
-            .filter(|(.., c)| self.supposed.contains(c));
-        let mut roots = supposed.filter_map(|(_, parameter, c)| {
-            let root = solve_for(&self.put_in(&c, &none), parameter, domains)?;
-            Some(BTreeMap::from([(parameter.clone(), root)]))
-        });
-        roots.any(|root| {
-            let there = link.differences.iter();
-            let there = there.map(|d| self.put_in(d, &none).substitute(&root));
-            self.all_zero(&there.collect::<Vec<_>>(), &none) == Some(true)
+        let answered = self.closed.get(question).cloned();
+        let found =
+            answered.or_else(|| solve_for(&self.put_in(condition, &none), parameter, domains));
+        let Some(root) = found else {
+            return false;
+        };
+        let root = BTreeMap::from([(parameter.clone(), root)]);
+        let there = link.differences.iter();
+        let there = there.map(|d| self.put_in(d, &none).substitute(&root));
+        self.all_zero(&there.collect::<Vec<_>>(), &none) == Some(true)
+    }
+
+    /// Whether a line speaks of data that come in by the condition alone, such as a given distance that an answer is to equal.
+    fn brings_in(
+        &self,
+        line: &Expr,
+        (question, parameter, condition): (&str, &Symbol, &Expr),
+    ) -> bool {
+        let elsewhere = |name: &Symbol| {
+            let mut others = self
+                .closed
+                .iter()
+                .filter(|(answer, _)| &***answer != question);
+            others.any(|(_, value)| value.symbols().contains(name))
+        };
+        let own = condition.symbols();
+        let mut own = own.iter().filter(|name| *name != parameter);
+        own.any(|name| {
+            let is_answer = self.closed.contains_key(name);
+            !is_answer && line.symbols().contains(name) && !elsewhere(name)
         })
     }
 
@@ -314,6 +356,8 @@ impl Desk<'_> {
         let verdict = match self.all_zero(&ends.differences, &none) {
             Some(true) => Verdict::Equivalent,
             _ if self.is_rounded(end, &ends, &none) => Verdict::Equivalent,
+            // What holds where a condition does is a step on the way to what the condition is for.
+            Some(false) if self.follows_condition(&ends) => return,
             Some(false) => Verdict::Different,
             None => Verdict::Undecided,
         };
