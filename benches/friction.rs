@@ -44,7 +44,7 @@ fn one_contact_in_doubles(bencher: divan::Bencher, law: &str) {
 fn rod() -> Scene {
     let text = std::fs::read_to_string("derivations/friction/rod-slides-into-floor.json");
     let mut scene = read(&text.expect("the scene")).expect("a scene");
-    scene.special.clear();
+    scene.questions.retain(|q| q.ask.is_motion());
     scene
 }
 

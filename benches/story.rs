@@ -32,15 +32,13 @@ fn scene(name: &str) -> Scene {
 #[divan::bench(args = SCENES)]
 fn telling(bencher: divan::Bencher, name: &str) {
     let scene = scene(name);
-    let stages = scene.story.as_ref().expect("stages");
-    bencher.bench(|| tell(divan::black_box(&scene), stages).is_ok_and(|t| t.holds()));
+    bencher.bench(|| tell(divan::black_box(&scene)).is_ok_and(|t| t.holds()));
 }
 
 #[divan::bench(args = SCENES)]
 fn writing(bencher: divan::Bencher, name: &str) {
     let scene = scene(name);
-    let stages = scene.story.as_ref().expect("stages");
-    let told = tell(&scene, stages).expect("a story that fits");
+    let told = tell(&scene).expect("a story that fits");
     bencher.bench(|| {
         let solution = solution::tell(&scene, &told, Detail::Normal);
         markdown::solution(&solution, &[]).len()

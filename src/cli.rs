@@ -315,7 +315,7 @@ fn impact_of(
     stage: Option<&str>,
 ) -> Result<scene::Scene, Failure> {
     let refused = |why: String| refused(path, why);
-    if scene.story.is_none() {
+    if !scene.has_stages() {
         return match stage {
             Some(name) => Err(refused(format!(
                 "no stage {name}: this scene is one impact"

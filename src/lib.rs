@@ -48,7 +48,7 @@
 //!
 //! | word | what it is |
 //! | --- | --- |
-//! | [`scene::Scene`] | bodies, contacts, hinges, what is known and what is asked; with [`scene::Story`] where it has stages |
+//! | [`scene::Scene`] | bodies, contacts, hinges, what is known and what is asked; and its stages, where it has any |
 //! | [`scene::Stage`] | one impact or one motion, with the scene as it is when the stage begins |
 //! | [`scene::Question`] | what is asked: of an impact, of a motion at the end of a stage, of other answers, or in words |
 //! | [`answer::Answer`] | the answer to it: a value, an equation, a matrix, a range of a parameter, words, or what leaves it open |

@@ -40,18 +40,17 @@ pub struct Impact {
     /// Whether the collision can happen.
     pub possible: Possible,
     /// What is asked about its answers.
-    pub special: Vec<Answer>,
+    pub about: Vec<Answer>,
 }
 
 /// Works a scene out; the words say why it cannot be.
 pub fn out(scene: &Scene) -> Result<Worked, String> {
     let scene = verify::friction::settled(scene)?;
-    let found = match &scene.story {
-        Some(stages) => {
-            let told = story::tell(&scene, stages).map_err(|reason| reason.to_string())?;
-            Found::Stages(Box::new(told))
-        }
-        None => Found::Impact(Box::new(impact(&scene)?)),
+    let found = if scene.has_stages() {
+        let told = story::tell(&scene).map_err(|reason| reason.to_string())?;
+        Found::Stages(Box::new(told))
+    } else {
+        Found::Impact(Box::new(impact(&scene)?))
     };
     Ok(Worked { scene, found })
 }
@@ -61,20 +60,20 @@ pub fn impact(scene: &Scene) -> Result<Impact, String> {
     let derivation = derive::derive(scene).map_err(|stop| stop.to_string())?;
     let proof = verify::prove(scene, &derivation);
     let possible = possible::judge(scene, &derivation);
-    let special =
-        verify::special(scene, &derivation, &proof).map_err(|reason| reason.to_string())?;
+    let about =
+        verify::about_answers(scene, &derivation, &proof).map_err(|reason| reason.to_string())?;
     Ok(Impact {
         derivation,
         proof,
         possible,
-        special,
+        about,
     })
 }
 
 impl Impact {
     /// Whether no check of an answer failed.
     pub fn is_proved(&self) -> bool {
-        self.proof.holds() && self.special.iter().all(Answer::holds)
+        self.proof.holds() && self.about.iter().all(Answer::holds)
     }
 }
 
@@ -143,7 +142,7 @@ impl Worked {
     /// The answers that carry their own checks: of stages all, of an impact those about its answers.
     pub fn asked(&self) -> &[Answer] {
         match &self.found {
-            Found::Impact(impact) => &impact.special,
+            Found::Impact(impact) => &impact.about,
             Found::Stages(told) => &told.answers,
         }
     }
@@ -161,7 +160,7 @@ impl Worked {
     pub fn solution(&self, detail: Detail) -> Solution {
         let scene = &self.scene;
         let mut solution = match &self.found {
-            Found::Impact(i) => solution::write(scene, &i.derivation, &i.proof, &i.special, detail),
+            Found::Impact(i) => solution::write(scene, &i.derivation, &i.proof, &i.about, detail),
             Found::Stages(told) => solution::tell(scene, told, detail),
         };
         for why in self.refusals() {
@@ -199,7 +198,12 @@ impl Worked {
     /// All answers as those of one scene with one derivation.
     pub fn sheet(self) -> Result<(Scene, Derivation), String> {
         match self.found {
-            Found::Impact(i) => Ok(story::with_special(self.scene, i.derivation, &i.special)),
+            Found::Impact(i) => {
+                let mut derivation = i.derivation;
+                let about = i.about.iter().filter_map(story::flat_answer);
+                derivation.answers.extend(about);
+                Ok((self.scene, derivation))
+            }
             Found::Stages(told) => {
                 story::sheet(&self.scene, &told).map_err(|stop| stop.to_string())
             }

@@ -27,7 +27,7 @@ fn shipped() -> Vec<String> {
             .with_extension("")
     };
     // Stories have a table and tests of their own.
-    let alone = |name: &String| scene(name).story.is_none();
+    let alone = |name: &String| !scene(name).has_stages();
     files
         .iter()
         .map(|p| name(p).display().to_string())

@@ -109,7 +109,7 @@ fn falsified(derivation: &Derivation, part: &str, change: &str) -> Vec<(String, 
 fn a_falsified_derivation_is_refused_by_the_check_that_is_for_it() {
     let mut refused: BTreeMap<String, usize> = BTreeMap::new();
     for (path, _, scene) in shipped() {
-        if scene.story.is_some() {
+        if scene.has_stages() {
             continue;
         }
         let derivation = derive(&scene).expect("a derivation");
@@ -155,7 +155,7 @@ const JOINED: &str = r#"{"title": "rod and bead", "parameters": {"m": {"unit": "
 fn a_falsified_body_is_refused_by_its_outline() {
     let mut refused: BTreeMap<String, usize> = BTreeMap::new();
     let joined = scene::read(JOINED).expect("a sound scene");
-    let single = shipped().into_iter().filter(|(_, _, s)| s.story.is_none());
+    let single = shipped().into_iter().filter(|(_, _, s)| !s.has_stages());
     let all = single.map(|(path, _, scene)| (path, scene));
     for (path, scene) in all.chain([(String::from("a club"), joined)]) {
         for row in rows("bodies") {

@@ -332,7 +332,7 @@ fn read_any_scene(cases: u64) {
         let derive = rng.below(100) == 0;
         let input = damaged.clone();
         let work = move || match scene::read(&damaged) {
-            Ok(scene) if derive && scene.story.is_none() && scene.bodies.len() < 5 => {
+            Ok(scene) if derive && !scene.has_stages() && scene.bodies.len() < 5 => {
                 let _ = carom::derive::derive(&scene);
             }
             Ok(_) => {}

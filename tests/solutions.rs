@@ -462,7 +462,7 @@ fn the_name_of_the_output_tells_the_format() {
 
 /// Every picture of a case, as its page and its document hold it.
 fn pictures(case: &Case) -> Vec<figure::Drawing> {
-    if case.scene.story.is_none() {
+    if !case.scene.has_stages() {
         return figure::all(&case.scene);
     }
     let chapters = case.worked.chapters();
@@ -586,7 +586,6 @@ fn no_solution_is_much_longer_than_the_books() {
         asked
             .questions
             .retain(|q| !beyond.contains(&q.name.as_str()));
-        asked.special.retain(|q| !beyond.contains(&q.name.as_str()));
         let found = length(&solved(&asked, Detail::Normal));
         let most = (number(words) * 3 / 2, number(lines) * 3 / 2);
         println!("{scene}: {found:?} of {most:?}");
@@ -601,7 +600,7 @@ fn no_solution_is_much_longer_than_the_books() {
 
 /// Scenes of one impact: their solutions are written by one writer.
 fn single() -> impl Iterator<Item = &'static Case> {
-    cases().iter().filter(|c| c.scene.story.is_none())
+    cases().iter().filter(|c| !c.scene.has_stages())
 }
 
 #[test]

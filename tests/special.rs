@@ -39,7 +39,7 @@ fn asked_where(relations: &str, questions: &str) -> Result<Vec<Answer>, String> 
     let scene = scene::read(&text).map_err(|faults| faults.render("scene", &text))?;
     let derivation = derive::derive(&scene).map_err(|stop| stop.to_string())?;
     let proof = verify::prove(&scene, &derivation);
-    verify::special(&scene, &derivation, &proof).map_err(|refused| refused.to_string())
+    verify::about_answers(&scene, &derivation, &proof).map_err(|refused| refused.to_string())
 }
 
 /// Everything an answer says, in one line.
@@ -116,7 +116,7 @@ fn book() -> (scene::Scene, String) {
 fn graphs(scene: &scene::Scene) -> Result<Vec<answer::Graph>, answer::Refused> {
     let derivation = derive::derive(scene).expect("a derivation");
     let proof = verify::prove(scene, &derivation);
-    let special = verify::special(scene, &derivation, &proof).expect("answers");
+    let special = verify::about_answers(scene, &derivation, &proof).expect("answers");
     answer::graphs(scene, &derivation.known(), &special)
 }
 

@@ -24,22 +24,20 @@ fn scene(name: &str) -> Scene {
 }
 
 fn told(scene: &Scene) -> Told {
-    let story = scene.story.as_ref().expect("a scene with stages");
-    tell(scene, story).unwrap_or_else(|reason| panic!("{}: {reason}", scene.title))
+    tell(scene).unwrap_or_else(|reason| panic!("{}: {reason}", scene.title))
 }
 
 fn shipped() -> Vec<String> {
     let files = shared::files("derivations/problems", "json");
     let stem = |path: &PathBuf| Some(path.file_stem()?.to_string_lossy().into_owned());
     let names = files.iter().filter_map(stem);
-    names.filter(|name| scene(name).story.is_some()).collect()
+    names.filter(|name| scene(name).has_stages()).collect()
 }
 
 #[test]
 fn the_second_way_finds_the_numbers_of_every_formula() {
     for name in shipped() {
         let scene = scene(&name);
-        let story = scene.story.as_ref().expect("stages");
         let told = told(&scene);
         let mut held = 0;
         for seed in 0..40 {
@@ -56,11 +54,11 @@ fn the_second_way_finds_the_numbers_of_every_formula() {
                     if conditions.any(|(_, e)| e.evaluate(&at).is_none_or(|v: f64| v < 0.0)) {
                         return false;
                     }
-                    stage = story.stages[i].from;
+                    stage = scene.stages[i].from;
                 }
                 true
             };
-            for question in story.questions.iter().filter(|q| is_told(q.stage)) {
+            for question in scene.questions.iter().filter(|q| is_told(q.stage)) {
                 let found = match follow::answer(&scene, &followed, question, &at) {
                     Ok(numeric::Answer::Scalar(v)) => vec![(question.name.clone(), v)],
                     Ok(numeric::Answer::Vector([x, y])) => vec![
@@ -84,7 +82,7 @@ fn the_second_way_finds_the_numbers_of_every_formula() {
                 }
             }
         }
-        let asks = story.questions.iter().any(|q| q.stage.is_some());
+        let asks = scene.questions.iter().any(|q| q.stage.is_some());
         assert!(held > 0 || !asks, "{name}: nothing was compared");
     }
 }
@@ -224,8 +222,7 @@ fn with(questions: &str) -> Result<Told, String> {
         }}"#
     );
     let scene = carom::scene::read(&text).map_err(|faults| faults.render("test", &text))?;
-    let story = scene.story.as_ref().expect("stages");
-    tell(&scene, story).map_err(|reason| reason.to_string())
+    tell(&scene).map_err(|reason| reason.to_string())
 }
 
 fn answer(questions: &str) -> carom::answer::Answer {
@@ -367,7 +364,7 @@ fn limits_are_found_by_value_by_powers_and_by_derivatives() {
 #[test]
 fn questions_about_formulas_need_no_stages() {
     let scene = scene("tipping-box");
-    let asks = scene.story.as_ref().expect("stages").questions.clone();
+    let asks = scene.questions.clone();
     let formulas: Vec<_> = asks.into_iter().filter(|q| q.stage.is_none()).collect();
     let found = told(&scene);
     let known = found
@@ -375,7 +372,7 @@ fn questions_about_formulas_need_no_stages() {
         .iter()
         .filter_map(|a| Some((a.name.as_str().into(), a.formula().cloned()?)))
         .collect();
-    let alone = carom::answer::about(&scene, &formulas, &known).expect("answers");
+    let alone = carom::answer::about(&scene, formulas.iter(), &known).expect("answers");
     let with_stages: Vec<_> = found
         .answers
         .iter()
@@ -421,8 +418,7 @@ fn driven(more: &str) -> Result<Told, String> {
         }}"#
     );
     let scene = carom::scene::read(&text).map_err(|faults| faults.render("test", &text))?;
-    let story = scene.story.as_ref().expect("stages");
-    tell(&scene, story).map_err(|reason| reason.to_string())
+    tell(&scene).map_err(|reason| reason.to_string())
 }
 
 #[test]
@@ -457,10 +453,9 @@ fn the_numbers_of_every_stage_are_printed() {
     for (name, value) in [("m", "2"), ("l", "3"), ("g", "10"), ("h", "2")] {
         carom::scene::set(&mut scene, name, value).expect("a value");
     }
-    let story = scene.story.as_ref().expect("stages");
     let at = follow::values(&scene).expect("every parameter has a value");
     let followed = numeric::follow(&scene, &at).expect("numbers");
-    let text = render::stages::text(&scene, story, &followed, &at);
+    let text = render::stages::text(&scene, &followed, &at);
     for line in [
         "fall (fall, 0.632456 s)",
         "  acrobat  before    1.5      2            0          0          0             0",
@@ -470,7 +465,7 @@ fn the_numbers_of_every_stage_are_printed() {
     ] {
         assert!(text.lines().any(|l| l == line), "{line}\nis not in\n{text}");
     }
-    let json = render::stages::json(&scene, story, &followed, &at);
+    let json = render::stages::json(&scene, &followed, &at);
     assert_eq!(json["stages"][2]["lost"], "never ends");
     assert_eq!(
         json["stages"][1]["bodies"][1]["after"]["spin"],

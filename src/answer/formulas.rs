@@ -17,7 +17,11 @@ use crate::scene::{Ask, Question, Scene};
 
 /// Answers questions about formulas alone, in their order; `known` holds the answers found before. A question about a stage is
 /// refused.
-pub fn about(scene: &Scene, questions: &[Question], known: &Known) -> Result<Vec<Answer>, Refused> {
+pub fn about<'a>(
+    scene: &Scene,
+    questions: impl Iterator<Item = &'a Question>,
+    known: &Known,
+) -> Result<Vec<Answer>, Refused> {
     let mut known = known.clone();
     let mut answers = Vec::new();
     for question in questions {

@@ -124,12 +124,11 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
         let mine = of(Some(&impact.name));
         replay(&impact.scene, &impact.meanings, &mine, &mut report);
     }
-    match &scene.story {
-        Some(_) => story::replay(&scene, &impacts, &meanings, &of(None), &mut report),
-        None => {
-            let mode = root["mode"].as_str();
-            replay_at(&scene, &meanings, &of(None), mode, &mut report);
-        }
+    if scene.has_stages() {
+        story::replay(&scene, &impacts, &meanings, &of(None), &mut report);
+    } else {
+        let mode = root["mode"].as_str();
+        replay_at(&scene, &meanings, &of(None), mode, &mut report);
     }
     for near in &claims.near {
         near::replay(&scene, near, &mut report);
@@ -187,13 +186,12 @@ fn meaning(scene: &Scene, value: &Value) -> Option<Meaning> {
         let clockwise = value["clockwise"] == true;
         return Some(Meaning::Asked(Ask::Spin { body, clockwise }, None));
     }
-    if let (Some(question), Some(story)) = (value["answer"].as_str(), &scene.story) {
-        let found = story.questions.iter().find(|q| q.name == question)?;
-        return (found.ask.is_motion()).then(|| Meaning::Staged(found.clone(), axis));
-    }
     if let Some(question) = value["answer"].as_str() {
-        let question = scene.questions.iter().find(|q| q.name == question)?;
-        return Some(Meaning::Asked(question.ask.clone(), axis));
+        let found = scene.questions.iter().find(|q| q.name == question)?;
+        return found.ask.is_motion().then(|| match found.stage {
+            Some(_) => Meaning::Staged(found.clone(), axis),
+            None => Meaning::Asked(found.ask.clone(), axis),
+        });
     }
     let place = value["impulse"].as_str()?;
     let on = body(&value["on"])?;

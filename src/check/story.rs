@@ -16,7 +16,7 @@ use crate::expr::{Expr, Point, Symbol};
 use crate::formula::{self, Symbols};
 use crate::numeric::follow::{self, BodyState, Component, Followed, Passed, What};
 use crate::numeric::{self, Answer};
-use crate::scene::{Contact, ContactLaw, OneSided, Parameter, Scene, StageKind, Story};
+use crate::scene::{Contact, ContactLaw, OneSided, Parameter, Scene, StageKind};
 
 /// Points looked at before a motion that does not get to its end is given up.
 const TRIES: u64 = 60;
@@ -41,20 +41,20 @@ pub(super) struct Impact {
 
 /// Reads the impacts of a solution.
 pub(super) fn impacts(scene: &Scene, value: &Value) -> Result<Vec<Impact>, Unusable> {
-    let Some(story) = &scene.story else {
+    if !scene.has_stages() {
         return Ok(Vec::new());
-    };
+    }
     let all = value.as_array().into_iter().flatten();
-    all.map(|v| impact(scene, story, v)).collect()
+    all.map(|v| impact(scene, v)).collect()
 }
 
-fn impact(scene: &Scene, story: &Story, value: &Value) -> Result<Impact, Unusable> {
+fn impact(scene: &Scene, value: &Value) -> Result<Impact, Unusable> {
     let name = value["name"].as_str().unwrap_or_default().to_string();
     let wrong = |what: &str| Unusable(format!("impact `{name}`: {what}"));
     let stage = value["stage"].as_str();
-    let index = (story.stages.iter()).position(|s| Some(s.name.as_str()) == stage);
+    let index = (scene.stages.iter()).position(|s| Some(s.name.as_str()) == stage);
     let index = index.ok_or_else(|| wrong("the scene has no such stage"))?;
-    let stage = &story.stages[index];
+    let stage = &scene.stages[index];
     let StageKind::Impact { one_sided, .. } = &stage.kind else {
         return Err(wrong("that stage is a motion"));
     };

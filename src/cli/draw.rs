@@ -53,7 +53,7 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
     if let Some(name) = &args.plot {
         return write(args, &plotted(args, &mut scene, name)?);
     }
-    if scene.story.is_some() {
+    if scene.has_stages() {
         let mut all = work_out(&args.scene, &scene)?.chapters();
         if let Some(name) = &args.stage {
             let names: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();

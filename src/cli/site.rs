@@ -153,8 +153,8 @@ fn address(path: &Path) -> String {
 
 /// The bodies before, small.
 fn thumbnail(scene: &Scene) -> String {
-    match &scene.story {
-        None => figure::draw(scene, Which::Before).svg,
-        Some(_) => String::new(),
+    match scene.has_stages() {
+        false => figure::draw(scene, Which::Before).svg,
+        true => String::new(),
     }
 }

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use crate::derive::friction::table;
 use crate::render::friction::Shown;
 use crate::render::{self, pretty};
-use crate::scene::{self, Scene, Story};
+use crate::scene::{self, Scene};
 use crate::worked::{self, Found};
 use crate::{answer, numeric, verify};
 
@@ -109,7 +109,7 @@ fn cases(scene: &Scene, format: Format) -> Result<Output, String> {
         let impact = worked::impact(&case.scene)?;
         shown.push(Shown { case, impact });
     }
-    let about = answer::about(scene, &table.about, &BTreeMap::new())
+    let about = answer::about(scene, table.about.iter(), &BTreeMap::new())
         .map_err(|reason| reason.to_string())?;
     let text = match format {
         Format::Text => render::friction::text(scene, &table, &judged, &shown, &about),
@@ -124,10 +124,10 @@ fn cases(scene: &Scene, format: Format) -> Result<Output, String> {
 
 /// Solves a scene in numbers, from its geometry alone; a scene with stages is followed from one to the next.
 pub fn solve(scene: &Scene, numbers: Numbers, format: Format) -> Result<Output, String> {
-    match &scene.story {
-        None => solve_impact(scene, numbers, format),
-        Some(story) if numbers == Numbers::Doubles => follow(scene, story, format),
-        Some(_) => Err(String::from(
+    match (scene.has_stages(), numbers) {
+        (false, _) => solve_impact(scene, numbers, format),
+        (true, Numbers::Doubles) => follow(scene, format),
+        (true, _) => Err(String::from(
             "a scene with stages is followed in doubles, for its motions are integrated\nhint: leave out --exact and --certify",
         )),
     }
@@ -197,12 +197,12 @@ fn no_value<T: AsRef<str>>(symbols: &[T]) -> String {
 }
 
 /// Follows a scene with stages in numbers; a stage that is lost does not hold.
-fn follow(scene: &Scene, story: &Story, format: Format) -> Result<Output, String> {
+fn follow(scene: &Scene, format: Format) -> Result<Output, String> {
     let point = numeric::follow::values(scene).map_err(|missing| no_value(&missing))?;
     let followed = numeric::follow(scene, &point).map_err(|undefined| undefined.to_string())?;
     let text = match format {
-        Format::Text => render::stages::text(scene, story, &followed, &point),
-        Format::Json => pretty(&render::stages::json(scene, story, &followed, &point)),
+        Format::Text => render::stages::text(scene, &followed, &point),
+        Format::Json => pretty(&render::stages::json(scene, &followed, &point)),
     };
     Ok(Output::new(text, followed.stages.iter().all(Result::is_ok)))
 }

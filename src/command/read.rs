@@ -21,7 +21,7 @@ pub fn read(formula: &str, sheet: Option<&Sheet>, format: Format) -> Result<Outp
             for g in &question.symbols {
                 symbols.declare_as(&g.name, g.latex.as_deref(), g.dimension.clone());
             }
-            for q in &sheet.scene.questions {
+            for q in sheet.answered() {
                 symbols.declare_as(&q.name, q.latex.as_deref(), None);
             }
             (symbols, question)

@@ -34,10 +34,9 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
 
 /// The quantity that is meant where none is named: the one question of a scene that has no more.
 pub fn only_quantity(sheet: &Sheet) -> Option<String> {
-    match sheet.scene.questions.as_slice() {
-        [one] => Some(one.name.clone()),
-        _ => None,
-    }
+    let mut answered = sheet.answered();
+    let one = answered.next()?;
+    answered.next().is_none().then(|| one.name.clone())
 }
 
 /// The scene in the one case of friction it is in. Where several are left, what is the same in all of them can still be
@@ -55,8 +54,7 @@ fn gradable(scene: Scene) -> Result<(Scene, Vec<String>), String> {
     }
     let note = format!("{why}\nwhat is the same in every case can be graded");
     let mut common = table.cases.swap_remove(0).scene;
-    common.questions.clear();
-    common.special = table.about;
+    common.questions = table.about;
     Ok((common, vec![note]))
 }
 

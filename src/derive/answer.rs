@@ -78,7 +78,7 @@ impl Work<'_> {
     pub(super) fn answers(&mut self, counting: &Counting) -> Result<Vec<Answer>, Stop> {
         let mut answers = Vec::new();
         let scene = self.scene;
-        for question in &scene.questions {
+        for question in scene.asked_of_impact() {
             self.answer(question, counting, &mut answers)?;
         }
         Ok(answers)
@@ -360,8 +360,7 @@ impl Work<'_> {
             )
         };
         self.scene
-            .questions
-            .iter()
+            .asked_of_impact()
             .filter(is_component)
             .map(|q| q.name.clone())
             .collect()
@@ -371,7 +370,7 @@ impl Work<'_> {
     /// suffice.
     fn velocity_in_components(&mut self, body: usize) -> Result<Vector, Stop> {
         let mut rows: Vec<(Vector, Expr)> = Vec::new();
-        for question in &self.scene.questions {
+        for question in self.scene.asked_of_impact() {
             if let Ask::Velocity {
                 body: b,
                 point: None,
@@ -436,8 +435,7 @@ impl Work<'_> {
         for name in rows {
             let question = self
                 .scene
-                .questions
-                .iter()
+                .asked_of_impact()
                 .find(|q| q.name == *name)
                 .map(|q| q.ask.clone());
             if let Some(Ask::Balance { system, along }) = question {

@@ -48,8 +48,7 @@ pub(super) fn shorten(
         let Some(question) = parts
             .work
             .scene
-            .questions
-            .iter()
+            .asked_of_impact()
             .find(|q| q.name == answer.question)
             .cloned()
         else {

@@ -143,11 +143,11 @@ pub fn table(scene: &Scene) -> Result<Option<Table>, Stop> {
             }
         }
     }
-    let special = thresholds(scene, &table, &mut forms)?;
+    let asked = thresholds(scene, &table, &mut forms)?;
     for case in &mut table.cases {
-        case.scene.special.clone_from(&special);
+        case.scene.questions.clone_from(&asked);
     }
-    table.about = of_parameters(scene, special);
+    table.about = of_parameters(scene, asked);
     Ok(Some(table))
 }
 
@@ -411,11 +411,11 @@ impl Forms {
 }
 
 /// The questions that need no answer of a case.
-fn of_parameters(scene: &Scene, special: Vec<Question>) -> Vec<Question> {
+fn of_parameters(scene: &Scene, asked: Vec<Question>) -> Vec<Question> {
     let mut known: BTreeSet<Symbol> = scene.parameters.iter().map(|p| p.name.clone()).collect();
     known.insert("pi".into());
     let mut out = Vec::new();
-    for question in special {
+    for question in asked {
         let formulas = question.ask.formulas();
         if !formulas.is_empty() && formulas.iter().all(|e| e.symbols().is_subset(&known)) {
             known.insert(question.name.as_str().into());
@@ -425,9 +425,9 @@ fn of_parameters(scene: &Scene, special: Vec<Question>) -> Vec<Question> {
     out
 }
 
-/// The questions about answers, with thresholds of friction as formulas.
+/// The questions, with thresholds of friction as formulas.
 fn thresholds(scene: &Scene, table: &Table, forms: &mut Forms) -> Result<Vec<Question>, Stop> {
-    let mut out = scene.special.clone();
+    let mut out = scene.questions.clone();
     for question in &mut out {
         if let Ask::Friction { event, .. } = question.ask {
             let formula = threshold(table, forms, event)?;
@@ -574,7 +574,6 @@ fn eliminated(scene: &Scene, contact: usize, [t, n]: [&Vector; 2]) -> Result<[Ex
         body.spin = Expr::zero();
     }
     probe.questions.clear();
-    probe.special.clear();
     let mut found = Vec::with_capacity(3);
     let Some((_, law)) = scene.friction() else {
         return Err(Stop::Limit(String::from("a contact without friction")));

@@ -28,7 +28,7 @@ pub(super) fn list(work: &Work<'_>, counting: &Counting, asked: usize) -> Vec<Le
     let blocks = &work.blocks[..asked];
     let used = |u: Unknown| blocks.iter().any(|b| b.unknowns.contains(&u));
     for (place, unknowns) in impulses(scene) {
-        let asked_for = scene.questions.iter().any(|q| asks_for(&q.ask, &unknowns));
+        let asked_for = scene.asked_of_impact().any(|q| asks_for(&q.ask, &unknowns));
         if unknowns.iter().any(|u| used(*u)) || asked_for || blocks.is_empty() {
             continue;
         }

@@ -185,7 +185,7 @@ pub fn derive(scene: &Scene) -> Result<Derivation, Stop> {
     if counting.contradictory {
         return work.without_answers(counting);
     }
-    for question in &scene.questions {
+    for question in scene.asked_of_impact() {
         let needed = work.unknowns_of(&question.ask)?;
         if needed.iter().all(|u| counting.is_unique(*u)) {
             stepwise(&mut work, |work| {

@@ -65,8 +65,7 @@ const AXES: [&str; 2] = ["x", "y"];
 /// The name a question gives to an unknown, if one asks for exactly it or its opposite.
 fn asked_name(scene: &Scene, unknown: Unknown) -> Option<(String, String)> {
     let (question, axis) = scene
-        .questions
-        .iter()
+        .asked_of_impact()
         .filter(|q| !q.hidden)
         .find_map(|q| Some((q, asks_for(scene, &q.ask, unknown)?.0)))?;
     let latex = question
@@ -84,8 +83,7 @@ fn asked_name(scene: &Scene, unknown: Unknown) -> Option<(String, String)> {
 
 fn asked_reversed(scene: &Scene, unknown: Unknown) -> bool {
     scene
-        .questions
-        .iter()
+        .asked_of_impact()
         .filter(|q| !q.hidden)
         .find_map(|q| asks_for(scene, &q.ask, unknown))
         .is_some_and(|(_, reversed)| reversed)

@@ -533,7 +533,7 @@ pub(super) fn formulas(scene: &Scene) -> Vec<Expr> {
         all.push(e.clone());
         Ok::<_, std::convert::Infallible>(e.clone())
     });
-    for question in &scene.questions {
+    for question in scene.asked_of_impact() {
         all.extend(question.ask.vectors().into_iter().flatten().cloned());
     }
     all

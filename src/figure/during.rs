@@ -346,7 +346,7 @@ impl Named {
 
 fn impulse_name(stage: &Stage, from: ImpulseAt, name: &str, directed: bool) -> Named {
     let scene = stage.scene;
-    for question in &scene.questions {
+    for question in scene.asked_of_impact() {
         if let Ask::Impulse {
             from: asked,
             on,

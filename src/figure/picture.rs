@@ -161,7 +161,7 @@ pub fn after(stage: &Stage, motion: &Motion<f64>) -> Sheet {
             turning(stage, &mut sheet, i, spin, spin_name(stage, i, spin));
         }
     }
-    for question in &scene.questions {
+    for question in scene.asked_of_impact() {
         let Ask::Velocity {
             body,
             point: Some((_, at)),
@@ -203,7 +203,7 @@ pub fn after(stage: &Stage, motion: &Motion<f64>) -> Sheet {
 
 /// Whether a question about a point of another body already shows this velocity here.
 fn asked_at(stage: &Stage, motion: &Motion<f64>, at: Pair, v: Pair) -> bool {
-    stage.scene.questions.iter().any(|question| {
+    stage.scene.asked_of_impact().any(|question| {
         let Ask::Velocity {
             body,
             point: Some((_, p)),

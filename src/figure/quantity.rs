@@ -41,7 +41,7 @@ fn plain_digit(c: char) -> char {
 }
 
 pub(super) fn velocity_name(stage: &Stage, body: usize) -> Label {
-    let asked = stage.scene.questions.iter().find(|q| match &q.ask {
+    let asked = stage.scene.asked_of_impact().find(|q| match &q.ask {
         Ask::Velocity {
             body: b,
             point: None,
@@ -64,7 +64,7 @@ pub(super) fn velocity_name(stage: &Stage, body: usize) -> Label {
 }
 
 pub(super) fn spin_name(stage: &Stage, body: usize, spin: f64) -> Label {
-    for question in &stage.scene.questions {
+    for question in stage.scene.asked_of_impact() {
         if let Ask::Spin { body: b, clockwise } = &question.ask
             && *b == body
         {

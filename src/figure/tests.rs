@@ -49,7 +49,7 @@ fn sheets(scene: &Scene) -> Vec<Sheet> {
 
 /// The motions of a story, each in both senses.
 fn motions(scene: &Scene) -> Vec<Chapter> {
-    let stages = scene.story.iter().flat_map(|s| &s.stages);
+    let stages = scene.stages.iter();
     stages
         .filter(|s| !matches!(s.kind, StageKind::Impact { .. }))
         .flat_map(|s| {
@@ -148,11 +148,11 @@ fn no_label_covers_another() {
 fn impacts() -> Vec<(String, Scene)> {
     let mut out = Vec::new();
     for (name, scene) in scenes() {
-        let stages = scene.story.iter().flat_map(|s| &s.stages);
+        let stages = scene.stages.iter();
         for stage in stages.filter(|s| matches!(s.kind, StageKind::Impact { .. })) {
             out.push((format!("{name}, {}", stage.name), stage.scene.clone()));
         }
-        if scene.story.is_none() {
+        if !scene.has_stages() {
             out.push((name, scene));
         }
     }

@@ -9,7 +9,7 @@ use crate::answer::{Answer, Form};
 use crate::derive::{self, Derivation};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Quantity, Reading, Relation};
-use crate::scene::{Ask, Print, Scene};
+use crate::scene::{self, Ask, Print, Scene};
 use crate::verify::printed::{Finding, UNEXPLAINED};
 
 /// A scene with its answers.
@@ -42,13 +42,23 @@ pub struct Entry {
     /// Name of the answer.
     pub name: String,
     /// What is asked.
-    pub ask: Ask,
+    pub question: scene::Question,
     /// Component along x (0) or y (1), where only one of a vector's is asked for.
     pub component: Option<usize>,
     /// What it is, in words.
     pub words: String,
     /// The key.
     pub key: Key,
+}
+
+impl Entry {
+    /// What is asked of the impact that beliefs are tried on; of another stage nothing is that they would change.
+    fn asked_of_impact(&self) -> &Ask {
+        match self.question.stage {
+            None => &self.question.ask,
+            Some(_) => &Ask::Describe,
+        }
+    }
 }
 
 /// Derives a scene's answers.
@@ -62,14 +72,16 @@ pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
 }
 
 impl Sheet {
+    /// The questions that have an answer.
+    pub fn answered(&self) -> impl Iterator<Item = &scene::Question> {
+        let answers = &self.derivation.answers;
+        let answered = |q: &&scene::Question| answers.iter().any(|a| a.question == q.name);
+        self.scene.questions.iter().filter(answered)
+    }
+
     /// Names of everything that can be asked, vectors before their components.
     pub fn quantities(&self) -> Vec<String> {
-        let mut names: Vec<String> = self
-            .scene
-            .questions
-            .iter()
-            .map(|q| q.name.clone())
-            .collect();
+        let mut names: Vec<String> = self.answered().map(|q| q.name.clone()).collect();
         for answer in &self.derivation.answers {
             if !names.contains(&answer.name) {
                 names.push(answer.name.clone());
@@ -150,7 +162,7 @@ impl Sheet {
                     let content = Content::Relations(sides, vec![Relation::Equal]);
                     return Ok(Entry {
                         name: name.to_string(),
-                        ask: question.ask.clone(),
+                        question: question.clone(),
                         component,
                         words: first.words.clone(),
                         key: key_of(content, &declared),
@@ -173,7 +185,7 @@ impl Sheet {
         };
         Ok(Entry {
             name: name.to_string(),
-            ask: question.ask.clone(),
+            question: question.clone(),
             component,
             words: first
                 .words
@@ -186,11 +198,11 @@ impl Sheet {
 
     /// Judges an answer for a quantity of the scene; a wrong one is held against the beliefs students have.
     pub fn judge(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
-        let sensed = in_words(&entry.ask, answer);
+        let sensed = in_words(&entry.question.ask, answer);
         let answer = sensed.as_deref().unwrap_or(answer);
         let along = super::read::answer(&entry.key, answer)
             .ok()
-            .and_then(|reading| about_z(&entry.ask, &reading));
+            .and_then(|reading| about_z(&entry.question.ask, &reading));
         let answer = along.as_deref().unwrap_or(answer);
         let mut grade = judge_against(&entry.key, answer, options);
         let Ok(reading) = super::read::answer(&entry.key, answer) else {
@@ -240,7 +252,7 @@ impl Sheet {
         }
         let written = Written {
             scene: &self.scene,
-            ask: &entry.ask,
+            ask: entry.asked_of_impact(),
             component: entry.component,
             values,
             rounding,
@@ -274,7 +286,7 @@ impl Sheet {
         };
         believed::answers(&Written {
             scene: &self.scene,
-            ask: &entry.ask,
+            ask: entry.asked_of_impact(),
             component: entry.component,
             values,
             rounding: None,

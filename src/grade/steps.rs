@@ -187,11 +187,8 @@ impl<'a> Desk<'a> {
         }
         for answer in &d.answers {
             if let Form::Value { closed: value, .. } = &answer.form {
-                let question = sheet
-                    .scene
-                    .questions
-                    .iter()
-                    .find(|q| q.name == answer.question);
+                let mut asked = sheet.scene.asked_of_impact();
+                let question = asked.find(|q| q.name == answer.question);
                 if question
                     .is_some_and(|q| matches!(q.ask, Ask::Velocity { .. } | Ask::Spin { .. }))
                 {
@@ -224,7 +221,7 @@ impl<'a> Desk<'a> {
     /// The final answers in the order of the questions; of a vector its components, where these stand alone.
     fn finals(&self) -> Vec<(String, Option<Final>)> {
         let mut out = Vec::new();
-        for q in &self.sheet.scene.questions {
+        for q in self.sheet.answered() {
             let parts: Vec<String> = [format!("{}_x", q.name), format!("{}_y", q.name)].into();
             let told = |name: &String| self.finals.contains_key(name);
             if told(&q.name) || !parts.iter().any(told) {

@@ -71,8 +71,7 @@ pub fn answers<T: Number + PartialOrd>(
     let solution = solve(&system).map_err(|c| NoAnswer::Contradiction(c.laws(&system)))?;
     let motion = motion(&given, &system, &solution);
     let numbers = scene
-        .questions
-        .iter()
+        .asked_of_impact()
         .map(|q| (q.name.clone(), answer(&q.ask, at, &given, &motion)));
     Ok(numbers
         .filter(|(_, a)| !matches!(a, Err(NoAnswer::NotANumber)))

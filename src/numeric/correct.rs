@@ -179,8 +179,7 @@ fn told<T: Number>(
         (*u, value)
     });
     let asked = scene
-        .questions
-        .iter()
+        .asked_of_impact()
         .filter(|q| !matches!(q.ask, Ask::Balance { .. } | Ask::Matrix { .. }));
     let answers = asked.map(|q| {
         let found = answer(&q.ask, at, numbers, &motion).map(|a| match a {

@@ -79,7 +79,7 @@ pub fn needed(scene: &Scene) -> Needed {
             vectors.extend([at, along]);
         }
     }
-    for question in &scene.questions {
+    for question in scene.asked_of_impact() {
         vectors.extend(question.ask.vectors());
     }
     for v in vectors {

@@ -17,7 +17,7 @@ pub fn derivation(scene: &Scene, impact: &Impact) -> Value {
         derivation,
         proof,
         possible,
-        special,
+        about,
     } = impact;
     let counting = &derivation.counting;
     let mut answers: Vec<Value> = derivation
@@ -31,7 +31,7 @@ pub fn derivation(scene: &Scene, impact: &Impact) -> Value {
         })
         .collect();
     // What is asked about these answers stands behind them.
-    answers.extend(special.iter().map(|a| super::story::answer(scene, &[], a)));
+    answers.extend(about.iter().map(|a| super::story::answer(scene, &[], a)));
     let used: usize = derivation.blocks.iter().map(|b| b.equations.len()).sum();
     json!({
         "title": scene.title,

@@ -11,7 +11,7 @@ use crate::numeric::follow::{
     answer,
 };
 use crate::numeric::given::Freedom;
-use crate::scene::{Scene, StageKind, Story};
+use crate::scene::{Scene, StageKind};
 
 /// Names of the components of a body's state, with their units.
 const COMPONENTS: [(&str, &str); 6] = [
@@ -24,9 +24,9 @@ const COMPONENTS: [(&str, &str); 6] = [
 ];
 
 /// The numbers of every stage, then the answers.
-pub fn text(scene: &Scene, story: &Story, followed: &Followed, at: &Point<f64>) -> String {
+pub fn text(scene: &Scene, followed: &Followed, at: &Point<f64>) -> String {
     let mut out = String::new();
-    for (stage, found) in story.stages.iter().zip(&followed.stages) {
+    for (stage, found) in scene.stages.iter().zip(&followed.stages) {
         let kind = kind(&stage.kind);
         let _ = match found {
             Ok(passed) => {
@@ -41,7 +41,7 @@ pub fn text(scene: &Scene, story: &Story, followed: &Followed, at: &Point<f64>) 
             Err(lost) => writeln!(out, "{} ({kind})\n  {lost}\n", stage.name),
         };
     }
-    for (name, unit, value) in answers(scene, story, followed, at) {
+    for (name, unit, value) in answers(scene, followed, at) {
         let _ = match value {
             Ok(value) => writeln!(out, "{name} = {} {unit}", super::double(value)),
             Err(reason) => writeln!(out, "{name}: {reason}"),
@@ -209,12 +209,11 @@ fn kind(kind: &StageKind) -> &'static str {
 /// Name, unit and value of every answer that is a number.
 fn answers(
     scene: &Scene,
-    story: &Story,
     followed: &Followed,
     at: &Point<f64>,
 ) -> Vec<(String, String, Result<f64, String>)> {
     let mut out = Vec::new();
-    for question in &story.questions {
+    for question in &scene.questions {
         let name = &question.name;
         let found = answer(scene, followed, question, at);
         let unit = crate::derive::dimension(&question.ask).si();
@@ -232,8 +231,8 @@ fn answers(
 }
 
 /// The same as data.
-pub fn json(scene: &Scene, story: &Story, followed: &Followed, at: &Point<f64>) -> Value {
-    let stages = story.stages.iter().zip(&followed.stages);
+pub fn json(scene: &Scene, followed: &Followed, at: &Point<f64>) -> Value {
+    let stages = scene.stages.iter().zip(&followed.stages);
     let stages: Vec<Value> = stages
         .map(|(stage, found)| {
             let mut out = Map::new();
@@ -249,7 +248,7 @@ pub fn json(scene: &Scene, story: &Story, followed: &Followed, at: &Point<f64>) 
             Value::Object(out)
         })
         .collect();
-    let answers = answers(scene, story, followed, at);
+    let answers = answers(scene, followed, at);
     let answers = answers.into_iter().map(|(name, unit, value)| match value {
         Ok(value) => json!({"name": name, "value": value, "unit": unit}),
         Err(reason) => json!({"name": name, "value": Value::Null, "unit": unit, "reason": reason}),

@@ -16,7 +16,7 @@ pub fn derivation(scene: &Scene, impact: &Impact) -> String {
         derivation: d,
         proof,
         possible,
-        special,
+        about,
     } = impact;
     let mut out = String::new();
     if let Some(refusal) = possible.refusal() {
@@ -122,9 +122,9 @@ pub fn derivation(scene: &Scene, impact: &Impact) -> String {
             check(&mut out, &format!("  {}: ", answer.name), c);
         }
     }
-    if !special.is_empty() {
+    if !about.is_empty() {
         line(&mut out, "\n", "asked about these answers:");
-        out.push_str(&super::story::answers(scene, special));
+        out.push_str(&super::story::answers(scene, about));
     }
     out
 }

@@ -98,7 +98,7 @@ pub struct Quantity {
 /// What a scene asks for, one entry a number.
 pub fn quantities(scene: &Scene) -> Vec<Quantity> {
     let mut out = Vec::new();
-    for q in &scene.questions {
+    for q in scene.asked_of_impact() {
         let is_motion = matches!(q.ask, Ask::Velocity { .. } | Ask::Spin { .. });
         let vector = match &q.ask {
             Ask::Velocity { along, .. } | Ask::Impulse { along, .. } => along.is_none(),
@@ -303,8 +303,7 @@ impl<'a> Prepared<'a> {
         let mut out = Vec::with_capacity(self.quantities.len());
         for q in self
             .scene
-            .questions
-            .iter()
+            .asked_of_impact()
             .filter(|q| !matches!(q.ask, Ask::Balance { .. } | Ask::Matrix { .. }))
         {
             match answer(&q.ask, at, numbers, motion).ok()? {

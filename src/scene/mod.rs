@@ -20,18 +20,17 @@ pub mod outline;
 mod parameters;
 mod place;
 mod place_file;
+mod plots;
 mod printed;
 mod proof;
-mod question;
 mod question_file;
+mod questions;
 mod record;
 mod relations;
 mod resolve;
-mod special;
 mod stage;
 mod stage_file;
 mod stages;
-mod told;
 pub mod touch;
 
 use crate::dimension::{self, Dimension};
@@ -45,7 +44,7 @@ pub use friction::{Condition, ContactSpace, Decided, Friction, FrictionEvent, Hy
 pub use geometry::direction;
 pub use printed::{Print, Printed};
 pub use stage::{
-    Fall, FallEnd, Lump, OneSided, Slide, SlideEnd, Stage, StageKind, Story, Turn, Until, Wind,
+    Fall, FallEnd, Lump, OneSided, Slide, SlideEnd, Stage, StageKind, Turn, Until, Wind,
 };
 
 /// Longest text of a scene file, in bytes.
@@ -176,20 +175,19 @@ pub struct Scene {
     pub after: Vec<Known>,
     /// Finite forces that act too; they have no impulse, and the solution says so.
     pub forces: Vec<Force>,
-    /// What is asked.
+    /// What is asked: of a scene with stages in the order of the file, of one impact first what is asked of its motion.
     pub questions: Vec<Question>,
-    /// What is asked about the answers to those: zeros, limits, forms for a small parameter, identities. Empty for a scene with
-    /// stages, whose [`Story`] holds all of its questions.
-    pub special: Vec<Question>,
     /// Curves to be drawn.
     pub plots: Vec<PlotAsk>,
     /// How it wants to be drawn.
     pub figure: Drawn,
     /// What a book prints about the scene.
     pub printed: Vec<Printed>,
-    /// Stages before and after collisions, where the scene tells them; hinges, contacts, blows and questions then stand
-    /// there.
-    pub story: Option<Box<Story>>,
+    /// Impacts and motions one after the other, in the order of the file, where the scene tells them; hinges, contacts and
+    /// blows then stand there. Empty for a scene of one impact.
+    pub stages: Vec<Stage>,
+    /// How an incomplete statement or a missing figure is read, in words.
+    pub readings: Vec<String>,
     /// Whether kinetic energy may be gained at the contacts: something is set free there that the scene does not tell.
     pub gains_energy: bool,
     /// What the reader noticed that is no fault, such as a parameter that nothing uses.
@@ -197,6 +195,23 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Whether it goes through stages, and is not one impact.
+    pub fn has_stages(&self) -> bool {
+        !self.stages.is_empty()
+    }
+
+    /// The questions about this impact: its motion, impulses, energy and equations.
+    pub fn asked_of_impact(&self) -> impl Iterator<Item = &Question> {
+        let impact = |q: &&Question| q.stage.is_none() && q.ask.is_motion();
+        self.questions.iter().filter(impact)
+    }
+
+    /// The questions about answers: values, zeros, limits, forms for a small parameter, identities.
+    pub fn asked_of_answers(&self) -> impl Iterator<Item = &Question> {
+        let answers = |q: &&Question| q.stage.is_none() && !q.ask.is_motion();
+        self.questions.iter().filter(answers)
+    }
+
     /// The contact with friction, by index, and its law.
     pub fn friction(&self) -> Option<(usize, &Friction)> {
         let mut contacts = self.contacts.iter().enumerate();

@@ -15,7 +15,7 @@ use super::geometry;
 use super::place::Place;
 use super::record::{Map, Text};
 use super::{
-    Blow, BlowImpulse, Body, Force, Hinge, NamedPoint, Scene, Shape, parameters, question, special,
+    Blow, BlowImpulse, Body, Force, Hinge, NamedPoint, Scene, Shape, parameters, plots, questions,
 };
 use crate::expr::{Expr, Vector, minus};
 
@@ -78,10 +78,10 @@ pub(super) fn resolve(file: &SceneFile, mut faults: Vec<Fault>) -> (Scene, Vec<F
     if resolver.faults.is_empty() && file.stages.is_some() {
         super::stages::resolve(&mut resolver, &mut scene);
     } else if resolver.faults.is_empty() {
-        special::resolve(&mut resolver, &mut scene);
+        questions::of_answers(&mut resolver, &mut scene);
     }
     if resolver.faults.is_empty() {
-        special::plots(&mut resolver, &mut scene);
+        plots::plots(&mut resolver, &mut scene);
     }
     let Resolver {
         symbols,
@@ -95,11 +95,7 @@ pub(super) fn resolve(file: &SceneFile, mut faults: Vec<Fault>) -> (Scene, Vec<F
         let unused = unused(&scene, |name| symbols.is_used(name));
         // Data that a problem gives in vain are no oversight where the scene asks for them.
         let asks = |q: &super::Question| matches!(q.ask, super::Ask::Unused(_));
-        if !scene
-            .story
-            .as_ref()
-            .is_some_and(|s| s.questions.iter().any(asks))
-        {
+        if !scene.questions.iter().any(asks) {
             scene.remarks.extend(unused);
         }
     }
@@ -244,7 +240,7 @@ impl<'f> Resolver<'f> {
             }
         }
         if file.stages.is_none() {
-            question::resolve(self, scene);
+            questions::of_impact(self, scene);
         }
     }
 

@@ -1,4 +1,4 @@
-//! A story: stages that hand the motion on. Types only.
+//! Stages that hand the motion on. Types only.
 //!
 //! Every stage carries a [`Scene`] with the bodies as they are when it begins. A stage that follows another does not know
 //! where that is: its formulas hold symbols for the places, [`Stage::places`], and each of the two ways puts in what it
@@ -8,17 +8,6 @@ use std::collections::BTreeMap;
 
 use super::{Ask, BlowImpulse, Contact, ContactLaw, KnownQuantity, Question, Scene};
 use crate::expr::{Expr, Symbol, Vector, dot, minus};
-
-/// The stages of a scene and its questions.
-#[derive(Clone, Debug, Default)]
-pub struct Story {
-    /// Stages in the order of the file.
-    pub stages: Vec<Stage>,
-    /// What is asked, in the order of the file.
-    pub questions: Vec<Question>,
-    /// How an incomplete statement or a missing figure is read, in words.
-    pub readings: Vec<String>,
-}
 
 /// One stage.
 #[derive(Clone, Debug)]

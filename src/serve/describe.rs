@@ -44,7 +44,7 @@ pub fn describe(text: &str, asked: &Asked) -> Result<Value, Wrong> {
     }
     let shown = figure::shown_at(&scene);
     let parameters = scene.parameters.iter();
-    let stages = scene.story.iter().flat_map(|s| &s.stages);
+    let stages = scene.stages.iter();
     let readings = asked.formulas.iter().map(|f| reading(&scene, f));
     let symbols = asked.symbols.iter();
     let outlines = figure::outlines(&scene).unwrap_or_default();

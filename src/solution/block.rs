@@ -144,7 +144,7 @@ impl Writer<'_> {
     /// Every block with the question that needs it, then what the question still asks.
     pub(super) fn blocks(&mut self) {
         let blocks = &self.d.blocks;
-        for question in &self.scene.questions {
+        for question in self.scene.asked_of_impact() {
             let mine: Vec<&Block> = blocks
                 .iter()
                 .filter(|b| b.asked_by.as_deref() == Some(question.name.as_str()))

@@ -267,12 +267,12 @@ pub struct Step {
     pub near: Vec<Near>,
 }
 
-/// Writes the solution of everything a scene asks; `special` holds the answers to what it asks about its answers.
+/// Writes the solution of everything a scene asks; `about` holds the answers to what it asks about its answers.
 pub fn write(
     scene: &Scene,
     derivation: &Derivation,
     proof: &Proof,
-    special: &[Answer],
+    about: &[Answer],
     detail: Detail,
 ) -> Solution {
     let mut writer = Writer::new(scene, derivation, proof, detail);
@@ -282,8 +282,8 @@ pub fn write(
     if detail == Detail::Brief {
         writer.checked();
     }
-    for question in &scene.special {
-        let of_it = special.iter().filter(|a| a.question == question.name);
+    for question in scene.asked_of_answers() {
+        let of_it = about.iter().filter(|a| a.question == question.name);
         let answers: Vec<Answer> = of_it.cloned().collect();
         answered(&mut writer.solution, scene, &question.ask, &answers);
     }
@@ -361,7 +361,7 @@ impl<'a> Writer<'a> {
                 .or_insert_with(|| Meaning::Answer(answer.question.clone(), axis));
         }
         // A vector has a name of its own beside those of its components.
-        for question in &scene.questions {
+        for question in scene.asked_of_impact() {
             if let Some(latex) = question
                 .latex
                 .as_deref()

@@ -91,7 +91,7 @@ impl Writer<'_> {
                 }
             )
         };
-        let asked = self.scene.questions.iter().find(|q| is_lost(&q.ask));
+        let asked = self.scene.asked_of_impact().find(|q| is_lost(&q.ask));
         let answered = self
             .closed()
             .into_iter()
@@ -177,8 +177,7 @@ impl Writer<'_> {
         for (answer, closed) in self.closed() {
             let question = self
                 .scene
-                .questions
-                .iter()
+                .asked_of_impact()
                 .find(|q| q.name == answer.question);
             let Some(Ask::Spin { body, clockwise }) = question.map(|q| q.ask.clone()) else {
                 continue;

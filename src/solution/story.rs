@@ -450,7 +450,7 @@ impl Page<'_> {
         let mut lines = Vec::new();
         let mut steps = Vec::new();
         let mut numbers = Vec::new();
-        for question in self.scene.story.iter().flat_map(|s| &s.questions) {
+        for question in self.scene.questions.iter() {
             if !question.ask.is_motion() {
                 continue;
             }
@@ -555,7 +555,7 @@ impl Page<'_> {
 
     /// What is asked beyond the motion.
     fn questions(&mut self) {
-        for question in self.scene.story.iter().flat_map(|s| &s.questions) {
+        for question in self.scene.questions.iter() {
             // What happens in a stage stands where the stage is told.
             if question.ask.is_motion() || matches!(question.ask, Ask::Assumed | Ask::Describe) {
                 continue;

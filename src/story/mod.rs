@@ -1,6 +1,6 @@
 //! Tells a scene with stages: works out each stage from the end of the one before it, then answers the questions.
 //!
-//! In: a [`Scene`] with a [`Story`]. Out: [`Told`], the stages with what each conserves and why, and the answers with how
+//! In: a [`Scene`] with stages. Out: [`Told`], the stages with what each conserves and why, and the answers with how
 //! each is known; or [`Refused`], the reason why the stages do not fit. Impacts are derived and proved by
 //! [`crate::derive`] and [`crate::verify`]; motions follow from work and energy, and are integrated apart from that.
 
@@ -16,14 +16,14 @@ mod worlds;
 
 use std::collections::BTreeMap;
 
-pub use sheet::{impact, impacts, is_clockwise, sheet, with_special};
+pub use sheet::{flat_answer, impact, impacts, is_clockwise, sheet};
 
 use crate::answer::{Answer, Check, Refused};
 use crate::derive::{Derivation, Stop};
 use crate::domain::Domain;
 use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::Sentence;
-use crate::scene::{Ask, ContactLaw, Scene, Stage, StageKind, Story};
+use crate::scene::{Ask, ContactLaw, Scene, Stage, StageKind};
 use crate::verify::Proof;
 use crate::verify::possible::Possible;
 
@@ -301,11 +301,11 @@ impl Refused {
 const BRANCHES: usize = 32;
 
 /// Tells the story of a scene. Where an impact has several outcomes, what follows it is told for each.
-pub fn tell(scene: &Scene, story: &Story) -> Result<Told, Refused> {
+pub fn tell(scene: &Scene) -> Result<Told, Refused> {
     let mut stages: Vec<StageTold> = Vec::new();
     let mut told_as: Vec<Vec<usize>> = Vec::new();
     let mut ended = Vec::new();
-    for stage in &story.stages {
+    for stage in &scene.stages {
         let mut mine = Vec::new();
         for (branch, before, given) in beginnings(stage, &stages, &told_as) {
             let mut placed = stage.placed(&before.places(stage));
@@ -316,7 +316,7 @@ pub fn tell(scene: &Scene, story: &Story) -> Result<Told, Refused> {
                     .symbols
                     .insert(open.clone(), Domain::real());
             }
-            let mut told = match one(story, &stages, &placed, before) {
+            let mut told = match one(scene, &stages, &placed, before) {
                 Ok(told) => told,
                 Err(why) if why.contradicts => {
                     ended.push(why);
@@ -343,7 +343,7 @@ pub fn tell(scene: &Scene, story: &Story) -> Result<Told, Refused> {
         }
         told_as.push(mine);
     }
-    let mut told = answer::all(scene, story, stages)?;
+    let mut told = answer::all(scene, stages)?;
     told.ended = ended;
     Ok(told)
 }
@@ -374,7 +374,7 @@ fn beginnings(stage: &Stage, stages: &[StageTold], told_as: &[Vec<usize>]) -> Ve
 
 /// One stage, from a state.
 fn one(
-    story: &Story,
+    scene: &Scene,
     stages: &[StageTold],
     stage: &Stage,
     before: State,
@@ -383,14 +383,14 @@ fn one(
         if let Some(open) = motion::open(stage, before.clone()) {
             return Ok(open);
         }
-        left_behind(story, stage)?;
+        left_behind(scene, stage)?;
     }
     match &stage.kind {
         StageKind::Impact {
             one_sided,
             supposed,
         } => {
-            let named = named(story, stages);
+            let named = named(scene, stages);
             impact::tell(stage, before, one_sided, supposed.as_deref(), &named)
         }
         StageKind::Turn(turn) => motion::turn(stage, before, turn),
@@ -401,10 +401,10 @@ fn one(
 }
 
 /// What has been joined to a body in the last impact moves along with it.
-fn left_behind(story: &Story, stage: &Stage) -> Result<(), Refused> {
+fn left_behind(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
     let moved = stage.kind.moved();
     let mut from = stage.from;
-    while let Some(before) = from.map(|j| &story.stages[j]) {
+    while let Some(before) = from.map(|j| &scene.stages[j]) {
         if let StageKind::Impact { .. } = before.kind {
             let sticking = before.scene.contacts.iter();
             let sticking = sticking.filter(|c| matches!(c.law, ContactLaw::Sticking));
@@ -440,13 +440,13 @@ fn left_behind(story: &Story, stage: &Stage) -> Result<(), Refused> {
 }
 
 /// Speeds and spins at the end of motions that have the name of a question, for the impacts after them to go on with.
-fn named(story: &Story, stages: &[StageTold]) -> Vec<(Symbol, Expr)> {
+fn named(scene: &Scene, stages: &[StageTold]) -> Vec<(Symbol, Expr)> {
     let mut out = Vec::new();
-    for question in &story.questions {
+    for question in &scene.questions {
         let Some(stage) = question.stage else {
             continue;
         };
-        let name = &story.stages[stage].name;
+        let name = &scene.stages[stage].name;
         let is_it = |s: &&StageTold| s.placed.name == *name && s.cases.is_empty();
         let Some(told) = stages.iter().find(is_it) else {
             continue;

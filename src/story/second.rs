@@ -15,7 +15,7 @@ use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::formula::Relation;
 use crate::numeric::Answer as Found;
 use crate::numeric::follow::{self, BodyState, Component, Followed, Lost, Passed, What};
-use crate::scene::{Ask, Question, Scene, Story};
+use crate::scene::{Ask, Question, Scene};
 
 /// Points at which each way through the cases is followed.
 const POINTS: usize = 2;
@@ -29,7 +29,6 @@ const ASIDE: f64 = 1e-3;
 /// A scene followed at some points.
 pub(super) struct Second<'a> {
     scene: &'a Scene,
-    story: &'a Story,
     points: Vec<Seen>,
     /// Why points were given up.
     lost: Vec<Lost>,
@@ -53,15 +52,9 @@ struct Units {
 }
 
 /// Follows a scene at points of its domain.
-pub(super) fn look<'a>(
-    scene: &'a Scene,
-    story: &'a Story,
-    worlds: &[World],
-    stages: &[StageTold],
-) -> Second<'a> {
+pub(super) fn look<'a>(scene: &'a Scene, worlds: &[World], stages: &[StageTold]) -> Second<'a> {
     let mut out = Second {
         scene,
-        story,
         points: Vec::new(),
         lost: Vec::new(),
     };
@@ -74,7 +67,7 @@ pub(super) fn look<'a>(
         if let Some(Err(lost)) = followed.stages.iter().find(|s| s.is_err()) {
             out.lost.push(lost.clone());
         }
-        let Some(world) = world_of(story, worlds, stages, &followed, &point) else {
+        let Some(world) = world_of(scene, worlds, stages, &followed, &point) else {
             continue;
         };
         if out.points.iter().filter(|s| s.world == world).count() < POINTS {
@@ -96,7 +89,7 @@ pub(super) fn look<'a>(
 /// The way through the cases that the second way takes by itself; `None` where it does not get to its end or lies on a
 /// boundary.
 fn world_of(
-    story: &Story,
+    scene: &Scene,
     worlds: &[World],
     stages: &[StageTold],
     followed: &Followed,
@@ -109,7 +102,7 @@ fn world_of(
             if told.needs.iter().any(fails) {
                 return false;
             }
-            let passed = passed(story, followed, told);
+            let passed = passed(scene, followed, told);
             let Some(case) = told.cases.get(*k) else {
                 return passed.is_some();
             };
@@ -131,8 +124,8 @@ fn world_of(
     worlds.iter().position(fits)
 }
 
-fn passed<'f>(story: &Story, followed: &'f Followed, told: &StageTold) -> Option<&'f Passed> {
-    let index = story
+fn passed<'f>(scene: &Scene, followed: &'f Followed, told: &StageTold) -> Option<&'f Passed> {
+    let index = scene
         .stages
         .iter()
         .position(|s| s.name == told.placed.name)?;
@@ -252,7 +245,7 @@ impl Second<'_> {
             if !worlds[seen.world].outcome.contains_key(&index) {
                 continue;
             }
-            let Some(passed) = passed(self.story, &seen.followed, told) else {
+            let Some(passed) = passed(self.scene, &seen.followed, told) else {
                 continue;
             };
             let outcome = worlds[seen.world].outcome[&index];
@@ -430,7 +423,7 @@ impl Second<'_> {
     /// The point with a value for every answer about motion, and for formulas of them.
     fn answers(&self, point: &Point<f64>, followed: &Followed) -> Point<f64> {
         let mut out = point.clone();
-        for question in &self.story.questions {
+        for question in &self.scene.questions {
             let value = match &question.ask {
                 Ask::Value { formula, with, .. } if with.is_empty() => formula.evaluate(&out),
                 _ => None,
@@ -507,7 +500,7 @@ pub(super) fn answers(
 ) -> BTreeMap<usize, Check> {
     let mut out = BTreeMap::new();
     for (i, answer) in answers.iter().enumerate() {
-        let questions = &second.story.questions;
+        let questions = &second.scene.questions;
         let Some(question) = questions.iter().find(|q| q.name == answer.question) else {
             continue;
         };

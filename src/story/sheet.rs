@@ -8,7 +8,7 @@ use crate::answer::calc::sign;
 use crate::answer::{Answer, Form};
 use crate::derive::{self, Derivation, Stop};
 use crate::expr::{Expr, cross, minus};
-use crate::scene::{Ask, EnergyWhen, Question, Scene, StageKind};
+use crate::scene::{Question, Scene, StageKind};
 
 /// The scene of an impact, by name of its stage; the first one for `None`. `None` where there is no such impact.
 pub fn impact(scene: &Scene, told: &Told, stage: Option<&str>) -> Option<Scene> {
@@ -62,7 +62,7 @@ pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
         Some(case) => (put_together(scene, case), case.derivation.clone()),
         None => {
             let mut bare = scene.clone();
-            bare.story = None;
+            bare.stages.clear();
             let derivation = derive::derive(&bare)?;
             (bare, derivation)
         }
@@ -72,54 +72,19 @@ pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
             *value = case.put_in(value);
         }
     }
-    let asked = scene.story.iter().flat_map(|s| &s.questions);
-    // What is sought by a condition may stand in a student's lines as that condition.
-    let conditions = asked
-        .clone()
-        .filter(|q| matches!(q.ask, Ask::Condition { .. }));
-    flat.special = conditions.cloned().collect();
-    flat.questions = asked
-        .map(|q| {
-            let own =
-                first.and_then(|s| s.placed.scene.questions.iter().find(|o| o.name == q.name));
-            let ask = own.map_or_else(elsewhere, |own| own.ask.clone());
-            Question::new(&q.name, q.latex.clone(), ask)
-        })
-        .collect();
+    let own = |q: &Question| {
+        let mut all = first?.placed.scene.questions.iter();
+        all.find(|own| own.name == q.name).cloned()
+    };
+    let asked = scene.questions.iter();
+    flat.questions = asked.map(|q| own(q).unwrap_or_else(|| q.clone())).collect();
     derivation.definitions.clear();
     derivation.answers = told.answers.iter().filter_map(flat_answer).collect();
-    let has_answer = |q: &Question| derivation.answers.iter().any(|a| a.question == q.name);
-    flat.questions.retain(has_answer);
     Ok((flat, derivation))
 }
 
-/// A scene of one impact with its questions about answers among the others.
-pub fn with_special(
-    mut scene: Scene,
-    mut derivation: Derivation,
-    special: &[Answer],
-) -> (Scene, Derivation) {
-    derivation
-        .answers
-        .extend(special.iter().filter_map(flat_answer));
-    let has_answer = |name: &str| derivation.answers.iter().any(|a| a.question == name);
-    let asked = scene.special.iter().filter(|q| has_answer(&q.name));
-    let asked = asked.map(|q| Question::new(&q.name, q.latex.clone(), elsewhere()));
-    scene.questions.extend(asked);
-    (scene, derivation)
-}
-
-/// A question of another stage, or about formulas, has no meaning under changed laws; what was before hangs on no law and
-/// misleads nobody.
-fn elsewhere() -> Ask {
-    Ask::Energy {
-        when: EnergyWhen::Before,
-        of: None,
-    }
-}
-
 /// An answer under the name of its question; further outcomes and places of maxima are answers of their own.
-fn flat_answer(a: &Answer) -> Option<Answer> {
+pub fn flat_answer(a: &Answer) -> Option<Answer> {
     let has_form = matches!(a.form, Form::Value { .. } | Form::Equation { .. });
     let is_whole = ["", "_x", "_y"]
         .iter()

@@ -59,15 +59,12 @@ impl Proof {
 }
 
 /// Answers the questions of a scene of one impact that are about its answers.
-pub fn special(
+pub fn about_answers(
     scene: &Scene,
     derivation: &Derivation,
     proof: &Proof,
 ) -> Result<Vec<Answer>, Refused> {
-    if scene.special.is_empty() {
-        return Ok(Vec::new());
-    }
-    let mut answers = answer::about(scene, &scene.special, &derivation.known())?;
+    let mut answers = answer::about(scene, scene.asked_of_answers(), &derivation.known())?;
     for answer in &mut answers {
         let given = derivation.assumptions.iter().chain(&proof.assumptions);
         answer
@@ -415,7 +412,9 @@ fn numeric_value<T: numeric::Number>(
     given: &numeric::Given<T>,
     motion: &numeric::Motion<T>,
 ) -> Option<T> {
-    let question = scene.questions.iter().find(|q| q.name == answer.question)?;
+    let question = scene
+        .asked_of_impact()
+        .find(|q| q.name == answer.question)?;
     let mut ask = question.ask.clone();
     // A component is asked for on its own: it may be determined where its vector is not.
     if let Some(axis) = answer.axis() {

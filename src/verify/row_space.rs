@@ -282,8 +282,7 @@ fn column(
     laws: &System<Rational>,
 ) -> Result<(Vec<Rational>, Rational), String> {
     let (question, axis) = scene
-        .questions
-        .iter()
+        .asked_of_impact()
         .find_map(|q| match name.strip_prefix(q.name.as_str()) {
             Some("") => Some((q, None)),
             Some("_x") => Some((q, Some(0))),

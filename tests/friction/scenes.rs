@@ -10,9 +10,9 @@ use carom::equality::{Equality, decide};
 use carom::expr::{Expr, Symbol};
 use carom::formula::{Symbols, read_expr};
 use carom::scene::{Mode, Scene};
+use carom::verify::about_answers;
 use carom::verify::compare::compare;
 use carom::verify::friction::{Judged, Pick, judge};
-use carom::verify::special;
 use carom::verify::{possible, prove};
 use carom::{numeric, scene};
 
@@ -59,7 +59,7 @@ fn answers(scene: &Scene) -> BTreeMap<String, Expr> {
             out.insert(answer.name.clone(), closed.clone());
         }
     }
-    for answer in special(scene, &derivation, &proof).expect("answers") {
+    for answer in about_answers(scene, &derivation, &proof).expect("answers") {
         out.extend(answer.formula().map(|f| (answer.name.clone(), f.clone())));
     }
     out
@@ -95,7 +95,7 @@ fn the_answers_are_those_of_the_table() {
         let (table, judged) = judged(&scene);
         let found = match case.is_empty() {
             true => {
-                let all = about(&scene, &table.about, &BTreeMap::new()).expect("answers");
+                let all = about(&scene, table.about.iter(), &BTreeMap::new()).expect("answers");
                 all.into_iter()
                     .filter_map(|a| Some((a.name.clone(), a.formula()?.clone())))
                     .collect()

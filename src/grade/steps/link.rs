@@ -148,9 +148,7 @@ impl Desk<'_> {
     /// What is asked with a condition, with its question and the difference of its sides.
     fn conditions(&self) -> impl Iterator<Item = (&str, &Symbol, Expr)> {
         let scene = &self.sheet.scene;
-        let told = scene.story.iter().flat_map(|s| &s.questions);
-        let all = scene.special.iter().chain(told);
-        all.filter_map(|q| match &q.ask {
+        scene.questions.iter().filter_map(|q| match &q.ask {
             Ask::Condition {
                 parameter,
                 left,

@@ -132,7 +132,8 @@ impl Desk<'_> {
     pub(super) fn named(&self, name: Symbol) -> Option<Named> {
         let (scene, d) = (&self.sheet.scene, &self.sheet.derivation);
         if let Some(answer) = d.answers.iter().find(|a| *a.name == *name) {
-            let question = scene.questions.iter().find(|q| q.name == answer.question)?;
+            let mut asked = scene.asked_of_impact();
+            let question = asked.find(|q| q.name == answer.question)?;
             let component = match answer.name.strip_prefix(&answer.question) {
                 Some("_x") => Some(0),
                 Some("_y") => Some(1),

@@ -53,8 +53,7 @@ pub fn answer(
     values: &Point<f64>,
 ) -> Result<Answer<f64>, Unanswered> {
     let index = question.stage.ok_or(Unanswered::NotANumber)?;
-    let stage = scene.story.as_ref().and_then(|s| s.stages.get(index));
-    let stage = stage.ok_or(Unanswered::NotANumber)?;
+    let stage = scene.stages.get(index).ok_or(Unanswered::NotANumber)?;
     let passed = match &followed.stages[index] {
         Ok(passed) => passed,
         Err(lost) => return Err(Unanswered::Lost(lost.clone())),

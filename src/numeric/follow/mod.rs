@@ -241,7 +241,7 @@ pub fn follow(scene: &Scene, values: &Point<f64>) -> Result<Followed, Undefined>
     let solids = solids(scene, values)?;
     let values = with_angles(values);
     let start = start(scene, &solids, &values)?;
-    let Some(story) = &scene.story else {
+    if !scene.has_stages() {
         let only = Course {
             name: "",
             scene,
@@ -252,16 +252,16 @@ pub fn follow(scene: &Scene, values: &Point<f64>) -> Result<Followed, Undefined>
             .map(|(what, after)| only.passed(Ok(0.0), start.clone(), after, What::Impact(what)));
         let stages = vec![stage];
         return Ok(Followed { solids, stages });
-    };
+    }
     let mut stages: Vec<Result<Passed, Lost>> = Vec::new();
-    for stage in &story.stages {
+    for stage in &scene.stages {
         let before = match stage.from {
             None => changed(stage, &start, &values),
             Some(j) => match &stages[j] {
                 Ok(passed) => Ok(passed.after.clone()),
                 Err(_) => Err(Lost::After {
                     stage: stage.name.clone(),
-                    lost: story.stages[j].name.clone(),
+                    lost: scene.stages[j].name.clone(),
                 }),
             },
         };
@@ -295,30 +295,30 @@ pub fn symbols(scene: &Scene) -> BTreeSet<Symbol> {
         let names = needed.plain.into_iter().chain(needed.angles.into_keys());
         names.for_each(|n| add(&Expr::symbol(&n)));
     };
-    let Some(story) = &scene.story else {
+    if !scene.has_stages() {
         of_scene(scene);
         return out;
-    };
+    }
     let bodies = Scene {
         bodies: scene.bodies.clone(),
         ..Scene::default()
     };
     of_scene(&bodies);
-    for stage in &story.stages {
+    for stage in &scene.stages {
         let without = Scene {
             bodies: Vec::new(),
             ..stage.scene.clone()
         };
         of_scene(&without);
     }
-    for stage in &story.stages {
+    for stage in &scene.stages {
         for (_, velocity, spin) in &stage.start {
             velocity.iter().flatten().for_each(&mut add);
             spin.iter().for_each(&mut add);
         }
         of_kind(&stage.kind).into_iter().for_each(&mut add);
     }
-    let places = story.stages.iter().flat_map(|s| s.places.iter().flatten());
+    let places = scene.stages.iter().flat_map(|s| s.places.iter().flatten());
     places.for_each(|symbol| {
         out.remove(symbol);
     });

@@ -15,7 +15,7 @@ use crate::scene::stage_file::{
     FallFile, ImpactFile, SlideEndName, SlideFile, StageFile, TurnFile, UntilName,
 };
 
-pub(super) const TIME: Quantity =
+pub(in crate::scene) const TIME: Quantity =
     Quantity::other([0, 0, 1], "a time, such as t, or a number of seconds");
 const ACCELERATION: Quantity = Quantity::other(
     [0, 1, -2],

@@ -1,10 +1,11 @@
 //! Stages as written become stages of a scene: each gets its own [`Scene`] with the bodies where they are when it begins.
 //!
-//! In: the records of [`crate::scene::stage_file`]. Out: a [`Story`], or faults. Where bodies are after another stage is
+//! In: the records of [`crate::scene::stage_file`]. Out: the stages of the scene, or faults. Where bodies are after another stage is
 //! found out by [`crate::story`] and by [`crate::numeric`], each for itself; here symbols stand for it.
 
 mod kind;
-mod questions;
+
+pub(super) use kind::TIME;
 
 use std::collections::HashMap;
 
@@ -16,11 +17,12 @@ use crate::scene::fault::{Fault, nearest};
 use crate::scene::file::SceneFile;
 use crate::scene::formulas::{Quantity, Symbols};
 use crate::scene::place::Place;
+use crate::scene::questions::About;
 use crate::scene::record::{Map, Text};
 use crate::scene::resolve::{Resolver, entries};
-use crate::scene::stage::{Stage, StageKind, Story};
+use crate::scene::stage::{Stage, StageKind};
 use crate::scene::stage_file::{EndName, StageFile, StartFile};
-use crate::scene::{Scene, geometry, question};
+use crate::scene::{Scene, geometry, questions};
 
 /// Most stages a scene may have.
 const STAGES: usize = 40;
@@ -60,7 +62,7 @@ pub(super) fn lone(file: &SceneFile) -> Option<SceneFile> {
     for (_, q) in out.questions.iter_mut().flat_map(|m| &mut m.0) {
         let Some(q) = q else { continue };
         let elsewhere = q.at.as_ref().is_some_and(|at| at.text != stage.name.text);
-        if elsewhere || question::about_stage(q).iter().any(|(_, asked)| *asked) {
+        if elsewhere || questions::asks(q, About::Stage) {
             return None;
         }
         q.at = None;
@@ -97,15 +99,8 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
             );
         }
     }
-    let mut story = Story {
-        readings: file
-            .assumptions
-            .iter()
-            .flatten()
-            .map(|t| t.text.clone())
-            .collect(),
-        ..Story::default()
-    };
+    let readings = file.assumptions.iter().flatten();
+    scene.readings = readings.map(|t| t.text.clone()).collect();
     let homes = homes(base, stages);
     let composed: Vec<SceneFile> = (0..stages.len())
         .map(|i| composed(file, &stages[i], i, &homes))
@@ -118,12 +113,11 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
         let (read, symbols, faults) = one(&composed[i], stage, from, scene, symbols);
         base.symbols = symbols;
         base.faults.extend(faults);
-        story.stages.extend(read);
+        scene.stages.extend(read);
     }
     if base.faults.is_empty() {
-        questions::read(base, scene, &mut story, &homes);
+        questions::of_stages(base, scene, &homes);
     }
-    scene.story = Some(Box::new(story));
 }
 
 /// The stage each question about motion belongs to, by index of question.
@@ -131,7 +125,7 @@ fn homes(base: &mut Resolver<'_>, stages: &[StageFile]) -> HashMap<usize, usize>
     let mut out = HashMap::new();
     for (k, (_, q)) in base.file.questions.iter().flat_map(|m| &m.0).enumerate() {
         let Some(q) = q else { continue };
-        if question::is_motion(q)
+        if questions::asks(q, About::Motion)
             && let Some(place) = q.when.filter(|w| *w == EndName::Start).map(|_| q.span)
         {
             let message = "what moves when a stage begins moves so when the one before ends";
@@ -140,7 +134,7 @@ fn homes(base: &mut Resolver<'_>, stages: &[StageFile]) -> HashMap<usize, usize>
                 .push(fault.hint("ask it `at` the stage before, without `when`"));
             continue;
         }
-        if question::is_motion(q)
+        if questions::asks(q, About::Motion)
             && let Some(i) = stage_named(&mut base.faults, stages, q.at.as_ref())
         {
             out.insert(k, i);
@@ -149,7 +143,7 @@ fn homes(base: &mut Resolver<'_>, stages: &[StageFile]) -> HashMap<usize, usize>
     out
 }
 
-fn stage_named(
+pub(super) fn stage_named(
     faults: &mut Vec<Fault>,
     stages: &[StageFile],
     name: Option<&Text>,

@@ -11,14 +11,10 @@ use crate::answer::{self, Answer, Check, Form, Known, Refused};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, sentence};
-use crate::scene::{Ask, Question, Scene, Stage, Story};
+use crate::scene::{Ask, Question, Scene, Stage};
 
 /// Answers all questions.
-pub(super) fn all(
-    scene: &Scene,
-    story: &Story,
-    mut stages: Vec<StageTold>,
-) -> Result<Told, Refused> {
+pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Refused> {
     for told in &mut stages {
         if told.words.is_empty() {
             told.words = words::stage(told);
@@ -26,7 +22,7 @@ pub(super) fn all(
     }
     let mut worlds = worlds::of(&stages);
     let mut answers: Vec<Answer> = Vec::new();
-    for question in &story.questions {
+    for question in &scene.questions {
         let new = if !question.ask.formulas().is_empty() {
             worlds::each(scene, &mut worlds, |known| {
                 match needs_open(&question.ask, known, &answers) {
@@ -35,13 +31,13 @@ pub(super) fn all(
                 }
             })?
         } else {
-            let new = one(scene, story, &stages, question, &answers)?;
+            let new = one(scene, &stages, question, &answers)?;
             worlds::remember(&mut worlds, &new);
             new
         };
         answers.extend(new);
     }
-    let second = second::look(scene, story, &worlds, &stages);
+    let second = second::look(scene, &worlds, &stages);
     for (i, check) in second::answers(&second, &worlds, &answers) {
         answers[i].checks.push(check);
     }
@@ -56,7 +52,7 @@ pub(super) fn all(
     Ok(Told {
         stages,
         answers,
-        readings: story.readings.clone(),
+        readings: scene.readings.clone(),
         unused,
         ended: Vec::new(),
     })
@@ -91,14 +87,13 @@ fn formula(scene: &Scene, question: &Question, known: &Known) -> Result<Vec<Answ
 
 fn one(
     scene: &Scene,
-    story: &Story,
     stages: &[StageTold],
     question: &Question,
     earlier: &[Answer],
 ) -> Result<Vec<Answer>, Refused> {
     let domains = &scene.domains;
     let name = question.name.as_str();
-    let stage = question.stage.map(|i| &story.stages[i]);
+    let stage = question.stage.map(|i| &scene.stages[i]);
     let mut out = match &question.ask {
         Ask::Reaction { along, at_end } => {
             return each_way(stages, stage, |told| {
@@ -174,7 +169,7 @@ fn one(
         }
         Ask::Assumed => {
             let mut out = Answer::blank(question, name, "what is assumed");
-            out.text = words::assumed(&story.readings, stages);
+            out.text = words::assumed(&scene.readings, stages);
             out
         }
         Ask::Unused(of) => {

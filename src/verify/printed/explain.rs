@@ -20,7 +20,7 @@ impl Desk<'_> {
     /// A velocity or spin before the collision, printed as the one after.
     pub(super) fn before(&self, item: &str, pairs: &[(Expr, Expr)]) -> Option<String> {
         use crate::scene::Ask;
-        let question = self.scene.questions.iter().find(|q| q.name == item)?;
+        let question = self.scene.asked_of_impact().find(|q| q.name == item)?;
         let before = match &question.ask {
             Ask::Velocity {
                 body,

@@ -393,8 +393,7 @@ fn a_rod_that_flies_to_a_peg_and_catches_it_turns_with_three_halves_of_its_speed
             {"name": "catch", "impact": {"contacts": {"C": {"bodies": ["peg", "rod"], "at": ["-D", "0"], "law": "sticking"}}}}],
         "questions": {"omega": {"at": "catch", "spin": "rod"}}}"#,
     );
-    let story = scene.story.as_mut().expect("stages");
-    story.stages[1].scene.contacts[0].at = [Expr::zero(), Expr::zero()];
+    scene.stages[1].scene.contacts[0].at = [Expr::zero(), Expr::zero()];
     let (l, v) = (0.7, 3.0);
     let followed = follow(&scene, &point(&[("l", l), ("v", v), ("D", 5.0)])).expect("numbers");
     close(

@@ -3,49 +3,23 @@
 //!
 //! Each becomes a [`Ask::Value`]; the velocities it takes are asked for too, unless they are already.
 
-use super::fault::Fault;
-use super::question_file::QuestionFile;
-use super::record::Text;
-use super::resolve::Resolver;
-use super::stage_file::EndName;
-use super::{Ask, Body, Question, Scene, geometry, question};
+use super::impact;
 use crate::expr::{Expr, Vector, cross, dot, minus};
+use crate::scene::fault::Fault;
+use crate::scene::question_file::QuestionFile;
+use crate::scene::record::Text;
+use crate::scene::resolve::Resolver;
+use crate::scene::stage_file::EndName;
+use crate::scene::{Ask, Body, Question, Scene, geometry};
 
-/// Whether a question is one of these.
-pub(super) fn is_told(q: &QuestionFile) -> bool {
-    q.when == Some(EndName::Start) && (q.velocity.is_some() || q.spin.is_some())
-        || q.angular_momentum.is_some()
-        || kinds(q).iter().any(|(_, given)| *given)
-}
-
-/// Those that are nothing else.
-pub(super) fn kinds(q: &QuestionFile) -> [(&'static str, bool); 3] {
-    [
-        ("speed", q.speed.is_some()),
-        ("inertia", q.inertia.is_some()),
-        ("instantaneous_center", q.instantaneous_center.is_some()),
-    ]
-}
-
-/// Reads one question of a scene of one impact into `scene.special`.
+/// Reads one question of a scene of one impact into the scene.
 pub(super) fn resolve(
     resolver: &mut Resolver<'_>,
     scene: &mut Scene,
     name: &Text,
     q: &QuestionFile,
+    kind: &str,
 ) -> Option<()> {
-    let asked = kinds(q).into_iter().chain([
-        ("velocity", q.velocity.is_some()),
-        ("spin", q.spin.is_some()),
-        ("angular_momentum", q.angular_momentum.is_some()),
-    ]);
-    let asked: Vec<&str> = asked.filter(|(_, given)| *given).map(|k| k.0).collect();
-    let [kind] = asked.as_slice() else {
-        let fault = Fault::new(name.span, question::things_asked(&asked));
-        let fault = fault.hint("give each of them a question of its own");
-        resolver.faults.push(fault);
-        return None;
-    };
     let is_start = q.when == Some(EndName::Start);
     let latex = q.latex.as_ref().map(|t| t.text.as_str());
     let meaning = meaning(q);
@@ -56,7 +30,7 @@ pub(super) fn resolve(
             _ => l.to_owned(),
         });
         let name = format!("{}{suffix}", name.text);
-        scene.special.push(Question::new(
+        scene.questions.push(Question::new(
             &name,
             latex,
             Ask::Value {
@@ -69,7 +43,7 @@ pub(super) fn resolve(
             },
         ));
     };
-    match *kind {
+    match kind {
         "inertia" => {
             let formula = inertia(resolver, scene, name, q)?;
             push(scene, "", formula);
@@ -92,7 +66,7 @@ pub(super) fn resolve(
             push(scene, "", formula);
         }
         "speed" => {
-            let (b, point) = question::velocity(resolver, scene, q.speed.as_ref()?, q.of.as_ref())?;
+            let (b, point) = impact::velocity(resolver, scene, q.speed.as_ref()?, q.of.as_ref())?;
             let at = point.map(|(_, at)| at);
             let v = match is_start {
                 true => velocity_of(&scene.bodies[b], at.as_ref()),
@@ -128,7 +102,7 @@ pub(super) fn resolve(
         }
         _ => {
             let of = q.velocity.as_ref()?;
-            let (b, point) = question::velocity(resolver, scene, of, q.of.as_ref())?;
+            let (b, point) = impact::velocity(resolver, scene, of, q.of.as_ref())?;
             let v = velocity_of(&scene.bodies[b], point.map(|(_, at)| at).as_ref());
             match &q.along {
                 Some(along) => {
@@ -266,7 +240,6 @@ fn named(
     let is_taken = |name: &str| {
         scene.parameters.iter().any(|p| *p.name == *name)
             || scene.questions.iter().any(|q| q.name == name)
-            || scene.special.iter().any(|q| q.name == name)
     };
     let mut name = own;
     while is_taken(&name) {
@@ -274,11 +247,4 @@ fn named(
     }
     scene.questions.push(Question::new(&name, None, ask));
     name
-}
-
-/// Whether a question is answered by the parameter whose name it has: `"d": {"solve": "d", …}`. Its answer has no name for
-/// later formulas, in which the name stands for the parameter.
-pub(super) fn is_own(name: &Text, q: Option<&QuestionFile>) -> bool {
-    let sought = q.and_then(|q| q.solve.as_ref().or(q.threshold.as_ref()));
-    sought.is_some_and(|sought| sought.text == name.text)
 }

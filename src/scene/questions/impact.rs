@@ -1,146 +1,18 @@
-//! What is asked: each question of the file becomes one [`Ask`], or a fault that says what is missing.
+//! Questions about one impact: velocities and spins just after, impulses, energies, balances, matrices.
 
-use super::fault::{Fault, Span};
-use super::question_file::{EnergyName, QuestionFile};
-use super::record::{Text, is_sound};
-use super::resolve::Resolver;
-use super::{Ask, EnergyWhen, ImpulseAt, Question, Scene, special, told};
+use crate::scene::fault::{Fault, Span};
+use crate::scene::question_file::{EnergyName, QuestionFile};
+use crate::scene::record::Text;
+use crate::scene::resolve::Resolver;
+use crate::scene::{Ask, EnergyWhen, ImpulseAt, Scene};
 
-/// Reads all questions.
-pub(super) fn resolve(resolver: &mut Resolver<'_>, scene: &mut Scene) {
-    let file = resolver.file;
-    let all: Vec<(&Text, &QuestionFile)> = file
-        .questions
-        .iter()
-        .flat_map(|m| &m.0)
-        .filter_map(|(name, q)| Some((name, q.as_ref()?)))
-        .collect();
-    for (name, question) in &all {
-        name_is_free(resolver, name, Some(question));
-        // Questions about the answers are read when all of these are known.
-        if told::is_told(question) || special::is_asked(question) && !is_motion(question) {
-            continue;
-        }
-        let ask = ask(resolver, scene, name, question);
-        if let Some(ask) = ask {
-            let latex = question.latex.as_ref().map(|t| t.text.clone());
-            scene.questions.push(Question::new(&name.text, latex, ask));
-        }
-    }
-    for (name, question) in all.iter().filter(|(_, q)| told::is_told(q)) {
-        told::resolve(resolver, scene, name, question);
-    }
-    for (name, question) in &all {
-        matrix_names(resolver, scene, name, question);
-    }
-}
-
-/// A question and a parameter need different names, unless that parameter is what is sought.
-pub(super) fn name_is_free(resolver: &mut Resolver<'_>, name: &Text, q: Option<&QuestionFile>) {
-    if !told::is_own(name, q)
-        && special::parameter_names(resolver.file).contains(&name.text.as_str())
-    {
-        let message = format!(
-            "the question `{0}` has the name of the parameter `{0}`",
-            name.text
-        );
-        let fault = Fault::new(name.span, message);
-        resolver
-            .faults
-            .push(fault.hint("what is asked and what is given need different names; only a `solve` or `threshold` may bear the name of the parameter it seeks"));
-    }
-}
-
-/// What is wrong with a question that asks nothing or several things.
-pub(super) fn things_asked(kinds: &[&str]) -> String {
-    match kinds {
-        [] => String::from("this question asks nothing"),
-        several => format!(
-            "this question asks {} things: {}",
-            several.len(),
-            several.join(", ")
-        ),
-    }
-}
-
-/// The kinds of question that only a scene with stages can answer, and which of them are asked.
-pub(super) fn about_stage(q: &QuestionFile) -> [(&'static str, bool); 11] {
-    [
-        ("time", q.time.is_some()),
-        ("distance", q.distance.is_some()),
-        ("position", q.position.is_some()),
-        ("reaction", q.reaction.is_some()),
-        ("share", q.share.is_some()),
-        ("impulsive", q.impulsive.is_some()),
-        ("describe", q.describe.is_some()),
-        ("missing", q.missing.is_some()),
-        ("remark", q.remark.is_some()),
-        ("assumed", q.assumed.is_some()),
-        ("unused", q.unused.is_some()),
-    ]
-}
-
-/// Whether the question is about the motion just after, and not about formulas of answers.
-pub(super) fn is_motion(q: &QuestionFile) -> bool {
-    q.velocity.is_some()
-        || q.spin.is_some()
-        || q.impulse.is_some()
-        || q.energy.is_some()
-        || q.balance.is_some()
-        || q.matrix.is_some()
-}
-
-fn ask(
+/// Reads a question about the motion just after an impact, its impulses and equations.
+pub(super) fn ask(
     resolver: &mut Resolver<'_>,
     scene: &Scene,
     name: &Text,
     question: &QuestionFile,
 ) -> Option<Ask> {
-    let kinds = [
-        (
-            "velocity",
-            question.velocity.is_some(),
-            &["of", "along", "when"][..],
-        ),
-        ("spin", question.spin.is_some(), &["clockwise", "when"]),
-        ("impulse", question.impulse.is_some(), &["on", "along"]),
-        ("energy", question.energy.is_some(), &["of"]),
-        ("balance", question.balance.is_some(), &["system", "along"]),
-        ("matrix", question.matrix.is_some(), &["unknowns"]),
-    ];
-    let asked: Vec<_> = kinds.iter().filter(|(_, given, _)| *given).collect();
-    let [(kind, _, companions)] = asked.as_slice() else {
-        if asked.is_empty() && !is_sound(question.span, &resolver.faults) {
-            return None;
-        }
-        let kinds: Vec<&str> = asked.iter().map(|(kind, ..)| *kind).collect();
-        let staged = about_stage(question).into_iter().find(|k| k.1);
-        let message = match staged.filter(|_| kinds.is_empty()) {
-            Some((kind, _)) => format!("`{kind}` is asked of a stage, and this scene has none"),
-            None => things_asked(&kinds),
-        };
-        let fault = Fault::new(name.span, message);
-        resolver
-            .faults
-            .push(fault.hint("give one of velocity, speed, spin, impulse, energy, balance, matrix, angular_momentum, inertia, instantaneous_center, or of value, solve, threshold, maximum, limit, approximate, show"));
-        return None;
-    };
-    let others = [
-        ("of", question.of.is_some()),
-        ("along", question.along.is_some()),
-        ("clockwise", question.clockwise.is_some()),
-        ("on", question.on.is_some()),
-        ("system", question.system.is_some()),
-        ("unknowns", question.unknowns.is_some()),
-        ("when", question.when.is_some()),
-        ("about", question.about.is_some()),
-    ];
-    for (other, given) in others.into_iter().chain(special::companions(question)) {
-        if given && !companions.contains(&other) {
-            let message = format!("a question about {kind} has no `{other}`");
-            resolver.faults.push(Fault::new(name.span, message));
-        }
-    }
     let along = question.along.as_ref().map(|d| resolver.direction(d));
     // A direction that was given but could not be read has been reported.
     let component = || match &along {
@@ -356,7 +228,12 @@ fn impulse(
 }
 
 /// Checks that the rows and unknowns of a matrix name questions of the right kind.
-fn matrix_names(resolver: &mut Resolver<'_>, scene: &Scene, name: &Text, question: &QuestionFile) {
+pub(super) fn matrix_names(
+    resolver: &mut Resolver<'_>,
+    scene: &Scene,
+    name: &Text,
+    question: &QuestionFile,
+) {
     let Some(rows) = &question.matrix else { return };
     if rows.is_empty() || question.unknowns.as_ref().is_none_or(Vec::is_empty) {
         let fault = Fault::new(

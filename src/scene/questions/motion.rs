@@ -1,90 +1,33 @@
-//! The questions of a scene with stages: about motion at the end of one, and about all of them.
-//!
-//! In: the questions as written, and the stages as read. Out: the questions of the [`Story`], in the order of the file.
+//! Questions about stages: forces, times, ways, places, and what happens in words.
 
-use std::collections::HashMap;
-
-use super::kind::TIME;
-use super::stage_named;
+use super::{answers, told};
 use crate::scene::fault::Fault;
 use crate::scene::formulas::{Quantity, Symbols};
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
 use crate::scene::resolve::Resolver;
-use crate::scene::stage::Story;
-use crate::scene::stage_file::{EndName, StageFile};
-use crate::scene::{Ask, Question, Scene, question, special, told};
+use crate::scene::stage_file::EndName;
+use crate::scene::stages::{TIME, stage_named};
+use crate::scene::{Ask, Scene};
 
 const STIFFNESS: Quantity =
     Quantity::other([1, 0, -2], "a stiffness is a force divided by a length");
 
-/// All questions, in the order of the file.
-pub(super) fn read(
-    base: &mut Resolver<'_>,
-    scene: &Scene,
-    story: &mut Story,
-    homes: &HashMap<usize, usize>,
-) {
-    let file = base.file;
-    let Some(stages) = &file.stages else { return };
-    let mut names: Vec<String> = Vec::new();
-    for (k, (name, entry)) in file.questions.iter().flat_map(|m| &m.0).enumerate() {
-        let Some(q) = entry else { continue };
-        question::name_is_free(base, name, Some(q));
-        let ask = match homes.get(&k) {
-            Some(stage) => {
-                let mut own = story.stages[*stage].scene.questions.iter();
-                let found = own.find(|s| s.name == name.text);
-                found.map(|q| (Some(*stage), q.ask.clone()))
-            }
-            None => special::with_names(base, &names, |base, symbols| match &q.inertia {
-                Some(_) => told::inertia(base, scene, name, q).map(|formula| {
-                    let meaning = told::meaning(q);
-                    let with = Vec::new();
-                    (
-                        None,
-                        Ask::Value {
-                            formula,
-                            with,
-                            meaning,
-                        },
-                    )
-                }),
-                None => story_ask(base, symbols, stages, name, q),
-            }),
-        };
-        if let Some((stage, ask)) = ask {
-            let latex = q.latex.as_ref().map(|t| t.text.clone());
-            story.questions.push(Question {
-                stage,
-                ..Question::new(&name.text, latex, ask)
-            });
-        }
-        if told::is_own(name, Some(q)) {
-            continue;
-        }
-        for suffix in ["", "_x", "_y"] {
-            names.push(format!("{}{suffix}", name.text));
-        }
-    }
-}
-
-fn story_ask(
+/// Reads a question about a stage, or about all of them; with the index of that stage.
+pub(super) fn ask(
     base: &mut Resolver<'_>,
     symbols: &Symbols,
-    stages: &[StageFile],
+    scene: &Scene,
     name: &Text,
     q: &QuestionFile,
 ) -> Option<(Option<usize>, Ask)> {
-    let kinds = special::asked(q).map(|(kind, given, _)| (kind, given));
-    let angular = ("angular_momentum", q.angular_momentum.is_some());
-    let kinds: Vec<_> = kinds
-        .into_iter()
-        .chain(question::about_stage(q))
-        .chain([angular])
-        .collect();
-    let asked: Vec<&str> = kinds.iter().filter(|k| k.1).map(|k| k.0).collect();
-    if let Some((kind, _)) = told::kinds(q).into_iter().find(|k| k.1) {
+    if let Some((kind, _)) = [
+        ("speed", q.speed.is_some()),
+        ("instantaneous_center", q.instantaneous_center.is_some()),
+    ]
+    .into_iter()
+    .find(|(_, asked)| *asked)
+    {
         let fault = Fault::new(
             name.span,
             format!("`{kind}` is asked of a scene without stages"),
@@ -94,20 +37,16 @@ fn story_ask(
         ));
         return None;
     }
-    if asked.len() != 1 {
-        let all: Vec<&str> = kinds.iter().map(|k| k.0).collect();
-        let hint = format!(
-            "give one of velocity, spin, impulse, energy, {}",
-            all.join(", ")
-        );
-        let fault = Fault::new(name.span, question::things_asked(&asked));
-        base.faults.push(fault.hint(hint));
-        return None;
+    if q.inertia.is_some() {
+        let ask = Ask::Value {
+            formula: told::inertia(base, scene, name, q)?,
+            with: Vec::new(),
+            meaning: told::meaning(q),
+        };
+        return Some((None, ask));
     }
+    let stages = base.file.stages.as_deref()?;
     let at_end = q.when != Some(EndName::Start);
-    if special::is_asked(q) {
-        return Some((None, special::ask(base, symbols, name, q)?));
-    }
     if let Some(stage) = &q.reaction {
         let i = stage_named(&mut base.faults, stages, Some(stage))?;
         if stages[i].turn.is_none() {
@@ -201,7 +140,7 @@ fn story_ask(
             .iter()
             .map(|d| d.name.to_string());
         if !names.clone().any(|n| n == of.text)
-            || special::parameter_names(base.file).contains(&of.text.as_str())
+            || answers::parameter_names(base.file).contains(&of.text.as_str())
         {
             base.faults.push(Fault::new(
                 of.span,

@@ -1,0 +1,303 @@
+//! What is asked: each question of the file becomes one [`Ask`], or a fault that says what is missing.
+//!
+//! One table of kinds, [`KINDS`], serves scenes of one impact and scenes with stages. Questions about answers are read when
+//! the names of all answers before them are known.
+
+pub(super) mod answers;
+mod impact;
+mod motion;
+mod told;
+
+use std::collections::HashMap;
+
+use super::fault::Fault;
+use super::formulas::Symbols;
+use super::question_file::QuestionFile;
+use super::record::{Text, is_sound};
+use super::resolve::{Resolver, entries};
+use super::stage_file::EndName;
+use super::{Ask, Question, Scene};
+
+/// What a kind of question is about.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum About {
+    /// The motion just after an impact or at the end of a stage, its impulses and equations.
+    Motion,
+    /// What a formula of the geometry and of that motion tells.
+    Told,
+    /// A stage, or all of them.
+    Stage,
+    /// The answers to other questions.
+    Answers,
+}
+
+/// A kind of question.
+pub(super) struct Kind {
+    /// The field that asks it.
+    pub name: &'static str,
+    pub about: About,
+    given: fn(&QuestionFile) -> bool,
+    /// Fields that belong to it.
+    fields: &'static [&'static str],
+}
+
+/// Kinds of question with the fields that belong to each.
+macro_rules! kinds {
+    ($($about:ident { $($name:ident($($field:ident)*),)* })*) => {
+        &[$($(Kind {
+            name: stringify!($name),
+            about: About::$about,
+            given: |q| q.$name.is_some(),
+            fields: &[$(stringify!($field)),*],
+        },)*)*]
+    };
+}
+
+/// All of them, in the order in which hints name them.
+static KINDS: &[Kind] = kinds! {
+    Motion {
+        velocity(of along when at),
+        spin(clockwise when at),
+        impulse(on along at),
+        energy(of at),
+        balance(system along at),
+        matrix(unknowns at),
+    }
+    Told {
+        speed(of when),
+        angular_momentum(about when at),
+        inertia(about),
+        instantaneous_center(),
+    }
+    Answers {
+        value(with),
+        solve(holds with),
+        threshold(holds with),
+        maximum(over),
+        limit(tends to),
+        approximate(tends to order),
+        show(with unless claim),
+    }
+    Stage {
+        time(),
+        distance(),
+        position(along when at),
+        reaction(along when),
+        share(),
+        impulsive(),
+        describe(),
+        missing(),
+        remark(),
+        assumed(),
+        unused(),
+    }
+};
+
+/// The kinds that a question asks; one, if it is right.
+fn kinds(q: &QuestionFile) -> impl Iterator<Item = &'static Kind> {
+    KINDS.iter().filter(|kind| (kind.given)(q))
+}
+
+/// Whether a question asks something of this sort.
+pub(super) fn asks(q: &QuestionFile, about: About) -> bool {
+    kinds(q).any(|kind| kind.about == about)
+}
+
+/// Fields that belong to some kinds of question only, and whether they are given.
+fn fields(q: &QuestionFile) -> impl Iterator<Item = (&'static str, bool)> {
+    macro_rules! given {
+        ($($field:ident)*) => { [$((stringify!($field), q.$field.is_some())),*] };
+    }
+    given!(at of along clockwise on system unknowns when about with holds over tends to order unless claim)
+        .into_iter()
+}
+
+/// The kind of a question, or what is wrong with one that asks nothing, several things, or has fields of another kind.
+fn kind(r: &mut Resolver<'_>, name: &Text, q: &QuestionFile) -> Option<&'static Kind> {
+    let asked: Vec<&Kind> = kinds(q).collect();
+    let names = |kinds: &mut dyn Iterator<Item = &Kind>| {
+        let names: Vec<&str> = kinds.map(|kind| kind.name).collect();
+        names.join(", ")
+    };
+    let [one] = asked.as_slice() else {
+        // What is there but could not be read has been reported.
+        if asked.is_empty() && !is_sound(q.span, &r.faults) {
+            return None;
+        }
+        let (message, hint) = if asked.is_empty() {
+            let staged = r.file.stages.is_some();
+            let mut fit = KINDS.iter().filter(|k| staged || k.about != About::Stage);
+            (
+                String::from("this question asks nothing"),
+                format!("give one of {}", names(&mut fit)),
+            )
+        } else {
+            let all = names(&mut asked.iter().copied());
+            (
+                format!("this question asks {} things: {all}", asked.len()),
+                String::from("give each of them a question of its own"),
+            )
+        };
+        r.faults.push(Fault::new(name.span, message).hint(hint));
+        return None;
+    };
+    for (field, given) in fields(q) {
+        if given && !one.fields.contains(&field) {
+            let message = format!("a question that asks `{}` has no `{field}`", one.name);
+            r.faults.push(Fault::new(name.span, message));
+        }
+    }
+    Some(one)
+}
+
+/// Reads what is asked of one impact: of its motion, and what formulas of the geometry and of that motion tell.
+pub(super) fn of_impact(r: &mut Resolver<'_>, scene: &mut Scene) {
+    let file = r.file;
+    let mut told = Vec::new();
+    for (name, q) in entries(file.questions.as_ref()) {
+        name_is_free(r, name, q);
+        let Some(kind) = kind(r, name, q) else {
+            continue;
+        };
+        match kind.about {
+            About::Motion if q.when != Some(EndName::Start) => {
+                if let Some(ask) = impact::ask(r, scene, name, q) {
+                    scene.questions.push(question(name, q, ask));
+                }
+            }
+            About::Motion | About::Told => told.push((name, q, kind.name)),
+            About::Stage => {
+                let message = format!(
+                    "`{}` is asked of a stage, and this scene has none",
+                    kind.name
+                );
+                r.faults.push(Fault::new(name.span, message));
+            }
+            // Read when all of these are known.
+            About::Answers => {}
+        }
+    }
+    for (name, q, kind) in told {
+        told::resolve(r, scene, name, q, kind);
+    }
+    for (name, q) in entries(file.questions.as_ref()) {
+        impact::matrix_names(r, scene, name, q);
+    }
+}
+
+/// Reads what is asked about the answers of one impact.
+pub(super) fn of_answers(r: &mut Resolver<'_>, scene: &mut Scene) {
+    let mut names: Vec<String> = Vec::new();
+    for q in &scene.questions {
+        names.extend(names_of(&q.name, &q.ask));
+    }
+    for (name, q) in entries(r.file.questions.as_ref()) {
+        if let Some(at) = &q.at {
+            let message = "`at` names a stage, and this scene has none";
+            r.faults.push(Fault::new(at.span, message));
+        }
+        if !asks(q, About::Answers) {
+            continue;
+        }
+        let ask = with_names(r, &names, |r, symbols| answers::ask(r, symbols, name, q));
+        if let Some(ask) = ask {
+            scene.questions.push(question(name, q, ask));
+        }
+        if !is_own(name, q) {
+            names.extend(["", "_x", "_y", "_at"].map(|suffix| format!("{}{suffix}", name.text)));
+        }
+    }
+}
+
+/// Reads all questions of a scene with stages, in the order of the file; `homes` are the stages of those about motion, by
+/// index of question.
+pub(super) fn of_stages(r: &mut Resolver<'_>, scene: &mut Scene, homes: &HashMap<usize, usize>) {
+    let file = r.file;
+    let mut names: Vec<String> = Vec::new();
+    for (k, (name, entry)) in file.questions.iter().flat_map(|m| &m.0).enumerate() {
+        let Some(q) = entry else { continue };
+        name_is_free(r, name, q);
+        let Some(kind) = kind(r, name, q) else {
+            continue;
+        };
+        let found = match homes.get(&k) {
+            Some(stage) => {
+                let mut own = scene.stages[*stage].scene.questions.iter();
+                let found = own.find(|s| s.name == name.text);
+                found.map(|q| (Some(*stage), q.ask.clone()))
+            }
+            None => with_names(r, &names, |r, symbols| match kind.about {
+                About::Answers => Some((None, answers::ask(r, symbols, name, q)?)),
+                _ => motion::ask(r, symbols, scene, name, q),
+            }),
+        };
+        if let Some((stage, ask)) = found {
+            scene.questions.push(Question {
+                stage,
+                ..question(name, q, ask)
+            });
+        }
+        if !is_own(name, q) {
+            names.extend(["", "_x", "_y"].map(|suffix| format!("{}{suffix}", name.text)));
+        }
+    }
+}
+
+fn question(name: &Text, q: &QuestionFile, ask: Ask) -> Question {
+    Question::new(&name.text, q.latex.as_ref().map(|t| t.text.clone()), ask)
+}
+
+/// A question and a parameter need different names, unless that parameter is what is sought.
+fn name_is_free(r: &mut Resolver<'_>, name: &Text, q: &QuestionFile) {
+    if !is_own(name, q) && answers::parameter_names(r.file).contains(&name.text.as_str()) {
+        let message = format!(
+            "the question `{0}` has the name of the parameter `{0}`",
+            name.text
+        );
+        let fault = Fault::new(name.span, message);
+        r.faults
+            .push(fault.hint("what is asked and what is given need different names; only a `solve` or `threshold` may bear the name of the parameter it seeks"));
+    }
+}
+
+/// Whether a question is answered by the parameter whose name it has: `"d": {"solve": "d", …}`. Its answer has no name for
+/// later formulas, in which the name stands for the parameter.
+fn is_own(name: &Text, q: &QuestionFile) -> bool {
+    let sought = q.solve.as_ref().or(q.threshold.as_ref());
+    sought.is_some_and(|sought| sought.text == name.text)
+}
+
+/// Reads a question with the names of earlier answers beside the parameters.
+fn with_names<T>(
+    r: &mut Resolver<'_>,
+    names: &[String],
+    read: impl FnOnce(&mut Resolver<'_>, &Symbols) -> Option<T>,
+) -> Option<T> {
+    let earlier = r.faults.len();
+    let symbols = r.symbols.extended(names.iter().map(String::as_str));
+    let found = read(r, &symbols);
+    for used in symbols.used() {
+        r.symbols.mark_used(&used);
+    }
+    for (name, _) in r.file.questions.iter().flat_map(|m| &m.0) {
+        let open = format!("`{}` is not declared", name.text);
+        for fault in r.faults[earlier..].iter_mut().filter(|f| f.message == open) {
+            fault.hint = Some(format!(
+                "`{}` is asked further down; a formula takes answers to questions above it",
+                name.text
+            ));
+        }
+    }
+    found
+}
+
+/// Names under which the answer to a question about motion stands in formulas.
+pub(super) fn names_of(name: &str, ask: &Ask) -> Vec<String> {
+    match ask {
+        Ask::Velocity { along: None, .. } | Ask::Impulse { along: None, .. } => ["", "_x", "_y"]
+            .map(|suffix| format!("{name}{suffix}"))
+            .to_vec(),
+        Ask::Balance { .. } | Ask::Matrix { .. } => Vec::new(),
+        _ => vec![name.to_string()],
+    }
+}
