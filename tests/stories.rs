@@ -362,6 +362,43 @@ fn limits_are_found_by_value_by_powers_and_by_derivatives() {
 }
 
 #[test]
+fn a_speed_at_a_stage_is_the_length_of_the_velocity_there() {
+    let text = r#"{
+        "parameters": {"m": {"unit": "kg"}, "h": {"unit": "m"}, "u": {"unit": "m/s"}, "g": {"unit": "m/s^2"}, "e": {"unit": "1"}},
+        "bodies": {"floor": {"shape": "fixed"},
+            "ball": {"shape": "particle", "mass": "m", "center": ["0", "h"], "velocity": ["u", "0"]}},
+        "stages": [{"name": "fall", "fall": {"body": "ball", "gravity": "g", "height": "h"}},
+            {"name": "bounce", "impact": {"contacts": {"C": {"bodies": ["floor", "ball"], "at": "ball",
+                "normal": ["0", "1"], "law": "frictionless", "restitution": "e"}}}}],
+        "questions": {"v": {"speed": "ball", "at": "fall", "latex": "v_1"}, "w": {"speed": "ball"}}
+    }"#;
+    let scene = carom::scene::read(text).unwrap_or_else(|f| panic!("{}", f.render("test", text)));
+    let told = told(&scene);
+    assert!(told.holds());
+    let answers = told.answers.iter().filter_map(|a| {
+        let value = carom::formula::write_plain(a.formula()?);
+        Some((a.name.as_str(), a.latex.as_str(), value))
+    });
+    let expected = [
+        ("v_vec_x", "v_{1,x}", "u"),
+        ("v_vec_y", "v_{1,y}", "-sqrt(2*g*h)"),
+        ("v", "v_1", "sqrt(2*g*h+u^2)"),
+        ("w_vec_x", "w_{x}", "u"),
+        ("w_vec_y", "w_{y}", "e*sqrt(2*g*h)"),
+        ("w", "w", "sqrt(u^2+2*e^2*g*h)"),
+    ];
+    let found: Vec<_> = answers
+        .map(|(a, b, c)| (a, b, c.replace(' ', "")))
+        .collect();
+    for (name, latex, value) in expected {
+        assert!(
+            found.contains(&(name, latex, String::from(value))),
+            "{name}: {found:?}"
+        );
+    }
+}
+
+#[test]
 fn questions_about_formulas_need_no_stages() {
     let scene = scene("tipping-box");
     let asks = scene.questions.clone();

@@ -21,7 +21,7 @@ pub use graph::{Curve, Graph, graphs};
 
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
-use crate::formula::{Relation, Sentence};
+use crate::formula::{Relation, Sentence, latex_name, with_subscript};
 use crate::scene::Question;
 
 /// What earlier answers stand for, by name, in parameters alone.
@@ -173,10 +173,12 @@ pub struct Near {
 impl Answer {
     /// An answer without content yet.
     pub fn blank(question: &Question, name: &str, words: impl Into<String>) -> Answer {
-        let latex = question
-            .latex
-            .clone()
-            .unwrap_or_else(|| crate::formula::latex_name(name));
+        let latex = match (&question.latex, name.strip_prefix(question.name.as_str())) {
+            (Some(vector), Some("_x")) => with_subscript(vector, "x"),
+            (Some(vector), Some("_y")) => with_subscript(vector, "y"),
+            (Some(latex), _) => latex.clone(),
+            (None, _) => latex_name(name),
+        };
         Answer {
             question: question.name.clone(),
             told: None,

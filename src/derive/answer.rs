@@ -124,7 +124,7 @@ impl Work<'_> {
                         "" => (question.name.clone(), latex.clone(), words.clone()),
                         axis => (
                             format!("{}_{axis}", question.name),
-                            super::names::with_subscript(&latex, axis),
+                            crate::formula::with_subscript(&latex, axis),
                             format!("{words}, along {axis}"),
                         ),
                     };

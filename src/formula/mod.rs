@@ -6,6 +6,7 @@
 
 mod calls;
 mod characters;
+mod component;
 mod convert;
 mod differential;
 mod digits;
@@ -33,6 +34,7 @@ use std::collections::BTreeSet;
 
 use crate::dimension::Unit;
 use crate::expr::{Expr, Symbol};
+pub use component::with_subscript;
 use convert::Value;
 pub use echo::echo_latex;
 pub use fault::Fault;

@@ -54,13 +54,14 @@ record! {
         matrix: Option<Vec<Text>>,
         /// Names of the questions whose answers are the unknowns of the matrix, one per column.
         unknowns: Option<Vec<Text>>,
-        /// Name of the stage at whose end a velocity, spin, impulse or energy is asked, or which a reaction or angular momentum
+        /// Name of the stage at whose end a velocity, speed, spin, impulse or energy is asked, or which a reaction or angular momentum
         /// belongs to. Missing: the last stage.
         at: Option<Text>,
         /// Beginning or end of the stage, for a reaction or an angular momentum; in a scene without stages also just before or
         /// just after the impact, for a velocity, a speed or a spin. Missing: the end, or just after.
         when: Option<EndName>,
-        /// Speed just after of this body (its center of mass), or of this point of the body named in `of`.
+        /// Speed just after of this body (its center of mass), or of this point of the body named in `of`; in a scene with stages
+        /// its velocity is answered too, under the same name with `_vec`.
         speed: Option<Text>,
         /// Moment of inertia of this body about the point `about`.
         inertia: Option<Text>,

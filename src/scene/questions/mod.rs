@@ -11,12 +11,14 @@ mod told;
 use std::collections::HashMap;
 
 use super::fault::Fault;
+use super::file::SceneFile;
 use super::formulas::Symbols;
 use super::question_file::QuestionFile;
-use super::record::{Text, is_sound};
+use super::record::{Map, Text, is_sound};
 use super::resolve::{Resolver, entries};
 use super::stage_file::EndName;
 use super::{Ask, Question, Scene};
+use crate::formula::latex_name;
 
 /// What a kind of question is about.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -64,7 +66,7 @@ static KINDS: &[Kind] = kinds! {
         matrix(unknowns at),
     }
     Told {
-        speed(of when),
+        speed(of when at),
         angular_momentum(about when at),
         inertia(about),
         instantaneous_center(),
@@ -245,6 +247,43 @@ pub(super) fn of_stages(r: &mut Resolver<'_>, scene: &mut Scene, homes: &HashMap
 
 fn question(name: &Text, q: &QuestionFile, ask: Ask) -> Question {
     Question::new(&name.text, q.latex.as_ref().map(|t| t.text.clone()), ask)
+}
+
+/// The same file where in a scene with stages the velocity stands before each speed that is asked, under a name of its own:
+/// the speed is a formula of it.
+pub(super) fn with_velocities(file: &SceneFile) -> Option<SceneFile> {
+    let speeds = |q: &QuestionFile| q.speed.is_some() && q.velocity.is_none();
+    let asked = entries(file.questions.as_ref()).any(|(_, q)| speeds(q));
+    if file.stages.is_none() || !asked {
+        return None;
+    }
+    let mut out = file.clone();
+    let mut all = Vec::new();
+    for (name, q) in file.questions.iter().flat_map(|m| &m.0) {
+        if let Some(q) = q.as_ref().filter(|q| speeds(q)) {
+            let latex = match &q.latex {
+                Some(latex) => latex.text.clone(),
+                None => latex_name(&name.text),
+            };
+            let velocity = QuestionFile {
+                latex: Some(Text {
+                    span: name.span,
+                    text: format!("\\vec{{{latex}}}"),
+                }),
+                velocity: q.speed.clone(),
+                speed: None,
+                ..q.clone()
+            };
+            let own = Text {
+                span: name.span,
+                text: format!("{}_vec", name.text),
+            };
+            all.push((own, Some(velocity)));
+        }
+        all.push((name.clone(), q.clone()));
+    }
+    out.questions = Some(Map(all));
+    Some(out)
 }
 
 /// A question and a parameter need different names, unless that parameter is what is sought.

@@ -21,25 +21,22 @@ pub(super) fn ask(
     name: &Text,
     q: &QuestionFile,
 ) -> Option<(Option<usize>, Ask)> {
-    if let Some((kind, _)) = [
-        ("speed", q.speed.is_some()),
-        ("instantaneous_center", q.instantaneous_center.is_some()),
-    ]
-    .into_iter()
-    .find(|(_, asked)| *asked)
-    {
-        let fault = Fault::new(
-            name.span,
-            format!("`{kind}` is asked of a scene without stages"),
-        );
+    if q.instantaneous_center.is_some() {
+        let message = "`instantaneous_center` is asked of a scene without stages";
+        let fault = Fault::new(name.span, message);
         base.faults.push(fault.hint(
-            "ask for the velocity `at` that stage, and for a `value` of it, such as \"sqrt(v_x^2 + v_y^2)\"",
+            "ask for the velocity and the spin `at` that stage, and for a `value` of them, such as \"-v_y/omega\"",
         ));
         return None;
     }
-    if q.inertia.is_some() {
+    let told = match (&q.speed, &q.inertia) {
+        (Some(_), _) => Some(told::speed_of(&format!("{}_vec", name.text))),
+        (_, Some(_)) => Some(told::inertia(base, scene, name, q)?),
+        _ => None,
+    };
+    if let Some(formula) = told {
         let ask = Ask::Value {
-            formula: told::inertia(base, scene, name, q)?,
+            formula,
             with: Vec::new(),
             meaning: told::meaning(q),
         };

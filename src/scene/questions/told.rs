@@ -176,6 +176,12 @@ fn about(resolver: &mut Resolver<'_>, name: &Text, q: &QuestionFile) -> Option<V
     resolver.position(about)
 }
 
+/// The speed of a velocity that is asked for under this name.
+pub(super) fn speed_of(velocity: &str) -> Expr {
+    let v = ["x", "y"].map(|axis| Expr::symbol(&format!("{velocity}_{axis}")));
+    dot(&v, &v).sqrt()
+}
+
 /// Velocity just before of the center of mass, or of another point of the body.
 fn velocity_of(body: &Body, at: Option<&Vector>) -> Vector {
     let Some(at) = at else {
