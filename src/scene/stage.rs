@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Ask, BlowImpulse, Contact, ContactLaw, KnownQuantity, Question, Scene};
+use super::{Ask, BlowImpulse, Body, Contact, ContactLaw, KnownQuantity, Question, Scene, Shape};
 use crate::expr::{Expr, Symbol, Vector, dot, minus};
 
 /// One stage.
@@ -56,6 +56,13 @@ impl Scene {
             point.at.iter_mut().for_each(&mut *put);
         }
         for body in &mut self.bodies {
+            let parts = match &mut body.shape {
+                Shape::Composite { parts } => parts.as_mut_slice(),
+                _ => &mut [],
+            };
+            for Body { center, angle, .. } in parts {
+                center.iter_mut().chain([angle]).for_each(&mut *put);
+            }
             body.center.iter_mut().for_each(&mut *put);
             put(&mut body.angle);
         }
@@ -343,6 +350,8 @@ pub struct Fall {
     pub gravity: Option<Expr>,
     /// How the stage ends.
     pub until: FallEnd,
+    /// Whether the body passes the height at which it ends on its way up, and not on its way down.
+    pub rising: bool,
 }
 
 impl Fall {
@@ -355,7 +364,7 @@ impl Fall {
 /// How a fall ends.
 #[derive(Clone, Debug)]
 pub enum FallEnd {
-    /// When the center of mass is so far below its place at the beginning, on its way down \[m\]; above it if negative.
+    /// When the center of mass is so far below its place at the beginning \[m\]; above it if negative.
     Drop(Expr),
     /// When the center of mass is so far to the right of its place at the beginning \[m\]; to the left of it if negative.
     Range(Expr),

@@ -152,6 +152,8 @@ record! {
         gravity: Option<Formula>,
         /// How far the center of mass is then below its place at the beginning; above it if negative.
         height: Option<Formula>,
+        /// Whether it passes that height on its way up, as where it hits a ceiling. Missing: on its way down.
+        rising: Option<bool>,
         /// How far the center of mass is then to the right of its place at the beginning; to the left of it if negative.
         range: Option<Formula>,
         /// Time.

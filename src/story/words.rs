@@ -98,6 +98,9 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
         StageKind::Fall(fall) => {
             let name = &scene.bodies[fall.body].name;
             out.push(match (&fall.until, &fall.gravity) {
+                (FallEnd::Drop(h), Some(_)) if fall.rising => {
+                    sentence!["`", name, "` rises freely through ", &-h]
+                }
                 (FallEnd::Drop(h), Some(_)) => sentence!["`", name, "` falls freely through ", h],
                 (FallEnd::Time(t), Some(_)) => sentence!["`", name, "` falls freely for ", t],
                 (FallEnd::Time(t), None) => sentence!["`", name, "` flies freely for ", t],
@@ -110,12 +113,29 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                     sentence!["`", name, "` flies freely until it is ", &far, way]
                 }
             });
-            if is_zero(&told.after.spin[fall.body], &scene.domains) == Some(false) {
+            for b in &fall.with {
+                let other = &scene.bodies[*b].name;
+                let verb = if fall.gravity.is_some() {
+                    "falls"
+                } else {
+                    "flies"
+                };
                 out.push(sentence![
                     "`",
-                    name,
-                    "` keeps its spin, since nothing has a moment about its center of mass"
+                    other,
+                    "` meanwhile ",
+                    verb,
+                    " freely as well"
                 ]);
+            }
+            for b in fall.bodies() {
+                if is_zero(&told.after.spin[b], &scene.domains) == Some(false) {
+                    out.push(sentence![
+                        "`",
+                        &scene.bodies[b].name,
+                        "` keeps its spin, since nothing has a moment about its center of mass"
+                    ]);
+                }
             }
         }
         StageKind::Wind(wind) => out.push(sentence![

@@ -262,12 +262,23 @@ fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {
         (.., Some(time)) => FallEnd::Time(r.symbols.read(time, TIME, &mut r.faults)?),
         _ => return None,
     };
+    let rising = fall.rising == Some(true);
+    if rising && (gravity.is_none() || !matches!(until, FallEnd::Drop(_))) {
+        let fault = Fault::new(
+            span,
+            "`rising` tells which of two times at the same height is meant",
+        );
+        r.faults
+            .push(fault.hint("it goes with `height` and `gravity`"));
+        return None;
+    }
     let (body, with) = all?;
     Some(Fall {
         body,
         with,
         gravity,
         until,
+        rising,
     })
 }
 

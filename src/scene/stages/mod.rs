@@ -22,7 +22,7 @@ use crate::scene::record::{Map, Text};
 use crate::scene::resolve::{Resolver, entries};
 use crate::scene::stage::{Stage, StageKind};
 use crate::scene::stage_file::{EndName, StageFile, StartFile};
-use crate::scene::{Scene, geometry, questions};
+use crate::scene::{Body, Scene, Shape, geometry, questions};
 
 /// Most stages a scene may have.
 const STAGES: usize = 40;
@@ -295,16 +295,22 @@ fn one(
         ..Scene::default()
     };
     let places = from.map_or_else(Vec::new, |_| places(file, &stage.name.text));
+    let mut from_file = Vec::new();
     for (b, [x, y, _]) in places.iter().enumerate() {
         // First from the file, so that a composite finds its parts.
-        r.center(b);
+        from_file.push(r.center(b));
         r.body_places[b] = Place::Done(Some([Expr::symbol(x), Expr::symbol(y)]));
     }
     r.point_places.fill(Place::Untouched);
     r.fill(&mut scene);
     scene.figure = whole.figure.clone();
-    for (body, [_, _, angle]) in scene.bodies.iter_mut().zip(&places) {
-        body.angle = Expr::symbol(angle);
+    for (b, (body, [_, _, angle])) in scene.bodies.iter_mut().zip(&places).enumerate() {
+        let turned = Expr::symbol(angle);
+        if let (Shape::Composite { parts }, Some(center)) = (&mut body.shape, &from_file[b]) {
+            let by = &turned - &body.angle;
+            move_parts(parts, [center, &body.center], &by);
+        }
+        body.angle = turned;
     }
     let starts = starts(&mut r, &scene, stage, from);
     let kind = kind::kind(&mut r, &mut scene, stage);
@@ -349,6 +355,19 @@ fn one(
         scene,
     });
     (read, symbols, faults)
+}
+
+/// Carries the parts of a composite along with its center, turned by an angle about it.
+fn move_parts(parts: &mut [Body], [from, to]: [&Vector; 2], by: &Expr) {
+    let [cos, sin] = [by.cos(), by.sin()];
+    for part in parts {
+        let [x, y] = minus(&part.center, from);
+        part.center = [
+            &to[0] + &(&(&x * &cos) - &(&y * &sin)),
+            &to[1] + &(&(&x * &sin) + &(&y * &cos)),
+        ];
+        part.angle = &part.angle + by;
+    }
 }
 
 /// Bodies that start otherwise.

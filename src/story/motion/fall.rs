@@ -2,7 +2,7 @@
 
 use super::{half, kept, meanwhile, tidied};
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, is_zero, sign};
+use crate::answer::calc::{Seen, essential, is_zero, sign};
 use crate::expr::Expr;
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Fall, FallEnd, Stage};
@@ -16,7 +16,8 @@ pub(in crate::story) fn fall(
 ) -> Result<StageTold, Refused> {
     let scene = &stage.scene;
     let mut assumptions: Vec<Sentence> = Vec::new();
-    let (time, down) = duration(stage, &before, fall, &mut assumptions)?;
+    let mut needs = Vec::new();
+    let (time, down) = duration(stage, &before, fall, &mut assumptions, &mut needs)?;
     let zero = Expr::zero();
     let g = fall.gravity.as_ref().unwrap_or(&zero);
     let mut after = before.clone();
@@ -68,6 +69,7 @@ pub(in crate::story) fn fall(
     }
     out.time = Some(time);
     out.assumptions = assumptions;
+    out.needs = needs;
     Ok(out)
 }
 
@@ -77,6 +79,7 @@ fn duration(
     before: &State,
     fall: &Fall,
     assumptions: &mut Vec<Sentence>,
+    needs: &mut Vec<Expr>,
 ) -> Result<(Expr, Option<Expr>), Refused> {
     let domains = &stage.scene.domains;
     let name = &stage.scene.bodies[fall.body].name;
@@ -109,15 +112,24 @@ fn duration(
                     ));
                 }
                 Seen::Proved(s) if s.is_not_negative() => {}
-                _ => assumptions.push(sentence![
-                    &crate::answer::calc::essential(&square, domains),
-                    " ≥ 0, so that `",
-                    name,
-                    "` gets there"
-                ]),
+                _ => {
+                    assumptions.push(sentence![
+                        &essential(&square, domains),
+                        " ≥ 0, so that `",
+                        name,
+                        "` gets there"
+                    ]);
+                    needs.push(square.clone());
+                }
             }
-            let down = tidied(stage, &-square.sqrt())?;
-            (tidied(stage, &(&(vy - &down) / g))?, Some(down))
+            let way = Expr::from(if fall.rising { 1 } else { -1 });
+            let end = tidied(stage, &(&way * &square.sqrt()))?;
+            let time = tidied(stage, &(&(vy - &end) / g))?;
+            if fall.rising {
+                rises(stage, fall, [h, vy], assumptions, needs)?;
+                return Ok((time, Some(end)));
+            }
+            (time, Some(end))
         }
         (FallEnd::Drop(h), None) => {
             if is_zero(vy, domains) == Some(true) {
@@ -137,14 +149,50 @@ fn duration(
         Seen::Proved(s) if s.is_not_negative() => Ok((time, down)),
         _ => {
             assumptions.push(sentence![
-                &crate::answer::calc::essential(&time, domains),
+                &essential(&time, domains),
                 " ≥ 0, so that `",
                 &stage.name,
                 "` comes after what is before it"
             ]);
+            needs.push(time.clone());
             Ok((time, down))
         }
     }
+}
+
+/// What is still rising at the end began to rise, and ends above its beginning.
+fn rises(
+    stage: &Stage,
+    fall: &Fall,
+    [drop, up]: [&Expr; 2],
+    assumptions: &mut Vec<Sentence>,
+    needs: &mut Vec<Expr>,
+) -> Result<(), Refused> {
+    let domains = &stage.scene.domains;
+    let name = &stage.scene.bodies[fall.body].name;
+    for need in [-drop, up.clone()] {
+        match sign(&need, domains) {
+            Seen::Proved(s) if s.is_not_negative() => {}
+            Seen::Proved(_) => {
+                return Err(Refused::new(
+                    &stage.name,
+                    format!("`{name}` is not rising there"),
+                    "a negative `height` counts upwards; leave out `rising` where it comes down",
+                ));
+            }
+            _ => {
+                let words = [" ≥ 0, so that `", "` rises to there"];
+                assumptions.push(sentence![
+                    &essential(&need, domains),
+                    words[0],
+                    name,
+                    words[1]
+                ]);
+                needs.push(need);
+            }
+        }
+    }
+    Ok(())
 }
 
 /// What a flight conserves.

@@ -1,8 +1,8 @@
 //! What the bodies do that a motion does not name, while it lasts.
 //!
 //! A body at rest stays. A body that has taken no part so far waits: it comes into play where the scene has it. A body that
-//! moves freely goes on uniformly, where no weight is named and the time is known. Of any other body nothing is said, and
-//! what is not said is open.
+//! moves freely goes on uniformly, where no weight is named and the time is known; a wall or platform whose motion is
+//! prescribed goes on in any case. Of any other body nothing is said, and what is not said is open.
 
 use crate::answer::calc::{is_zero, tidy};
 use crate::expr::Expr;
@@ -32,7 +32,8 @@ pub(super) fn others(
         if before.why_open(motion().chain(&before.center[b])).is_some() {
             continue;
         }
-        let weightless = stage.kind.gravity().is_none();
+        // What is prescribed goes on as it does, whatever acts on the others.
+        let weightless = body.is_fixed() || stage.kind.gravity().is_none();
         match (&before.part[b], time) {
             (Part::Waits, _) if !body.is_fixed() => out.push(sentence![
                 "`",

@@ -62,7 +62,7 @@ pub(in crate::numeric::follow) fn fall(
     let from = [0, 1].map(|k| closed.bodies[fall.body].center[k].clone().unwrap_or(0.0));
     let movers = Movers::of(course, &bodies, &closed, from)
         .map_err(|_| course.out_of_reach("the place of the body is open"))?;
-    let (units, run) = flight(course, &movers, gravity, &end)?;
+    let (units, run) = flight(course, &movers, gravity, (&end, fall.rising))?;
     let (mut after, samples) = movers.ended(course, &units, &run, &closed);
     let open = course.open(Why::Needed);
     for b in &bodies {
@@ -108,7 +108,7 @@ fn flight(
     course: &Course<'_>,
     movers: &Movers,
     gravity: f64,
-    end: &End,
+    (end, is_rising): (&End, bool),
 ) -> Result<(Units, Run), Lost> {
     let [.., u, v, _] = movers.states[0];
     let time = match end {
@@ -192,6 +192,18 @@ fn flight(
             left: &|y| way * (-y[1] - height),
             rate: &rising,
             never: &mut |y, _| way * -rising(y) <= 0.0,
+        };
+        let run = mechanism.until(&start, &mut goal).map_err(stopped)?;
+        return Ok((units, run));
+    }
+    if is_rising {
+        if height > 0.0 || v < 0.0 {
+            return Err(never());
+        }
+        let mut goal = Goal {
+            left: &|y| y[1] + height,
+            rate: &rising,
+            never: &mut |y, _| rising(y) <= 0.0,
         };
         let run = mechanism.until(&start, &mut goal).map_err(stopped)?;
         return Ok((units, run));

@@ -102,6 +102,9 @@ pub(in crate::numeric::follow) fn slide(
             course.contradiction("it does not begin to move along the line without turning")
         );
     }
+    if speed < -ROUNDING * size.speed {
+        return Err(course.contradiction("it begins to move against the direction of the line"));
+    }
     for [.., a, b, _] in &movers.states[1..] {
         if (a - u).abs().max((b - v).abs()) > ROUNDING * size.speed {
             return Err(course.contradiction("the bodies do not begin to move together"));
