@@ -235,6 +235,24 @@ impl Ask {
         }
     }
 
+    /// What it puts in for parameters.
+    pub fn with(&self) -> &[(Symbol, Expr)] {
+        match self {
+            Ask::Value { with, .. } | Ask::Condition { with, .. } | Ask::Show { with, .. } => with,
+            _ => &[],
+        }
+    }
+
+    /// Whether it is about the end of its stage, and not about its beginning.
+    pub fn is_at_end(&self) -> bool {
+        match self {
+            Ask::Reaction { at_end, .. }
+            | Ask::Position { at_end, .. }
+            | Ask::AngularMomentum { at_end, .. } => *at_end,
+            _ => true,
+        }
+    }
+
     /// Places and directions in it.
     pub fn vectors(&self) -> Vec<&Vector> {
         match self {

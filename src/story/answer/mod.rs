@@ -3,6 +3,7 @@
 //! What is asked of an impact comes from its derivation; what is asked of a motion is in [`motion`].
 
 mod motion;
+mod reached;
 
 use std::collections::BTreeSet;
 
@@ -24,12 +25,16 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
     let mut answers: Vec<Answer> = Vec::new();
     for question in &scene.questions {
         let new = if !question.ask.formulas().is_empty() {
-            worlds::each(scene, &mut worlds, |known| {
+            let mut new = worlds::each(scene, &mut worlds, |known| {
                 match needs_open(&question.ask, known, &answers) {
                     Some(why) => Ok(vec![unanswered(question, &why)]),
                     None => formula(scene, question, known),
                 }
-            })?
+            })?;
+            for a in &mut new {
+                reached::held(scene, &stages, &worlds, &story.questions, &answers, a);
+            }
+            new
         } else {
             let new = one(scene, &stages, question, &answers)?;
             worlds::remember(&mut worlds, &new);

@@ -137,6 +137,10 @@ pub(in crate::story) fn slide(
     out.way = Some(course.distance);
     out.steps = steps;
     out.assumptions = assumptions;
+    needs.push(line.speed.clone());
+    if let SlideEnd::Distance(_) = &slide.until {
+        needs.push(tidied(stage, &course.speed.powi(2))?);
+    }
     out.needs = needs;
     Ok(out)
 }

@@ -107,10 +107,13 @@ pub(in crate::story) fn turn(
     out.kinetic = Some(half(&(&inertia * &out.after.spin[turn.body].powi(2))));
     out.energy = Some([start, end.clone()]);
     out.time = time;
-    out.needs = needs;
-    if !work.is_zero() {
-        assumptions.extend(arrival(stage, turn.body, &end, reaches));
+    if !work.is_zero()
+        && let Some(words) = arrival(stage, turn.body, &end, reaches)
+    {
+        assumptions.push(words);
+        needs.push(end);
     }
+    out.needs = needs;
     out.assumptions = assumptions;
     Ok(out)
 }
