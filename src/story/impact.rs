@@ -67,6 +67,9 @@ pub(super) fn tell(
         // Momentum and the one-sided laws have one outcome only; what holds everywhere is it.
         cases = vec![cases.swap_remove(sure)];
     }
+    if cases.len() > 1 {
+        cases.retain(|case| !is_refuted(&base, case, &handed));
+    }
     if cases.is_empty() {
         let is_contradiction = contradiction.is_some();
         let reason = match contradiction {
@@ -258,6 +261,18 @@ fn case(
         derivation,
         proof,
     }))
+}
+
+/// Whether the values that the scene gives rule a case out.
+fn is_refuted(scene: &Scene, case: &Case, handed: &BTreeMap<Symbol, Expr>) -> bool {
+    let given = scene.parameters.iter();
+    let given: BTreeMap<Symbol, Expr> = given
+        .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
+        .collect();
+    case.conditions.iter().any(|(_, e)| {
+        let there = e.substitute(handed).substitute(&given);
+        there != *e && matches!(sign(&there, &scene.domains), Seen::Proved(Sign::Negative))
+    })
 }
 
 /// Bodies joined by a hinge must move alike there before.
