@@ -281,6 +281,10 @@ fn extent(followed: &Followed) -> f64 {
 
 /// Where the solution lets bodies be elsewhere or move otherwise than is found.
 fn differs(impact: &Impact, at: &Point<f64>, found: &[BodyState], extent: f64) -> Option<String> {
+    let spins: Vec<&Component> = found.iter().map(|state| &state.spin).collect();
+    let fastest = size(&spins);
+    let speeds: Vec<&Component> = found.iter().flat_map(|state| &state.velocity).collect();
+    let speed = size(&speeds).max(fastest * extent);
     for (body, state) in impact.scene.bodies.iter().zip(found) {
         if body.is_fixed() {
             continue;
@@ -290,10 +294,10 @@ fn differs(impact: &Impact, at: &Point<f64>, found: &[BodyState], extent: f64) -
         let pairs = [
             ("is at x =", &body.center[0], x, extent),
             ("is at y =", &body.center[1], y, extent),
-            ("moves with v_x =", &body.velocity[0], u, size(&[u, v])),
-            ("moves with v_y =", &body.velocity[1], v, size(&[u, v])),
+            ("moves with v_x =", &body.velocity[0], u, speed),
+            ("moves with v_y =", &body.velocity[1], v, speed),
         ];
-        let spin = ("turns with", &body.spin, &state.spin, size(&[&state.spin]));
+        let spin = ("turns with", &body.spin, &state.spin, fastest);
         let turns = (!body.is_particle()).then_some(spin);
         for (words, told, found, scale) in pairs.into_iter().chain(turns) {
             let value = told.substitute(&impact.handed).evaluate(at);

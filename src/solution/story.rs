@@ -418,13 +418,6 @@ impl Page<'_> {
     /// stands by its name.
     fn start_energy(&self, stage: &Stage, told: &StageTold) -> Expr {
         let half = Expr::ratio(1, 2);
-        let body = match &stage.kind {
-            StageKind::Turn(t) => t.body,
-            StageKind::Slide(s) => s.body,
-            StageKind::Fall(f) => f.body,
-            StageKind::Wind(w) => w.body,
-            StageKind::Impact { .. } => return Expr::zero(),
-        };
         let square = |e: &Expr| {
             let minus = -e;
             let named = self.told.answers.iter().find(|a| {
@@ -436,13 +429,16 @@ impl Page<'_> {
                 _ => e.powi(2),
             }
         };
-        if let Some([_, inertia]) = &told.inertia {
-            return &half * inertia * square(&told.before.spin[body]);
+        if let (Some([_, inertia]), StageKind::Turn(turn)) = (&told.inertia, &stage.kind) {
+            return &half * inertia * square(&told.before.spin[turn.body]);
         }
-        let b = &stage.scene.bodies[body];
-        let v = &told.before.velocity[body];
-        let moving = &half * &b.mass * (square(&v[0]) + square(&v[1]));
-        moving + &half * &b.inertia * square(&told.before.spin[body])
+        let moved = stage.kind.moved();
+        Expr::sum(moved.into_iter().map(|body| {
+            let b = &stage.scene.bodies[body];
+            let v = &told.before.velocity[body];
+            let moving = &half * &b.mass * (square(&v[0]) + square(&v[1]));
+            moving + &half * &b.inertia * square(&told.before.spin[body])
+        }))
     }
 
     /// Answers about the end of a stage.
@@ -540,11 +536,14 @@ impl Page<'_> {
         let [_, end] = told.energy.as_ref()?;
         let scene = &told.placed.scene;
         let inertia = match (ask, &told.inertia) {
-            (Ask::Spin { .. }, Some([_, about])) => about,
-            (Ask::Velocity { body, .. }, None) => &scene.bodies[*body].mass,
+            (Ask::Spin { .. }, Some([_, about])) => about.clone(),
+            (Ask::Velocity { .. }, None) => {
+                let moved = told.placed.kind.moved();
+                Expr::sum(moved.into_iter().map(|b| scene.bodies[b].mass.clone()))
+            }
             _ => return None,
         };
-        let energy = |of: &Expr| &(&Expr::ratio(1, 2) * inertia) * &of.powi(2);
+        let energy = |of: &Expr| &(&Expr::ratio(1, 2) * &inertia) * &of.powi(2);
         if told.work.is_empty() || tidied(self.scene, &energy(value)) != *end {
             return None;
         }
