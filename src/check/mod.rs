@@ -122,13 +122,19 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
     };
     for impact in &impacts {
         let mine = of(Some(&impact.name));
-        replay(&impact.scene, &impact.meanings, &mine, &mut report);
+        replay(
+            &impact.scene,
+            &impact.meanings,
+            &mine,
+            impact.mode.as_deref(),
+            &mut report,
+        );
     }
     if scene.has_stages() {
         story::replay(&scene, &impacts, &meanings, &of(None), &mut report);
     } else {
         let mode = root["mode"].as_str();
-        replay_at(&scene, &meanings, &of(None), mode, &mut report);
+        replay(&scene, &meanings, &of(None), mode, &mut report);
     }
     for near in &claims.near {
         near::replay(&scene, near, &mut report);
@@ -303,19 +309,10 @@ fn read(text: &Value, symbols: &Symbols, id: &str) -> Result<Expr, Unusable> {
     })
 }
 
-fn replay(
-    scene: &Scene,
-    meanings: &BTreeMap<Symbol, Meaning>,
-    claims: &[&Claim],
-    report: &mut Report,
-) {
-    replay_at(scene, meanings, claims, None, report);
-}
-
 /// Seeds tried where a contact with friction must do what the solution says.
 const SEEDS: u64 = 400;
 
-fn replay_at(
+fn replay(
     scene: &Scene,
     meanings: &BTreeMap<Symbol, Meaning>,
     claims: &[&Claim],

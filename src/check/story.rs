@@ -16,7 +16,7 @@ use crate::expr::{Expr, Point, Symbol};
 use crate::formula::{self, Symbols};
 use crate::numeric::follow::{self, BodyState, Component, Followed, Passed, What};
 use crate::numeric::{self, Answer};
-use crate::scene::{Contact, ContactLaw, OneSided, Parameter, Scene, StageKind};
+use crate::scene::{Contact, ContactLaw, Mode, OneSided, Parameter, Scene, StageKind};
 
 /// Points looked at before a motion that does not get to its end is given up.
 const TRIES: u64 = 60;
@@ -31,6 +31,8 @@ pub(super) struct Impact {
     stage: usize,
     /// Names of the supports and strings that act.
     active: Vec<String>,
+    /// What a contact with friction does.
+    pub mode: Option<String>,
     /// Its scene, with the places and the motion that go in.
     pub scene: Scene,
     /// What its symbols stand for.
@@ -120,6 +122,7 @@ fn impact(scene: &Scene, value: &Value) -> Result<Impact, Unusable> {
         name,
         stage: index,
         active,
+        mode: value["mode"].as_str().map(String::from),
         scene: out,
         meanings,
         handed,
@@ -247,9 +250,10 @@ pub(super) fn replay(
     super::compare(points, meanings, claims, report);
 }
 
-/// Whether the supports and strings that act are those of the outcome that the solution tells.
+/// Whether the supports and strings that act are those of the outcome that the solution tells, and friction does the same.
 fn goes_so(impact: &Impact, passed: &Passed) -> bool {
     match &passed.what {
+        What::Impact(found) if found.mode.map(Mode::words) != impact.mode.as_deref() => false,
         What::Impact(found) => match found.acting.as_slice() {
             [] => impact.active.is_empty(),
             [acting] => {

@@ -69,6 +69,20 @@ pub struct Case {
     pub scene: Scene,
 }
 
+impl Case {
+    /// Everything that must be ≥ 0 for it, the direction included.
+    pub fn needs(&self, side: &Side) -> Vec<Expr> {
+        let bounds = self.conditions.iter().map(|bound| bound.when.of.clone());
+        let direction = match (self.known_direction, side.of.is_zero()) {
+            (true, _) => None,
+            (false, false) => Some(&side.of),
+            (false, true) => Some(&side.tie),
+        };
+        let direction = direction.map(|e| &Expr::from(self.direction) * e);
+        direction.into_iter().chain(bounds).collect()
+    }
+}
+
 /// A condition of a case.
 #[derive(Clone, Debug)]
 pub struct Bound {

@@ -66,7 +66,7 @@ fn scope(x: &Scope) -> Value {
         .iter()
         .map(|(name, value)| (name.to_string(), json!(write_plain(value))))
         .collect();
-    json!({
+    let mut out = json!({
         "name": x.name,
         "stage": x.stage,
         "active": x.active,
@@ -74,7 +74,11 @@ fn scope(x: &Scope) -> Value {
         "open": x.open.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "before": before,
         "symbols": symbols(&x.meanings),
-    })
+    });
+    if let Some(mode) = x.mode {
+        out["mode"] = json!(mode.words());
+    }
+    out
 }
 
 fn meaning(m: &Meaning) -> Value {

@@ -52,7 +52,7 @@ impl Writer<'_> {
     }
 
     /// What a contact with friction does in the case that is worked out, and when it does that.
-    fn friction(&mut self) {
+    pub(super) fn friction(&mut self) {
         let contacts = &self.scene.contacts;
         let decided = contacts.iter().find_map(|c| match &c.law {
             ContactLaw::Decided(decided) => Some((c.name.clone(), decided.clone())),

@@ -104,6 +104,8 @@ pub struct Scope {
     pub stage: String,
     /// Names of the supports and strings that act.
     pub active: Vec<String>,
+    /// What a contact with friction does.
+    pub mode: Option<Mode>,
     /// Symbols for what an earlier stage hands on, and what they are.
     pub handed: BTreeMap<Symbol, Expr>,
     /// Symbols that stand for what is not determined.

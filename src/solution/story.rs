@@ -225,6 +225,7 @@ impl Page<'_> {
         let mut names = self.solution.names.clone();
         names.append(&mut writer.solution.names);
         writer.solution.names = names;
+        writer.friction();
         writer.blocks();
         if !derivation.definitions.is_empty() {
             writer.results();
@@ -254,6 +255,7 @@ impl Page<'_> {
             name: id,
             stage: stage.name.clone(),
             active: case.active.clone(),
+            mode: super::decided(&scene),
             handed: case.handed.clone(),
             open: told.before.open.keys().cloned().collect(),
             before,

@@ -15,9 +15,10 @@ use crate::domain::Domain;
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{
-    Ask, Contact, ContactLaw, EnergyWhen, ImpulseAt, OneSided, Question, Scene, Stage, touch,
+    Ask, Contact, ContactLaw, EnergyWhen, Hypothesis, ImpulseAt, OneSided, Question, Scene, Stage,
+    touch,
 };
-use crate::verify;
+use crate::verify::{self, friction};
 
 /// Name of the question after the kinetic energy lost; no name of a scene has a blank at its end.
 const ENERGY: &str = "energy lost ";
@@ -55,8 +56,25 @@ pub(super) fn tell(
     let handed = hand_on(&mut base, named);
     let mut cases: Vec<Case> = Vec::new();
     let mut contradiction = None;
-    for set in subsets(one_sided, supposed) {
-        match case(&base, one_sided, &set, supposed.is_some(), &handed, &before) {
+    let mut outcomes =
+        friction::outcomes(&base).map_err(|why| Refused::new(&stage.name, why, ""))?;
+    for outcome in &mut outcomes {
+        // No table stands beside this impact to tell what Newton's or Brach's law gains.
+        outcome.scene.gains_energy = base.gains_energy;
+    }
+    let sets = subsets(one_sided, supposed);
+    for (outcome, set) in outcomes
+        .iter()
+        .flat_map(|o| sets.iter().map(move |set| (o, set)))
+    {
+        match case(
+            outcome,
+            one_sided,
+            set,
+            supposed.is_some(),
+            &handed,
+            &before,
+        ) {
             Ok(Some(case)) => cases.push(case),
             Ok(None) => {}
             Err(derive::Stop::Contradiction(law)) => contradiction = Some(law),
@@ -96,6 +114,7 @@ pub(super) fn tell(
     for (words, e) in &cases[0].conditions {
         assumptions.push(sentence![e, " ≥ 0 (", words, ")"]);
     }
+    assumptions.extend(cases.iter().filter_map(|case| gain(&base, case)));
     let checks = cases[0].proof.scene.clone();
     Ok(StageTold {
         kept,
@@ -123,18 +142,24 @@ fn subsets(one_sided: &[OneSided], supposed: Option<&[String]>) -> Vec<Vec<usize
     all
 }
 
-/// One set of acting supports; `None` where it does not hold anywhere.
+/// One set of acting supports, where friction goes one way; `None` where it does not hold anywhere.
 fn case(
-    base: &Scene,
+    outcome: &friction::Outcome,
     one_sided: &[OneSided],
     set: &[usize],
     is_supposed: bool,
     handed: &BTreeMap<Symbol, Expr>,
     before: &State,
 ) -> Result<Option<Case>, derive::Stop> {
-    let mut scene = base.clone();
+    let mut scene = outcome.scene.clone();
+    for contact in &mut scene.contacts {
+        if let ContactLaw::Decided(decided) = &mut contact.law {
+            // Told with the case, in terms of what is given.
+            decided.when.clear();
+        }
+    }
     // Among the questions the one-sided contacts count after the others; only those that act are contacts here.
-    let others = base.contacts.len();
+    let others = scene.contacts.len();
     scene.questions.retain_mut(|q| match &mut q.ask {
         Ask::Impulse {
             from: ImpulseAt::Contact(i),
@@ -239,6 +264,14 @@ fn case(
             _ => conditions.push((words, essential(&amount, &scene.domains))),
         }
     }
+    for need in &outcome.when {
+        let need = need.substitute(handed);
+        match sign(&need, &scene.domains) {
+            Seen::Proved(s) if s.is_not_negative() => {}
+            Seen::Proved(Sign::Negative) => return Ok(None),
+            _ => conditions.push((outcome.words.clone(), essential(&need, &scene.domains))),
+        }
+    }
     conditions.sort_by(|a, b| a.1.cmp(&b.1));
     conditions.dedup_by(|a, b| a.1 == b.1);
     if conditions.iter().any(|(_, e)| {
@@ -254,6 +287,7 @@ fn case(
     Ok(Some(Case {
         possible,
         active: set.iter().map(|i| one_sided[*i].name.clone()).collect(),
+        rubs: outcome.words.clone(),
         conditions,
         handed: handed.clone(),
         after: before.clone(),
@@ -263,12 +297,37 @@ fn case(
     }))
 }
 
+/// The values that the scene gives.
+fn values(scene: &Scene) -> BTreeMap<Symbol, Expr> {
+    let given = scene.parameters.iter();
+    given
+        .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
+        .collect()
+}
+
+/// What is to be said of the energy under a law of friction that may gain some.
+fn gain(scene: &Scene, case: &Case) -> Option<Sentence> {
+    let mut laws = case.scene.contacts.iter().filter_map(|c| match &c.law {
+        ContactLaw::Decided(decided) => Some(&decided.law.hypothesis),
+        _ => None,
+    });
+    let law = laws.find(|h| matches!(h, Hypothesis::Newton | Hypothesis::Brach { .. }))?;
+    let at_values = case.value(ENERGY)?.substitute(&values(scene));
+    let name = law.name();
+    match sign(&at_values, &scene.domains) {
+        Seen::Proved(s) if s.is_not_negative() => None,
+        Seen::Proved(_) => Some(Sentence::words(format!(
+            "that energy grows, which it does at the values given: {name}’s hypothesis does not fit friction here"
+        ))),
+        _ => Some(Sentence::words(format!(
+            "that no energy is gained, which {name}’s hypothesis with friction does not ensure"
+        ))),
+    }
+}
+
 /// Whether the values that the scene gives rule a case out.
 fn is_refuted(scene: &Scene, case: &Case, handed: &BTreeMap<Symbol, Expr>) -> bool {
-    let given = scene.parameters.iter();
-    let given: BTreeMap<Symbol, Expr> = given
-        .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
-        .collect();
+    let given = values(scene);
     case.conditions.iter().any(|(_, e)| {
         let there = e.substitute(handed).substitute(&given);
         there != *e && matches!(sign(&there, &scene.domains), Seen::Proved(Sign::Negative))

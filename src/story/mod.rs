@@ -128,6 +128,8 @@ pub struct Kept {
 pub struct Case {
     /// Names of the supports and strings that act.
     pub active: Vec<String>,
+    /// What a contact with friction does, such as "`C` slides"; empty where there is none.
+    pub rubs: String,
     /// What must be ≥ 0 for it, in words and as an expression; empty where it holds on the whole domain.
     pub conditions: Vec<(String, Expr)>,
     /// Symbols that stand for what an earlier stage hands on, in the scene and the derivation, with their values.

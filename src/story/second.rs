@@ -60,7 +60,18 @@ pub(super) fn look<'a>(scene: &'a Scene, worlds: &[World], stages: &[StageTold])
     };
     let mut names: BTreeSet<Symbol> = follow::symbols(scene);
     names.extend(scene.parameters.iter().map(|p| p.name.clone()));
-    for point in points_of(names, &scene.domains, TRIED) {
+    // The values of the scene show a case that few points of its domain have.
+    let mut own = Point::default();
+    for parameter in &scene.parameters {
+        let value = parameter.value.as_ref();
+        let value = value.and_then(|v| v.evaluate(&Point::<f64>::default()));
+        own.values
+            .extend(value.map(|v| (parameter.name.clone(), v)));
+    }
+    let is_whole = names.iter().all(|name| own.values.contains_key(name));
+    let own = is_whole.then_some(own);
+    let random = points_of(names, &scene.domains, TRIED);
+    for point in own.into_iter().chain(random) {
         let Ok(followed) = follow::follow(scene, &point) else {
             continue;
         };
@@ -318,7 +329,9 @@ impl Second<'_> {
                     && let Some(gap) = turned.evaluate(&point)
                 {
                     let what = format!("angle of `{}` {when}", body.name);
-                    compared.put(&what, 2.0 * (gap / 2.0).sin(), 0.0, 1.0);
+                    // After many turns an angle is known to so many parts of itself.
+                    let size = angle.abs().max(1.0);
+                    compared.put(&what, 2.0 * (gap / 2.0).sin(), 0.0, size);
                 }
             }
         }

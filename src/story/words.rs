@@ -14,6 +14,7 @@ use crate::scene::{
 /// Which supports act in an outcome.
 pub(super) fn active(case: &Case) -> String {
     match case.active.as_slice() {
+        [] if !case.rubs.is_empty() => case.rubs.replace('`', ""),
         [] => String::from("no support or string acts"),
         names => format!(
             "{} act{}",

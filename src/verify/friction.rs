@@ -4,7 +4,7 @@
 //! points of the domain, whether exactly one case holds there and gives the impulse at the end of the path; whether energy
 //! is gained.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::Check;
 use crate::algebra::{Field, Sign};
@@ -17,7 +17,7 @@ use crate::laws::friction::{Side, When};
 use crate::numeric::friction::Followed;
 use crate::numeric::path::{NoPath, Path};
 use crate::numeric::{self, Number};
-use crate::scene::{Friction, Hypothesis, Mode, Scene};
+use crate::scene::{ContactLaw, Friction, Hypothesis, Mode, Scene};
 
 /// Exact points tried; about half of them have other modes than the one wanted.
 const POINTS: u64 = 40;
@@ -118,34 +118,69 @@ pub fn judge(scene: &Scene, table: &Table) -> Judged {
     }
 }
 
-/// The scene in the one case that its values pick or that it supposes; the words say why there is none. A scene without
-/// friction is as it is.
-pub fn settled(scene: &Scene) -> Result<Scene, String> {
+/// One way an impact with friction can go.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The scene with the conditions of the mode in place of the law.
+    pub scene: Scene,
+    /// What the contact does, such as "`C` slides".
+    pub words: String,
+    /// What must be ≥ 0 for it.
+    pub when: Vec<Expr>,
+}
+
+/// The ways a scene with friction can go, as far as its values and what it supposes leave several; the scene itself where
+/// there is no friction. The table is held against the path of the impulse first.
+pub fn outcomes(scene: &Scene) -> Result<Vec<Outcome>, String> {
     let table = match crate::derive::friction::table(scene) {
         Ok(Some(table)) => table,
-        Ok(None) => return Ok(scene.clone()),
+        Ok(None) => {
+            return Ok(vec![Outcome {
+                scene: scene.clone(),
+                words: String::new(),
+                when: Vec::new(),
+            }]);
+        }
         Err(stop) => return Err(stop.to_string()),
     };
     let judged = judge(scene, &table);
     if let Some(failed) = judged.checks.iter().find(|c| c.holds == Some(false)) {
         return Err(failed.words.clone());
     }
-    match judged.pick.cases(&table).as_slice() {
-        [one] => Ok(table.cases[*one].scene.clone()),
-        [] => Err(String::from(
+    let picked = judged.pick.cases(&table);
+    if picked.is_empty() {
+        return Err(String::from(
             "what the scene supposes of its contact never happens",
-        )),
-        several => {
-            let modes = several.iter().map(|i| table.cases[*i].mode.words());
-            let modes: std::collections::BTreeSet<&str> = modes.collect();
-            let modes: Vec<&str> = modes.into_iter().collect();
-            Err(format!(
-                "friction leaves {} cases: it {}\nhint: give the parameters values, with --set or in the scene, or choose a case with `supposing`; `carom derive` tells when each holds",
-                several.len(),
-                modes.join(", or ")
-            ))
-        }
+        ));
     }
+    let name = &scene.contacts[table.contact].name;
+    let outcome = |case: &Case| Outcome {
+        scene: case.scene.clone(),
+        words: format!("`{name}` {}", case.mode.words()),
+        when: case.needs(&table.side),
+    };
+    Ok(picked.iter().map(|i| outcome(&table.cases[*i])).collect())
+}
+
+/// The scene in the one case that its values pick or that it supposes; the words say why there is none. A scene without
+/// friction is as it is.
+pub fn settled(scene: &Scene) -> Result<Scene, String> {
+    let all = outcomes(scene)?;
+    if let [one] = all.as_slice() {
+        return Ok(one.scene.clone());
+    }
+    let contacts = all.iter().flat_map(|o| &o.scene.contacts);
+    let modes = contacts.filter_map(|c| match &c.law {
+        ContactLaw::Decided(decided) => Some(decided.mode.words()),
+        _ => None,
+    });
+    let modes: BTreeSet<&str> = modes.collect();
+    let modes: Vec<&str> = modes.into_iter().collect();
+    Err(format!(
+        "friction leaves {} cases: it {}\nhint: give the parameters values, with --set or in the scene, or choose a case with `supposing`; `carom derive` tells when each holds",
+        all.len(),
+        modes.join(", or ")
+    ))
 }
 
 /// The case that the values of the scene pick.

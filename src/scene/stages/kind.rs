@@ -116,12 +116,6 @@ fn impact_of(
         ));
         return None;
     }
-    if scene.friction().is_some() {
-        let fault = Fault::new(span, "friction is not followed through stages");
-        r.faults
-            .push(fault.hint("write the impact as a scene of its own, without `stages`"));
-        return None;
-    }
     let supposed = impact.supposing.as_ref().map(|list| {
         for name in list {
             if !one_sided.iter().any(|o| o.name == name.text) {

@@ -12,7 +12,7 @@ mod tried;
 
 use super::{BodyState, Component, Course, Lost, Open, State};
 use crate::numeric::given::{Freedom, Given};
-use crate::scene::OneSided;
+use crate::scene::{Mode, OneSided};
 use tried::Tried;
 
 /// Speeds and impulses below this share of those at hand are rounding.
@@ -31,6 +31,8 @@ pub struct Impact {
     pub blows: Vec<Impulse>,
     /// Names of the supports and strings that act, for every set that fits: one set as a rule.
     pub acting: Vec<Vec<String>>,
+    /// What a contact with friction did.
+    pub mode: Option<Mode>,
     /// How fast bodies part, of every contact with a normal and every support and string.
     pub openings: Vec<Opening>,
     /// What cannot happen so, though the laws were solved.
@@ -129,6 +131,8 @@ struct Support {
 /// An impact in numbers.
 struct Table<'a> {
     given: Given<f64>,
+    /// What a contact with friction does; its impulse is known in `given`.
+    mode: Option<Mode>,
     one_sided: &'a [OneSided],
     supports: Vec<Support>,
     /// The contacts, hinges and blows that stand in `given`, by index in the stage's scene.

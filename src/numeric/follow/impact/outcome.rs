@@ -157,6 +157,7 @@ impl Table<'_> {
                 .iter()
                 .map(|t| t.set.iter().map(name).collect())
                 .collect(),
+            mode: self.mode,
             openings: Vec::new(),
             breaches: Vec::new(),
         };
