@@ -1,4 +1,4 @@
-//! Stories: the scenes of `derivations/problems/` with stages, their answers, and laws that hold for every story.
+//! Stories: the scenes of `derivations/` with stages, their answers, and laws that hold for every story.
 
 mod shared;
 
@@ -12,7 +12,12 @@ use carom::scene::Scene;
 use carom::story::{Told, tell};
 
 fn scene(name: &str) -> Scene {
-    let folders = ["tests/stories/scenes", "derivations/problems"];
+    let folders = [
+        "tests/stories/scenes",
+        "derivations/problems",
+        "derivations/friction",
+        "derivations/more",
+    ];
     let mut paths = folders
         .map(|folder| format!("{folder}/{name}.json"))
         .into_iter();

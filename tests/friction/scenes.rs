@@ -39,6 +39,8 @@ fn names() -> Vec<String> {
                 .into_owned()
         })
         .collect();
+    // Those with stages are told and held against the scene followed in numbers: `tests/stories`.
+    names.retain(|name| read(name, "").story.is_none());
     names.sort();
     names
 }

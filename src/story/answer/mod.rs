@@ -32,7 +32,7 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
                 }
             })?;
             for a in &mut new {
-                reached::held(scene, &stages, &worlds, &story.questions, &answers, a);
+                reached::held(scene, &stages, &worlds, &scene.questions, &answers, a);
             }
             new
         } else {
