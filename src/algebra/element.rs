@@ -1,11 +1,11 @@
 //! An element of a field: a reduced numerator over a denominator kept in factors.
 
-use num_integer::Integer;
 use num_traits::One;
 
 use super::mono::{Mono, cmp_mono, mono_is_one};
 use super::poly::Poly;
 use crate::expr::Int;
+use crate::expr::number::gcd;
 
 /// A quotient in normal form; arithmetic is the [`super::Field`]'s. Zero exactly when the numerator is zero.
 #[derive(Clone, Debug)]
@@ -135,14 +135,5 @@ impl PartialEq for Den {
         self.int == other.int
             && super::mono::cmp_mono(&self.mono, &other.mono).is_eq()
             && self.factors == other.factors
-    }
-}
-
-/// gcd of anything and a positive word: 64-bit steps after the first.
-fn gcd(n: i128, word: i128) -> i128 {
-    let rest = n.unsigned_abs() % word.unsigned_abs();
-    match (u64::try_from(rest), u64::try_from(word)) {
-        (Ok(a), Ok(b)) => i128::from(a.gcd(&b)),
-        _ => n.gcd(&word),
     }
 }

@@ -11,7 +11,7 @@ use super::Stop;
 use super::angles::MOST_ANGLES;
 use super::element::{Den, Element};
 use super::gcd::Fuel;
-use super::mono::{Mono, mono_max, mono_of};
+use super::mono::{Mono, exponent, mono_max, mono_of};
 use super::poly::Poly;
 use crate::domain::Domains;
 use crate::expr::angle::angle;
@@ -494,6 +494,44 @@ impl Field {
         };
         let (den, negative) = a.den.power(k, self)?;
         self.cancel(if negative { num.neg() } else { num }, den)
+    }
+
+    /// The coefficient of a symbol in an element that is linear in it, and what is left without it.
+    pub fn linear_in(&self, x: &Element, name: &str) -> Result<(Element, Element), Stop> {
+        let variable = self.names.get(name);
+        match variable.and_then(|v| x.num.divide_by_power(*v, 1)) {
+            Some((low, high)) => Ok((
+                self.cancel(high, x.den.clone())?,
+                self.cancel(low, x.den.clone())?,
+            )),
+            None => Ok((Element::zero(), x.clone())),
+        }
+    }
+
+    /// The element with a value put in for a symbol, by Horner's rule: what cancels within a coefficient is never
+    /// multiplied out. The symbol must not stand in a denominator.
+    pub fn put(&self, x: &Element, name: &str, value: &Element) -> Result<Element, Stop> {
+        let Some(v) = self.names.get(name) else {
+            return Ok(x.clone());
+        };
+        if x.den.factors.iter().any(|(f, _)| f.has(*v)) || exponent(&x.den.mono, *v) > 0 {
+            return Err(Stop::DivisionByZero);
+        }
+        let highest = x.num.terms().map(|(m, _)| exponent(m, *v)).max();
+        let mut total = Element::zero();
+        let mut rest = x.num.clone();
+        for k in (0..=highest.unwrap_or(0)).rev() {
+            let (low, high) = match k {
+                0 => (Poly::zero(), rest),
+                _ => rest
+                    .divide_by_power(*v, k)
+                    .unwrap_or_else(|| (rest, Poly::zero())),
+            };
+            rest = low;
+            let coefficient = self.cancel(high, x.den.clone())?;
+            total = self.add(&self.mul(&total, value)?, &coefficient)?;
+        }
+        Ok(total)
     }
 
     /// A quotient in tidy form: nothing common with any part of the denominator that a trial division finds.

@@ -260,7 +260,7 @@ impl Field {
     fn sum(&self, p: &Poly) -> (Expr, bool, bool) {
         if let Some((fewer, angles)) = self.in_differences(p) {
             let e = self.written(&Element::from_poly(fewer)).substitute(&angles);
-            return if is_negative(&e) {
+            return if e.is_negative() {
                 (-e, true, false)
             } else {
                 (e, false, false)
@@ -275,8 +275,8 @@ impl Field {
             terms.iter_mut().for_each(|t| t.coeff = -t.coeff.clone());
         }
         let mut written = self.grouped(terms);
-        written.sort_by_key(|(first, e)| (is_negative(e), *first));
-        let mixed = written.last().is_some_and(|(_, e)| is_negative(e));
+        written.sort_by_key(|(first, e)| (e.is_negative(), *first));
+        let mixed = written.last().is_some_and(|(_, e)| e.is_negative());
         (Expr::sum(written.into_iter().map(|(_, e)| e)), flip, mixed)
     }
 
@@ -530,14 +530,6 @@ fn turned(sum: &Expr) -> Expr {
         return -sum;
     };
     let mut terms: Vec<Expr> = terms.iter().map(|t| -t).collect();
-    terms.sort_by_key(is_negative);
+    terms.sort_by_key(Expr::is_negative);
     Expr::sum(terms)
-}
-
-fn is_negative(term: &Expr) -> bool {
-    match term.node() {
-        Node::Number(value) => value.is_negative(),
-        Node::Product(factors) => factors[0].as_number().is_some_and(Signed::is_negative),
-        _ => false,
-    }
 }

@@ -1,5 +1,6 @@
 //! Questions and their answers: velocities, spins, impulses, energies, projected balances and matrices.
 
+use super::compact::Parts;
 use super::{Names, Stop, Work};
 use crate::algebra::{self, Element, Row};
 use crate::answer::{Answer, Form, Matrix};
@@ -103,7 +104,8 @@ impl Work<'_> {
             dimension: dimension.clone(),
             ..Answer::blank(question, &name, words)
         };
-        match self.asked(&question.ask, &self.reduced) {
+        let motion = self.parts.as_ref().map(Parts::motion);
+        match self.asked(&question.ask, motion.unwrap_or(&self.reduced)) {
             Asked::Linear(forms) => {
                 for (suffix, form) in forms {
                     let open: Vec<Unknown> = self
@@ -111,15 +113,11 @@ impl Work<'_> {
                         .into_iter()
                         .filter(|u| !counting.is_unique(*u))
                         .collect();
-                    let value = if open.is_empty() {
-                        self.element_of(&form)?
-                    } else {
-                        None
+                    let value = match open.is_empty() {
+                        true => self.linear(&form)?,
+                        false => None,
                     };
-                    let form = match value {
-                        Some(value) => self.value(&value)?,
-                        None => Form::Open(self.called(&open)),
-                    };
+                    let form = value.unwrap_or_else(|| Form::Open(self.called(&open)));
                     let (name, latex, words) = match suffix {
                         "" => (question.name.clone(), latex.clone(), words.clone()),
                         axis => (
@@ -132,10 +130,14 @@ impl Work<'_> {
                 }
             }
             Asked::Energy(when, of) => {
-                let form = match self.energy(when, of)? {
-                    Some(terms) => self.sum(&terms)?,
-                    None => Form::Open(self.called(&counting.open)),
+                let value = match self.with_parts(|parts, work| parts.energy(work, when, of)) {
+                    Some(form) => form?,
+                    None => match self.energy(when, of)? {
+                        Some(terms) => Some(self.sum(&terms)?),
+                        None => None,
+                    },
                 };
+                let form = value.unwrap_or_else(|| Form::Open(self.called(&counting.open)));
                 out.push(make(question.name.clone(), latex, words, form));
             }
             Asked::Balance(system, along) => {
@@ -153,6 +155,25 @@ impl Work<'_> {
     fn called(&self, unknowns: &[Unknown]) -> Vec<String> {
         let names = unknowns.iter().map(|u| self.names.plain(*u));
         names.map(String::from).collect()
+    }
+
+    /// The value of an affine form; `None` where it is not determined.
+    fn linear(&mut self, form: &Affine<Expr>) -> Result<Option<Form>, Stop> {
+        match self.with_parts(|parts, work| parts.linear(work, form)) {
+            Some(form) => form,
+            None => match self.element_of(form)? {
+                Some(value) => Ok(Some(self.value(&value)?)),
+                None => Ok(None),
+            },
+        }
+    }
+
+    /// What the named parts make of it, where the derivation has any.
+    fn with_parts<T>(&mut self, of: impl FnOnce(&Parts, &mut Self) -> T) -> Option<T> {
+        let parts = self.parts.take()?;
+        let out = of(&parts, self);
+        self.parts = Some(parts);
+        Some(out)
     }
 
     fn value(&mut self, value: &Element) -> Result<Form, Stop> {
@@ -239,7 +260,7 @@ impl Work<'_> {
         }
     }
 
-    fn moving(&self, of: Option<usize>) -> Vec<usize> {
+    pub(super) fn moving(&self, of: Option<usize>) -> Vec<usize> {
         let bodies = 0..self.scene.bodies.len();
         bodies
             .filter(|b| of.is_none_or(|o| o == *b) && !self.scene.bodies[*b].is_fixed())
@@ -320,31 +341,33 @@ impl Work<'_> {
         let direction = |v: &Vector| Ok::<_, std::convert::Infallible>(v.clone());
         let Ok(linear) = laws::equation(self.scene, &self.g, &full, law, direction);
         // left − right = Σ k·v − known, with every velocity replaced by its components
-        let mut total = -&linear.known;
+        let known = self.field.element(&linear.known)?;
+        let mut total = self.field.neg(&known);
         for (unknown, k) in &linear.terms {
+            let k = self.field.element(k)?;
             let value = match unknown {
-                Unknown::Velocity(b, axis) => self.velocity_in_components(*b)?[*axis].clone(),
-                other => Expr::symbol(self.names.plain(*other)),
+                Unknown::Velocity(b, axis) => {
+                    let [x, y] = self.velocity_in_components(*b)?;
+                    if *axis == 0 { x } else { y }
+                }
+                other => self
+                    .field
+                    .element(&Expr::symbol(self.names.plain(*other)))?,
             };
-            total = total + k * &value;
+            let term = self.field.mul(&k, &value)?;
+            total = self.field.add(&total, &term)?;
         }
-        let mut all: Vec<String> = names.to_vec();
-        all.extend(
-            laws::unknowns(self.scene)
-                .iter()
-                .map(|u| self.names.plain(*u).to_string()),
-        );
+        let unknowns = laws::unknowns(self.scene);
+        let others = unknowns.iter().map(|u| self.names.plain(*u).to_string());
         let mut terms = Vec::new();
-        let mut rest = total.clone();
-        for name in all {
-            let k = self.tidy(&total.derivative(&name))?;
-            if !k.is_zero() {
-                rest = rest - &k * &Expr::symbol(&name);
-                terms.push((name, k));
+        for name in names.iter().cloned().chain(others) {
+            let (k, rest) = self.field.linear_in(&total, &name)?;
+            if !self.field.is_zero(&k) {
+                terms.push((name, self.field.expr(&k)));
+                total = rest;
             }
         }
-        let known = self.tidy(&-&rest)?;
-        Ok((terms, known))
+        Ok((terms, self.field.expr(&self.field.neg(&total))))
     }
 
     /// Names of the questions that ask for a component of a body's velocity.
@@ -368,7 +391,16 @@ impl Work<'_> {
 
     /// Velocity after of a body in the components that questions name, helped by what is given; x and y where they do not
     /// suffice.
-    fn velocity_in_components(&mut self, body: usize) -> Result<Vector, Stop> {
+    fn velocity_in_components(&mut self, body: usize) -> Result<[Element; 2], Stop> {
+        if let Some(known) = self.in_components.get(&body) {
+            return Ok(known.clone());
+        }
+        let found = self.solved_components(body)?;
+        self.in_components.insert(body, found.clone());
+        Ok(found)
+    }
+
+    fn solved_components(&mut self, body: usize) -> Result<[Element; 2], Stop> {
         let mut rows: Vec<(Vector, Expr)> = Vec::new();
         for question in self.scene.asked_of_impact() {
             if let Ask::Velocity {
@@ -403,15 +435,14 @@ impl Work<'_> {
                 rhs: self.field.element(value)?,
             });
         }
-        let own = [0, 1].map(|axis| Expr::symbol(self.names.plain(Unknown::Velocity(body, axis))));
-        if linear.len() < 2 {
-            return Ok(own);
+        if linear.len() == 2
+            && let [Some(x), Some(y)] = algebra::solve(&self.field, &linear, 2)?.values.as_slice()
+        {
+            return Ok([x.clone(), y.clone()]);
         }
-        let solution = algebra::solve(&self.field, &linear, 2)?;
-        match solution.values.as_slice() {
-            [Some(x), Some(y)] => Ok([self.field.expr(x), self.field.expr(y)]),
-            _ => Ok(own),
-        }
+        let own = [0, 1].map(|axis| Unknown::Velocity(body, axis));
+        let [x, y] = own.map(|u| Expr::symbol(self.names.plain(u)));
+        Ok([self.field.element(&x)?, self.field.element(&y)?])
     }
 
     fn matrix(&mut self, rows: &[String], unknowns: &[String]) -> Result<Matrix, Stop> {

@@ -19,11 +19,7 @@ impl Work<'_> {
     /// positive masses.
     pub(super) fn divisors(&mut self, divisors: &[Element]) -> Result<Vec<Expr>, Stop> {
         let scene = self.scene;
-        let mut positive = true;
-        for body in scene.bodies.iter().filter(|b| !b.is_fixed()) {
-            positive &= self.is_positive(&body.mass)
-                && (body.is_particle() || self.is_positive(&body.inertia));
-        }
+        let positive = self.has_positive_masses();
         let contacts = scene
             .contacts
             .iter()
@@ -39,6 +35,14 @@ impl Work<'_> {
         Ok(match self.field.sign(&determinant) {
             Some(Sign::Positive | Sign::Negative) => Vec::new(),
             _ => vec![self.field.expr(&determinant)],
+        })
+    }
+
+    /// Whether every mass and moment of inertia is known to be positive.
+    pub(super) fn has_positive_masses(&mut self) -> bool {
+        let mut moving = self.scene.bodies.iter().filter(|b| !b.is_fixed());
+        moving.all(|body| {
+            self.is_positive(&body.mass) && (body.is_particle() || self.is_positive(&body.inertia))
         })
     }
 

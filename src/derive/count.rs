@@ -11,7 +11,7 @@ use super::{Stop, Work};
 use crate::algebra;
 
 use crate::domain::{Coordinate, roles, samples};
-use crate::expr::{Expr, Point, Rational, Vector, ratio};
+use crate::expr::{Expr, Point, Rational, Vector, number, ratio};
 use crate::laws::{self, Geometry, Kinematics, Law, Linear, Place, Quantity, Unknown};
 use crate::scene::{ContactLaw, Scene};
 
@@ -192,10 +192,10 @@ impl Quantity for Rational {
         One::one()
     }
     fn add(&self, other: &Rational) -> Rational {
-        self + other
+        number::sum(self, other, false)
     }
     fn mul(&self, other: &Rational) -> Rational {
-        self * other
+        number::product(self, other)
     }
     fn neg(&self) -> Rational {
         -self
@@ -305,7 +305,7 @@ fn eliminate(mut rows: Vec<Vec<Rational>>, n: usize) -> Echelon {
             if r != top && !row[column].is_zero() {
                 let factor = row[column].clone();
                 for (j, k) in &pivot_row {
-                    row[*j] -= &factor * k;
+                    row[*j] = number::sum(&row[*j], &number::product(&factor, k), true);
                 }
             }
         }

@@ -56,6 +56,8 @@ pub struct Derivation {
     pub answers: Vec<Answer>,
     /// Closed form of every unknown that is determined, for the proof; those not asked for are not printed.
     pub motion: BTreeMap<Unknown, Expr>,
+    /// The same in parameters and definitions, where an impact was given in named parts from the start; empty elsewhere.
+    pub named: BTreeMap<Unknown, Expr>,
     /// Whether some unknowns stand for definitions because their closed forms are too long to be multiplied out.
     pub in_steps: bool,
     /// What the scene did not need.
@@ -185,6 +187,10 @@ pub fn derive(scene: &Scene) -> Result<Derivation, Stop> {
     if counting.contradictory {
         return work.without_answers(counting);
     }
+    work.parts = match compact::of_two(&mut work) {
+        Err(Stop::Limit(_)) => None,
+        outcome => outcome?,
+    };
     for question in scene.asked_of_impact() {
         let needed = work.unknowns_of(&question.ask)?;
         if needed.iter().all(|u| counting.is_unique(*u)) {
@@ -194,22 +200,22 @@ pub fn derive(scene: &Scene) -> Result<Derivation, Stop> {
         }
     }
     let asked = work.blocks.len();
-    let rest: Vec<Unknown> = work
-        .reduced_unknowns()
-        .into_iter()
-        .filter(|u| counting.is_unique(*u))
-        .collect();
-    stepwise(&mut work, |work| work.determine(&rest, None))?;
+    if work.parts.is_none() {
+        let mut rest = work.reduced_unknowns();
+        rest.retain(|u| counting.is_unique(*u));
+        stepwise(&mut work, |work| work.determine(&rest, None))?;
+    }
     let mut definitions = Vec::new();
     let mut answers = stepwise(&mut work, |work| work.answers(&counting))?;
+    work.field.limit(WORK);
+    let motion = work.motion()?;
+    let named = work.parts.as_ref().map(compact::Parts::all);
     let plain = (answers.clone(), definitions.clone());
     match compact::shorten(&mut work, &mut answers, &mut definitions) {
         // What cannot be written shorter stays as it is.
         Err(Stop::Limit(_)) => (answers, definitions) = plain,
         outcome => outcome?,
     }
-    work.field.limit(WORK);
-    let motion = work.motion()?;
     let left_out = left_out::list(&work, &counting, asked);
     let assumptions = work.assumptions();
     let given = work
@@ -226,6 +232,7 @@ pub fn derive(scene: &Scene) -> Result<Derivation, Stop> {
         definitions,
         answers,
         motion,
+        named: named.unwrap_or_default(),
         in_steps: work.in_steps,
         left_out,
         assumptions,

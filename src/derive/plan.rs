@@ -4,6 +4,10 @@
 //! point in general position. Nothing found here is trusted: the chosen laws are written and solved symbolically
 //! afterwards, and a plan that does not close there is given up for the full system.
 
+use std::ops::RangeInclusive;
+
+use rustc_hash::FxHashSet;
+
 use super::generic::generic_point;
 use super::offered;
 use crate::expr::{Expr, Vector};
@@ -113,6 +117,25 @@ impl Reduction {
     }
 }
 
+/// Ways to determine an unknown.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Way {
+    /// The fewest laws that close on it, at least and at most so many.
+    Closing(usize, usize),
+    /// The impulse first and the rest in terms of it.
+    ImpulseFirst,
+    /// All velocities together, from laws without unknown impulses.
+    WithoutImpulses,
+}
+
+/// All ways, best first. With four equations or more either way, the impulse first reads better.
+pub(super) const WAYS: [Way; 4] = [
+    Way::Closing(1, 3),
+    Way::ImpulseFirst,
+    Way::Closing(4, LARGEST),
+    Way::WithoutImpulses,
+];
+
 /// An equation that could be used, by its pattern.
 #[derive(Clone, Debug)]
 struct Candidate {
@@ -177,27 +200,44 @@ impl Planner {
             })
     }
 
-    /// The fewest laws that, with the `known` unknowns given, determine all `targets`; of equally many the simplest.
-    pub fn closing(
+    /// Laws that determine a target in some way, and all they determine; `None` where that way does not lead there.
+    pub(super) fn plan(
         &self,
-        targets: &[Unknown],
+        way: Way,
+        target: Unknown,
+        known: &dyn Fn(Unknown) -> bool,
+    ) -> Option<(Vec<Law>, Vec<Unknown>)> {
+        match way {
+            Way::Closing(least, most) => self.closing(target, least..=most, known),
+            Way::ImpulseFirst => self.impulse_first(target, known),
+            Way::WithoutImpulses if target.is_impulse() => None,
+            Way::WithoutImpulses => self.without_impulses(known),
+        }
+    }
+
+    /// The fewest laws that, with the `known` unknowns given, determine a target; of equally many the simplest.
+    fn closing(
+        &self,
+        target: Unknown,
+        sizes: RangeInclusive<usize>,
         known: &dyn Fn(Unknown) -> bool,
     ) -> Option<(Vec<Law>, Vec<Unknown>)> {
         let known_mask = self.mask(self.unknowns.iter().copied().filter(|u| known(*u)));
-        let goal = self.mask(targets.iter().copied());
-        if goal.count_ones() as usize != targets.len() {
+        let goal = self.mask(std::iter::once(target));
+        if goal == 0 {
             return None;
         }
         let mut search = Search {
             planner: self,
             known: known_mask,
             best: None,
+            singular: FxHashSet::default(),
             steps: 0,
             limit: 0,
         };
-        for k in goal.count_ones() as usize..=LARGEST {
+        for k in sizes {
             search.limit = k;
-            search.extend(&mut Vec::new(), goal, 0);
+            search.extend(&mut Vec::new(), goal, 0, 0);
             if search.best.is_some() || search.steps > STEPS {
                 break;
             }
@@ -297,7 +337,7 @@ impl Planner {
 
     /// The way with the impulse first: every unknown is paired with the balance of its own body, every contact impulse with
     /// the law of its contact, until nothing new turns up. `None` where a hinge takes part or a pair is missing.
-    pub fn impulse_first(
+    fn impulse_first(
         &self,
         target: Unknown,
         known: &dyn Fn(Unknown) -> bool,
@@ -397,26 +437,30 @@ struct Search<'a> {
     planner: &'a Planner,
     known: u128,
     best: Option<(usize, Vec<usize>, u128)>,
+    /// Sets that are known to be singular; the same set is met in many orders.
+    singular: FxHashSet<Vec<usize>>,
     steps: usize,
     limit: usize,
 }
 
 impl Search<'_> {
-    fn extend(&mut self, chosen: &mut Vec<usize>, union: u128, matched: u128) {
+    fn extend(&mut self, chosen: &mut Vec<usize>, union: u128, matched: u128, cost: usize) {
         self.steps += 1;
-        if union.count_ones() as usize > self.limit || self.steps > STEPS {
+        let too_dear = self.best.as_ref().is_some_and(|(best, ..)| *best <= cost);
+        if union.count_ones() as usize > self.limit || self.steps > STEPS || too_dear {
             return;
         }
         let open = union & !matched;
         if open == 0 {
-            return self.record(chosen, union);
+            return self.record(chosen, union, cost);
         }
         let unknown = open & open.wrapping_neg();
         for c in 0..self.planner.candidates.len() {
             let mask = self.planner.candidates[c].mask;
             if mask & unknown != 0 && !chosen.contains(&c) {
                 chosen.push(c);
-                self.extend(chosen, union | (mask & !self.known), matched | unknown);
+                let union = union | (mask & !self.known);
+                self.extend(chosen, union, matched | unknown, cost + self.cost(c));
                 chosen.pop();
             }
         }
@@ -429,19 +473,21 @@ impl Search<'_> {
         candidate.cost + 4 * open + 2 * (candidate.row.len() - open)
     }
 
-    fn record(&mut self, chosen: &[usize], union: u128) {
-        let cost = chosen.iter().map(|&c| self.cost(c)).sum();
-        if self.best.as_ref().is_some_and(|(best, ..)| *best <= cost) {
+    fn record(&mut self, chosen: &[usize], union: u128, cost: usize) {
+        let mut laws = chosen.to_vec();
+        laws.sort_unstable();
+        if self.singular.contains(&laws) {
             return;
         }
         let mut rows = Vec::new();
-        if chosen
+        let mut dense = laws
             .iter()
-            .all(|&c| adds_rank(&mut rows, dense(&self.planner.candidates[c], union)))
-        {
-            let mut laws = chosen.to_vec();
-            laws.sort_unstable();
-            self.best = Some((cost, laws, union));
+            .map(|&c| dense(&self.planner.candidates[c], union));
+        match dense.all(|row| adds_rank(&mut rows, row)) {
+            true => self.best = Some((cost, laws, union)),
+            false => {
+                self.singular.insert(laws);
+            }
         }
     }
 }

@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use super::compact::Parts;
 use super::plan::{self, Planner};
 use super::steps;
 use super::{
@@ -42,6 +43,10 @@ pub(super) struct Work<'a> {
     /// Definitions of solutions found step by step.
     pub(super) definitions: Vec<Definition>,
     pub(super) in_steps: bool,
+    /// The unknowns in named parts, where solving the equations and multiplying out would only make them longer.
+    pub(super) parts: Option<Parts>,
+    /// Velocities after of bodies in the components that questions name.
+    pub(super) in_components: BTreeMap<usize, [Element; 2]>,
 }
 
 impl<'a> Work<'a> {
@@ -67,6 +72,8 @@ impl<'a> Work<'a> {
             blocks: Vec::new(),
             definitions: Vec::new(),
             in_steps: false,
+            parts: None,
+            in_components: BTreeMap::new(),
         };
         work.take_givens()?;
         Ok(work)
@@ -82,6 +89,7 @@ impl<'a> Work<'a> {
             definitions: Vec::new(),
             answers: Vec::new(),
             motion: BTreeMap::new(),
+            named: BTreeMap::new(),
             in_steps: false,
             left_out: Vec::new(),
             assumptions: Vec::new(),
@@ -144,45 +152,23 @@ impl<'a> Work<'a> {
 
     /// Solves the first plan that determines a target; false where none does.
     fn try_plans(&mut self, target: Unknown, asked_by: Option<&str>) -> Result<bool, Stop> {
-        for plan in self.plans(target) {
+        for way in plan::WAYS {
             let known = |u: Unknown| self.values.contains_key(&u);
-            let pieces = match &self.planner {
-                Some(planner) => planner.pieces(plan, &known),
-                None => vec![plan],
+            let Some(planner) = &self.planner else {
+                break;
+            };
+            let Some(plan) = planner.plan(way, target, &known) else {
+                continue;
             };
             let mut solved = true;
-            for (laws, unknowns) in pieces {
+            for (laws, unknowns) in planner.pieces(plan, &known) {
                 solved = solved && self.solve(&laws, &unknowns, asked_by)?;
             }
-            if solved {
+            if solved || self.values.contains_key(&target) {
                 return Ok(self.values.contains_key(&target));
             }
         }
         Ok(false)
-    }
-
-    /// Ways to determine a target, best first.
-    fn plans(&self, target: Unknown) -> Vec<(Vec<Law>, Vec<Unknown>)> {
-        let Some(planner) = &self.planner else {
-            return Vec::new();
-        };
-        let known = |u: Unknown| self.values.contains_key(&u);
-        let mut plans = Vec::new();
-        plans.extend(planner.closing(&[target], &known));
-        let impulse_first = planner.impulse_first(target, &known);
-        if let Some(plan) = impulse_first {
-            // With many equations either way, the impulse first and the rest in terms of it reads better.
-            let at = usize::from(
-                plans
-                    .first()
-                    .is_some_and(|p| p.0.len() < 4 && p.0.len() <= plan.0.len()),
-            );
-            plans.insert(at.min(plans.len()), plan);
-        }
-        if !target.is_impulse() {
-            plans.extend(planner.without_impulses(&known));
-        }
-        plans
     }
 
     /// Solves laws for unknowns; false where they do not determine them all after all.
@@ -192,6 +178,9 @@ impl<'a> Work<'a> {
         unknowns: &[Unknown],
         asked_by: Option<&str>,
     ) -> Result<bool, Stop> {
+        if self.parts.is_some() {
+            return self.take_parts(laws, unknowns, asked_by);
+        }
         let system = match self.system(laws, unknowns) {
             // Products with long closed forms: from here on these stand for themselves.
             Err(Stop::Limit(_)) => {
@@ -243,6 +232,28 @@ impl<'a> Work<'a> {
         Ok(true)
     }
 
+    /// The values of unknowns that are known in named parts; false where a law holds others.
+    fn take_parts(
+        &mut self,
+        laws: &[Law],
+        unknowns: &[Unknown],
+        asked_by: Option<&str>,
+    ) -> Result<bool, Stop> {
+        let Some((_, equations)) = self.system(laws, unknowns)? else {
+            return Ok(false);
+        };
+        for unknown in unknowns {
+            let value = self.parts.as_ref().and_then(|p| p.value(*unknown));
+            let Some(value) = value.cloned() else {
+                return Ok(false);
+            };
+            let value = self.field.element(&value)?;
+            self.values.insert(*unknown, value);
+        }
+        self.push_block(equations, unknowns, Vec::new(), asked_by);
+        Ok(true)
+    }
+
     /// Laws as rows over unknowns, and as they stand before anything is put in; `None` where one holds other unknowns.
     fn system(&mut self, laws: &[Law], unknowns: &[Unknown]) -> Result<Option<System>, Stop> {
         let mut rows = Vec::with_capacity(laws.len());
@@ -291,10 +302,7 @@ impl<'a> Work<'a> {
         if asked_by.is_none() {
             return;
         }
-        let solution = unknowns
-            .iter()
-            .map(|u| self.symbol_value(*u, &self.values[u]))
-            .collect();
+        let solution = unknowns.iter().map(|u| self.closed_symbol(*u)).collect();
         let equations = equations
             .into_iter()
             .map(|e| self.written(e.law, &e.terms, &e.known))
@@ -398,6 +406,15 @@ impl<'a> Work<'a> {
         Ok(())
     }
 
+    /// The closed form of the symbol of an unknown that has a value.
+    fn closed_symbol(&self, unknown: Unknown) -> Expr {
+        match self.parts.as_ref().and_then(|p| p.closed(unknown)) {
+            Some(closed) if self.names.is_reversed(unknown) => -closed,
+            Some(closed) => closed,
+            None => self.symbol_value(unknown, &self.values[&unknown]),
+        }
+    }
+
     /// The value of an unknown's symbol.
     pub(super) fn symbol_value(&self, unknown: Unknown, value: &Element) -> Expr {
         if self.names.is_reversed(unknown) {
@@ -435,14 +452,17 @@ impl<'a> Work<'a> {
                 self.field.expr(x)
             }
         };
-        let minus = |x: &Element| crate::formula::write_plain(&print(false, x)).starts_with('-');
-        let all_minus = symbols.iter().all(|(_, k)| minus(k));
+        let mut terms: Vec<(Unknown, Expr)> =
+            symbols.iter().map(|(u, k)| (*u, print(false, k))).collect();
+        let all_minus = terms.iter().all(|(_, k)| k.begins_with_minus());
+        if all_minus {
+            for ((_, k), (_, x)) in terms.iter_mut().zip(&symbols) {
+                *k = print(true, x);
+            }
+        }
         Equation {
             law,
-            terms: symbols
-                .iter()
-                .map(|(u, k)| (*u, print(all_minus, k)))
-                .collect(),
+            terms,
             known: print(all_minus, known),
         }
     }
@@ -451,6 +471,9 @@ impl<'a> Work<'a> {
     pub(super) fn name_values(&mut self) {
         self.in_steps = true;
         self.field.limit(WORK);
+        if let Some(parts) = self.parts.take() {
+            self.definitions.extend(parts.definitions());
+        }
         let long: Vec<Unknown> = self
             .values
             .iter()
@@ -511,6 +534,10 @@ impl<'a> Work<'a> {
     pub(super) fn motion(&mut self) -> Result<BTreeMap<Unknown, Expr>, Stop> {
         let mut motion = BTreeMap::new();
         for unknown in laws::unknowns(self.scene) {
+            if let Some(closed) = self.parts.as_ref().and_then(|p| p.closed(unknown)) {
+                motion.insert(unknown, closed);
+                continue;
+            }
             let value = match unknown {
                 Unknown::Velocity(b, axis) => {
                     let form = self.reduced.velocity[b][axis].clone();

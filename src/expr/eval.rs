@@ -265,10 +265,10 @@ impl Scalar for Rational {
         None
     }
     fn plus(&self, other: &Rational) -> Rational {
-        self + other
+        number::sum(self, other, false)
     }
     fn times(&self, other: &Rational) -> Rational {
-        self * other
+        number::product(self, other)
     }
     fn recip(&self) -> Option<Rational> {
         (!self.is_zero()).then(|| Rational::recip(self))

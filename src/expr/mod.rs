@@ -167,6 +167,23 @@ impl Expr {
         self.as_number().is_some_and(Zero::is_zero)
     }
 
+    /// Whether it is a negative number, or a product with one.
+    pub fn is_negative(&self) -> bool {
+        match self.node() {
+            Node::Number(value) => value.is_negative(),
+            Node::Product(factors) => factors[0].is_negative(),
+            _ => false,
+        }
+    }
+
+    /// Whether it is written with a minus sign in front.
+    pub fn begins_with_minus(&self) -> bool {
+        match self.node() {
+            Node::Sum(terms) => terms[0].is_negative(),
+            _ => self.is_negative(),
+        }
+    }
+
     /// Whether the expression is literally the number 1.
     pub fn is_one(&self) -> bool {
         self.as_number().is_some_and(One::is_one)

@@ -16,6 +16,53 @@ use num_traits::{Num, One, Signed, ToPrimitive, Zero};
 /// An exact fraction in lowest terms with a positive denominator.
 pub type Rational = num_rational::Ratio<Int>;
 
+/// a + b, or a − b: as the operator gives it, by machine words where all four numbers are some.
+pub fn sum(a: &Rational, b: &Rational, minus: bool) -> Rational {
+    let Some(([na, da], [nb, db])) = words(a).zip(words(b)) else {
+        return if minus { a - b } else { a + b };
+    };
+    let nb = if minus { -nb } else { nb };
+    if da == 1 && db == 1 {
+        return Rational::new_raw(Int::from(na + nb), Int::from(1));
+    }
+    // With g = (a's, b's denominator), only what g has can cancel (Henrici 1956).
+    let g = gcd(da, db);
+    let n = na * (db / g) + nb * (da / g);
+    let shared = if g == 1 { 1 } else { gcd(n, g) };
+    Rational::new_raw(Int::from(n / shared), Int::from((da / g) * (db / shared)))
+}
+
+/// a·b, by machine words where all four numbers are some.
+pub fn product(a: &Rational, b: &Rational) -> Rational {
+    let Some(([na, da], [nb, db])) = words(a).zip(words(b)) else {
+        return a * b;
+    };
+    let across = |n: i128, d: i128| if d == 1 { 1 } else { gcd(n, d) };
+    let (g, h) = (across(na, db), across(nb, da));
+    Rational::new_raw(
+        Int::from((na / g) * (nb / h)),
+        Int::from((da / h) * (db / g)),
+    )
+}
+
+/// Numerator and denominator that fit a machine word.
+fn words(x: &Rational) -> Option<[i128; 2]> {
+    Some([x.numer().as_i64()?.into(), x.denom().as_i64()?.into()])
+}
+
+/// Greatest common divisor of any number and a positive word: 64-bit steps after the first.
+pub(crate) fn gcd(n: i128, word: i128) -> i128 {
+    let (n, word) = (n.unsigned_abs(), word.unsigned_abs());
+    let rest = match (u64::try_from(n), u64::try_from(word)) {
+        (Ok(n), Ok(word)) => u128::from(n % word),
+        _ => n % word,
+    };
+    match (u64::try_from(rest), u64::try_from(word)) {
+        (Ok(a), Ok(b)) => i128::from(a.gcd(&b)),
+        _ => rest.gcd(&word) as i128,
+    }
+}
+
 /// An integer of any size. Invariant: a value that fits an `i64` is always `Small`, so equality is structural.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Int(Repr);

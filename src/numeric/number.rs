@@ -4,6 +4,7 @@
 
 use num_traits::{One, Zero};
 
+use crate::expr::number::sum;
 use crate::expr::{Rational, Scalar};
 use crate::interval::dyadic::Round;
 use crate::interval::{Big, Enclosure, Outcome};
@@ -69,7 +70,7 @@ impl Number for Rational {
         Zero::is_zero(self)
     }
     fn minus(&self, other: &Rational) -> Rational {
-        self - other
+        sum(self, other, true)
     }
     fn negated(&self) -> Rational {
         -self
