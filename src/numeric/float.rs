@@ -45,11 +45,11 @@ fn threshold(n: usize) -> f64 {
     64.0 * n as f64 * f64::EPSILON
 }
 
-/// LU of the scaled system and nothing more; `None` where it is not square or a pivot seems to vanish.
-pub fn lu_scaled(system: &System<f64>) -> Option<Vec<f64>> {
-    (system.laws.len() == system.unknowns.len())
-        .then(|| lu(&Scaled::of(system), 0, threshold(system.unknowns.len())))
-        .flatten()
+/// LU of the scaled system with steps of refinement; `None` where it is not square or a pivot seems to vanish.
+pub fn lu_scaled(system: &System<f64>, steps: usize) -> Option<Vec<f64>> {
+    let n = system.unknowns.len();
+    let square = system.laws.len() == n && n > 0;
+    square.then(|| lu(&Scaled::of(system), steps, threshold(n)))?
 }
 
 /// LU with steps of refinement, after which small unknowns are as good as large ones (Skeel 1980).

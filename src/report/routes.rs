@@ -319,7 +319,7 @@ impl<'a> Prepared<'a> {
 fn full(route: Route, system: &System<f64>) -> Option<Vec<f64>> {
     let n = system.unknowns.len();
     if route == Route::LuScaled {
-        return lu_scaled(system);
+        return lu_scaled(system, 0);
     }
     if system.laws.len() != n {
         return None;

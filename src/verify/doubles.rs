@@ -4,7 +4,7 @@
 //! value that all but vanishes has no digits of its own: it is measured by what a change of the data's last digits would
 //! make of it, as the independent solution shows.
 
-use super::{Check, POINTS, evaluate, numeric_value};
+use super::{Check, Run, evaluate, numeric_value};
 use crate::answer::Answer;
 use crate::derive::Derivation;
 use crate::expr::{Expr, Point};
@@ -24,26 +24,23 @@ pub(super) fn check(
     derivation: &Derivation,
     answer: &Answer,
     closed: &Expr,
+    runs: &[Run<f64>],
 ) -> Check {
+    // A component is as exact as its vector is: one that vanishes has no digits of its own.
+    let of_one_vector = |a: &&Answer| {
+        a.question == answer.question && a.axis().is_some() && answer.axis().is_some()
+    };
+    let siblings: Vec<&Answer> = derivation.answers.iter().filter(of_one_vector).collect();
     let mut worst: f64 = 0.0;
     let mut count = 0;
     // Whether a value was measured by what it is made of.
     let mut weighed = false;
-    for seed in 1..=POINTS {
-        let exact = numeric::random_point(&numeric::needed(scene), &scene.domains, seed);
-        let point = numeric::rounded(&exact);
-        let Some(value) = evaluate(closed, derivation, &point) else {
+    for run in runs {
+        let point = &run.point;
+        let Some(value) = evaluate(closed, derivation, point) else {
             continue;
         };
-        // A component is as exact as its vector is: one that vanishes has no digits of its own.
-        let siblings: Vec<&Answer> = derivation
-            .answers
-            .iter()
-            .filter(|a| {
-                a.question == answer.question && a.axis().is_some() && answer.axis().is_some()
-            })
-            .collect();
-        let Some((expected, length)) = solved(scene, answer, &siblings, &point) else {
+        let Some((expected, length)) = value_of(scene, answer, &siblings, run) else {
             continue;
         };
         let scale = length.max(value.abs()).max(expected.abs());
@@ -52,7 +49,7 @@ pub(super) fn check(
         let apart = (value - expected).abs();
         let mut off = apart / (unit * f64::EPSILON);
         if off > CLOSE {
-            let weight = condition(scene, answer, &point, expected);
+            let weight = condition(scene, answer, point, expected);
             weighed |= weight > unit;
             off = apart / (weight.max(unit) * f64::EPSILON);
         }
@@ -78,21 +75,30 @@ pub(super) fn check(
     }
 }
 
+/// The independent solution at a point: LU with refinement, and the nearest doubles where a pivot seems to vanish.
+pub(super) fn run(scene: &Scene, point: Point<f64>) -> Option<Run<f64>> {
+    super::run(scene, point, |system| {
+        let refined = numeric::lu_scaled(system, 2).map(numeric::Solution::determined);
+        refined.or_else(|| numeric::solve_f64(system).ok())
+    })
+}
+
 /// The independent value of an answer, and the length of the vector it is a component of.
-fn solved(
+fn value_of(
     scene: &Scene,
     answer: &Answer,
     siblings: &[&Answer],
-    point: &Point<f64>,
+    run: &Run<f64>,
 ) -> Option<(f64, f64)> {
-    let given = numeric::given(scene, point).ok()?;
-    let system = numeric::assemble(&given);
-    let solution = numeric::solve_f64(&system).ok()?;
-    let motion = numeric::motion(&given, &system, &solution);
-    let value = numeric_value(scene, answer, point, &given, &motion)?;
+    let Run {
+        point,
+        given,
+        motion,
+    } = run;
+    let value = numeric_value(scene, answer, point, given, motion)?;
     let length = siblings
         .iter()
-        .filter_map(|a| numeric_value(scene, a, point, &given, &motion))
+        .filter_map(|a| numeric_value(scene, a, point, given, motion))
         .fold(f64::MIN_POSITIVE, |length, x| length.max(x.abs()));
     Some((value, length))
 }
@@ -100,8 +106,9 @@ fn solved(
 /// Σ |xᵢ ∂f/∂xᵢ| over the data: what relative errors of the data do to the value.
 fn condition(scene: &Scene, answer: &Answer, point: &Point<f64>, value: f64) -> f64 {
     let mut sum = 0.0;
-    let mut add = |nudged: &Point<f64>| {
-        if let Some((there, _)) = solved(scene, answer, &[], nudged) {
+    let mut add = |nudged: Point<f64>| {
+        let there = run(scene, nudged).and_then(|run| value_of(scene, answer, &[], &run));
+        if let Some((there, _)) = there {
             sum += (there - value).abs() / NUDGE;
         }
     };
@@ -109,7 +116,7 @@ fn condition(scene: &Scene, answer: &Answer, point: &Point<f64>, value: f64) -> 
         let mut nudged = point.clone();
         if let Some(x) = nudged.values.get_mut(name) {
             *x = if *x == 0.0 { NUDGE } else { *x * (1.0 + NUDGE) };
-            add(&nudged);
+            add(nudged);
         }
     }
     for name in point.directions.keys() {
@@ -120,7 +127,7 @@ fn condition(scene: &Scene, answer: &Answer, point: &Point<f64>, value: f64) -> 
                 *cos * turn_cos - *sin * turn_sin,
                 *sin * turn_cos + *cos * turn_sin,
             );
-            add(&nudged);
+            add(nudged);
         }
     }
     sum

@@ -4,28 +4,25 @@
 //! finds, which has none of these formulas. Laws and numeric solution both take their inertias from the scene; without
 //! this check a wrong row of its table would deceive both ways alike.
 
-use super::{Check, POINTS};
+use super::Check;
+use crate::expr::Point;
 use crate::numeric::{self, follow};
 use crate::scene::{Body, Scene, Shape};
 
 /// Relative difference that rounding may make; the integration itself is exact for these outlines.
 const ROUNDING: f64 = 1e-12;
 
-/// The bodies of the scene against their outlines; `None` where no body has one.
-pub(super) fn check(scene: &Scene) -> Option<Check> {
+/// The bodies of the scene against their outlines at some points; `None` where no body has one.
+pub(super) fn check(scene: &Scene, at: &[Point<f64>]) -> Option<Check> {
     let bodies: Vec<usize> = (0..scene.bodies.len())
         .filter(|b| has_outline(&scene.bodies[*b]))
         .collect();
     if bodies.is_empty() {
         return None;
     }
-    let needed = numeric::needed(scene);
     let mut points = 0;
-    for seed in 1..=POINTS {
-        let exact = numeric::random_point(&needed, &scene.domains, seed);
-        let point = numeric::rounded(&exact);
-        let (Ok(given), Ok(solids)) =
-            (numeric::given(scene, &point), follow::solids(scene, &point))
+    for point in at {
+        let (Ok(given), Ok(solids)) = (numeric::given(scene, point), follow::solids(scene, point))
         else {
             continue;
         };

@@ -8,6 +8,7 @@
 pub mod compare;
 mod doubles;
 pub mod friction;
+mod identity;
 mod inertia;
 pub mod possible;
 pub mod printed;
@@ -127,160 +128,38 @@ pub fn trust(derivation: &Derivation, proof: &Proof) -> Trust {
 /// Checks a derivation against its scene.
 pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
     let mut proof = Proof::default();
-    proof.scene.push(identity(scene, derivation));
-    proof.scene.extend(inertia::check(scene));
-    let runs = runs(scene);
+    let mut identities = identity::Identities::new(scene, derivation);
+    proof.scene.push(identities.of_motion());
+    let needed = numeric::needed(scene);
+    let points = (1..=POINTS).map(|seed| numeric::random_point(&needed, &scene.domains, seed));
+    let points: Vec<Point<Rational>> = points.collect();
+    let rounded: Vec<Point<f64>> = points.iter().map(numeric::rounded).collect();
+    proof.scene.extend(inertia::check(scene, &rounded));
+    let runs = runs(scene, &needed, points);
+    let in_doubles = rounded.into_iter();
+    let in_doubles: Vec<Run<f64>> = in_doubles
+        .filter_map(|point| doubles::run(scene, point))
+        .collect();
     invariants(&runs, &mut proof);
     admissible(&runs, &mut proof);
     for answer in &derivation.answers {
         let mut checks = Vec::new();
         if let Form::Value { closed, short } = &answer.form {
             if short != closed && !derivation.in_steps {
-                checks.push(same_value(scene, derivation, closed, short));
+                checks.push(identities.of_answer(answer, closed, short));
             }
             checks.push(exact_points(scene, derivation, answer, closed, &runs));
-            checks.push(doubles::check(scene, derivation, answer, closed));
+            checks.push(doubles::check(
+                scene,
+                derivation,
+                answer,
+                closed,
+                &in_doubles,
+            ));
         }
         proof.answers.push(checks);
     }
     proof
-}
-
-/// The motion put into every equation of the full system.
-fn identity(scene: &Scene, derivation: &Derivation) -> Check {
-    if derivation.in_steps {
-        return Check {
-            kind: "identity",
-            words: String::from(
-                "not carried out: solved in steps, too long to be multiplied out; the exact points decide",
-            ),
-            holds: None,
-        };
-    }
-    match identity_count(scene, derivation) {
-        Ok((0, failed)) if failed.is_empty() => Check {
-            kind: "identity",
-            words: String::from(
-                "nothing is determined, so nothing can be substituted into the equations",
-            ),
-            holds: None,
-        },
-        Ok((held, failed)) if failed.is_empty() => Check {
-            kind: "identity",
-            words: format!(
-                "identity in all {held} equations of the full system that are determined"
-            ),
-            holds: Some(true),
-        },
-        Ok((_, failed)) => {
-            // A remainder that the normal form does not find to be zero may still be; a point at which it is not decides.
-            let refuted: Vec<String> = failed
-                .iter()
-                .filter(|(_, rest)| {
-                    let decision = equality::decide(rest, &Expr::zero(), &scene.domains);
-                    matches!(decision.equality, Equality::Different(_))
-                })
-                .map(|(law, _)| law.clone())
-                .collect();
-            let all = |laws: Vec<String>| laws.join(", ");
-            let (words, holds) = if refuted.is_empty() {
-                let open = all(failed.into_iter().map(|(law, _)| law).collect());
-                (format!("undecided for {open}"), None)
-            } else {
-                (format!("does not satisfy {}", all(refuted)), Some(false))
-            };
-            Check {
-                kind: "identity",
-                words,
-                holds,
-            }
-        }
-        Err(stop) => Check {
-            kind: "identity",
-            words: format!("not carried out: {stop}"),
-            holds: None,
-        },
-    }
-}
-
-/// The number of equations that hold, and of the others the law and what remains of it.
-fn identity_count(
-    scene: &Scene,
-    derivation: &Derivation,
-) -> Result<(usize, Vec<(String, Expr)>), Stop> {
-    let mut field = Field::new(&scene.domains);
-    let Ok(g) = Geometry::of(scene, |e| Ok::<_, std::convert::Infallible>(e.clone()));
-    let full = Kinematics::full(scene, &g);
-    let mut equations = Vec::new();
-    for law in laws::of(scene) {
-        let Ok(linear) = laws::equation(scene, &g, &full, &law, |v: &Vector| {
-            Ok::<_, std::convert::Infallible>(v.clone())
-        });
-        equations.push((law, linear));
-    }
-    let mut all: Vec<&Expr> = derivation.motion.values().collect();
-    for (_, linear) in &equations {
-        all.push(&linear.known);
-        all.extend(linear.terms.iter().map(|(_, k)| k));
-    }
-    field.prepare(all);
-    let mut values = BTreeMap::new();
-    for unknown in laws::unknowns(scene) {
-        let value = match derivation.motion.get(&unknown) {
-            Some(value) => value.clone(),
-            // Not determined: whatever its value, the equations must hold.
-            None => Expr::symbol(derivation.names.plain(unknown)),
-        };
-        values.insert(unknown, field.element(&value)?);
-    }
-    let mut held = 0;
-    let mut failed = Vec::new();
-    for (law, linear) in equations {
-        let open = |u: &Unknown| !derivation.motion.contains_key(u);
-        if linear.terms.iter().any(|(u, _)| open(u)) {
-            continue;
-        }
-        let mut total = field.element(&-&linear.known)?;
-        for (unknown, k) in &linear.terms {
-            let k = field.element(k)?;
-            let term = field.mul(&k, &values[unknown])?;
-            total = field.add(&total, &term)?;
-        }
-        if field.is_zero(&total) {
-            held += 1;
-        } else {
-            failed.push((laws::describe(scene, &law), field.expr(&total)));
-        }
-    }
-    Ok((held, failed))
-}
-
-/// The short form of an answer, with its definitions put in, against the closed form.
-fn same_value(scene: &Scene, derivation: &Derivation, closed: &Expr, short: &Expr) -> Check {
-    let outcome = (|| {
-        let expanded = expand(short, derivation);
-        let mut field = Field::new(&scene.domains);
-        field.prepare([closed, &expanded]);
-        let (a, b) = (field.element(closed)?, field.element(&expanded)?);
-        field.sub(&a, &b).map(|d| field.is_zero(&d))
-    })();
-    match outcome {
-        Ok(true) => Check {
-            kind: "definitions",
-            words: String::from("short form identical to the closed form"),
-            holds: Some(true),
-        },
-        Ok(false) => Check {
-            kind: "definitions",
-            words: String::from("short form differs from the closed form"),
-            holds: Some(false),
-        },
-        Err(stop) => Check {
-            kind: "definitions",
-            words: format!("not carried out: {stop}"),
-            holds: None,
-        },
-    }
 }
 
 /// The value of an expression that may use the definitions of a derivation.
@@ -298,42 +177,53 @@ pub fn evaluate<T: Scalar>(e: &Expr, derivation: &Derivation, at: &Point<T>) -> 
 
 /// An expression with the definitions of a derivation put in.
 pub fn expand(e: &Expr, derivation: &Derivation) -> Expr {
+    e.substitute(&meanings(derivation))
+}
+
+/// What the definitions of a derivation stand for, in parameters alone.
+fn meanings(derivation: &Derivation) -> BTreeMap<Symbol, Expr> {
     let mut values: BTreeMap<Symbol, Expr> = BTreeMap::new();
     for definition in &derivation.definitions {
         let value = definition.value.substitute(&values);
         values.insert(definition.name.clone(), value);
     }
-    e.substitute(&values)
+    values
 }
 
-/// The independent solution at one exact point.
-struct Run {
-    point: Point<Rational>,
-    given: numeric::Given<Rational>,
-    motion: numeric::Motion<Rational>,
+/// The independent solution at one point.
+struct Run<T> {
+    point: Point<T>,
+    given: numeric::Given<T>,
+    motion: numeric::Motion<T>,
 }
 
 /// Solutions at a few exact points. Where roots make most points irrational, the scene's own values may still do, and
 /// more points are tried.
-fn runs(scene: &Scene) -> Vec<Run> {
-    let needed = numeric::needed(scene);
-    let random = |seed| numeric::random_point(&needed, &scene.domains, seed);
-    let mut runs: Vec<Run> = (1..=POINTS)
-        .filter_map(|seed| run(scene, random(seed)))
-        .collect();
+fn runs(
+    scene: &Scene,
+    needed: &numeric::Needed,
+    points: Vec<Point<Rational>>,
+) -> Vec<Run<Rational>> {
+    let exact = |point| run(scene, point, |system| numeric::solve_exact(system).ok());
+    let mut runs: Vec<_> = points.into_iter().filter_map(exact).collect();
     if runs.is_empty() {
+        let random = |seed| numeric::random_point(needed, &scene.domains, seed);
         let own = numeric::exact_values(scene).ok();
-        runs.extend(own.and_then(|point| run(scene, point)));
-        let more = (POINTS + 1..=MORE_POINTS).filter_map(|seed| run(scene, random(seed)));
+        runs.extend(own.and_then(exact));
+        let more = (POINTS + 1..=MORE_POINTS).filter_map(|seed| exact(random(seed)));
         runs.extend(more.take(POINTS as usize));
     }
     runs
 }
 
-fn run(scene: &Scene, point: Point<Rational>) -> Option<Run> {
+fn run<T: numeric::Number>(
+    scene: &Scene,
+    point: Point<T>,
+    solve: impl Fn(&numeric::System<T>) -> Option<numeric::Solution<T>>,
+) -> Option<Run<T>> {
     let given = numeric::given(scene, &point).ok()?;
     let system = numeric::assemble(&given);
-    let solution = numeric::solve_exact(&system).ok()?;
+    let solution = solve(&system)?;
     let motion = numeric::motion(&given, &system, &solution);
     Some(Run {
         point,
@@ -342,7 +232,7 @@ fn run(scene: &Scene, point: Point<Rational>) -> Option<Run> {
     })
 }
 
-fn invariants(runs: &[Run], proof: &mut Proof) {
+fn invariants(runs: &[Run<Rational>], proof: &mut Proof) {
     let mut count = 0;
     let mut failed: Vec<String> = Vec::new();
     for run in runs {
@@ -370,7 +260,7 @@ fn invariants(runs: &[Run], proof: &mut Proof) {
 }
 
 /// Approach, push and friction as the exact points show them.
-fn admissible(runs: &[Run], proof: &mut Proof) {
+fn admissible(runs: &[Run<Rational>], proof: &mut Proof) {
     let mut separating = 0;
     let mut friction: Option<Rational> = None;
     for run in runs.iter().filter(|r| r.motion.loose.is_empty()) {
@@ -435,7 +325,7 @@ fn exact_points(
     derivation: &Derivation,
     answer: &Answer,
     closed: &Expr,
-    runs: &[Run],
+    runs: &[Run<Rational>],
 ) -> Check {
     let mut equal = 0;
     for run in runs {
