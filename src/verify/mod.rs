@@ -20,12 +20,9 @@ use std::collections::BTreeMap;
 
 use num_traits::Zero;
 
-use crate::algebra::{Field, Stop};
 use crate::answer::{self, Answer, Check, Form, Refused};
 use crate::derive::Derivation;
-use crate::equality::{self, Equality};
-use crate::expr::{Expr, Point, Rational, Scalar, Symbol, Vector};
-use crate::laws::{self, Geometry, Kinematics, Unknown};
+use crate::expr::{Expr, Point, Rational, Scalar, Symbol};
 use crate::numeric::{self, Approach};
 use crate::scene::{Ask, Scene};
 
