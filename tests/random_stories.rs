@@ -318,8 +318,7 @@ fn what_bounces_on_rough_ground_is_followed_to_the_same_end() {
     config.cases /= 8;
     proptest!(config, |(text in on_rough_ground())| {
         let scene = read(&text).map_err(|f| TestCaseError::fail(f.render("story", &text)))?;
-        let story = scene.story.as_ref().expect("stages");
-        let found = match tell(&scene, story) {
+        let found = match tell(&scene) {
             Ok(found) => found,
             // The corner leaves the ground whatever the parameters.
             Err(why) if why.to_string().contains("move apart") => return Ok(()),

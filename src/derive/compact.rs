@@ -250,7 +250,7 @@ impl Parts {
             let Form::Value { closed, short } = &mut answer.form else {
                 continue;
             };
-            let mut questions = work.scene.questions.iter();
+            let mut questions = work.scene.asked_of_impact();
             let Some(question) = questions.find(|q| q.name == answer.question) else {
                 continue;
             };

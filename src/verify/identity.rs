@@ -179,7 +179,7 @@ impl<'a> Identities<'a> {
     /// The short form of an answer, with its definitions put in, against the closed form; an energy against that of the
     /// motion as well.
     pub(super) fn of_answer(&mut self, answer: &Answer, closed: &Expr, short: &Expr) -> Check {
-        let mut questions = self.scene.questions.iter();
+        let mut questions = self.scene.asked_of_impact();
         let asked = questions
             .find(|q| q.name == answer.question)
             .map(|q| &q.ask);
