@@ -59,6 +59,11 @@ fn note(e: &Expr, out: &mut Roles) {
             note(exponent, out);
         }
         Node::Call(Function::Sin | Function::Cos | Function::Tan, argument) => {
+            // Most angles are a bare symbol.
+            if let Some(name) = argument.as_symbol().filter(|name| &***name != "pi") {
+                role(out, name).turns = true;
+                return;
+            }
             match angle(argument) {
                 Some(read) => {
                     out.radians |= !(&read.pi * ratio(2, 1)).is_integer();

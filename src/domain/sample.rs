@@ -57,6 +57,9 @@ fn related(some: &Roles, domains: &Domains, count: usize) -> Vec<Sample> {
     out
 }
 
+/// How many points pick the values of symbols by place.
+const EARLY: usize = 6;
+
 /// The first `count` points of the sequence that are taken, of at most `most`.
 fn drawn(
     roles: &Roles,
@@ -68,10 +71,9 @@ fn drawn(
     let mut axes: Vec<(&Symbol, &Domain, Vec<Coordinate>)> = Vec::new();
     for (i, (name, role)) in roles.symbols.iter().enumerate() {
         // The early points pick by place, the later ones at random.
-        let wanted = if count <= 2 && domains.relations.is_empty() {
-            (i + 2).min(24)
-        } else {
-            24
+        let wanted = match domains.relations.is_empty() {
+            true if count <= EARLY => (i + count.max(2)).min(24),
+            _ => 24,
         };
         let Some(domain) = domains.symbols.get(name) else {
             continue;
@@ -97,7 +99,7 @@ fn drawn(
         for (i, (name, _, list)) in axes.iter().enumerate() {
             let pick = match k {
                 0 => 0,
-                1..6 => i + k,
+                1..EARLY => i + k,
                 _ => random.next() as usize,
             };
             point

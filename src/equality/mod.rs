@@ -250,9 +250,8 @@ struct Search<'a> {
 
 fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -> Equality {
     let pair = modular::Pair::of(a, b, domains, roles);
-    let at_points = pair.as_ref().and_then(modular::Pair::at_points);
-    let agree = at_points.map(|found| found.equal);
-    if agree == Some(true) && pair.is_some_and(|pair| pair.proved()) {
+    let decided = pair.and_then(|pair| pair.decided());
+    if decided == Some(true) {
         let how = How::Identity {
             ground: Ground::NormalForm,
             assumptions: Vec::new(),
@@ -268,7 +267,7 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
         probe: Probe::new(a, b, roles),
         points: Vec::new(),
         tally: Tally::default(),
-        apart: agree == Some(false),
+        apart: decided == Some(false),
         unsure: Vec::new(),
         pins: Vec::new(),
     };

@@ -82,15 +82,10 @@ impl Expr {
 
 fn power<T: Scalar>(base: &T, exponent: &Expr, at: &Point<T>) -> Option<T> {
     if let Some(k) = exponent.as_number() {
-        let twice = k * Rational::from(Int::from(2));
-        if twice.is_integer() {
-            let n = twice.numer().as_i64()?;
-            let root = if n % 2 == 0 {
-                base.clone()
-            } else {
-                base.sqrt()?
-            };
-            let times = if n % 2 == 0 { n / 2 } else { n };
+        let half = k.denom().as_i64() == Some(2);
+        if half || k.is_integer() {
+            let times = k.numer().as_i64()?;
+            let root = if half { base.sqrt()? } else { base.clone() };
             let raised = integer_power(&root, times.unsigned_abs());
             return if times < 0 {
                 raised.recip()
@@ -111,24 +106,32 @@ fn power<T: Scalar>(base: &T, exponent: &Expr, at: &Point<T>) -> Option<T> {
 
 /// Power by repeated squaring.
 fn integer_power<T: Scalar>(base: &T, exponent: u64) -> T {
-    let mut result = T::from_rational(&Rational::one());
+    let mut result = None;
     let mut square = base.clone();
     let mut left = exponent;
     while left > 0 {
         if left & 1 == 1 {
-            result = result.times(&square);
+            result = Some(result.map_or_else(|| square.clone(), |r: T| r.times(&square)));
         }
         left >>= 1;
         if left > 0 {
             square = square.times(&square);
         }
     }
-    result
+    result.unwrap_or_else(|| T::from_rational(&Rational::one()))
 }
 
 fn call<T: Scalar>(function: Function, argument: &Expr, at: &Point<T>) -> Option<T> {
+    let turned = || match argument.as_symbol().filter(|name| &***name != "pi") {
+        // Most angles are a bare symbol.
+        Some(name) => {
+            let (divisor, unit) = at.directions.get(name)?;
+            Some(multiple(unit, i64::from(*divisor)))
+        }
+        None => angle(argument).and_then(|a| direction(&a, at)),
+    };
     if let Function::Sin | Function::Cos | Function::Tan = function
-        && let Some([cos, sin]) = angle(argument).and_then(|a| direction(&a, at))
+        && let Some([cos, sin]) = turned()
     {
         return match function {
             Function::Sin => Some(sin),

@@ -191,19 +191,20 @@ impl Expr {
 
     /// Sum of the terms; nested sums are opened, numbers added up at the place of the first, zeros dropped.
     pub fn sum(terms: impl IntoIterator<Item = Expr>) -> Expr {
-        let mut out: Vec<Expr> = Vec::new();
+        let terms = terms.into_iter();
+        let mut out: Vec<Expr> = Vec::with_capacity(terms.size_hint().0);
         let mut number: Option<(usize, Rational)> = None;
-        let mut add = |term: &Expr, out: &mut Vec<Expr>| match term.as_number() {
+        let mut add = |term: Expr, out: &mut Vec<Expr>| match term.as_number() {
             Some(value) => match &mut number {
                 Some((_, total)) => *total += value,
                 None => number = Some((out.len(), value.clone())),
             },
-            None => out.push(term.clone()),
+            None => out.push(term),
         };
         for term in terms {
             match term.node() {
-                Node::Sum(inner) => inner.iter().for_each(|t| add(t, &mut out)),
-                _ => add(&term, &mut out),
+                Node::Sum(inner) => inner.iter().for_each(|t| add(t.clone(), &mut out)),
+                _ => add(term, &mut out),
             }
         }
         if let Some((at, total)) = number
@@ -221,18 +222,19 @@ impl Expr {
     /// Product of the factors; nested products are opened, numbers gathered in front, ones dropped.
     /// A factor 0 makes the product 0 only where every other factor has a value everywhere.
     pub fn product(factors: impl IntoIterator<Item = Expr>) -> Expr {
-        let mut out: Vec<Expr> = Vec::new();
+        let factors = factors.into_iter();
+        let mut out: Vec<Expr> = Vec::with_capacity(factors.size_hint().0);
         let mut number = Rational::one();
-        let mut multiply = |factor: &Expr, out: &mut Vec<Expr>| match factor.as_number() {
+        let mut multiply = |factor: Expr, out: &mut Vec<Expr>| match factor.as_number() {
             // Most products hold one number.
             Some(value) if number.is_one() => number = value.clone(),
             Some(value) => number *= value,
-            None => out.push(factor.clone()),
+            None => out.push(factor),
         };
         for factor in factors {
             match factor.node() {
-                Node::Product(inner) => inner.iter().for_each(|f| multiply(f, &mut out)),
-                _ => multiply(&factor, &mut out),
+                Node::Product(inner) => inner.iter().for_each(|f| multiply(f.clone(), &mut out)),
+                _ => multiply(factor, &mut out),
             }
         }
         if number.is_zero() && out.iter().all(Expr::is_total) {
@@ -376,6 +378,7 @@ impl Expr {
         self.walk(&mut |e| {
             if let Some(name) = e.as_symbol()
                 && &**name != "pi"
+                && !names.contains(name)
             {
                 names.insert(name.clone());
             }

@@ -385,7 +385,11 @@ impl fmt::Debug for Int {
 
 /// The fraction `numerator / denominator`; `denominator` must not be zero.
 pub fn ratio(numerator: i64, denominator: i64) -> Rational {
-    Rational::new(Int::from(numerator), Int::from(denominator))
+    match denominator {
+        // In lowest terms as it is: no common divisor is looked for.
+        1 => Rational::from(Int::from(numerator)),
+        _ => Rational::new(Int::from(numerator), Int::from(denominator)),
+    }
 }
 
 /// The exact square root of a fraction, when it is a fraction too.

@@ -161,10 +161,11 @@ fn product(w: &Written, factors: &[(Link, Written)], mode: Mode) -> Faulty<Value
             _ => value(factor, mode)?,
         };
         // Two vectors: a dot or a cross says what is meant.
-        let before = values
-            .iter()
-            .position(|v| matches!(v, Value::Vector(_)))
-            .filter(|_| matches!(next, Value::Vector(_)));
+        let vector = |v: &Value| matches!(v, Value::Vector(_));
+        let before = match vector(&next) {
+            true => values.iter().position(vector),
+            false => None,
+        };
         let product = match (before.map(|at| &values[at]), &next, link) {
             (Some(Value::Vector(a)), Value::Vector(b), Link::Times) => Value::Scalar(dot(a, b)),
             (Some(Value::Vector(a)), Value::Vector(b), Link::Cross) => Value::Vector(cross(a, b)),
@@ -192,7 +193,8 @@ fn cross(a: &[Expr; 3], b: &[Expr; 3]) -> [Expr; 3] {
 }
 
 fn multiply(w: &Written, values: impl IntoIterator<Item = Value>) -> Faulty<Value> {
-    let mut scalars = Vec::new();
+    let values = values.into_iter();
+    let mut scalars = Vec::with_capacity(values.size_hint().0);
     let mut vector: Option<[Expr; 3]> = None;
     let mut bits = 0;
     for value in values {
@@ -237,8 +239,11 @@ fn reciprocal(w: &Written, mode: Mode) -> Faulty<Expr> {
 fn power(w: &Written, base: &Written, exponent: Expr, mode: Mode) -> Faulty<Expr> {
     let below = one(base, mode)?;
     if let Some(k) = exponent.as_number() {
-        let most = Rational::from(crate::expr::Int::from(MAX_POWER));
-        if k.abs() > most {
+        // Comparing fractions costs a division.
+        let beyond = |k: &Rational| {
+            k.numer().bits() > 13 && k.abs() > Rational::from(crate::expr::Int::from(MAX_POWER))
+        };
+        if beyond(k) {
             return Err(Fault::new(
                 format!("an exponent is at most {MAX_POWER}"),
                 w.start,
@@ -259,7 +264,7 @@ fn power(w: &Written, base: &Written, exponent: Expr, mode: Mode) -> Faulty<Expr
         }
         // Towers such as ((x^100)^100)^100 multiply their exponents.
         if let crate::expr::Node::Power(_, inner) = below.node()
-            && inner.as_number().is_some_and(|a| (a * k).abs() > most)
+            && inner.as_number().is_some_and(|a| beyond(&(a * k)))
         {
             return Err(Fault::new(
                 format!("an exponent is at most {MAX_POWER}"),

@@ -21,8 +21,6 @@ pub mod steps;
 mod unit;
 mod verdict;
 
-use std::collections::BTreeSet;
-
 use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::expr::Symbol;
@@ -161,21 +159,16 @@ pub fn key_of(content: Content, question: &Question) -> Key {
 fn from_reading(reading: Reading, question: &Question) -> Key {
     let declares_e = question.symbols.iter().any(|g| &*g.name == "e");
     let mut question = question.clone();
-    let known: BTreeSet<Symbol> = question
-        .symbols
-        .iter()
-        .chain(&question.asked)
-        .map(|g| g.name.clone())
-        .collect();
-    for name in reading.symbols() {
-        if !known.contains(&name) {
-            question.symbols.push(Given {
-                name,
-                latex: None,
-                dimension: None,
-            });
-        }
+    let mut names = reading.symbols();
+    for given in question.symbols.iter().chain(&question.asked) {
+        names.remove(&given.name);
     }
+    let unknown = names.into_iter().map(|name| Given {
+        name,
+        latex: None,
+        dimension: None,
+    });
+    question.symbols.extend(unknown);
     let mut readable = if question.closed {
         Symbols::strict()
     } else {

@@ -103,6 +103,22 @@ impl<'a, const C: u64, const L: usize, const R: usize> Lanes<'a, C, L, R> {
         self.compare((&left, mine), (&right, self.state.used))
     }
 
+    /// Whether two formulas agree in these lanes and at the real points, at one of which both have a value.
+    pub fn agree(&mut self, a: &Expr, b: &Expr) -> Option<bool> {
+        let left = walk::value(a, self.places, self)?;
+        let right = walk::value(b, self.places, self)?;
+        let mut pairs = left.real.iter().zip(&right.real);
+        if pairs.clone().any(|(x, y)| x.apart(y)) {
+            return Some(false);
+        }
+        match C {
+            ROOTS => pairs
+                .any(|(x, y)| x.is_known() && y.is_known())
+                .then_some(true),
+            _ => Some(self.same(&left, &right)),
+        }
+    }
+
     pub(super) fn constant(&self, above: u64, below: u64) -> Value<L, R> {
         let odd = match C {
             ROOTS => odd_primes(above).zip(odd_primes(below)).map(|(a, b)| a ^ b),

@@ -31,6 +31,8 @@ const FEW: usize = 2;
 const MANY: usize = 8;
 /// Real points that go with them.
 const REAL: usize = 2;
+/// The number by which the point of the first look is drawn; what agrees there is looked at again.
+const GLANCE: u64 = 0x6a09_e667_f3bc_c908;
 
 /// What a comparison at points found.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -92,8 +94,30 @@ impl<'a> Pair<'a> {
         Lanes::<ROOTS, MANY, REAL>::new(&self.places, drawn.rounds()).both(a, b)
     }
 
+    /// Whether the two are equal, where that is certain: proved, with values at the same points of the domain, or told apart.
+    pub fn decided(&self) -> Option<bool> {
+        match self.glance() {
+            Some(false) => Some(false),
+            Some(true) if self.proved() => Some(true),
+            // What agrees by chance at points is no proof.
+            _ => self.at_points().filter(|found| !found.equal).map(|_| false),
+        }
+    }
+
+    /// Whether the two agree where it costs least: at one residue, or at real points where roots occur. A difference is
+    /// certain, and so is that both have values somewhere where they agree.
+    fn glance(&self) -> Option<bool> {
+        let [a, b] = self.formulas;
+        let mut plain = Lanes::<PLAIN, 1, 0>::new(&self.places, [GLANCE]);
+        let agree = plain.agree(a, b);
+        match plain.rooted {
+            true => Lanes::<ROOTS, 0, REAL>::new(&self.places, []).agree(a, b),
+            false => agree,
+        }
+    }
+
     /// Whether the two are proved to be equal, with values at the same points of the domain.
-    pub fn proved(&self) -> bool {
+    fn proved(&self) -> bool {
         let [a, b] = self.formulas;
         // Roots that come first are those by which later ones are known.
         exact::proves(a, b, &self.places) || exact::proves(b, a, &self.places)

@@ -10,18 +10,37 @@ use super::super::compare::{Context, quotient};
 use super::super::{Diagnosis, fraction, number};
 use super::{GLANCES, angle, proved, simple, swap};
 use crate::domain::{Coordinate, Domains, Sample, roles, samples};
-use crate::expr::{Expr, Node, Point, Scalar, Symbol, ratio};
+use crate::expr::{Expr, Function, Node, Point, Scalar, Symbol, ratio};
 use crate::formula::write_plain;
 use crate::interval::{Interval, Outcome, evaluate};
+
+/// A value as far as doubles tell it, and a point with such values.
+type Weighed = Outcome<Interval>;
+type Place = Point<Weighed>;
 
 /// The pair, and the values of both at a few points.
 pub(super) struct Trial<'a> {
     expected: &'a Expr,
     answer: &'a Expr,
     domains: &'a Domains,
-    points: Vec<Point<Outcome<Interval>>>,
-    values: Vec<Outcome<Interval>>,
-    answers: Vec<Outcome<Interval>>,
+    /// Whether sines and cosines occur.
+    turns: bool,
+    points: Vec<Place>,
+    values: Vec<Weighed>,
+    answers: Vec<Weighed>,
+}
+
+/// Whether two lists of values may be of the same expression, some of them known in both; the first that are apart end it.
+fn fits(values: &[Weighed], others: impl Iterator<Item = Weighed>) -> bool {
+    let mut known = false;
+    for pair in values.iter().zip(others) {
+        match pair {
+            (Outcome::Value(a), Outcome::Value(b)) if a.is_disjoint(&b) => return false,
+            (Outcome::Value(_), Outcome::Value(_)) => known = true,
+            _ => {}
+        }
+    }
+    known
 }
 
 impl<'a> Trial<'a> {
@@ -45,10 +64,18 @@ impl<'a> Trial<'a> {
                 });
         let points: Vec<_> = points.iter().skip(2).map(|s| s.point(radians)).collect();
         let at = |e: &Expr| points.iter().map(|p| evaluate(e, p)).collect::<Vec<_>>();
+        let mut turns = false;
+        for e in [expected, answer] {
+            e.walk(&mut |part| {
+                use Function::{Cos, Sin, Tan};
+                turns |= matches!(part.node(), Node::Call(Sin | Cos | Tan, _));
+            });
+        }
         Trial {
             expected,
             answer,
             domains,
+            turns,
             values: at(expected),
             answers: at(answer),
             points,
@@ -56,24 +83,16 @@ impl<'a> Trial<'a> {
     }
 
     /// Whether two lists of values are of different expressions for certain.
-    fn apart(a: &[Outcome<Interval>], b: &[Outcome<Interval>]) -> bool {
+    fn apart(a: &[Weighed], b: &[Weighed]) -> bool {
         a.iter().zip(b).any(|pair| match pair {
             (Outcome::Value(a), Outcome::Value(b)) => a.is_disjoint(b),
             _ => false,
         })
     }
 
-    /// Whether an expression may have these values, some of which are known; the first point that tells them apart ends it.
-    fn may_be(&self, values: &[Outcome<Interval>], e: &Expr) -> bool {
-        let mut known = false;
-        for (value, point) in values.iter().zip(&self.points) {
-            match (value, evaluate(e, point)) {
-                (Outcome::Value(a), Outcome::Value(b)) if a.is_disjoint(&b) => return false,
-                (Outcome::Value(_), Outcome::Value(_)) => known = true,
-                _ => {}
-            }
-        }
-        known
+    /// Whether an expression may have these values.
+    fn may_be(&self, values: &[Weighed], e: &Expr) -> bool {
+        fits(values, self.points.iter().map(|point| evaluate(e, point)))
     }
 
     /// Whether the answer may be the expected formula times a number: no two points tell two different ones.
@@ -84,6 +103,33 @@ impl<'a> Trial<'a> {
             right.extend(self.values[..i].iter().map(|other| answer.times(other)));
         }
         !Trial::apart(&left, &right)
+    }
+
+    /// Whether the answer with other values of its symbols equals the expected formula. It is weighed at points changed in
+    /// that way before the changed formula is built.
+    fn mends_at(&self, change: impl Fn(&mut Place), symbols: BTreeMap<Symbol, Expr>) -> bool {
+        let weigh = |point: &Place| {
+            let mut point = point.clone();
+            change(&mut point);
+            evaluate(self.answer, &point)
+        };
+        fits(&self.values, self.points.iter().map(weigh))
+            && proved(
+                self.expected,
+                &self.answer.substitute(&symbols),
+                self.domains,
+            )
+    }
+
+    /// Whether the answer changed as a whole equals the expected formula; its values are changed first.
+    fn mends_whole(
+        &self,
+        change: impl Fn(&Weighed) -> Option<Weighed>,
+        changed: impl Fn(&Expr) -> Expr,
+    ) -> bool {
+        let weigh = |answer: &Weighed| change(answer).unwrap_or(Outcome::Unknown);
+        fits(&self.values, self.answers.iter().map(weigh))
+            && proved(self.expected, &changed(self.answer), self.domains)
     }
 
     /// Whether a changed answer equals the expected formula.
@@ -97,13 +143,15 @@ impl<'a> Trial<'a> {
     }
 
     pub(super) fn sign(&self) -> Option<Diagnosis> {
-        self.mends(&-self.answer).then(|| {
-            Diagnosis::new(
-                "SIGN",
-                "right up to the sign",
-                "check the sign, and which direction counts as positive",
-            )
-        })
+        let minus = Weighed::from_rational(&ratio(-1, 1));
+        self.mends_whole(|v| Some(v.times(&minus)), |e| -e)
+            .then(|| {
+                Diagnosis::new(
+                    "SIGN",
+                    "right up to the sign",
+                    "check the sign, and which direction counts as positive",
+                )
+            })
     }
 
     /// A constant factor.
@@ -138,7 +186,7 @@ impl<'a> Trial<'a> {
 
     /// A factor made of symbols that both formulas know.
     pub(super) fn factor_of_symbols(&self, ctx: &Context) -> Option<Diagnosis> {
-        if self.expected.is_zero() || self.answer.is_zero() {
+        if self.expected.is_zero() || self.answer.is_zero() || !self.may_be_factor() {
             return None;
         }
         let mut field = crate::algebra::Field::new(self.domains);
@@ -172,9 +220,60 @@ impl<'a> Trial<'a> {
         ))
     }
 
+    /// Whether answer over expected may be a product of powers of symbols and of one root of a sum. Whatever is a power of a
+    /// symbol grows by the same factor when that symbol is doubled again.
+    fn may_be_factor(&self) -> bool {
+        let Some(point) = self.points.first() else {
+            return true;
+        };
+        let mut roots = Vec::new();
+        for e in [self.expected, self.answer] {
+            e.walk(&mut |part| {
+                if let Node::Power(base, k) = part.node()
+                    && matches!(base.node(), Node::Sum(_))
+                    && k.as_number().is_none_or(|k| !k.is_integer())
+                {
+                    roots.push(base.clone());
+                }
+            });
+        }
+        let free = |name: &Symbol| match self.domains.symbols.get(name) {
+            Some(domain) => domain.high.is_none() && !domain.changes_sign(),
+            None => !self
+                .domains
+                .unit_vectors
+                .iter()
+                .flatten()
+                .any(|s| s == name),
+        };
+        let grown = |e: &Expr, name: &Symbol| -> Option<f64> {
+            let at = |scale: i64| {
+                let mut point = point.clone();
+                let value = point.values.get_mut(name)?;
+                *value = value.times(&Weighed::from_rational(&ratio(scale, 1)));
+                let value = evaluate(e, &point).value()?;
+                let size = (value.low.abs() + value.high.abs()) / 2.0;
+                (value.high - value.low < 1e-10 * size).then_some(size.ln())
+            };
+            Some(2.0 * at(2)? - at(1)? - at(4)?)
+        };
+        let names = self.answer.symbols();
+        names.iter().filter(|name| free(name)).all(|name| {
+            let bent = |e: &Expr| grown(e, name);
+            let (Some(a), Some(b)) = (bent(self.answer), bent(self.expected)) else {
+                return true;
+            };
+            let halves = |root: &Expr| {
+                let share = bent(root).map_or(0.0, |r| 2.0 * (a - b) / r);
+                (share - share.round()).abs() < 1e-6
+            };
+            (a - b).abs() < 1e-9 || roots.iter().any(halves)
+        })
+    }
+
     pub(super) fn magnitude(&self) -> Option<Diagnosis> {
         let square = |e: &Expr| e.powi(2);
-        let values = |v: &[Outcome<Interval>]| -> Vec<f64> {
+        let values = |v: &[Weighed]| -> Vec<f64> {
             v.iter()
                 .filter_map(|o| o.clone().value())
                 .map(|i| i.low.abs().max(i.high.abs()))
@@ -197,7 +296,7 @@ impl<'a> Trial<'a> {
         if self.answer.is_zero() {
             return None;
         }
-        self.mends(&self.answer.powi(-1)).then(|| {
+        self.mends_whole(Weighed::recip, |e| e.powi(-1)).then(|| {
             Diagnosis::new(
                 "RECIPROCAL",
                 "the reciprocal of the expected value",
@@ -207,6 +306,9 @@ impl<'a> Trial<'a> {
     }
 
     pub(super) fn sin_cos(&self) -> Option<Diagnosis> {
+        if !self.turns {
+            return None;
+        }
         let swapped = swap(self.answer);
         (swapped != *self.answer && self.mends(&swapped))
             .then(|| {
@@ -248,10 +350,17 @@ impl<'a> Trial<'a> {
 
     pub(super) fn symbol_signs(&self) -> Option<Diagnosis> {
         self.answer.symbols().into_iter().find_map(|name| {
-            let flipped = self
-                .answer
-                .substitute(&BTreeMap::from([(name.clone(), -Expr::symbol(&name))]));
-            self.mends(&flipped).then(|| {
+            let minus = Weighed::from_rational(&ratio(-1, 1));
+            let turn = |point: &mut Place| {
+                let value = point.values.get_mut(&name);
+                let sine = point.directions.get_mut(&name).map(|(_, [_, sine])| sine);
+                value
+                    .into_iter()
+                    .chain(sine)
+                    .for_each(|v| *v = v.times(&minus));
+            };
+            let flipped = BTreeMap::from([(name.clone(), -Expr::symbol(&name))]);
+            self.mends_at(turn, flipped).then(|| {
                 Diagnosis::new(
                     "SYMBOL_SIGN",
                     format!("right with {name} replaced by -{name}"),
@@ -266,14 +375,16 @@ impl<'a> Trial<'a> {
         self.answer
             .symbols()
             .into_iter()
-            .filter(|n| !angle(n, self.answer))
+            .filter(|n| !self.turns || !angle(n, self.answer))
             .find_map(|name| {
                 for (n, d, code, words) in [(1, 2, "HALF", "half of"), (2, 1, "DOUBLE", "twice")] {
-                    let scaled = self.answer.substitute(&BTreeMap::from([(
-                        name.clone(),
-                        Expr::symbol(&name) * Expr::ratio(n, d),
-                    )]));
-                    if self.mends(&scaled) {
+                    let factor = Weighed::from_rational(&ratio(n, d));
+                    let scale = |point: &mut Place| {
+                        let value = point.values.get_mut(&name);
+                        value.into_iter().for_each(|v| *v = v.times(&factor));
+                    };
+                    let scaled = Expr::symbol(&name) * Expr::ratio(n, d);
+                    if self.mends_at(scale, BTreeMap::from([(name.clone(), scaled)])) {
                         let message = format!(
                             "right with {words} {} in place of {}",
                             ctx.say(&Expr::symbol(&name)),
@@ -317,7 +428,11 @@ impl<'a> Trial<'a> {
                 if base(a) == base(b) {
                     all.extend(pair.clone());
                 }
-                if self.mends(&self.answer.substitute(&pair)) {
+                let swapped = |point: &mut Place| {
+                    exchange(&mut point.values, a, b);
+                    exchange(&mut point.directions, a, b);
+                };
+                if self.mends_at(swapped, pair) {
                     return Some(Diagnosis::new(
                         "EXCHANGED",
                         format!("right with {a} and {b} exchanged"),
@@ -342,7 +457,7 @@ impl<'a> Trial<'a> {
             if mine.contains(&name) {
                 continue;
             }
-            let turning = angle(&name, self.expected);
+            let turning = self.turns && angle(&name, self.expected);
             let cases: Vec<(Expr, String)> = if turning {
                 vec![
                     (Expr::zero(), format!("{name} = 0")),
@@ -402,6 +517,9 @@ impl<'a> Trial<'a> {
 
     /// The same leading term as an angle goes to zero.
     pub(super) fn small_angle(&self) -> Option<Diagnosis> {
+        if !self.turns {
+            return None;
+        }
         let angles: BTreeSet<Symbol> = roles(&[self.expected, self.answer])
             .symbols
             .into_iter()
@@ -418,7 +536,9 @@ impl<'a> Trial<'a> {
                 if Trial::apart(&at(&e0), &at(&a0)) {
                     break;
                 }
-                let zero = |x: &Expr| proved(x, &Expr::zero(), self.domains);
+                let nothing = vec![Weighed::from_rational(&ratio(0, 1)); self.points.len()];
+                let zero =
+                    |x: &Expr| self.may_be(&nothing, x) && proved(x, &Expr::zero(), self.domains);
                 match (zero(&e0), zero(&a0)) {
                     (true, true) => {
                         (e, a) = (e.derivative(&name), a.derivative(&name));
@@ -440,14 +560,14 @@ impl<'a> Trial<'a> {
     }
 
     pub(super) fn power(&self) -> Option<Diagnosis> {
-        if self.mends(&self.answer.powi(2)) {
+        if self.mends_whole(|v| Some(v.times(v)), |e| e.powi(2)) {
             return Some(Diagnosis::new(
                 "POWER",
                 "the square root of the expected value",
                 "a root is too much",
             ));
         }
-        if self.mends(&self.answer.sqrt()) {
+        if self.mends_whole(Weighed::sqrt, Expr::sqrt) {
             return Some(Diagnosis::new(
                 "POWER",
                 "the square of the expected value",
@@ -456,4 +576,11 @@ impl<'a> Trial<'a> {
         }
         None
     }
+}
+
+/// Exchanges what two names stand for.
+fn exchange<T>(values: &mut BTreeMap<Symbol, T>, a: &Symbol, b: &Symbol) {
+    let (first, second) = (values.remove(a), values.remove(b));
+    values.extend(first.map(|value| (b.clone(), value)));
+    values.extend(second.map(|value| (a.clone(), value)));
 }
