@@ -189,7 +189,18 @@ impl Field {
             }
             Function::Abs => {
                 let x = self.read(argument, depth)?;
-                self.abs(&x)
+                match argument.node() {
+                    // |f g| = |f| |g|: factors that are written need not be found again.
+                    Node::Product(factors) if self.sign_of(&x).is_none() => {
+                        let mut total = self.integer(1);
+                        for factor in factors {
+                            let size = self.read_call(function, factor, depth)?;
+                            total = self.mul(&total, &size)?;
+                        }
+                        Ok(total)
+                    }
+                    _ => self.abs(&x),
+                }
             }
             _ => {
                 let argument = self.read(argument, depth)?;

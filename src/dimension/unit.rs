@@ -195,6 +195,8 @@ impl<'a> Reader<'a> {
                         !(c.is_ascii_alphabetic() || matches!(c, 'µ' | 'μ' | 'Ω' | '\u{2126}'))
                     })
                     .unwrap_or(rest.len());
+                // `kgm` is written for kg·m by many, and is nothing else.
+                let length = if &rest[..length] == "kgm" { 2 } else { length };
                 let word = &rest[..length];
                 let end = start + length.max(rest.chars().next().map_or(0, char::len_utf8));
                 let read = named(&word.replace('\u{2126}', "Ω")).ok_or_else(|| {

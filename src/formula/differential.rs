@@ -107,8 +107,14 @@ impl Lexer<'_> {
         by: Parts,
         order: u32,
     ) -> Faulty<Tok> {
-        if by.key() == "t" && order <= 2 && of.accent.is_empty() {
-            let accent = if order == 1 { "dot" } else { "ddot" };
+        let dots = match (of.accent, order) {
+            ("", 1) => Some("dot"),
+            ("", 2) | ("dot", 1) => Some("ddot"),
+            _ => None,
+        };
+        if by.key() == "t"
+            && let Some(accent) = dots
+        {
             return self.resolve(start, end, Parts { accent, ..of });
         }
         let (above, below) = match order {
@@ -214,8 +220,8 @@ impl Lexer<'_> {
     }
 
     /// `dt` of an equation of differentials.
-    pub(super) fn differential_alone(&mut self, start: usize) -> Option<Faulty<Tok>> {
-        let (mut parts, end) = self.changed(start + 1)?;
+    pub(super) fn differential_alone(&mut self, start: usize, at: usize) -> Option<Faulty<Tok>> {
+        let (mut parts, end) = self.changed(at)?;
         parts.base.insert(0, 'd');
         Some(self.resolve(start, end, parts))
     }
@@ -288,7 +294,8 @@ impl Lexer<'_> {
         if !self.symbols.is_open() || self.symbols.find("d").is_some() {
             return false;
         }
-        let Some((left, right)) = self.text.split_once('=') else {
+        let plain = self.text.replace("\\mathrm{d}", "d");
+        let Some((left, right)) = plain.split_once('=') else {
             return false;
         };
         let found = |side: &str| {

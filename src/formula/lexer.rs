@@ -8,7 +8,7 @@ use super::fault::{Fault, Faulty};
 use super::note::{Note, Remark};
 use super::symbols::{Symbols, is_angle_name};
 use super::tex::{decoration, degree_mark, shows_space};
-use super::written::Literal;
+use super::written::{Literal, has_arrow, is_axis};
 use crate::dimension::Unit;
 use crate::expr::{Function, Rational, Symbol, ratio};
 
@@ -107,7 +107,7 @@ pub(crate) struct Lexer<'a> {
     /// Where the current run of letters starts, functions and Greek names apart.
     pub(super) run_from: usize,
     /// Tokens so far.
-    count: u32,
+    pub(super) count: u32,
     /// Digits of long numbers so far.
     pub(super) long_digits: u32,
     /// Whether a comma between digits separates components here.
@@ -116,6 +116,9 @@ pub(crate) struct Lexer<'a> {
     pub(super) aligned: bool,
     /// A token that stands behind the last one in meaning, though before it in the text: the square of `v^2_0`.
     pub(super) pending: Option<Tok>,
+    /// Whether ± or ∓ stands somewhere, and whether something that could be a vector does.
+    pub pairs: bool,
+    pub vectors: bool,
     /// Brackets around the current place.
     pub(super) open: u32,
     /// How the components of a column or row are separated.
@@ -159,6 +162,8 @@ impl<'a> Lexer<'a> {
             list: false,
             aligned: false,
             pending: None,
+            pairs: false,
+            vectors: false,
             open: 0,
             matrix: Matrix::Outside,
         }
@@ -205,6 +210,9 @@ impl<'a> Lexer<'a> {
         match &tok {
             Tok::Open('(' | '[' | '<' | 'm') => self.open += 1,
             Tok::Close(')' | ']' | '>' | 'm') => self.open = self.open.saturating_sub(1),
+            Tok::PlusMinus | Tok::MinusPlus => self.pairs = true,
+            Tok::Comma => self.vectors = true,
+            Tok::Name(name) => self.vectors |= name.contains("_hat") || has_arrow(name),
             _ => {}
         }
         self.before = match &tok {
@@ -214,7 +222,7 @@ impl<'a> Lexer<'a> {
             Tok::Vulgar(..) | Tok::Close(_) | Tok::Raised(_) | Tok::Degree | Tok::Percent => {
                 Before::Value
             }
-            Tok::Name(name) if &**name == "pi" => Before::Value,
+            Tok::Name(name) if &**name == "pi" || is_axis(name) => Before::Value,
             _ => Before::Nothing,
         };
         self.after_value = self.before != Before::Nothing || matches!(tok, Tok::Name(_));

@@ -8,32 +8,8 @@ use super::written::{Link, Shape, Written};
 use crate::dimension::Dimension;
 use crate::expr::{Rational, ratio};
 
-/// The dimension of a side with units inside; `None` where none stands there.
-pub(super) fn dimension(w: &Written) -> Faulty<Option<Dimension>> {
-    match occurs(w) {
-        true => of(w).map(Some),
-        false => Ok(None),
-    }
-}
-
-fn occurs(w: &Written) -> bool {
-    match &w.shape {
-        Shape::Measured(..) => true,
-        Shape::Number(_) | Shape::Symbol(_) => false,
-        Shape::Sum(terms) => terms.iter().any(|(_, t)| occurs(t)),
-        Shape::Product(factors) => factors.iter().any(|(_, f)| occurs(f)),
-        Shape::Fraction(a, b) | Shape::Power(a, b) => occurs(a) || occurs(b),
-        Shape::Root(_, inner)
-        | Shape::Call(_, inner)
-        | Shape::Reciprocal(_, inner)
-        | Shape::Bracket(inner)
-        | Shape::Abs(inner)
-        | Shape::Degrees(inner) => occurs(inner),
-        Shape::List(parts) => parts.iter().any(occurs),
-    }
-}
-
-fn of(w: &Written) -> Faulty<Dimension> {
+/// The dimension of a side with units inside.
+pub(super) fn dimension(w: &Written) -> Faulty<Dimension> {
     let none = Dimension::none();
     match &w.shape {
         Shape::Number(_) => Ok(none),
@@ -42,13 +18,13 @@ fn of(w: &Written) -> Faulty<Dimension> {
             let message = format!("the symbol {name} stands beside units");
             Err(Fault::new(message, w.start, w.end).hint("leave the units away, or the symbols"))
         }
-        Shape::Measured(inner, unit) => Ok(of(inner)?.times(&unit.dimension)),
+        Shape::Measured(inner, unit) => Ok(dimension(inner)?.times(&unit.dimension)),
         Shape::Sum(terms) => alike(terms.iter().map(|(_, term)| term)),
         Shape::List(parts) => alike(parts.iter()),
         Shape::Product(factors) => {
             let mut total = none;
             for (i, (link, factor)) in factors.iter().enumerate() {
-                let factor = of(factor)?;
+                let factor = dimension(factor)?;
                 total = match link {
                     Link::Over if i > 0 => total.over(&factor),
                     _ => total.times(&factor),
@@ -56,9 +32,9 @@ fn of(w: &Written) -> Faulty<Dimension> {
             }
             Ok(total)
         }
-        Shape::Fraction(above, below) => Ok(of(above)?.over(&of(below)?)),
+        Shape::Fraction(above, below) => Ok(dimension(above)?.over(&dimension(below)?)),
         Shape::Power(base, exponent) => {
-            let base = of(base)?;
+            let base = dimension(base)?;
             let number = number(exponent);
             match number {
                 Some(k) => Ok(base.power(&k)),
@@ -72,11 +48,11 @@ fn of(w: &Written) -> Faulty<Dimension> {
         }
         Shape::Root(index, inner) => {
             let index = index.as_ref().map_or(Some(ratio(2, 1)), |i| number(i));
-            Ok(of(inner)?.power(&index.map_or(ratio(1, 2), |k| k.recip())))
+            Ok(dimension(inner)?.power(&index.map_or(ratio(1, 2), |k| k.recip())))
         }
-        Shape::Bracket(inner) | Shape::Abs(inner) => of(inner),
+        Shape::Bracket(inner) | Shape::Abs(inner) => dimension(inner),
         Shape::Call(_, inner) | Shape::Reciprocal(_, inner) | Shape::Degrees(inner) => {
-            match of(inner)?.is_none() {
+            match dimension(inner)?.is_none() {
                 true => Ok(none),
                 false => Err(Fault::new(
                     "the argument of a function has a unit",
@@ -92,7 +68,7 @@ fn of(w: &Written) -> Faulty<Dimension> {
 fn alike<'a>(mut pieces: impl Iterator<Item = &'a Written>) -> Faulty<Dimension> {
     let mut first: Option<Dimension> = None;
     pieces.try_for_each(|piece| {
-        let dimension = of(piece)?;
+        let dimension = dimension(piece)?;
         match &first {
             // Zero needs no unit.
             _ if number(piece).is_some_and(|v| v == ratio(0, 1)) => {}

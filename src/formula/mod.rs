@@ -360,7 +360,7 @@ fn read_inner(
     }
     let mut contents = Vec::with_capacity(sides.len());
     let mut unit = None;
-    let components = sides.iter().any(|side| side.written.multiplies_vectors());
+    let components = lexer.vectors && sides.iter().any(|side| side.written.multiplies_vectors());
     for (i, side) in sides.iter().enumerate() {
         // The name of what is asked for stays a name.
         let named = i == 0 && sides.len() > 1 && matches!(side.written.shape, Shape::Symbol(_));
@@ -396,7 +396,7 @@ fn content(
     components: bool,
     lexer: &mut lexer::Lexer,
 ) -> Faulty<(Content, Option<Unit>)> {
-    let pair = has_both_signs(&side.written);
+    let pair = lexer.pairs && has_both_signs(&side.written);
     let mode = |upper| convert::Mode { upper, components };
     let (content, constant) = match convert::value(&side.written, mode(true))? {
         Value::Vector(_) if pair => {
@@ -418,7 +418,8 @@ fn content(
             }
         }
     };
-    if let Some(dimension) = measured::dimension(&side.written)? {
+    if side.measured {
+        let dimension = measured::dimension(&side.written)?;
         let unit_text = dimension.si();
         let unit = Unit::coherent(dimension);
         return Ok(match content {

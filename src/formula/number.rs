@@ -138,26 +138,31 @@ pub(crate) fn ten_to(power: i64) -> Rational {
     }
 }
 
-/// A number in groups of three digits with thin spaces between them: `12\,000`.
-pub(crate) fn grouped(text: &str, at: usize) -> Option<Faulty<(Literal, usize)>> {
-    const SPACES: [&str; 3] = ["\\,", "\u{202f}", "\u{2009}"];
+/// A number in groups of three digits: `12\,000` and `12 000` with spaces between them, `1,000,000` with two commas or more,
+/// which nothing else could be outside a `list`.
+pub(crate) fn grouped(text: &str, at: usize, list: bool) -> Option<Faulty<(Literal, usize)>> {
+    const BETWEEN: [&str; 6] = ["\\,", "\u{202f}", "\u{2009}", "{,}", " ", ","];
     let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
     let first = digits(at);
     if !(1..=3).contains(&first) {
         return None;
     }
     let mut end = at + first;
-    SPACES.iter().find(|s| text[end..].starts_with(**s))?;
+    let between = BETWEEN.iter().find(|s| text[end..].starts_with(**s))?;
     let mut plain = text[at..end].to_string();
-    while let Some(space) = SPACES.iter().find(|s| text[end..].starts_with(**s)) {
-        let from = end + space.len();
-        if digits(from) != 3 {
-            break;
-        }
+    let mut groups = 0;
+    while text[end..].starts_with(between) && digits(end + between.len()) == 3 {
+        let from = end + between.len();
         plain.push_str(&text[from..from + 3]);
         end = from + 3;
+        groups += 1;
     }
-    if end == at + first {
+    let unclear = match *between {
+        "," | "{,}" => list || groups < 2 || text[end..].starts_with(','),
+        " " => plain.starts_with('0') || text[end..].starts_with(['.', ',']),
+        _ => false,
+    };
+    if groups == 0 || unclear {
         return None;
     }
     let part = match text[end..].strip_prefix('.') {

@@ -28,7 +28,7 @@ use super::fault::{Fault, Faulty};
 use super::lexer::{Lexer, Tok, Token};
 use super::note::Remark;
 use super::symbols::Symbols;
-use super::written::{Shape, Sign, Written};
+use super::written::{Shape, Sign, Written, is_axis};
 use crate::dimension::Unit;
 
 /// Deepest nesting of brackets, fractions, exponents and functions.
@@ -39,6 +39,8 @@ pub(crate) struct Side {
     pub written: Written,
     /// The unit behind it and where it stands.
     pub unit: Option<(Unit, usize, usize)>,
+    /// Whether units stand inside.
+    pub measured: bool,
 }
 
 pub(crate) struct Parser<'a> {
@@ -110,12 +112,14 @@ impl<'a> Parser<'a> {
                 return Ok(Side {
                     written,
                     unit: Some((*unit, token.start, token.end)),
+                    measured: self.units > 0,
                 });
             }
         }
         Ok(Side {
             written,
             unit: None,
+            measured: self.units > 0,
         })
     }
 
@@ -221,12 +225,14 @@ impl<'a> Parser<'a> {
             return Ok(term);
         };
         self.units += 1;
-        let start = term.start;
-        Ok(Written::new(
-            Shape::Measured(Box::new(term), unit),
-            start,
-            token.end,
-        ))
+        let (start, end) = (term.start, token.end);
+        let measured = Written::new(Shape::Measured(Box::new(term), unit), start, end);
+        // The direction may stand behind the unit: `3 m/s \hat{i}`.
+        let turned = matches!(&self.peek()?.tok, Tok::Name(name) if is_axis(name));
+        match turned {
+            true => self.group_from(Some(measured)),
+            false => Ok(measured),
+        }
     }
 
     /// A sign, or two of them, as in `a + -b` and `a - -b`.

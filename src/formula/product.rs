@@ -4,7 +4,7 @@ use super::fault::{Fault, Faulty};
 use super::lexer::Tok;
 use super::note::Remark;
 use super::parser::Parser;
-use super::written::{Link, Shape, Sign, Written};
+use super::written::{Link, Shape, Sign, Written, is_axis};
 
 impl Parser<'_> {
     /// Groups tied by `*` and `/`, from left to right.
@@ -96,7 +96,7 @@ impl Parser<'_> {
         };
         // Brackets show where the divisor ends: `3v/(2l) cosθ`.
         let enclosed = matches!(first.shape, Shape::Bracket(_));
-        let vector = matches!(&self.peek()?.tok, Tok::Name(name) if is_unit_vector(name));
+        let vector = matches!(&self.peek()?.tok, Tok::Name(name) if is_axis(name));
         if vector || enclosed {
             return Ok((first, Some(self.group()?)));
         }
@@ -248,10 +248,6 @@ fn first_alone(product: Written) -> (Written, Option<Written>) {
     )
 }
 
-fn is_unit_vector(name: &str) -> bool {
-    matches!(name, "i_hat" | "j_hat" | "k_hat")
-}
-
 fn ends_in_unit_vector(written: &Written) -> bool {
-    matches!(&written.shape, Shape::Symbol(name) if is_unit_vector(name))
+    matches!(&written.shape, Shape::Symbol(name) if is_axis(name))
 }

@@ -3,7 +3,9 @@
 //! A name has a base (a letter, a Greek letter, or a declared word), an accent, an index and marks such as ′ or ⁺. Its
 //! *key* writes these in one way, so that `v1`, `v_1`, `v_{1}` and `{v}_{1}` meet.
 
-use std::collections::{HashMap, HashSet};
+use std::borrow::Cow;
+
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::dimension::Dimension;
 use crate::expr::Symbol;
@@ -24,11 +26,12 @@ pub struct Declared {
 #[derive(Clone, Debug, Default)]
 pub struct Symbols {
     declared: Vec<Declared>,
-    keys: HashMap<String, usize>,
-    bases: HashSet<String>,
+    keys: FxHashMap<String, usize>,
+    bases: FxHashSet<String>,
     longest_base: usize,
     open: bool,
     lists: bool,
+    axes: bool,
     brief: bool,
 }
 
@@ -50,6 +53,23 @@ impl Symbols {
     pub fn with_lists(mut self) -> Symbols {
         self.lists = true;
         self
+    }
+
+    /// The same names, where i, j and k stand for the unit vectors along the axes unless they are declared: `2i − 3j`.
+    pub fn with_axes(mut self) -> Symbols {
+        self.axes = true;
+        self
+    }
+
+    /// The unit vector a letter stands for.
+    pub(crate) fn axis(&self, letter: &str) -> Option<&'static str> {
+        let axis = match letter {
+            "i" => "i_hat",
+            "j" => "j_hat",
+            "k" => "k_hat",
+            _ => return None,
+        };
+        (self.axes && self.find(letter).is_none()).then_some(axis)
     }
 
     /// The same names, where the first undeclared one ends reading: for trying whether a text can be read at all.
@@ -85,16 +105,13 @@ impl Symbols {
             name: Symbol::from(name),
             dimension,
         });
-        for key in [
-            Some(key_of(name)),
-            latex.and_then(super::name::key_of_latex),
-        ]
-        .into_iter()
-        .flatten()
-        {
-            let base: String = key.chars().take_while(char::is_ascii_alphabetic).collect();
-            self.add_base(&base);
-            self.keys.entry(key).or_insert(index);
+        let typeset = latex.and_then(super::name::key_of_latex).map(Cow::Owned);
+        for key in [key_of(name)].into_iter().chain(typeset) {
+            let letters = key.bytes().take_while(u8::is_ascii_alphabetic).count();
+            self.add_base(&key[..letters]);
+            if key != name {
+                self.keys.entry(key.into_owned()).or_insert(index);
+            }
         }
         self.keys.insert(name.to_string(), index);
         if name.len() > 1 && name.bytes().all(|b| b.is_ascii_alphabetic()) {
@@ -214,11 +231,11 @@ pub(crate) fn parts_of(name: &str) -> Parts {
     parts
 }
 
-fn key_of(name: &str) -> String {
+fn key_of(name: &str) -> Cow<'_, str> {
     // Letters, then digits, are their own key.
     match name.contains(['_', '\'', '^', '{', '}']) {
-        true => parts_of(name).key(),
-        false => name.to_string(),
+        true => Cow::Owned(parts_of(name).key()),
+        false => Cow::Borrowed(name),
     }
 }
 
@@ -279,6 +296,7 @@ pub(crate) fn is_greek(word: &str) -> bool {
             | "Phi"
             | "Psi"
             | "Omega"
+            | "hbar"
     )
 }
 
@@ -307,6 +325,7 @@ pub(crate) fn greek_name(c: char) -> Option<&'static str> {
         'χ' => "chi",
         'ψ' => "psi",
         'ω' => "omega",
+        'ħ' | 'ℏ' => "hbar",
         'Γ' => "Gamma",
         'Δ' | '∆' => "Delta",
         'Θ' => "Theta",
@@ -363,7 +382,7 @@ fn mathematical(c: char) -> Option<&'static str> {
 
 /// The letter of a Greek name.
 pub(crate) fn greek_letter(name: &str) -> Option<char> {
-    let letters = "αβγδεζηθικλμνξρστυφχψωΓΔΘΛΞΣΥΦΨΩπ";
+    let letters = "αβγδεζηθικλμνξρστυφχψωΓΔΘΛΞΣΥΦΨΩπħ";
     let plain = match name {
         "varphi" => "phi",
         "vartheta" => "theta",

@@ -28,12 +28,21 @@ impl<'a> Lexer<'a> {
                 format!("`\\{word}` is read in a derivative of one name only, as in dx/dt");
             return Err(Fault::new(message, start, end));
         }
+        if word == "mathrm"
+            && rest.starts_with("mathrm{d}")
+            && self.differentials()
+            && let Some(named) = self.differential_alone(start, start + "\\mathrm{d}".len())
+        {
+            return named;
+        }
         self.pos = end;
-        if word.ends_with("frac")
-            && (rest[length..].starts_with("{\\text{") || rest[length..].starts_with("{\\mathrm{"))
+        let upright = ["{\\text{", "{\\mathrm{"]
+            .iter()
+            .any(|font| rest[length..].starts_with(font));
+        if word.ends_with("frac") && (upright || self.units_first) && self.before != Before::Nothing
         {
             self.pos = start;
-            if let Some(tok) = self.unit(true).filter(|_| self.before != Before::Nothing) {
+            if let Some(tok) = self.unit(upright) {
                 return Ok(tok);
             }
             self.pos = end;
@@ -68,6 +77,16 @@ impl<'a> Lexer<'a> {
             "pi" => Tok::Name("pi".into()),
             "degree" => Tok::Degree,
             "" => match rest.chars().next() {
+                // A set: its members are no decimal number.
+                Some('{')
+                    if rest[1..]
+                        .split('}')
+                        .next()
+                        .is_some_and(|inside| inside.contains(',')) =>
+                {
+                    let fault = Fault::new("a set is not read", start, end + 1);
+                    return Err(fault.hint("write x = 1 or x = 2, or 1, 2"));
+                }
                 Some('{') => {
                     self.pos += 1;
                     Tok::Open('{')

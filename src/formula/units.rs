@@ -53,11 +53,17 @@ impl Lexer<'_> {
         let start = self.pos;
         // Units win only where nothing is declared of their letters; looking is cheaper than reading them.
         if !marked {
-            let word = first_word(&self.text[start..])?;
             let side = self.rest_of_side()?;
             let free = |text| self.units_first || self.is_free(text);
             let bare = side.contains('\\') || free(side);
-            if !free(word) || !bare || dimension::unit(word).is_err() {
+            // `\frac{m}{s}` begins with no word.
+            if !side.starts_with('\\') {
+                let word = first_word(side)?;
+                if !free(word) || dimension::unit(word).is_err() {
+                    return None;
+                }
+            }
+            if !bare {
                 return None;
             }
         }

@@ -69,7 +69,7 @@ impl Lexer<'_> {
             if self.differentials()
                 && let Some(behind) = rest[1..].chars().next()
                 && (behind.is_alphabetic() || behind == '\\')
-                && let Some(named) = self.differential_alone(start)
+                && let Some(named) = self.differential_alone(start, start + 1)
             {
                 return named;
             }
@@ -112,6 +112,11 @@ impl Lexer<'_> {
                     return self.name(start, start + length);
                 }
             }
+        }
+        let indexed = rest[1..].starts_with(|c: char| c == '_' || c.is_ascii_digit());
+        if !indexed && let Some(axis) = self.symbols.axis(&rest[..1]) {
+            self.pos = start + 1;
+            return Ok(Tok::Name(axis.into()));
         }
         if self.symbols.is_open() {
             if run > 2
@@ -162,7 +167,7 @@ impl Lexer<'_> {
         }
         // With names declared it could be another spelling of one.
         let new = self.symbols.is_open() && self.symbols.declared().is_empty();
-        if !new || self.found.len() >= MAX_NAMES {
+        if !new || self.found.len() >= MAX_NAMES || self.symbols.axis(name).is_some() {
             return None;
         }
         self.found.push(Symbol::from(name));
@@ -297,6 +302,9 @@ impl Lexer<'_> {
         let stop = name::tail(self.text, at, &mut parts, self.symbols, false, &mut took);
         let found = name::find(&parts, self.symbols)?.name.clone();
         self.pos = stop;
+        if let Some(Ok(tok)) = self.of_time(start, stop, &parts) {
+            return Some(tok);
+        }
         Some(Tok::Name(found))
     }
 
@@ -388,26 +396,37 @@ impl Lexer<'_> {
         end
     }
 
-    /// `v(t_1)`: the value of v at a time, where neither is declared; no product.
+    /// `v(t_1)` and `v(0)`: the value of v at a time, no product; where v or the time is declared, `v(t_1)` is one. At the
+    /// start of an equation `v(t) =` says what v is.
     fn of_time(&mut self, start: usize, at: usize, parts: &Parts) -> Option<Faulty<Tok>> {
-        if !self.symbols.is_open() || parts.base == "t" {
-            return None;
-        }
         let inside = self.text[at..].strip_prefix('(')?;
-        let (inside, _) = inside.split_once(')')?;
-        let time = inside.trim();
-        let mut when = Parts::default();
-        let end = name::base(time, 0, &mut when, 0)?;
-        let end = name::tail(time, end, &mut when, self.symbols, false, &mut false);
-        if end != time.len() || when.base != "t" || self.symbols.find(&when.key()).is_some() {
+        let (inside, behind) = inside.split_once(')')?;
+        let (time, stop) = (inside.trim(), at + inside.len() + 2);
+        if parts.base == "t" {
             return None;
         }
-        let stop = at + inside.len() + 2;
-        let base = format!("{}({})", parts.key(), when.key());
+        let mut when = Parts::default();
+        if time == "0" {
+            when.base.push('0');
+        } else {
+            let end = name::base(time, 0, &mut when, 0)?;
+            let end = name::tail(time, end, &mut when, self.symbols, false, &mut false);
+            if end != time.len() || when.base != "t" {
+                return None;
+            }
+            if time == "t" && self.count == 1 && behind.trim_start().starts_with('=') {
+                return Some(self.resolve(start, stop, parts.clone()));
+            }
+        }
         let whole = Parts {
-            base,
+            base: format!("{}({})", parts.key(), when.key()),
             ..Parts::default()
         };
+        let declared = |parts: &Parts| name::find(parts, self.symbols).is_some();
+        let factor = !self.symbols.is_open() || declared(parts) || declared(&when);
+        if time != "0" && factor && !declared(&whole) {
+            return None;
+        }
         Some(self.resolve(start, stop, whole))
     }
 

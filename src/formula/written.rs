@@ -215,6 +215,11 @@ impl Written {
     }
 }
 
+/// Whether a name is that of a unit vector along an axis.
+pub(crate) fn is_axis(name: &str) -> bool {
+    matches!(name, "i_hat" | "j_hat" | "k_hat")
+}
+
 /// Whether a name stands for a vector by its arrow.
 pub(crate) fn has_arrow(name: &str) -> bool {
     name.contains("_vec") && super::symbols::parts_of(name).accent == "vec"

@@ -1,5 +1,7 @@
 //! Where a text could mean something else: other readings, an e that nobody declared, and what the reader decided.
 
+use num_traits::Signed;
+
 use super::compare;
 use super::{Diagnosis, Key, Options, Proof, Verdict, show};
 use crate::expr::{Expr, Function, Node};
@@ -32,7 +34,9 @@ pub(super) fn power_of_function(content: &Content) -> Option<Content> {
     (changed != *content).then_some(changed)
 }
 
-/// `e^x` against `exp(x)` with an e that nobody declared: e is a symbol here, and the verdict hangs on that.
+/// `e^x` against `exp(x)` with an e that nobody declared: only one of them knows a symbol e. Where they are equal with e as
+/// the base of the natural logarithm, that is what was meant, unless an expected e may be a restitution to the power of a
+/// count: then nothing is decided.
 pub(super) fn euler(
     key: &Key,
     reading: &Reading,
@@ -74,14 +78,49 @@ pub(super) fn euler(
         forms: Vec::new(),
         ..options.clone()
     };
-    if compare::verdict_of(&other, &mine, &plain) == Verdict::Equivalent {
-        let words = "e is a symbol; as the base of the natural logarithm it would be right";
-        finding.verdict = Verdict::Undecided;
-        finding.note = "UNDECIDED_AMBIGUOUS";
-        finding.proof = Proof::of("none", words);
-        finding.counterexample = None;
-        let hint = "write exp(x) for the exponential function";
-        finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+    let found = compare::contents(&other, &mine, &plain);
+    if found.verdict != Verdict::Equivalent {
+        return;
+    }
+    let mut counts = occurs(expected);
+    expected.walk(&mut |part| {
+        if let Node::Power(base, k) = part.node()
+            && base.as_symbol().is_some_and(|s| &**s == "e")
+        {
+            counts &= is_count(k);
+        }
+    });
+    if !counts {
+        *finding = found;
+        finding
+            .assumed
+            .push("e is the base of the natural logarithm".into());
+        return;
+    }
+    let words = "e is a symbol; as the base of the natural logarithm it would be right";
+    finding.verdict = Verdict::Undecided;
+    finding.note = "UNDECIDED_AMBIGUOUS";
+    finding.proof = Proof::of("none", words);
+    finding.counterexample = None;
+    let hint = "write exp(x) for the exponential function";
+    finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+}
+
+/// Whether an exponent may count something: a whole number, a symbol, or a sum of such with positive factors.
+fn is_count(k: &Expr) -> bool {
+    let whole = |e: &Expr| e.as_number().is_some_and(|k| k.is_integer());
+    match k.node() {
+        Node::Symbol(_) => true,
+        Node::Sum(terms) => terms.iter().all(is_count),
+        Node::Product(factors) => match factors.as_slice() {
+            [number, rest] => {
+                whole(number)
+                    && number.as_number().is_some_and(Signed::is_positive)
+                    && rest.as_symbol().is_some()
+            }
+            _ => false,
+        },
+        _ => whole(k),
     }
 }
 

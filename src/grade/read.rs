@@ -48,16 +48,22 @@ pub(super) fn is_stable(reading: &Reading) -> bool {
 
 /// Reads an answer.
 pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
-    let fault = match formula::read(text, &key.readable) {
+    let usual = formula::read(text, &key.readable);
+    if vector(&key.reading) && !usual.as_ref().is_ok_and(vector) {
+        // Where a vector is asked, `(2,3)` is one, and so is `2i + 3j`.
+        let lists = key.readable.clone().with_lists();
+        let axes = lists.clone().with_axes();
+        let mut read = [lists, axes]
+            .into_iter()
+            .map(|names| formula::read(text, &names));
+        if let Some(Ok(reading)) = read.find(|reading| reading.as_ref().is_ok_and(vector)) {
+            return worded(key, text, reading);
+        }
+    }
+    let fault = match usual {
         Ok(reading) => return worded(key, text, reading),
         Err(fault) => fault,
     };
-    if vector(&key.reading)
-        && let Ok(reading) = formula::read(text, &key.readable.clone().with_lists())
-        && vector(&reading)
-    {
-        return worded(key, text, reading);
-    }
     if !key.question.closed {
         return Err(fault);
     }

@@ -197,6 +197,8 @@ pub(super) fn with(ctx: &Context, expected: &Expr, answer: &Quantity) -> Finding
         Some(asked) if !asked.is_none() => {
             wrong(&asked, &answer.unit.dimension, &answer.unit_text, false)
         }
+        // Zero is zero in any unit.
+        _ if expected.is_zero() && answer.value.is_zero() => scalars(ctx, expected, &answer.value),
         _ => {
             let right = scalars(ctx, expected, &answer.written).verdict == Verdict::Equivalent;
             extra(&answer.unit_text, right)
