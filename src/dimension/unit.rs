@@ -138,7 +138,7 @@ impl<'a> Reader<'a> {
             }
             let start = self.at;
             let atom = self.atom(depth)?;
-            let power = self.exponent()?;
+            let power = self.exponent(total != Unit::number())?;
             let signed = if over { -power } else { power };
             if over {
                 below += 1;
@@ -195,8 +195,11 @@ impl<'a> Reader<'a> {
                         !(c.is_ascii_alphabetic() || matches!(c, 'µ' | 'μ' | 'Ω' | '\u{2126}'))
                     })
                     .unwrap_or(rest.len());
-                // `kgm` is written for kg·m by many, and is nothing else.
-                let length = if &rest[..length] == "kgm" { 2 } else { length };
+                // `kgm` and `kgms` are written for kg·m and kg·m·s by many, and are nothing else.
+                let length = match &rest[..length] {
+                    "kgm" | "kgms" => 2,
+                    _ => length,
+                };
                 let word = &rest[..length];
                 let end = start + length.max(rest.chars().next().map_or(0, char::len_utf8));
                 let read = named(&word.replace('\u{2126}', "Ω")).ok_or_else(|| {
@@ -213,10 +216,18 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The exponent after a unit: `^-2`, `^{2}`, `**2`, `²`, `⁻¹`, or a digit right behind, as in `m2`.
-    fn exponent(&mut self) -> Result<i64, UnitFault> {
+    /// The exponent after a unit: `^-2`, `^{2}`, `**2`, `²`, `⁻¹`, or a digit right behind, as in `m2`; at the end and behind
+    /// another unit with a sign as well, as in `m s-1`.
+    fn exponent(&mut self, behind: bool) -> Result<i64, UnitFault> {
         let start = self.at;
         let rest = &self.text[start..];
+        if behind
+            && let Some(digit) = rest.strip_prefix('-')
+            && matches!(digit, "1" | "2" | "3")
+        {
+            self.at = self.text.len();
+            return Ok(-digit.parse::<i64>().unwrap_or(1));
+        }
         let mut digits = String::new();
         let mut length = 0;
         if let Some(tail) = rest.strip_prefix("**").or_else(|| rest.strip_prefix('^')) {

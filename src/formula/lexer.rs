@@ -345,6 +345,12 @@ impl<'a> Lexer<'a> {
                 (1 + degree_mark(&rest[1..]).unwrap_or(0), Tok::Degree)
             }
             b'^' => (1, Tok::Caret),
+            b'[' if self.units_first && matches!(self.before, Before::Number { .. }) => {
+                match self.bracketed_unit() {
+                    Some(tok) => return Ok(tok),
+                    None => (1, Tok::Open('[')),
+                }
+            }
             b'(' | b'[' => (1, Tok::Open(first as char)),
             b')' | b']' | b'}' => (1, Tok::Close(first as char)),
             b'{' => match self.braced_name() {

@@ -45,8 +45,10 @@ pub(crate) use sentence::sentence;
 pub use sentence::{Piece, Sentence};
 pub(crate) use symbols::is_greek;
 pub use symbols::{Declared, Symbols};
+pub(crate) use units::plain_unit;
 pub use visible::{is_hidden, visible};
 pub use write::{latex_name, unicode_name, write_latex, write_plain, write_unicode};
+pub(crate) use written::has_arrow;
 pub use written::{Link, Literal, Shape, Sign, Written};
 
 /// Longest formula, in bytes.
@@ -317,6 +319,14 @@ fn read_as(text: &str, symbols: &Symbols, flips: u64) -> Faulty<Reading> {
     let inner = &text[..end];
     if let Some(last) = prose::conclusion(&inner[start..]) {
         start += last;
+    }
+    // `≈ 1.2 m/s` goes on from what was asked.
+    let rest = inner[start..].trim_start();
+    let about = rest
+        .strip_prefix('≈')
+        .or_else(|| rest.strip_prefix("\\approx"));
+    if let Some(behind) = about {
+        start = end - behind.len();
     }
     read_inner(inner, start, symbols, false, flips).or_else(|first| match symbols.is_open() {
         // The attempt that got further tells more.

@@ -176,13 +176,17 @@ impl<'a> Lexer<'a> {
             let single = false;
             return self.token(single);
         }
-        let known = matches!(name, "pmatrix" | "bmatrix" | "matrix");
+        let known = matches!(name, "pmatrix" | "bmatrix" | "matrix" | "array");
         if !known || begins != (self.matrix == Matrix::Outside) {
             let shown: String = name.chars().take(24).collect();
             let fault = Fault::new(format!("`{shown}` is no environment I read"), start, end);
             return Err(fault.hint("a vector is written [a, b] or in a pmatrix"));
         }
         self.pos = end;
+        if begins && name == "array" {
+            // How the columns are set.
+            (_, self.pos) = self.group(start)?;
+        }
         if begins {
             self.matrix = Matrix::Open;
             Ok(Tok::Open('m'))

@@ -39,6 +39,22 @@ impl Lexer<'_> {
         (stop <= LONGEST_UNIT).then(|| &rest[..stop])
     }
 
+    /// `1.2 [m/s]`: a unit in square brackets behind a number.
+    pub(super) fn bracketed_unit(&mut self) -> Option<Tok> {
+        let inside = self.text[self.pos..].strip_prefix('[')?;
+        let (inside, _) = inside
+            .split_once(']')
+            .filter(|(inside, _)| inside.len() < LONGEST_UNIT)?;
+        let inside = inside.trim_end_matches("\\right");
+        let plain = plain_unit(inside)?;
+        let read = dimension::unit(&plain)
+            .ok()
+            .filter(|_| !words(&plain).any(|w| self.symbols.find(w).is_some()))?;
+        let close = self.text[self.pos..].find(']')?;
+        self.pos += close + 1;
+        Some(Tok::Unit(Box::new(read)))
+    }
+
     /// Whether nothing of the side is left behind a place.
     pub(super) fn fills_side(&self, end: usize) -> bool {
         let rest = self.text[end..].trim_start_matches(|c: char| c.is_whitespace() || c == '$');
@@ -265,7 +281,7 @@ fn first_word(text: &str) -> Option<&str> {
 const FRACTION: char = '\u{1}';
 
 /// The unit without LaTeX decoration.
-fn plain_unit(side: &str) -> Option<String> {
+pub(crate) fn plain_unit(side: &str) -> Option<String> {
     let mut out = String::new();
     let mut rest = side;
     while let Some(c) = rest.chars().next() {

@@ -10,7 +10,7 @@ use super::{
 use crate::dimension::Dimension;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol};
-use crate::formula::{Content, Reading, Relation, write_unicode};
+use crate::formula::{self, Content, Reading, Relation, write_unicode};
 pub(crate) use scalar::{WRITTEN, is_short, quotient, same_number, scalars};
 
 /// What a comparison found; the grade without what concerns the text.
@@ -153,6 +153,16 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
     {
         return relation::compare(ctx, (a, s), (b, t));
     }
+    // An equation between vectors, solved for another of them.
+    if let (Content::Relations(a, s), Content::Relations(b, t)) =
+        (&ctx.key.reading.content, &answer.content)
+        && a.first() != b.first()
+        && a.iter()
+            .chain(b)
+            .any(|side| matches!(side, Content::Vector(_)))
+    {
+        return relation::compare(ctx, (&spread(a), s), (&spread(b), t));
+    }
     match (claim(&ctx.key.reading.content), claim(&answer.content)) {
         (Claim::Value(expected_name, expected), Claim::Value(name, value)) => {
             let mut finding = values(ctx, expected, value);
@@ -235,6 +245,19 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
             }
         }
     }
+}
+
+/// The sides of an equation between vectors, a name with an arrow in its components.
+fn spread(sides: &[Content]) -> Vec<Content> {
+    let vectors = sides.iter().any(|side| matches!(side, Content::Vector(_)));
+    let components = |side: &Content| {
+        let name = side.expr().and_then(Expr::as_symbol);
+        let name = name.filter(|name| vectors && formula::has_arrow(name))?;
+        let along = |axis: &str| Expr::symbol(&format!("{name}_{axis}"));
+        Some(Content::Vector(["x", "y", "z"].map(along)))
+    };
+    let spread = |side: &Content| components(side).unwrap_or_else(|| side.clone());
+    sides.iter().map(spread).collect()
 }
 
 fn declared_symbol(ctx: &Context, name: &Symbol) -> bool {

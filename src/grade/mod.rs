@@ -257,6 +257,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     {
         return unreadable(fault);
     }
+    unit::metres(key, &mut reading);
     let mut finding = compare::contents(key, &reading, options);
     doubt::slashes(key, answer, options, &mut reading, &mut finding);
     unit::behind(key, &reading, &mut finding);

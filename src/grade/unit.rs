@@ -4,7 +4,7 @@ use super::compare::{Context, Finding, scalars};
 use super::{Diagnosis, Key, Proof, Tolerance, Verdict};
 use crate::dimension::{self, Dimension, Unit};
 use crate::expr::Expr;
-use crate::formula::{Content, Quantity, Reading, write_plain};
+use crate::formula::{self, Content, Quantity, Reading, write_plain};
 
 /// The unit behind a vector, a pair, or a formula in symbols, which carry none in their content.
 ///
@@ -55,6 +55,31 @@ pub(super) fn behind(key: &Key, reading: &Reading, finding: &mut Finding) {
     }
 }
 
+/// `1.2 ms^{-1}`, where m s⁻¹ is asked: without a space the letters are those of a millisecond, which nobody means there.
+pub(super) fn metres(key: &Key, reading: &mut Reading) {
+    let asked = match key.reading.content.answer() {
+        Content::Quantity(expected) => Some(expected.unit.dimension.clone()),
+        _ => asked(key),
+    };
+    let Some(asked) = asked else { return };
+    let said = match &mut reading.content {
+        Content::Relations(sides, _) => sides.last_mut(),
+        other => Some(other),
+    };
+    let Some(Content::Quantity(quantity)) = said else {
+        return;
+    };
+    if quantity.unit.dimension == asked || !quantity.unit_text.contains("ms") {
+        return;
+    }
+    let text = formula::plain_unit(&quantity.unit_text.replace("ms", "m s"));
+    let unit = text.and_then(|text| dimension::unit(&text).ok());
+    if let Some(unit) = unit.filter(|unit| unit.dimension == asked) {
+        quantity.value = &quantity.written * &unit.value();
+        quantity.unit = unit;
+    }
+}
+
 fn is_coherent(unit: &Unit) -> bool {
     unit.value().is_one()
 }
@@ -64,6 +89,7 @@ fn asked(key: &Key) -> Option<Dimension> {
     if let Some(unit) = &key.reading.unit {
         return Some(unit.dimension.clone());
     }
+
     if let Some(dimension) = &key.question.dimension {
         return Some(dimension.clone());
     }
