@@ -68,6 +68,17 @@ pub enum Relation {
 }
 
 impl Relation {
+    /// The same read from right to left.
+    fn turned(self) -> Relation {
+        match self {
+            Relation::Less => Relation::Greater,
+            Relation::LessEqual => Relation::GreaterEqual,
+            Relation::Greater => Relation::Less,
+            Relation::GreaterEqual => Relation::LessEqual,
+            same => same,
+        }
+    }
+
     /// The sign in Unicode.
     pub fn sign(self) -> &'static str {
         match self {
@@ -140,6 +151,20 @@ impl Content {
         }
     }
 
+    /// The same with every expression inside changed; a quantity stays as it is.
+    pub(crate) fn map(&self, change: &dyn Fn(&Expr) -> Expr) -> Content {
+        match self {
+            Content::Scalar(e) => Content::Scalar(change(e)),
+            Content::Either(pair) => Content::Either(pair.each_ref().map(change)),
+            Content::Vector(components) => Content::Vector(components.each_ref().map(change)),
+            Content::Quantity(_) => self.clone(),
+            Content::Relations(sides, signs) => {
+                let sides = sides.iter().map(|side| side.map(change)).collect();
+                Content::Relations(sides, signs.clone())
+            }
+        }
+    }
+
     /// Calls `visit` for every expression inside.
     pub fn each(&self, visit: &mut dyn FnMut(&Expr)) {
         match self {
@@ -190,7 +215,7 @@ impl Reading {
 /// around a single formula in dollars.
 pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     if let Some(pair) = two_values(text, symbols) {
-        return Ok(pair);
+        return pair;
     }
     let usual = read_as(text, symbols, 0);
     let worded = match &usual {
@@ -212,8 +237,8 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     usual.map_err(|fault| *fault)
 }
 
-/// `x = 3 or x = -3` and `2, -2` as one pair of values.
-fn two_values(text: &str, symbols: &Symbols) -> Option<Reading> {
+/// `x = 3 or x = -3` and `2, -2` as one pair of values, `x > 1 and x < 3` as a chain.
+fn two_values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fault>> {
     if text.len() > MAX_BYTES {
         return None;
     }
@@ -228,6 +253,29 @@ fn two_values(text: &str, symbols: &Symbols) -> Option<Reading> {
         strict.ok().filter(|r| !worded(r))
     };
     let (first, second) = (part(start, start + end)?, part(start + next, stop)?);
+    let word = &text[start + end..start + next];
+    if let (Content::Relations(a, s), Content::Relations(b, t)) = (&first.content, &second.content)
+        && word != ","
+        && s.iter().chain(t).any(|sign| *sign != Relation::Equal)
+    {
+        let (a, b) = (a.as_slice(), b.as_slice());
+        let ([x, low], [y, high], [s], [t]) = (a, b, s.as_slice(), t.as_slice()) else {
+            return None;
+        };
+        if x != y || !word.contains("and") {
+            let fault = Fault::new(
+                "two relations joined by a word are not read",
+                start + end,
+                start + next,
+            );
+            return Some(Err(*fault.hint("write them as one, as in 1 < x < 3")));
+        }
+        let sides = vec![low.clone(), x.clone(), high.clone()];
+        return Some(Ok(Reading {
+            content: Content::Relations(sides, vec![s.turned(), *t]),
+            ..second
+        }));
+    }
     let named = |content: &Content| match content {
         Content::Relations(sides, signs) if signs == &[Relation::Equal] => match sides.as_slice() {
             [Content::Scalar(name), Content::Scalar(value)] => {
@@ -250,7 +298,7 @@ fn two_values(text: &str, symbols: &Symbols) -> Option<Reading> {
             Content::Relations(sides, vec![Relation::Equal])
         }
     };
-    Some(Reading {
+    Some(Ok(Reading {
         content,
         written: first.written.into_iter().chain(second.written).collect(),
         literal: None,
@@ -258,7 +306,7 @@ fn two_values(text: &str, symbols: &Symbols) -> Option<Reading> {
         notes: first.notes.into_iter().chain(second.notes).collect(),
         choices: 0,
         slashes: false,
-    })
+    }))
 }
 
 /// Reads a formula that is a single expression, such as those in scenes.

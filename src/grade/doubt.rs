@@ -51,27 +51,29 @@ pub(super) fn euler(
             _ => e.map_parts(number),
         }
     }
-    let (Some(expected), Some(answer)) = (key.reading.expr(), reading.expr()) else {
-        return;
+    let (expected, answer) = (&key.reading.content, &reading.content);
+    let occurs = |content: &Content| {
+        let mut found = false;
+        content.each(&mut |e| found |= e.symbols().contains("e"));
+        found
     };
-    let occurs = |e: &Expr| e.symbols().contains("e");
     if finding.verdict != Verdict::Different || occurs(expected) == occurs(answer) || key.declares_e
     {
         return;
     }
-    let (a, b) = (number(expected), number(answer));
+    let (a, b) = (expected.map(&number), answer.map(&number));
     if occurs(&a) || occurs(&b) {
         return;
     }
     let other = Key {
         reading: Reading {
-            content: Content::Scalar(a),
+            content: a,
             ..key.reading.clone()
         },
         ..key.clone()
     };
     let mine = Reading {
-        content: Content::Scalar(b),
+        content: b,
         ..reading.clone()
     };
     let plain = Options {
@@ -83,13 +85,14 @@ pub(super) fn euler(
         return;
     }
     let mut counts = occurs(expected);
-    expected.walk(&mut |part| {
+    let mut note = |part: &Expr| {
         if let Node::Power(base, k) = part.node()
             && base.as_symbol().is_some_and(|s| &**s == "e")
         {
             counts &= is_count(k);
         }
-    });
+    };
+    expected.each(&mut |e| e.walk(&mut note));
     if !counts {
         *finding = found;
         finding

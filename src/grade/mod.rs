@@ -258,6 +258,9 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         return unreadable(fault);
     }
     unit::metres(key, &mut reading);
+    if matches!(reading.content, Content::Relations(..)) {
+        read::differentials(key, &mut reading);
+    }
     let mut finding = compare::contents(key, &reading, options);
     doubt::slashes(key, answer, options, &mut reading, &mut finding);
     unit::behind(key, &reading, &mut finding);

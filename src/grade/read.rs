@@ -4,6 +4,8 @@
 //! students wrongly bring in, so that it is wrong rather than unreadable. A word that is no name is refused: read letter by
 //! letter it would be a formula nobody wrote.
 
+use std::collections::BTreeMap;
+
 use super::{Key, Question, declare};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Content, Fault, Reading, Remark, Symbols};
@@ -107,6 +109,29 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         formula::read(text, &symbols).ok()
     });
     named.ok_or(fault)
+}
+
+/// `dv = a dt` for `a = dv/dt`, and `F = dp/dt` for `F dt = dp`: the derivative by the time is the quotient of the
+/// differentials, and an answer is put in the terms of its key.
+pub(super) fn differentials(key: &Key, reading: &mut Reading) {
+    let (known, mine) = (key.reading.symbols(), reading.symbols());
+    let dt = Expr::symbol("dt");
+    let mut same = BTreeMap::new();
+    for (names, others) in [(&known, &mine), (&mine, &known)] {
+        for name in names.iter().filter(|name| name.ends_with("_dot")) {
+            let differential = format!("d{}", name.trim_end_matches("_dot"));
+            if others.contains("dt") && others.contains(&*differential) && !others.contains(name) {
+                let (rate, change) = (Expr::symbol(name), Expr::symbol(&differential));
+                match std::ptr::eq(names, &known) {
+                    true => same.insert(Symbol::from(differential), &rate * &dt),
+                    false => same.insert(name.clone(), &change / &dt),
+                };
+            }
+        }
+    }
+    if !same.is_empty() {
+        reading.content = reading.content.map(&|e| e.substitute(&same));
+    }
 }
 
 /// A text as a quantity with a unit, where no undeclared symbol is needed to read it.

@@ -23,7 +23,7 @@ use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Content, Relation, write_plain};
 use crate::interval::{Interval, Outcome, evaluate};
 use cells::holds;
-use factor::turned_term;
+use factor::{turned_term, unrooted};
 use inequality::inequalities;
 use locus::{Compared, Extent, Part};
 use num_traits::Signed;
@@ -254,6 +254,17 @@ fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
             .assumed
             .push("what was divided by is not zero".into());
         return finding;
+    }
+    // Without roots of sums, as in c = √(a² + b²).
+    let plain = [expected, answer].map(|n| unrooted(n, domains));
+    if plain.iter().any(Option::is_some) {
+        let [a, b] = [f, g].map(Expr::clone);
+        let [p, q] = plain.map(|n| n.map(|n| n.difference));
+        let (a, b) = (p.unwrap_or(a), q.unwrap_or(b));
+        let found = locus::compare(&a, &b, domains).and_then(|c| from_parts(ctx, &a, &b, c));
+        if let Some(found) = found.filter(|found| found.verdict == Verdict::Equivalent) {
+            return found;
+        }
     }
     undecided("the equations could not be solved to compare their solutions")
 }

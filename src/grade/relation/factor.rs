@@ -4,7 +4,7 @@ use super::super::compare::WRITTEN;
 use super::{Normal, same_sign};
 use crate::algebra::{Element, Field, Sign};
 use crate::domain::{Domains, roles};
-use crate::expr::{Expr, Node};
+use crate::expr::{Expr, Node, ratio};
 use crate::formula::Relation;
 
 /// The one term of the answer whose sign has to be turned to make the equations the same.
@@ -53,5 +53,57 @@ pub(super) fn factor(f: &Expr, g: &Expr, domains: &Domains) -> Option<Factor> {
     Some(Factor {
         positive: sign.is_not_negative(),
         weak: weak.map(|x| field.expr(x)).collect(),
+    })
+}
+
+/// The same relation without a square root: multiplied by the difference with that root turned round, where this has one
+/// sign on the domain, as v + √a has in (v − √a)(v + √a) > 0. What stands under the root must not be negative where the
+/// other relation holds: it is not on the domain, or it is a square where the equation holds.
+pub(super) fn unrooted(n: &Normal, domains: &Domains) -> Option<Normal> {
+    fn turned(e: &Expr, root: &Expr) -> Expr {
+        match e == root {
+            true => -e,
+            false => e.map_parts(|part| turned(part, root)),
+        }
+    }
+    let is_root = |e: &Expr| match e.node() {
+        Node::Power(base, k) if k.as_number() == Some(&ratio(1, 2)) => Some(base.clone()),
+        _ => None,
+    };
+    let mut root = None;
+    n.difference.walk(&mut |part| {
+        if let Some(inside) = is_root(part) {
+            root.get_or_insert((part.clone(), inside));
+        }
+    });
+    let (root, inside) = root?;
+    let other = turned(&n.difference, &root);
+    let (domains, _) = domains.completed(&roles(&[&other]));
+    let mut field = Field::new(&domains);
+    field.prepare([&n.difference, &other]);
+    let sign = |field: &mut Field, e: &Expr| {
+        let x = field.element(e).ok()?;
+        field.sign(&x)
+    };
+    let is_term = |term: &Expr| match term.node() {
+        Node::Product(factors) => {
+            matches!(factors.as_slice(), [k, r] if k.as_number().is_some() && *r == root)
+        }
+        _ => *term == root,
+    };
+    let square = match (n.relation, n.difference.node()) {
+        (Relation::Equal, Node::Sum(terms)) => terms.iter().any(is_term),
+        _ => false,
+    };
+    let sure = square || sign(&mut field, &inside).is_some_and(|sign| sign.is_not_negative());
+    let other = match sign(&mut field, &other).filter(|_| sure)? {
+        Sign::Positive => other,
+        Sign::Negative => -other,
+        _ => return None,
+    };
+    let product = field.element(&(&n.difference * &other)).ok()?;
+    Some(Normal {
+        difference: field.expr(&product),
+        relation: n.relation,
     })
 }

@@ -6,11 +6,11 @@ use super::factor::factor;
 use super::locus::{self, Extent};
 use super::{
     Normal, REALS, apart_at_points, over_reals, same_solutions, says_nothing, solve_for, sought_in,
-    undecided, unknowns,
+    undecided, unknowns, unrooted,
 };
 use crate::algebra::{Field, Sign};
 use crate::domain::{Domains, roles};
-use crate::expr::{Expr, Node, ratio};
+use crate::expr::Expr;
 use crate::formula::{Relation, write_plain};
 
 /// Where a relation `difference < 0` or `≤ 0` holds on a domain, as far as the sign of its difference tells.
@@ -130,38 +130,6 @@ pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) ->
     .or_else(|| other_bound(ctx, f, g))
     .unwrap_or_else(|| {
         undecided("the inequalities agree at every point tried, and no proof was found")
-    })
-}
-
-/// The same inequality without a square root: multiplied by the difference with that root turned round, where this has one
-/// sign on the domain, as v + √a has in (v − √a)(v + √a) > 0.
-fn unrooted(n: &Normal, domains: &Domains) -> Option<Normal> {
-    fn turned(e: &Expr, root: &Expr) -> Expr {
-        match e == root {
-            true => -e,
-            false => e.map_parts(|part| turned(part, root)),
-        }
-    }
-    let mut root = None;
-    n.difference.walk(&mut |part| {
-        if let Node::Power(_, k) = part.node()
-            && k.as_number() == Some(&ratio(1, 2))
-        {
-            root.get_or_insert_with(|| part.clone());
-        }
-    });
-    let other = turned(&n.difference, &root?);
-    let (domains, _) = domains.completed(&roles(&[&other]));
-    let mut field = Field::new(&domains);
-    field.prepare([&other]);
-    let other = match field.element(&other).ok().and_then(|x| field.sign(&x))? {
-        Sign::Positive => other,
-        Sign::Negative => -other,
-        _ => return None,
-    };
-    Some(Normal {
-        difference: &n.difference * &other,
-        relation: n.relation,
     })
 }
 
