@@ -8,13 +8,16 @@ use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Direction, Law, Place};
 use crate::scene::ContactLaw;
 
+/// Longest balance of linear momentum, in nodes, that is written as change = impulses.
+const LONG: usize = 60;
+
 /// An impulse on a system from outside, as its equation takes it.
-struct Outside {
+pub(super) struct Outside {
     place: Place,
     /// In the scene's symbols.
-    impulse: Vector,
+    pub(super) impulse: Vector,
     /// Moment about the point of the balance.
-    moment: Expr,
+    pub(super) moment: Expr,
 }
 
 impl Writer<'_> {
@@ -31,9 +34,9 @@ impl Writer<'_> {
             }
             Law::LinearMomentum { system, along } => {
                 self.linear_reason(system, along);
-                if vectors {
-                    self.linear_momentum(system, along);
-                }
+                self.motion_words(system);
+                self.linear_momentum(system, along, equation);
+                return;
             }
             Law::Restitution(c) => self.restitution(*c),
             Law::Sticking(c, axis) => {
@@ -66,7 +69,7 @@ impl Writer<'_> {
     }
 
     /// Impulses on a system from outside.
-    fn outside(&mut self, system: &[usize], about: Option<Place>) -> Vec<Outside> {
+    pub(super) fn outside(&mut self, system: &[usize], about: Option<Place>) -> Vec<Outside> {
         let mut places = Vec::new();
         let joints = self
             .scene
@@ -120,7 +123,7 @@ impl Writer<'_> {
     }
 
     /// Vector from a moment point to a position.
-    fn arm(&mut self, to: &Vector, about: Place) -> Vector {
+    pub(super) fn arm(&mut self, to: &Vector, about: Place) -> Vector {
         let from = self.g.place(about).clone();
         let raw = [&to[0] - &from[0], &to[1] - &from[1]];
         self.tidy_vector(&raw)
@@ -340,7 +343,7 @@ impl Writer<'_> {
     }
 
     /// How the bodies move just after, in vectors, where joints leave only their spins free.
-    fn motion_words(&mut self, system: &[usize]) {
+    pub(super) fn motion_words(&mut self, system: &[usize]) {
         for &b in system {
             let Some(link) = self.reduction.tree.iter().find(|l| l.body == b).copied() else {
                 continue;
@@ -352,14 +355,9 @@ impl Writer<'_> {
             let at = words::point(self.scene, link.at);
             let c = words::center(self.scene, b);
             let arm = self.arm(&self.g.place(Place::Center(b)).clone(), link.at);
-            let fixed = self.scene.bodies[link.to].is_fixed();
             let v = self.velocity_after(b);
             let whom = words::body(self.scene, b);
-            let still = fixed && {
-                let here = self.g.place(link.at).clone();
-                let v = self.g.velocity_before(link.to, &here);
-                v.iter().all(Expr::is_zero)
-            };
+            let still = self.stands(link.to, link.at);
             let mut math = vec![name("v", &c, "+", true), Math::Op("=")];
             let lead = if still {
                 format!("Just after, {whom} turns about {at}:")
@@ -511,8 +509,13 @@ impl Writer<'_> {
         self.say(&text);
     }
 
-    /// Momentum after − momentum before = impulses, along a direction.
-    fn linear_momentum(&mut self, system: &[usize], along: &Direction) {
+    /// Momentum after − momentum before = impulses, along a direction; where that is long, as it is solved.
+    pub(super) fn linear_momentum(
+        &mut self,
+        system: &[usize],
+        along: &Direction,
+        equation: &Equation,
+    ) {
         let d = along.vector();
         let dot = |v: &Vector| &v[0] * &d[0] + &v[1] * &d[1];
         let mut left = Vec::new();
@@ -527,11 +530,17 @@ impl Writer<'_> {
             let p = dot(&x.impulse);
             right.push(self.tidy(&p));
         }
-        self.claim(
-            Expr::sum(left),
-            Expr::sum(right),
-            "change of linear momentum = impulses from outside",
-        );
+        let (left, right) = (Expr::sum(left), Expr::sum(right));
+        if left.is_zero() || left.size() + right.size() > LONG {
+            let (left, right) = self.sides(equation);
+            self.claim(left, right, "linear momentum");
+        } else {
+            self.claim(
+                left,
+                right,
+                "change of linear momentum = impulses from outside",
+            );
+        }
     }
 
     /// Linear momentum along x and y as one balance of vectors.
@@ -629,7 +638,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Restitution in vectors.
+    /// Restitution in vectors, and how the touching points move.
     fn restitution(&mut self, c: usize) {
         let contact = &self.scene.contacts[c];
         let [one, two] = contact.bodies;
@@ -637,7 +646,6 @@ impl Writer<'_> {
         let ContactLaw::Frictionless { restitution } = contact.law.clone() else {
             return;
         };
-        let (first, second) = (words::body(self.scene, one), words::body(self.scene, two));
         let is_string = self.scene.figure.string(&at).is_some();
         let rule = if is_string {
             "The string does not stretch: its ends move alike along it"
@@ -646,35 +654,62 @@ impl Writer<'_> {
         } else if restitution.is_zero() {
             "Restitution with e = 0: the points in contact do not separate along the normal"
         } else {
-            "Restitution: the points in contact separate along the normal at e times their speed of approach"
+            "Restitution: the points in contact separate along the normal at "
         };
-        let rule = match restitution.as_symbol() {
-            Some(symbol) => rule.replace(" e times", &format!(" {symbol} times")),
-            None => rule.to_string(),
-        };
-        let (lead, place) = match is_string {
+        let mut text = vec![say(rule)];
+        if rule.ends_with("at ") {
+            text.push(words::formula(&restitution));
+            text.push(say(" times their speed of approach"));
+        }
+        // Of a support at rest nothing needs to be said; the normal points away from it.
+        let place = Place::Contact(c);
+        let moving: Vec<usize> = [one, two]
+            .into_iter()
+            .filter(|b| !self.stands(*b, place))
+            .collect();
+        let flipped = moving == [one];
+        let (from, to) = if flipped { (two, one) } else { (one, two) };
+        let (first, second) = (words::body(self.scene, from), words::body(self.scene, to));
+        let (lead, whither) = match is_string {
             true => (
-                "With the direction ",
-                format!("in which it pulls {second},"),
+                ". With the direction ",
+                format!(" in which it pulls {second},"),
             ),
             false => (
-                "With the normal ",
-                format!("at {at} from {first} to {second},"),
+                ". With the normal ",
+                format!(
+                    " at {} from {first} to {second},",
+                    words::at(self.scene, place)
+                ),
             ),
         };
-        self.text(vec![
-            say(format!("{rule}. {lead}")),
-            Inline::Math(vec![name("n", "", "", true)]),
-            say(format!(" {place}")),
-        ]);
-        let first = words::center(self.scene, one);
-        let second = words::center(self.scene, two);
+        text.push(say(lead));
+        let mut normal = vec![name("n", "", "", true)];
+        if let Some(n) = self.scene.contacts[c].normal.clone() {
+            let n = if flipped { n.map(|x| -x) } else { n };
+            let n = self.tidy_vector(&n);
+            normal.extend([Math::Op("="), Math::Vector(n)]);
+        }
+        text.extend([Inline::Math(normal), say(whither)]);
+        self.text(text);
+        let index = |b: usize| {
+            if moving.len() == 1 {
+                at.clone()
+            } else if self.scene.bodies[b].is_particle() {
+                words::center(self.scene, b)
+            } else {
+                format!("{at},{}", words::center(self.scene, b))
+            }
+        };
+        let indices = [from, to].map(index);
+        let both = moving.len() == 2;
         let relative = |mark| {
-            Math::Brackets(vec![
-                name("v", &format!("{at},{second}"), mark, true),
-                Math::Op("−"),
-                name("v", &format!("{at},{first}"), mark, true),
-            ])
+            let mut math = vec![name("v", &indices[1], mark, true)];
+            if both {
+                math.extend([Math::Op("−"), name("v", &indices[0], mark, true)]);
+                return Math::Brackets(math);
+            }
+            math.remove(0)
         };
         let n = || name("n", "", "", true);
         let mut math = vec![relative("+"), Math::Op("·"), n(), Math::Op("=")];
@@ -688,5 +723,10 @@ impl Writer<'_> {
             math.extend([relative("-"), Math::Op("·"), n()]);
         }
         self.show(math, None);
+        let [first, second] = indices;
+        self.point_velocity(to, c, &second);
+        if both {
+            self.point_velocity(from, c, &first);
+        }
     }
 }

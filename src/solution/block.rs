@@ -143,17 +143,21 @@ impl Writer<'_> {
 
     /// Every block with the question that needs it, then what the question still asks.
     pub(super) fn blocks(&mut self) {
-        let blocks = &self.d.blocks;
+        let (mut kept, mut blocks): (Vec<&Block>, Vec<&Block>) = (Vec::new(), Vec::new());
+        for block in self.d.blocks.iter().filter(|b| b.asked_by.is_some()) {
+            let list = if self.is_kept(block) {
+                &mut kept
+            } else {
+                &mut blocks
+            };
+            list.push(block);
+        }
         for question in self.scene.asked_of_impact() {
-            let mine: Vec<&Block> = blocks
-                .iter()
-                .filter(|b| b.asked_by.as_deref() == Some(question.name.as_str()))
-                .collect();
+            let asked = |b: &&&Block| b.asked_by.as_deref() == Some(question.name.as_str());
+            let mine: Vec<&Block> = blocks.iter().filter(asked).copied().collect();
             let derived = self.is_derived(question) && !self.is_open(question);
-            if mine.is_empty() && !derived {
-                continue;
-            }
-            if self.detail() == Detail::Brief && mine.is_empty() {
+            let begins = !mine.is_empty() || kept.iter().any(|b| asked(&b));
+            if !begins && (!derived || self.detail() == Detail::Brief) {
                 continue;
             }
             let several = mine
@@ -165,6 +169,10 @@ impl Writer<'_> {
                 self.heading(question)
             };
             self.section(heading);
+            // What no impulse changes is told before anything else, and not carried along.
+            if begins && !kept.is_empty() {
+                self.keeps(&std::mem::take(&mut kept));
+            }
             let mut at = 0;
             while at < mine.len() {
                 if at + 1 < mine.len() && pair(mine[at], mine[at + 1]) {
@@ -232,6 +240,8 @@ impl Writer<'_> {
             }
         } else if n == 1 {
             self.balance(&block.equations[0], true);
+        } else if self.told_through(block) {
+            return;
         } else {
             let unknowns: Vec<Inline> = self.symbols(&block.unknowns);
             let mut text = vec![say(format!(
@@ -246,11 +256,11 @@ impl Writer<'_> {
                 self.balance(equation, n <= WRITTEN_OUT);
             }
         }
-        self.solved(&[block]);
+        self.solved(&[block], "Solving them gives");
     }
 
     /// `ω₁, v_x and P`.
-    fn symbols(&self, unknowns: &[Unknown]) -> Vec<Inline> {
+    pub(super) fn symbols(&self, unknowns: &[Unknown]) -> Vec<Inline> {
         let mut out = Vec::new();
         for (i, u) in unknowns.iter().enumerate() {
             if i > 0 {
@@ -276,7 +286,11 @@ impl Writer<'_> {
     /// A law's two sides in the scene's symbols.
     pub(super) fn sides(&self, equation: &Equation) -> (Expr, Expr) {
         let symbol = |u| Expr::symbol(self.d.names.plain(u));
-        let left = Expr::sum(equation.terms.iter().map(|(u, k)| k * &symbol(*u)));
+        let terms = equation
+            .terms
+            .iter()
+            .filter(|(u, _)| !self.zero.contains(u));
+        let left = Expr::sum(terms.map(|(u, k)| k * &symbol(*u)));
         (left, equation.known.clone())
     }
 
@@ -316,8 +330,8 @@ impl Writer<'_> {
         }
     }
 
-    /// The values of a block's unknowns, and how they follow.
-    fn solved(&mut self, blocks: &[&Block]) {
+    /// The values of a block's unknowns, and how they follow; `lead` stands before those of several equations.
+    pub(super) fn solved(&mut self, blocks: &[&Block], lead: &str) {
         let before: Vec<Claim> = blocks
             .iter()
             .flat_map(|b| &b.equations)
@@ -348,14 +362,15 @@ impl Writer<'_> {
                 }
             });
         } else {
-            let earlier = earlier(blocks);
+            let mut earlier = earlier(blocks);
+            earlier.retain(|u| !self.zero.contains(u));
             if !earlier.is_empty() && blocks[0].equations.len() == 1 {
                 let mut text = vec![say("With ")];
                 text.extend(self.symbols(&earlier));
                 text.push(say(" from above,"));
                 self.text(text);
-            } else if blocks[0].equations.len() > 1 {
-                self.say("Solving them gives");
+            } else if blocks[0].equations.len() > 1 && !lead.is_empty() {
+                self.say(lead);
             }
         }
         let mut after = Vec::new();
@@ -418,6 +433,8 @@ impl Writer<'_> {
                 self.push(Part::Result(answers.into_iter().map(|(_, l)| l).collect()));
             }
         }
+        let zero = pairs.iter().filter(|(_, value)| value.is_zero());
+        self.zero.extend(zero.map(|(u, _)| *u));
         for divisor in &divisors {
             self.text(vec![
                 say("This divides by "),
@@ -457,7 +474,7 @@ impl Writer<'_> {
             return;
         };
         self.momentum_vector(system, ex, ey);
-        self.solved(&[x, y]);
+        self.solved(&[x, y], "");
     }
 }
 

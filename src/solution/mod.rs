@@ -13,6 +13,7 @@ mod notice;
 mod page;
 mod results;
 mod story;
+mod through;
 mod words;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -315,6 +316,8 @@ struct Writer<'a> {
     within: String,
     /// Answers and abbreviations that stand on the page already.
     told: BTreeSet<Symbol>,
+    /// Unknowns found to be zero: no later line carries them along.
+    zero: BTreeSet<Unknown>,
 }
 
 impl<'a> Writer<'a> {
@@ -408,6 +411,7 @@ impl<'a> Writer<'a> {
             nested: false,
             within: String::new(),
             told: BTreeSet::new(),
+            zero: BTreeSet::new(),
         }
     }
 
@@ -497,8 +501,11 @@ impl<'a> Writer<'a> {
         e.is_zero() || self.field.element(e).is_ok_and(|x| self.field.is_zero(&x))
     }
 
-    /// The symbol of an unknown with the sign that makes it the unknown.
+    /// The symbol of an unknown with the sign that makes it the unknown; nothing where it has been found to be zero.
     fn unknown(&self, u: Unknown) -> Expr {
+        if self.zero.contains(&u) {
+            return Expr::zero();
+        }
         let symbol = Expr::symbol(self.d.names.plain(u));
         if self.d.names.is_reversed(u) {
             -symbol

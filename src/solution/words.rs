@@ -26,6 +26,15 @@ pub fn list(items: &[String]) -> String {
     }
 }
 
+/// `the bar or the ball`.
+pub fn either(scene: &Scene, system: &[usize]) -> String {
+    let all: Vec<String> = system.iter().map(|b| body(scene, *b)).collect();
+    match all.as_slice() {
+        [first @ .., last] if !first.is_empty() => format!("{} or {last}", first.join(", ")),
+        _ => all.concat(),
+    }
+}
+
 /// A sentence starts with a capital.
 pub fn capital(text: &str) -> String {
     let mut chars = text.chars();

@@ -1,0 +1,353 @@
+//! Two ways to spare a reader equations: what no impulse acts on keeps its value, said in a clause; and where every velocity
+//! follows from the impulses alone, the balances are told together and leave equations for the impulses.
+
+use super::words::{self, say};
+use super::{Math, Writer};
+use crate::derive::{Block, Equation};
+use crate::expr::Expr;
+use crate::laws::{Direction, Law, Place, Unknown};
+
+/// Largest equation, in nodes, that is written for the impulses alone.
+const READABLE: usize = 90;
+
+impl Writer<'_> {
+    /// Whether a block says no more than that a body keeps a component of its velocity, or its spin: no impulse changes it.
+    pub(super) fn is_kept(&mut self, block: &Block) -> bool {
+        let ([equation], [unknown]) = (block.equations.as_slice(), block.unknowns.as_slice())
+        else {
+            return false;
+        };
+        if equation.terms.len() != 1 {
+            return false;
+        }
+        match (&equation.law, *unknown) {
+            (Law::LinearMomentum { system, along }, Unknown::Velocity(b, axis)) => {
+                let axes = [Direction::X, Direction::Y];
+                let d = along.vector();
+                *system == [b]
+                    && *along == axes[axis]
+                    && self.outside(system, None).iter().all(|o| {
+                        let component = &o.impulse[0] * &d[0] + &o.impulse[1] * &d[1];
+                        component.is_zero()
+                    })
+            }
+            (Law::AngularMomentum { system, about }, Unknown::Spin(b)) => {
+                let here = self.arm(&self.g.place(Place::Center(b)).clone(), *about);
+                *system == [b]
+                    && here.iter().all(Expr::is_zero)
+                    && self
+                        .outside(system, Some(*about))
+                        .iter()
+                        .all(|o| o.moment.is_zero())
+            }
+            _ => false,
+        }
+    }
+
+    /// Says why nothing changes these, and what they are.
+    pub(super) fn keeps(&mut self, blocks: &[&Block]) {
+        let mut along: Vec<(usize, Vec<usize>)> = Vec::new();
+        let mut spins = Vec::new();
+        for block in blocks {
+            match block.unknowns[0] {
+                Unknown::Velocity(b, axis) => match along.iter_mut().find(|(a, _)| *a == axis) {
+                    Some((_, bodies)) => bodies.push(b),
+                    None => along.push((axis, vec![b])),
+                },
+                Unknown::Spin(b) => spins.push(b),
+                _ => {}
+            }
+        }
+        let mut reasons: Vec<String> = along
+            .into_iter()
+            .map(|(axis, bodies)| {
+                let on = words::either(self.scene, &bodies);
+                format!("no impulse acts on {on} along {}", super::block::AXES[axis])
+            })
+            .collect();
+        if !spins.is_empty() {
+            let about = match spins.as_slice() {
+                [b] => words::at(self.scene, Place::Center(*b)),
+                all => format!("the center of mass of {}", words::either(self.scene, all)),
+            };
+            reasons.push(format!("no impulse has a moment about {about}"));
+        }
+        let text = words::capital(&reasons.join(", and "));
+        self.say(&format!("{text}, so"));
+        self.solved(blocks, "");
+    }
+
+    /// The balances of a block, if through each of them one velocity or spin follows from the impulses alone; and the others.
+    fn through<'b>(&self, block: &'b Block) -> Option<(Vec<&'b Equation>, Vec<&'b Equation>)> {
+        let mut open: Vec<Unknown> = block.unknowns.clone();
+        open.retain(|u| !u.is_impulse());
+        if open.is_empty() || open.len() == block.unknowns.len() {
+            return None;
+        }
+        let alone = |e: &Equation| {
+            let is_balance = matches!(
+                e.law,
+                Law::LinearMomentum { .. } | Law::AngularMomentum { .. }
+            );
+            let mut mine = e.terms.iter().filter(|(u, _)| open.contains(u));
+            let first = mine.next().map(|(u, _)| *u);
+            first.filter(|_| is_balance && mine.next().is_none())
+        };
+        let (balances, others): (Vec<_>, Vec<_>) =
+            block.equations.iter().partition(|e| alone(e).is_some());
+        let mut found: Vec<Unknown> = balances.iter().filter_map(|e| alone(e)).collect();
+        found.sort_unstable();
+        found.dedup();
+        (found.len() == open.len() && balances.len() == open.len()).then_some((balances, others))
+    }
+
+    /// Tells a block through its impulses; gives whether it could be told so.
+    pub(super) fn told_through(&mut self, block: &Block) -> bool {
+        let Some((balances, others)) = self.through(block) else {
+            return false;
+        };
+        self.say(&format!("{}.", self.balance_words(&balances)));
+        let mut links: Vec<usize> = Vec::new();
+        for e in &balances {
+            if let Law::LinearMomentum { system, .. } | Law::AngularMomentum { system, .. } = &e.law
+            {
+                links.extend(system);
+            }
+        }
+        self.motion_words(&links);
+        for e in &balances {
+            self.short_balance(e);
+        }
+        for e in &others {
+            self.balance(e, true);
+        }
+        let impulses: Vec<Unknown> = block
+            .unknowns
+            .iter()
+            .copied()
+            .filter(|u| u.is_impulse())
+            .collect();
+        let rows: Vec<_> = others
+            .iter()
+            .map(|e| self.for_impulses(e, &balances, &impulses))
+            .collect();
+        let short = rows.iter().all(|(l, r)| l.size() + r.size() <= READABLE);
+        if short {
+            let mut text = vec![say("With the velocities from the balances, ")];
+            let which = if rows.len() == 1 {
+                "this leaves"
+            } else {
+                "these leave"
+            };
+            text.push(say(format!("{which} for ")));
+            text.extend(self.symbols(&impulses));
+            self.text(text);
+            for (left, right) in rows {
+                self.claim(left, right, "the velocities substituted");
+            }
+        }
+        // The impulses come first: the motion follows from them.
+        let mut order: Vec<usize> = (0..block.unknowns.len()).collect();
+        order.sort_by_key(|i| !block.unknowns[*i].is_impulse());
+        let sorted = Block {
+            unknowns: order.iter().map(|i| block.unknowns[*i]).collect(),
+            solution: order.iter().map(|i| block.solution[*i].clone()).collect(),
+            ..block.clone()
+        };
+        self.solved(&[&sorted], if short { "so" } else { "Solving them gives" });
+        true
+    }
+
+    /// `Balance linear momentum of the disk and of the plate along x, and angular momentum of the plate about …`
+    fn balance_words(&self, balances: &[&Equation]) -> String {
+        let mut linear: Vec<(String, Vec<String>)> = Vec::new();
+        let mut angular: Vec<String> = Vec::new();
+        let mut own = Vec::new();
+        for e in balances {
+            match &e.law {
+                Law::LinearMomentum { system, along } => {
+                    let whom = words::bodies(self.scene, system);
+                    let along = super::block::direction(along);
+                    match linear.iter_mut().find(|(w, _)| *w == whom) {
+                        Some((_, all)) => all.push(along),
+                        None => linear.push((whom, vec![along])),
+                    }
+                }
+                Law::AngularMomentum { system, about } => match (about, system.as_slice()) {
+                    (Place::Center(c), [b]) if c == b => own.push(*b),
+                    _ => angular.push(format!(
+                        "of {} about {}",
+                        words::bodies(self.scene, system),
+                        words::at(self.scene, *about)
+                    )),
+                },
+                _ => {}
+            }
+        }
+        match own.as_slice() {
+            [] => {}
+            [b] => angular.push(format!(
+                "of {} about its center of mass",
+                words::body(self.scene, *b)
+            )),
+            all => angular.push(format!(
+                "of {}, each about its center of mass",
+                words::bodies(self.scene, all)
+            )),
+        }
+        let mut grouped: Vec<(Vec<String>, Vec<String>)> = Vec::new();
+        for (whom, along) in linear {
+            match grouped.iter_mut().find(|(_, a)| *a == along) {
+                Some((all, _)) => all.push(whom),
+                None => grouped.push((vec![whom], along)),
+            }
+        }
+        let mut parts: Vec<String> = Vec::new();
+        let linear: Vec<String> = grouped
+            .into_iter()
+            .map(|(whom, along)| format!("of {} along {}", words::list(&whom), words::list(&along)))
+            .collect();
+        if !linear.is_empty() {
+            parts.push(format!("linear momentum {}", words::list(&linear)));
+        }
+        if !angular.is_empty() {
+            parts.push(format!("angular momentum {}", words::list(&angular)));
+        }
+        format!("Balance {}", parts.join(", and "))
+    }
+
+    /// Change of momentum = impulses, in one line.
+    fn short_balance(&mut self, equation: &Equation) {
+        if let Law::AngularMomentum { system, about } = &equation.law
+            && let [b] = system.as_slice()
+            && *about == Place::Center(*b)
+        {
+            let change = self.spin_after(*b) - self.g.before(*b).1;
+            let change = self.tidy(&change);
+            let inertia = self.g.inertia(*b).clone();
+            let inertia = self.tidy(&inertia);
+            let moments = self.outside(system, Some(*about)).into_iter();
+            let moments = Expr::sum(moments.map(|o| o.moment));
+            self.claim(
+                inertia * change,
+                moments,
+                "change of angular momentum = moments of the impulses",
+            );
+        } else if let Law::LinearMomentum { system, along } = &equation.law {
+            self.linear_momentum(system, along, equation);
+        } else {
+            let (left, right) = self.sides(equation);
+            let reason = self.law_words(&equation.law);
+            self.claim(left, right, &reason);
+        }
+    }
+
+    /// An equation in the impulses alone, each velocity put in from its balance: terms that belong to one body are one.
+    fn for_impulses(
+        &mut self,
+        equation: &Equation,
+        balances: &[&Equation],
+        impulses: &[Unknown],
+    ) -> (Expr, Expr) {
+        let mut right = equation.known.clone();
+        let mut terms: Vec<Vec<((usize, bool), Expr)>> = vec![Vec::new(); impulses.len()];
+        let mut add = |i: usize, key: (usize, bool), value: Expr| match terms[i]
+            .iter_mut()
+            .find(|(k, _)| *k == key)
+        {
+            Some((_, sum)) => *sum = &*sum + &value,
+            None => terms[i].push((key, value)),
+        };
+        for (u, k) in &equation.terms {
+            if self.zero.contains(u) {
+                continue;
+            }
+            if let Some(i) = impulses.iter().position(|p| p == u) {
+                add(i, (usize::MAX, false), k.clone());
+                continue;
+            }
+            let of = |e: &&&Equation| e.terms.iter().any(|(v, _)| v == u);
+            let Some(balance) = balances.iter().find(of) else {
+                right = right - k * &Expr::symbol(self.d.names.plain(*u));
+                continue;
+            };
+            let Some((_, own)) = balance.terms.iter().find(|(v, _)| v == u) else {
+                continue;
+            };
+            let factor = k / own;
+            right = right - &factor * &balance.known;
+            for (v, c) in &balance.terms {
+                if let Some(i) = impulses.iter().position(|p| p == v) {
+                    let key = match u {
+                        Unknown::Velocity(b, _) => (*b, false),
+                        Unknown::Spin(b) => (*b, true),
+                        _ => (usize::MAX, false),
+                    };
+                    add(i, key, -(&factor * c));
+                } else if v != u && !self.zero.contains(v) {
+                    right = right + &factor * c * Expr::symbol(self.d.names.plain(*v));
+                }
+            }
+        }
+        let mut left = Vec::new();
+        for (i, parts) in terms.into_iter().enumerate() {
+            let parts: Vec<Expr> = parts.into_iter().map(|(_, e)| self.tidy(&e)).collect();
+            let sum = Expr::sum(parts);
+            let whole = self.tidy(&sum);
+            // A sum of one term for each body says more than one fraction, unless that is much shorter.
+            let factor = if 3 * whole.size() <= 2 * sum.size() {
+                whole
+            } else {
+                sum
+            };
+            left.push(Expr::symbol(self.d.names.plain(impulses[i])) * factor);
+        }
+        (Expr::sum(left), self.tidy(&right))
+    }
+
+    /// The velocity just after of the touching point of a body, v + ω × r, where the body is more than a point.
+    pub(super) fn point_velocity(&mut self, b: usize, c: usize, index: &str) {
+        if self.scene.bodies[b].is_fixed() || self.scene.bodies[b].is_particle() {
+            return;
+        }
+        let at = self.g.place(Place::Contact(c)).clone();
+        let link = self.reduction.tree.iter().find(|l| l.body == b).copied();
+        let carrier = link.map_or(Place::Center(b), |l| l.at);
+        let arm = self.arm(&at, carrier);
+        if arm.iter().all(Expr::is_zero) {
+            return;
+        }
+        let forms = self.reduced.velocity_of(&self.g, b, &at);
+        let v = [0, 1].map(|axis| self.form(&forms[axis]));
+        let v = self.tidy_vector(&v);
+        if v.iter().map(Expr::size).sum::<usize>() > READABLE {
+            return;
+        }
+        let still = link.is_some_and(|l| self.stands(l.to, l.at));
+        let base = words::point(self.scene, carrier);
+        let mut math = vec![words::name("v", index, "+", true), Math::Op("=")];
+        if !still {
+            math.extend([words::name("v", &base, "+", true), Math::Op("+")]);
+        }
+        math.extend([
+            words::name("omega", &words::center(self.scene, b), "+", true),
+            Math::Op("×"),
+            words::name(
+                "r",
+                &format!("{}/{base}", self.scene.contacts[c].name),
+                "",
+                true,
+            ),
+            Math::Op("="),
+            Math::Vector(v),
+        ]);
+        self.show(math, None);
+    }
+
+    /// Whether a body is fixed and its point at a place does not move.
+    pub(super) fn stands(&self, b: usize, at: Place) -> bool {
+        let here = self.g.place(at).clone();
+        self.scene.bodies[b].is_fixed()
+            && self.g.velocity_before(b, &here).iter().all(Expr::is_zero)
+    }
+}
