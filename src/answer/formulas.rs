@@ -344,9 +344,11 @@ fn condition(
             .filter(|s| *s != parameter && s.as_ref() != "pi" && !used.contains(*s))
             .map(Sentence::from)
             .collect();
-        if !idle.is_empty() {
+        if let [first @ .., last] = idle.as_slice() {
+            let lead = Sentence::join(first.iter().cloned(), ", ");
+            let or = if first.is_empty() { "" } else { " or " };
             out.text
-                .push(sentence!["it does not depend on ", Sentence::list(&idle)]);
+                .push(sentence!["it does not depend on ", lead, or, last]);
         }
     }
     out.dimension = dimension_of(scene, &Expr::symbol(parameter), name)?;

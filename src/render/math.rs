@@ -136,7 +136,11 @@ fn chunks(solution: &Solution, piece: &[Math], signs: &[&str], wide: usize) -> V
         };
         if terms.len() > 1 && signs.contains(&"+") {
             if let (Some((rest, _)), Some(last)) = (&apart, out.last_mut()) {
-                last.extend([Math::Expr(rest.clone()), Math::Op("(")]);
+                let rest = match rest.node() {
+                    Node::Sum(_) => Math::Factor(rest.clone()),
+                    _ => Math::Expr(rest.clone()),
+                };
+                last.extend([rest, Math::Op("(")]);
             }
             for (k, (negative, term)) in terms.into_iter().enumerate() {
                 let sign = if negative { "−" } else { "+" };

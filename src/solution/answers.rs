@@ -7,6 +7,9 @@ use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Place};
 use crate::scene::{Ask, EnergyWhen, ImpulseAt, Question};
 
+/// Nodes of a symbol, or of its opposite: a component that has a name.
+const NAMED: usize = 3;
+
 impl Writer<'_> {
     /// Whether a question asks for more than the unknowns of the blocks.
     pub(super) fn is_derived(&self, question: &Question) -> bool {
@@ -67,7 +70,7 @@ impl Writer<'_> {
                     Expr::one()
                 };
                 let raw = &sign * &self.spin_after(*body);
-                self.values(&[raw], &answers);
+                self.values(&[raw], &answers, None);
             }
             _ => self.asked_equation(&answers),
         }
@@ -155,7 +158,7 @@ impl Writer<'_> {
                 self.say(&lead);
                 let id = self.step(Vec::new(), claims, "velocities of a rigid body: v + ω × r");
                 self.show(math, Some(id));
-                self.values(&v, answers);
+                self.values(&v, answers, None);
             }
             Some(d) => {
                 let raw = &v[0] * &d[0] + &v[1] * &d[1];
@@ -177,35 +180,32 @@ impl Writer<'_> {
             return;
         };
         let symbol = Expr::symbol(&answer.name);
-        let lead = vec![
-            say("The component along "),
-            super::Inline::Math(vec![Math::Vector(d.clone())]),
-            say(" is"),
+        let product = vec![
+            whole,
+            Math::Op("·"),
+            Math::Brackets(vec![Math::Vector(d.clone())]),
         ];
-        self.text(lead);
-        if symbol != raw {
-            let id = self.step(
-                Vec::new(),
-                vec![Claim {
-                    left: symbol.clone(),
-                    right: raw.clone(),
-                }],
-                "component along a direction",
-            );
-            self.show(
-                vec![
-                    Math::Expr(symbol),
-                    Math::Op("="),
-                    whole,
-                    Math::Op("·"),
-                    Math::Brackets(vec![Math::Vector(d.clone())]),
-                    Math::Op("="),
-                    Math::Expr(raw.clone()),
-                ],
-                Some(id),
-            );
+        let claim = Claim {
+            left: symbol.clone(),
+            right: raw.clone(),
+        };
+        // A component that has a name already needs no line of its own.
+        if raw.size() <= NAMED {
+            if symbol != raw {
+                self.step(Vec::new(), vec![claim], "component along a direction");
+            }
+            let via = match raw.is_zero() {
+                true => product,
+                false => vec![Math::Expr(raw.clone())],
+            };
+            return self.values(&[raw], answers, Some(via));
         }
-        self.values(&[raw], answers);
+        let id = self.step(Vec::new(), vec![claim], "component along a direction");
+        let mut math = vec![Math::Expr(symbol), Math::Op("=")];
+        math.extend(product);
+        math.extend([Math::Op("="), Math::Expr(raw.clone())]);
+        self.show(math, Some(id));
+        self.values(&[raw], answers, None);
     }
 
     fn impulse(&mut self, from: ImpulseAt, on: usize, along: Option<&Vector>, answers: &[Answer]) {
@@ -252,7 +252,7 @@ impl Writer<'_> {
                         Some(id),
                     );
                 }
-                self.values(&v, answers);
+                self.values(&v, answers, None);
             }
         }
     }
@@ -262,90 +262,79 @@ impl Writer<'_> {
             .filter(|b| of.is_none_or(|o| o == *b) && !self.scene.bodies[*b].is_fixed())
             .collect();
         let half = Expr::ratio(1, 2);
-        let mut before = Vec::new();
-        let mut after = Vec::new();
+        let (mut before, mut after) = (Vec::new(), Vec::new());
         for &b in &moving {
             let (v, w) = self.g.before(b);
             let (v, w) = (v.clone(), w.clone());
             let mass = self.g.mass(b).clone();
             let inertia = self.g.inertia(b).clone();
             let inertia = self.tidy(&inertia);
-            let spins = !self.scene.bodies[b].is_particle() && !self.inertia_is_zero(&inertia);
+            let spins = !self.scene.bodies[b].is_particle() && !self.vanishes(&inertia);
             let energy = |v: &Vector, w: &Expr| {
-                let mut terms = vec![&half * &mass * (v[0].powi(2) + v[1].powi(2))];
-                if spins {
-                    terms.push(&half * &inertia * w.powi(2));
-                }
-                terms
+                let moving = &half * &mass * (v[0].powi(2) + v[1].powi(2));
+                let turning = match spins {
+                    true => &half * &inertia * w.powi(2),
+                    false => Expr::zero(),
+                };
+                [moving, turning]
             };
-            let zero = |v: &Vector, w: &Expr| v.iter().all(Expr::is_zero) && w.is_zero();
-            if !zero(&v, &w) {
-                before.extend(energy(&v, &w));
-            }
+            before.extend(energy(&v, &w));
             let v = self.velocity_after(b);
-            let w = self.spin_after(b);
-            if !zero(&v, &w) {
-                after.extend(energy(&v, &w));
+            let parts = energy(&v, &self.spin_after(b));
+            // Of a body that turns about a joint it is one term.
+            if self.reduction.tree.iter().any(|l| l.body == b) {
+                after.push(Expr::sum(parts));
+            } else {
+                after.extend(parts);
             }
         }
-        let before = Expr::sum(before);
-        let after = Expr::sum(after);
-        let tidy_before = self.tidy(&before);
-        let tidy_after = self.tidy(&after);
+        let raw = [Expr::sum(before.clone()), Expr::sum(after.clone())];
+        let tidy = [before, after].map(|parts| {
+            let parts = parts.into_iter().filter(|e| !e.is_zero()).collect();
+            self.sum_by_parts(parts)
+        });
         let index = match of {
             Some(b) => words::center(self.scene, b),
             None => String::new(),
         };
-        let t = |mark| name("T", &index, mark, false);
-        if when != EnergyWhen::After {
-            let id = self.step(
-                Vec::new(),
-                vec![Claim {
-                    left: before.clone(),
-                    right: tidy_before.clone(),
-                }],
-                "kinetic energy just before",
-            );
-            self.say("The kinetic energies before and after are");
-            let mut math = vec![t("-"), Math::Op("=")];
-            if self.detail() == Detail::Full && before != tidy_before && before.size() < 80 {
-                math.extend([Math::Expr(before.clone()), Math::Op("=")]);
+        let ends: &[(usize, &str)] = match when {
+            EnergyWhen::Before => &[(0, "-")],
+            EnergyWhen::After => &[(1, "+")],
+            EnergyWhen::Lost => &[(0, "-"), (1, "+")],
+        };
+        let named = answers.first().is_some_and(|a| !self.is_solved(&a.name));
+        for &(i, mark) in ends {
+            let claim = Claim {
+                left: raw[i].clone(),
+                right: tidy[i].clone(),
+            };
+            let reason = ["kinetic energy just before", "kinetic energy just after"][i];
+            let id = self.step(Vec::new(), vec![claim], reason);
+            // What is asked for stands in the box as it is.
+            if when == EnergyWhen::Before && named || tidy[i].size() >= 200 {
+                continue;
             }
-            math.push(Math::Expr(tidy_before.clone()));
+            if i == 0 {
+                self.say("The kinetic energies before and after are");
+            }
+            let mut math = vec![name("T", &index, mark, false), Math::Op("=")];
+            if self.detail() == Detail::Full && raw[i] != tidy[i] && raw[i].size() < 80 {
+                math.extend([Math::Expr(raw[i].clone()), Math::Op("=")]);
+            }
+            math.push(Math::Expr(tidy[i].clone()));
             self.show(math, Some(id));
         }
-        if when != EnergyWhen::Before {
-            let id = self.step(
-                Vec::new(),
-                vec![Claim {
-                    left: after.clone(),
-                    right: tidy_after.clone(),
-                }],
-                "kinetic energy just after",
-            );
-            let mut math = vec![t("+"), Math::Op("=")];
-            if after != tidy_after && after.size() < 80 && self.detail() == Detail::Full {
-                math.extend([Math::Expr(after.clone()), Math::Op("=")]);
-            }
-            if tidy_after.size() < 200 {
-                math.push(Math::Expr(tidy_after.clone()));
-                self.show(math, Some(id));
-            }
-        }
+        let [before, after] = tidy;
         let raw = match when {
-            EnergyWhen::Before => tidy_before,
-            EnergyWhen::After => tidy_after,
-            EnergyWhen::Lost => tidy_before - tidy_after,
+            EnergyWhen::Before => before,
+            EnergyWhen::After => after,
+            EnergyWhen::Lost => before - after,
         };
-        self.values(&[raw], answers);
+        self.values(&[raw], answers, None);
     }
 
-    fn inertia_is_zero(&mut self, inertia: &Expr) -> bool {
-        self.vanishes(inertia)
-    }
-
-    /// Closed forms of answers, each from its expression in the symbols found above.
-    fn values(&mut self, raw: &[Expr], answers: &[Answer]) {
+    /// Closed forms of answers, each from its expression in the symbols found above; `via` is told between name and value.
+    fn values(&mut self, raw: &[Expr], answers: &[Answer], via: Option<Vec<Math>>) {
         let mut lines = Vec::new();
         for (answer, raw) in answers.iter().zip(raw) {
             let Form::Value { closed, short } = &answer.form else {
@@ -372,8 +361,14 @@ impl Writer<'_> {
                 }],
                 "with the values found above",
             );
+            let mut math = vec![Math::Expr(symbol), Math::Op("=")];
+            if let Some(via) = via.clone().filter(|v| *v != [Math::Expr(short.clone())]) {
+                math.extend(via);
+                math.push(Math::Op("="));
+            }
+            math.push(Math::Expr(short.clone()));
             lines.push(Line {
-                math: vec![Math::Expr(symbol), Math::Op("="), Math::Expr(short.clone())],
+                math,
                 step: Some(id),
             });
         }
@@ -394,7 +389,9 @@ impl Writer<'_> {
                     found.push(Expr::symbol(&e));
                 }
             }
-            if !found.is_empty() && found.len() <= 4 {
+            if via.is_some() {
+                // The name in the chain says where the value comes from.
+            } else if !found.is_empty() && found.len() <= 4 {
                 let mut text = vec![say("With ")];
                 for (i, symbol) in found.iter().enumerate() {
                     if i > 0 {

@@ -64,14 +64,34 @@ pub fn sentence(scene: &Scene, text: &Sentence) -> Vec<Inline> {
     out
 }
 
-/// Names between backquotes: bodies get their article, others stand as they are.
+/// The symbols of the formulas in a piece of a sentence.
+pub(super) fn symbols(piece: &Inline) -> impl Iterator<Item = crate::expr::Symbol> {
+    let math = match piece {
+        Inline::Math(math) => math.as_slice(),
+        Inline::Text(_) => &[],
+    };
+    let formulas = math.iter().filter_map(|m| match m {
+        Math::Expr(e) => Some(e.symbols()),
+        _ => None,
+    });
+    formulas.flatten().collect::<Vec<_>>().into_iter()
+}
+
+/// Names between backquotes: bodies get their article, stages their quotation marks, and points what a sentence needs.
 pub(super) fn called(scene: &Scene, words: &str) -> String {
+    let stages = || scene.story.iter().flat_map(|s| &s.stages);
     let mut out = String::new();
     for (i, part) in words.split('`').enumerate() {
-        let body = scene.bodies.iter().position(|b| b.name == part);
-        match body.filter(|_| i % 2 == 1) {
-            Some(b) => out.push_str(&words::body(scene, b)),
-            None => out.push_str(part),
+        if i % 2 == 0 {
+            out.push_str(part);
+        } else if let Some(b) = scene.bodies.iter().position(|b| b.name == part) {
+            out.push_str(&words::body(scene, b));
+        } else if stages().any(|s| s.name == part) {
+            out.push_str(&words::stage(part));
+        } else if scene.parameters.iter().any(|p| *p.name == *part) {
+            out.push_str(part);
+        } else {
+            out.push_str(&words::place(part, "contact"));
         }
     }
     out
@@ -111,6 +131,9 @@ fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> {
     match ask {
         Ask::Value { meaning, .. } if !meaning.is_empty() => {
             vec![say(words::capital(&called(scene, meaning)))]
+        }
+        Ask::Value { with, .. } if with.is_empty() => {
+            vec![say("Value of "), math(&Expr::symbol(&answer.name))]
         }
         Ask::Value { formula, with, .. } => {
             let mut out = vec![math(formula)];
@@ -207,9 +230,20 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
         solution.names.insert(name.clone(), answer.latex.clone());
     }
     let brief = solution.detail == Detail::Brief;
+    if !answer.assumptions.is_empty() {
+        let mut text = vec![say("Given that ")];
+        text.extend(sentence(
+            scene,
+            &Sentence::join(answer.assumptions.clone(), "; "),
+        ));
+        text.push(say(","));
+        solution.text(text);
+    }
     let holds = answer.checks.iter().all(|c| c.holds == Some(true));
     let mut lines: Vec<Line> = Vec::new();
-    if let Some((left, relation, right)) = &answer.stated {
+    let plain = |e: &Expr| e.as_number().is_some();
+    let stated = answer.stated.iter();
+    for (left, relation, right) in stated.filter(|(l, _, r)| !plain(l) || !plain(r)) {
         lines.push(Line {
             math: vec![
                 Math::Expr(left.clone()),
@@ -298,7 +332,13 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     };
     let mut found: Vec<Line> = Vec::new();
     for (p, relation, value) in &answer.range {
-        found.push(line(p, relation.sign(), value, &shown));
+        let mut whole = line(p, relation.sign(), value, &shown);
+        // A name that later questions use is told where its value is found.
+        if fresh && answer.range.len() == 1 && is_used(scene, &name) {
+            let named = [Math::Expr(symbol.clone()), Math::Op("=")];
+            whole.math.splice(2..2, named);
+        }
+        found.push(whole);
     }
     let named_step = defined.or_else(|| shown.clone());
     if let Some(formula) = answer.formula()
@@ -308,7 +348,22 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
             Some((of, op)) => (of, op),
             None => (symbol.clone(), "="),
         };
-        found.push(line(&left, op, formula, &named_step));
+        let mut whole = line(&left, op, formula, &named_step);
+        if let Ask::Value {
+            formula: asked,
+            with,
+            meaning,
+        } = ask
+            && with.is_empty()
+            && meaning.is_empty()
+            && asked != formula
+            && asked.size() <= READABLE / 4
+        {
+            whole
+                .math
+                .splice(2..2, [Math::Expr(asked.clone()), Math::Op("=")]);
+        }
+        found.push(whole);
     }
     if let Form::Equation { left, right } = &answer.form
         && answer.stated.is_none()
@@ -365,27 +420,43 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     if brief && holds {
         return;
     }
-    if !answer.discarded.is_empty() {
+    // Complex roots are worth a word only where every line of algebra is.
+    let full = solution.detail == Detail::Full;
+    let complex =
+        |s: &&Sentence| matches!(s.0.last(), Some(Piece::Words(w)) if w.ends_with("not real"));
+    let discarded: Vec<Sentence> = answer
+        .discarded
+        .iter()
+        .filter(|s| full || !complex(s))
+        .cloned()
+        .collect();
+    if !discarded.is_empty() {
         let mut text = vec![say("Discarded: ")];
-        text.extend(sentence(
-            scene,
-            &Sentence::join(answer.discarded.clone(), "; "),
-        ));
-        text.push(say("."));
-        solution.text(text);
-    }
-    if !answer.assumptions.is_empty() {
-        let mut text = vec![say("Given that ")];
-        text.extend(sentence(
-            scene,
-            &Sentence::join(answer.assumptions.clone(), "; "),
-        ));
+        text.extend(sentence(scene, &Sentence::join(discarded, "; ")));
         text.push(say("."));
         solution.text(text);
     }
     if let Some(words) = worth_telling(&answer.checks, solution.detail).filter(|_| !told) {
         solution.text(vec![say(called(scene, &words))]);
     }
+}
+
+/// Whether another question of the scene asks about this symbol.
+fn is_used(scene: &Scene, name: &crate::expr::Symbol) -> bool {
+    let stories = scene.story.iter().flat_map(|s| &s.questions);
+    let mut asks = scene.special.iter().chain(stories).map(|q| &q.ask);
+    let has = |e: &Expr| e.symbols().contains(name);
+    asks.any(|ask| match ask {
+        Ask::Value { formula, with, .. } => has(formula) || with.iter().any(|(_, e)| has(e)),
+        Ask::Condition {
+            left, right, with, ..
+        }
+        | Ask::Show {
+            left, right, with, ..
+        } => has(left) || has(right) || with.iter().any(|(_, e)| has(e)),
+        Ask::Maximum { of, .. } | Ask::Limit { of, .. } | Ask::Approximate { of, .. } => has(of),
+        _ => false,
+    })
 }
 
 /// What shows an answer, about its name where it has one.

@@ -40,14 +40,14 @@ impl Writer<'_> {
             }
             Law::Restitution(c) => self.restitution(*c),
             Law::Sticking(c, axis) => {
-                let at = self.scene.contacts[*c].name.clone();
+                let at = words::place(&self.scene.contacts[*c].name, "contact");
                 self.say(&format!(
                     "The touching points at {at} move together just after, along {}:",
                     AXES[*axis]
                 ));
             }
             Law::Hinged(h, axis) => {
-                let at = self.scene.hinges[*h].name.clone();
+                let at = words::place(&self.scene.hinges[*h].name, "hinge");
                 self.say(&format!(
                     "The hinge at {at} holds: both its points have the same velocity along {}:",
                     AXES[*axis]
@@ -135,8 +135,8 @@ impl Writer<'_> {
         let contacts = self.scene.contacts.iter().filter(|c| within(&c.bodies));
         let hinges = self.scene.hinges.iter().filter(|h| within(&h.bodies));
         contacts
-            .map(|c| c.name.clone())
-            .chain(hinges.map(|h| h.name.clone()))
+            .map(|c| words::place(&c.name, "contact"))
+            .chain(hinges.map(|h| words::place(&h.name, "hinge")))
             .collect()
     }
 
@@ -176,7 +176,7 @@ impl Writer<'_> {
         let mut through = Vec::new();
         for o in outside.iter().filter(|o| o.moment.is_zero()) {
             let arm = self.arm(&self.g.place(o.place).clone(), about);
-            let place = words::point(self.scene, o.place);
+            let place = words::at(self.scene, o.place);
             if arm.iter().all(Expr::is_zero) {
                 silent.push(place);
             } else if !o.impulse.iter().all(Expr::is_zero) {
@@ -359,11 +359,12 @@ impl Writer<'_> {
             let whom = words::body(self.scene, b);
             let still = self.stands(link.to, link.at);
             let mut math = vec![name("v", &c, "+", true), Math::Op("=")];
+            let there = words::at(self.scene, link.at);
             let lead = if still {
-                format!("Just after, {whom} turns about {at}:")
+                format!("Just after, {whom} turns about {there}:")
             } else {
                 format!(
-                    "Just after, {whom} moves with {} at {at}:",
+                    "Just after, {whom} moves with {} at {there}:",
                     words::body(self.scene, link.to)
                 )
             };
@@ -495,7 +496,7 @@ impl Writer<'_> {
         for x in &outside {
             let component = &x.impulse[0] * &d[0] + &x.impulse[1] * &d[1];
             if self.vanishes(&component) && !x.impulse.iter().all(Expr::is_zero) {
-                silent.push(words::point(self.scene, x.place));
+                silent.push(words::at(self.scene, x.place));
             }
         }
         if let [one] = silent.as_slice() {
@@ -530,8 +531,11 @@ impl Writer<'_> {
             let p = dot(&x.impulse);
             right.push(self.tidy(&p));
         }
-        let (left, right) = (Expr::sum(left), Expr::sum(right));
-        if left.is_zero() || left.size() + right.size() > LONG {
+        let (mut left, mut right) = (Expr::sum(left), Expr::sum(right));
+        if left.is_zero() {
+            std::mem::swap(&mut left, &mut right);
+        }
+        if left.size() + right.size() > LONG {
             let (left, right) = self.sides(equation);
             self.claim(left, right, "linear momentum");
         } else {
@@ -691,12 +695,36 @@ impl Writer<'_> {
             normal.extend([Math::Op("="), Math::Vector(n)]);
         }
         text.extend([Inline::Math(normal), say(whither)]);
+        let through: Vec<usize> = moving
+            .iter()
+            .copied()
+            .filter(|b| self.passes_center(*b, c))
+            .collect();
+        if !through.is_empty() {
+            let whose = words::bodies(self.scene, &through);
+            let centers = if through.len() == 1 {
+                "center"
+            } else {
+                "centers"
+            };
+            let last = text.pop();
+            let lead = match last {
+                Some(Inline::Text(words)) => words.trim_end_matches(',').to_string(),
+                _ => String::new(),
+            };
+            text.push(say(format!(
+                "{lead}, which passes through the {centers} of mass of {whose},"
+            )));
+        }
         self.text(text);
         let index = |b: usize| {
-            if moving.len() == 1 {
-                at.clone()
-            } else if self.scene.bodies[b].is_particle() {
+            if self.scene.bodies[b].is_particle()
+                || self.spin_after(b).is_zero() && moving.len() == 2
+                || through.contains(&b)
+            {
                 words::center(self.scene, b)
+            } else if moving.len() == 1 {
+                at.clone()
             } else {
                 format!("{at},{}", words::center(self.scene, b))
             }
@@ -723,10 +751,10 @@ impl Writer<'_> {
             math.extend([relative("-"), Math::Op("·"), n()]);
         }
         self.show(math, None);
-        let [first, second] = indices;
-        self.point_velocity(to, c, &second);
-        if both {
-            self.point_velocity(from, c, &first);
+        for (b, index) in [to, from].into_iter().zip(indices.iter().rev()) {
+            if moving.contains(&b) && index.starts_with(at.as_str()) {
+                self.point_velocity(b, c, index, flipped);
+            }
         }
     }
 }

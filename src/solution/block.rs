@@ -40,6 +40,7 @@ impl Writer<'_> {
             ));
         }
         self.say(&text);
+        self.before();
         self.friction();
         for (unknown, value) in self.d.given.clone() {
             let symbol = Expr::symbol(self.d.names.plain(unknown));
@@ -48,6 +49,42 @@ impl Writer<'_> {
                 words::equation(&symbol, &value),
                 say("."),
             ]);
+        }
+    }
+
+    /// The motion just before, where the scene has symbols for it that it does not explain.
+    fn before(&mut self) {
+        let explained = |s: &Symbol| {
+            let mut all = self.scene.parameters.iter();
+            all.any(|p| p.name == *s && !p.meaning.is_empty())
+        };
+        let mut text = vec![say("Just before, ")];
+        for (b, body) in self.scene.bodies.iter().enumerate() {
+            let all = body.velocity.iter().chain([&body.spin]);
+            if body.is_fixed() || all.flat_map(Expr::symbols).all(|s| explained(&s)) {
+                continue;
+            }
+            if text.len() > 1 {
+                text.push(say(", "));
+            }
+            let c = words::center(self.scene, b);
+            text.push(Inline::Math(vec![
+                words::name("v", &c, "-", true),
+                Math::Op("="),
+                Math::Vector(body.velocity.clone()),
+            ]));
+            if !body.is_particle() && !body.spin.is_zero() {
+                text.push(say(" and "));
+                text.push(Inline::Math(vec![
+                    words::name("omega", &c, "-", true),
+                    Math::Op("="),
+                    Math::Along(body.spin.clone()),
+                ]));
+            }
+        }
+        if text.len() > 1 {
+            text.push(say("."));
+            self.text(text);
         }
     }
 
@@ -128,15 +165,16 @@ impl Writer<'_> {
                 } else {
                     "the "
                 };
-                let plural = if bodies.len() > 1 && name == "weight" {
-                    "s"
-                } else {
-                    ""
-                };
-                format!(
-                    "{article}{name}{plural} of {}",
-                    words::bodies(self.scene, &bodies)
-                )
+                // Whose weight it is needs to be said; other forces say it in their names.
+                match (name, bodies.len()) {
+                    ("weight", 1) => {
+                        format!("the weight of {}", words::body(self.scene, bodies[0]))
+                    }
+                    ("weight", _) => {
+                        format!("the weights of {}", words::bodies(self.scene, &bodies))
+                    }
+                    _ => format!("{article}{name}"),
+                }
             })
             .collect()
     }
@@ -209,7 +247,12 @@ impl Writer<'_> {
                     ImpulseAt::Hinge(h) => &self.scene.hinges[*h].name,
                     ImpulseAt::Blow(i) => &self.scene.blows[*i].name,
                 };
-                format!("Impulse at {name} on {}", body(*on))
+                let noun = match from {
+                    ImpulseAt::Contact(_) => "contact",
+                    ImpulseAt::Hinge(_) => "hinge",
+                    ImpulseAt::Blow(_) => "blow",
+                };
+                format!("Impulse at {} on {}", words::place(name, noun), body(*on))
             }
             Ask::Energy { when, of } => {
                 let whose = of.map_or(String::new(), |b| format!(" of {}", body(b)));
@@ -449,7 +492,7 @@ impl Writer<'_> {
     }
 
     /// The short form of an unknown's value where an answer has one.
-    fn short(&self, unknown: Unknown, value: &Expr) -> Expr {
+    pub(super) fn short(&self, unknown: Unknown, value: &Expr) -> Expr {
         let name = self.d.names.plain(unknown);
         for answer in &self.d.answers {
             if let crate::answer::Form::Value { closed, short } = &answer.form

@@ -185,7 +185,7 @@ pub struct Line {
 }
 
 /// A piece of a sentence.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub enum Inline {
     /// Words.
     Text(String),
@@ -194,7 +194,7 @@ pub enum Inline {
 }
 
 /// A piece of a formula.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub enum Math {
     /// A scalar in the scene's symbols.
     Expr(Expr),
@@ -215,7 +215,7 @@ pub enum Math {
 }
 
 /// A quantity with a letter, an index and a mark.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct Name {
     /// The letter; `omega` for ω, `alpha` for α.
     pub letter: &'static str,

@@ -124,7 +124,8 @@ impl Writer<'_> {
         if lost.is_zero() {
             return Some(vec![say("No kinetic energy is lost.")]);
         }
-        let places: Vec<String> = self.scene.contacts.iter().map(|c| c.name.clone()).collect();
+        let contacts = self.scene.contacts.iter();
+        let places: Vec<String> = contacts.map(|c| words::place(&c.name, "contact")).collect();
         let sign = self.sign(&lost)?;
         // Only a short fraction is worth telling.
         let fraction = (lost.size() < 80).then(|| {
@@ -165,7 +166,7 @@ impl Writer<'_> {
             )));
         } else {
             text.push(say(format!(
-                "Kinetic energy is never gained; what is lost is lost{at}{joints}."
+                "Kinetic energy is never gained; any loss is{at}{joints}."
             )));
         }
         Some(text)
@@ -230,27 +231,23 @@ impl Writer<'_> {
                 items.push((parameter.name.clone(), free));
             }
         }
-        items
-            .into_iter()
-            .map(|(mass, free)| {
-                let one = free.len() == 1;
-                let mut text = Vec::new();
-                for (i, symbol) in free.iter().enumerate() {
-                    if i > 0 {
-                        text.push(say(if i + 1 == free.len() { " and " } else { ", " }));
-                    }
-                    text.push(words::formula(&Expr::symbol(symbol)));
-                }
-                text.push(say(if one {
-                    " does not depend on "
-                } else {
-                    " do not depend on "
-                }));
-                text.push(words::formula(&Expr::symbol(&mass)));
-                text.push(say("."));
-                text
-            })
-            .collect()
+        // What does not matter for the same answers is said at once.
+        let mut said: Vec<(Vec<Symbol>, Vec<Symbol>)> = Vec::new();
+        for (mass, free) in items {
+            match said.iter_mut().find(|(_, answers)| *answers == free) {
+                Some((masses, _)) => masses.push(mass),
+                None => said.push((vec![mass], free)),
+            }
+        }
+        let depends = |(masses, free): (Vec<Symbol>, Vec<Symbol>)| {
+            let verb = if free.len() == 1 { "does" } else { "do" };
+            let mut text = words::symbols(&free, " and ");
+            text.push(say(format!(" {verb} not depend on ")));
+            text.extend(words::symbols(&masses, " or "));
+            text.push(say("."));
+            text
+        };
+        said.into_iter().map(depends).collect()
     }
 
     /// Ends of domains and one mass much larger than the others, where an answer becomes zero or much shorter.

@@ -272,7 +272,7 @@ impl Writer<'_> {
     }
 
     /// What must hold beyond positive parameters.
-    fn conditions(&self) -> Vec<Inline> {
+    pub(super) fn conditions(&self) -> Vec<Inline> {
         let mut all = Vec::new();
         for (name, domain) in &self.scene.domains.symbols {
             let in_pair = self
@@ -310,7 +310,24 @@ impl Writer<'_> {
             Inline::Math(vec![small, Math::Op(sign), large])
         }));
         let others = self.d.assumptions.iter().chain(&self.proof.assumptions);
-        all.extend(others.map(|a| say(a.replace("the bodies approach", "bodies that approach"))));
+        all.extend(others.map(|a| self.typeset(a)));
         all
+    }
+
+    /// A condition that the derivation gives as text: its formulas set where it is a relation, its words otherwise.
+    fn typeset(&self, text: &str) -> Inline {
+        let mut names = crate::formula::Symbols::strict();
+        for p in &self.scene.parameters {
+            names.declare(&p.name);
+        }
+        let read = |side: &str| crate::formula::read_expr(side.trim(), &names).ok();
+        for op in ["≥", "≤", "≠", ">", "<"] {
+            if let Some((left, right)) = text.split_once(op)
+                && let (Some(left), Some(right)) = (read(left), read(right))
+            {
+                return Inline::Math(vec![Math::Expr(left), Math::Op(op), Math::Expr(right)]);
+            }
+        }
+        say(text.replace("the bodies approach", "bodies that approach"))
     }
 }

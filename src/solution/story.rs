@@ -20,6 +20,7 @@ pub fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
         scene,
         told,
         solution: blank(scene, told, detail),
+        valid: Vec::new(),
     };
     page.opening();
     for i in 0..told.stages.len() {
@@ -71,6 +72,8 @@ struct Page<'a> {
     scene: &'a Scene,
     told: &'a Told,
     solution: Solution,
+    /// What the impacts are valid for, told at the end.
+    valid: Vec<Inline>,
 }
 
 impl Page<'_> {
@@ -184,7 +187,8 @@ impl Page<'_> {
         let text = match self.told.stages[i].branch {
             None if i > 0 => String::from("This begins anew, with the bodies as they are given."),
             Some((j, _)) if j + 1 != i => {
-                format!("This goes on from the end of {}.", self.told.stages[j].name)
+                let stage = words::stage(&self.told.stages[j].name);
+                format!("This goes on from the end of {stage}.")
             }
             _ => return,
         };
@@ -230,8 +234,16 @@ impl Page<'_> {
         if !derivation.definitions.is_empty() {
             writer.results();
         }
-        if self.solution.detail != Detail::Brief {
+        // That everything was checked is told once, at the end.
+        if self.solution.detail == Detail::Full || !case.proof.holds() {
             writer.checked();
+        }
+        for condition in writer.conditions() {
+            let known = |s: &Symbol| self.scene.parameters.iter().any(|p| p.name == *s);
+            let all_known = asked::symbols(&condition).all(|s| known(&s));
+            if all_known && !self.valid.contains(&condition) {
+                self.valid.push(condition);
+            }
         }
         std::mem::swap(&mut writer.solution.sections, &mut self.solution.sections);
         std::mem::swap(&mut writer.solution.steps, &mut self.solution.steps);
@@ -445,9 +457,10 @@ impl Page<'_> {
 
     /// Answers about the end of a stage.
     fn asked_of(&mut self, i: usize) {
-        let mut lines = Vec::new();
+        let mut lines: Vec<(usize, Line)> = Vec::new();
         let mut steps = Vec::new();
         let mut numbers = Vec::new();
+        let several = self.told.stages[i].cases.len() > 1;
         for question in self.scene.questions.iter() {
             if !question.ask.is_motion() {
                 continue;
@@ -487,30 +500,42 @@ impl Page<'_> {
                 }
                 steps.extend(self.energy_in(&self.told.stages[i], &question.ask, &symbol, formula));
                 math.push(Math::Expr(formula.clone()));
-                lines.push(Line {
-                    math,
-                    step: Some(id),
-                });
+                let outcome = answer.told.map_or(0, |(_, k)| k);
+                // Within a case the name needs no number; what is in given quantities already stands in its box.
+                if several && let Some(axis) = axis_of(&question.name, &answer.name) {
+                    math[0] = Math::Expr(Expr::symbol(&format!("{}{axis}", question.name)));
+                }
+                let case = self.told.stages[i].cases.get(outcome);
+                if case.is_none_or(|case| changes(case, formula)) {
+                    let step = Some(id);
+                    lines.push((outcome, Line { math, step }));
+                }
                 if let Some(value) = asked::number(self.scene, answer) {
                     numbers.push(vec![words::formula(&Expr::symbol(&symbol)), say(value)]);
                 }
             }
         }
-        if lines.is_empty() {
-            return;
+        if !lines.is_empty() && !steps.is_empty() {
+            self.solution.push(Part::Display(steps));
         }
-        let told = &self.told.stages[i];
-        // Without anything handed on, the results of an impact stand where they were found.
-        let is_new = told.cases.len() != 1 || !told.cases[0].handed.is_empty();
-        if is_new {
-            if !told.cases.is_empty() {
-                self.solution
-                    .text(vec![say("In terms of the given quantities,")]);
+        let cases = self.told.stages[i].cases.len();
+        for k in 0..cases.max(1) {
+            let of_it = lines.iter().filter(|(outcome, _)| *outcome == k);
+            let of_it: Vec<Line> = of_it.map(|(_, line)| line.clone()).collect();
+            if of_it.is_empty() {
+                continue;
             }
-            if !steps.is_empty() {
-                self.solution.push(Part::Display(steps));
+            match cases {
+                0 => {}
+                1 => self
+                    .solution
+                    .text(vec![say("In terms of the given quantities,")]),
+                _ => self.solution.text(vec![say(format!(
+                    "In terms of the given quantities, in case {},",
+                    k + 1
+                ))]),
             }
-            self.solution.push(Part::Result(lines));
+            self.solution.push(Part::Result(of_it));
         }
         if !numbers.is_empty() {
             self.solution.push(Part::List(numbers));
@@ -587,6 +612,20 @@ impl Page<'_> {
             text.push(say("."));
             items.push(text);
         }
+        if !self.valid.is_empty() && self.solution.detail == Detail::Normal {
+            let mut text = vec![say("The impacts hold for ")];
+            let count = self.valid.len();
+            for (i, condition) in std::mem::take(&mut self.valid).into_iter().enumerate() {
+                text.push(say(match (i, i + 1 == count) {
+                    (0, _) => "",
+                    (_, true) => " and ",
+                    _ => ", ",
+                }));
+                text.push(condition);
+            }
+            text.push(say("."));
+            items.push(text);
+        }
         if !items.is_empty() {
             self.solution.section(0, vec![say("Assumptions")]);
             self.solution.push(Part::List(items));
@@ -598,8 +637,12 @@ impl Page<'_> {
         let is_followed = followed.peek().is_some() && followed.all(|c| c.holds == Some(true));
         let words = match self.told.holds() {
             false => "A check failed: do not use these results before the fault is found.",
-            true if is_followed && self.solution.detail == Detail::Normal => {
+            true if self.solution.detail != Detail::Normal => return,
+            true if is_followed => {
                 "Check: followed in time numerically, from the given data alone, the scene ends with the same values."
+            }
+            true if self.told.stages.iter().any(|s| !s.cases.is_empty()) => {
+                "Check: the results of the impacts satisfy every equation of momentum, joints and contacts, and an independent numerical solution agrees."
             }
             true => return,
         };
@@ -618,6 +661,26 @@ impl Page<'_> {
         let unread = all.into_iter().skip(self.told.readings.len());
         unread.filter(|a| !said.contains(&a)).collect()
     }
+}
+
+/// What follows the name of a question in that of its answer: nothing, or an axis; numbers of outcomes are left out.
+fn axis_of(question: &str, answer: &str) -> Option<&'static str> {
+    let rest = answer.strip_prefix(question)?;
+    Some(match rest {
+        _ if rest.starts_with("_x") => "_x",
+        _ if rest.starts_with("_y") => "_y",
+        _ => "",
+    })
+}
+
+/// Whether a result reads otherwise in given quantities than in those an earlier stage handed on to this case.
+fn changes(case: &Case, formula: &Expr) -> bool {
+    let (_, derivation) = case.asked();
+    !case.handed.is_empty()
+        && !derivation
+            .answers
+            .iter()
+            .any(|a| a.formula() == Some(formula))
 }
 
 /// An expression as a person would write it.

@@ -73,8 +73,34 @@ impl Writer<'_> {
             reasons.push(format!("no impulse has a moment about {about}"));
         }
         let text = words::capital(&reasons.join(", and "));
-        self.say(&format!("{text}, so"));
-        self.solved(blocks, "");
+        let asked = |b: &&Block| {
+            let name = self.d.names.plain(b.unknowns[0]);
+            self.d.answers.iter().any(|a| a.name == name)
+        };
+        if blocks.iter().any(asked) {
+            self.say(&format!("{text}, so"));
+            return self.solved(blocks, "");
+        }
+        // What is not asked for is said in the sentence.
+        let mut line = vec![say(format!("{text}, so "))];
+        for (i, block) in blocks.iter().enumerate() {
+            let (unknown, value) = (block.unknowns[0], block.solution[0].clone());
+            let symbol = Expr::symbol(self.d.names.plain(unknown));
+            if i > 0 {
+                line.push(say(if i + 1 == blocks.len() { " and " } else { ", " }));
+            }
+            line.push(words::equation(&symbol, &value));
+            if value.is_zero() {
+                self.zero.insert(unknown);
+            }
+            let claim = super::Claim {
+                left: symbol,
+                right: value,
+            };
+            self.step(Vec::new(), vec![claim], "no impulse changes it");
+        }
+        line.push(say("."));
+        self.text(line);
     }
 
     /// The balances of a block, if through each of them one velocity or spin follows from the impulses alone; and the others.
@@ -131,17 +157,20 @@ impl Writer<'_> {
             .iter()
             .map(|e| self.for_impulses(e, &balances, &impulses))
             .collect();
-        let short = rows.iter().all(|(l, r)| l.size() + r.size() <= READABLE);
+        // Where abbreviations make the answers short, the equations in full would be long.
+        let abbreviated = block.unknowns.iter().zip(&block.solution).any(|(u, v)| {
+            let short = self.short(*u, v);
+            let mut all = self.d.definitions.iter();
+            all.any(|d| short.symbols().contains(&d.name))
+        });
+        let short = !abbreviated && rows.iter().all(|(l, r)| l.size() + r.size() <= READABLE);
         if short {
-            let mut text = vec![say("With the velocities from the balances, ")];
-            let which = if rows.len() == 1 {
-                "this leaves"
+            let verb = if rows.len() == 1 {
+                "this becomes"
             } else {
-                "these leave"
+                "these become"
             };
-            text.push(say(format!("{which} for ")));
-            text.extend(self.symbols(&impulses));
-            self.text(text);
+            self.say(&format!("With the velocities from the balances {verb}"));
             for (left, right) in rows {
                 self.claim(left, right, "the velocities substituted");
             }
@@ -154,7 +183,7 @@ impl Writer<'_> {
             solution: order.iter().map(|i| block.solution[*i].clone()).collect(),
             ..block.clone()
         };
-        self.solved(&[&sorted], if short { "so" } else { "Solving them gives" });
+        self.solved(&[&sorted], if short { "" } else { "Solving them gives" });
         true
     }
 
@@ -291,56 +320,91 @@ impl Writer<'_> {
         }
         let mut left = Vec::new();
         for (i, parts) in terms.into_iter().enumerate() {
-            let parts: Vec<Expr> = parts.into_iter().map(|(_, e)| self.tidy(&e)).collect();
-            let sum = Expr::sum(parts);
-            let whole = self.tidy(&sum);
-            // A sum of one term for each body says more than one fraction, unless that is much shorter.
-            let factor = if 3 * whole.size() <= 2 * sum.size() {
-                whole
-            } else {
-                sum
-            };
+            let sum = self.sum_by_parts(parts.into_iter().map(|(_, e)| e).collect());
+            let factor = sum;
             left.push(Expr::symbol(self.d.names.plain(impulses[i])) * factor);
         }
         (Expr::sum(left), self.tidy(&right))
     }
 
-    /// The velocity just after of the touching point of a body, v + ω × r, where the body is more than a point.
-    pub(super) fn point_velocity(&mut self, b: usize, c: usize, index: &str) {
-        if self.scene.bodies[b].is_fixed() || self.scene.bodies[b].is_particle() {
-            return;
+    /// A sum whose terms stand each for a body, in its shortest form; equal ones are counted, not repeated.
+    pub(super) fn sum_by_parts(&mut self, parts: Vec<Expr>) -> Expr {
+        let mut counted: Vec<(Expr, i64)> = Vec::new();
+        for part in parts {
+            let tidy = self.tidy(&part);
+            let part = if tidy.size() <= part.size() {
+                tidy
+            } else {
+                part
+            };
+            match counted.iter_mut().find(|(e, _)| *e == part) {
+                Some((_, n)) => *n += 1,
+                None => counted.push((part, 1)),
+            }
         }
+        let sum = Expr::sum(counted.into_iter().map(|(e, n)| Expr::from(n) * e));
+        let whole = self.tidy(&sum);
+        if 3 * whole.size() <= 2 * sum.size() {
+            whole
+        } else {
+            sum
+        }
+    }
+
+    /// Whether the normal at a contact passes through the center of mass of a body, so that its spin does not count.
+    pub(super) fn passes_center(&mut self, b: usize, c: usize) -> bool {
+        let body = &self.scene.bodies[b];
+        let Some(n) = self.scene.contacts[c].normal.clone() else {
+            return false;
+        };
+        if body.is_particle() || body.is_fixed() || self.reduction.tree.iter().any(|l| l.body == b)
+        {
+            return false;
+        }
+        let arm = self.arm(&self.g.place(Place::Contact(c)).clone(), Place::Center(b));
+        let moment = &arm[0] * &n[1] - &arm[1] * &n[0];
+        !self.spin_after(b).is_zero() && self.vanishes(&moment)
+    }
+
+    /// The velocity just after of the touching point of a body along the normal, (v + ω × r) · n; `flipped` where the normal
+    /// is told the other way round.
+    pub(super) fn point_velocity(&mut self, b: usize, c: usize, index: &str, flipped: bool) {
+        let Some(n) = self.scene.contacts[c].normal.clone() else {
+            return;
+        };
         let at = self.g.place(Place::Contact(c)).clone();
         let link = self.reduction.tree.iter().find(|l| l.body == b).copied();
         let carrier = link.map_or(Place::Center(b), |l| l.at);
-        let arm = self.arm(&at, carrier);
-        if arm.iter().all(Expr::is_zero) {
-            return;
-        }
         let forms = self.reduced.velocity_of(&self.g, b, &at);
         let v = [0, 1].map(|axis| self.form(&forms[axis]));
-        let v = self.tidy_vector(&v);
-        if v.iter().map(Expr::size).sum::<usize>() > READABLE {
+        let along = &v[0] * &n[0] + &v[1] * &n[1];
+        let along = self.tidy(&if flipped { -along } else { along });
+        if along.size() > READABLE {
             return;
         }
-        let still = link.is_some_and(|l| self.stands(l.to, l.at));
         let base = words::point(self.scene, carrier);
-        let mut math = vec![words::name("v", index, "+", true), Math::Op("=")];
-        if !still {
-            math.extend([words::name("v", &base, "+", true), Math::Op("+")]);
+        let mut whole = Vec::new();
+        if !link.is_some_and(|l| self.stands(l.to, l.at)) {
+            whole.extend([words::name("v", &base, "+", true), Math::Op("+")]);
         }
-        math.extend([
+        let arm = format!("{}/{base}", self.scene.contacts[c].name);
+        whole.extend([
             words::name("omega", &words::center(self.scene, b), "+", true),
             Math::Op("×"),
-            words::name(
-                "r",
-                &format!("{}/{base}", self.scene.contacts[c].name),
-                "",
-                true,
-            ),
-            Math::Op("="),
-            Math::Vector(v),
+            words::name("r", &arm, "", true),
         ]);
+        let n = || words::name("n", "", "", true);
+        let math = vec![
+            words::name("v", index, "+", true),
+            Math::Op("·"),
+            n(),
+            Math::Op("="),
+            Math::Brackets(whole),
+            Math::Op("·"),
+            n(),
+            Math::Op("="),
+            Math::Expr(along),
+        ];
         self.show(math, None);
     }
 

@@ -2,14 +2,37 @@
 
 use super::{Inline, Math, Meaning, Name};
 use crate::derive::Derivation;
-use crate::expr::Expr;
+use crate::expr::{Expr, Symbol};
 use crate::laws::{Place, Unknown};
 use crate::scene::Scene;
 use crate::verify::Proof;
 
-/// `the bar`, `ball 1`, `body A`.
+/// Words that need a noun after them in a sentence.
+const ADJECTIVES: [&str; 23] = [
+    "left", "right", "upper", "lower", "top", "bottom", "front", "rear", "back", "inner", "outer",
+    "near", "far", "first", "second", "third", "last", "hanging", "small", "large", "big", "light",
+    "heavy",
+];
+
+/// `the bar`, `ball 1`, `body A`, `the upper body`.
 pub fn body(scene: &Scene, b: usize) -> String {
-    scene.bodies[b].called()
+    with_noun(scene.bodies[b].called(), "body")
+}
+
+fn with_noun(words: String, noun: &str) -> String {
+    match words.rsplit(' ').next() {
+        Some(last) if ADJECTIVES.contains(&last) => format!("{words} {noun}"),
+        _ => words,
+    }
+}
+
+/// A contact, hinge or blow by its name: letters stand as they are, words get an article and, where they need one, a noun.
+pub fn place(name: &str, noun: &str) -> String {
+    let is_word = name.starts_with(|c: char| c.is_lowercase()) && name.chars().count() > 2;
+    if !is_word || name.contains(|c: char| c.is_ascii_digit()) {
+        return name.replace('_', "");
+    }
+    with_noun(format!("the {}", name.replace('_', " ")), noun)
 }
 
 /// `the bar and the ball`.
@@ -24,6 +47,11 @@ pub fn list(items: &[String]) -> String {
         [one] => one.clone(),
         [first @ .., last] => format!("{} and {last}", first.join(", ")),
     }
+}
+
+/// A stage by its name: “Fall”.
+pub fn stage(name: &str) -> String {
+    format!("“{}”", capital(&name.replace('_', " ")))
 }
 
 /// `the bar or the ball`.
@@ -85,7 +113,9 @@ pub fn at(scene: &Scene, place: Place) -> String {
                 format!("the center of mass of {}", body(scene, b))
             }
         }
-        _ => point(scene, place),
+        Place::Contact(c) => self::place(&scene.contacts[c].name, "contact"),
+        Place::Hinge(h) => self::place(&scene.hinges[h].name, "hinge"),
+        Place::Blow(i) => self::place(&scene.blows[i].name, "blow"),
     }
 }
 
@@ -180,6 +210,20 @@ pub fn with_symbols(scene: &Scene, text: &str) -> Vec<Inline> {
         rest = after;
     }
     out.push(say(words));
+    out
+}
+
+/// `a, b and c` of symbols, with the word before the last one.
+pub fn symbols(names: &[Symbol], last: &'static str) -> Vec<Inline> {
+    let mut out = Vec::new();
+    for (i, name) in names.iter().enumerate() {
+        match (i, i + 1 == names.len()) {
+            (0, _) => {}
+            (_, true) => out.push(say(last)),
+            _ => out.push(say(", ")),
+        }
+        out.push(formula(&Expr::symbol(name)));
+    }
     out
 }
 

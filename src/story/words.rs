@@ -221,8 +221,7 @@ fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> Sentence {
     };
     sentence![
         names.join(" and "),
-        format!(" {turns}{sense} about "),
-        &turn.about_name,
+        format!(" {turns}{sense} about `{}`", turn.about_name),
         rate
     ]
 }
@@ -527,9 +526,9 @@ pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence
             out.push(sentence![
                 "in `",
                 &stage.name,
-                "` the body is rigid, and ",
+                "` the body is rigid, and `",
                 &turn.about_name,
-                " is frictionless and does not move"
+                "` is frictionless and does not move"
             ]);
         }
         out.extend(told.assumptions.iter().cloned());

@@ -258,7 +258,7 @@ fn carry(
 
 /// What a rotation conserves.
 fn conserved(turn: &Turn) -> Vec<crate::story::Kept> {
-    let at = &turn.about_name;
+    let at = format!("`{}`", turn.about_name);
     let energy = match (&turn.gravity, &turn.torque) {
         (_, Some(_)) => kept(
             "energy",
