@@ -663,10 +663,12 @@ fn no_abbreviation_is_used_before_it_is_told() {
             for line in lines {
                 let mut used = Vec::new();
                 symbols(&line.math, &mut used);
-                if let Some(solution::Math::Expr(e)) = line.math.first()
-                    && let Some(name) = e.as_symbol()
-                {
-                    told.push(name.to_string());
+                for pair in line.math.windows(2) {
+                    if let [solution::Math::Expr(e), solution::Math::Op("=")] = pair
+                        && let Some(name) = e.as_symbol()
+                    {
+                        told.push(name.to_string());
+                    }
                 }
                 for name in used {
                     let meaning = solution.meanings.get(name.as_str());

@@ -29,6 +29,26 @@ impl Writer<'_> {
         })
     }
 
+    /// Whether a question asks for a component of a velocity that has a name of its own already.
+    pub(super) fn is_renamed(&mut self, question: &Question) -> bool {
+        let Ask::Velocity {
+            body,
+            point: None,
+            along: Some(d),
+        } = &question.ask
+        else {
+            return false;
+        };
+        let v = self.velocity_after(*body);
+        let raw = &v[0] * &d[0] + &v[1] * &d[1];
+        raw.size() <= NAMED
+            && raw.symbols().iter().all(|s| {
+                let solved = self.d.blocks.iter().flat_map(|b| &b.unknowns);
+                let mut solved = solved.filter(|u| *self.d.names.plain(**u) == **s);
+                solved.next().is_some()
+            })
+    }
+
     /// Whether the laws leave the answer open.
     pub(super) fn is_open(&self, question: &Question) -> bool {
         self.answers_of(question)
@@ -155,9 +175,13 @@ impl Writer<'_> {
                 } else {
                     String::from("In components,")
                 };
-                self.say(&lead);
                 let id = self.step(Vec::new(), claims, "velocities of a rigid body: v + ω × r");
-                self.show(math, Some(id));
+                // How the center moves may have been told with the joint.
+                let told = Symbol::from(format!("motion of {body}"));
+                if point != center || !self.told.contains(&told) {
+                    self.say(&lead);
+                    self.show(math, Some(id));
+                }
                 self.values(&v, answers, None);
             }
             Some(d) => {
@@ -407,7 +431,11 @@ impl Writer<'_> {
             }
             self.told
                 .extend(answers.iter().map(|a| Symbol::from(a.name.as_str())));
-            self.push(Part::Result(lines));
+            let last = self.solution.sections.last_mut();
+            match last.and_then(|s| s.parts.last_mut()) {
+                Some(Part::Result(others)) if via.is_some() => others.extend(lines),
+                _ => self.push(Part::Result(lines)),
+            }
         }
     }
 

@@ -230,12 +230,14 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
         solution.names.insert(name.clone(), answer.latex.clone());
     }
     let brief = solution.detail == Detail::Brief;
-    if !answer.assumptions.is_empty() {
+    // What the whole solution rests on is told at its end.
+    let stages = scene.story.is_some();
+    let given = answer.assumptions.iter();
+    let given = given.filter(|a| stages || !solution.assumptions.contains(&a.to_string()));
+    let given: Vec<Sentence> = given.cloned().collect();
+    if !given.is_empty() {
         let mut text = vec![say("Given that ")];
-        text.extend(sentence(
-            scene,
-            &Sentence::join(answer.assumptions.clone(), "; "),
-        ));
+        text.extend(sentence(scene, &Sentence::join(given, "; ")));
         text.push(say(","));
         solution.text(text);
     }

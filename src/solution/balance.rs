@@ -674,47 +674,36 @@ impl Writer<'_> {
         let flipped = moving == [one];
         let (from, to) = if flipped { (two, one) } else { (one, two) };
         let (first, second) = (words::body(self.scene, from), words::body(self.scene, to));
-        let (lead, whither) = match is_string {
-            true => (
-                ". With the direction ",
-                format!(" in which it pulls {second},"),
-            ),
-            false => (
-                ". With the normal ",
-                format!(
-                    " at {} from {first} to {second},",
-                    words::at(self.scene, place)
-                ),
-            ),
-        };
-        text.push(say(lead));
         let mut normal = vec![name("n", "", "", true)];
         if let Some(n) = self.scene.contacts[c].normal.clone() {
             let n = if flipped { n.map(|x| -x) } else { n };
             let n = self.tidy_vector(&n);
             normal.extend([Math::Op("="), Math::Vector(n)]);
         }
-        text.extend([Inline::Math(normal), say(whither)]);
+        let normal = Inline::Math(normal);
         let through: Vec<usize> = moving
             .iter()
             .copied()
             .filter(|b| self.passes_center(*b, c))
             .collect();
-        if !through.is_empty() {
-            let whose = words::bodies(self.scene, &through);
+        let at_it = words::at(self.scene, place);
+        if is_string {
+            let end = say(format!(" in which it pulls {second},"));
+            text.extend([say(". With the direction "), normal, end]);
+        } else if through.is_empty() {
+            let end = say(format!(" at {at_it} from {first} to {second},"));
+            text.extend([say(". With the normal "), normal, end]);
+        } else {
             let centers = if through.len() == 1 {
                 "center"
             } else {
                 "centers"
             };
-            let last = text.pop();
-            let lead = match last {
-                Some(Inline::Text(words)) => words.trim_end_matches(',').to_string(),
-                _ => String::new(),
-            };
-            text.push(say(format!(
-                "{lead}, which passes through the {centers} of mass of {whose},"
-            )));
+            let whose = words::bodies(self.scene, &through);
+            let end = say(format!(
+                " at {at_it}, from {first} to {second}, passes through the {centers} of mass of {whose}:"
+            ));
+            text.extend([say(". The normal "), normal, end]);
         }
         self.text(text);
         let index = |b: usize| {

@@ -65,7 +65,7 @@ impl Writer<'_> {
                 continue;
             }
             if text.len() > 1 {
-                text.push(say(", "));
+                text.push(say("; "));
             }
             let c = words::center(self.scene, b);
             text.push(Inline::Math(vec![
@@ -194,6 +194,7 @@ impl Writer<'_> {
             let asked = |b: &&&Block| b.asked_by.as_deref() == Some(question.name.as_str());
             let mine: Vec<&Block> = blocks.iter().filter(asked).copied().collect();
             let derived = self.is_derived(question) && !self.is_open(question);
+            let renamed = mine.is_empty() && self.is_renamed(question);
             let begins = !mine.is_empty() || kept.iter().any(|b| asked(&b));
             if !begins && (!derived || self.detail() == Detail::Brief) {
                 continue;
@@ -206,7 +207,10 @@ impl Writer<'_> {
             } else {
                 self.heading(question)
             };
-            self.section(heading);
+            // Another name for what has just been found needs no heading.
+            if !renamed || self.solution.sections.is_empty() {
+                self.section(heading);
+            }
             // What no impulse changes is told before anything else, and not carried along.
             if begins && !kept.is_empty() {
                 self.keeps(&std::mem::take(&mut kept));
@@ -265,14 +269,26 @@ impl Writer<'_> {
                     },
                 }
             }
-            Ask::Balance { system, .. } => {
-                format!("Linear momentum of {}", words::bodies(self.scene, system))
+            Ask::Balance { system, along } => {
+                let text = format!("Linear momentum of {}", words::bodies(self.scene, system));
+                return vec![
+                    say(text + " along "),
+                    Inline::Math(vec![Math::Vector(along.clone())]),
+                ];
             }
             Ask::Matrix { .. } => String::from("Matrix form"),
             // About other answers: no block of equations is solved for it.
             _ => String::new(),
         };
-        vec![say(text)]
+        match &question.ask {
+            Ask::Velocity { along: Some(d), .. } | Ask::Impulse { along: Some(d), .. } => {
+                vec![
+                    say(text + " along "),
+                    Inline::Math(vec![Math::Vector(d.clone())]),
+                ]
+            }
+            _ => vec![say(text)],
+        }
     }
 
     fn block(&mut self, block: &Block) {

@@ -310,24 +310,13 @@ impl Writer<'_> {
             Inline::Math(vec![small, Math::Op(sign), large])
         }));
         let others = self.d.assumptions.iter().chain(&self.proof.assumptions);
-        all.extend(others.map(|a| self.typeset(a)));
-        all
-    }
-
-    /// A condition that the derivation gives as text: its formulas set where it is a relation, its words otherwise.
-    fn typeset(&self, text: &str) -> Inline {
-        let mut names = crate::formula::Symbols::strict();
-        for p in &self.scene.parameters {
-            names.declare(&p.name);
-        }
-        let read = |side: &str| crate::formula::read_expr(side.trim(), &names).ok();
-        for op in ["≥", "≤", "≠", ">", "<"] {
-            if let Some((left, right)) = text.split_once(op)
-                && let (Some(left), Some(right)) = (read(left), read(right))
-            {
-                return Inline::Math(vec![Math::Expr(left), Math::Op(op), Math::Expr(right)]);
+        for a in others {
+            let text = a.replace("the bodies approach", "bodies that approach");
+            let condition = words::condition(self.scene, &text);
+            if !all.contains(&condition) {
+                all.push(condition);
             }
         }
-        say(text.replace("the bodies approach", "bodies that approach"))
+        all
     }
 }

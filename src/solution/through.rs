@@ -4,7 +4,7 @@
 use super::words::{self, say};
 use super::{Math, Writer};
 use crate::derive::{Block, Equation};
-use crate::expr::Expr;
+use crate::expr::{Expr, Symbol};
 use crate::laws::{Direction, Law, Place, Unknown};
 
 /// Largest equation, in nodes, that is written for the impulses alone.
@@ -161,7 +161,8 @@ impl Writer<'_> {
         let abbreviated = block.unknowns.iter().zip(&block.solution).any(|(u, v)| {
             let short = self.short(*u, v);
             let mut all = self.d.definitions.iter();
-            all.any(|d| short.symbols().contains(&d.name))
+            let named = |d: &Symbol| impulses.iter().any(|p| *self.d.names.plain(*p) == **d);
+            all.any(|d| !named(&d.name) && short.symbols().contains(&d.name))
         });
         let short = !abbreviated && rows.iter().all(|(l, r)| l.size() + r.size() <= READABLE);
         if short {

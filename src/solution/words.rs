@@ -227,6 +227,29 @@ pub fn symbols(names: &[Symbol], last: &'static str) -> Vec<Inline> {
     out
 }
 
+/// A condition that is given as text: its formulas set where it is a relation between such, its words otherwise.
+pub fn condition(scene: &Scene, text: &str) -> Inline {
+    let mut names = crate::formula::Symbols::strict();
+    for p in &scene.parameters {
+        names.declare(&p.name);
+    }
+    let read = |side: &str| crate::formula::read_expr(side.trim(), &names).ok();
+    for op in ["≥", "≤", "≠", ">", "<"] {
+        if let Some((left, right)) = text.split_once(op)
+            && let (Some(left), Some(right)) = (read(left), read(right))
+        {
+            return match left.size() + right.size() > LONG_CONDITION {
+                true => say("the conditions of this case"),
+                false => Inline::Math(vec![Math::Expr(left), Math::Op(op), Math::Expr(right)]),
+            };
+        }
+    }
+    say(text)
+}
+
+/// Longest condition, in nodes, that a sentence holds.
+const LONG_CONDITION: usize = 80;
+
 /// Words of a sentence.
 pub fn say(text: impl Into<String>) -> Inline {
     Inline::Text(text.into())
