@@ -67,6 +67,13 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
     {
         stage.surface(&mut sheet, from, &end, values.pair(&slide.along)?);
     }
+    // A string of a later impact is slack while its body falls.
+    if let StageKind::Fall(_) = kind
+        && let [(name, Some(top))] = scene.figure.strings.as_slice()
+        && scene.bodies.iter().all(|b| b.name != *name)
+    {
+        stage.slack(&mut sheet, top, from.center, end.center);
+    }
     for (i, pose) in begin.iter().enumerate() {
         if i != body && !with.contains(&i) {
             stage.body(&mut sheet, pose, [0.0, 0.0]);

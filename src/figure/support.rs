@@ -60,6 +60,19 @@ impl Stage<'_> {
             else {
                 continue;
             };
+            // Where a string is fastened, its ceiling is drawn already.
+            let ends = hints.strings.iter().filter_map(|(name, end)| {
+                let shown = self.scene.bodies.iter().any(|b| b.name == *name);
+                end.as_ref().filter(|_| shown)
+            });
+            let near = |end: &Vector| {
+                let [p, q] = [self.spot(end), Some(self.px(at))];
+                p.zip(q)
+                    .is_some_and(|(p, q)| size([p[0] - q[0], p[1] - q[1]]) < 2.0)
+            };
+            if ends.into_iter().any(near) {
+                continue;
+            }
             if hints.support(&hinge.name).is_some() {
                 self.standing(sheet, &hinge.name, at, None, other);
                 continue;
@@ -113,6 +126,50 @@ impl Stage<'_> {
             true => hatched(sheet, ends[0], ends[1], down),
             false => hatched(sheet, ends[1], ends[0], down),
         }
+    }
+
+    /// A slack string: as long as it is at the end of a fall that makes it taut, it hangs between its end and the body.
+    pub(super) fn slack(&self, sheet: &mut Sheet, end: &Vector, from: Pair, taut: Pair) {
+        const PIECES: usize = 24;
+        let Some(top) = self.spot(end) else {
+            return;
+        };
+        let (body, length) = (self.px(from), {
+            let p = self.px(taut);
+            size([p[0] - top[0], p[1] - top[1]])
+        });
+        let hanging = |sag: f64| -> Vec<Pair> {
+            let each = (0..=PIECES).map(|k| {
+                let t = k as f64 / PIECES as f64;
+                let line = |axis: usize| top[axis] + t * (body[axis] - top[axis]);
+                [line(0), line(1) - 4.0 * sag * t * (1.0 - t)]
+            });
+            each.collect()
+        };
+        let long = |points: &[Pair]| -> f64 {
+            let each = points.windows(2);
+            each.map(|p| size([p[1][0] - p[0][0], p[1][1] - p[0][1]]))
+                .sum()
+        };
+        let (mut low, mut high) = (0.0, length);
+        if long(&hanging(low)) >= length {
+            return;
+        }
+        for _ in 0..40 {
+            let middle = (low + high) / 2.0;
+            match long(&hanging(middle)) < length {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        sheet.path(hanging(low), false, Line::dashed(Ink::Body), 1.0);
+        sheet.segment(top, self.px(taut), Line::thin(Ink::Body), 1.0);
+        hatched(
+            sheet,
+            [top[0] + 18.0, top[1]],
+            [top[0] - 18.0, top[1]],
+            [0.0, 1.0],
+        );
     }
 
     /// A taut string and what it is fastened to.

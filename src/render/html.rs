@@ -56,7 +56,7 @@ p{margin:.55rem 0}
 .source{color:#555;font-style:italic;margin-top:0}
 .display{overflow-x:auto;overflow-y:hidden;margin:.5rem 0;padding:.15rem 0}
 .display math{margin:0 0 0 1.2rem;text-align:left}
-.result math{border:1px solid #888;padding:.25em .7em;width:fit-content;margin-left:auto;margin-right:auto}
+.result math{border:1px solid #888;padding:.25em .7em;box-sizing:content-box;width:max-content;margin:0 auto}
 .phone{display:none}
 math{font-family:'carom math',math;font-size:1.05em}
 mover>mo{font-size:.75em}
@@ -73,7 +73,7 @@ figcaption{font-size:.86rem;color:#555;text-align:left}
 .figures{display:flex;flex-wrap:wrap;gap:1rem;justify-content:center}
 .figures figure{flex:1 1 300px;margin:0;min-width:0;max-width:26rem}
 @media (prefers-color-scheme:dark){body{color:#e6e6e6;background:#16181c}h2{border-color:#444}.source,figcaption{color:#aaa}}
-@media (max-width:480px){body{font-size:16px;padding:.8rem .8rem 2rem}.display math{margin-left:.2rem}.desk{display:none}.phone{display:block}}
+@media (max-width:480px){body{font-size:16px;padding:.8rem .8rem 2rem}.display:not(.result) math{margin-left:.2rem}.desk{display:none}.phone{display:block}}
 @media print{body{max-width:none;font-size:11pt;color:#000;background:#fff}h2,h3,.display,figure{break-inside:avoid}h2,h3{break-after:avoid}.display{overflow:visible}p{orphans:3;widows:3}}
 ";
 
@@ -182,8 +182,17 @@ fn display(s: &Solution, lines: &[Line], class: &str) -> String {
     if same(&desk, &phone) {
         return table(s, &desk, class, DESK);
     }
-    table(s, &desk, &format!("{class} desk"), DESK)
-        + &table(s, &phone, &format!("{class} phone"), PHONE)
+    let wide = table(s, &desk, &format!("{class} desk"), DESK);
+    let phone_class = format!("{class} phone");
+    // Lines that fit a narrow window one by one, but not with their relations below each other, stand each for itself.
+    if lines.len() > 1 && class.is_empty() && span(s, &phone) > PHONE {
+        let each = lines.iter().map(|line| {
+            let rows = rows_within(s, std::slice::from_ref(line), PHONE);
+            table(s, &rows, &phone_class, PHONE)
+        });
+        return wide + &each.collect::<String>();
+    }
+    wide + &table(s, &phone, &phone_class, PHONE)
 }
 
 /// Characters from the left edge of the widest left side to the right edge of the widest right side.

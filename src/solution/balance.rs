@@ -660,11 +660,23 @@ impl Writer<'_> {
         } else {
             "Restitution: the points in contact separate along the normal at "
         };
-        let mut text = vec![say(rule)];
-        if rule.ends_with("at ") {
+        let at_it = words::at(self.scene, Place::Contact(c));
+        // A rule that was told for one contact is not told again for the next.
+        let again = !self
+            .told
+            .insert(Symbol::from(format!("{rule} {restitution:?}")));
+        let mut text = vec![say(match again {
+            true => format!("Likewise at {at_it}"),
+            false => rule.to_string(),
+        })];
+        if rule.ends_with("at ") && !again {
             text.push(words::formula(&restitution));
             text.push(say(" times their speed of approach"));
         }
+        let there = match again {
+            true => String::new(),
+            false => format!(" at {at_it}"),
+        };
         // Of a support at rest nothing needs to be said; the normal points away from it.
         let place = Place::Contact(c);
         let moving: Vec<usize> = [one, two]
@@ -686,12 +698,11 @@ impl Writer<'_> {
             .copied()
             .filter(|b| self.passes_center(*b, c))
             .collect();
-        let at_it = words::at(self.scene, place);
         if is_string {
             let end = say(format!(" in which it pulls {second},"));
             text.extend([say(". With the direction "), normal, end]);
         } else if through.is_empty() {
-            let end = say(format!(" at {at_it} from {first} to {second},"));
+            let end = say(format!("{there} from {first} to {second},"));
             text.extend([say(". With the normal "), normal, end]);
         } else {
             let centers = if through.len() == 1 {
@@ -701,7 +712,7 @@ impl Writer<'_> {
             };
             let whose = words::bodies(self.scene, &through);
             let end = say(format!(
-                " at {at_it}, from {first} to {second}, passes through the {centers} of mass of {whose}:"
+                "{there}, from {first} to {second}, passes through the {centers} of mass of {whose}:"
             ));
             text.extend([say(". The normal "), normal, end]);
         }
@@ -730,6 +741,12 @@ impl Writer<'_> {
         };
         let n = || name("n", "", "", true);
         let mut math = vec![relative("+"), Math::Op("·"), n(), Math::Op("=")];
+        let turns = |index: &String| index.starts_with(at.as_str());
+        // Of a single point the relation of rigid bodies stands in the same line.
+        if !both && turns(&indices[1]) {
+            math.extend(self.rigid(to, c));
+            math.extend([Math::Op("·"), n(), Math::Op("=")]);
+        }
         if restitution.is_zero() {
             math.push(Math::Expr(Expr::zero()));
         } else {
@@ -741,8 +758,8 @@ impl Writer<'_> {
         }
         self.show(math, None);
         for (b, index) in [to, from].into_iter().zip(indices.iter().rev()) {
-            if moving.contains(&b) && index.starts_with(at.as_str()) {
-                self.point_velocity(b, c, index, flipped);
+            if both && turns(index) {
+                self.point_velocity(b, c, index);
             }
         }
     }

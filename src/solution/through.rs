@@ -367,22 +367,10 @@ impl Writer<'_> {
         !self.spin_after(b).is_zero() && self.vanishes(&moment)
     }
 
-    /// The velocity just after of the touching point of a body along the normal, (v + ω × r) · n; `flipped` where the normal
-    /// is told the other way round.
-    pub(super) fn point_velocity(&mut self, b: usize, c: usize, index: &str, flipped: bool) {
-        let Some(n) = self.scene.contacts[c].normal.clone() else {
-            return;
-        };
-        let at = self.g.place(Place::Contact(c)).clone();
+    /// `(v + ω × r)` just after for the touching point of a body, from its center of mass or from the joint it turns about.
+    pub(super) fn rigid(&self, b: usize, c: usize) -> [Math; 1] {
         let link = self.reduction.tree.iter().find(|l| l.body == b).copied();
         let carrier = link.map_or(Place::Center(b), |l| l.at);
-        let forms = self.reduced.velocity_of(&self.g, b, &at);
-        let v = [0, 1].map(|axis| self.form(&forms[axis]));
-        let along = &v[0] * &n[0] + &v[1] * &n[1];
-        let along = self.tidy(&if flipped { -along } else { along });
-        if along.size() > READABLE {
-            return;
-        }
         let base = words::point(self.scene, carrier);
         let mut whole = Vec::new();
         if !link.is_some_and(|l| self.stands(l.to, l.at)) {
@@ -394,18 +382,30 @@ impl Writer<'_> {
             Math::Op("×"),
             words::name("r", &arm, "", true),
         ]);
+        [Math::Brackets(whole)]
+    }
+
+    /// The velocity just after of the touching point of a body along the normal, (v + ω × r) · n.
+    pub(super) fn point_velocity(&mut self, b: usize, c: usize, index: &str) {
+        let Some(n) = self.scene.contacts[c].normal.clone() else {
+            return;
+        };
+        let at = self.g.place(Place::Contact(c)).clone();
+        let forms = self.reduced.velocity_of(&self.g, b, &at);
+        let v = [0, 1].map(|axis| self.form(&forms[axis]));
+        let along = self.tidy(&(&v[0] * &n[0] + &v[1] * &n[1]));
         let n = || words::name("n", "", "", true);
-        let math = vec![
+        let mut math = vec![
             words::name("v", index, "+", true),
             Math::Op("·"),
             n(),
             Math::Op("="),
-            Math::Brackets(whole),
-            Math::Op("·"),
-            n(),
-            Math::Op("="),
-            Math::Expr(along),
         ];
+        math.extend(self.rigid(b, c));
+        math.extend([Math::Op("·"), n()]);
+        if along.size() <= READABLE {
+            math.extend([Math::Op("="), Math::Expr(along)]);
+        }
         self.show(math, None);
     }
 

@@ -16,11 +16,11 @@ pub(super) fn active(case: &Case) -> String {
     match case.active.as_slice() {
         [] if !case.rubs.is_empty() => case.rubs.replace('`', ""),
         [] => String::from("no support or string acts"),
-        names => format!(
-            "{} act{}",
-            names.join(" and "),
-            if names.len() == 1 { "s" } else { "" }
-        ),
+        names => {
+            let names: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
+            let acts = if names.len() == 1 { "acts" } else { "act" };
+            format!("{} {acts}", names.join(" and "))
+        }
     }
 }
 
