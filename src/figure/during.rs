@@ -346,7 +346,9 @@ impl Named {
 
 fn impulse_name(stage: &Stage, from: ImpulseAt, name: &str, directed: bool) -> Named {
     let scene = stage.scene;
-    for question in scene.asked_of_impact() {
+    // What the reader is told of comes before what carom asks itself.
+    let (asked, hidden): (Vec<_>, Vec<_>) = scene.questions.iter().partition(|q| !q.hidden);
+    for question in asked.into_iter().chain(hidden) {
         if let Ask::Impulse {
             from: asked,
             on,

@@ -278,6 +278,21 @@ pub struct Body {
     pub spin: Expr,
 }
 
+/// Words that need a noun after them in a sentence.
+const ADJECTIVES: [&str; 23] = [
+    "left", "right", "upper", "lower", "top", "bottom", "front", "rear", "back", "inner", "outer",
+    "near", "far", "first", "second", "third", "last", "hanging", "small", "large", "big", "light",
+    "heavy",
+];
+
+/// `the upper body` of `the upper`; what needs no noun stays as it is.
+pub fn with_noun(words: String, noun: &str) -> String {
+    match words.rsplit(' ').next() {
+        Some(last) if ADJECTIVES.contains(&last) => format!("{words} {noun}"),
+        _ => words,
+    }
+}
+
 impl Body {
     /// Whether its motion is prescribed: ground, walls, pegs.
     pub fn is_fixed(&self) -> bool {
@@ -307,7 +322,7 @@ impl Body {
         }
         match name.chars().next() {
             Some(first) if first.is_uppercase() => name.to_string(),
-            _ => format!("the {name}"),
+            _ => with_noun(format!("the {name}"), "body"),
         }
     }
 

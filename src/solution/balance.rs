@@ -33,8 +33,8 @@ impl Writer<'_> {
                 }
             }
             Law::LinearMomentum { system, along } => {
-                self.linear_reason(system, along);
                 self.motion_words(system);
+                self.linear_reason(system, along);
                 self.linear_momentum(system, along, equation);
                 return;
             }
@@ -243,7 +243,12 @@ impl Writer<'_> {
                 say("."),
             ]);
         }
-        self.motion_words(system);
+        if self.motion_words(system) {
+            self.say(&match outside.is_empty() {
+                true => format!("Angular momentum about {o} is conserved:"),
+                false => String::from("Then"),
+            });
+        }
         let mut law = vec![h("-")];
         for x in &outside {
             let q = words::point(self.scene, x.place);
@@ -342,8 +347,9 @@ impl Writer<'_> {
         }
     }
 
-    /// How the bodies move just after, in vectors, where joints leave only their spins free.
-    pub(super) fn motion_words(&mut self, system: &[usize]) {
+    /// How the bodies move just after, in vectors, where joints leave only their spins free; whether there was anything to tell.
+    pub(super) fn motion_words(&mut self, system: &[usize]) -> bool {
+        let mut any = false;
         for &b in system {
             let Some(link) = self.reduction.tree.iter().find(|l| l.body == b).copied() else {
                 continue;
@@ -352,6 +358,7 @@ impl Writer<'_> {
             if !self.told.insert(Symbol::from(format!("motion of {b}"))) {
                 continue;
             }
+            any = true;
             let at = words::point(self.scene, link.at);
             let c = words::center(self.scene, b);
             let arm = self.arm(&self.g.place(Place::Center(b)).clone(), link.at);
@@ -416,6 +423,7 @@ impl Writer<'_> {
             }
             self.show(math, Some(id));
         }
+        any
     }
 
     /// Σ r × m v + I ω = value, written out and evaluated.
@@ -698,12 +706,16 @@ impl Writer<'_> {
             .copied()
             .filter(|b| self.passes_center(*b, c))
             .collect();
+        let with = |words: &str| match again {
+            true => format!("; {words}"),
+            false => format!(". {}", words::capital(words)),
+        };
         if is_string {
             let end = say(format!(" in which it pulls {second},"));
-            text.extend([say(". With the direction "), normal, end]);
+            text.extend([say(with("with the direction ")), normal, end]);
         } else if through.is_empty() {
             let end = say(format!("{there} from {first} to {second},"));
-            text.extend([say(". With the normal "), normal, end]);
+            text.extend([say(with("with the normal ")), normal, end]);
         } else {
             let centers = if through.len() == 1 {
                 "center"
@@ -714,7 +726,7 @@ impl Writer<'_> {
             let end = say(format!(
                 "{there}, from {first} to {second}, passes through the {centers} of mass of {whose}:"
             ));
-            text.extend([say(". The normal "), normal, end]);
+            text.extend([say(with("the normal ")), normal, end]);
         }
         self.text(text);
         let index = |b: usize| {

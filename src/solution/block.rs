@@ -414,7 +414,7 @@ impl Writer<'_> {
         let shown: Vec<Expr> = pairs.iter().map(|(u, v)| self.short(*u, v)).collect();
         self.abbreviations(&shown);
         let mut substeps = Vec::new();
-        if self.detail() == Detail::Full {
+        if self.detail() == Detail::Full && !lead.is_empty() {
             substeps = self.substeps(|writer| {
                 for block in blocks {
                     writer.eliminate(block);

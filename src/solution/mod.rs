@@ -397,7 +397,7 @@ impl<'a> Writer<'a> {
             reduced,
             solution: Solution {
                 title: scene.title.clone(),
-                source: scene.source.clone(),
+                source: source(scene),
                 statement: scene.statement.clone(),
                 detail,
                 names,
@@ -532,6 +532,14 @@ impl<'a> Writer<'a> {
     /// Spin just after in the symbol of the scene.
     fn spin_after(&self, b: usize) -> Expr {
         self.form(&self.reduced.spin[b])
+    }
+}
+
+/// Where a problem comes from, unless that is its title.
+fn source(scene: &Scene) -> String {
+    match scene.source == scene.title {
+        true => String::new(),
+        false => scene.source.clone(),
     }
 }
 

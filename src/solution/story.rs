@@ -54,7 +54,7 @@ fn blank(scene: &Scene, told: &Told, detail: Detail) -> Solution {
     assumptions.retain(|a| seen.insert(a.clone()));
     Solution {
         title: scene.title.clone(),
-        source: scene.source.clone(),
+        source: super::source(scene),
         statement: scene.statement.clone(),
         detail,
         names,
@@ -96,7 +96,7 @@ impl Page<'_> {
             self.readings();
         }
         self.solution.text(vec![say(
-            "Take x to the right and y up; angles and spins count counterclockwise unless said otherwise.",
+            "Let x point right and y up; counterclockwise is positive unless said otherwise.",
         )]);
     }
 

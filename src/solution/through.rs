@@ -132,7 +132,6 @@ impl Writer<'_> {
         let Some((balances, others)) = self.through(block) else {
             return false;
         };
-        self.say(&format!("{}.", self.balance_words(&balances)));
         let mut links: Vec<usize> = Vec::new();
         for e in &balances {
             if let Law::LinearMomentum { system, .. } | Law::AngularMomentum { system, .. } = &e.law
@@ -141,6 +140,7 @@ impl Writer<'_> {
             }
         }
         self.motion_words(&links);
+        self.say(&format!("{}.", self.balance_words(&balances)));
         for e in &balances {
             self.short_balance(e);
         }

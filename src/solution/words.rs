@@ -4,26 +4,12 @@ use super::{Inline, Math, Meaning, Name};
 use crate::derive::Derivation;
 use crate::expr::{Expr, Symbol};
 use crate::laws::{Place, Unknown};
-use crate::scene::Scene;
+use crate::scene::{Scene, with_noun};
 use crate::verify::Proof;
-
-/// Words that need a noun after them in a sentence.
-const ADJECTIVES: [&str; 23] = [
-    "left", "right", "upper", "lower", "top", "bottom", "front", "rear", "back", "inner", "outer",
-    "near", "far", "first", "second", "third", "last", "hanging", "small", "large", "big", "light",
-    "heavy",
-];
 
 /// `the bar`, `ball 1`, `body A`, `the upper body`.
 pub fn body(scene: &Scene, b: usize) -> String {
-    with_noun(scene.bodies[b].called(), "body")
-}
-
-fn with_noun(words: String, noun: &str) -> String {
-    match words.rsplit(' ').next() {
-        Some(last) if ADJECTIVES.contains(&last) => format!("{words} {noun}"),
-        _ => words,
-    }
+    scene.bodies[b].called()
 }
 
 /// A contact, hinge or blow by its name: letters stand as they are, words get an article and, where they need one, a noun.

@@ -8,7 +8,7 @@ use crate::domain::Domains;
 use crate::expr::{Expr, minus};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{
-    BlowImpulse, ContactLaw, FallEnd, Scene, Slide, SlideEnd, Stage, StageKind, Turn,
+    BlowImpulse, ContactLaw, FallEnd, OneSided, Scene, Slide, SlideEnd, Stage, StageKind, Turn,
 };
 
 /// Which supports act in an outcome.
@@ -22,6 +22,30 @@ pub(super) fn active(case: &Case) -> String {
             format!("{} {acts}", names.join(" and "))
         }
     }
+}
+
+/// What each support and string does in an outcome: it pushes or pulls, or comes free or goes slack.
+fn acting(one_sided: &[OneSided], case: &Case) -> String {
+    let mut does: Vec<([&str; 2], Vec<String>)> = Vec::new();
+    for o in one_sided {
+        let verbs = match (case.active.contains(&o.name), o.is_string) {
+            (true, true) => ["pulls", "pull"],
+            (true, false) => ["pushes", "push"],
+            (false, true) => ["goes slack", "go slack"],
+            (false, false) => ["comes free", "come free"],
+        };
+        let string = if o.is_string { "the string " } else { "" };
+        let name = format!("{string}`{}`", o.name);
+        match does.iter_mut().find(|(v, _)| *v == verbs) {
+            Some((_, names)) => names.push(name),
+            None => does.push((verbs, vec![name])),
+        }
+    }
+    let each = does.into_iter().map(|([one, more], names)| {
+        let verb = if names.len() == 1 { one } else { more };
+        format!("{} {verb}", listed(&names))
+    });
+    each.collect::<Vec<_>>().join(", ")
 }
 
 /// Which outcomes lead through an outcome of a stage to what follows it.
@@ -53,24 +77,10 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
         StageKind::Impact { one_sided, .. } => {
             for case in &told.cases {
                 if told.cases.len() > 1 || !one_sided.is_empty() {
-                    let resting: Vec<&str> = one_sided
-                        .iter()
-                        .filter(|o| !case.active.contains(&o.name))
-                        .map(|o| o.name.as_str())
-                        .collect();
-                    let left = if resting.is_empty() {
-                        String::new()
-                    } else {
-                        format!(
-                            ", {} {} free",
-                            resting.join(" and "),
-                            if resting.len() == 1 { "comes" } else { "come" }
-                        )
-                    };
-                    out.push(if case.conditions.is_empty() {
-                        sentence![active(case), left]
-                    } else {
-                        sentence!["where ", conditions(case), ": ", active(case), left]
+                    let acts = acting(one_sided, case);
+                    out.push(match case.conditions.is_empty() {
+                        true => sentence![acts],
+                        false => sentence!["where ", conditions(case), ": ", acts],
                     });
                 }
                 let moving = scene
