@@ -280,11 +280,12 @@ fn jumps(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence> 
 /// Words for an inequality without a threshold.
 fn always(gap: &Expr, relation: Relation, domains: &Domains) -> Sentence {
     let s = sign(gap, domains);
-    let reason = |what: &str| {
-        format!(
+    let reason = |what: &str| match gap.is_zero() {
+        true => String::from("both sides are the same"),
+        false => format!(
             "left side minus right side is {}, which is {what} on the whole domain",
             write_plain(gap)
-        )
+        ),
     };
     let (yes, no) = match relation {
         Relation::Less => (

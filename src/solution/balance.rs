@@ -6,7 +6,6 @@ use super::{Claim, Detail, Inline, Math, Writer};
 use crate::derive::Equation;
 use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Direction, Law, Place};
-use crate::scene::ContactLaw;
 
 /// Longest balance of linear momentum, in nodes, that is written as change = impulses.
 const LONG: usize = 60;
@@ -53,7 +52,8 @@ impl Writer<'_> {
                     AXES[*axis]
                 ));
             }
-            Law::Condition(..) | Law::Given(_) => {
+            Law::Given(k) => self.given(*k),
+            Law::Condition(..) => {
                 self.say(&format!("{}:", words::capital(&reason)));
             }
         }
@@ -647,132 +647,6 @@ impl Writer<'_> {
             }
             Place::Hinge(h) => self.d.names.is_reversed(laws::Unknown::Hinge(h, 0)),
             _ => false,
-        }
-    }
-
-    /// Restitution in vectors, and how the touching points move.
-    fn restitution(&mut self, c: usize) {
-        let contact = &self.scene.contacts[c];
-        let [one, two] = contact.bodies;
-        let at = contact.name.clone();
-        let ContactLaw::Frictionless { restitution } = contact.law.clone() else {
-            return;
-        };
-        let is_string = self.scene.figure.string(&at).is_some();
-        let rule = if is_string {
-            "The string does not stretch: its ends move alike along it"
-        } else if restitution.is_one() {
-            "Restitution with e = 1: the points in contact separate along the normal as fast as they approached"
-        } else if restitution.is_zero() {
-            "Restitution with e = 0: the points in contact do not separate along the normal"
-        } else {
-            "Restitution: the points in contact separate along the normal at "
-        };
-        let at_it = words::at(self.scene, Place::Contact(c));
-        // A rule that was told for one contact is not told again for the next.
-        let again = !self
-            .told
-            .insert(Symbol::from(format!("{rule} {restitution:?}")));
-        let mut text = vec![say(match again {
-            true => format!("Likewise at {at_it}"),
-            false => rule.to_string(),
-        })];
-        if rule.ends_with("at ") && !again {
-            text.push(words::formula(&restitution));
-            text.push(say(" times their speed of approach"));
-        }
-        let there = match again {
-            true => String::new(),
-            false => format!(" at {at_it}"),
-        };
-        // Of a support at rest nothing needs to be said; the normal points away from it.
-        let place = Place::Contact(c);
-        let moving: Vec<usize> = [one, two]
-            .into_iter()
-            .filter(|b| !self.stands(*b, place))
-            .collect();
-        let flipped = moving == [one];
-        let (from, to) = if flipped { (two, one) } else { (one, two) };
-        let (first, second) = (words::body(self.scene, from), words::body(self.scene, to));
-        let mut normal = vec![name("n", "", "", true)];
-        if let Some(n) = self.scene.contacts[c].normal.clone() {
-            let n = if flipped { n.map(|x| -x) } else { n };
-            let n = self.tidy_vector(&n);
-            normal.extend([Math::Op("="), Math::Vector(n)]);
-        }
-        let normal = Inline::Math(normal);
-        let through: Vec<usize> = moving
-            .iter()
-            .copied()
-            .filter(|b| self.passes_center(*b, c))
-            .collect();
-        let with = |words: &str| match again {
-            true => format!("; {words}"),
-            false => format!(". {}", words::capital(words)),
-        };
-        if is_string {
-            let end = say(format!(" in which it pulls {second},"));
-            text.extend([say(with("with the direction ")), normal, end]);
-        } else if through.is_empty() {
-            let end = say(format!("{there} from {first} to {second},"));
-            text.extend([say(with("with the normal ")), normal, end]);
-        } else {
-            let centers = if through.len() == 1 {
-                "center"
-            } else {
-                "centers"
-            };
-            let whose = words::bodies(self.scene, &through);
-            let end = say(format!(
-                "{there}, from {first} to {second}, passes through the {centers} of mass of {whose}:"
-            ));
-            text.extend([say(with("the normal ")), normal, end]);
-        }
-        self.text(text);
-        let index = |b: usize| {
-            if self.scene.bodies[b].is_particle()
-                || self.spin_after(b).is_zero() && moving.len() == 2
-                || through.contains(&b)
-            {
-                words::center(self.scene, b)
-            } else if moving.len() == 1 {
-                at.clone()
-            } else {
-                format!("{at},{}", words::center(self.scene, b))
-            }
-        };
-        let indices = [from, to].map(index);
-        let both = moving.len() == 2;
-        let relative = |mark| {
-            let mut math = vec![name("v", &indices[1], mark, true)];
-            if both {
-                math.extend([Math::Op("−"), name("v", &indices[0], mark, true)]);
-                return Math::Brackets(math);
-            }
-            math.remove(0)
-        };
-        let n = || name("n", "", "", true);
-        let mut math = vec![relative("+"), Math::Op("·"), n(), Math::Op("=")];
-        let turns = |index: &String| index.starts_with(at.as_str());
-        // Of a single point the relation of rigid bodies stands in the same line.
-        if !both && turns(&indices[1]) {
-            math.extend(self.rigid(to, c));
-            math.extend([Math::Op("·"), n(), Math::Op("=")]);
-        }
-        if restitution.is_zero() {
-            math.push(Math::Expr(Expr::zero()));
-        } else {
-            math.push(Math::Op("−"));
-            if !restitution.is_one() {
-                math.push(Math::Factor(restitution));
-            }
-            math.extend([relative("-"), Math::Op("·"), n()]);
-        }
-        self.show(math, None);
-        for (b, index) in [to, from].into_iter().zip(indices.iter().rev()) {
-            if both && turns(index) {
-                self.point_velocity(b, c, index);
-            }
         }
     }
 }

@@ -8,6 +8,7 @@ mod answers;
 mod asked;
 mod balance;
 mod block;
+mod contact;
 mod eliminate;
 mod notice;
 mod page;
@@ -377,6 +378,9 @@ impl<'a> Writer<'a> {
                     .or_insert_with(|| latex.to_string());
             }
         }
+        let given_zero = derivation.given.iter();
+        let given_zero = given_zero.filter(|(_, value)| value.is_zero());
+        let given_zero = given_zero.map(|(u, _)| *u).collect();
         let mut field = Field::new(&scene.domains);
         let symbols: Vec<Expr> = meanings.keys().map(|s| Expr::symbol(s)).collect();
         let mut all: Vec<&Expr> = derivation.motion.values().collect();
@@ -411,7 +415,7 @@ impl<'a> Writer<'a> {
             nested: false,
             within: String::new(),
             told: BTreeSet::new(),
-            zero: BTreeSet::new(),
+            zero: given_zero,
         }
     }
 

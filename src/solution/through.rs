@@ -1,8 +1,8 @@
 //! Two ways to spare a reader equations: what no impulse acts on keeps its value, said in a clause; and where every velocity
 //! follows from the impulses alone, the balances are told together and leave equations for the impulses.
 
+use super::Writer;
 use super::words::{self, say};
-use super::{Math, Writer};
 use crate::derive::{Block, Equation};
 use crate::expr::{Expr, Symbol};
 use crate::laws::{Direction, Law, Place, Unknown};
@@ -67,7 +67,7 @@ impl Writer<'_> {
             .collect();
         if !spins.is_empty() {
             let about = match spins.as_slice() {
-                [b] => words::at(self.scene, Place::Center(*b)),
+                [b] => format!("the center of mass of {}", words::body(self.scene, *b)),
                 all => format!("the center of mass of {}", words::either(self.scene, all)),
             };
             reasons.push(format!("no impulse has a moment about {about}"));
@@ -350,69 +350,5 @@ impl Writer<'_> {
         } else {
             sum
         }
-    }
-
-    /// Whether the normal at a contact passes through the center of mass of a body, so that its spin does not count.
-    pub(super) fn passes_center(&mut self, b: usize, c: usize) -> bool {
-        let body = &self.scene.bodies[b];
-        let Some(n) = self.scene.contacts[c].normal.clone() else {
-            return false;
-        };
-        if body.is_particle() || body.is_fixed() || self.reduction.tree.iter().any(|l| l.body == b)
-        {
-            return false;
-        }
-        let arm = self.arm(&self.g.place(Place::Contact(c)).clone(), Place::Center(b));
-        let moment = &arm[0] * &n[1] - &arm[1] * &n[0];
-        !self.spin_after(b).is_zero() && self.vanishes(&moment)
-    }
-
-    /// `(v + ω × r)` just after for the touching point of a body, from its center of mass or from the joint it turns about.
-    pub(super) fn rigid(&self, b: usize, c: usize) -> [Math; 1] {
-        let link = self.reduction.tree.iter().find(|l| l.body == b).copied();
-        let carrier = link.map_or(Place::Center(b), |l| l.at);
-        let base = words::point(self.scene, carrier);
-        let mut whole = Vec::new();
-        if !link.is_some_and(|l| self.stands(l.to, l.at)) {
-            whole.extend([words::name("v", &base, "+", true), Math::Op("+")]);
-        }
-        let arm = format!("{}/{base}", self.scene.contacts[c].name);
-        whole.extend([
-            words::name("omega", &words::center(self.scene, b), "+", true),
-            Math::Op("×"),
-            words::name("r", &arm, "", true),
-        ]);
-        [Math::Brackets(whole)]
-    }
-
-    /// The velocity just after of the touching point of a body along the normal, (v + ω × r) · n.
-    pub(super) fn point_velocity(&mut self, b: usize, c: usize, index: &str) {
-        let Some(n) = self.scene.contacts[c].normal.clone() else {
-            return;
-        };
-        let at = self.g.place(Place::Contact(c)).clone();
-        let forms = self.reduced.velocity_of(&self.g, b, &at);
-        let v = [0, 1].map(|axis| self.form(&forms[axis]));
-        let along = self.tidy(&(&v[0] * &n[0] + &v[1] * &n[1]));
-        let n = || words::name("n", "", "", true);
-        let mut math = vec![
-            words::name("v", index, "+", true),
-            Math::Op("·"),
-            n(),
-            Math::Op("="),
-        ];
-        math.extend(self.rigid(b, c));
-        math.extend([Math::Op("·"), n()]);
-        if along.size() <= READABLE {
-            math.extend([Math::Op("="), Math::Expr(along)]);
-        }
-        self.show(math, None);
-    }
-
-    /// Whether a body is fixed and its point at a place does not move.
-    pub(super) fn stands(&self, b: usize, at: Place) -> bool {
-        let here = self.g.place(at).clone();
-        self.scene.bodies[b].is_fixed()
-            && self.g.velocity_before(b, &here).iter().all(Expr::is_zero)
     }
 }

@@ -413,7 +413,7 @@ pub(super) fn impulsive(told: &StageTold) -> Vec<Sentence> {
         ]);
     }
     for f in &scene.forces {
-        out.push(sentence!["`", &f.name, "` on `", &scene.bodies[f.body].name, "` is finite: over a contact time τ its impulse is at most its largest size times τ, which vanishes with τ; it is left out"]);
+        out.push(sentence!["`", &f.name, "` on `", &scene.bodies[f.body].name, "` is finite: its impulse is at most its largest size times the duration of the contact, and vanishes with it"]);
     }
     out
 }

@@ -191,7 +191,7 @@ fn one(
             } else {
                 sentence![
                     &of,
-                    " does not need ",
+                    " is found without ",
                     Sentence::list(&unused.iter().map(Sentence::from).collect::<Vec<_>>())
                 ]
             });

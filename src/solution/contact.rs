@@ -1,0 +1,244 @@
+//! What a contact or a known velocity says of the motion just after: restitution along the normal, the relation of rigid
+//! bodies for the touching points, and where a normal passes through a center of mass.
+
+use super::words::{self, name, say};
+use super::{Inline, Math, Writer};
+use crate::expr::{Expr, Symbol};
+use crate::laws::Place;
+use crate::scene::{ContactLaw, KnownQuantity};
+
+/// Largest velocity, in nodes, that is written out for a touching point.
+const READABLE: usize = 90;
+
+impl Writer<'_> {
+    /// What is known of the motion just after, with the relation of rigid bodies where it is about a point of one.
+    pub(super) fn given(&mut self, k: usize) {
+        let known = self.scene.after[k].clone();
+        let body = words::body(self.scene, known.body);
+        let KnownQuantity::Velocity { at, along } = &known.what else {
+            return self.say(&format!("The given spin of {body}:"));
+        };
+        let center = words::center(self.scene, known.body);
+        let scene = self.scene;
+        let contacts = scene.contacts.iter().map(|c| (&c.name, &c.at));
+        let hinges = scene.hinges.iter().map(|h| (&h.name, &h.at));
+        let blows = scene.blows.iter().map(|b| (&b.name, &b.at));
+        let mut places = contacts.chain(hinges).chain(blows);
+        let is_center = *at == scene.bodies[known.body].center;
+        let point = places.find(|(_, p)| *p == at).filter(|_| !is_center);
+        let mut math = Vec::new();
+        let of = match point {
+            Some((name, _)) => {
+                math.extend(self.rigid(known.body, name));
+                format!(
+                    "the velocity of {} on {body}",
+                    words::place(name, "contact")
+                )
+            }
+            None if is_center => {
+                math.push(name("v", &center, "+", true));
+                format!("the velocity of {body}")
+            }
+            None => return self.say(&format!("The given velocity of {body}:")),
+        };
+        let along = self.tidy_vector(along);
+        math.extend([
+            Math::Op("·"),
+            Math::Brackets(vec![Math::Vector(along)]),
+            Math::Op("="),
+            Math::Expr(known.value.clone()),
+        ]);
+        self.say(&format!("Given is a component of {of} just after:"));
+        self.show(math, None);
+    }
+
+    /// Restitution in vectors, and how the touching points move.
+    pub(super) fn restitution(&mut self, c: usize) {
+        let contact = &self.scene.contacts[c];
+        let [one, two] = contact.bodies;
+        let at = contact.name.clone();
+        let ContactLaw::Frictionless { restitution } = contact.law.clone() else {
+            return;
+        };
+        let is_string = self.scene.figure.string(&at).is_some();
+        let rule = if is_string {
+            "The string does not stretch: its ends move alike along it"
+        } else if restitution.is_one() {
+            "Restitution with e = 1: the points in contact separate along the normal as fast as they approached"
+        } else if restitution.is_zero() {
+            "Restitution with e = 0: the points in contact do not separate along the normal"
+        } else {
+            "Restitution: the points in contact separate along the normal at "
+        };
+        let at_it = words::at(self.scene, Place::Contact(c));
+        // A rule that was told for one contact is not told again for the next.
+        let again = !self
+            .told
+            .insert(Symbol::from(format!("{rule} {restitution:?}")));
+        let mut text = vec![say(match again {
+            true => format!("Likewise at {at_it}"),
+            false => rule.to_string(),
+        })];
+        if rule.ends_with("at ") && !again {
+            text.push(words::formula(&restitution));
+            text.push(say(" times their speed of approach"));
+        }
+        let there = match again {
+            true => String::new(),
+            false => format!(" at {at_it}"),
+        };
+        // Of a support at rest nothing needs to be said; the normal points away from it.
+        let place = Place::Contact(c);
+        let moving: Vec<usize> = [one, two]
+            .into_iter()
+            .filter(|b| !self.stands(*b, place))
+            .collect();
+        let flipped = moving == [one];
+        let (from, to) = if flipped { (two, one) } else { (one, two) };
+        let (first, second) = (words::body(self.scene, from), words::body(self.scene, to));
+        let mut normal = vec![name("n", "", "", true)];
+        if let Some(n) = self.scene.contacts[c].normal.clone() {
+            let n = if flipped { n.map(|x| -x) } else { n };
+            let n = self.tidy_vector(&n);
+            normal.extend([Math::Op("="), Math::Vector(n)]);
+        }
+        let normal = Inline::Math(normal);
+        let through: Vec<usize> = moving
+            .iter()
+            .copied()
+            .filter(|b| self.passes_center(*b, c))
+            .collect();
+        let with = |words: &str| match again {
+            true => format!("; {words}"),
+            false => format!(". {}", words::capital(words)),
+        };
+        if is_string {
+            let end = say(format!(" in which it pulls {second},"));
+            text.extend([say(with("with the direction ")), normal, end]);
+        } else if through.is_empty() {
+            let end = say(format!("{there} from {first} to {second},"));
+            text.extend([say(with("with the normal ")), normal, end]);
+        } else {
+            let centers = if through.len() == 1 {
+                "center"
+            } else {
+                "centers"
+            };
+            let whose = words::bodies(self.scene, &through);
+            let end = say(format!(
+                "{there}, from {first} to {second}, passes through the {centers} of mass of {whose}:"
+            ));
+            text.extend([say(with("the normal ")), normal, end]);
+        }
+        self.text(text);
+        let index = |b: usize| {
+            if self.scene.bodies[b].is_particle()
+                || self.spin_after(b).is_zero() && moving.len() == 2
+                || through.contains(&b)
+            {
+                words::center(self.scene, b)
+            } else if moving.len() == 1 {
+                at.clone()
+            } else {
+                format!("{at},{}", words::center(self.scene, b))
+            }
+        };
+        let indices = [from, to].map(index);
+        let both = moving.len() == 2;
+        let relative = |mark| {
+            let mut math = vec![name("v", &indices[1], mark, true)];
+            if both {
+                math.extend([Math::Op("−"), name("v", &indices[0], mark, true)]);
+                return Math::Brackets(math);
+            }
+            math.remove(0)
+        };
+        let n = || name("n", "", "", true);
+        let mut math = vec![relative("+"), Math::Op("·"), n(), Math::Op("=")];
+        let turns = |index: &String| index.starts_with(at.as_str());
+        // Of a single point the relation of rigid bodies stands in the same line.
+        if !both && turns(&indices[1]) {
+            math.extend(self.rigid(to, &at));
+            math.extend([Math::Op("·"), n(), Math::Op("=")]);
+        }
+        if restitution.is_zero() {
+            math.push(Math::Expr(Expr::zero()));
+        } else {
+            math.push(Math::Op("−"));
+            if !restitution.is_one() {
+                math.push(Math::Factor(restitution));
+            }
+            math.extend([relative("-"), Math::Op("·"), n()]);
+        }
+        self.show(math, None);
+        for (b, index) in [to, from].into_iter().zip(indices.iter().rev()) {
+            if both && turns(index) {
+                self.point_velocity(b, c, index);
+            }
+        }
+    }
+
+    /// Whether the normal at a contact passes through the center of mass of a body, so that its spin does not count.
+    pub(super) fn passes_center(&mut self, b: usize, c: usize) -> bool {
+        let body = &self.scene.bodies[b];
+        let Some(n) = self.scene.contacts[c].normal.clone() else {
+            return false;
+        };
+        if body.is_particle() || body.is_fixed() || self.reduction.tree.iter().any(|l| l.body == b)
+        {
+            return false;
+        }
+        let arm = self.arm(&self.g.place(Place::Contact(c)).clone(), Place::Center(b));
+        let moment = &arm[0] * &n[1] - &arm[1] * &n[0];
+        !self.spin_after(b).is_zero() && self.vanishes(&moment)
+    }
+
+    /// `(v + ω × r)` just after for the touching point of a body, from its center of mass or from the joint it turns about.
+    pub(super) fn rigid(&self, b: usize, point: &str) -> [Math; 1] {
+        let link = self.reduction.tree.iter().find(|l| l.body == b).copied();
+        let carrier = link.map_or(Place::Center(b), |l| l.at);
+        let base = words::point(self.scene, carrier);
+        let mut whole = Vec::new();
+        if !link.is_some_and(|l| self.stands(l.to, l.at)) {
+            whole.extend([name("v", &base, "+", true), Math::Op("+")]);
+        }
+        let arm = format!("{point}/{base}");
+        whole.extend([
+            name("omega", &words::center(self.scene, b), "+", true),
+            Math::Op("×"),
+            name("r", &arm, "", true),
+        ]);
+        [Math::Brackets(whole)]
+    }
+
+    /// The velocity just after of the touching point of a body along the normal, (v + ω × r) · n.
+    pub(super) fn point_velocity(&mut self, b: usize, c: usize, index: &str) {
+        let Some(n) = self.scene.contacts[c].normal.clone() else {
+            return;
+        };
+        let at = self.g.place(Place::Contact(c)).clone();
+        let forms = self.reduced.velocity_of(&self.g, b, &at);
+        let v = [0, 1].map(|axis| self.form(&forms[axis]));
+        let along = self.tidy(&(&v[0] * &n[0] + &v[1] * &n[1]));
+        let n = || name("n", "", "", true);
+        let mut math = vec![
+            name("v", index, "+", true),
+            Math::Op("·"),
+            n(),
+            Math::Op("="),
+        ];
+        math.extend(self.rigid(b, &self.scene.contacts[c].name));
+        math.extend([Math::Op("·"), n()]);
+        if along.size() <= READABLE {
+            math.extend([Math::Op("="), Math::Expr(along)]);
+        }
+        self.show(math, None);
+    }
+
+    /// Whether a body is fixed and its point at a place does not move.
+    pub(super) fn stands(&self, b: usize, at: Place) -> bool {
+        let here = self.g.place(at).clone();
+        self.scene.bodies[b].is_fixed()
+            && self.g.velocity_before(b, &here).iter().all(Expr::is_zero)
+    }
+}
