@@ -346,7 +346,14 @@ fn forces(stage: &Stage, sheet: &mut Sheet, kind: &StageKind, body: usize, end: 
         });
     };
     if let Some(g) = gravity {
-        arrow([at[0], at[1] - 40.0], &(&stage.scene.bodies[body].mass * g));
+        let with: &[usize] = match kind {
+            StageKind::Turn(turn) => &turn.with,
+            StageKind::Slide(slide) => &slide.with,
+            _ => &[],
+        };
+        let masses = with.iter().chain([&body]);
+        let mass = Expr::sum(masses.map(|b| stage.scene.bodies[*b].mass.clone()));
+        arrow([at[0], at[1] - 40.0], &(&mass * g));
     }
     if let Some((force, direction)) = push
         && let Some(d) = stage.values.pair(direction)

@@ -125,7 +125,7 @@ impl Stage<'_> {
             .contacts
             .iter()
             .find(|c| c.bodies.contains(&body) && self.scene.figure.string(&c.name).is_none());
-        let Some(contact) = contact else {
+        let Some(contact) = contact.filter(|_| !self.hangs(body)) else {
             return nothing;
         };
         let other = if contact.bodies[0] == body {
@@ -162,6 +162,7 @@ impl Stage<'_> {
         let both_dots = self.scene.bodies[other].is_particle();
         let near = match self.poses[other].look {
             Look::Bar(_) => DOT + THICK + 1.0,
+            Look::Dot if self.hangs(other) => 2.0 * DOT,
             Look::Dot => DOT,
             _ => DOT + 1.0,
         };
@@ -191,6 +192,14 @@ impl Stage<'_> {
             }
         };
         [back[0] * (near + gap), back[1] * (near + gap)]
+    }
+
+    /// Whether a particle hangs on a string, which is drawn to where the particle is.
+    fn hangs(&self, body: usize) -> bool {
+        let string = |name: &str| self.scene.figure.string(name).is_some();
+        let mut contacts = self.scene.contacts.iter();
+        string(&self.scene.bodies[body].name)
+            || contacts.any(|c| string(&c.name) && c.bodies.contains(&body))
     }
 
     /// Draws a body, moved aside by some pixels.

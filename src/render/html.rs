@@ -56,7 +56,7 @@ p{margin:.55rem 0}
 .source{color:#555;font-style:italic;margin-top:0}
 .display{overflow-x:auto;overflow-y:hidden;margin:.5rem 0;padding:.15rem 0}
 .display math{margin:0 0 0 1.2rem;text-align:left}
-.result math{border:1px solid #888;padding:.25em .7em;box-sizing:content-box;width:max-content;margin:0 auto}
+.result math{border:1px solid #888;padding:.25em 0;width:max-content;margin:0 auto}
 .phone{display:none}
 math{font-family:'carom math',math;font-size:1.05em}
 mover>mo{font-size:.75em}
@@ -64,6 +64,8 @@ mover>mo{font-size:.75em}
 mtable{border-spacing:0}
 mtd{padding:.22em .12em;text-align:left}
 mtd.l{text-align:right;white-space:nowrap}
+.result mtd.l{padding-left:.8em}
+.result mtd:last-child{padding-right:.8em}
 .matrix mtd{padding:.25em .5em;text-align:center}
 ul{padding-left:1.3rem}
 li{margin:.3rem 0}
