@@ -36,7 +36,7 @@ pub(super) fn fill(
         Err(Unsolved::Absent) => {
             let words = always(&gap, relation, domains);
             out.text
-                .push(sentence![words, ", whatever ", parameter, " is"]);
+                .push(sentence![words, "; ", parameter, " plays no part"]);
             return;
         }
         Err(Unsolved::Inside) => {
