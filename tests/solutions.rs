@@ -614,7 +614,7 @@ fn no_equation_stands_twice() {
         for section in solution.sections.iter().filter(shows) {
             // Stages and their cases have motions, and so kinetic energies, of their own.
             let case_of = |h: &solution::Inline| matches!(h, solution::Inline::Text(t) if t.starts_with("Case "));
-            if case.scene.story.is_some()
+            if case.scene.has_stages()
                 && (section.depth == 0 || section.heading.first().is_some_and(case_of))
             {
                 seen.clear();
@@ -752,7 +752,7 @@ fn points_with_names_in_words_have_their_articles_and_one_check_is_told() {
     for case in cases() {
         let text = render::plain::solution(&case.solution(Detail::Normal));
         let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-        let story = case.scene.story.iter().flat_map(|s| &s.stages);
+        let story = case.scene.stages.iter();
         let scenes = story.map(|s| &s.scene).chain([&case.scene]);
         for scene in scenes {
             let contacts = scene.contacts.iter().map(|c| &c.name);
@@ -784,7 +784,7 @@ fn a_solution_keeps_to_four_hundred_words_a_stage() {
     let mut faults = Vec::new();
     for case in cases() {
         let solution = case.solution(Detail::Normal);
-        let stages = case.scene.story.as_ref().map_or(1, |s| s.stages.len());
+        let stages = case.scene.stages.len().max(1);
         // An impact with several outcomes is told once for each.
         let stages = stages.max(solution.scopes.len());
         let (words, lines) = length(&solution);

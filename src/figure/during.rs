@@ -347,7 +347,7 @@ impl Named {
 fn impulse_name(stage: &Stage, from: ImpulseAt, name: &str, directed: bool) -> Named {
     let scene = stage.scene;
     // What the reader is told of comes before what carom asks itself.
-    let (asked, hidden): (Vec<_>, Vec<_>) = scene.questions.iter().partition(|q| !q.hidden);
+    let (asked, hidden): (Vec<_>, Vec<_>) = scene.asked_of_impact().partition(|q| !q.hidden);
     for question in asked.into_iter().chain(hidden) {
         if let Ask::Impulse {
             from: asked,

@@ -79,14 +79,13 @@ pub(super) fn symbols(piece: &Inline) -> impl Iterator<Item = crate::expr::Symbo
 
 /// Names between backquotes: bodies get their article, stages their quotation marks, and points what a sentence needs.
 pub(super) fn called(scene: &Scene, words: &str) -> String {
-    let stages = || scene.story.iter().flat_map(|s| &s.stages);
     let mut out = String::new();
     for (i, part) in words.split('`').enumerate() {
         if i % 2 == 0 {
             out.push_str(part);
         } else if let Some(b) = scene.bodies.iter().position(|b| b.name == part) {
             out.push_str(&words::body(scene, b));
-        } else if stages().any(|s| s.name == part) {
+        } else if scene.stages.iter().any(|s| s.name == part) {
             out.push_str(&words::stage(part));
         } else if scene.parameters.iter().any(|p| *p.name == *part) {
             out.push_str(part);
@@ -231,7 +230,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     }
     let brief = solution.detail == Detail::Brief;
     // What the whole solution rests on is told at its end.
-    let stages = scene.story.is_some();
+    let stages = scene.has_stages();
     let given = answer.assumptions.iter();
     let given = given.filter(|a| stages || !solution.assumptions.contains(&a.to_string()));
     let given: Vec<Sentence> = given.cloned().collect();
@@ -445,8 +444,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
 
 /// Whether another question of the scene asks about this symbol.
 fn is_used(scene: &Scene, name: &crate::expr::Symbol) -> bool {
-    let stories = scene.story.iter().flat_map(|s| &s.questions);
-    let mut asks = scene.special.iter().chain(stories).map(|q| &q.ask);
+    let mut asks = scene.questions.iter().map(|q| &q.ask);
     let has = |e: &Expr| e.symbols().contains(name);
     asks.any(|ask| match ask {
         Ask::Value { formula, with, .. } => has(formula) || with.iter().any(|(_, e)| has(e)),
