@@ -63,6 +63,10 @@ pub(in crate::numeric::follow) fn fall(
     let movers = Movers::of(course, &bodies, &closed, from)
         .map_err(|_| course.out_of_reach("the place of the body is open"))?;
     let (units, run) = flight(course, &movers, gravity, (&end, fall.rising))?;
+    let sizes = [units.length, units.time, units.mass];
+    if !sizes.iter().chain(&run.end).all(|x| x.is_finite()) {
+        return Err(course.out_of_reach("the flight goes beyond the doubles"));
+    }
     let (mut after, samples) = movers.ended(course, &units, &run, &closed);
     let open = course.open(Why::Needed);
     for b in &bodies {
