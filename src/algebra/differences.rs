@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 
 use super::field::{AngleOf, Field, Kind};
+use super::image;
 use super::poly::Poly;
 use crate::expr::{Expr, Symbol};
 
@@ -39,6 +40,10 @@ impl Field {
                 }
         });
         if !independent || angles.iter().any(|(_, d, ..)| *d != divisor) {
+            return None;
+        }
+        let turning: Vec<(usize, usize)> = angles.iter().map(|(_, _, c, s)| (*c, *s)).collect();
+        if image::changes_by_turning(p, &turning) {
             return None;
         }
         // How the polynomial changes as each angle is turned by itself.

@@ -1,6 +1,7 @@
 //! Images of polynomials in one variable modulo 2⁶¹ − 1, all others at one fixed point.
 //!
-//! In: polynomials. Out: what they refuse, which is certain: that one divides another, that some have a common divisor.
+//! In: polynomials. Out: what they refuse, which is certain: that one divides another, that some have a common
+//! divisor, that one depends on differences of angles alone.
 //! What they allow has to be shown by other means.
 
 use num_integer::Integer;
@@ -77,6 +78,82 @@ pub(super) fn refuses(divisor: &Poly, dividend: &Poly) -> bool {
         next
     });
     a != 0 && value != 0
+}
+
+/// Whether a polynomial changes when angles, given by the variables of their cosines and sines, are turned together, each in
+/// whatever sense: at one point it does, which is certain.
+pub(super) fn changes_by_turning(p: &Poly, angles: &[(usize, usize)]) -> bool {
+    let points = circle_points(angles.len());
+    // Each angle's share in the change, as it is turned by itself.
+    let mut rates = vec![0; angles.len()];
+    for (mono, coeff) in p.terms() {
+        let mut rest = residue(coeff);
+        for (v, k) in powers(mono) {
+            if angles.iter().all(|(c, s)| v != *c && v != *s) {
+                let x = random::<PLAIN>(v as u64, 0);
+                rest = times::<PLAIN>(rest, power::<PLAIN>(x, k.into()));
+            }
+        }
+        let of = |k: usize| {
+            let ((c, s), (x, y)) = (angles[k], points[k]);
+            let (a, b) = (exponent(mono, c), exponent(mono, s));
+            let at = |a: u32, b: u32| {
+                times::<PLAIN>(power::<PLAIN>(x, a.into()), power::<PLAIN>(y, b.into()))
+            };
+            // cᵃ sᵇ and its derivative b cᵃ⁺¹ sᵇ⁻¹ − a cᵃ⁻¹ sᵇ⁺¹.
+            let up = match b {
+                0 => 0,
+                _ => times::<PLAIN>(b.into(), at(a + 1, b - 1)),
+            };
+            let down = match a {
+                0 => 0,
+                _ => times::<PLAIN>(a.into(), at(a - 1, b + 1)),
+            };
+            (at(a, b), add::<PLAIN>(up, negative::<PLAIN>(down)))
+        };
+        let parts: Vec<(u64, u64)> = (0..angles.len()).map(of).collect();
+        for (k, rate) in rates.iter_mut().enumerate() {
+            let mut change = times::<PLAIN>(rest, parts[k].1);
+            for (_, (value, _)) in parts.iter().enumerate().filter(|(j, _)| *j != k) {
+                change = times::<PLAIN>(change, *value);
+            }
+            *rate = add::<PLAIN>(*rate, change);
+        }
+    }
+    let Some((last, others)) = rates.split_last() else {
+        return false;
+    };
+    (0..1_u32 << others.len()).all(|senses| {
+        let signed = others
+            .iter()
+            .enumerate()
+            .map(|(k, rate)| match senses >> k & 1 {
+                1 => negative::<PLAIN>(*rate),
+                _ => *rate,
+            });
+        signed.fold(*last, add::<PLAIN>) != 0
+    })
+}
+
+/// Points of the unit circle: multiples of the angle with cosine 3/5 that are far apart.
+fn circle_points(n: usize) -> Vec<(u64, u64)> {
+    let fifth = ((4 * u128::from(prime::prime::<PLAIN>()) + 1) / 5) as u64;
+    let first = (times::<PLAIN>(3, fifth), times::<PLAIN>(4, fifth));
+    let turned = |(a, b): (u64, u64), (c, d): (u64, u64)| {
+        let minus = negative::<PLAIN>(times::<PLAIN>(b, d));
+        (
+            add::<PLAIN>(times::<PLAIN>(a, c), minus),
+            add::<PLAIN>(times::<PLAIN>(a, d), times::<PLAIN>(b, c)),
+        )
+    };
+    let mut at = first;
+    let next = |_| {
+        // Eight times the angle before, and one more.
+        (0..3).for_each(|_| at = turned(at, at));
+        at = turned(at, first);
+        at
+    };
+    (0..n).map(next).collect()
 }
 
 /// The variables that a common divisor of polynomials may have, ascending; no other can occur in it.

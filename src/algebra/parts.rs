@@ -75,6 +75,7 @@ impl Field {
     /// Factors of the shorter of the forms without sin² and without cos².
     pub(crate) fn taken_apart(&self, p: &Poly) -> Parts {
         let mut best = Parts::of(p, &self.fuel);
+        let mut least = None;
         let mut form = p.clone();
         for (c, s) in self.circles() {
             if form.degree(c) < 2 {
@@ -84,7 +85,9 @@ impl Field {
                 continue;
             };
             let candidate = Parts::of(&other, &self.fuel);
-            if self.length(&candidate) < self.length(&best) {
+            let length = self.length(&candidate);
+            if length < *least.get_or_insert_with(|| self.length(&best)) {
+                least = Some(length);
                 best = candidate;
                 form = other;
             }

@@ -34,10 +34,8 @@ impl Field {
     /// The element as a person would write it. Read again, it gives the same element.
     pub fn expr(&self, x: &Element) -> Expr {
         self.fuel.refill();
-        let known =
-            |(y, e): &(Element, Expr)| (y.num == x.num && y.den == x.den).then(|| e.clone());
-        if let Some(e) = self.wrote.borrow().iter().find_map(known) {
-            return e;
+        if let Some(known) = self.remembered(x) {
+            return known;
         }
         let e = self.written(x);
         let mut wrote = self.wrote.borrow_mut();
@@ -46,6 +44,35 @@ impl Field {
         }
         wrote.push_back((x.clone(), e.clone()));
         e
+    }
+
+    /// The element as it is stored, a sum of products over a denominator, for what nobody reads; as a person would write it
+    /// where that has just been done.
+    pub fn stored(&self, x: &Element) -> Expr {
+        if let Some(known) = self.remembered(x) {
+            return known;
+        }
+        let product = |coeff: Expr, mono: &[u64]| {
+            let factors = powers(mono).map(|(v, k)| {
+                let (base, own) = self.generator(v);
+                base.power(Expr::from(own * ratio(i64::from(k), 1)))
+            });
+            Expr::product(std::iter::once(coeff).chain(factors))
+        };
+        let sum = |p: &Poly| {
+            let terms = p.terms();
+            Expr::sum(terms.map(|(m, c)| product(Expr::from(Rational::from(c.clone())), m)))
+        };
+        let below = product(Expr::from(Rational::from(x.den.int.clone())), &x.den.mono);
+        let factors = x.den.factors.iter();
+        let below = factors.fold(below, |below, (f, k)| below * sum(f).powi(i64::from(*k)));
+        sum(&x.num) / below
+    }
+
+    fn remembered(&self, x: &Element) -> Option<Expr> {
+        let known =
+            |(y, e): &(Element, Expr)| (y.num == x.num && y.den == x.den).then(|| e.clone());
+        self.wrote.borrow().iter().find_map(known)
     }
 
     fn written(&self, x: &Element) -> Expr {

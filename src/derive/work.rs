@@ -17,6 +17,10 @@ use crate::expr::{Expr, Vector};
 use crate::laws::{self, Affine, Geometry, Kinematics, Law, Unknown};
 use crate::scene::Scene;
 
+/// Arms and positions of a larger size than this are written anew before laws are made of them: those of a chain are sums
+/// over all its members.
+const SHORT: usize = 8;
+
 /// A law as it stands before anything already solved is put in.
 struct Written {
     pub(super) law: Law,
@@ -54,9 +58,19 @@ impl<'a> Work<'a> {
         let mut field = Field::new(&scene.domains);
         let formulas = formulas(scene);
         field.prepare(formulas.iter());
-        let Ok(g) = Geometry::of(scene, |e| Ok::<_, std::convert::Infallible>(e.clone()));
+        let short = |field: &mut Field, e: &Expr| match e.size() > SHORT {
+            true => field.element(e).map_or(e.clone(), |x| field.stored(&x)),
+            false => e.clone(),
+        };
+        let Ok(g) = Geometry::of(scene, |e| {
+            Ok::<_, std::convert::Infallible>(short(&mut field, e))
+        });
         let reduction = plan::reduction(scene);
-        let reduced = reduction.kinematics(scene, &g);
+        let mut reduced = reduction.kinematics(scene, &g);
+        let forms = reduced.velocity.iter_mut().flatten();
+        for (_, k) in forms.flat_map(|form| &mut form.terms) {
+            *k = short(&mut field, k);
+        }
         let planner = Planner::new(scene, &reduction);
         let names = Names::of(scene);
         let mut work = Work {
@@ -530,7 +544,7 @@ impl<'a> Work<'a> {
         Ok(found)
     }
 
-    /// Closed form of every unknown of the full description that has one.
+    /// Closed form of every unknown of the full description that has one, for the proof.
     pub(super) fn motion(&mut self) -> Result<BTreeMap<Unknown, Expr>, Stop> {
         let mut motion = BTreeMap::new();
         for unknown in laws::unknowns(self.scene) {
@@ -546,7 +560,7 @@ impl<'a> Work<'a> {
                 _ => self.values.get(&unknown).cloned(),
             };
             if let Some(value) = value {
-                motion.insert(unknown, self.field.expr(&value));
+                motion.insert(unknown, self.field.stored(&value));
             }
         }
         Ok(motion)
