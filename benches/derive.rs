@@ -26,7 +26,7 @@ fn main() {
         println!("  n = {n:2}: {}", last_spin(&chain(n)).len());
     }
     println!("and at any angles:");
-    for n in [1, 2, 3] {
+    for n in [1, 2, 3, 4] {
         println!("  n = {n:2}: {}", last_spin(&bent_chain(n)).len());
     }
     divan::main();
@@ -65,7 +65,7 @@ fn chain_in_line(bencher: divan::Bencher, n: usize) {
     bencher.bench(|| derive(divan::black_box(&scene)).is_ok());
 }
 
-#[divan::bench(args = [1, 2, 3], sample_count = 10)]
+#[divan::bench(args = [1, 2, 3, 4], sample_count = 10)]
 fn chain_at_any_angles(bencher: divan::Bencher, n: usize) {
     let scene = bent_chain(n);
     bencher.bench(|| derive(divan::black_box(&scene)).is_ok());
