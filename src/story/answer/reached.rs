@@ -28,6 +28,7 @@ pub(super) fn held(
     answer: &mut Answer,
 ) {
     let found = std::mem::take(&mut answer.range);
+    let had_values = !found.is_empty();
     let chain = chain(questions, answer);
     let leading = leading(stages, worlds, &chain, earlier, answer);
     // What is put in for a parameter may keep to the need by itself.
@@ -94,7 +95,7 @@ pub(super) fn held(
     answer.assumptions.sort();
     answer.assumptions.dedup();
     if let Form::Value { closed, .. } = &answer.form
-        && answer.stated.is_some()
+        && had_values
         && answer.range.is_empty()
     {
         let closed = &closed.clone();
