@@ -24,8 +24,11 @@ pub(super) fn active(case: &Case) -> String {
     }
 }
 
-/// What each support and string does in an outcome: it pushes or pulls, or comes free or goes slack.
+/// What each support and string does in an outcome: it pushes or pulls, or comes free or goes slack; or how a contact rubs.
 fn acting(one_sided: &[OneSided], case: &Case) -> String {
+    if one_sided.is_empty() {
+        return case.rubs.clone();
+    }
     let mut does: Vec<([&str; 2], Vec<String>)> = Vec::new();
     for o in one_sided {
         let verbs = match (case.active.contains(&o.name), o.is_string) {
