@@ -9,9 +9,9 @@ use super::{
     Before, Claim, Detail, Inline, Line, Math, Meaning, Part, Scope, Slot, Solution, Writer,
 };
 use crate::answer::Answer;
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Node, Symbol, dot};
 use crate::formula::Sentence;
-use crate::scene::{Ask, Scene, Stage, StageKind};
+use crate::scene::{Ask, FallEnd, Question, Scene, Stage, StageKind};
 use crate::story::{Case, StageTold, Told};
 
 /// Writes the solution of a story.
@@ -133,9 +133,22 @@ impl Page<'_> {
             }
         }
         self.solution.push(Part::Figure(Slot::Stage(i)));
-        self.kept(told);
-        if told.cases.is_empty() {
-            self.motion(stage, told);
+        if timed(told).is_some() {
+            let flies = stage.kind.moved();
+            let called = |b: &usize| match self.scene.bodies[*b].is_particle() {
+                true => words::body(self.scene, *b),
+                false => format!("the center of mass of {}", words::body(self.scene, *b)),
+            };
+            let who = flies.first().map_or_else(String::new, called);
+            let weight = format!("The weight gives {who} the constant acceleration ");
+            let g = gravity(told);
+            self.solution
+                .text(vec![say(weight), words::formula(&g), say(" downward.")]);
+        } else {
+            self.kept(told);
+            if told.cases.is_empty() {
+                self.motion(stage, told);
+            }
         }
         for (k, case) in told.cases.iter().enumerate() {
             self.impact(stage, told, case, k);
@@ -428,20 +441,14 @@ impl Page<'_> {
         self.solution.push(Part::Display(lines));
     }
 
-    /// Kinetic energy at the beginning of a motion from its velocities, untidied; a spin or speed that has a name by now
+    /// Kinetic energy at the beginning of a motion from its velocities, term by term; a spin or speed that has a name by now
     /// stands by its name.
     fn start_energy(&self, stage: &Stage, told: &StageTold) -> Expr {
         let half = Expr::ratio(1, 2);
         let square = |e: &Expr| {
-            let minus = -e;
-            let named = self.told.answers.iter().find(|a| {
-                let known = self.solution.meanings.contains_key(a.name.as_str());
-                known && a.formula().is_some_and(|f| f == e || *f == minus)
-            });
-            match named {
-                Some(answer) if !e.symbols().is_empty() => Expr::symbol(&answer.name).powi(2),
-                _ => e.powi(2),
-            }
+            let opposite = self.named(&-e);
+            let plain = opposite.as_symbol().map(|_| opposite.clone());
+            plain.unwrap_or_else(|| self.named(e)).powi(2)
         };
         if let (Some([_, inertia]), StageKind::Turn(turn)) = (&told.inertia, &stage.kind) {
             return &half * inertia * square(&told.before.spin[turn.body]);
@@ -449,10 +456,69 @@ impl Page<'_> {
         let moved = stage.kind.moved();
         Expr::sum(moved.into_iter().map(|body| {
             let b = &stage.scene.bodies[body];
-            let v = &told.before.velocity[body];
-            let moving = &half * &b.mass * (square(&v[0]) + square(&v[1]));
-            moving + &half * &b.inertia * square(&told.before.spin[body])
+            let [x, y] = &told.before.velocity[body];
+            let spin = &told.before.spin[body];
+            let mut energy = Expr::zero();
+            if !(x.is_zero() && y.is_zero()) {
+                energy = &half * &b.mass * (square(x) + square(y));
+            }
+            if !spin.is_zero() {
+                // The parts of a composite and what they add by their places are no business of its motion.
+                energy = energy + &half * tidied(self.scene, &b.inertia) * square(spin);
+            }
+            energy
         }))
+    }
+
+    /// A component of the motion by the name it has by now, as a told answer or its opposite; else as it is.
+    fn named(&self, e: &Expr) -> Expr {
+        let minus = -e;
+        let told = |a: &&Answer| {
+            let known = self.solution.meanings.contains_key(a.name.as_str());
+            known && a.formula().is_some_and(|f| f == e || *f == minus)
+        };
+        match self.told.answers.iter().find(told) {
+            Some(a) if !e.symbols().is_empty() => match a.formula() == Some(e) {
+                true => Expr::symbol(&a.name),
+                false => -Expr::symbol(&a.name),
+            },
+            _ => e.clone(),
+        }
+    }
+
+    /// Where a body is, or how it moves, after a flight of a known time, in the motion it began with.
+    fn flown(&self, told: &StageTold, ask: &Ask, axis: Option<usize>) -> Option<Expr> {
+        let time = timed(told)?;
+        let (body, along, is_place) = match ask {
+            Ask::Position {
+                body,
+                along,
+                at_end: true,
+            } => (*body, along, true),
+            Ask::Velocity {
+                body,
+                point: None,
+                along,
+            } => (*body, along, false),
+            _ => return None,
+        };
+        let along = match (along, axis) {
+            (Some(along), _) => along.clone(),
+            (None, axis) => [0, 1].map(|k| Expr::from(i64::from(axis == Some(k)))),
+        };
+        if !told.placed.kind.moved().contains(&body) {
+            return None;
+        }
+        let v = told.before.velocity[body].each_ref().map(|v| self.named(v));
+        let falls = &along[1] * &gravity(told);
+        let gained = -(&falls * time);
+        Some(match is_place {
+            true => {
+                let way = dot(&v, &along) * time - Expr::ratio(1, 2) * &falls * time.powi(2);
+                tidied(self.scene, &dot(&told.before.center[body], &along)) + way
+            }
+            false => dot(&v, &along) + gained,
+        })
     }
 
     /// Answers about the end of a stage.
@@ -486,11 +552,17 @@ impl Page<'_> {
                     None => Meaning::Defined,
                 };
                 self.solution.meanings.insert(symbol.clone(), meaning);
-                let claim = Claim {
-                    left: Expr::symbol(&symbol),
+                let ask = self.told.stages[i].placed.asked(question).clone();
+                let flown = self.flown(&self.told.stages[i], &ask, axis.flatten());
+                let flown = flown.filter(|raw| !alike(raw, formula));
+                let sides = [Some(&Expr::symbol(&symbol)), flown.as_ref()];
+                let claims = sides.into_iter().flatten().map(|left| Claim {
+                    left: left.clone(),
                     right: formula.clone(),
-                };
-                let id = self.solution.step(Vec::new(), vec![claim], &answer.words);
+                });
+                let id = self
+                    .solution
+                    .step(Vec::new(), claims.collect(), &answer.words);
                 if let Some(step) = self.solution.steps.last_mut() {
                     step.defines = is_fresh.then(|| symbol.clone());
                 }
@@ -499,6 +571,9 @@ impl Page<'_> {
                     math.extend([name("T", "", "+", false), Math::Op("=")]);
                 }
                 steps.extend(self.energy_in(&self.told.stages[i], &question.ask, &symbol, formula));
+                if let Some(raw) = flown {
+                    math.extend([Math::Expr(raw), Math::Op("=")]);
+                }
                 math.push(Math::Expr(formula.clone()));
                 let outcome = answer.told.map_or(0, |(_, k)| k);
                 // Within a case the name needs no number; what is in given quantities already stands in its box.
@@ -691,6 +766,27 @@ fn tidied(scene: &Scene, e: &Expr) -> Expr {
         Ok(x) => field.expr(&x),
         Err(_) => e.clone(),
     }
+}
+
+/// The time of a flight under gravity that ends after a given time; `None` for what is told by its energy.
+fn timed(told: &StageTold) -> Option<&Expr> {
+    let StageKind::Fall(fall) = &told.placed.kind else {
+        return None;
+    };
+    let energy = |q: &Question| matches!(q.ask, Ask::Energy { .. });
+    let by_time = matches!(fall.until, FallEnd::Time(_)) && fall.gravity.is_some();
+    let is_asked = told.placed.scene.questions.iter().any(energy);
+    told.time
+        .as_ref()
+        .filter(|_| by_time && fall.with.is_empty() && !is_asked)
+}
+
+/// The acceleration of gravity of a fall; zero elsewhere.
+fn gravity(told: &StageTold) -> Expr {
+    let StageKind::Fall(fall) = &told.placed.kind else {
+        return Expr::zero();
+    };
+    fall.gravity.clone().unwrap_or_else(Expr::zero)
 }
 
 /// Whether two formulas are one product, whatever the order of its factors.
