@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Failure, Format, files, pretty, print, read_scene};
+use super::{Failure, Format, files, pretty, print, read_scene, refused, work_out};
 use carom::render::friction;
-use carom::scene::Scene;
+use carom::scene::{ContactLaw, Scene};
 use carom::verify::compare::{NoComparison, compare};
 use carom::{numeric, plot, render};
 
@@ -18,6 +18,9 @@ pub struct CompareArgs {
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// The impact, by the name of its stage, where a scene has several
+    #[arg(long, value_name = "NAME")]
+    stage: Option<String>,
     /// Give a parameter a value, such as v=2 or theta=acos(3/5); may be repeated
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -28,8 +31,11 @@ pub struct CompareArgs {
 
 /// Lays the laws of contact side by side.
 pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
-    let scene = read_scene(&args.scene, &args.set)?;
-    let refused = |reason: String| Failure::Input(format!("{}: {reason}", args.scene.display()));
+    let mut scene = read_scene(&args.scene, &args.set)?;
+    if scene.has_stages() || args.stage.is_some() {
+        scene = undecided(&scene, args)?;
+    }
+    let refused = |reason: String| refused(&args.scene, reason);
     if scene.friction().is_none() && scene.contacts.len() > 1 {
         return several(&scene, args, &refused);
     }
@@ -44,6 +50,40 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
         Format::Json => pretty(&friction::comparison_json(&scene, &found)),
     })?;
     Ok(0)
+}
+
+/// The impact of a stage with the motion handed on, before anything is decided about its contact.
+fn undecided(scene: &Scene, args: &CompareArgs) -> Result<Scene, Failure> {
+    let path = &args.scene;
+    let mut impacts = match scene.has_stages() {
+        true => work_out(path, scene)?.impacts(),
+        false => Vec::new(),
+    };
+    // All outcomes of a stage begin alike.
+    for (name, impact) in &mut impacts {
+        name.truncate(name.find(", case ").unwrap_or(name.len()));
+        for contact in &mut impact.contacts {
+            if let ContactLaw::Decided(decided) = &contact.law {
+                contact.law = ContactLaw::Friction(Box::new(decided.law.clone()));
+            }
+        }
+    }
+    impacts.dedup_by(|a, b| a.0 == b.0);
+    let names: Vec<String> = impacts.iter().map(|(name, _)| name.clone()).collect();
+    if let Some(stage) = &args.stage {
+        impacts.retain(|(name, _)| name == stage);
+    }
+    match impacts.len() {
+        1 => Ok(impacts.swap_remove(0).1),
+        0 if names.is_empty() => Err(refused(path, "no stage of this scene is an impact")),
+        _ => Err(refused(
+            path,
+            format!(
+                "choose an impact\nhint: --stage with one of: {}",
+                names.join("; ")
+            ),
+        )),
+    }
 }
 
 /// Lays what laws for several contacts at once give side by side.

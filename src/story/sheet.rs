@@ -101,6 +101,12 @@ fn put_together(scene: &Scene, case: &Case) -> Scene {
     out.questions.clear();
     out.parameters
         .retain(|p| !case.handed.contains_key(&p.name));
+    // A value may have been given since the stages were read.
+    for p in &mut out.parameters {
+        if let Some(given) = scene.parameters.iter().find(|g| g.name == p.name) {
+            p.value.clone_from(&given.value);
+        }
+    }
     let put = |e: &mut Expr| *e = case.put_in(e);
     for body in &mut out.bodies {
         put(&mut body.spin);

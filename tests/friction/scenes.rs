@@ -264,3 +264,34 @@ fn a_scene_left_open_names_the_cases_it_has() {
         "{why}"
     );
 }
+
+#[test]
+fn laws_are_compared_at_an_impact_inside_stages_with_the_motion_handed_on() {
+    let said = |arguments: &[&str]| {
+        let out = std::process::Command::new(env!("CARGO_BIN_EXE_carom"))
+            .args(["compare", "derivations/friction/stone-lands-and-skids.json"])
+            .args(arguments)
+            .output()
+            .expect("carom runs");
+        let text = [out.stdout, out.stderr].concat();
+        (
+            out.status.code(),
+            String::from_utf8_lossy(&text).to_string(),
+        )
+    };
+    // The stone lands with 2 m/s and 3 m/s along the ground: it slides on with 3 - 2/4, and sticks where μ is 2.
+    let values = ["m=1", "u=3", "h=1/5", "g=10", "kappa=1/2"].map(|v| ["--set", v]);
+    let values: Vec<&str> = values.into_iter().flatten().collect();
+    for (mu, after) in [
+        ("mu=1/4", "Poisson: stone 2.5, 0, 0"),
+        ("mu=2", "Poisson: stone 0, 0, 0"),
+    ] {
+        let (status, text) = said(&[&values[..], &["--set", mu]].concat());
+        assert!(status == Some(0) && text.contains(after), "{mu}: {text}");
+    }
+    let (status, text) = said(&[&values[..], &["--stage", "fall"]].concat());
+    assert!(
+        status != Some(0) && text.contains("--stage with one of: landing"),
+        "{text}"
+    );
+}

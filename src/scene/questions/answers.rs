@@ -111,6 +111,14 @@ pub(super) fn ask(
     if let (Some(parameter), Some(asked)) = (&q.threshold, of_friction(base, holds)) {
         return friction_threshold(base, parameter, asked);
     }
+    if base.file.stages.is_some() && event(holds).is_some() {
+        let message = "a threshold of friction is asked of a scene without stages";
+        let fault = Fault::new(holds.span, message);
+        base.faults.push(fault.hint(
+            "without values every outcome of an impact in stages is told with its condition on the coefficient",
+        ));
+        return None;
+    }
     let (left, relation, right) = relation(base, symbols, holds)?;
     if q.solve.is_some() != (relation == Relation::Equal) {
         let message = "a threshold holds an inequality, and what is to be solved an equation";
@@ -126,11 +134,8 @@ pub(super) fn ask(
     })
 }
 
-/// The contact and the event of a relation such as `C sticks`; `None` for a relation between formulas.
-fn of_friction<'f>(
-    base: &Resolver<'f>,
-    holds: &Text,
-) -> Option<(usize, &'f ContactFile, FrictionEvent)> {
+/// The name and the event in words such as `C sticks`.
+fn event(holds: &Text) -> Option<(&str, FrictionEvent)> {
     let (name, event) = holds.text.trim().rsplit_once(' ')?;
     let event = match event {
         "sticks" => FrictionEvent::Sticks,
@@ -138,10 +143,17 @@ fn of_friction<'f>(
         "jams" => FrictionEvent::Jams,
         _ => return None,
     };
+    Some((name.trim(), event))
+}
+
+/// The contact and the event of a relation such as `C sticks`; `None` for a relation between formulas.
+fn of_friction<'f>(
+    base: &Resolver<'f>,
+    holds: &Text,
+) -> Option<(usize, &'f ContactFile, FrictionEvent)> {
+    let (name, event) = event(holds)?;
     let contacts = base.file.contacts.iter().flat_map(|m| &m.0);
-    let found = contacts
-        .enumerate()
-        .find(|(_, (n, _))| n.text == name.trim());
+    let found = contacts.enumerate().find(|(_, (n, _))| n.text == name);
     found.and_then(|(i, (_, contact))| Some((i, contact.as_ref()?, event)))
 }
 
