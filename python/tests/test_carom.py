@@ -103,9 +103,9 @@ def test_rewards_are_one_nought_or_none():
     completions = [r"\boxed{1} then \boxed{2x}", "2x", r"\boxed{2x+}", r"\boxed{x^2}", chat]
     assert carom.reward(completions, "2*x", prompts=[1]) == [1.0, 0.0, 0.0, 0.0, 1.0]
     assert carom.reward(completions, ["2x"] * 5, unreadable=None)[1:3] == [None, None]
-    undecided = carom.grade(r"e^{-t/\tau}", r"\exp(-t/\tau)")
+    undecided = carom.grade("h e^{2 n}", r"h \exp(2 n)")
     assert undecided.verdict == "undecided"
-    assert carom.reward([r"\boxed{\exp(-t/\tau)}"], r"e^{-t/\tau}") == [None]
+    assert carom.reward([r"\boxed{h \exp(2 n)}"], "h e^{2 n}") == [None]
     assert carom.reward([r"\boxed{1}"], "1+") == [None]
 
 
