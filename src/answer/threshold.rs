@@ -10,7 +10,7 @@ use super::calc::{Roots, Seen, Unsolved, by_signs, essential, sign, solve, tidy}
 use super::{Answer, Form, intervals, limit};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Relation, write_plain};
 use crate::formula::{Sentence, sentence};
 use crate::interval::enclosure::decimal;
@@ -31,6 +31,9 @@ pub(super) fn fill(
     let domains = &scene.domains;
     let gap = left - right;
     let gap = tidy(&gap, domains).unwrap_or(gap);
+    let upward = matches!(relation, Relation::Greater | Relation::GreaterEqual);
+    let under = radicand(&gap, domains).filter(|_| upward);
+    let (gap, rooted) = (under.clone().unwrap_or(gap), under.is_some());
     let roots = match solve(&gap, parameter, domains) {
         Ok(roots) => roots,
         Err(Unsolved::Absent) => {
@@ -104,6 +107,23 @@ pub(super) fn fill(
         return;
     }
     sides(out, parameter, &gap, relation, &roots, domains);
+    if rooted {
+        for check in out.checks.iter_mut().filter(|c| c.kind == "sign") {
+            let under = "what stands under the root has opposite signs";
+            check.words = check
+                .words
+                .replace("the sides differ with opposite signs", under);
+        }
+    }
+}
+
+/// What stands under the root where a difference is a root, but for positive factors: it is there, and not negative, just
+/// where that is not negative.
+fn radicand(gap: &Expr, domains: &Domains) -> Option<Expr> {
+    match essential(gap, domains).node() {
+        Node::Power(base, half) if *half == Expr::ratio(1, 2) => Some(base.clone()),
+        _ => None,
+    }
 }
 
 /// On which side of the root the inequality holds.
