@@ -1,11 +1,13 @@
 //! The public table of cases: what is expected, what is answered, the verdict, and why.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use carom::grade::sheet;
+use carom::command;
+use carom::grade::sheet::{self, Sheet};
 use carom::grade::{Given, Options, Question, Strength, Verdict, entry, judge};
 use carom::scene;
 
@@ -113,13 +115,21 @@ fn the_manual_says_what_the_tables_say() {
     );
 }
 
+/// The proved answers of a scene, those about answers and of all stages among them.
+fn keys(scene: scene::Scene) -> Sheet {
+    command::sheet(scene).expect("answers that are proved").0
+}
+
 #[test]
 fn answers_to_scenes_get_their_verdict_and_the_belief_behind_them() {
     let mut wrong = String::new();
+    let mut sheets: BTreeMap<String, Sheet> = BTreeMap::new();
     for (file, line, cells) in rows(|name| name == "scenes.tsv") {
         let [path, quantity, answer, verdict, code] = [0, 1, 2, 3, 4].map(|i| cells[i].as_str());
-        let text = fs::read_to_string(root().join("derivations").join(path)).expect("a scene");
-        let sheet = sheet::sheet(scene::read(&text).expect("a sound scene")).expect("a derivation");
+        let sheet = sheets.entry(path.to_string()).or_insert_with(|| {
+            let text = fs::read_to_string(root().join("derivations").join(path)).expect("a scene");
+            keys(scene::read(&text).expect("a sound scene"))
+        });
         let entry = sheet.entry(quantity).expect("a question of the scene");
         let grade = sheet.judge(&entry, answer, &Options::default());
         let codes: Vec<&str> = grade.diagnosis.iter().map(|d| d.code).collect();
@@ -228,30 +238,6 @@ fn a_worked_solution_is_followed_beyond_its_first_slip() {
     );
 }
 
-/// A scene with its answers, those about answers and of all stages among them.
-fn with_stages(scene: scene::Scene) -> sheet::Sheet {
-    let worked = carom::worked::out(&scene).expect("answers");
-    let ranges = worked
-        .asked()
-        .iter()
-        .flat_map(|a| a.range.iter().map(move |r| (a, r)));
-    let bounds = ranges.filter_map(|(a, (of, relation, value))| {
-        Some(sheet::Bound {
-            name: a.name.clone(),
-            parameter: of.as_symbol()?.clone(),
-            relation: *relation,
-            value: value.clone(),
-        })
-    });
-    let bounds = bounds.collect();
-    let (scene, derivation) = worked.sheet().expect("a derivation");
-    sheet::Sheet {
-        scene,
-        derivation,
-        bounds,
-    }
-}
-
 #[test]
 fn worked_solutions_are_judged_line_by_line() {
     use carom::grade::steps::{Status, check};
@@ -267,7 +253,7 @@ fn worked_solutions_are_judged_line_by_line() {
         let (head, rows) = text.split_once('\n').expect("a scene and lines");
         let path = head.split_whitespace().nth(1).expect("the scene's path");
         let scene = fs::read_to_string(root().join("derivations").join(path)).expect("a scene");
-        let sheet = with_stages(scene::read(&scene).expect("a sound scene"));
+        let sheet = keys(scene::read(&scene).expect("a sound scene"));
         // The last rows tell the verdicts on the final answers.
         let (finals, rows): (Vec<&str>, Vec<&str>) =
             rows.lines().partition(|row| row.starts_with("answer\t"));

@@ -250,6 +250,7 @@ impl Sheet {
         if !values.iter().all(known) || values.iter().any(|e| e.size() > 2_000) {
             return grade;
         }
+        let told = values.iter().any(|v| !v.symbols().is_empty());
         let written = Written {
             scene: &self.scene,
             ask: entry.asked_of_impact(),
@@ -269,11 +270,34 @@ impl Sheet {
         if !found.is_empty() && sign.is_none() {
             grade.note = "DIFF_BELIEF";
         }
+        if told && !others.iter().any(|d| d.code == "OTHER_QUANTITY") {
+            others.extend(self.another_answer(entry, answer));
+        }
         let mut all: Vec<Diagnosis> = sign.into_iter().chain(found).collect();
         all.append(&mut others);
         all.append(&mut grade.diagnosis);
         grade.diagnosis = all;
         grade
+    }
+
+    /// The answer to another question that this is, of any stage.
+    fn another_answer(&self, entry: &Entry, answer: &str) -> Option<Diagnosis> {
+        let options = Options {
+            strength: Strength::Fast,
+            ..Options::default()
+        };
+        let others = self.answered().filter(|q| q.name != entry.question.name);
+        let mut entries = others.filter_map(|q| self.entry(&q.name).ok());
+        let is_it = |other: &Entry| {
+            let grade = judge_against(&other.key, answer, &options);
+            grade.verdict == Verdict::Equivalent
+        };
+        let other = entries.find(is_it)?;
+        Some(Diagnosis::new(
+            "OTHER_QUANTITY",
+            format!("this is {}, the {}", other.name, other.words),
+            "this is right for another quantity: what is asked for?",
+        ))
     }
 
     /// The wrong answers to a quantity that single beliefs lead to, in closed form; those to one component of a vector where
