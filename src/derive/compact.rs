@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use super::{Definition, Stop, Work};
 use crate::algebra::Element;
 use crate::answer::{Answer, Form};
-use crate::expr::{Expr, Symbol, Vector, cross, minus};
+use crate::expr::{Expr, Symbol, cross, minus};
 use crate::formula::write_plain;
 use crate::laws::{Affine, Kinematics, Unknown};
 use crate::scene::{Ask, ContactLaw, EnergyWhen, Scene};
@@ -151,7 +151,7 @@ impl Parts {
         let scene = work.scene;
         let contact = &scene.contacts[0];
         let mut terms = |e: &Expr| Ok::<_, Stop>(work.field.element(e)?.terms());
-        let approach = approach(scene);
+        let approach = scene.contacts[0].relative_velocity(scene);
         let arms = contact.bodies.map(|b| {
             let body = &scene.bodies[b];
             let extended = !body.is_fixed() && !body.is_particle();
@@ -290,7 +290,7 @@ impl Parts {
             .normal
             .clone()
             .unwrap_or([Expr::zero(), Expr::zero()]);
-        let approach = approach(scene);
+        let approach = scene.contacts[0].relative_velocity(scene);
         let speed = -(&approach[0] * &normal[0] + &approach[1] * &normal[1]);
         let speed = work.tidy(&speed)?;
         let mut inverse_mass = Vec::new();
@@ -353,7 +353,7 @@ impl Parts {
     fn sticking(&mut self, work: &mut Work<'_>) -> Result<(), Stop> {
         let scene = work.scene;
         let contact = &scene.contacts[0];
-        let approach = approach(scene);
+        let approach = scene.contacts[0].relative_velocity(scene);
         let [ux, uy] = [0, 1].map(|axis| approach[axis].clone());
         let (ux, uy) = (work.tidy(&ux)?, work.tidy(&uy)?);
         let words =
@@ -551,18 +551,4 @@ impl Parts {
             });
         }
     }
-}
-
-/// Relative velocity just before of the touching points of the only contact, second body minus first.
-fn approach(scene: &Scene) -> Vector {
-    let contact = &scene.contacts[0];
-    let point = |b: usize| {
-        let body = &scene.bodies[b];
-        let r = minus(&contact.at, &body.center);
-        [
-            &body.velocity[0] - &(&body.spin * &r[1]),
-            &body.velocity[1] + &(&body.spin * &r[0]),
-        ]
-    };
-    minus(&point(contact.bodies[1]), &point(contact.bodies[0]))
 }

@@ -318,7 +318,7 @@ impl Forms {
         let mut closing = Vec::with_capacity(2);
         for part in &mode.closing {
             // A root stays as it is until the derivation takes it into its field.
-            let right = match has_root(&part.right) {
+            let right = match part.right.has_root() {
                 true => part.right.clone(),
                 false => self.tidy(&part.right)?,
             };
@@ -509,26 +509,14 @@ fn threshold(table: &Table, forms: &mut Forms, event: FrictionEvent) -> Result<E
     bound.ok_or_else(none)
 }
 
-fn has_root(e: &Expr) -> bool {
-    let mut found = false;
-    e.walk(&mut |part| {
-        if let Node::Power(_, exponent) = part.node() {
-            found |= exponent.as_number().is_some_and(|k| !k.is_integer());
-        }
-    });
-    found
-}
-
 /// What a contact feels of its bodies: a, b, c and the relative velocity before, along t and n.
 fn contact_space(
     scene: &Scene,
     contact: usize,
     [t, n]: [&Vector; 2],
 ) -> Result<ContactSpace, Stop> {
-    let at = &scene.contacts[contact].at;
     let bodies = scene.contacts[contact].bodies;
-    let [one, two] = bodies.map(|b| velocity_before(&scene.bodies[b], at));
-    let before = minus(&two, &one);
+    let before = scene.contacts[contact].relative_velocity(scene);
     let [a, b, c] = match is_free(scene, bodies) {
         true => [(t, t), (t, n), (n, n)].map(|(d, e)| inverse_mass(scene, contact, d, e)),
         false => eliminated(scene, contact, [t, n])?,
@@ -567,17 +555,6 @@ fn inverse_mass(scene: &Scene, contact: usize, d: &Vector, e: &Vector) -> Expr {
         }
     }
     Expr::sum(terms)
-}
-
-fn velocity_before(body: &Body, at: &Vector) -> Vector {
-    if body.is_particle() || body.spin.is_zero() {
-        return body.velocity.clone();
-    }
-    let r = minus(at, &body.center);
-    [
-        &body.velocity[0] - &body.spin * &r[1],
-        &body.velocity[1] + &body.spin * &r[0],
-    ]
 }
 
 /// The same by exact elimination, for bodies with hinges: everything at rest, one unit of impulse along t, then along n.

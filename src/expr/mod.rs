@@ -332,6 +332,17 @@ impl Expr {
         }
     }
 
+    /// Whether a root occurs, or a power whose exponent is no number.
+    pub fn has_root(&self) -> bool {
+        let mut found = false;
+        self.walk(&mut |part| {
+            if let Node::Power(_, exponent) = part.node() {
+                found |= exponent.as_number().is_none_or(|k| !k.is_integer());
+            }
+        });
+        found
+    }
+
     /// Calls `visit` for this expression and everything inside it, outer before inner.
     pub fn walk(&self, visit: &mut impl FnMut(&Expr)) {
         visit(self);

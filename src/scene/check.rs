@@ -6,7 +6,7 @@
 use super::fault::{Fault, Span};
 use super::parameters::number_words;
 use super::proof::{Given, Zero, given, middle, sign, violation, zero};
-use super::{Body, Contact, Hinge, Scene, geometry, touch};
+use super::{Contact, Hinge, Scene, geometry, touch};
 use crate::algebra::Sign;
 use crate::expr::{Expr, Function, Node, Symbol, Vector, dot, minus};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -317,27 +317,16 @@ fn is_positive(size: &Expr, scene: &Scene) -> bool {
     }
 }
 
-/// Velocity just before of the point of a body at a position.
-fn velocity_at(body: &Body, at: &Vector) -> Vector {
-    if body.is_particle() || body.spin.is_zero() {
-        return body.velocity.clone();
-    }
-    let turn = geometry::turned(&body.spin, &minus(at, &body.center));
-    [&body.velocity[0] + &turn[0], &body.velocity[1] + &turn[1]]
-}
-
 /// Normal relative velocity u_n⁻ just before [m/s]; positive where the bodies separate.
 fn separation(scene: &Scene, contact: &Contact) -> Option<Expr> {
-    let [a, b] = contact.bodies.map(|i| scene.bodies.get(i));
-    let relative = minus(&velocity_at(b?, &contact.at), &velocity_at(a?, &contact.at));
-    Some(dot(&relative, contact.normal.as_ref()?))
+    let known = contact.bodies.iter().all(|b| *b < scene.bodies.len());
+    let normal = contact.normal.as_ref().filter(|_| known)?;
+    Some(dot(&contact.relative_velocity(scene), normal))
 }
 
 /// Relative velocity at a hinge just before.
 fn gap(scene: &Scene, hinge: &Hinge) -> Vector {
-    let [a, b] = hinge
-        .bodies
-        .map(|i| velocity_at(&scene.bodies[i], &hinge.at));
+    let [a, b] = hinge.bodies.map(|i| scene.bodies[i].velocity_at(&hinge.at));
     minus(&b, &a)
 }
 

@@ -35,7 +35,7 @@ pub mod touch;
 
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
-use crate::expr::{Expr, Symbol, Vector};
+use crate::expr::{Expr, Symbol, Vector, minus};
 
 pub use ask::{Ask, EnergyWhen, ImpulseAt, PlotAsk, Question};
 pub use drawing::{Drawn, Outline, Support};
@@ -294,6 +294,15 @@ pub fn with_noun(words: String, noun: &str) -> String {
 }
 
 impl Body {
+    /// Velocity just before of its point at this place [m/s], v_G⁻ + ω⁻ × r; a particle has but one.
+    pub fn velocity_at(&self, at: &Vector) -> Vector {
+        if self.is_particle() || self.spin.is_zero() {
+            return self.velocity.clone();
+        }
+        let [x, y] = geometry::turned(&self.spin, &minus(at, &self.center));
+        [&self.velocity[0] + x, &self.velocity[1] + y]
+    }
+
     /// Whether its motion is prescribed: ground, walls, pegs.
     pub fn is_fixed(&self) -> bool {
         matches!(self.shape, Shape::Fixed)
@@ -411,6 +420,14 @@ pub struct Contact {
     pub normal: Option<Vector>,
     /// The law that closes the equations.
     pub law: ContactLaw,
+}
+
+impl Contact {
+    /// Velocity just before of the point of the second body relative to that of the first [m/s].
+    pub fn relative_velocity(&self, scene: &Scene) -> Vector {
+        let [one, two] = self.bodies.map(|b| scene.bodies[b].velocity_at(&self.at));
+        minus(&two, &one)
+    }
 }
 
 /// What is assumed of a collision beyond momentum balance.

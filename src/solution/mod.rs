@@ -352,11 +352,7 @@ impl<'a> Writer<'a> {
                 continue;
             }
             let symbol = Symbol::from(answer.name.as_str());
-            let axis = match answer.name.strip_prefix(answer.question.as_str()) {
-                Some("_x") => Some(0),
-                Some("_y") => Some(1),
-                _ => None,
-            };
+            let axis = answer.axis();
             if words::is_safe_latex(&answer.latex) {
                 names
                     .entry(symbol.clone())

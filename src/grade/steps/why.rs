@@ -134,12 +134,7 @@ impl Desk<'_> {
         if let Some(answer) = d.answers.iter().find(|a| *a.name == *name) {
             let mut asked = scene.asked_of_impact();
             let question = asked.find(|q| q.name == answer.question)?;
-            let component = match answer.name.strip_prefix(&answer.question) {
-                Some("_x") => Some(0),
-                Some("_y") => Some(1),
-                _ => None,
-            };
-            return Some((name, question.ask.clone(), component));
+            return Some((name, question.ask.clone(), answer.axis()));
         }
         let unknown = laws::unknowns(scene)
             .into_iter()

@@ -5,12 +5,13 @@
 
 use super::impact;
 use crate::expr::{Expr, Vector, cross, dot, minus};
+use crate::formula::with_subscript;
 use crate::scene::fault::Fault;
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
 use crate::scene::resolve::Resolver;
 use crate::scene::stage_file::EndName;
-use crate::scene::{Ask, Body, Question, Scene, geometry};
+use crate::scene::{Ask, Question, Scene, geometry};
 
 /// Reads one question of a scene of one impact into the scene.
 pub(super) fn resolve(
@@ -24,10 +25,9 @@ pub(super) fn resolve(
     let latex = q.latex.as_ref().map(|t| t.text.as_str());
     let meaning = meaning(q);
     let push = |scene: &mut Scene, suffix: &str, formula: Expr| {
-        let latex = latex.map(|l| match suffix {
-            "_x" => format!("{{{l}}}_x"),
-            "_y" => format!("{{{l}}}_y"),
-            _ => l.to_owned(),
+        let latex = latex.map(|l| match suffix.strip_prefix('_') {
+            Some(axis) => with_subscript(l, axis),
+            None => l.to_owned(),
         });
         let name = format!("{}{suffix}", name.text);
         scene.questions.push(Question::new(
@@ -69,7 +69,7 @@ pub(super) fn resolve(
             let (b, point) = impact::velocity(resolver, scene, q.speed.as_ref()?, q.of.as_ref())?;
             let at = point.map(|(_, at)| at);
             let v = match is_start {
-                true => velocity_of(&scene.bodies[b], at.as_ref()),
+                true => scene.bodies[b].velocity_at(at.as_ref().unwrap_or(&scene.bodies[b].center)),
                 false => {
                     let v = velocity_after(scene, b);
                     moved(scene, b, v, at.as_ref())
@@ -103,7 +103,8 @@ pub(super) fn resolve(
         _ => {
             let of = q.velocity.as_ref()?;
             let (b, point) = impact::velocity(resolver, scene, of, q.of.as_ref())?;
-            let v = velocity_of(&scene.bodies[b], point.map(|(_, at)| at).as_ref());
+            let body = &scene.bodies[b];
+            let v = body.velocity_at(point.as_ref().map_or(&body.center, |(_, at)| at));
             match &q.along {
                 Some(along) => {
                     let along = resolver.direction(along)?;
@@ -180,15 +181,6 @@ fn about(resolver: &mut Resolver<'_>, name: &Text, q: &QuestionFile) -> Option<V
 pub(super) fn speed_of(velocity: &str) -> Expr {
     let v = ["x", "y"].map(|axis| Expr::symbol(&format!("{velocity}_{axis}")));
     dot(&v, &v).sqrt()
-}
-
-/// Velocity just before of the center of mass, or of another point of the body.
-fn velocity_of(body: &Body, at: Option<&Vector>) -> Vector {
-    let Some(at) = at else {
-        return body.velocity.clone();
-    };
-    let turned = geometry::turned(&body.spin, &minus(at, &body.center));
-    [0, 1].map(|i| &body.velocity[i] + &turned[i])
 }
 
 /// Velocity just after of another point, from that of the center of mass.

@@ -1,7 +1,9 @@
 //! The worked solution of a scene with stages: a section for each stage, then what is asked, then what it all rests on.
 //!
 //! In: a scene and its story as told. Out: a [`Solution`]. An impact is written by the same code as a single collision, with
-//! the motion handed on by the stage before; a motion is an energy balance, whose lines are claims like all others.
+//! the motion handed on by the stage before; a motion is told in [`motion`].
+
+mod motion;
 
 use super::asked::{self, answered, full_sentence};
 use super::words::{self, name, say};
@@ -9,9 +11,9 @@ use super::{
     Before, Claim, Detail, Inline, Line, Math, Meaning, Part, Scope, Slot, Solution, Writer,
 };
 use crate::answer::Answer;
-use crate::expr::{Expr, Node, Symbol, dot};
+use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
-use crate::scene::{Ask, FallEnd, Question, Scene, Stage, StageKind};
+use crate::scene::{Ask, Scene, Stage};
 use crate::story::{Case, StageTold, Told};
 
 /// Writes the solution of a story.
@@ -133,18 +135,7 @@ impl Page<'_> {
             }
         }
         self.solution.push(Part::Figure(Slot::Stage(i)));
-        if timed(told).is_some() {
-            let flies = stage.kind.moved();
-            let called = |b: &usize| match self.scene.bodies[*b].is_particle() {
-                true => words::body(self.scene, *b),
-                false => format!("the center of mass of {}", words::body(self.scene, *b)),
-            };
-            let who = flies.first().map_or_else(String::new, called);
-            let weight = format!("The weight gives {who} the constant acceleration ");
-            let g = gravity(told);
-            self.solution
-                .text(vec![say(weight), words::formula(&g), say(" downward.")]);
-        } else {
+        if !self.flight(told) {
             self.kept(told);
             if told.cases.is_empty() {
                 self.motion(stage, told);
@@ -304,223 +295,6 @@ impl Page<'_> {
         self.solution.text(text);
     }
 
-    /// A motion by Newton's laws: what the letters stand for, then forces, accelerations, and what they come to.
-    fn steps(&mut self, told: &StageTold) {
-        let taken = |step: &crate::story::Step| {
-            let mut answers = self.told.answers.iter().filter(|a| a.name == step.letter);
-            let mut parameters = self.scene.parameters.iter();
-            parameters.any(|p| *p.name == *step.letter)
-                || answers.any(|a| a.formula() != Some(&step.value))
-        };
-        let scene = &told.placed.scene;
-        let moved = told.placed.kind.moved();
-        let index = moved.first().map_or("", |b| scene.bodies[*b].name.as_str());
-        let mut lines = Vec::new();
-        let mut letters = vec![say("Let ")];
-        for (i, step) in told.steps.iter().enumerate() {
-            let mark = if matches!(step.letter, "v" | "omega") {
-                "+"
-            } else {
-                ""
-            };
-            let index = if taken(step) { index } else { "" };
-            let letter = name(step.letter, index, mark, false);
-            letters.push(say(match (i, told.steps.len() - i) {
-                (0, _) => "",
-                (_, 1) => " and ",
-                _ => ", ",
-            }));
-            let be = if i == 0 { " be " } else { " " };
-            letters.extend([
-                Inline::Math(vec![letter.clone()]),
-                say(format!("{be}{}", step.why)),
-            ]);
-            let mut math = vec![letter, Math::Op("=")];
-            if crate::formula::write_plain(&step.raw) != crate::formula::write_plain(&step.value) {
-                math.extend([Math::Expr(step.raw.clone()), Math::Op("=")]);
-            }
-            math.push(Math::Expr(step.value.clone()));
-            let claim = Claim {
-                left: step.raw.clone(),
-                right: step.value.clone(),
-            };
-            let claimed = self.solution.step(Vec::new(), vec![claim], step.why);
-            lines.push(Line {
-                math,
-                step: Some(claimed),
-            });
-        }
-        letters.push(say("."));
-        if self.solution.detail != Detail::Brief {
-            self.solution.text(letters);
-        }
-        self.solution.push(Part::Display(lines));
-    }
-
-    /// A motion: inertia, work and energy, from the beginning to the end.
-    fn motion(&mut self, stage: &Stage, told: &StageTold) {
-        if !told.steps.is_empty() {
-            return self.steps(told);
-        }
-        let Some([start, end]) = &told.energy else {
-            return;
-        };
-        let mut lines = Vec::new();
-        let claim = |s: &mut Solution, left: &Expr, right: &Expr, why: &str| {
-            let claim = Claim {
-                left: left.clone(),
-                right: right.clone(),
-            };
-            Some(s.step(Vec::new(), vec![claim], why))
-        };
-        let mut answers = self.told.answers.iter();
-        let named = answers.any(|a| Self::is_end_energy(told, a));
-        let chain = |head: Vec<Math>, raw: &Expr, value: &Expr| {
-            let mut math = head;
-            math.push(Math::Op("="));
-            if !alike(raw, value) {
-                math.extend([Math::Expr(raw.clone()), Math::Op("=")]);
-            }
-            math.push(Math::Expr(value.clone()));
-            math
-        };
-        if let (Some([raw, tidy]), StageKind::Turn(turn)) = (&told.inertia, &stage.kind) {
-            let math = chain(vec![name("I", &turn.about_name, "", false)], raw, tidy);
-            let step = claim(
-                &mut self.solution,
-                raw,
-                tidy,
-                "moment of inertia about the fixed point: I + m r²",
-            );
-            lines.push(Line { math, step });
-        }
-        let t = |mark| vec![name("T", "", mark, false)];
-        let raw = self.start_energy(stage, told);
-        let math = chain(t("-"), &raw, start);
-        let step = claim(
-            &mut self.solution,
-            &raw,
-            start,
-            "kinetic energy at the beginning",
-        );
-        lines.push(Line { math, step });
-        let total = Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
-        let gain = end - start;
-        for (what, raw) in &told.work {
-            let value = if told.work.len() == 1 {
-                &tidied(self.scene, &gain)
-            } else {
-                raw
-            };
-            let index = if told.work.len() == 1 { "" } else { what };
-            let math = chain(vec![name("W", index, "", false)], raw, value);
-            let step = claim(
-                &mut self.solution,
-                raw,
-                value,
-                &format!("work of {what}: force times the way in its direction"),
-            );
-            lines.push(Line { math, step });
-        }
-        let after = start + &total;
-        let mut math = t("+");
-        math.extend([Math::Op("="), name("T", "", "-", false)]);
-        if !told.work.is_empty() {
-            math.extend([Math::Op("+"), name("W", "", "", false)]);
-        }
-        if !named {
-            math = chain(math, end, end);
-        }
-        let step = claim(
-            &mut self.solution,
-            &after,
-            end,
-            "work changes kinetic energy",
-        );
-        lines.push(Line { math, step });
-        self.solution.push(Part::Display(lines));
-    }
-
-    /// Kinetic energy at the beginning of a motion from its velocities, term by term; a spin or speed that has a name by now
-    /// stands by its name.
-    fn start_energy(&self, stage: &Stage, told: &StageTold) -> Expr {
-        let half = Expr::ratio(1, 2);
-        let square = |e: &Expr| {
-            let opposite = self.named(&-e);
-            let plain = opposite.as_symbol().map(|_| opposite.clone());
-            plain.unwrap_or_else(|| self.named(e)).powi(2)
-        };
-        if let (Some([_, inertia]), StageKind::Turn(turn)) = (&told.inertia, &stage.kind) {
-            return &half * inertia * square(&told.before.spin[turn.body]);
-        }
-        let moved = stage.kind.moved();
-        Expr::sum(moved.into_iter().map(|body| {
-            let b = &stage.scene.bodies[body];
-            let [x, y] = &told.before.velocity[body];
-            let spin = &told.before.spin[body];
-            let mut energy = Expr::zero();
-            if !(x.is_zero() && y.is_zero()) {
-                energy = &half * &b.mass * (square(x) + square(y));
-            }
-            if !spin.is_zero() {
-                // The parts of a composite and what they add by their places are no business of its motion.
-                energy = energy + &half * tidied(self.scene, &b.inertia) * square(spin);
-            }
-            energy
-        }))
-    }
-
-    /// A component of the motion by the name it has by now, as a told answer or its opposite; else as it is.
-    fn named(&self, e: &Expr) -> Expr {
-        let minus = -e;
-        let told = |a: &&Answer| {
-            let known = self.solution.meanings.contains_key(a.name.as_str());
-            known && a.formula().is_some_and(|f| f == e || *f == minus)
-        };
-        match self.told.answers.iter().find(told) {
-            Some(a) if !e.symbols().is_empty() => match a.formula() == Some(e) {
-                true => Expr::symbol(&a.name),
-                false => -Expr::symbol(&a.name),
-            },
-            _ => e.clone(),
-        }
-    }
-
-    /// Where a body is, or how it moves, after a flight of a known time, in the motion it began with.
-    fn flown(&self, told: &StageTold, ask: &Ask, axis: Option<usize>) -> Option<Expr> {
-        let time = timed(told)?;
-        let (body, along, is_place) = match ask {
-            Ask::Position {
-                body,
-                along,
-                at_end: true,
-            } => (*body, along, true),
-            Ask::Velocity {
-                body,
-                point: None,
-                along,
-            } => (*body, along, false),
-            _ => return None,
-        };
-        let along = match (along, axis) {
-            (Some(along), _) => along.clone(),
-            (None, axis) => [0, 1].map(|k| Expr::from(i64::from(axis == Some(k)))),
-        };
-        if !told.placed.kind.moved().contains(&body) {
-            return None;
-        }
-        let v = told.before.velocity[body].each_ref().map(|v| self.named(v));
-        let falls = &along[1] * &gravity(told);
-        let gained = -(&falls * time);
-        Some(match is_place {
-            true => {
-                let way = dot(&v, &along) * time - Expr::ratio(1, 2) * &falls * time.powi(2);
-                tidied(self.scene, &dot(&told.before.center[body], &along)) + way
-            }
-            false => dot(&v, &along) + gained,
-        })
-    }
-
     /// Answers about the end of a stage.
     fn asked_of(&mut self, i: usize) {
         let mut lines: Vec<(usize, Line)> = Vec::new();
@@ -540,21 +314,18 @@ impl Page<'_> {
                     continue;
                 };
                 let symbol = Symbol::from(answer.name.as_str());
-                let axis = match answer.name.strip_prefix(question.name.as_str()) {
-                    Some("") => Some(None),
-                    Some("_x") => Some(Some(0)),
-                    Some("_y") => Some(Some(1)),
-                    _ => None,
-                };
-                let is_fresh = axis.is_none();
-                let meaning = match axis {
-                    Some(axis) => Meaning::Answer(question.name.clone(), axis),
-                    None => Meaning::Defined,
+                let axis = answer.axis();
+                let suffix = axis.map_or("", |axis| ["_x", "_y"][axis]);
+                let plain = format!("{}{suffix}", question.name);
+                // What belongs to a further case is no question's answer by its name.
+                let is_fresh = answer.name != plain;
+                let meaning = match is_fresh {
+                    false => Meaning::Answer(question.name.clone(), axis),
+                    true => Meaning::Defined,
                 };
                 self.solution.meanings.insert(symbol.clone(), meaning);
                 let ask = self.told.stages[i].placed.asked(question).clone();
-                let flown = self.flown(&self.told.stages[i], &ask, axis.flatten());
-                let flown = flown.filter(|raw| !alike(raw, formula));
+                let flown = self.flown(&self.told.stages[i], &ask, answer);
                 let sides = [Some(&Expr::symbol(&symbol)), flown.as_ref()];
                 let claims = sides.into_iter().flatten().map(|left| Claim {
                     left: left.clone(),
@@ -577,8 +348,8 @@ impl Page<'_> {
                 math.push(Math::Expr(formula.clone()));
                 let outcome = answer.told.map_or(0, |(_, k)| k);
                 // Within a case the name needs no number; what is in given quantities already stands in its box.
-                if several && let Some(axis) = axis_of(&question.name, &answer.name) {
-                    math[0] = Math::Expr(Expr::symbol(&format!("{}{axis}", question.name)));
+                if several {
+                    math[0] = Math::Expr(Expr::symbol(&plain));
                 }
                 let case = self.told.stages[i].cases.get(outcome);
                 if case.is_none_or(|case| changes(case, formula)) {
@@ -615,43 +386,6 @@ impl Page<'_> {
         if !numbers.is_empty() {
             self.solution.push(Part::List(numbers));
         }
-    }
-
-    /// Whether this answer is the kinetic energy at the end of a motion.
-    fn is_end_energy(told: &StageTold, answer: &Answer) -> bool {
-        let Some([_, end]) = &told.energy else {
-            return false;
-        };
-        let mut asked = told.placed.scene.questions.iter();
-        answer.formula() == Some(end)
-            && asked.any(|q| q.name == answer.name && matches!(q.ask, Ask::Energy { .. }))
-    }
-
-    /// The kinetic energy at the end in terms of the speed or spin that is asked for, ½ I ω² = T⁺, where that gives its value.
-    fn energy_in(
-        &self,
-        told: &StageTold,
-        ask: &Ask,
-        symbol: &Symbol,
-        value: &Expr,
-    ) -> Option<Line> {
-        let [_, end] = told.energy.as_ref()?;
-        let scene = &told.placed.scene;
-        let inertia = match (ask, &told.inertia) {
-            (Ask::Spin { .. }, Some([_, about])) => about.clone(),
-            (Ask::Velocity { .. }, None) => {
-                let moved = told.placed.kind.moved();
-                Expr::sum(moved.into_iter().map(|b| scene.bodies[b].mass.clone()))
-            }
-            _ => return None,
-        };
-        let energy = |of: &Expr| &(&Expr::ratio(1, 2) * &inertia) * &of.powi(2);
-        if told.work.is_empty() || tidied(self.scene, &energy(value)) != *end {
-            return None;
-        }
-        let left = Math::Expr(energy(&Expr::symbol(symbol)));
-        let math = vec![left, Math::Op("="), name("T", "", "+", false)];
-        Some(Line { math, step: None })
     }
 
     /// What is asked beyond the motion.
@@ -738,16 +472,6 @@ impl Page<'_> {
     }
 }
 
-/// What follows the name of a question in that of its answer: nothing, or an axis; numbers of outcomes are left out.
-fn axis_of(question: &str, answer: &str) -> Option<&'static str> {
-    let rest = answer.strip_prefix(question)?;
-    Some(match rest {
-        _ if rest.starts_with("_x") => "_x",
-        _ if rest.starts_with("_y") => "_y",
-        _ => "",
-    })
-}
-
 /// Whether a result reads otherwise in given quantities than in those an earlier stage handed on to this case.
 fn changes(case: &Case, formula: &Expr) -> bool {
     let (_, derivation) = case.asked();
@@ -756,45 +480,4 @@ fn changes(case: &Case, formula: &Expr) -> bool {
             .answers
             .iter()
             .any(|a| a.formula() == Some(formula))
-}
-
-/// An expression as a person would write it.
-fn tidied(scene: &Scene, e: &Expr) -> Expr {
-    let mut field = crate::algebra::Field::new(&scene.domains);
-    field.prepare([e]);
-    match field.element(e) {
-        Ok(x) => field.expr(&x),
-        Err(_) => e.clone(),
-    }
-}
-
-/// The time of a flight under gravity that ends after a given time; `None` for what is told by its energy.
-fn timed(told: &StageTold) -> Option<&Expr> {
-    let StageKind::Fall(fall) = &told.placed.kind else {
-        return None;
-    };
-    let energy = |q: &Question| matches!(q.ask, Ask::Energy { .. });
-    let by_time = matches!(fall.until, FallEnd::Time(_)) && fall.gravity.is_some();
-    let is_asked = told.placed.scene.questions.iter().any(energy);
-    told.time
-        .as_ref()
-        .filter(|_| by_time && fall.with.is_empty() && !is_asked)
-}
-
-/// The acceleration of gravity of a fall; zero elsewhere.
-fn gravity(told: &StageTold) -> Expr {
-    let StageKind::Fall(fall) = &told.placed.kind else {
-        return Expr::zero();
-    };
-    fall.gravity.clone().unwrap_or_else(Expr::zero)
-}
-
-/// Whether two formulas are one product, whatever the order of its factors.
-fn alike(a: &Expr, b: &Expr) -> bool {
-    match (a.node(), b.node()) {
-        (Node::Product(x), Node::Product(y)) => {
-            x.len() == y.len() && x.iter().all(|f| y.contains(f))
-        }
-        _ => a == b,
-    }
 }

@@ -1,0 +1,326 @@
+//! A motion in a worked solution: by its energy, by Newton's laws step by step, or, where its time is given, by its acceleration.
+//! Every line is a claim.
+
+use super::Page;
+use crate::answer::Answer;
+use crate::expr::{Expr, Node, Symbol, dot};
+use crate::scene::{Ask, FallEnd, Question, Scene, Stage, StageKind};
+use crate::solution::words::{self, name, say};
+use crate::solution::{Claim, Detail, Inline, Line, Math, Part, Solution};
+use crate::story::{StageTold, Step};
+
+impl Page<'_> {
+    /// A motion by Newton's laws: what the letters stand for, then forces, accelerations, and what they come to.
+    fn steps(&mut self, told: &StageTold) {
+        let taken = |step: &Step| {
+            let mut answers = self.told.answers.iter().filter(|a| a.name == step.letter);
+            let mut parameters = self.scene.parameters.iter();
+            parameters.any(|p| *p.name == *step.letter)
+                || answers.any(|a| a.formula() != Some(&step.value))
+        };
+        let scene = &told.placed.scene;
+        let moved = told.placed.kind.moved();
+        let index = moved.first().map_or("", |b| scene.bodies[*b].name.as_str());
+        let mut lines = Vec::new();
+        let mut letters = vec![say("Let ")];
+        for (i, step) in told.steps.iter().enumerate() {
+            let mark = if matches!(step.letter, "v" | "omega") {
+                "+"
+            } else {
+                ""
+            };
+            let index = if taken(step) { index } else { "" };
+            let letter = name(step.letter, index, mark, false);
+            letters.push(say(match (i, told.steps.len() - i) {
+                (0, _) => "",
+                (_, 1) => " and ",
+                _ => ", ",
+            }));
+            let be = if i == 0 { " be " } else { " " };
+            letters.extend([
+                Inline::Math(vec![letter.clone()]),
+                say(format!("{be}{}", step.why)),
+            ]);
+            let mut math = vec![letter, Math::Op("=")];
+            if crate::formula::write_plain(&step.raw) != crate::formula::write_plain(&step.value) {
+                math.extend([Math::Expr(step.raw.clone()), Math::Op("=")]);
+            }
+            math.push(Math::Expr(step.value.clone()));
+            let claim = Claim {
+                left: step.raw.clone(),
+                right: step.value.clone(),
+            };
+            let claimed = self.solution.step(Vec::new(), vec![claim], step.why);
+            lines.push(Line {
+                math,
+                step: Some(claimed),
+            });
+        }
+        letters.push(say("."));
+        if self.solution.detail != Detail::Brief {
+            self.solution.text(letters);
+        }
+        self.solution.push(Part::Display(lines));
+    }
+
+    /// A motion: inertia, work and energy, from the beginning to the end.
+    pub(super) fn motion(&mut self, stage: &Stage, told: &StageTold) {
+        if !told.steps.is_empty() {
+            return self.steps(told);
+        }
+        let Some([start, end]) = &told.energy else {
+            return;
+        };
+        let mut lines = Vec::new();
+        let claim = |s: &mut Solution, left: &Expr, right: &Expr, why: &str| {
+            let claim = Claim {
+                left: left.clone(),
+                right: right.clone(),
+            };
+            Some(s.step(Vec::new(), vec![claim], why))
+        };
+        let mut answers = self.told.answers.iter();
+        let named = answers.any(|a| Self::is_end_energy(told, a));
+        let chain = |head: Vec<Math>, raw: &Expr, value: &Expr| {
+            let mut math = head;
+            math.push(Math::Op("="));
+            if !alike(raw, value) {
+                math.extend([Math::Expr(raw.clone()), Math::Op("=")]);
+            }
+            math.push(Math::Expr(value.clone()));
+            math
+        };
+        if let (Some([raw, tidy]), StageKind::Turn(turn)) = (&told.inertia, &stage.kind) {
+            let math = chain(vec![name("I", &turn.about_name, "", false)], raw, tidy);
+            let step = claim(
+                &mut self.solution,
+                raw,
+                tidy,
+                "moment of inertia about the fixed point: I + m r²",
+            );
+            lines.push(Line { math, step });
+        }
+        let t = |mark| vec![name("T", "", mark, false)];
+        let raw = self.start_energy(stage, told);
+        let math = chain(t("-"), &raw, start);
+        let step = claim(
+            &mut self.solution,
+            &raw,
+            start,
+            "kinetic energy at the beginning",
+        );
+        lines.push(Line { math, step });
+        let total = Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
+        let gain = end - start;
+        for (what, raw) in &told.work {
+            let value = if told.work.len() == 1 {
+                &tidied(self.scene, &gain)
+            } else {
+                raw
+            };
+            let index = if told.work.len() == 1 { "" } else { what };
+            let math = chain(vec![name("W", index, "", false)], raw, value);
+            let step = claim(
+                &mut self.solution,
+                raw,
+                value,
+                &format!("work of {what}: force times the way in its direction"),
+            );
+            lines.push(Line { math, step });
+        }
+        let after = start + &total;
+        let mut math = t("+");
+        math.extend([Math::Op("="), name("T", "", "-", false)]);
+        if !told.work.is_empty() {
+            math.extend([Math::Op("+"), name("W", "", "", false)]);
+        }
+        if !named {
+            math = chain(math, end, end);
+        }
+        let step = claim(
+            &mut self.solution,
+            &after,
+            end,
+            "work changes kinetic energy",
+        );
+        lines.push(Line { math, step });
+        self.solution.push(Part::Display(lines));
+    }
+
+    /// Kinetic energy at the beginning of a motion from its velocities, term by term; a spin or speed that has a name by now
+    /// stands by its name.
+    fn start_energy(&self, stage: &Stage, told: &StageTold) -> Expr {
+        let half = Expr::ratio(1, 2);
+        let square = |e: &Expr| {
+            let opposite = self.named(&-e);
+            let plain = opposite.as_symbol().map(|_| opposite.clone());
+            plain.unwrap_or_else(|| self.named(e)).powi(2)
+        };
+        if let (Some([_, inertia]), StageKind::Turn(turn)) = (&told.inertia, &stage.kind) {
+            return &half * inertia * square(&told.before.spin[turn.body]);
+        }
+        let moved = stage.kind.moved();
+        Expr::sum(moved.into_iter().map(|body| {
+            let b = &stage.scene.bodies[body];
+            let [x, y] = &told.before.velocity[body];
+            let spin = &told.before.spin[body];
+            let mut energy = Expr::zero();
+            if !(x.is_zero() && y.is_zero()) {
+                energy = &half * &b.mass * (square(x) + square(y));
+            }
+            if !spin.is_zero() {
+                // The parts of a composite and what they add by their places are no business of its motion.
+                energy = energy + &half * tidied(self.scene, &b.inertia) * square(spin);
+            }
+            energy
+        }))
+    }
+
+    /// A component of the motion by the name it has by now, as a told answer or its opposite; else as it is.
+    fn named(&self, e: &Expr) -> Expr {
+        let minus = -e;
+        let told = |a: &&Answer| {
+            let known = self.solution.meanings.contains_key(a.name.as_str());
+            known && a.formula().is_some_and(|f| f == e || *f == minus)
+        };
+        match self.told.answers.iter().find(told) {
+            Some(a) if !e.symbols().is_empty() => match a.formula() == Some(e) {
+                true => Expr::symbol(&a.name),
+                false => -Expr::symbol(&a.name),
+            },
+            _ => e.clone(),
+        }
+    }
+
+    /// A flight of a given time is told by what gives it its acceleration, in place of its energy; whether it was.
+    pub(super) fn flight(&mut self, told: &StageTold) -> bool {
+        let stage = &told.placed;
+        let flies = stage.kind.moved();
+        let (Some(_), Some(body)) = (timed(told), flies.first()) else {
+            return false;
+        };
+        let called = words::body(self.scene, *body);
+        let who = match self.scene.bodies[*body].is_particle() {
+            true => called,
+            false => format!("the center of mass of {called}"),
+        };
+        let weight = format!("The weight gives {who} the constant acceleration ");
+        let g = words::formula(&gravity(told));
+        self.solution.text(vec![say(weight), g, say(" downward.")]);
+        true
+    }
+
+    /// Where a body is, or how it moves, after a flight of a known time, in the motion it began with.
+    pub(super) fn flown(&self, told: &StageTold, ask: &Ask, answer: &Answer) -> Option<Expr> {
+        let time = timed(told)?;
+        let (body, along, is_place) = match ask {
+            Ask::Position {
+                body,
+                along,
+                at_end: true,
+            } => (*body, along, true),
+            Ask::Velocity {
+                body,
+                point: None,
+                along,
+            } => (*body, along, false),
+            _ => return None,
+        };
+        let along = match (along, answer.axis()) {
+            (Some(along), _) => along.clone(),
+            (None, axis) => [0, 1].map(|k| Expr::from(i64::from(axis == Some(k)))),
+        };
+        if !told.placed.kind.moved().contains(&body) {
+            return None;
+        }
+        let v = told.before.velocity[body].each_ref().map(|v| self.named(v));
+        let falls = &along[1] * &gravity(told);
+        let gained = -(&falls * time);
+        let raw = match is_place {
+            true => {
+                let way = dot(&v, &along) * time - Expr::ratio(1, 2) * &falls * time.powi(2);
+                tidied(self.scene, &dot(&told.before.center[body], &along)) + way
+            }
+            false => dot(&v, &along) + gained,
+        };
+        Some(raw).filter(|raw| !answer.formula().is_some_and(|value| alike(raw, value)))
+    }
+
+    /// Whether this answer is the kinetic energy at the end of a motion.
+    pub(super) fn is_end_energy(told: &StageTold, answer: &Answer) -> bool {
+        let Some([_, end]) = &told.energy else {
+            return false;
+        };
+        let mut asked = told.placed.scene.questions.iter();
+        answer.formula() == Some(end)
+            && asked.any(|q| q.name == answer.name && matches!(q.ask, Ask::Energy { .. }))
+    }
+
+    /// The kinetic energy at the end in terms of the speed or spin that is asked for, ½ I ω² = T⁺, where that gives its value.
+    pub(super) fn energy_in(
+        &self,
+        told: &StageTold,
+        ask: &Ask,
+        symbol: &Symbol,
+        value: &Expr,
+    ) -> Option<Line> {
+        let [_, end] = told.energy.as_ref()?;
+        let scene = &told.placed.scene;
+        let inertia = match (ask, &told.inertia) {
+            (Ask::Spin { .. }, Some([_, about])) => about.clone(),
+            (Ask::Velocity { .. }, None) => {
+                let moved = told.placed.kind.moved();
+                Expr::sum(moved.into_iter().map(|b| scene.bodies[b].mass.clone()))
+            }
+            _ => return None,
+        };
+        let energy = |of: &Expr| &(&Expr::ratio(1, 2) * &inertia) * &of.powi(2);
+        if told.work.is_empty() || tidied(self.scene, &energy(value)) != *end {
+            return None;
+        }
+        let left = Math::Expr(energy(&Expr::symbol(symbol)));
+        let math = vec![left, Math::Op("="), name("T", "", "+", false)];
+        Some(Line { math, step: None })
+    }
+}
+
+/// An expression as a person would write it.
+fn tidied(scene: &Scene, e: &Expr) -> Expr {
+    let mut field = crate::algebra::Field::new(&scene.domains);
+    field.prepare([e]);
+    match field.element(e) {
+        Ok(x) => field.expr(&x),
+        Err(_) => e.clone(),
+    }
+}
+
+/// The time of a flight under gravity that ends after a given time; `None` for what is told by its energy.
+fn timed(told: &StageTold) -> Option<&Expr> {
+    let StageKind::Fall(fall) = &told.placed.kind else {
+        return None;
+    };
+    let energy = |q: &Question| matches!(q.ask, Ask::Energy { .. });
+    let by_time = matches!(fall.until, FallEnd::Time(_)) && fall.gravity.is_some();
+    let is_asked = told.placed.scene.questions.iter().any(energy);
+    told.time
+        .as_ref()
+        .filter(|_| by_time && fall.with.is_empty() && !is_asked)
+}
+
+/// The acceleration of gravity of a fall; zero elsewhere.
+fn gravity(told: &StageTold) -> Expr {
+    let StageKind::Fall(fall) = &told.placed.kind else {
+        return Expr::zero();
+    };
+    fall.gravity.clone().unwrap_or_else(Expr::zero)
+}
+
+/// Whether two formulas are one product, whatever the order of its factors.
+fn alike(a: &Expr, b: &Expr) -> bool {
+    match (a.node(), b.node()) {
+        (Node::Product(x), Node::Product(y)) => {
+            x.len() == y.len() && x.iter().all(|f| y.contains(f))
+        }
+        _ => a == b,
+    }
+}

@@ -1,0 +1,229 @@
+//! What comes into an impact: the bodies have to be where they touch, move alike where they are joined and approach where they
+//! collide; and the motion that earlier stages hand on gets symbols.
+
+use std::collections::BTreeMap;
+
+use crate::algebra::Sign;
+use crate::answer::calc::{Seen, essential, is_zero, sign, tidy};
+use crate::domain::Domain;
+use crate::expr::{Expr, Symbol, dot, minus};
+use crate::formula::write_plain;
+use crate::scene::{Body, OneSided, Scene, Stage, touch};
+use crate::story::{Refused, State};
+
+/// A particle is touched where it is.
+pub(super) fn touches(
+    stage: &Stage,
+    scene: &Scene,
+    one_sided: &[OneSided],
+    before: &State,
+) -> Result<(), Refused> {
+    let contacts = scene.contacts.iter().map(|c| (&c.name, c.bodies, &c.at));
+    let hinges = scene.hinges.iter().map(|h| (&h.name, h.bodies, &h.at));
+    let blows = scene.blows.iter().map(|b| (&b.name, [b.body; 2], &b.at));
+    let joints = contacts.chain(hinges).chain(blows);
+    let joints = joints.map(|(name, bodies, at)| (name, bodies, at, None));
+    let supports = one_sided
+        .iter()
+        .map(|o| (&o.name, o.bodies, &o.at, Some(o)));
+    for (name, bodies, at, one_sided) in joints.chain(supports) {
+        for body in bodies.map(|b| &scene.bodies[b]) {
+            if !body.is_particle() {
+                continue;
+            }
+            let gap = one_sided.map_or_else(|| minus(at, &body.center), |o| o.gap(&body.center));
+            if let Some(why) = before.why_open(&gap) {
+                return Err(Refused::new(
+                    &stage.name,
+                    format!(
+                        "where `{}` is, and whether `{name}` touches it, is open: {why}",
+                        body.name
+                    ),
+                    "end the motion before after a time or at a place that has a closed form",
+                ));
+            }
+            if gap
+                .iter()
+                .any(|c| is_zero(c, &scene.domains) == Some(false))
+            {
+                let [x, y] = center(scene, body);
+                return Err(Refused::new(
+                    &stage.name,
+                    format!(
+                        "`{name}` is not where the particle `{}` is by then: at ({x}, {y})",
+                        body.name
+                    ),
+                    format!("\"at\": \"{}\" is always where it is", body.name),
+                ));
+            }
+        }
+    }
+    let Some(off) = touch::misplaced(scene).into_iter().next() else {
+        return Ok(());
+    };
+    let body = &scene.bodies[off.body];
+    let [x, y] = center(scene, body);
+    Err(Refused::new(
+        &stage.name,
+        format!(
+            "{}; the center of `{}` is at ({x}, {y}) by then",
+            off.words, body.name
+        ),
+        off.hint,
+    ))
+}
+
+/// Where a body is by then, to be read.
+fn center(scene: &Scene, body: &Body) -> [String; 2] {
+    body.center.each_ref().map(|c| {
+        let tidy = tidy(c, &scene.domains).unwrap_or_else(|_| c.clone());
+        write_plain(&tidy)
+    })
+}
+
+/// Bodies joined by a hinge must move alike there before.
+pub(super) fn hinges_fit(stage: &Stage, scene: &Scene, before: &State) -> Result<(), Refused> {
+    for hinge in &scene.hinges {
+        let [a, b] = hinge.bodies.map(|b| scene.bodies[b].velocity_at(&hinge.at));
+        for gap in minus(&a, &b) {
+            if let Some(why) = before.why_open([&gap]) {
+                return Err(Refused::new(
+                    &stage.name,
+                    format!(
+                        "whether the bodies move alike at the hinge `{}` is open: {why}",
+                        hinge.name
+                    ),
+                    "what is caught in the impact is a contact with the law sticking, not a hinge",
+                ));
+            }
+            if is_zero(&gap, &scene.domains) == Some(false) {
+                let [first, second] = hinge.bodies.map(|b| &scene.bodies[b].name);
+                return Err(Refused::new(
+                    &stage.name,
+                    format!(
+                        "with the motion handed on, `{first}` and `{second}` move differently at the hinge `{}`",
+                        hinge.name
+                    ),
+                    "what is caught in the impact is a contact with the law sticking, not a hinge",
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Bodies that part before they touch do not collide. Gives what must be ≥ 0 for them to approach, where that is not sure.
+pub(super) fn approach(
+    stage: &Stage,
+    scene: &Scene,
+    before: &State,
+) -> Result<Vec<(String, Expr)>, Refused> {
+    let mut conditions = Vec::new();
+    for contact in &scene.contacts {
+        let Some(normal) = &contact.normal else {
+            continue;
+        };
+        let opening = dot(&contact.relative_velocity(scene), normal);
+        if before.why_open([&opening]).is_some() {
+            continue;
+        }
+        let seen = sign(&opening, &scene.domains);
+        if let Seen::Proved(Sign::Positive) = seen {
+            let [first, second] = contact.bodies.map(|b| &scene.bodies[b].name);
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "with the motion handed on, `{first}` and `{second}` move apart at `{}`: there is no collision",
+                    contact.name
+                ),
+                "look at the stage before, and at `normal`, which points out of the first body into the second",
+            ));
+        }
+        if !matches!(
+            seen,
+            Seen::Proved(Sign::Negative | Sign::NotPositive | Sign::Zero)
+        ) {
+            let words = format!("the bodies approach at `{}`", contact.name);
+            conditions.push((words, essential(&-&opening, &scene.domains)));
+        }
+    }
+    Ok(conditions)
+}
+
+/// Replaces what an earlier stage hands on by symbols where it holds roots: the impact is then a matter of fractions, proved
+/// and tried at exact points for any motion handed on, and the roots are put in afterwards. A speed or spin that a question
+/// names keeps that name. Gives what the symbols stand for.
+pub(super) fn hand_on(scene: &mut Scene, named: &[(Symbol, Expr)]) -> BTreeMap<Symbol, Expr> {
+    let mut handed: Vec<(Symbol, Expr)> = Vec::new();
+    let mut domains = scene.domains.clone();
+    let original = scene.domains.clone();
+    let parameters = scene.parameters.clone();
+    let asked = scene.questions.clone();
+    let is_taken = |n: &Symbol| {
+        parameters.iter().any(|p| p.name == *n) || asked.iter().any(|q| *q.name == **n)
+    };
+    let mut replace = |e: &mut Expr, is_spin: bool| {
+        if !e.has_root() {
+            return;
+        }
+        for (name, value) in &handed {
+            if let Ok(ratio) = tidy(&(&*e / value), &original)
+                && !ratio.has_root()
+            {
+                *e = &ratio * &Expr::symbol(name);
+                return;
+            }
+        }
+        let of_question = named.iter().find_map(|(name, value)| {
+            let ratio = tidy(&(&*e / value), &original).ok()?;
+            (!ratio.has_root() && !ratio.is_zero()).then_some((name, value, ratio))
+        });
+        let (name, value, factor) = match of_question {
+            Some((name, value, ratio)) => (name.clone(), value.clone(), ratio),
+            None => {
+                let letter = if is_spin { "omega" } else { "v" };
+                let name = (1..1000)
+                    .map(|k| Symbol::from(format!("{letter}_in{k}").as_str()))
+                    .find(|n| !domains.symbols.contains_key(n) && !is_taken(n))
+                    .unwrap_or_else(|| Symbol::from("handed"));
+                if sign(e, &original).is_negative() {
+                    (name, -&*e, Expr::from(-1))
+                } else {
+                    (name, e.clone(), Expr::one())
+                }
+            }
+        };
+        let sign = sign(&value, &original);
+        // What a question asks may be negative, such as the velocity of something that falls.
+        let domain = match sign {
+            Seen::Proved(Sign::Positive) => Domain::positive(),
+            Seen::Proved(Sign::Negative) => Domain::negative(),
+            _ => Domain::real(),
+        };
+        domains.symbols.insert(name.clone(), domain);
+        *e = &factor * &Expr::symbol(&name);
+        handed.push((name, value));
+    };
+    for body in &mut scene.bodies {
+        replace(&mut body.spin, true);
+        body.velocity.iter_mut().for_each(|v| replace(v, false));
+    }
+    scene.domains = domains;
+    for (name, value) in &handed {
+        let of = |p: &str| {
+            let known = scene.parameters.iter().find(|q| *q.name == *p)?;
+            Some(known.dimension.clone())
+        };
+        let dimension = crate::dimension::of(value, &of).ok().flatten();
+        let dimension = dimension.unwrap_or_else(crate::dimension::Dimension::none);
+        scene.parameters.push(crate::scene::Parameter {
+            name: name.clone(),
+            latex: None,
+            unit: dimension.si(),
+            dimension,
+            value: None,
+            meaning: String::from("handed on by the stage before"),
+        });
+    }
+    handed.into_iter().collect()
+}

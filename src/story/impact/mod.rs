@@ -1,0 +1,206 @@
+//! An impact in a story: the motion handed on goes in, the one-sided supports that act are found, `derive` does the rest.
+//!
+//! Of the supports and strings every subset is tried. Those in it are contacts without rebound, whose impulses must not be
+//! negative; those left out are gone, and the bodies must not move against them. What holds on the whole domain is told
+//! alone, what holds on a part of it with its condition.
+
+mod incoming;
+mod outcome;
+
+pub(super) use outcome::acting;
+
+use incoming::{approach, hand_on, hinges_fit, touches};
+use outcome::{ENERGY, case, gain, is_refuted, state_after};
+
+use super::{Case, Kept, Refused, StageTold, State};
+use crate::derive;
+use crate::expr::{Expr, Symbol};
+use crate::formula::{Sentence, sentence};
+use crate::scene::{OneSided, Scene, Stage};
+use crate::verify::friction;
+
+/// Works out an impact.
+pub(super) fn tell(
+    stage: &Stage,
+    before: State,
+    one_sided: &[OneSided],
+    supposed: Option<&[String]>,
+    named: &[(Symbol, Expr)],
+) -> Result<StageTold, Refused> {
+    let mut base = stage.scene.clone();
+    for (body, (v, w)) in base
+        .bodies
+        .iter_mut()
+        .zip(before.velocity.iter().zip(&before.spin))
+    {
+        body.velocity = v.clone();
+        // A particle that went round a point had an angular velocity, but has no spin.
+        body.spin = if body.is_particle() {
+            Expr::zero()
+        } else {
+            w.clone()
+        };
+    }
+    touches(stage, &base, one_sided, &before)?;
+    hinges_fit(stage, &base, &before)?;
+    let approaching = approach(stage, &base, &before)?;
+    let handed = hand_on(&mut base, named);
+    let mut cases: Vec<Case> = Vec::new();
+    let mut contradiction = None;
+    let mut outcomes =
+        friction::outcomes(&base).map_err(|why| Refused::new(&stage.name, why, ""))?;
+    for outcome in &mut outcomes {
+        // No table stands beside this impact to tell what Newton's or Brach's law gains.
+        outcome.scene.gains_energy = base.gains_energy;
+    }
+    let sets = subsets(one_sided, supposed);
+    for (outcome, set) in outcomes
+        .iter()
+        .flat_map(|o| sets.iter().map(move |set| (o, set)))
+    {
+        match case(
+            outcome,
+            one_sided,
+            set,
+            supposed.is_some(),
+            &handed,
+            &before,
+        ) {
+            Ok(Some(case)) => cases.push(case),
+            Ok(None) => {}
+            Err(derive::Stop::Contradiction(law)) => contradiction = Some(law),
+            Err(stop) => return Err(Refused::stop(&stage.name, stop)),
+        }
+    }
+    if let Some(sure) = cases.iter().position(|c| c.conditions.is_empty()) {
+        // Momentum and the one-sided laws have one outcome only; what holds everywhere is it.
+        cases = vec![cases.swap_remove(sure)];
+    }
+    if cases.len() > 1 {
+        cases.retain(|case| !is_refuted(&base, case, &handed));
+    }
+    if cases.is_empty() {
+        let is_contradiction = contradiction.is_some();
+        let reason = match contradiction {
+            Some(laws) => format!(
+                "the laws contradict each other, with the motion that comes in: {laws} cannot hold together"
+            ),
+            None => String::from(
+                "no set of supports and strings fits: one of those that act would have to pull or push the wrong way",
+            ),
+        };
+        let hint = "look at the directions `normal`, and at the motion handed on";
+        return Err(Refused {
+            contradicts: is_contradiction,
+            ..Refused::new(&stage.name, reason, hint)
+        });
+    }
+    for case in &mut cases {
+        case.conditions.extend(approaching.iter().cloned());
+        case.after = state_after(stage, &before, case)?;
+    }
+    let after = cases[0].after.clone();
+    let kept = kept(&base, one_sided, &cases);
+    let mut assumptions: Vec<Sentence> = Vec::new();
+    for (words, e) in &cases[0].conditions {
+        assumptions.push(sentence![e, " ≥ 0 (", words, ")"]);
+    }
+    assumptions.extend(cases.iter().filter_map(|case| gain(&base, case)));
+    let checks = cases[0].proof.scene.clone();
+    Ok(StageTold {
+        kept,
+        cases,
+        assumptions,
+        checks,
+        ..StageTold::new(stage, before, after)
+    })
+}
+
+/// Sets of those that act, the largest first.
+fn subsets(one_sided: &[OneSided], supposed: Option<&[String]>) -> Vec<Vec<usize>> {
+    let n = one_sided.len();
+    if let Some(names) = supposed {
+        return vec![
+            (0..n)
+                .filter(|i| names.contains(&one_sided[*i].name))
+                .collect(),
+        ];
+    }
+    let mut all: Vec<Vec<usize>> = (0..1usize << n)
+        .map(|bits| (0..n).filter(|i| bits >> i & 1 == 1).collect())
+        .collect();
+    all.sort_by_key(|set| std::cmp::Reverse(set.len()));
+    all
+}
+
+/// What an impact conserves.
+fn kept(scene: &Scene, one_sided: &[OneSided], cases: &[Case]) -> Vec<Kept> {
+    let fixed = |bodies: &[usize; 2]| bodies.iter().any(|b| scene.bodies[*b].is_fixed());
+    // Where impulses from outside act, by name and place.
+    let mut outside: Vec<(String, [Expr; 2])> = Vec::new();
+    for h in scene.hinges.iter().filter(|h| fixed(&h.bodies)) {
+        outside.push((h.name.clone(), h.at.clone()));
+    }
+    for c in scene.contacts.iter().filter(|c| fixed(&c.bodies)) {
+        outside.push((c.name.clone(), c.at.clone()));
+    }
+    for o in one_sided
+        .iter()
+        .filter(|o| fixed(&o.bodies) && cases.iter().any(|c| c.active.contains(&o.name)))
+    {
+        outside.push((o.name.clone(), o.at.clone()));
+    }
+    for b in &scene.blows {
+        outside.push((b.name.clone(), b.at.clone()));
+    }
+    let mut out = Vec::new();
+    let names: Vec<String> = outside.iter().map(|(n, _)| format!("`{n}`")).collect();
+    out.push(match names.as_slice() {
+        [] => Kept {
+            what: "momentum".into(),
+            conserved: true,
+            why: "no impulse comes from outside".into(),
+        },
+        _ => Kept {
+            what: "momentum".into(),
+            conserved: false,
+            why: match names.as_slice() {
+                [one] => sentence!["an impulse from outside acts at ", one],
+                several => {
+                    let all: Vec<Sentence> = several.iter().map(Sentence::from).collect();
+                    sentence!["impulses from outside act at ", Sentence::list(&all)]
+                }
+            },
+        },
+    });
+    if let [(name, _)] = outside.as_slice() {
+        out.push(Kept {
+            what: format!("angular momentum about {name}"),
+            conserved: true,
+            why: sentence![
+                "the only impulse from outside acts at `",
+                name,
+                "` and has no moment about it"
+            ],
+        });
+    }
+    if let ([case], true) = (cases, scene.blows.is_empty())
+        && let Some(closed) = &case.value(ENERGY)
+        && case.after.why_open([closed]).is_none()
+    {
+        out.push(if closed.is_zero() {
+            Kept {
+                what: "kinetic energy".into(),
+                conserved: true,
+                why: "the loss comes out as 0".into(),
+            }
+        } else {
+            Kept {
+                what: "kinetic energy".into(),
+                conserved: false,
+                why: sentence!["the loss comes out as ", closed],
+            }
+        });
+    }
+    out
+}

@@ -1,0 +1,325 @@
+//! One outcome of an impact: these supports act and friction goes this way, under conditions; and the motion just after.
+
+use std::collections::BTreeMap;
+
+use crate::algebra::Sign;
+use crate::answer::Form;
+use crate::answer::calc::{Seen, essential, is_zero, sign, tidy};
+use crate::derive::{self, Derivation};
+use crate::expr::{Expr, Symbol};
+use crate::formula::Sentence;
+use crate::scene::{
+    Ask, Contact, ContactLaw, EnergyWhen, Hypothesis, ImpulseAt, OneSided, Question, Scene, Stage,
+};
+use crate::story::{Case, Part, Refused, State};
+use crate::verify::{self, friction};
+
+/// Name of the question after the kinetic energy lost; no name of a scene has a blank at its end.
+pub(super) const ENERGY: &str = "energy lost ";
+
+/// Name of the question whether a support or string acts.
+pub(in crate::story) fn acting(name: &str) -> String {
+    format!("whether {name} acts ")
+}
+
+/// One set of acting supports, where friction goes one way; `None` where it does not hold anywhere.
+pub(super) fn case(
+    outcome: &friction::Outcome,
+    one_sided: &[OneSided],
+    set: &[usize],
+    is_supposed: bool,
+    handed: &BTreeMap<Symbol, Expr>,
+    before: &State,
+) -> Result<Option<Case>, derive::Stop> {
+    let mut scene = outcome.scene.clone();
+    for contact in &mut scene.contacts {
+        if let ContactLaw::Decided(decided) = &mut contact.law {
+            // Told with the case, in terms of what is given.
+            decided.when.clear();
+        }
+    }
+    let wanted = put_to_act(&mut scene, one_sided, set);
+    let derivation = derive::derive(&scene)?;
+    if derivation.counting.contradictory {
+        let laws = derivation.counting.conflict.join("; ");
+        return Err(derive::Stop::Contradiction(laws));
+    }
+    let values: BTreeMap<String, Expr> = derivation
+        .answers
+        .iter()
+        .filter_map(|a| match &a.form {
+            Form::Value { closed, .. } => Some((a.name.clone(), closed.substitute(handed))),
+            _ => None,
+        })
+        .collect();
+    let mut conditions = Vec::new();
+    for (i, (name, words)) in wanted.into_iter().enumerate() {
+        let amount = match (values.get(&name), values.get(&format!("{name}2"))) {
+            (Some(impulse), _) => impulse.clone(),
+            (None, Some(second)) => {
+                let first = values
+                    .get(&format!("{name}1"))
+                    .cloned()
+                    .unwrap_or_else(Expr::zero);
+                tidy(&(second - &first), &scene.domains)?
+            }
+            _ => continue,
+        };
+        if set.contains(&i) && is_zero(&amount, &scene.domains) == Some(true) && !is_supposed {
+            // It touches and does nothing: the smaller set says the same.
+            return Ok(None);
+        }
+        match sign(&amount, &scene.domains) {
+            Seen::Proved(s) if s.is_not_negative() => {}
+            Seen::Proved(Sign::Negative | Sign::NotPositive) => return Ok(None),
+            _ => conditions.push((words, essential(&amount, &scene.domains))),
+        }
+    }
+    for need in &outcome.when {
+        let need = need.substitute(handed);
+        match sign(&need, &scene.domains) {
+            Seen::Proved(s) if s.is_not_negative() => {}
+            Seen::Proved(Sign::Negative) => return Ok(None),
+            _ => conditions.push((outcome.words.clone(), essential(&need, &scene.domains))),
+        }
+    }
+    conditions.sort_by(|a, b| a.1.cmp(&b.1));
+    conditions.dedup_by(|a, b| a.1 == b.1);
+    if conditions.iter().any(|(_, e)| {
+        conditions
+            .iter()
+            .any(|(_, f)| is_zero(&(e + f), &scene.domains) == Some(true))
+    }) {
+        // One condition is the opposite of another: at most a boundary is left.
+        return Ok(None);
+    }
+    let proof = verify::prove(&scene, &derivation);
+    let possible = verify::possible::judge(&scene, &derivation);
+    Ok(Some(Case {
+        possible,
+        active: set.iter().map(|i| one_sided[*i].name.clone()).collect(),
+        rubs: outcome.words.clone(),
+        conditions,
+        handed: handed.clone(),
+        after: before.clone(),
+        scene,
+        derivation,
+        proof,
+    }))
+}
+
+/// Makes contacts of the supports and strings that act, and asks for what tells whether each one acts or is left: the question,
+/// and what it would say. The energy lost is asked for too.
+fn put_to_act(scene: &mut Scene, one_sided: &[OneSided], set: &[usize]) -> Vec<(String, String)> {
+    // Among the questions the one-sided contacts count after the others; only those that act are contacts here.
+    let others = scene.contacts.len();
+    scene.questions.retain_mut(|q| match &mut q.ask {
+        Ask::Impulse {
+            from: ImpulseAt::Contact(i),
+            ..
+        } if *i >= others => match set.iter().position(|k| k + others == *i) {
+            Some(place) => {
+                *i = others + place;
+                true
+            }
+            None => false,
+        },
+        _ => true,
+    });
+    let mut wanted: Vec<(String, String)> = Vec::new();
+    let hidden = |name: String, ask: Ask| Question {
+        hidden: true,
+        ..Question::new(&name, None, ask)
+    };
+    for (i, o) in one_sided.iter().enumerate() {
+        let [first, second] = o.bodies;
+        if set.contains(&i) {
+            let name = acting(&o.name);
+            scene.questions.push(hidden(
+                name.clone(),
+                Ask::Impulse {
+                    from: ImpulseAt::Contact(scene.contacts.len()),
+                    on: second,
+                    along: Some(o.normal.clone()),
+                },
+            ));
+            scene.contacts.push(Contact {
+                name: o.name.clone(),
+                bodies: o.bodies,
+                at: o.at.clone(),
+                normal: Some(o.normal.clone()),
+                law: ContactLaw::Frictionless {
+                    restitution: Expr::zero(),
+                },
+            });
+            let verb = if o.is_string { "pulls" } else { "pushes" };
+            wanted.push((name, format!("`{}` {verb}", o.name)));
+        } else {
+            let name = acting(&o.name);
+            for (suffix, body) in [("2", second), ("1", first)] {
+                scene.questions.push(hidden(
+                    format!("{name}{suffix}"),
+                    Ask::Velocity {
+                        body,
+                        point: Some((o.name.clone(), o.at.clone())),
+                        along: Some(o.normal.clone()),
+                    },
+                ));
+            }
+            let what = if o.is_string {
+                "goes slack"
+            } else {
+                "comes free"
+            };
+            wanted.push((name, format!("`{}` {what}", o.name)));
+        }
+    }
+    scene.questions.push(hidden(
+        ENERGY.into(),
+        Ask::Energy {
+            when: EnergyWhen::Lost,
+            of: None,
+        },
+    ));
+    wanted
+}
+
+/// The values that the scene gives.
+fn values(scene: &Scene) -> BTreeMap<Symbol, Expr> {
+    let given = scene.parameters.iter();
+    given
+        .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
+        .collect()
+}
+
+/// What is to be said of the energy under a law of friction that may gain some.
+pub(super) fn gain(scene: &Scene, case: &Case) -> Option<Sentence> {
+    let mut laws = case.scene.contacts.iter().filter_map(|c| match &c.law {
+        ContactLaw::Decided(decided) => Some(&decided.law.hypothesis),
+        _ => None,
+    });
+    let law = laws.find(|h| matches!(h, Hypothesis::Newton | Hypothesis::Brach { .. }))?;
+    let at_values = case.value(ENERGY)?.substitute(&values(scene));
+    let name = law.name();
+    match sign(&at_values, &scene.domains) {
+        Seen::Proved(s) if s.is_not_negative() => None,
+        Seen::Proved(_) => Some(Sentence::words(format!(
+            "that energy grows, which it does at the values given: {name}’s hypothesis does not fit friction here"
+        ))),
+        _ => Some(Sentence::words(format!(
+            "that no energy is gained, which {name}’s hypothesis with friction does not ensure"
+        ))),
+    }
+}
+
+/// Whether the values that the scene gives rule a case out.
+pub(super) fn is_refuted(scene: &Scene, case: &Case, handed: &BTreeMap<Symbol, Expr>) -> bool {
+    let given = values(scene);
+    case.conditions.iter().any(|(_, e)| {
+        let there = e.substitute(handed).substitute(&given);
+        there != *e && matches!(sign(&there, &scene.domains), Seen::Proved(Sign::Negative))
+    })
+}
+
+/// The motion just after: what the laws do not determine is open.
+pub(super) fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<State, Refused> {
+    let mut after = before.clone();
+    let mut scene = case.scene.clone();
+    scene.questions.clear();
+    let g = crate::laws::Geometry::of(&scene, |e| Ok::<_, std::convert::Infallible>(e.clone()));
+    let Ok(g) = g;
+    let full = crate::laws::Kinematics::full(&scene, &g);
+    let why = format!("the laws of `{}` do not determine it", stage.name);
+    for b in 0..scene.bodies.len() {
+        let body = &scene.bodies[b];
+        if body.is_fixed() {
+            continue;
+        }
+        let value = |form: &crate::laws::Affine<Expr>| -> Result<Option<Expr>, Refused> {
+            let mut total = form.constant.clone();
+            for (u, k) in &form.terms {
+                let Some(v) = case.derivation.motion.get(u) else {
+                    return Ok(None);
+                };
+                total = &total + &(k * v);
+            }
+            tidy(&total.substitute(&case.handed), &scene.domains)
+                .map(Some)
+                .map_err(|s| Refused::stop(&stage.name, s))
+        };
+        for (k, what) in ["_x", "_y"].into_iter().enumerate() {
+            after.velocity[b][k] = match value(&full.velocity[b][k])? {
+                Some(v) => v,
+                None => after.open(&scene, ["u", what], b, &why),
+            };
+        }
+        if !body.is_particle() {
+            after.spin[b] = match value(&full.spin[b])? {
+                Some(w) => w,
+                None => after.open(&scene, ["w", ""], b, &why),
+            };
+        }
+        after.part[b] = part(&scene, b, before.part[b]);
+    }
+    Ok(after)
+}
+
+/// How a body takes part after an impact.
+fn part(scene: &Scene, b: usize, before: Part) -> Part {
+    let hinges = scene.hinges.iter().map(|h| (h.bodies, true));
+    let contacts = scene
+        .contacts
+        .iter()
+        .map(|c| (c.bodies, matches!(c.law, ContactLaw::Sticking)));
+    let mut touching = hinges
+        .chain(contacts)
+        .filter(|(bodies, _)| bodies.contains(&b));
+    let struck = scene.blows.iter().any(|blow| blow.body == b)
+        || scene.after.iter().any(|known| known.body == b);
+    match touching.next() {
+        Some((_, true)) => Part::Joined,
+        Some(_) if touching.any(|(_, joins)| joins) => Part::Joined,
+        Some(_) => Part::Free,
+        None if struck => Part::Free,
+        None => before,
+    }
+}
+
+impl Case {
+    /// The value of an answer in parameters alone.
+    pub(in crate::story) fn value(&self, name: &str) -> Option<Expr> {
+        let found = self.derivation.answers.iter().find(|a| a.name == name)?;
+        match &found.form {
+            Form::Value { closed, .. } => Some(self.put_in(closed)),
+            _ => None,
+        }
+    }
+
+    /// An expression with what was handed on put in.
+    pub(in crate::story) fn put_in(&self, e: &Expr) -> Expr {
+        if self.handed.is_empty() {
+            return e.clone();
+        }
+        let put = e.substitute(&self.handed);
+        tidy(&put, &self.scene.domains).unwrap_or(put)
+    }
+
+    /// The scene and the derivation without the questions that were only asked to find the outcome, unless there are no
+    /// others.
+    pub fn asked(&self) -> (Scene, Derivation) {
+        let mut scene = self.scene.clone();
+        let mut derivation = self.derivation.clone();
+        let own: Vec<&Question> = self.scene.questions.iter().filter(|q| q.hidden).collect();
+        let is_own = |name: &str| own.iter().any(|q| q.name == name);
+        derivation.answers.retain(|a| !is_own(&a.question));
+        let has_block = |q: &Question| {
+            let mut blocks = derivation.blocks.iter();
+            blocks.any(|b| b.asked_by.as_deref() == Some(q.name.as_str()))
+        };
+        let asked = scene.questions.iter().any(|q| !q.hidden);
+        scene
+            .questions
+            .retain(|q| !q.hidden || (!asked && has_block(q)));
+        (scene, derivation)
+    }
+}
