@@ -187,7 +187,7 @@ impl Worked {
                 Some(impact) => Chapter::Impact(impact),
                 None => {
                     let clockwise = story::is_clockwise(t);
-                    Chapter::Motion(t.placed.scene.clone(), t.placed.kind.clone(), clockwise)
+                    Chapter::Motion(story::beginning(t), t.placed.kind.clone(), clockwise)
                 }
             };
             (t.name.clone(), chapter)

@@ -135,7 +135,9 @@ fn a_falsified_derivation_is_refused_by_the_check_that_is_for_it() {
                     caught && !proof.holds() && matches!(trust(&wrong, &proof), Trust::Refuted(_)),
                     "{path}, {part} {name}, {reason}: {proof:?}"
                 );
-                *refused.entry(format!("{part} {change}")).or_default() += 1;
+                *refused
+                    .entry(format!("{part} {change} {kind}"))
+                    .or_default() += 1;
             }
         }
     }

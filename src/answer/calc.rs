@@ -151,6 +151,20 @@ pub fn essential(e: &Expr, domains: &Domains) -> Expr {
     tidy(&turned, domains).unwrap_or(turned)
 }
 
+/// `e ≥ 0` by what its sign hangs on, as people state it.
+pub fn at_least_zero(e: &Expr, domains: &Domains) -> Sentence {
+    beyond_zero(e, domains, false)
+}
+
+/// `e > 0` where zero is excluded, else `e ≥ 0`.
+fn beyond_zero(e: &Expr, domains: &Domains, open: bool) -> Sentence {
+    let e = essential(e, domains);
+    match open {
+        true => Sentence::positive(&e),
+        false => Sentence::not_negative(&e),
+    }
+}
+
 /// A value of a symbol at which an expression is zero.
 #[derive(Clone, Debug)]
 pub struct Root {
@@ -210,10 +224,8 @@ pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unso
                         _ => false,
                     };
                     if !sure {
-                        let sign = if relation.closed { " ≥" } else { " >" };
-                        let excess = essential(&excess, domains);
-                        root.given
-                            .push(sentence![&excess, sign, " 0, by ", &relation.words]);
+                        let holds = beyond_zero(&excess, domains, !relation.closed);
+                        root.given.push(sentence![holds, ", by ", &relation.words]);
                     }
                     out.inside.push(root);
                     continue;
@@ -347,7 +359,7 @@ pub fn real(value: &Expr, domains: &Domains) -> Vec<Sentence> {
     gaps.retain(|gap| !matches!(sign(gap, domains), Seen::Proved(s) if s.is_not_negative()));
     let mut out: Vec<Sentence> = Vec::new();
     for gap in gaps {
-        let words = sentence![&essential(&gap, domains), " ≥ 0"];
+        let words = at_least_zero(&gap, domains);
         if !out.contains(&words) {
             out.push(words);
         }
@@ -386,12 +398,9 @@ fn take(
             _ => false,
         };
         if seen == Seen::Mixed {
-            let relation = if limit.open { ">" } else { "≥" };
             given.push(sentence![
-                &essential(&gap, domains),
-                " ",
-                relation,
-                " 0, so that ",
+                beyond_zero(&gap, domains, limit.open),
+                ", so that ",
                 symbol,
                 " lies within its domain"
             ]);

@@ -8,6 +8,7 @@ use super::Stop;
 use super::work::{Work, formulas};
 use crate::algebra::{self, Element, Sign};
 use crate::expr::{Expr, Int, Node, Rational};
+use crate::formula::Sentence;
 use crate::scene::ContactLaw;
 
 /// Longest condition that is printed with an answer, in characters.
@@ -46,21 +47,30 @@ impl Work<'_> {
         })
     }
 
-    /// What stands under square roots of the scene and is not known to have one.
+    /// What stands under square roots of the scene and is not known to have one, without factors that are positive.
     fn radicands(&mut self) -> Vec<Expr> {
         let mut found = Vec::new();
         for e in formulas(self.scene) {
             radicands(&e, &mut found);
         }
-        found.retain(|base| {
-            let known = self
-                .field
-                .element(base)
-                .ok()
-                .and_then(|x| self.field.sign(&x));
-            !known.is_some_and(Sign::is_not_negative)
-        });
-        found
+        let mut open = Vec::new();
+        for base in found {
+            let Ok(element) = self.field.element(&base) else {
+                open.push(base);
+                continue;
+            };
+            if self.field.sign(&element).is_some_and(Sign::is_not_negative) {
+                continue;
+            }
+            let shown = self.field.expr(&element);
+            let factors = match shown.node() {
+                Node::Product(factors) => factors.clone(),
+                _ => vec![shown],
+            };
+            let hangs_on = factors.into_iter().filter(|f| !self.is_positive(f));
+            open.push(Expr::product(hangs_on));
+        }
+        open
     }
 
     fn is_positive(&mut self, e: &Expr) -> bool {
@@ -71,13 +81,11 @@ impl Work<'_> {
     /// What the closed forms rest on: signs taken for roots, and conditions `… ≠ 0` under which the blocks were solved.
     pub(super) fn assumptions(&mut self) -> Vec<String> {
         let sign = |a: &algebra::Assumption| match a {
-            algebra::Assumption::NotNegative(e) => {
-                format!("{} ≥ 0", crate::formula::write_plain(e))
-            }
+            algebra::Assumption::NotNegative(e) => Sentence::not_negative(e).to_string(),
         };
         let mut all: Vec<String> = self.field.assumptions().iter().map(sign).collect();
         for base in self.radicands() {
-            let condition = format!("{} ≥ 0", crate::formula::write_plain(&base));
+            let condition = Sentence::not_negative(&base).to_string();
             if !all.contains(&condition) {
                 all.push(condition);
             }

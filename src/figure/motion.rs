@@ -13,7 +13,10 @@ use super::sheet::{Ink, Line, SIZE, SMALL, Sheet, arc};
 use super::stage::{Stage, spanning};
 use super::values::{Pair, Values, size};
 use crate::expr::Expr;
-use crate::scene::{Body, FallEnd, Hinge, Scene, SlideEnd, StageKind, Turn, Until};
+use crate::scene::{Body, Fall, FallEnd, Hinge, Scene, SlideEnd, StageKind, Turn, Until};
+
+/// Shortest length that is marked, in pixels.
+const SHORTEST: f64 = 8.0;
 
 /// The scene as it is drawn: a point that is turned about is a hinge here, so that its support is seen.
 pub fn stand_in(scene: &Scene, kind: &StageKind) -> Scene {
@@ -54,12 +57,25 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
     let with: &[usize] = match kind {
         StageKind::Turn(turn) => &turn.with,
         StageKind::Slide(slide) => &slide.with,
+        StageKind::Fall(fall) => &fall.with,
         _ => &[],
     };
     let end = path
         .last()
         .map_or_else(|| from.clone(), |(pose, _)| pose.clone());
-    let poses: Vec<Pose> = path.iter().map(|(pose, _)| pose.clone()).collect();
+    let mut poses: Vec<Pose> = path.iter().map(|(pose, _)| pose.clone()).collect();
+    // Bodies that fly at the same time go ways of their own.
+    let mut others: Vec<(Pose, Vec<Pose>)> = Vec::new();
+    if let StageKind::Fall(fall) = kind {
+        for other in with
+            .iter()
+            .filter_map(|b| begin.get(*b).map(|pose| (*b, pose)))
+        {
+            let flown = flight(scene, values, fall, other)?;
+            poses.extend(flown.iter().cloned());
+            others.push((other.1.clone(), flown));
+        }
+    }
     let stage = spanning(scene, values, begin.clone(), &poses)?;
     stage.fixed(&mut sheet, &[]);
     if let StageKind::Slide(slide) = kind
@@ -79,17 +95,14 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
             stage.body(&mut sheet, pose, [0.0, 0.0]);
         }
     }
-    // The beginning is broken lines, the end is the body as usual.
-    let outline: Vec<Pair> = from.outline().into_iter().map(|p| stage.px(p)).collect();
-    match from.look {
-        Look::Dot => sheet.circle(stage.px(from.center), 6.0, Line::dashed(Ink::Body)),
-        _ if !from.skin.is_empty() => {
-            for line in from.drawn() {
-                let line = line.into_iter().map(|p| stage.px(p)).collect();
-                sheet.path(line, true, Line::dashed(Ink::Body), 1.0);
-            }
+    beginning(&stage, &mut sheet, from);
+    for (first, flown) in &others {
+        beginning(&stage, &mut sheet, first);
+        if let Some(last) = flown.last() {
+            stage.body(&mut sheet, last, [0.0, 0.0]);
         }
-        _ => sheet.path(outline, true, Line::dashed(Ink::Body), 1.0),
+        let points: Vec<Pair> = flown.iter().map(|pose| stage.px(pose.center)).collect();
+        trail(&mut sheet, &points);
     }
     if let (StageKind::Turn(turn), Look::Dot) = (kind, &from.look)
         && let Some(about) = stage.spot(&turn.about)
@@ -108,20 +121,7 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
     }
     stage.hinges(&mut sheet, &|_| true);
     let points: Vec<Pair> = path.iter().map(|(pose, _)| stage.px(pose.center)).collect();
-    if let [.., last_but, last] = points.as_slice() {
-        sheet.path(
-            points[..points.len() - 1].to_vec(),
-            false,
-            Line::dashed(Ink::Motion),
-            2.0,
-        );
-        let d = [last[0] - last_but[0], last[1] - last_but[1]];
-        if size(d) > 1e-6 {
-            let u = [d[0] / size(d), d[1] / size(d)];
-            let tail = [last[0] - u[0] * 11.0, last[1] - u[1] * 11.0];
-            sheet.arrow(tail, *last, Ink::Motion, 1.6);
-        }
-    }
+    trail(&mut sheet, &points);
     match kind {
         StageKind::Turn(turn) => angle(&stage, &mut sheet, turn, from, &end, clockwise),
         StageKind::Slide(s) => {
@@ -130,8 +130,15 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
             }
         }
         StageKind::Fall(f) => {
-            if let FallEnd::Drop(h) = &f.until {
-                along(&stage, &mut sheet, &points, h);
+            if let (Some(first), Some(last)) = (points.first(), points.last()) {
+                let corner = [first[0], last[1]];
+                // Straight down the way itself is the height.
+                let is_apart = (last[0] - first[0]).abs() > SHORTEST;
+                match &f.until {
+                    FallEnd::Drop(h) => level(&stage, &mut sheet, [*first, corner], is_apart, h),
+                    FallEnd::Range(s) => level(&stage, &mut sheet, [corner, *last], true, s),
+                    FallEnd::Time(_) => {}
+                }
             }
         }
         StageKind::Wind(w) => {
@@ -173,8 +180,6 @@ fn way(
     clockwise: bool,
     from: &Pose,
 ) -> Option<Vec<(Pose, f64)>> {
-    const STEPS: u32 = 40;
-    let part = |k: u32| f64::from(k) / f64::from(STEPS);
     let straight = |d: Pair| {
         let at = |k: u32| {
             (
@@ -205,10 +210,10 @@ fn way(
             };
             straight([along[0] * far, along[1] * far])
         }
-        StageKind::Fall(f) => match &f.until {
-            FallEnd::Drop(h) => straight([0.0, -values.of(h)?]),
-            FallEnd::Range(_) | FallEnd::Time(_) => vec![(from.clone(), 0.0)],
-        },
+        StageKind::Fall(f) => flight(scene, values, f, (f.body, from))?
+            .into_iter()
+            .map(|pose| (pose, 0.0))
+            .collect(),
         StageKind::Wind(w) => {
             let (pole, to) = (values.pair(&w.around)?, values.of(&w.to)?);
             let arm = [from.center[0] - pole[0], from.center[1] - pole[1]];
@@ -227,6 +232,51 @@ fn way(
         }
         StageKind::Impact { .. } => return None,
     })
+}
+
+/// Pictures of a way.
+const STEPS: u32 = 40;
+
+/// How much of a way lies behind at one of its pictures.
+fn part(k: u32) -> f64 {
+    f64::from(k) / f64::from(STEPS)
+}
+
+/// Poses of a body in free flight, the first one the beginning: the parabola of its center, and its spin.
+fn flight(
+    scene: &Scene,
+    values: &Values,
+    fall: &Fall,
+    (body, from): (usize, &Pose),
+) -> Option<Vec<Pose>> {
+    let g = fall.gravity.as_ref().map_or(Some(0.0), |g| values.of(g))?;
+    let ends = values.pair(&scene.bodies[fall.body].velocity)?;
+    let time = match &fall.until {
+        FallEnd::Time(time) => values.of(time)?,
+        FallEnd::Range(s) => values.of(s)? / ends[0],
+        FallEnd::Drop(h) if g == 0.0 => -values.of(h)? / ends[1],
+        FallEnd::Drop(h) => {
+            let end = (ends[1] * ends[1] + 2.0 * g * values.of(h)?).sqrt();
+            (ends[1] + if fall.rising { -end } else { end }) / g
+        }
+    };
+    let velocity = values.pair(&scene.bodies[body].velocity)?;
+    let spin = values.of(&scene.bodies[body].spin)?;
+    // Values at which it does not get there show where it should get.
+    let goal = match &fall.until {
+        FallEnd::Drop(h) => [0.0, -values.of(h)?],
+        FallEnd::Range(s) => [values.of(s)?, 0.0],
+        FallEnd::Time(_) => [0.0, 0.0],
+    };
+    let at = |k: u32| match time.is_finite() {
+        true => {
+            let t = time * part(k);
+            let shift = [velocity[0] * t, velocity[1] * t - g * t * t / 2.0];
+            moved(from, from.center, spin * t, shift)
+        }
+        false => moved(from, from.center, 0.0, goal.map(|d| d * part(k))),
+    };
+    Some((0..=STEPS).map(at).collect())
 }
 
 /// The angle of a rotation, counterclockwise.
@@ -311,6 +361,47 @@ fn angle(stage: &Stage, sheet: &mut Sheet, turn: &Turn, from: &Pose, end: &Pose,
             },
         });
     }
+}
+
+/// A body at the beginning, in broken lines; at the end it is drawn as usual.
+fn beginning(stage: &Stage, sheet: &mut Sheet, from: &Pose) {
+    let outline: Vec<Pair> = from.outline().into_iter().map(|p| stage.px(p)).collect();
+    match from.look {
+        Look::Dot => sheet.circle(stage.px(from.center), 6.0, Line::dashed(Ink::Body)),
+        _ if !from.skin.is_empty() => {
+            for line in from.drawn() {
+                let line = line.into_iter().map(|p| stage.px(p)).collect();
+                sheet.path(line, true, Line::dashed(Ink::Body), 1.0);
+            }
+        }
+        _ => sheet.path(outline, true, Line::dashed(Ink::Body), 1.0),
+    }
+}
+
+/// The way of a center, with an arrow at its end.
+fn trail(sheet: &mut Sheet, points: &[Pair]) {
+    let [.., last_but, last] = points else {
+        return;
+    };
+    let before = points[..points.len() - 1].to_vec();
+    sheet.path(before, false, Line::dashed(Ink::Motion), 2.0);
+    let d = [last[0] - last_but[0], last[1] - last_but[1]];
+    if size(d) > 1e-6 {
+        let u = [d[0] / size(d), d[1] / size(d)];
+        let tail = [last[0] - u[0] * 11.0, last[1] - u[1] * 11.0];
+        sheet.arrow(tail, *last, Ink::Motion, 1.6);
+    }
+}
+
+/// A height or a range beside a flight, on a line of its own where the flight does not go along it.
+fn level(stage: &Stage, sheet: &mut Sheet, [from, to]: [Pair; 2], is_apart: bool, e: &Expr) {
+    if size([to[0] - from[0], to[1] - from[1]]) < SHORTEST {
+        return;
+    }
+    if is_apart {
+        sheet.segment(from, to, Line::thin(Ink::Dimension), 1.0);
+    }
+    beside(stage, sheet, from, to, e);
 }
 
 /// The length of a straight way.

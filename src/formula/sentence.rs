@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use super::write_plain;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Node, Symbol};
 
 /// A sentence from words, formulas and other sentences, in order: `sentence!["it holds for ", &h, " ≤ ", &limit]`.
 macro_rules! sentence {
@@ -61,6 +61,16 @@ impl Sentence {
         pieces.collect()
     }
 
+    /// `e ≥ 0` as people state it: what is taken away stands on the other side, `2a − b ≥ 0` as `2a ≥ b`.
+    pub fn not_negative(e: &Expr) -> Sentence {
+        beyond_zero(e, [" ≥ ", " ≤ "])
+    }
+
+    /// `e > 0` in the same way.
+    pub fn positive(e: &Expr) -> Sentence {
+        beyond_zero(e, [" > ", " < "])
+    }
+
     /// Sentences with something between every two.
     pub fn join(all: impl IntoIterator<Item = Sentence>, between: &str) -> Sentence {
         let mut out = Sentence::default();
@@ -82,6 +92,20 @@ impl Sentence {
                 sentence![Sentence::join(first.iter().cloned(), ", "), " and ", last]
             }
         }
+    }
+}
+
+/// A relation to zero, with what is taken away on the other side; the second sign stands where nothing is added.
+fn beyond_zero(e: &Expr, [sign, turned]: [&str; 2]) -> Sentence {
+    let terms = match e.node() {
+        Node::Sum(terms) => terms.clone(),
+        _ => vec![e.clone()],
+    };
+    let (taken, kept): (Vec<Expr>, Vec<Expr>) = terms.into_iter().partition(Expr::is_negative);
+    let taken = Expr::sum(taken.iter().map(|term| -term));
+    match kept.is_empty() {
+        true => sentence![&taken, turned, "0"],
+        false => sentence![&Expr::sum(kept), sign, &taken],
     }
 }
 

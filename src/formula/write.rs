@@ -527,9 +527,11 @@ fn change(base: &str) -> Option<(&'static str, &str)> {
 
 /// One index: a Greek letter, a word upright, or letters and digits.
 fn latex_index(index: &str) -> String {
-    let is_word = index.chars().count() > 2
-        && index.chars().all(char::is_alphabetic)
-        && index.chars().any(char::is_lowercase);
+    // Two letters are two indices, as in ω_AB or v_xy, unless they are a word.
+    let is_word = index == "in"
+        || index.chars().count() > 2
+            && index.chars().all(char::is_alphabetic)
+            && index.chars().any(char::is_lowercase);
     if is_greek(index) {
         format!("\\{index}")
     } else if is_word {

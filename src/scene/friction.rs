@@ -162,6 +162,14 @@ impl<T> Condition<T> {
         })
     }
 
+    /// Every number of the condition, to be changed.
+    pub fn numbers_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        self.impulse
+            .iter_mut()
+            .chain(&mut self.velocity)
+            .chain(std::iter::once(&mut self.right))
+    }
+
     /// Every number of the condition.
     pub fn numbers(&self) -> impl Iterator<Item = &T> {
         self.impulse

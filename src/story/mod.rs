@@ -16,7 +16,7 @@ mod worlds;
 
 use std::collections::BTreeMap;
 
-pub use sheet::{flat_answer, impact, impacts, is_clockwise, sheet};
+pub use sheet::{beginning, flat_answer, impact, impacts, is_clockwise, sheet};
 
 use crate::answer::{Answer, Check, Refused};
 use crate::derive::{Derivation, Stop};

@@ -8,7 +8,7 @@ use crate::answer::calc::sign;
 use crate::answer::{Answer, Form};
 use crate::derive::{self, Derivation, Stop};
 use crate::expr::{Expr, cross, minus};
-use crate::scene::{Question, Scene, StageKind};
+use crate::scene::{ContactLaw, Question, Scene, StageKind};
 
 /// The scene of an impact, by name of its stage; the first one for `None`. `None` where there is no such impact.
 pub fn impact(scene: &Scene, told: &Told, stage: Option<&str>) -> Option<Scene> {
@@ -32,6 +32,18 @@ pub fn impacts(scene: &Scene, told: &Told) -> Vec<(String, Scene)> {
             one.printed.clear();
             one.questions = case.asked().0.questions;
             out.push((name, one));
+        }
+    }
+    out
+}
+
+/// The scene at the beginning of a stage: the bodies where they are, in the motion they have.
+pub fn beginning(told: &StageTold) -> Scene {
+    let mut out = told.placed.scene.clone();
+    for (b, body) in out.bodies.iter_mut().enumerate() {
+        if !body.is_fixed() {
+            body.velocity.clone_from(&told.before.velocity[b]);
+            body.spin.clone_from(&told.before.spin[b]);
         }
     }
     out
@@ -111,6 +123,12 @@ fn put_together(scene: &Scene, case: &Case) -> Scene {
     for body in &mut out.bodies {
         put(&mut body.spin);
         body.velocity.iter_mut().for_each(put);
+    }
+    for contact in &mut out.contacts {
+        if let ContactLaw::Decided(decided) = &mut contact.law {
+            let numbers = decided.conditions.iter_mut().flat_map(|c| c.numbers_mut());
+            numbers.for_each(put);
+        }
     }
     out
 }

@@ -67,7 +67,10 @@ pub(super) fn leading(stages: &[StageTold], parent: usize, case: usize) -> Strin
 
 /// `a − h ≥ 0 and b ≥ 0`.
 fn conditions(case: &Case) -> Sentence {
-    let each = case.conditions.iter().map(|(_, e)| sentence![e, " ≥ 0"]);
+    let each = case
+        .conditions
+        .iter()
+        .map(|(_, e)| Sentence::not_negative(e));
     Sentence::join(each, " and ")
 }
 
@@ -115,7 +118,19 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                 (FallEnd::Drop(h), Some(_)) if fall.rising => {
                     sentence!["`", name, "` rises freely through ", &-h]
                 }
-                (FallEnd::Drop(h), Some(_)) => sentence!["`", name, "` falls freely through ", h],
+                (FallEnd::Drop(h), Some(_)) if h.is_zero() => {
+                    sentence!["`", name, "` flies freely until it is as high as at first"]
+                }
+                (FallEnd::Drop(h), Some(_)) => match counted(h, [" lower", " higher"]) {
+                    (_, " lower") => sentence!["`", name, "` falls freely through ", h],
+                    (up, _) => sentence![
+                        "`",
+                        name,
+                        "` flies freely until it comes down to a place ",
+                        &up,
+                        " higher"
+                    ],
+                },
                 (FallEnd::Time(t), Some(_)) => sentence!["`", name, "` falls freely for ", t],
                 (FallEnd::Time(t), None) => sentence!["`", name, "` flies freely for ", t],
                 (FallEnd::Range(s), _) => {
@@ -185,7 +200,12 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
         (_, None, true) => " moves along a line",
         (_, None, false) => " move together along a line",
     };
-    let lead = format!("{}{how}", names.join(" and "));
+    let lead = names.join(" and ");
+    if told.time.as_ref().is_some_and(Expr::is_zero) {
+        let verb = if one { " is" } else { " are" };
+        return sentence![lead, verb, " at rest already"];
+    }
+    let lead = lead + how;
     match &slide.until {
         SlideEnd::Distance(s) => sentence![lead, " through ", s],
         SlideEnd::Time(t) => sentence![lead, " for ", t],

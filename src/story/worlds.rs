@@ -42,8 +42,9 @@ pub(super) fn of(stages: &[StageTold]) -> Vec<World> {
                     let mut one = world.clone();
                     one.outcome.insert(i, k);
                     let given = case.conditions.iter();
-                    one.given
-                        .extend(given.map(|(why, e)| sentence![e, " ≥ 0 (", why, ")"]));
+                    one.given.extend(
+                        given.map(|(why, e)| sentence![Sentence::not_negative(e), " (", why, ")"]),
+                    );
                     next.push(one);
                 }
             }

@@ -1,8 +1,10 @@
 //! The worked solution of a scene with stages: a section for each stage, then what is asked, then what it all rests on.
 //!
 //! In: a scene and its story as told. Out: a [`Solution`]. An impact is written by the same code as a single collision, with
-//! the motion handed on by the stage before; a motion is told in [`motion`].
+//! the motion handed on by the stage before; a motion is told in [`motion`], a flight in
+//! [`flight`].
 
+mod flight;
 mod motion;
 
 use super::asked::{self, answered, full_sentence};
@@ -212,9 +214,7 @@ impl Page<'_> {
             heading.extend(asked::sentence(
                 self.scene,
                 &Sentence::join(
-                    case.conditions.iter().map(|(_, e)| {
-                        Sentence([Sentence::from(e).0, Sentence::words(" ≥ 0").0].concat())
-                    }),
+                    (case.conditions.iter()).map(|(_, e)| Sentence::not_negative(e)),
                     " and ",
                 ),
             ));
@@ -326,7 +326,8 @@ impl Page<'_> {
                 self.solution.meanings.insert(symbol.clone(), meaning);
                 let ask = self.told.stages[i].placed.asked(question).clone();
                 let flown = self.flown(&self.told.stages[i], &ask, answer);
-                let sides = [Some(&Expr::symbol(&symbol)), flown.as_ref()];
+                let claimed = flown.as_ref().map(|[_, claimed]| claimed);
+                let sides = [Some(&Expr::symbol(&symbol)), claimed];
                 let claims = sides.into_iter().flatten().map(|left| Claim {
                     left: left.clone(),
                     right: formula.clone(),
@@ -342,8 +343,8 @@ impl Page<'_> {
                     math.extend([name("T", "", "+", false), Math::Op("=")]);
                 }
                 steps.extend(self.energy_in(&self.told.stages[i], &question.ask, &symbol, formula));
-                if let Some(raw) = flown {
-                    math.extend([Math::Expr(raw), Math::Op("=")]);
+                if let Some([shown, _]) = flown {
+                    math.extend([Math::Expr(shown), Math::Op("=")]);
                 }
                 math.push(Math::Expr(formula.clone()));
                 let outcome = answer.told.map_or(0, |(_, k)| k);

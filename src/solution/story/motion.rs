@@ -1,11 +1,11 @@
-//! A motion in a worked solution: by its energy, by Newton's laws step by step, or, where its time is given, by its acceleration.
-//! Every line is a claim.
+//! A motion in a worked solution: by its energy, or by Newton's laws step by step. Every line is a claim; a flight is told in
+//! [`super::flight`].
 
 use super::Page;
 use crate::answer::Answer;
-use crate::expr::{Expr, Node, Symbol, dot};
-use crate::scene::{Ask, FallEnd, Question, Scene, Stage, StageKind};
-use crate::solution::words::{self, name, say};
+use crate::expr::{Expr, Node, Symbol};
+use crate::scene::{Ask, Scene, Stage, StageKind};
+use crate::solution::words::{name, say};
 use crate::solution::{Claim, Detail, Inline, Line, Math, Part, Solution};
 use crate::story::{StageTold, Step};
 
@@ -65,6 +65,10 @@ impl Page<'_> {
 
     /// A motion: inertia, work and energy, from the beginning to the end.
     pub(super) fn motion(&mut self, stage: &Stage, told: &StageTold) {
+        // Where nothing moves there is nothing to tell.
+        if told.time.as_ref().is_some_and(Expr::is_zero) {
+            return;
+        }
         if !told.steps.is_empty() {
             return self.steps(told);
         }
@@ -177,7 +181,7 @@ impl Page<'_> {
     }
 
     /// A component of the motion by the name it has by now, as a told answer or its opposite; else as it is.
-    fn named(&self, e: &Expr) -> Expr {
+    pub(super) fn named(&self, e: &Expr) -> Expr {
         let minus = -e;
         let told = |a: &&Answer| {
             let known = self.solution.meanings.contains_key(a.name.as_str());
@@ -190,60 +194,6 @@ impl Page<'_> {
             },
             _ => e.clone(),
         }
-    }
-
-    /// A flight of a given time is told by what gives it its acceleration, in place of its energy; whether it was.
-    pub(super) fn flight(&mut self, told: &StageTold) -> bool {
-        let stage = &told.placed;
-        let flies = stage.kind.moved();
-        let (Some(_), Some(body)) = (timed(told), flies.first()) else {
-            return false;
-        };
-        let called = words::body(self.scene, *body);
-        let who = match self.scene.bodies[*body].is_particle() {
-            true => called,
-            false => format!("the center of mass of {called}"),
-        };
-        let weight = format!("The weight gives {who} the constant acceleration ");
-        let g = words::formula(&gravity(told));
-        self.solution.text(vec![say(weight), g, say(" downward.")]);
-        true
-    }
-
-    /// Where a body is, or how it moves, after a flight of a known time, in the motion it began with.
-    pub(super) fn flown(&self, told: &StageTold, ask: &Ask, answer: &Answer) -> Option<Expr> {
-        let time = timed(told)?;
-        let (body, along, is_place) = match ask {
-            Ask::Position {
-                body,
-                along,
-                at_end: true,
-            } => (*body, along, true),
-            Ask::Velocity {
-                body,
-                point: None,
-                along,
-            } => (*body, along, false),
-            _ => return None,
-        };
-        let along = match (along, answer.axis()) {
-            (Some(along), _) => along.clone(),
-            (None, axis) => [0, 1].map(|k| Expr::from(i64::from(axis == Some(k)))),
-        };
-        if !told.placed.kind.moved().contains(&body) {
-            return None;
-        }
-        let v = told.before.velocity[body].each_ref().map(|v| self.named(v));
-        let falls = &along[1] * &gravity(told);
-        let gained = -(&falls * time);
-        let raw = match is_place {
-            true => {
-                let way = dot(&v, &along) * time - Expr::ratio(1, 2) * &falls * time.powi(2);
-                tidied(self.scene, &dot(&told.before.center[body], &along)) + way
-            }
-            false => dot(&v, &along) + gained,
-        };
-        Some(raw).filter(|raw| !answer.formula().is_some_and(|value| alike(raw, value)))
     }
 
     /// Whether this answer is the kinetic energy at the end of a motion.
@@ -285,7 +235,7 @@ impl Page<'_> {
 }
 
 /// An expression as a person would write it.
-fn tidied(scene: &Scene, e: &Expr) -> Expr {
+pub(super) fn tidied(scene: &Scene, e: &Expr) -> Expr {
     let mut field = crate::algebra::Field::new(&scene.domains);
     field.prepare([e]);
     match field.element(e) {
@@ -294,33 +244,13 @@ fn tidied(scene: &Scene, e: &Expr) -> Expr {
     }
 }
 
-/// The time of a flight under gravity that ends after a given time; `None` for what is told by its energy.
-fn timed(told: &StageTold) -> Option<&Expr> {
-    let StageKind::Fall(fall) = &told.placed.kind else {
-        return None;
-    };
-    let energy = |q: &Question| matches!(q.ask, Ask::Energy { .. });
-    let by_time = matches!(fall.until, FallEnd::Time(_)) && fall.gravity.is_some();
-    let is_asked = told.placed.scene.questions.iter().any(energy);
-    told.time
-        .as_ref()
-        .filter(|_| by_time && fall.with.is_empty() && !is_asked)
-}
-
-/// The acceleration of gravity of a fall; zero elsewhere.
-fn gravity(told: &StageTold) -> Expr {
-    let StageKind::Fall(fall) = &told.placed.kind else {
-        return Expr::zero();
-    };
-    fall.gravity.clone().unwrap_or_else(Expr::zero)
-}
-
-/// Whether two formulas are one product, whatever the order of its factors.
-fn alike(a: &Expr, b: &Expr) -> bool {
+/// Whether two formulas read alike, whatever the order of terms and factors.
+pub(super) fn alike(a: &Expr, b: &Expr) -> bool {
     match (a.node(), b.node()) {
-        (Node::Product(x), Node::Product(y)) => {
-            x.len() == y.len() && x.iter().all(|f| y.contains(f))
+        (Node::Product(x), Node::Product(y)) | (Node::Sum(x), Node::Sum(y)) => {
+            x.len() == y.len() && x.iter().all(|f| y.iter().any(|g| alike(f, g)))
         }
+        (Node::Power(x, j), Node::Power(y, k)) => alike(x, y) && alike(j, k),
         _ => a == b,
     }
 }

@@ -268,7 +268,7 @@ fn ways<'a>(stages: &'a [StageTold], stage: &Stage) -> Vec<(usize, &'a StageTold
                 words::leading(stages, parent, k)
             }),
             given: (told.given.iter())
-                .map(|(why, e)| sentence![e, " ≥ 0 (", why, ")"])
+                .map(|(why, e)| sentence![Sentence::not_negative(e), " (", why, ")"])
                 .collect(),
         };
         (index, told, way)
@@ -385,7 +385,8 @@ fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
             .chain(&case.proof.assumptions);
         a.assumptions.extend(taken.map(Sentence::from));
         for (why, e) in &case.conditions {
-            a.assumptions.push(sentence![e, " ≥ 0 (", why, ")"]);
+            a.assumptions
+                .push(sentence![Sentence::not_negative(e), " (", why, ")"]);
         }
         a.checks = identities(case).chain(checks).cloned().collect();
         out.push(a);
@@ -398,7 +399,8 @@ fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
             words::active(case)
         ]);
         for (why, e) in &case.conditions {
-            a.assumptions.push(sentence![e, " ≥ 0 (", why, ")"]);
+            a.assumptions
+                .push(sentence![Sentence::not_negative(e), " (", why, ")"]);
         }
         a.dimension = Dimension::new(1, 1, -1);
         a.checks = identities(case).cloned().collect();

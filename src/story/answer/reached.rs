@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::super::StageTold;
 use super::super::worlds::World;
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, essential, is_zero, sign};
+use crate::answer::calc::{Seen, at_least_zero, is_zero, sign};
 use crate::answer::{Answer, Form};
 use crate::domain::Domain;
 use crate::expr::{Expr, Symbol};
@@ -61,8 +61,8 @@ pub(super) fn held(
             }
             let seen = sign(&there, &scene.domains);
             let words = |e: &Expr| {
-                let e = &essential(e, &scene.domains);
-                sentence![e, " ≥ 0, so that `", &told.name, "` comes to its end"]
+                let need = at_least_zero(e, &scene.domains);
+                sentence![need, ", so that `", &told.name, "` comes to its end"]
             };
             match seen {
                 Seen::Proved(Sign::Negative) if relation == Relation::Equal => {
@@ -73,8 +73,7 @@ pub(super) fn held(
                         ", with which `",
                         &told.name,
                         "` never comes to its end: that needs ",
-                        &essential(need, &scene.domains),
-                        " ≥ 0"
+                        at_least_zero(need, &scene.domains)
                     ]);
                 }
                 Seen::Proved(s) if relation == Relation::Equal && s.is_not_negative() => {}

@@ -182,8 +182,10 @@ pub(super) fn hand_on(scene: &mut Scene, named: &[(Symbol, Expr)]) -> BTreeMap<S
             Some((name, value, ratio)) => (name.clone(), value.clone(), ratio),
             None => {
                 let letter = if is_spin { "omega" } else { "v" };
-                let name = (1..1000)
-                    .map(|k| Symbol::from(format!("{letter}_in{k}").as_str()))
+                let further = (2..1000).map(|k| format!("{letter}_in{k}"));
+                let name = std::iter::once(format!("{letter}_in"))
+                    .chain(further)
+                    .map(|name| Symbol::from(name.as_str()))
                     .find(|n| !domains.symbols.contains_key(n) && !is_taken(n))
                     .unwrap_or_else(|| Symbol::from("handed"));
                 if sign(e, &original).is_negative() {

@@ -103,7 +103,7 @@ pub(super) fn tell(
     let kept = kept(&base, one_sided, &cases);
     let mut assumptions: Vec<Sentence> = Vec::new();
     for (words, e) in &cases[0].conditions {
-        assumptions.push(sentence![e, " ≥ 0 (", words, ")"]);
+        assumptions.push(sentence![Sentence::not_negative(e), " (", words, ")"]);
     }
     assumptions.extend(cases.iter().filter_map(|case| gain(&base, case)));
     let checks = cases[0].proof.scene.clone();

@@ -2,7 +2,7 @@
 
 use super::{half, kept, meanwhile, tidied};
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, essential, is_zero, sign};
+use crate::answer::calc::{Seen, at_least_zero, is_zero, sign};
 use crate::expr::Expr;
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Fall, FallEnd, Stage};
@@ -114,8 +114,8 @@ fn duration(
                 Seen::Proved(s) if s.is_not_negative() => {}
                 _ => {
                     assumptions.push(sentence![
-                        &essential(&square, domains),
-                        " ≥ 0, so that `",
+                        at_least_zero(&square, domains),
+                        ", so that `",
                         name,
                         "` gets there"
                     ]);
@@ -149,8 +149,8 @@ fn duration(
         Seen::Proved(s) if s.is_not_negative() => Ok((time, down)),
         _ => {
             assumptions.push(sentence![
-                &essential(&time, domains),
-                " ≥ 0, so that `",
+                at_least_zero(&time, domains),
+                ", so that `",
                 &stage.name,
                 "` comes after what is before it"
             ]);
@@ -181,9 +181,9 @@ fn rises(
                 ));
             }
             _ => {
-                let words = [" ≥ 0, so that `", "` rises to there"];
+                let words = [", so that `", "` rises to there"];
                 assumptions.push(sentence![
-                    &essential(&need, domains),
+                    at_least_zero(&need, domains),
                     words[0],
                     name,
                     words[1]

@@ -70,8 +70,8 @@ fn arrival(stage: &Stage, body: usize, end: &Expr, seen: Seen) -> Option<Sentenc
     let proved = matches!(seen, Seen::Proved(s) if s.is_not_negative());
     (!proved).then(|| {
         sentence![
-            &crate::answer::calc::essential(end, &stage.scene.domains),
-            " ≥ 0, so that `",
+            crate::answer::calc::at_least_zero(end, &stage.scene.domains),
+            ", so that `",
             &stage.scene.bodies[body].name,
             "` gets to the end of `",
             &stage.name,

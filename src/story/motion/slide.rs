@@ -5,7 +5,7 @@
 
 use super::{arrival, half, kept, meanwhile, tidied};
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, essential, is_zero, sign};
+use crate::answer::calc::{Seen, at_least_zero, essential, is_zero, sign};
 use crate::domain::Domains;
 use crate::expr::{Expr, dot};
 use crate::formula::{Sentence, sentence};
@@ -91,8 +91,8 @@ pub(in crate::story) fn slide(
                 return Err(line.refused(why, hint));
             }
             _ => assumptions.push(sentence![
-                &essential(need, domains),
-                " ≥ 0, so that `",
+                at_least_zero(need, domains),
+                ", so that `",
                 name,
                 match (&line.round, rolls) {
                     (Some(_), true) => "` does not slip",
@@ -202,7 +202,7 @@ fn not_negative(
                 "turn the direction round",
             ));
         }
-        _ => assumptions.push(sentence![&essential(size, &stage.scene.domains), " ≥ 0"]),
+        _ => assumptions.push(at_least_zero(size, &stage.scene.domains)),
     }
     Ok(())
 }
@@ -413,8 +413,8 @@ impl<'a> Line<'a> {
                         );
                     }
                     _ => assumptions.push(sentence![
-                        &essential(&slowing, self.domains()),
-                        " > 0, so that `",
+                        Sentence::positive(&essential(&slowing, self.domains())),
+                        ", so that `",
                         self.name(),
                         "` slows down"
                     ]),
@@ -445,8 +445,8 @@ impl<'a> Line<'a> {
                         ));
                     }
                     _ => assumptions.push(sentence![
-                        &essential(&time, self.domains()),
-                        " ≥ 0, so that `",
+                        at_least_zero(&time, self.domains()),
+                        ", so that `",
                         self.name(),
                         "` comes to roll"
                     ]),

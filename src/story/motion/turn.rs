@@ -177,7 +177,7 @@ fn counts_forward(stage: &Stage, turn: &Turn, way: i64) -> Result<Option<Sentenc
             ),
             "turn its sign round, and say \"clockwise\": true if it turns that way",
         )),
-        _ => Ok(Some(sentence![by, " ≥ 0"])),
+        _ => Ok(Some(Sentence::not_negative(by))),
     }
 }
 
@@ -554,8 +554,8 @@ fn hurdle(
                 "where the way through `",
                 &stage.name,
                 "` leads over its highest place, ",
-                &crate::answer::calc::essential(&left, &stage.scene.domains),
-                " ≥ 0, so that `",
+                crate::answer::calc::at_least_zero(&left, &stage.scene.domains),
+                ", so that `",
                 &body.name,
                 "` gets over it"
             ];

@@ -1,0 +1,225 @@
+//! A flight in a worked solution: under its weight a center of mass has a constant acceleration, and so its velocity, its way
+//! and the time follow from where it begins.
+
+use super::Page;
+use super::motion::{alike, tidied};
+use crate::answer::Answer;
+use crate::expr::{Expr, Symbol, Vector, dot};
+use crate::scene::{Ask, Fall, FallEnd, StageKind};
+use crate::solution::words::{self, name, say};
+use crate::solution::{Claim, Line, Math, Part};
+use crate::story::StageTold;
+
+/// The letter of the time of a flight, where nothing else bears it.
+const TIME: &str = "t";
+
+impl Page<'_> {
+    /// Tells a flight by its acceleration in place of its energy; whether it did.
+    pub(super) fn flight(&mut self, told: &StageTold) -> bool {
+        let Some((fall, time)) = self.kinematic(told) else {
+            return false;
+        };
+        let domains = &told.placed.scene.domains;
+        let bodies = fall.bodies();
+        let before = |b: &usize| &told.before.velocity[*b];
+        let is_zero = |e: &Expr| crate::answer::calc::is_zero(e, domains) == Some(true);
+        let is_particle = |b: &usize| self.scene.bodies[*b].is_particle();
+        let who = match (bodies.as_slice(), bodies.iter().all(is_particle)) {
+            ([_, _, ..], true) => String::from("each body"),
+            ([_, _, ..], false) => String::from("each center of mass"),
+            (_, true) => words::body(self.scene, fall.body),
+            _ => format!(
+                "the center of mass of {}",
+                words::body(self.scene, fall.body)
+            ),
+        };
+        let mut text = match &fall.gravity {
+            None => vec![say(format!("No force acts, so {who} keeps its velocity"))],
+            Some(g) => vec![
+                say(format!("The weight gives {who} the constant acceleration ")),
+                words::formula(g),
+                say(" downward"),
+            ],
+        };
+        if fall.gravity.is_some() && !bodies.iter().all(|b| is_zero(&before(b)[0])) {
+            text.push(say(" and leaves its horizontal velocity as it is"));
+        }
+        text.push(say("."));
+        self.solution.text(text);
+        let mut lines = Vec::new();
+        // The velocity at a height decides when it is reached.
+        if let (FallEnd::Drop(_), Some(_)) = (&fall.until, &fall.gravity)
+            && !self.asked(told, |ask| matches!(ask, Ask::Velocity { .. }))
+        {
+            let raw = self.falls_with(told, fall, time);
+            let value = &told.after.velocity[fall.body][1];
+            let head = name("v", "y", "+", false);
+            lines.push(self.defined(
+                head,
+                &raw,
+                value,
+                "velocity at this height: v² = v₀² + 2 g h",
+            ));
+        }
+        let needs_time = self.asked(told, |ask| matches!(ask, Ask::Position { .. }));
+        if needs_time
+            && !self.asked(told, |ask| matches!(ask, Ask::Time))
+            && self.letter(fall).is_some()
+        {
+            let raw = self.takes(told, fall, time);
+            let head = Math::Expr(Expr::symbol(TIME));
+            lines.push(self.defined(head, &raw, time, "the time of the flight"));
+        }
+        if !lines.is_empty() {
+            self.solution.push(Part::Display(lines));
+        }
+        true
+    }
+
+    /// `name = raw = value`, a claim.
+    fn defined(&mut self, head: Math, raw: &Expr, value: &Expr, why: &str) -> Line {
+        let claim = Claim {
+            left: raw.clone(),
+            right: value.clone(),
+        };
+        let step = Some(self.solution.step(Vec::new(), vec![claim], why));
+        let mut math = vec![head, Math::Op("=")];
+        if !alike(raw, value) {
+            math.extend([Math::Expr(raw.clone()), Math::Op("=")]);
+        }
+        math.push(Math::Expr(value.clone()));
+        Line { math, step }
+    }
+
+    /// The letter that stands for the time of a flight: none where its time is given, or where something else has the letter.
+    fn letter(&self, fall: &Fall) -> Option<Symbol> {
+        let parameters = self.scene.parameters.iter().map(|p| p.name.as_ref());
+        let answers = self.told.answers.iter().map(|a| a.name.as_str());
+        let is_given = matches!(fall.until, FallEnd::Time(_));
+        let is_taken = parameters.chain(answers).any(|name: &str| name == TIME);
+        (!is_given && !is_taken).then(|| Symbol::from(TIME))
+    }
+
+    /// The velocity upwards at the end of a flight, from that at its beginning.
+    fn falls_with(&self, told: &StageTold, fall: &Fall, time: &Expr) -> Expr {
+        let g = fall.gravity.clone().unwrap_or_else(Expr::zero);
+        let v = self.named(&told.before.velocity[fall.body][1]);
+        match &fall.until {
+            FallEnd::Drop(h) if h.is_zero() && !fall.rising => -v,
+            FallEnd::Drop(h) if !g.is_zero() => {
+                let size = (v.powi(2) + Expr::from(2) * &g * h).sqrt();
+                if fall.rising { size } else { -size }
+            }
+            _ => v - g * time,
+        }
+    }
+
+    /// The time that a flight takes, from the velocities of its beginning and its end.
+    fn takes(&self, told: &StageTold, fall: &Fall, time: &Expr) -> Expr {
+        let [x, y] = told.before.velocity[fall.body]
+            .each_ref()
+            .map(|v| self.named(v));
+        match (&fall.until, &fall.gravity) {
+            (FallEnd::Drop(_), Some(g)) => {
+                let end = self.named(&told.after.velocity[fall.body][1]);
+                tidied(self.scene, &(y - end)) / g
+            }
+            (FallEnd::Drop(h), None) => -(h / y),
+            (FallEnd::Range(s), _) => s / x,
+            (FallEnd::Time(_), _) => time.clone(),
+        }
+    }
+
+    /// The way of a body through a flight, in the velocities it began with and the time.
+    fn way(&self, told: &StageTold, fall: &Fall, body: usize, time: &Expr) -> Vector {
+        let [x, y] = told.before.velocity[body].each_ref().map(|v| self.named(v));
+        let g = fall.gravity.clone().unwrap_or_else(Expr::zero);
+        let mut way = [&x * time, &y * time - Expr::ratio(1, 2) * g * time.powi(2)];
+        match &fall.until {
+            FallEnd::Drop(h) if body == fall.body => way[1] = -h,
+            FallEnd::Range(s) if body == fall.body => way[0] = s.clone(),
+            _ => {}
+        }
+        way
+    }
+
+    /// Where a body is, how it moves, or what time has passed after a flight, in the motion it began with: as it is shown, and
+    /// as it can be claimed.
+    pub(super) fn flown(&self, told: &StageTold, ask: &Ask, answer: &Answer) -> Option<[Expr; 2]> {
+        let (fall, time) = self.kinematic(told)?;
+        let letter = self
+            .letter(fall)
+            .filter(|_| !self.asked(told, |ask| matches!(ask, Ask::Time)));
+        let shown = letter.map_or_else(|| self.named(time), |letter| Expr::symbol(&letter));
+        let direction = |along: &Option<Vector>| {
+            let axis = answer.axis();
+            let unit = || [0, 1].map(|k| Expr::from(i64::from(axis == Some(k))));
+            along.clone().unwrap_or_else(unit)
+        };
+        let both = match ask {
+            Ask::Position {
+                body,
+                along,
+                at_end: true,
+            } if fall.bodies().contains(body) => {
+                let along = direction(along);
+                let from = tidied(self.scene, &dot(&told.before.center[*body], &along));
+                [&shown, time].map(|time| &from + dot(&self.way(told, fall, *body, time), &along))
+            }
+            Ask::Velocity {
+                body,
+                point: None,
+                along,
+            } if fall.bodies().contains(body) => {
+                let along = direction(along);
+                let x = self.named(&told.before.velocity[*body][0]);
+                [&shown, time].map(|time| {
+                    let y = match *body == fall.body {
+                        true => self.falls_with(told, fall, time),
+                        false => {
+                            let g = fall.gravity.clone().unwrap_or_else(Expr::zero);
+                            self.named(&told.before.velocity[*body][1]) - g * time
+                        }
+                    };
+                    dot(&[x.clone(), y], &along)
+                })
+            }
+            Ask::Time if told.time.as_ref() == answer.formula() => {
+                let raw = self.takes(told, fall, time);
+                [raw.clone(), raw]
+            }
+            _ => return None,
+        };
+        Some(both).filter(|[shown, _]| !answer.formula().is_some_and(|value| alike(shown, value)))
+    }
+
+    /// Whether something of a kind is answered at the end of a stage.
+    fn asked(&self, told: &StageTold, is: fn(&Ask) -> bool) -> bool {
+        let at_its_end = |a: &&Answer| {
+            let stage = a.told.map(|(i, _)| &self.told.stages[i]);
+            stage.is_some_and(|stage| std::ptr::eq(stage, told))
+        };
+        let mut mine = self.told.answers.iter().filter(at_its_end);
+        mine.any(|a| {
+            self.scene
+                .questions
+                .iter()
+                .any(|q| q.name == a.question && is(&q.ask))
+        })
+    }
+
+    /// A flight that is told by its acceleration, and its time: each but those whose energy is asked for, or that go straight up
+    /// or down through a height and are asked for no more than their velocity, which energy gives at once.
+    fn kinematic<'t>(&self, told: &'t StageTold) -> Option<(&'t Fall, &'t Expr)> {
+        let StageKind::Fall(fall) = &told.placed.kind else {
+            return None;
+        };
+        let time = told.time.as_ref()?;
+        let by_height = matches!(fall.until, FallEnd::Drop(_)) && fall.gravity.is_some();
+        let is_upright = |b: &usize| told.before.velocity[*b][0].is_zero();
+        let timeless = !self.asked(told, |ask| matches!(ask, Ask::Time | Ask::Position { .. }));
+        let at_once = by_height && timeless && fall.bodies().iter().all(is_upright);
+        let by_energy = self.asked(told, |ask| matches!(ask, Ask::Energy { .. }));
+        (!by_energy && !at_once).then_some((fall, time))
+    }
+}
