@@ -472,6 +472,20 @@ fn pictures(case: &Case) -> Vec<figure::Drawing> {
     each.map(|d| d.0).collect()
 }
 
+#[test]
+fn every_picture_shows_what_its_stage_does() {
+    for case in cases() {
+        for drawing in pictures(case) {
+            let words = figure::plain(&drawing.caption);
+            let empty = ["Not drawn", "have no solution"];
+            let is_drawn = !empty
+                .iter()
+                .any(|w| drawing.svg.contains(w) || words.contains(w));
+            assert!(is_drawn, "{}: {words}", case.path.display());
+        }
+    }
+}
+
 fn held(drawing: figure::Drawing) -> render::html::Picture {
     render::html::Picture {
         slot: solution::Slot::Before,

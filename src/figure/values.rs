@@ -235,6 +235,9 @@ fn penalty(scene: &Scene, point: &Point<f64>) -> f64 {
         .map(|b| values.pair(&b.center))
         .collect();
     let Some(centers) = bodies else { return 1e9 };
+    // What an earlier stage hands on may have no value: there the scene does not get so far.
+    let never = |b: &&Body| values.pair(&b.velocity).is_none() || values.of(&b.spin).is_none();
+    cost += 1e3 * scene.bodies.iter().filter(never).count() as f64;
     let arm = |body: usize, at: Pair| [centers[body][0] - at[0], centers[body][1] - at[1]];
     for contact in &scene.contacts {
         let (Some(at), [a, b]) = (values.pair(&contact.at), contact.bodies) else {
