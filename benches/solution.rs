@@ -5,6 +5,7 @@ use carom::derive::derive;
 use carom::render::{html, latex_document, markdown, plain, steps};
 use carom::scene::{Scene, read};
 use carom::solution::{self, Detail, Solution};
+use carom::story::tell;
 use carom::verify::prove;
 
 const SCENES: [&str; 4] = [
@@ -26,9 +27,8 @@ fn scene(name: &str) -> (Scene, String) {
 }
 
 fn written(scene: &Scene) -> Solution {
-    let derivation = derive(scene).expect("derived");
-    let proof = prove(scene, &derivation);
-    solution::write(scene, &derivation, &proof, &[], Detail::Normal)
+    let told = tell(scene).expect("told");
+    solution::write(scene, &told, Detail::Normal)
 }
 
 #[divan::bench(args = SCENES)]
@@ -49,9 +49,8 @@ fn deriving_and_proving(bencher: divan::Bencher, name: &str) {
 #[divan::bench(args = SCENES)]
 fn writing(bencher: divan::Bencher, name: &str) {
     let (scene, _) = scene(name);
-    let derivation = derive(&scene).expect("derived");
-    let proof = prove(&scene, &derivation);
-    bencher.bench(|| solution::write(&scene, &derivation, &proof, &[], Detail::Normal));
+    let told = tell(&scene).expect("told");
+    bencher.bench(|| solution::write(&scene, &told, Detail::Normal));
 }
 
 #[divan::bench(args = SCENES)]

@@ -40,7 +40,7 @@ fn writing(bencher: divan::Bencher, name: &str) {
     let scene = scene(name);
     let told = tell(&scene).expect("a story that fits");
     bencher.bench(|| {
-        let solution = solution::tell(&scene, &told, Detail::Normal);
+        let solution = solution::write(&scene, &told, Detail::Normal);
         markdown::solution(&solution, &[]).len()
     });
 }

@@ -7,8 +7,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let path = path.unwrap_or_else(|| String::from("derivations/book/falling-stick.json"));
     let text = std::fs::read_to_string(&path)?;
     let scene = scene::read(&text).map_err(|faults| faults.render(&path, &text))?;
-    let impact = worked::impact(&scene)?;
-    print!("{}", render::text::derivation(&scene, &impact));
-    assert!(impact.is_proved(), "a closed form is not proved");
+    let worked = worked::out(&scene)?;
+    print!("{}", render::story::text(&worked.scene, &worked.told));
+    assert!(worked.holds(), "a closed form is not proved");
     Ok(())
 }

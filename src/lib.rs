@@ -56,10 +56,10 @@
 //! | [`derive::Derivation`] | the equations chosen, solved in order, and the closed forms they give; it claims, and proves nothing |
 //! | [`answer::Check`] | one thing that was held against another: what, how, and whether it holds, fails or is undecided |
 //! | [`verify::Proof`] | the checks of a derivation |
-//! | [`story::Told`] | the stages worked out one after the other, and the answers, each with its checks |
+//! | [`story::Told`] | the stages worked out one after the other, or the one impact of a scene, and the answers, each with its checks |
 //! | [`numeric::follow`](mod@numeric::follow) | the same scene in numbers, motions in time |
 //! | [`solution::Solution`] | a worked solution: text and steps, each step a claim that [`check`] replays |
-//! | [`worked::Worked`] | a scene worked out, whichever way it goes: what every command works with |
+//! | [`worked::Worked`] | a scene worked out, one impact and stages alike: what every command works with |
 //! | [`grade::Grade`] | the verdict on a formula: same, different with a point that shows it, or undecided; and what explains it |
 //!
 //! The modules below stand in reading order: each imports only what stands above it.

@@ -16,7 +16,7 @@ use carom::formula::is_hidden;
 use carom::render::html::Picture;
 use carom::scene::{self, Scene};
 use carom::solution::{self, Detail, Slot, Solution};
-use carom::{derive, render, verify};
+use carom::{derive, render, story, verify};
 
 /// What formats act on, and some words between.
 const PIECES: [&str; 62] = [
@@ -144,7 +144,8 @@ fn formats(text: &str) -> Option<Formats> {
     };
     let derivation = derive::derive(&scene).ok()?;
     let proof = verify::prove(&scene, &derivation);
-    let solution: Solution = solution::write(&scene, &derivation, &proof, &[], Detail::Full);
+    let told = story::tell(&scene).ok()?;
+    let solution: Solution = solution::write(&scene, &told, Detail::Full);
     let drawn = figure::draw(&scene, Which::All);
     let picture = Picture {
         slot: Slot::Before,

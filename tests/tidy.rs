@@ -61,7 +61,7 @@ const LAYERS: &[(&str, &str)] = &[
     ),
     (
         "command",
-        "expr dimension formula scene answer numeric derive verify grade render worked",
+        "expr dimension formula scene answer numeric derive verify grade story render worked",
     ),
     (
         "export",

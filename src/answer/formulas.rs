@@ -38,12 +38,14 @@ pub fn about<'a>(
     Ok(answers)
 }
 
-/// Later formulas may use the answers by name; the name of a parameter stands for the parameter.
+/// Later formulas may use the answers by name; what is known of a name already stays, and the name of a parameter stands for
+/// the parameter.
 pub(super) fn remember(scene: &Scene, answers: &[Answer], known: &mut Known) {
     let is_given = |a: &Answer| scene.parameters.iter().any(|p| *p.name == *a.name);
     for answer in answers.iter().filter(|a| !is_given(a)) {
         if let Some(formula) = answer.formula() {
-            known.insert(Symbol::from(answer.name.as_str()), formula.clone());
+            let name = Symbol::from(answer.name.as_str());
+            known.entry(name).or_insert_with(|| formula.clone());
         }
     }
 }

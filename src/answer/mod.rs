@@ -223,7 +223,7 @@ impl Answer {
 /// Why a stage, a question or a plot cannot be worked out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refused {
-    /// The stage, question or plot.
+    /// The stage, question or plot; empty for the whole of a scene that is one impact.
     pub at: String,
     /// The reason.
     pub reason: String,
@@ -235,7 +235,10 @@ pub struct Refused {
 
 impl fmt::Display for Refused {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.at, self.reason)?;
+        if !self.at.is_empty() {
+            write!(f, "{}: ", self.at)?;
+        }
+        f.write_str(&self.reason)?;
         if self.hint.is_empty() {
             Ok(())
         } else {

@@ -9,7 +9,7 @@ use super::{Failure, files, pretty, print, read_scene_text, refused, work_out};
 use carom::figure::{self, Which};
 use carom::render::html::Picture;
 use carom::solution::{Detail, Slot};
-use carom::worked::{Found, Worked};
+use carom::worked::Worked;
 use carom::{answer, check, render, scene::Scene};
 
 /// Arguments of `carom solution`.
@@ -109,10 +109,20 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
 /// The pictures of a scene, stages and plots included, each with a name for its file.
 fn drawn(path: &Path, worked: &Worked) -> Result<Vec<(Picture, String)>, Failure> {
     let graphs = worked.graphs().map_err(|why| refused(path, why))?;
-    let mut drawn = match &worked.found {
-        Found::Impact(_) => impact_pictures(&worked.scene),
-        Found::Stages(_) => stage_pictures(worked),
-    };
+    let mut drawn = Vec::new();
+    for (i, (name, chapter)) in worked.chapters().iter().enumerate() {
+        for (drawing, which) in figure::chapter(name, chapter) {
+            let file = which.map_or_else(|| String::from("motion"), figure::file_name);
+            let named = match (which, worked.told.alone()) {
+                (Some(which), Some(_)) => (picture(slot(which), drawing), file),
+                _ => (
+                    picture(Slot::Stage(i), drawing),
+                    format!("{}-{file}", i + 1),
+                ),
+            };
+            drawn.push(named);
+        }
+    }
     drawn.extend(plots(&worked.scene, &graphs)?);
     Ok(drawn)
 }
@@ -202,33 +212,13 @@ pub fn plots(scene: &Scene, graphs: &[answer::Graph]) -> Result<Vec<(Picture, St
     Ok(out)
 }
 
-/// The pictures of a story, by stage.
-fn stage_pictures(worked: &Worked) -> Vec<(Picture, String)> {
-    let mut out = Vec::new();
-    for (i, (name, chapter)) in worked.chapters().iter().enumerate() {
-        for (drawing, kind) in figure::chapter(name, chapter) {
-            out.push((
-                picture(Slot::Stage(i), drawing),
-                format!("{}-{kind}", i + 1),
-            ));
-        }
+/// Where a picture stands in the solution of a scene of one impact.
+fn slot(which: Which) -> Slot {
+    match which {
+        Which::Before | Which::All => Slot::Before,
+        Which::During(_) => Slot::During,
+        Which::After => Slot::After,
     }
-    out
-}
-
-/// The pictures of one impact, each with a name for its file.
-fn impact_pictures(scene: &Scene) -> Vec<(Picture, String)> {
-    let mut out = Vec::new();
-    for which in figure::kinds(scene) {
-        let slot = match which {
-            Which::Before | Which::All => Slot::Before,
-            Which::During(_) => Slot::During,
-            Which::After => Slot::After,
-        };
-        let picture = picture(slot, figure::draw(scene, which));
-        out.push((picture, figure::file_name(which)));
-    }
-    out
 }
 
 fn picture(slot: Slot, drawing: figure::Drawing) -> Picture {

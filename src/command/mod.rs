@@ -13,8 +13,8 @@ use crate::derive::friction::table;
 use crate::render::friction::Shown;
 use crate::render::{self, pretty};
 use crate::scene::{self, Scene};
-use crate::worked::{self, Found};
-use crate::{answer, numeric, verify};
+use crate::worked;
+use crate::{answer, numeric, story, verify};
 
 pub use lines::{Lines, refuse};
 pub use read::read;
@@ -89,11 +89,9 @@ pub fn derive(scene: &Scene, format: Format) -> Result<Output, String> {
         return cases(scene, format);
     }
     let worked = worked::out(scene)?;
-    let text = match (&worked.found, format) {
-        (Found::Impact(impact), Format::Text) => render::text::derivation(scene, impact),
-        (Found::Impact(impact), Format::Json) => pretty(&render::json::derivation(scene, impact)),
-        (Found::Stages(told), Format::Text) => render::story::text(scene, told),
-        (Found::Stages(told), Format::Json) => pretty(&render::story::json(scene, told)),
+    let text = match format {
+        Format::Text => render::story::text(scene, &worked.told),
+        Format::Json => pretty(&render::story::json(scene, &worked.told)),
     };
     Ok(Output::new(text, worked.holds()))
 }
@@ -106,8 +104,8 @@ fn cases(scene: &Scene, format: Format) -> Result<Output, String> {
     let mut shown = Vec::new();
     for i in judged.pick.cases(&table) {
         let case = &table.cases[i];
-        let impact = worked::impact(&case.scene)?;
-        shown.push(Shown { case, impact });
+        let told = story::tell(&case.scene).map_err(|why| why.to_string())?;
+        shown.push(Shown { case, told });
     }
     let about = answer::about(scene, table.about.iter(), &BTreeMap::new())
         .map_err(|reason| reason.to_string())?;
@@ -118,7 +116,7 @@ fn cases(scene: &Scene, format: Format) -> Result<Output, String> {
     let holds = judged.supposed_holds != Some(false)
         && !shown.is_empty()
         && judged.checks.iter().all(|c| c.holds != Some(false))
-        && shown.iter().all(|s| s.impact.is_proved());
+        && shown.iter().all(|s| s.told.is_proved());
     Ok(Output::new(text, holds))
 }
 

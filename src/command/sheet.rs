@@ -22,7 +22,7 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
         notes.push(format!("not proved: {}", open.join(", ")));
     }
     notes.extend(worked.refusals());
-    let bounds = bounds(worked.asked());
+    let bounds = bounds(worked.answers());
     let (scene, derivation) = worked.sheet()?;
     let sheet = Sheet {
         scene,

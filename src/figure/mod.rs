@@ -153,16 +153,16 @@ pub enum Chapter {
     Motion(Scene, StageKind, bool),
 }
 
-/// The pictures of a stage, each with a name for its file.
-pub fn chapter(name: &str, chapter: &Chapter) -> Vec<(Drawing, String)> {
+/// The pictures of a stage, those of an impact each with what it shows.
+pub fn chapter(name: &str, chapter: &Chapter) -> Vec<(Drawing, Option<Which>)> {
     match chapter {
         Chapter::Impact(scene) => kinds(scene)
             .into_iter()
-            .map(|which| (draw(scene, which), file_name(which)))
+            .map(|which| (draw(scene, which), Some(which)))
             .collect(),
         Chapter::Motion(scene, kind, clockwise) => {
             let panel = motion_panel(name, scene, kind, *clockwise);
-            vec![(finish(scene, vec![panel]), String::from("motion"))]
+            vec![(finish(scene, vec![panel]), None)]
         }
     }
 }

@@ -11,17 +11,17 @@ use crate::expr::Expr;
 use crate::formula::write_plain;
 use crate::plot::{Axis, Curve, Mark, Plot};
 use crate::scene::{Friction, Hypothesis, Scene};
+use crate::story::Told;
 use crate::verify::Proof;
 use crate::verify::compare::{Comparison, Outcome};
 use crate::verify::friction::{Judged, Pick};
-use crate::worked::Impact;
 
 /// A case with everything derived for it.
 pub struct Shown<'a> {
     /// The case.
     pub case: &'a Case,
-    /// Its closed forms.
-    pub impact: Impact,
+    /// The impact in this case.
+    pub told: Told,
 }
 
 /// The table for the terminal.
@@ -64,7 +64,7 @@ pub fn text(
             one.case.mode.words(),
             holds_where(scene, &table.law, one.case)
         ));
-        let full = super::text::derivation(&one.case.scene, &one.impact);
+        let full = super::story::text(&one.case.scene, &one.told);
         // The heading stands above already.
         let rest = full.split_once('\n').map_or("", |(_, rest)| rest);
         say(rest.trim_end());
@@ -80,19 +80,22 @@ pub fn text(
                 each.case.mode.words(),
                 holds_where(scene, &table.law, each.case)
             ));
-            for answer in &each.impact.derivation.answers {
+            let Some(impact) = each.told.alone() else {
+                continue;
+            };
+            for answer in &impact.derivation.answers {
                 if let Form::Value { short, .. } = &answer.form {
                     say(&format!("  {} = {}", answer.name, unicode(scene, short)));
                 }
             }
-            for definition in &each.impact.derivation.definitions {
+            for definition in &impact.derivation.definitions {
                 say(&format!(
                     "    with {} = {}",
                     definition.name,
                     unicode(scene, &definition.value)
                 ));
             }
-            say(&format!("  {}", proved(&each.impact.proof)));
+            say(&format!("  {}", proved(&impact.proof)));
         }
         if !about.is_empty() {
             say("\nin every case:");
@@ -252,7 +255,7 @@ pub fn json(scene: &Scene, table: &Table, judged: &Judged, shown: &[Shown]) -> V
     let cases: Vec<Value> = shown
         .iter()
         .map(|each| {
-            let mut value = super::json::derivation(&each.case.scene, &each.impact);
+            let mut value = super::story::json(&each.case.scene, &each.told);
             if let Value::Object(fields) = &mut value {
                 fields.insert("mode".into(), json!(each.case.mode.words()));
                 fields.insert("direction".into(), json!(each.case.direction));
@@ -302,7 +305,7 @@ pub fn json(scene: &Scene, table: &Table, judged: &Judged, shown: &[Shown]) -> V
         "jams": judged.at_values.as_ref().map(|v| v.jams),
         "cases": cases,
         "checks": judged.checks.iter().map(|c| json!({"kind": c.kind, "words": c.words, "holds": c.holds})).collect::<Vec<_>>(),
-        "verified": holds && shown.iter().all(|s| s.impact.is_proved()),
+        "verified": holds && shown.iter().all(|s| s.told.is_proved()),
     })
 }
 

@@ -9,34 +9,24 @@ use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, write_plain};
 use crate::laws;
 use crate::scene::Scene;
-use crate::worked::Impact;
+use crate::story::{Case, Told};
 
-/// Everything about a derivation and its proof.
-pub fn derivation(scene: &Scene, impact: &Impact) -> Value {
-    let Impact {
+/// Everything about the one impact of a scene, its derivation and its proof.
+pub(super) fn impact(scene: &Scene, told: &Told, impact: &Case) -> Value {
+    let Case {
         derivation,
         proof,
         possible,
-        about,
+        ..
     } = impact;
     let counting = &derivation.counting;
-    let mut answers: Vec<Value> = derivation
-        .answers
-        .iter()
-        .zip(&proof.answers)
-        .map(|(a, checks)| {
-            let identities = proof.scene.iter().filter(|c| c.kind == "identity");
-            let under = super::assumptions(scene, derivation, proof);
-            answer(scene, Some(derivation), a, under, identities.chain(checks))
-        })
-        .collect();
-    // What is asked about these answers stands behind them.
-    answers.extend(about.iter().map(|a| super::story::answer(scene, &[], a)));
+    let answers = told.answers.iter();
+    let answers = answers.map(|a| answer(scene, told, a));
     let used: usize = derivation.blocks.iter().map(|b| b.equations.len()).sum();
     json!({
         "title": scene.title,
         "source": scene.source,
-        "answers": answers,
+        "answers": answers.collect::<Vec<_>>(),
         "where": definitions(scene, derivation, None),
         "equations_used": used,
         "equations_full": counting.equations,
@@ -57,7 +47,7 @@ pub fn derivation(scene: &Scene, impact: &Impact) -> Value {
         "assumptions": super::assumptions(scene, derivation, proof),
         "checks": proof.scene.iter().map(check).collect::<Vec<_>>(),
         "admissible": super::possible::json(scene, possible),
-        "verified": impact.is_proved(),
+        "verified": told.is_proved(),
     })
 }
 
@@ -88,14 +78,14 @@ pub fn matrix(m: &Matrix) -> Value {
     })
 }
 
-/// An answer: what it is, what it rests on, and how it was checked. Its formulas may hold definitions of the derivation.
-pub fn answer<'c>(
-    scene: &Scene,
-    derivation: Option<&Derivation>,
-    a: &Answer,
-    assumptions: Vec<String>,
-    checks: impl Iterator<Item = &'c Check>,
-) -> Value {
+/// An answer: what it is, what it rests on, and how it was checked. Those of one impact may hold definitions of its derivation.
+pub(super) fn answer(scene: &Scene, told: &Told, a: &Answer) -> Value {
+    let impact = told.alone().filter(|_| a.told.is_some());
+    let derivation = impact.map(|impact| &impact.derivation);
+    // The domains, how the statement is read, and its own assumptions.
+    let mut assumptions = scene.domains.conditions();
+    assumptions.extend(told.readings.iter().cloned());
+    assumptions.extend(a.assumptions.iter().map(ToString::to_string));
     let mut out = Map::new();
     out.insert("name".into(), json!(a.name));
     out.insert("question".into(), json!(a.question));
@@ -159,7 +149,7 @@ pub fn answer<'c>(
     out.insert("dimension".into(), json!(a.dimension.plain()));
     out.insert("unit".into(), json!(a.dimension.si()));
     out.insert("assumptions".into(), json!(assumptions));
-    let checks: Vec<Value> = checks.map(check).collect();
+    let checks: Vec<Value> = a.checks.iter().map(check).collect();
     out.insert("checks".into(), json!(checks));
     Value::Object(out)
 }

@@ -8,34 +8,23 @@ use crate::formula::{Relation, Sentence, write_plain};
 use crate::scene::Scene;
 use crate::story::{Case, StageTold, Told};
 
-/// What an answer rests on: the domains, how the statement is read, and its own assumptions.
-fn assumptions(scene: &Scene, readings: &[String], answer: &Answer) -> Vec<String> {
-    let mut all = scene.domains.conditions();
-    all.extend(readings.iter().cloned());
-    all.extend(answer.assumptions.iter().map(ToString::to_string));
-    all
-}
-
-/// The story as data, in the shape of a derivation, with the stages beside the answers.
+/// What was told as data: one impact with its equations, or answers with the stages beside them.
 pub fn json(scene: &Scene, told: &Told) -> Value {
+    if let Some(impact) = told.alone() {
+        return super::json::impact(scene, told, impact);
+    }
     json!({
         "title": scene.title,
         "source": scene.source,
         "admissible": told.refusals().is_empty(),
         "refusals": told.refusals(),
-        "answers": told.answers.iter().map(|a| answer(scene, &told.readings, a)).collect::<Vec<_>>(),
+        "answers": told.answers.iter().map(|a| super::json::answer(scene, told, a)).collect::<Vec<_>>(),
         "stages": told.stages.iter().map(|s| stage(scene, s)).collect::<Vec<_>>(),
         "readings": told.readings,
         "unused": told.unused.iter().map(|s| &**s).collect::<Vec<_>>(),
         "remarks": scene.remarks,
         "verified": told.holds(),
     })
-}
-
-/// An answer as data.
-pub fn answer(scene: &Scene, readings: &[String], a: &Answer) -> Value {
-    let under = assumptions(scene, readings, a);
-    super::json::answer(scene, None, a, under, a.checks.iter())
 }
 
 fn stage(scene: &Scene, s: &StageTold) -> Value {
@@ -77,8 +66,11 @@ fn plain(all: &[Sentence]) -> Vec<String> {
     all.iter().map(ToString::to_string).collect()
 }
 
-/// The story as plain text: a section for each stage, then the answers.
+/// What was told as plain text: one impact, or a section for each stage and then the answers.
 pub fn text(scene: &Scene, told: &Told) -> String {
+    if let Some(impact) = told.alone() {
+        return super::text::impact(scene, told, impact);
+    }
     let mut out = String::new();
     let written = |words: &Sentence| words.written(|e| unicode(scene, e));
     let mut line = |text: String| {
@@ -113,7 +105,9 @@ pub fn text(scene: &Scene, told: &Told) -> String {
             if s.cases.len() > 1 {
                 line(format!("   case {}:", k + 1));
             }
-            impact(case).lines().for_each(|l| line(format!("   {l}")));
+            equations(case)
+                .lines()
+                .for_each(|l| line(format!("   {l}")));
         }
         for c in &s.checks {
             line(format!("   {} {}", mark(c), c.words));
@@ -134,7 +128,7 @@ pub fn text(scene: &Scene, told: &Told) -> String {
 }
 
 /// The equations of an outcome, and what it did not need.
-fn impact(case: &Case) -> String {
+fn equations(case: &Case) -> String {
     let (scene, derivation) = case.asked();
     let mut out = String::new();
     super::text::equations(&mut out, &scene, &derivation);

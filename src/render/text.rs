@@ -8,26 +8,27 @@ use crate::answer::{Form, Matrix};
 use crate::derive::Derivation;
 use crate::laws;
 use crate::scene::Scene;
-use crate::worked::Impact;
+use crate::story::{Case, Told};
 
-/// The whole derivation as plain text.
-pub fn derivation(scene: &Scene, impact: &Impact) -> String {
-    let Impact {
+/// The one impact of a scene as plain text.
+pub(super) fn impact(scene: &Scene, told: &Told, impact: &Case) -> String {
+    let Case {
         derivation: d,
         proof,
         possible,
-        about,
+        ..
     } = impact;
+    let (own, about) = told.answers.split_at(d.answers.len());
     let mut out = String::new();
     if let Some(refusal) = possible.refusal() {
         line(&mut out, "", &refusal);
     }
     line(&mut out, "", &super::heading(&scene.title, &scene.source));
     equations(&mut out, scene, d);
-    if !d.answers.is_empty() {
+    if !own.is_empty() {
         line(&mut out, "\n", "answers:");
     }
-    for answer in &d.answers {
+    for answer in own {
         match &answer.form {
             Form::Value { closed, short } => {
                 let value = super::answer_value(scene, d, closed)

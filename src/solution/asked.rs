@@ -12,8 +12,21 @@ use crate::scene::{Ask, Scene};
 /// Largest formula, in nodes, that is worth a line on the way to an identity.
 const READABLE: usize = 120;
 
+/// Adds what is asked beyond the motion, a section for each question.
+pub(super) fn beyond_motion(solution: &mut Solution, scene: &Scene, answers: &[Answer]) {
+    for question in &scene.questions {
+        // What happens in a stage stands where the stage is told.
+        if question.ask.is_motion() || matches!(question.ask, Ask::Assumed | Ask::Describe) {
+            continue;
+        }
+        let mine = answers.iter().filter(|a| a.question == question.name);
+        let mine: Vec<Answer> = mine.cloned().collect();
+        answered(solution, scene, &question.ask, &mine);
+    }
+}
+
 /// Adds a section with the answers to one question, in the order they were found.
-pub fn answered(solution: &mut Solution, scene: &Scene, ask: &Ask, answers: &[Answer]) {
+fn answered(solution: &mut Solution, scene: &Scene, ask: &Ask, answers: &[Answer]) {
     let Some(first) = answers.first() else {
         return;
     };

@@ -19,16 +19,16 @@ mod words;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-pub use asked::{answered, full_sentence, known, sentence};
-pub use story::tell;
+pub use asked::{full_sentence, known, sentence};
 pub use words::{assumptions, is_safe_latex};
 
 use crate::algebra::Field;
-use crate::answer::{Answer, Form, Near};
+use crate::answer::{Form, Near};
 use crate::derive::{self, Derivation, Reduction};
 use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Affine, Geometry, Kinematics, Unknown};
 use crate::scene::{ContactLaw, Mode, Scene};
+use crate::story::Told;
 use crate::verify::Proof;
 
 /// How much is shown.
@@ -271,26 +271,19 @@ pub struct Step {
     pub near: Vec<Near>,
 }
 
-/// Writes the solution of everything a scene asks; `about` holds the answers to what it asks about its answers.
-pub fn write(
-    scene: &Scene,
-    derivation: &Derivation,
-    proof: &Proof,
-    about: &[Answer],
-    detail: Detail,
-) -> Solution {
-    let mut writer = Writer::new(scene, derivation, proof, detail);
+/// Writes the solution of everything a scene asks.
+pub fn write(scene: &Scene, told: &Told, detail: Detail) -> Solution {
+    let Some(impact) = told.alone() else {
+        return story::tell(scene, told, detail);
+    };
+    let mut writer = Writer::new(scene, &impact.derivation, &impact.proof, detail);
     writer.opening();
     writer.blocks();
     writer.results();
     if detail == Detail::Brief {
         writer.checked();
     }
-    for question in scene.asked_of_answers() {
-        let of_it = about.iter().filter(|a| a.question == question.name);
-        let answers: Vec<Answer> = of_it.cloned().collect();
-        answered(&mut writer.solution, scene, &question.ask, &answers);
-    }
+    asked::beyond_motion(&mut writer.solution, scene, &told.answers);
     if !scene.plots.is_empty() {
         writer.push(Part::Figure(Slot::Plot));
     }

@@ -4,6 +4,7 @@
 //! each is known; or [`Refused`], the reason why the stages do not fit. Impacts are derived and proved by
 //! [`crate::derive`] and [`crate::verify`]; motions follow from work and energy, and are integrated apart from that.
 
+mod alone;
 mod answer;
 mod impact;
 mod integrate;
@@ -16,7 +17,7 @@ mod worlds;
 
 use std::collections::BTreeMap;
 
-pub use sheet::{beginning, flat_answer, impact, impacts, is_clockwise, sheet};
+pub use sheet::{beginning, impact, impacts, is_clockwise, sheet};
 
 use crate::answer::{Answer, Check, Refused};
 use crate::derive::{Derivation, Stop};
@@ -146,6 +147,21 @@ pub struct Case {
     pub possible: Possible,
 }
 
+impl Case {
+    /// What it rests on beyond the domains: what was divided by, and what was seen and not proved.
+    pub fn assumptions(&self) -> impl Iterator<Item = &String> {
+        self.derivation
+            .assumptions
+            .iter()
+            .chain(&self.proof.assumptions)
+    }
+
+    /// The laws that its motion was put into.
+    pub fn identities(&self) -> impl Iterator<Item = &Check> {
+        self.proof.scene.iter().filter(|c| c.kind == "identity")
+    }
+}
+
 /// A quantity that is worked out on the way.
 #[derive(Clone, Debug)]
 pub struct Step {
@@ -170,7 +186,7 @@ impl Step {
     }
 }
 
-/// A stage, worked out.
+/// A stage, worked out; the only stage of a scene that is one impact has no name.
 #[derive(Clone, Debug)]
 pub struct StageTold {
     /// Name; where an earlier impact has several outcomes, with the one it goes on from.
@@ -240,7 +256,7 @@ impl StageTold {
     }
 }
 
-/// A story, told.
+/// A scene, told: its stages, or the one impact that it is.
 #[derive(Clone, Debug)]
 pub struct Told {
     /// The stages.
@@ -256,6 +272,14 @@ pub struct Told {
 }
 
 impl Told {
+    /// The impact of a scene that has no stages.
+    pub fn alone(&self) -> Option<&Case> {
+        match self.stages.as_slice() {
+            [only] if only.name.is_empty() => only.cases.first(),
+            _ => None,
+        }
+    }
+
     /// Everything that is taken for granted: how the statement is read, and what the stages suppose.
     pub fn assumed(&self) -> Vec<Sentence> {
         words::assumed(&self.readings, &self.stages)
@@ -267,31 +291,44 @@ impl Told {
             .stages
             .iter()
             .flat_map(|s| s.cases.iter().map(move |c| (s, c)));
-        let all = cases.filter_map(|(s, c)| Some(format!("{}: {}", s.name, c.possible.refusal()?)));
+        let all = cases.filter_map(|(s, c)| {
+            let refusal = c.possible.refusal()?;
+            Some(match s.name.as_str() {
+                "" => refusal,
+                name => format!("{name}: {refusal}"),
+            })
+        });
         all.collect()
     }
 
     /// Whether no check failed, and no laws contradict each other.
     pub fn holds(&self) -> bool {
-        let answers = self.answers.iter().flat_map(|a| &a.checks);
-        let mut checks = self.checks().chain(answers);
         let mut cases = self.stages.iter().flat_map(|s| &s.cases);
-        self.ended.is_empty()
-            && cases.all(|c| c.possible.holds())
-            && checks.all(|c| c.holds != Some(false))
+        self.ended.is_empty() && cases.all(|c| c.possible.holds()) && self.is_proved()
     }
 
-    /// The checks of the stages.
+    /// Whether no check failed.
+    pub fn is_proved(&self) -> bool {
+        self.checks().all(|c| c.holds != Some(false))
+    }
+
+    /// The checks of the stages and of the answers.
     pub fn checks(&self) -> impl Iterator<Item = &Check> {
         let cases = self.stages.iter().flat_map(|s| &s.cases);
         let proofs = cases.flat_map(|c| c.proof.checks());
-        proofs.chain(self.stages.iter().flat_map(|s| &s.checks))
+        let stages = self.stages.iter().flat_map(|s| &s.checks);
+        let answers = self.answers.iter().flat_map(|a| &a.checks);
+        proofs.chain(stages).chain(answers)
     }
 }
 
 impl Refused {
     fn new(stage: &str, reason: impl Into<String>, hint: impl Into<String>) -> Refused {
-        Refused::at(format!("stage `{stage}`"), reason, hint)
+        let at = match stage {
+            "" => String::new(),
+            name => format!("stage `{name}`"),
+        };
+        Refused::at(at, reason, hint)
     }
 
     fn stop(stage: &str, stop: impl Into<Stop>) -> Refused {
@@ -302,8 +339,11 @@ impl Refused {
 /// Most ways through the cases of a scene.
 const BRANCHES: usize = 32;
 
-/// Tells the story of a scene. Where an impact has several outcomes, what follows it is told for each.
+/// Tells a scene: its one impact, or its stages. Where an impact has several outcomes, what follows it is told for each.
 pub fn tell(scene: &Scene) -> Result<Told, Refused> {
+    if !scene.has_stages() {
+        return alone::tell(scene);
+    }
     let mut stages: Vec<StageTold> = Vec::new();
     let mut told_as: Vec<Vec<usize>> = Vec::new();
     let mut ended = Vec::new();

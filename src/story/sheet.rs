@@ -1,6 +1,6 @@
-//! A told story as one scene and one derivation, for those who grade, verify and draw: all answers, and the first impact.
+//! A told scene as one scene and one derivation, for those who grade, verify and draw: all answers, and the first impact.
 //!
-//! In: a scene and its story as told. Out: the scene of an impact with the motion handed on put in, and its derivation with
+//! In: a scene as it was told. Out: the scene of an impact with the motion handed on put in, and its derivation with
 //! the answers of the whole story in place of its own. Nothing is derived here.
 
 use super::{Case, StageTold, Told};
@@ -66,7 +66,7 @@ pub fn is_clockwise(told: &StageTold) -> bool {
     }
 }
 
-/// The story as one scene and one derivation.
+/// What was told as one scene and one derivation.
 pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
     let first = told.stages.iter().find(|s| !s.cases.is_empty());
     let case = first.and_then(|s| s.cases.first());
@@ -90,18 +90,21 @@ pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
     };
     let asked = scene.questions.iter();
     flat.questions = asked.map(|q| own(q).unwrap_or_else(|| q.clone())).collect();
-    derivation.definitions.clear();
-    derivation.answers = told.answers.iter().filter_map(flat_answer).collect();
+    if told.alone().is_none() {
+        derivation.definitions.clear();
+    }
+    derivation.answers = told.answers.iter().filter(is_flat).cloned().collect();
     Ok((flat, derivation))
 }
 
-/// An answer under the name of its question; further outcomes and places of maxima are answers of their own.
-pub fn flat_answer(a: &Answer) -> Option<Answer> {
-    let has_form = matches!(a.form, Form::Value { .. } | Form::Equation { .. });
+/// Whether an answer with a formula has the name of its question; further outcomes and places of maxima have names of their
+/// own.
+fn is_flat(a: &&Answer) -> bool {
+    let has_form = !matches!(a.form, Form::Words);
     let is_whole = ["", "_x", "_y"]
         .iter()
         .any(|suffix| a.name == format!("{}{suffix}", a.question));
-    (has_form && is_whole).then(|| a.clone())
+    has_form && is_whole
 }
 
 /// The scene of an outcome, with what was handed on put in.
@@ -110,7 +113,7 @@ fn put_together(scene: &Scene, case: &Case) -> Scene {
     out.statement = scene.statement.clone();
     out.printed = scene.printed.clone();
     out.domains = scene.domains.clone();
-    out.questions.clear();
+    out.questions.retain(|q| !q.hidden);
     out.parameters
         .retain(|p| !case.handed.contains_key(&p.name));
     // A value may have been given since the stages were read.

@@ -533,7 +533,12 @@ pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence
     let mut out: Vec<Sentence> = readings.iter().map(Sentence::from).collect();
     let named = |is: fn(&StageKind) -> bool| {
         let mut names: Vec<String> = Vec::new();
-        for told in stages.iter().filter(|s| is(&s.placed.kind)) {
+        let has_name = |s: &&StageTold| !s.placed.name.is_empty();
+        for told in stages
+            .iter()
+            .filter(|s| is(&s.placed.kind))
+            .filter(has_name)
+        {
             let name = format!("`{}`", told.placed.name);
             if !names.contains(&name) {
                 names.push(name);

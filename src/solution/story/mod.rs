@@ -7,7 +7,7 @@
 mod flight;
 mod motion;
 
-use super::asked::{self, answered, full_sentence};
+use super::asked::{self, full_sentence};
 use super::words::{self, name, say};
 use super::{
     Before, Claim, Detail, Inline, Line, Math, Meaning, Part, Scope, Slot, Solution, Writer,
@@ -15,11 +15,11 @@ use super::{
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
-use crate::scene::{Ask, Scene, Stage};
+use crate::scene::{Scene, Stage};
 use crate::story::{Case, StageTold, Told};
 
-/// Writes the solution of a story.
-pub fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
+/// Writes the solution of a scene with stages.
+pub(super) fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
     let mut page = Page {
         scene,
         told,
@@ -30,7 +30,7 @@ pub fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
     for i in 0..told.stages.len() {
         page.stage(i);
     }
-    page.questions();
+    asked::beyond_motion(&mut page.solution, scene, &told.answers);
     page.rests_on();
     page.solution
 }
@@ -386,22 +386,6 @@ impl Page<'_> {
         }
         if !numbers.is_empty() {
             self.solution.push(Part::List(numbers));
-        }
-    }
-
-    /// What is asked beyond the motion.
-    fn questions(&mut self) {
-        for question in self.scene.questions.iter() {
-            // What happens in a stage stands where the stage is told.
-            if question.ask.is_motion() || matches!(question.ask, Ask::Assumed | Ask::Describe) {
-                continue;
-            }
-            let mine = self.told.answers.iter();
-            let mine: Vec<Answer> = mine
-                .filter(|a| a.question == question.name)
-                .cloned()
-                .collect();
-            answered(&mut self.solution, self.scene, &question.ask, &mine);
         }
     }
 

@@ -8,7 +8,7 @@ mod reached;
 use std::collections::BTreeSet;
 
 use super::{Case, StageTold, Told, second, spring, words, worlds};
-use crate::answer::{self, Answer, Check, Form, Known, Refused};
+use crate::answer::{self, Answer, Form, Known, Refused};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, sentence};
@@ -378,17 +378,12 @@ fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
                 " is substituted"
             ]);
         }
-        let taken = case
-            .derivation
-            .assumptions
-            .iter()
-            .chain(&case.proof.assumptions);
-        a.assumptions.extend(taken.map(Sentence::from));
+        a.assumptions.extend(case.assumptions().map(Sentence::from));
         for (why, e) in &case.conditions {
             a.assumptions
                 .push(sentence![Sentence::not_negative(e), " (", why, ")"]);
         }
-        a.checks = identities(case).chain(checks).cloned().collect();
+        a.checks = case.identities().chain(checks).cloned().collect();
         out.push(a);
     }
     if out.is_empty() {
@@ -403,15 +398,10 @@ fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
                 .push(sentence![Sentence::not_negative(e), " (", why, ")"]);
         }
         a.dimension = Dimension::new(1, 1, -1);
-        a.checks = identities(case).cloned().collect();
+        a.checks = case.identities().cloned().collect();
         out.push(a);
     }
     out
-}
-
-/// The laws of an outcome that its motion was put into.
-fn identities(case: &Case) -> impl Iterator<Item = &Check> {
-    case.proof.scene.iter().filter(|c| c.kind == "identity")
 }
 
 /// Names an answer after its case.

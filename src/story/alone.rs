@@ -1,0 +1,91 @@
+//! A scene of one impact, told as its only stage: derived as it stands, with nothing handed on and nothing that follows.
+//!
+//! In: a scene without stages, its friction decided. Out: [`Told`] with one stage that has no name, and the answers.
+
+use std::collections::BTreeMap;
+
+use super::{Case, StageTold, State, Told};
+use crate::answer::{Answer, Refused};
+use crate::derive;
+use crate::formula::Sentence;
+use crate::scene::{Scene, Stage, StageKind};
+use crate::verify::{self, possible};
+
+/// Tells the one impact of a scene.
+pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
+    let derivation = derive::derive(scene).map_err(|stop| Refused::stop("", stop))?;
+    let proof = verify::prove(scene, &derivation);
+    let possible = possible::judge(scene, &derivation);
+    let about = verify::about_answers(scene, &derivation, &proof)?;
+    let counting = &derivation.counting;
+    let contradiction = counting.contradictory.then(|| Refused {
+        contradicts: true,
+        ..Refused::new(
+            "",
+            format!(
+                "these laws contradict each other: {}",
+                counting.conflict.join("; ")
+            ),
+            "",
+        )
+    });
+    let stage = Stage {
+        name: String::new(),
+        from: None,
+        start: Vec::new(),
+        kind: StageKind::Impact {
+            one_sided: Vec::new(),
+            supposed: None,
+        },
+        places: Vec::new(),
+        scene: scene.clone(),
+    };
+    let before = super::start(scene, &[]);
+    let after = unasked(scene, &before);
+    let case = Case {
+        active: Vec::new(),
+        rubs: String::new(),
+        conditions: Vec::new(),
+        handed: BTreeMap::new(),
+        after: after.clone(),
+        scene: scene.clone(),
+        derivation,
+        proof,
+        possible,
+    };
+    let mut answers = answers(&case);
+    answers.extend(about);
+    let assumptions = case.assumptions().map(Sentence::from).collect();
+    Ok(Told {
+        stages: vec![StageTold {
+            cases: vec![case],
+            assumptions,
+            ..StageTold::new(&stage, before, after)
+        }],
+        answers,
+        readings: Vec::new(),
+        unused: Vec::new(),
+        ended: contradiction.into_iter().collect(),
+    })
+}
+
+/// The answers of the impact as they were derived.
+fn answers(case: &Case) -> Vec<Answer> {
+    let each = case.derivation.answers.iter().zip(&case.proof.answers);
+    let answer = |(answer, checks): (&Answer, &Vec<_>)| Answer {
+        told: Some((0, 0)),
+        assumptions: case.assumptions().map(Sentence::from).collect(),
+        checks: case.identities().chain(checks).cloned().collect(),
+        ..answer.clone()
+    };
+    each.map(answer).collect()
+}
+
+/// The motion after an impact that nothing follows: worked out where it is asked for, and left open here.
+fn unasked(scene: &Scene, before: &State) -> State {
+    let mut after = before.clone();
+    for b in (0..scene.bodies.len()).filter(|b| !scene.bodies[*b].is_fixed()) {
+        after.lose(scene, b, "nothing follows this impact", true);
+    }
+    after
+}
