@@ -187,7 +187,10 @@ impl SolidReader<'_> {
             return Some(Expr::zero());
         };
         let mass = self.symbols.read(formula, Quantity::MASS, self.faults)?;
-        let is_link = matches!(body.shape, ShapeName::Rod | ShapeName::Body);
+        let is_link = matches!(
+            body.shape,
+            ShapeName::Rod | ShapeName::Body | ShapeName::Disk
+        );
         if mass.is_zero() && !is_link {
             let fault = Fault::new(
                 formula.span,
@@ -196,8 +199,9 @@ impl SolidReader<'_> {
                     article(body.shape)
                 ),
             );
-            self.faults
-                .push(fault.hint("only a rod or a body may have mass \"0\": a massless link"));
+            self.faults.push(fault.hint(
+                "only a rod or a body may have mass \"0\", a massless link, and a disk, a light pulley",
+            ));
             return None;
         }
         self.claim_size(formula, &mass, "mass", is_link);

@@ -14,7 +14,7 @@ choice! {
         Particle = "particle",
         /// A uniform thin rod: `length`, along `angle`. Mass "0" makes it a massless link.
         Rod = "rod",
-        /// A uniform disk: `radius`.
+        /// A uniform disk: `radius`. Mass "0" makes it a light pulley.
         Disk = "disk",
         /// A thin ring: `radius`.
         Ring = "ring",

@@ -44,7 +44,7 @@ pub use friction::{Condition, ContactSpace, Decided, Friction, FrictionEvent, Hy
 pub use geometry::direction;
 pub use printed::{Print, Printed};
 pub use stage::{
-    Fall, FallEnd, Lump, OneSided, Slide, SlideEnd, Stage, StageKind, Turn, Until, Wind,
+    Fall, FallEnd, Lump, OneSided, Slide, SlideEnd, Stage, StageKind, Strung, Turn, Until, Wind,
 };
 
 /// Longest text of a scene file, in bytes.
@@ -186,6 +186,8 @@ pub struct Scene {
     /// Impacts and motions one after the other, in the order of the file, where the scene tells them; hinges, contacts and
     /// blows then stand there. Empty for a scene of one impact.
     pub stages: Vec<Stage>,
+    /// Indices of the bodies whose centers are held by axles in all stages: the pulleys of strings.
+    pub axles: Vec<usize>,
     /// How an incomplete statement or a missing figure is read, in words.
     pub readings: Vec<String>,
     /// Whether kinetic energy may be gained at the contacts: something is set free there that the scene does not tell.

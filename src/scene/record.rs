@@ -317,7 +317,7 @@ fn meant(word: &str) -> Option<&'static str> {
             "a string that jerks taut stands among the `strings` of an impact, in `stages`; in a scene of one impact it is a blow `along` it, with the velocity along it `after`"
         }
         "pulley" | "pulleys" => {
-            "there are no pulleys; a string along one line stands among the `strings` of an impact, in `stages`"
+            "a pulley is a body, a disk of mass \"0\" where it is light; a `slide` has `strings` `over` it, and an impact has one of the `strings` on each side of it"
         }
         "weld" | "welded" | "glued" | "rigid" | "docking" => {
             "bodies that are one after the impact stick at two points: two contacts with \"law\": \"sticking\""

@@ -140,6 +140,10 @@ impl StageKind {
                 if let SlideEnd::Distance(e) | SlideEnd::Time(e) = &mut slide.until {
                     put(e);
                 }
+                for string in &mut slide.strings {
+                    let along = string.along.iter_mut();
+                    along.chain(&mut string.friction).for_each(&mut *put);
+                }
                 let forces = slide.gravity.iter_mut().chain(&mut slide.force);
                 forces
                     .chain(&mut slide.friction)
@@ -317,13 +321,40 @@ pub struct Slide {
     pub friction: Option<Expr>,
     /// Whether a round body rolls, by as much friction as that takes.
     pub rolling: bool,
+    /// Light inextensible strings from the body to others.
+    pub strings: Vec<Strung>,
 }
 
 impl Slide {
-    /// All bodies that move.
+    /// All bodies that move, pulleys last.
     pub fn bodies(&self) -> Vec<usize> {
+        let ends = self.strings.iter().flat_map(|s| &s.to);
+        let all = self.company().into_iter().chain(ends.copied());
+        all.chain(self.pulleys()).collect()
+    }
+
+    /// The body and those that move along with it.
+    pub fn company(&self) -> Vec<usize> {
         [&[self.body], self.with.as_slice()].concat()
     }
+
+    /// The pulleys of all strings.
+    pub fn pulleys(&self) -> impl Iterator<Item = usize> {
+        self.strings.iter().flat_map(|s| s.over.iter().copied())
+    }
+}
+
+/// Bodies at the other end of a string that runs from a body on a line over pulleys, without slipping on them.
+#[derive(Clone, Debug)]
+pub struct Strung {
+    /// Indices of the bodies; they move as one.
+    pub to: Vec<usize>,
+    /// Direction in which they move while the body moves along its own.
+    pub along: Vector,
+    /// Indices of the pulleys, from the body on.
+    pub over: Vec<usize>,
+    /// Coefficient of sliding friction of a surface below them; `None` for a smooth guide, or where they hang.
+    pub friction: Option<Expr>,
 }
 
 /// How a motion along a line ends.

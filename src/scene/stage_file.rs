@@ -138,6 +138,23 @@ record! {
         friction: Option<Formula>,
         /// Whether a disk, ring or sphere rolls on the surface below it without slipping, however much friction that takes.
         rolling: Option<bool>,
+        /// Light inextensible strings from the body over pulleys to other bodies, taut all the while.
+        strings: Option<Vec<StrungFile>>,
+    }
+}
+
+record! {
+    /// A string over pulleys, and what moves at its other end.
+    StrungFile {
+        /// Names of the bodies at the other end; they move as one.
+        to: Vec<Text>,
+        /// Direction in which they move while the body moves along its own.
+        along: DirectionFile,
+        /// Names of one or two pulleys, from the body on: disks or rings whose centers stay, of mass "0" where they are light
+        /// or smooth. The string runs along their rims.
+        over: Vec<Text>,
+        /// Coefficient of sliding friction of a surface below what moves at the other end.
+        friction: Option<Formula>,
     }
 }
 

@@ -180,10 +180,8 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
 
 /// A motion along a line: what moves, on what, and how far.
 fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
-    let all = slide.bodies().into_iter();
-    let names: Vec<String> = all
-        .map(|b| format!("`{}`", stage.scene.bodies[b].name))
-        .collect();
+    let name = |b: &usize| format!("`{}`", stage.scene.bodies[*b].name);
+    let names: Vec<String> = slide.company().iter().map(name).collect();
     let one = names.len() == 1;
     let is_round = one && stage.scene.bodies[slide.body].shape.radius().is_some();
     let slips = told.work.iter().any(|(what, _)| *what == "friction");
@@ -206,12 +204,22 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
         return sentence![lead, verb, " at rest already"];
     }
     let lead = lead + how;
+    let strings = slide.strings.iter().map(|s| {
+        let list = |all: &[usize]| all.iter().map(name).collect::<Vec<_>>().join(" and ");
+        let rough = s.friction.as_ref().map_or("", |_| " on a rough surface");
+        format!(
+            ", and the string over {} takes {} along{rough}",
+            list(&s.over),
+            list(&s.to)
+        )
+    });
+    let strings = strings.collect::<String>();
     match &slide.until {
-        SlideEnd::Distance(s) => sentence![lead, " through ", s],
-        SlideEnd::Time(t) => sentence![lead, " for ", t],
-        SlideEnd::Stops if one => sentence![lead, " until it stops"],
-        SlideEnd::Stops => sentence![lead, " until they stop"],
-        SlideEnd::Rolls => sentence![lead, " until it rolls"],
+        SlideEnd::Distance(s) => sentence![lead, " through ", s, strings],
+        SlideEnd::Time(t) => sentence![lead, " for ", t, strings],
+        SlideEnd::Stops if one => sentence![lead, " until it stops", strings],
+        SlideEnd::Stops => sentence![lead, " until they stop", strings],
+        SlideEnd::Rolls => sentence![lead, " until it rolls", strings],
     }
 }
 

@@ -41,26 +41,8 @@ pub(super) enum Constraint {
         /// The arm.
         arm: [f64; 2],
     },
-    /// The center of the body moves along this direction.
-    Guide {
-        /// The body.
-        body: usize,
-        /// The direction, a unit vector.
-        along: [f64; 2],
-        /// How it turns.
-        turn: Turning,
-    },
-}
-
-/// How a body on a guide turns.
-#[derive(Clone, Copy)]
-pub(super) enum Turning {
-    /// Not at all.
-    No,
-    /// As moments make it.
-    Free,
-    /// Its point at this arm stays at rest along the guide: velocity + arm × spin = 0.
-    Rolls(f64),
+    /// A sum of rates is zero, each with a factor; rates count as in the second half of a state.
+    Sum(Vec<(usize, f64)>),
 }
 
 /// Bodies, what they cannot do, and what acts on them.
@@ -133,18 +115,7 @@ impl Mechanism {
                     rows.push((y, -w * w * r[1]));
                     rows.push((vec![(b + 2, 1.0), (a + 2, -1.0)], 0.0));
                 }
-                Constraint::Guide { body, along, turn } => {
-                    let b = 3 * body;
-                    rows.push((vec![(b, -along[1]), (b + 1, along[0])], 0.0));
-                    match turn {
-                        Turning::No => rows.push((vec![(b + 2, 1.0)], 0.0)),
-                        Turning::Free => {}
-                        Turning::Rolls(arm) => {
-                            let row = vec![(b, along[0]), (b + 1, along[1]), (b + 2, *arm)];
-                            rows.push((row, 0.0));
-                        }
-                    }
-                }
+                Constraint::Sum(row) => rows.push((row.clone(), 0.0)),
             }
         }
         let all = n + rows.len();

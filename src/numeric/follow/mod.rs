@@ -377,7 +377,9 @@ fn of_kind(kind: &StageKind) -> Vec<&Expr> {
                 SlideEnd::Stops | SlideEnd::Rolls => None,
             };
             let forces = slide.gravity.iter().chain(&slide.force);
-            let way = slide.along.iter().chain(end);
+            let others = slide.strings.iter();
+            let others = others.flat_map(|s| s.along.iter().chain(&s.friction));
+            let way = slide.along.iter().chain(end).chain(others);
             way.chain(forces).chain(&slide.friction).collect()
         }
         StageKind::Fall(fall) => {

@@ -3,17 +3,19 @@
 //! In: the record of a stage and the scene it begins with. Out: a [`StageKind`].
 
 use crate::expr::Expr;
-use crate::scene::Scene;
 use crate::scene::check::{Claim, Claimed};
 use crate::scene::fault::{Fault, Span};
 use crate::scene::formulas::Quantity;
 use crate::scene::place_file::PositionFile;
 use crate::scene::record::{Formula, Text};
 use crate::scene::resolve::Resolver;
-use crate::scene::stage::{Fall, FallEnd, OneSided, Slide, SlideEnd, StageKind, Turn, Until, Wind};
-use crate::scene::stage_file::{
-    FallFile, ImpactFile, SlideEndName, SlideFile, StageFile, TurnFile, UntilName,
+use crate::scene::stage::{
+    Fall, FallEnd, OneSided, Slide, SlideEnd, StageKind, Strung, Turn, Until, Wind,
 };
+use crate::scene::stage_file::{
+    FallFile, ImpactFile, SlideEndName, SlideFile, StageFile, StrungFile, TurnFile, UntilName,
+};
+use crate::scene::{Scene, Shape};
 
 pub(in crate::scene) const TIME: Quantity =
     Quantity::other([0, 0, 1], "a time, such as t, or a number of seconds");
@@ -178,13 +180,11 @@ fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) 
     let along = r.direction(&slide.along);
     let gravity = optional(r, slide.gravity.as_ref(), ACCELERATION)?;
     let force = optional(r, slide.force.as_ref(), FORCE)?;
-    let friction = optional(r, slide.friction.as_ref(), Quantity::NUMBER)?;
-    if let (Some(mu), Some(f)) = (&friction, &slide.friction) {
-        r.claims.push(Claimed {
-            span: f.span,
-            claim: Claim::Friction(mu.clone()),
-        });
-    }
+    let friction = coefficient(r, slide.friction.as_ref())?;
+    let strings = slide.strings.iter().flatten();
+    let strings = strings
+        .map(|s| strung(r, scene, s))
+        .collect::<Option<Vec<Strung>>>()?;
     let until = match (&slide.distance, &slide.time, slide.until) {
         (Some(s), ..) => SlideEnd::Distance(r.symbols.read(s, Quantity::LENGTH, &mut r.faults)?),
         (_, Some(t), _) => SlideEnd::Time(r.symbols.read(t, TIME, &mut r.faults)?),
@@ -193,6 +193,17 @@ fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) 
         _ => return None,
     };
     let (body, with) = all?;
+    let others = strings.iter().flat_map(|s| s.to.iter().chain(&s.over));
+    let mut all: Vec<usize> = others.copied().chain([body]).chain(with.clone()).collect();
+    all.sort_unstable();
+    if let Some(twice) = all.windows(2).find(|pair| pair[0] == pair[1]) {
+        let name = &scene.bodies[twice[0]].name;
+        let message = format!("`{name}` moves along with itself");
+        r.faults
+            .push(Fault::new(span, message).hint("name each body once"));
+        return None;
+    }
+    let is_rough = friction.is_some() || strings.iter().any(|s| s.friction.is_some());
     let shape = &scene.bodies[body];
     let is_round = with.is_empty() && shape.shape.radius().is_some();
     let mut refuse = |message: String, hint: &str| {
@@ -204,7 +215,7 @@ fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) 
             format!("`{}` does not roll", shape.name),
             "a disk, ring or sphere by itself does",
         ),
-        () if friction.is_some() && gravity.is_none() => refuse(
+        () if is_rough && gravity.is_none() => refuse(
             String::from("what presses the body on the rough surface is not said"),
             "add \"gravity\": \"g\"",
         ),
@@ -226,10 +237,58 @@ fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) 
                 force,
                 friction,
                 rolling: slide.rolling == Some(true),
+                strings,
             });
         }
     }
     None
+}
+
+/// A coefficient of friction, which is not negative.
+fn coefficient(r: &mut Resolver<'_>, formula: Option<&Formula>) -> Option<Option<Expr>> {
+    let friction = optional(r, formula, Quantity::NUMBER)?;
+    if let (Some(mu), Some(f)) = (&friction, formula) {
+        r.claims.push(Claimed {
+            span: f.span,
+            claim: Claim::Friction(mu.clone()),
+        });
+    }
+    Some(friction)
+}
+
+/// A string over pulleys with what moves at its other end.
+fn strung(r: &mut Resolver<'_>, scene: &Scene, string: &StrungFile) -> Option<Strung> {
+    let to: Vec<_> = string.to.iter().map(|name| r.moving(name)).collect();
+    let over: Vec<_> = string.over.iter().map(|name| r.moving(name)).collect();
+    let along = r.direction(&string.along);
+    let friction = coefficient(r, string.friction.as_ref())?;
+    let (to, over): (Option<Vec<_>>, Option<Vec<_>>) =
+        (to.into_iter().collect(), over.into_iter().collect());
+    let (to, over) = (to?, over?);
+    if to.is_empty() || !(1..=2).contains(&over.len()) {
+        let message = "a string runs over one or two pulleys to one or more bodies";
+        let fault = Fault::new(string.span, message);
+        r.faults
+            .push(fault.hint("a body that is pulled along the same line is named under `with`"));
+        return None;
+    }
+    for (pulley, name) in over.iter().zip(&string.over) {
+        let body = &scene.bodies[*pulley];
+        if !matches!(body.shape, Shape::Disk { .. } | Shape::Ring { .. }) {
+            let message = format!("`{}` is no pulley", body.name);
+            let fault = Fault::new(name.span, message);
+            r.faults.push(fault.hint(
+                "a pulley is a disk or ring; where it is light or smooth, a disk of mass \"0\"",
+            ));
+            return None;
+        }
+    }
+    Some(Strung {
+        to,
+        along: along?,
+        over,
+        friction,
+    })
 }
 
 fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {

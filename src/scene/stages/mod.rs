@@ -115,6 +115,16 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
         base.faults.extend(faults);
         scene.stages.extend(read);
     }
+    let mut axles = Vec::new();
+    for stage in &scene.stages {
+        if let StageKind::Slide(slide) = &stage.kind {
+            axles.extend(slide.pulleys());
+        }
+    }
+    for stage in &mut scene.stages {
+        stage.scene.axles = axles.clone();
+    }
+    scene.axles = axles;
     if base.faults.is_empty() {
         questions::of_stages(base, scene, &homes);
     }

@@ -232,7 +232,8 @@ pub(super) fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<
     let why = format!("the laws of `{}` do not determine it", stage.name);
     for b in 0..scene.bodies.len() {
         let body = &scene.bodies[b];
-        if body.is_fixed() {
+        // What has no mass and takes no part has no law, and moves on.
+        if body.is_fixed() || body.mass.is_zero() && !takes_part(&scene, b) {
             continue;
         }
         let value = |form: &crate::laws::Affine<Expr>| -> Result<Option<Expr>, Refused> {
@@ -264,6 +265,15 @@ pub(super) fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<
     Ok(after)
 }
 
+/// Whether anything acts on a body in an impact.
+fn takes_part(scene: &Scene, b: usize) -> bool {
+    let hinges = scene.hinges.iter().map(|h| h.bodies);
+    let mut pairs = hinges.chain(scene.contacts.iter().map(|c| c.bodies));
+    pairs.any(|bodies| bodies.contains(&b))
+        || scene.blows.iter().any(|blow| blow.body == b)
+        || scene.after.iter().any(|known| known.body == b)
+}
+
 /// How a body takes part after an impact.
 fn part(scene: &Scene, b: usize, before: Part) -> Part {
     let hinges = scene.hinges.iter().map(|h| (h.bodies, true));
@@ -274,13 +284,11 @@ fn part(scene: &Scene, b: usize, before: Part) -> Part {
     let mut touching = hinges
         .chain(contacts)
         .filter(|(bodies, _)| bodies.contains(&b));
-    let struck = scene.blows.iter().any(|blow| blow.body == b)
-        || scene.after.iter().any(|known| known.body == b);
     match touching.next() {
         Some((_, true)) => Part::Joined,
         Some(_) if touching.any(|(_, joins)| joins) => Part::Joined,
         Some(_) => Part::Free,
-        None if struck => Part::Free,
+        None if takes_part(scene, b) => Part::Free,
         None => before,
     }
 }

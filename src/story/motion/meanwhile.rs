@@ -2,7 +2,7 @@
 //!
 //! A body at rest stays. A body that has taken no part so far waits: it comes into play where the scene has it. A body that
 //! moves freely goes on uniformly, where no weight is named and the time is known; a wall or platform whose motion is
-//! prescribed goes on in any case. Of any other body nothing is said, and what is not said is open.
+//! prescribed goes on in any case, and so does a pulley, since its weight has no moment about its axle. Of any other body nothing is said, and what is not said is open.
 
 use crate::answer::calc::{is_zero, tidy};
 use crate::expr::Expr;
@@ -29,6 +29,17 @@ pub(super) fn others(
         if motion().all(|c| is_zero(c, &scene.domains) == Some(true)) {
             continue;
         }
+        let put = |from: &Expr, rate: &Expr, time: &Expr| {
+            let e = from + &(rate * time);
+            tidy(&e, &scene.domains).unwrap_or(e)
+        };
+        if scene.axles.contains(&b) {
+            match time {
+                Some(time) => after.angle[b] = put(&before.angle[b], &before.spin[b], time),
+                None => after.lose_angle(scene, b, "how long it turns has no closed form"),
+            }
+            continue;
+        }
         if before.why_open(motion().chain(&before.center[b])).is_some() {
             continue;
         }
@@ -41,14 +52,10 @@ pub(super) fn others(
                 "` comes into play where the scene has it"
             ]),
             (Part::Free | Part::Waits, Some(time)) if weightless => {
-                let put = |from: &Expr, rate: &Expr| {
-                    let e = from + &(rate * time);
-                    tidy(&e, &scene.domains).unwrap_or(e)
-                };
                 for k in 0..2 {
-                    after.center[b][k] = put(&before.center[b][k], &before.velocity[b][k]);
+                    after.center[b][k] = put(&before.center[b][k], &before.velocity[b][k], time);
                 }
-                after.angle[b] = put(&before.angle[b], &before.spin[b]);
+                after.angle[b] = put(&before.angle[b], &before.spin[b], time);
             }
             (part, _) => {
                 let why = match (part, weightless) {

@@ -3,11 +3,12 @@
 //! The acceleration is constant, so that v² − v₀² = 2 a s and v − v₀ = a t. A round body on a rough surface slips by
 //! v + R ω at its lowest point, counted along a line to the right; friction acts against the slip until there is none.
 
+use super::strings::{Pulled, pulled};
 use super::{arrival, half, kept, meanwhile, tidied};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, at_least_zero, essential, is_zero, sign};
 use crate::domain::Domains;
-use crate::expr::{Expr, dot};
+use crate::expr::{Expr, Vector, dot};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Slide, SlideEnd, Stage};
 use crate::story::{Refused, StageTold, State, Step};
@@ -16,16 +17,22 @@ use crate::story::{Refused, StageTold, State, Step};
 struct Line<'a> {
     stage: &'a Stage,
     slide: &'a Slide,
-    /// Mass of all that moves \[kg\].
+    /// Mass of the body and those that move along with it \[kg\].
+    own: Expr,
+    /// Mass of all that moves at its speed, with what turning pulleys add to it \[kg\].
     mass: Expr,
+    /// The strings to other bodies.
+    strings: Vec<Pulled<'a>>,
     /// Velocity along the line at the beginning \[m/s\].
     speed: Expr,
     /// Angular velocity at the beginning \[rad/s\].
     spin: Expr,
-    /// Weight and applied force along the line \[N\].
+    /// Weights and applied force along the lines \[N\].
     pull: Expr,
     /// Friction along the line \[N\].
     friction: Expr,
+    /// Friction of what moves at the other ends of strings \[N\].
+    drag: Expr,
     /// Acceleration along the line \[m/s²\].
     acceleration: Expr,
     /// Angular acceleration \[rad/s²\].
@@ -102,12 +109,34 @@ pub(in crate::story) fn slide(
             ]),
         }
     }
-    let mut after = before.clone();
-    for b in slide.bodies() {
-        for k in 0..2 {
-            after.center[b][k] = &after.center[b][k] + &(&slide.along[k] * &course.distance);
-            after.velocity[b][k] = tidied(stage, &(&course.speed * &slide.along[k]))?;
+    for (pulley, spin) in line.pulleys() {
+        let body = &stage.scene.bodies[pulley];
+        let gap = &before.spin[pulley] - &(spin * &line.speed);
+        if !body.mass.is_zero() && is_zero(&gap, domains) == Some(false) {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "the rim of `{}` does not begin to move with the string",
+                    body.name
+                ),
+                "put an impact before it in which the string pulls, or give it a spin that fits",
+            ));
         }
+    }
+    for string in &line.strings {
+        string.taut(stage, &line.acceleration, &mut needs, &mut assumptions)?;
+    }
+    let mut after = before.clone();
+    for (bodies, along) in lumps(slide) {
+        for (b, k) in bodies.iter().flat_map(|b| [(*b, 0), (*b, 1)]) {
+            after.center[b][k] = &after.center[b][k] + &(&along[k] * &course.distance);
+            after.velocity[b][k] = tidied(stage, &(&course.speed * &along[k]))?;
+        }
+    }
+    for (pulley, spin) in line.pulleys() {
+        after.spin[pulley] = tidied(stage, &(spin * &course.speed))?;
+        let turned = &before.angle[pulley] + &(spin * &course.distance);
+        after.angle[pulley] = tidied(stage, &turned)?;
     }
     if line.round.is_some() {
         let b = slide.body;
@@ -145,15 +174,48 @@ pub(in crate::story) fn slide(
     Ok(out)
 }
 
-/// Refuses a body that does not begin to move along the line, or turns where nothing lets it.
+/// The bodies that move along one line each, with their directions.
+fn lumps(slide: &Slide) -> Vec<(Vec<usize>, &Vector)> {
+    let strung = slide.strings.iter().map(|s| (s.to.clone(), &s.along));
+    let own = (slide.company(), &slide.along);
+    std::iter::once(own).chain(strung).collect()
+}
+
+/// Refuses a body that does not begin to move along its line, or turns where nothing lets it.
 fn fits(stage: &Stage, before: &State, slide: &Slide) -> Result<(), Refused> {
+    let speed = dot(&before.velocity[slide.body], &slide.along);
+    for (bodies, along) in lumps(slide) {
+        fits_line(stage, before, slide, &bodies, along, &speed)?;
+    }
+    for p in slide.pulleys() {
+        let zero = |e: &Expr| is_zero(e, &stage.scene.domains) != Some(false);
+        if !before.velocity[p].iter().all(zero) {
+            return Err(Refused::new(
+                &stage.name,
+                format!("the center of `{}` moves", stage.scene.bodies[p].name),
+                "a string runs over pulleys whose centers stay",
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn fits_line(
+    stage: &Stage,
+    before: &State,
+    slide: &Slide,
+    bodies: &[usize],
+    direction: &Vector,
+    speed: &Expr,
+) -> Result<(), Refused> {
     let domains = &stage.scene.domains;
-    let across = [-&slide.along[1], slide.along[0].clone()];
+    let across = [-&direction[1], direction[0].clone()];
     let turns = slide.rolling || slide.friction.is_some();
-    for b in slide.bodies() {
+    for &b in bodies {
         let body = &stage.scene.bodies[b];
         let v = &before.velocity[b];
-        let may_turn = turns && slide.with.is_empty() && body.shape.radius().is_some();
+        let is_alone = b == slide.body && slide.with.is_empty();
+        let may_turn = turns && is_alone && body.shape.radius().is_some();
         let leaves = is_zero(&dot(v, &across), domains) == Some(false);
         if leaves || !may_turn && is_zero(&before.spin[b], domains) == Some(false) {
             return Err(Refused::new(
@@ -165,9 +227,8 @@ fn fits(stage: &Stage, before: &State, slide: &Slide) -> Result<(), Refused> {
                 "an impact before it may stop what does not fit",
             ));
         }
-        let along = &before.velocity[slide.body];
-        let same = (0..2).all(|k| is_zero(&(&v[k] - &along[k]), domains) != Some(false));
-        if !same {
+        let gap = &dot(v, direction) - speed;
+        if is_zero(&gap, domains) == Some(false) {
             return Err(Refused::new(
                 &stage.name,
                 format!(
@@ -228,21 +289,26 @@ impl<'a> Line<'a> {
     ) -> Result<Line<'a>, Refused> {
         let scene = &stage.scene;
         let domains = &scene.domains;
-        let mass = slide.bodies().into_iter();
-        let mass = tidied(
-            stage,
-            &Expr::sum(mass.map(|b| scene.bodies[b].mass.clone())),
-        )?;
+        let own = slide.company().into_iter();
+        let own = tidied(stage, &Expr::sum(own.map(|b| scene.bodies[b].mass.clone())))?;
+        let strings = pulled(stage, before, slide)?;
+        let others = strings.iter().flat_map(|s| [&s.mass, &s.turning]);
+        let mass = tidied(stage, &Expr::sum(others.chain([&own]).cloned()))?;
+        let drag = Expr::sum(strings.iter().map(|s| s.friction.clone()));
         let speed = tidied(stage, &dot(&before.velocity[slide.body], &slide.along))?;
-        let weight = slide.gravity.as_ref().map(|g| &mass * g);
+        let weight = slide.gravity.as_ref().map(|g| &own * g);
         let mut pull = slide.force.clone().unwrap_or_else(Expr::zero);
         if let Some(weight) = &weight {
             pull = &pull - &(weight * &slide.along[1]);
         }
+        pull = Expr::sum(strings.iter().map(|s| s.pull.clone()).chain([pull]));
         let mut line = Line {
             stage,
             slide,
+            own,
             mass,
+            strings,
+            drag,
             speed,
             spin: before.spin[slide.body].clone(),
             pull: tidied(stage, &pull)?,
@@ -291,7 +357,7 @@ impl<'a> Line<'a> {
                 if way == 0 {
                     // It rolls on: as much friction as keeps it rolling, up to the limit.
                     let apparent = &body.inertia / &radius.powi(2);
-                    let a = &line.pull / &(&line.mass + &apparent);
+                    let a = &(&line.pull + &line.drag) / &(&line.mass + &apparent);
                     line.friction = tidied(stage, &-(&apparent * &a))?;
                     if slide.friction.is_some() {
                         needs.push(tidied(stage, &(&limit - &line.friction))?);
@@ -305,7 +371,7 @@ impl<'a> Line<'a> {
                 line.round = Some(Round { arm, slip });
             }
         }
-        line.acceleration = tidied(stage, &(&(&line.pull + &line.friction) / &line.mass))?;
+        line.acceleration = tidied(stage, &(&line.net() / &line.mass))?;
         Ok(line)
     }
 
@@ -337,24 +403,25 @@ impl<'a> Line<'a> {
     /// Forces and accelerations, as they follow from each other.
     fn steps(&self) -> Vec<Step> {
         let mut out = Vec::new();
-        if self.slips() {
+        if self.rubs() {
+            let total = &self.friction + &self.drag;
             let why = "the friction along the line, its coefficient times the force that presses the body on the surface";
-            out.push(Step::new("F", &self.friction, &self.friction, why));
+            out.push(Step::new("F", &total, &total, why));
         }
-        let net = &self.pull + &self.friction;
         if self.round.is_some() && !self.slips() {
             let apparent = self.inertia() / &self.radius().powi(2);
-            let raw = &self.pull / &(&self.mass + &apparent);
+            let raw = &(&self.pull + &self.drag) / &(&self.mass + &apparent);
             let why = "the acceleration, with the inertia of turning added to the mass";
             out.push(Step::new("a", &raw, &self.acceleration, why));
         } else {
-            let why = "the acceleration along the line";
-            out.push(Step::new(
-                "a",
-                &(&net / &self.mass),
-                &self.acceleration,
-                why,
-            ));
+            let why = match self.strings.is_empty() {
+                true => "the acceleration along the line",
+                false => {
+                    "the acceleration along the string, the forces along it divided by all that it sets in motion"
+                }
+            };
+            let raw = &self.net() / &self.mass;
+            out.push(Step::new("a", &raw, &self.acceleration, why));
         }
         if let Some(round) = self.round.as_ref().filter(|_| self.slips()) {
             let raw = &(&round.arm * &self.friction) / self.inertia();
@@ -397,7 +464,7 @@ impl<'a> Line<'a> {
             }
             SlideEnd::Time(t) => {
                 let speed = self.tidied(&(&self.speed + &(a * t)))?;
-                if self.slips() && self.round.is_none() {
+                if self.rubs() && self.round.is_none() {
                     // Friction stops the body and does not draw it back.
                     needs.push(speed.clone());
                 }
@@ -550,15 +617,35 @@ impl<'a> Line<'a> {
         self.tidied(&half(&twice))
     }
 
+    /// All forces along the lines \[N\].
+    fn net(&self) -> Expr {
+        &(&self.pull + &self.friction) + &self.drag
+    }
+
+    /// The pulleys of all strings with their spins where the speed is 1.
+    fn pulleys(&self) -> impl Iterator<Item = (usize, &Expr)> {
+        let all = self.strings.iter();
+        all.flat_map(|s| s.string.over.iter().copied().zip(&s.spins))
+    }
+
+    /// Whether friction does work.
+    fn rubs(&self) -> bool {
+        self.slips() || self.strings.iter().any(|s| s.string.friction.is_some())
+    }
+
     fn energy_kept(&self) -> crate::story::Kept {
         let (conserved, why) = match () {
-            () if self.slips() => (false, "friction does work against the slip"),
+            () if self.rubs() => (false, "friction does work against the slip"),
             () if self.slide.force.is_some() => {
                 (false, "the force does work, its size times the distance")
             }
             () if self.round.is_some() => (
                 true,
                 "the lowest point is at rest, so that friction there does no work, and weight has a potential",
+            ),
+            () if !self.strings.is_empty() => (
+                true,
+                "the string takes from one end what it gives to the other, and weight has a potential",
             ),
             () => (true, "the guide does no work, and weight has a potential"),
         };
@@ -568,16 +655,19 @@ impl<'a> Line<'a> {
     /// Work of each force, along the way of the point where it acts.
     fn work(&self, course: &Course) -> Vec<(&'static str, Expr)> {
         let mut out = Vec::new();
-        if let Some(g) = &self.slide.gravity
-            && !self.slide.along[1].is_zero()
-        {
+        if let Some(g) = &self.slide.gravity {
             let lost = -&(&self.slide.along[1] * &course.distance);
-            out.push(("weight", &(&self.mass * g) * &lost));
+            let own = &(&self.own * g) * &lost;
+            let others = self.strings.iter().map(|s| &s.pull * &course.distance);
+            let weight = Expr::sum([own].into_iter().chain(others));
+            if !weight.is_zero() {
+                out.push(("weight", weight));
+            }
         }
         if let Some(force) = &self.slide.force {
             out.push(("the applied force", force * &course.distance));
         }
-        if self.slips() {
+        if self.rubs() {
             let way = match (&self.round, &course.time) {
                 // The slip changes uniformly.
                 (Some(round), Some(t)) => {
@@ -586,7 +676,8 @@ impl<'a> Line<'a> {
                 }
                 _ => course.distance.clone(),
             };
-            out.push(("friction", &self.friction * &way));
+            let drag = &self.drag * &course.distance;
+            out.push(("friction", &(&self.friction * &way) + &drag));
         }
         out
     }

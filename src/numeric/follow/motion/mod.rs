@@ -5,6 +5,7 @@
 
 mod fall;
 mod slide;
+mod strings;
 mod turn;
 
 pub(super) use fall::fall;
@@ -232,6 +233,11 @@ pub(super) fn others(
     };
     for (b, body) in after.bodies.iter_mut().enumerate() {
         if moving.contains(&b) || !body.has_begun {
+            continue;
+        }
+        if course.scene.axles.contains(&b) {
+            // Its weight has no moment about its axle.
+            body.angle = drifted(course, &body.angle, &body.spin.clone(), time);
             continue;
         }
         if joined(b) {

@@ -3,9 +3,10 @@
 //! What presses a body on a rough surface is the multiplier of the constraint that keeps it there. Friction of that size
 //! times its coefficient acts at the point of contact against the way this point moves, for as long as it moves.
 
+use super::strings::{Ropes, across, fixed};
 use super::{Moved, Movers, REST, ROUNDING, Units, all_open, others, stopped};
 use crate::numeric::follow::impact::first_open;
-use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Run, Turning};
+use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Run};
 use crate::numeric::follow::{Course, Lost, Passed, State, What, Why};
 use crate::numeric::number::{cross, dot};
 use crate::scene::{Slide, SlideEnd};
@@ -71,8 +72,14 @@ pub(in crate::numeric::follow) fn slide(
     let bodies = slide.bodies();
     let has_forces = slide.gravity.is_some() || slide.force.is_some();
     let mut from = [0.0; 2];
+    let mut begin = before.clone();
+    for p in slide.pulleys().filter(|p| course.solids[*p].mass == 0.0) {
+        // Whatever a light pulley does takes nothing.
+        let spin = &mut begin.bodies[p].spin;
+        *spin = spin.clone().or(Ok(0.0));
+    }
     for b in &bodies {
-        let body = &before.bodies[*b];
+        let body = &begin.bodies[*b];
         match body.known() {
             Ok([x, y, ..]) if *b == slide.body => from = [x, y],
             Err(_) if first_open(body.components()).is_some() => {
@@ -83,16 +90,21 @@ pub(in crate::numeric::follow) fn slide(
         }
     }
     let acting = Acting::of(course, slide)?;
-    let movers = Movers::of(course, &bodies, &before, from)
+    let movers = Movers::of(course, &bodies, &begin, from)
         .map_err(|_| course.out_of_reach("the place of the body is open"))?;
-    let mass: f64 = movers.inertias.iter().map(|i| i[0]).sum();
+    let ropes = Ropes::of(course, slide, acting.along, &movers)?;
+    let company = slide.company().len();
+    let own: f64 = movers.inertias[..company].iter().map(|i| i[0]).sum();
+    let mass = own + ropes.mass(&movers);
     if mass <= 0.0 {
         return Err(course.contradiction("what slides has no mass"));
     }
     let [.., u, v, spin] = movers.states[0];
     let speed = dot(&[u, v], &acting.along);
-    let pull = acting.force / mass - acting.gravity * acting.along[1];
-    let rubs = acting.rough.unwrap_or(0.0) * acting.gravity;
+    let [hangs, drags] = ropes.weights(&movers);
+    let pull = acting.force + acting.gravity * (hangs - own * acting.along[1]);
+    let rubs = acting.gravity * (drags + own * acting.rough.unwrap_or(0.0));
+    let [pull, rubs] = [pull, rubs].map(|force| force / mass);
     let size = sizes(course, slide, &movers, &acting, [speed, pull, rubs])?;
     let turns = acting.contact.is_some();
     let off = cross(&acting.along, &[u, v]).abs();
@@ -105,11 +117,12 @@ pub(in crate::numeric::follow) fn slide(
     if speed < -ROUNDING * size.speed {
         return Err(course.contradiction("it begins to move against the direction of the line"));
     }
-    for [.., a, b, _] in &movers.states[1..] {
+    for [.., a, b, _] in &movers.states[1..company] {
         if (a - u).abs().max((b - v).abs()) > ROUNDING * size.speed {
             return Err(course.contradiction("the bodies do not begin to move together"));
         }
     }
+    ropes.fits(course, &movers, speed, size.speed)?;
     let units = Units {
         length: size.length,
         time: size.time,
@@ -120,36 +133,80 @@ pub(in crate::numeric::follow) fn slide(
     if slide.rolling && slip.abs() > ROUNDING * size.speed {
         return Err(course.contradiction("it slips when it is to begin to roll"));
     }
-    let turn = match (turns, slips) {
-        (false, _) => Turning::No,
-        (true, true) => Turning::Free,
-        (true, false) => Turning::Rolls(acting.arm() / units.length),
-    };
-    let mut mechanism = on_line(&movers, &units, &acting, turn);
+    let mut guides = vec![across(0, acting.along)];
+    match (turns, slips) {
+        (false, _) => guides.push(fixed(2)),
+        (true, true) => {}
+        (true, false) => {
+            // The point of contact stays at rest along the line.
+            let [x, y] = acting.along;
+            let row = vec![(0, x), (1, y), (2, acting.arm() / units.length)];
+            guides.push(Constraint::Sum(row));
+        }
+    }
+    let first = guides.len();
+    let mut mechanism = on_line(&movers, &units, &acting, company, guides, &ropes);
     let mut start = movers.start(&units);
     let n = start.len() / 2;
     // What is across the line is rounding, and so is the spin of what does not turn.
-    for i in 0..bodies.len() {
-        start[n + 3 * i] = speed * acting.along[0] / units.speed();
-        start[n + 3 * i + 1] = speed * acting.along[1] / units.speed();
-        if !turns {
+    let mut directions = vec![acting.along; company];
+    directions.extend(
+        ropes
+            .ends
+            .iter()
+            .flat_map(|e| e.bodies.iter().map(|_| e.along)),
+    );
+    directions.resize(bodies.len(), [0.0; 2]);
+    for (i, along) in directions.iter().enumerate() {
+        start[n + 3 * i] = speed * along[0] / units.speed();
+        start[n + 3 * i + 1] = speed * along[1] / units.speed();
+        if !turns || i > 0 {
             start[n + 3 * i + 2] = 0.0;
         }
     }
-    let at_start = mechanism.accelerations(&start);
-    let (_, held) =
-        at_start.ok_or_else(|| course.out_of_reach("the equations of motion have no solution"))?;
+    for pulley in &ropes.pulleys {
+        start[n + 3 * pulley.body + 2] = speed * pulley.spin * units.time;
+    }
+    let held = |mechanism: &Mechanism| {
+        let at_start = mechanism.accelerations(&start).map(|(_, held)| held);
+        at_start.ok_or_else(|| course.out_of_reach("the equations of motion have no solution"))
+    };
+    let presses = held(&mechanism)?;
+    for (end, press) in ropes.ends.iter().zip(&presses[first..]) {
+        let size = -end.rough.unwrap_or(0.0) * press.abs();
+        rub(&mut mechanism, end.bodies[0], end.along, [0.0; 2], size);
+    }
+    let held_at_start = held(&mechanism)?;
     if let Some(mu) = acting.rough {
-        let press = held[0].abs();
+        let press = held_at_start[0].abs();
         if slips {
             let way = if turns && slip < 0.0 { -1.0 } else { 1.0 };
-            rub(&mut mechanism, &acting, &units, -way * mu * press);
-        } else if held[1].abs() > mu * press * (1.0 + ROUNDING) {
+            let arm = acting.contact.unwrap_or_default().map(|r| r / units.length);
+            rub(&mut mechanism, 0, acting.along, arm, -way * mu * press);
+        } else if held_at_start[1].abs() > mu * press * (1.0 + ROUNDING) {
             return Err(course.contradiction("the surface is too smooth for it to roll"));
         }
     }
+    let pulls = held(&mechanism)?;
+    let largest = mechanism
+        .forces
+        .iter()
+        .flatten()
+        .fold(0.0, |a: f64, f| a.max(f.abs()));
+    let tensions = &pulls[pulls.len() - ropes.parts(&units).count()..];
+    if tensions.iter().any(|t| *t < -ROUNDING * largest) {
+        return Err(course.contradiction("a string goes slack"));
+    }
     let way = if slip < 0.0 { -1.0 } else { 1.0 };
-    let run = to_the_end(course, slide, &acting, &units, &mechanism, &start, way)?;
+    let run = to_the_end(
+        course,
+        slide,
+        &acting,
+        &units,
+        &mechanism,
+        &start,
+        (way, rubs > 0.0),
+    )?;
     let still = |y: &[f64]| way * slipping(&acting, &units, y) < -ROUNDING * size.speed;
     if turns && slips && still(&run.end) {
         return Err(course.never("it rolls before"));
@@ -218,47 +275,48 @@ fn sizes(
 
 const NEVER: &str = "it comes to rest before, or moves the other way";
 
-/// The bodies on the line, without friction.
-fn on_line(movers: &Movers, units: &Units, acting: &Acting, turn: Turning) -> Mechanism {
-    let along = acting.along;
-    let guide = Constraint::Guide {
-        body: 0,
-        along,
-        turn,
-    };
-    let welds = (1..movers.bodies.len()).map(|i| Constraint::Weld {
+/// The bodies on their lines, without friction: the body on the line and its company, the ends of strings, pulleys.
+fn on_line(
+    movers: &Movers,
+    units: &Units,
+    acting: &Acting,
+    company: usize,
+    guides: Vec<Constraint>,
+    ropes: &Ropes,
+) -> Mechanism {
+    let welds = (1..company).map(|i| Constraint::Weld {
         bodies: [0, i],
         arm: movers.arm(i).map(|r| r / units.length),
     });
     let weights = movers.inertias.iter().map(|[m, _]| -m * acting.gravity);
     let mut forces: Vec<[f64; 3]> = weights.map(|w| [0.0, w / units.force(), 0.0]).collect();
     for k in 0..2 {
-        forces[0][k] += acting.force * along[k] / units.force();
+        forces[0][k] += acting.force * acting.along[k] / units.force();
     }
     let mut inertias = movers.scaled(units);
-    for inertia in &mut inertias {
+    for (i, inertia) in inertias.iter_mut().enumerate() {
         // What does not turn needs no inertia; none would leave the equations open.
-        if inertia[1] <= 0.0 {
+        let is_pulley = ropes.pulleys.iter().any(|p| p.body == i);
+        if inertia[1] <= 0.0 && !is_pulley {
             inertia[1] = 1.0;
         }
     }
+    let held = guides.into_iter().chain(ropes.guides()).chain(welds);
+    let held = held.chain(ropes.joints(movers, units));
     Mechanism {
         inertias,
-        constraints: std::iter::once(guide).chain(welds).collect(),
+        constraints: held.chain(ropes.parts(units)).collect(),
         forces,
         looks: Cell::new(0),
     }
 }
 
-/// Adds friction of this size along the line, in units of force, at the point of contact.
-fn rub(mechanism: &mut Mechanism, acting: &Acting, units: &Units, size: f64) {
-    let force = acting.along.map(|u| size * u);
-    let arm = acting.contact.unwrap_or_default().map(|r| r / units.length);
+/// Adds friction of this size along a line, in units of force, at an arm from the center of a body.
+fn rub(mechanism: &mut Mechanism, body: usize, along: [f64; 2], arm: [f64; 2], size: f64) {
+    let force = along.map(|u| size * u);
     let moment = cross(&arm, &force);
-    for (total, part) in mechanism.forces[0]
-        .iter_mut()
-        .zip([force[0], force[1], moment])
-    {
+    let all = &mut mechanism.forces[body];
+    for (total, part) in all.iter_mut().zip([force[0], force[1], moment]) {
         *total += part;
     }
 }
@@ -277,7 +335,7 @@ fn to_the_end(
     units: &Units,
     mechanism: &Mechanism,
     start: &[f64],
-    way: f64,
+    (way, rubs): (f64, bool),
 ) -> Result<Run, Lost> {
     let n = start.len() / 2;
     let along = acting.along;
@@ -302,7 +360,7 @@ fn to_the_end(
         SlideEnd::Time(time) => {
             let time = course.number(time, "time")? / units.time;
             let run = mechanism.lasting(start, time).map_err(stopped(NEVER))?;
-            let is_rubbed = acting.rough.is_some() && acting.contact.is_none();
+            let is_rubbed = rubs && acting.contact.is_none();
             match is_rubbed && rate(&run.end) < -ROUNDING {
                 true => Err(course.never("friction stops it before")),
                 false => Ok(run),

@@ -1,0 +1,245 @@
+//! Strings over pulleys from a body on a line: constraints that keep them taut, with their tensions as multipliers.
+//!
+//! Between a body and the rim of a pulley a string keeps its length: the body moves towards the pulley as fast as the rim
+//! leads away from it. Directions and senses come from where bodies and pulleys are.
+
+use super::{Movers, ROUNDING, Units};
+use crate::numeric::follow::mechanism::Constraint;
+use crate::numeric::follow::{Course, Lost};
+use crate::numeric::number::{cross, dot};
+use crate::scene::{Slide, Strung};
+
+/// What moves at the other end of a string, in numbers.
+pub(super) struct End {
+    /// Places of its bodies in the list of what moves.
+    pub bodies: Vec<usize>,
+    pub along: [f64; 2],
+    /// Coefficient of friction.
+    pub rough: Option<f64>,
+}
+
+/// A pulley of a string.
+pub(super) struct Pulley {
+    /// Its place in the list of what moves.
+    pub body: usize,
+    /// Its spin where the body on the line has the speed 1 [1/m].
+    pub spin: f64,
+    pub is_light: bool,
+}
+
+/// All strings of a motion.
+#[derive(Default)]
+pub(super) struct Ropes {
+    pub ends: Vec<End>,
+    pub pulleys: Vec<Pulley>,
+    /// Every free part of a string: places in the list of rates with their factors, lengths in meters.
+    parts: Vec<Vec<(usize, f64)>>,
+}
+
+/// Where a string leaves a pulley towards a body.
+struct Leg {
+    /// From the body to the pulley, along the line of the body.
+    pull: [f64; 2],
+    /// Speed of the rim along that for a spin of 1 [m].
+    rim: f64,
+    /// Whether the body moves towards the pulley.
+    nears: bool,
+}
+
+impl Ropes {
+    pub fn of(
+        course: &Course<'_>,
+        slide: &Slide,
+        along: [f64; 2],
+        movers: &Movers,
+    ) -> Result<Ropes, Lost> {
+        let mut out = Ropes::default();
+        for string in &slide.strings {
+            out.add(course, string, along, movers)?;
+        }
+        Ok(out)
+    }
+
+    fn add(
+        &mut self,
+        course: &Course<'_>,
+        string: &Strung,
+        along: [f64; 2],
+        movers: &Movers,
+    ) -> Result<(), Lost> {
+        let place = |b: &usize| movers.bodies.iter().position(|m| m == b).unwrap_or(0);
+        let bodies: Vec<usize> = string.to.iter().map(place).collect();
+        let over: Vec<usize> = string.over.iter().map(place).collect();
+        let there = course.pair(&string.along, "direction")?;
+        let (first, last) = (over[0], over[over.len() - 1]);
+        let head = leg(course, movers, 0, along, first)?;
+        let tail = leg(course, movers, bodies[0], there, last)?;
+        let crossed = first == last && (head.rim + tail.rim).abs() > ROUNDING * head.rim.abs();
+        if crossed || head.nears == tail.nears {
+            return Err(course.contradiction("a string would get longer or slack"));
+        }
+        self.parts.push(head.row(0, first));
+        if first != last {
+            let row = vec![(3 * first + 2, head.rim), (3 * last + 2, tail.rim)];
+            self.parts.push(row);
+        }
+        self.parts.push(tail.row(bodies[0], last));
+        let speed = dot(&head.pull, &along);
+        let spins = [speed / head.rim, -speed / tail.rim];
+        for (pulley, spin) in over.into_iter().zip(spins) {
+            let [mass, inertia] = movers.inertias[pulley];
+            self.pulleys.push(Pulley {
+                body: pulley,
+                spin,
+                is_light: mass == 0.0 && inertia == 0.0,
+            });
+        }
+        self.ends.push(End {
+            bodies,
+            along: there,
+            rough: (string.friction.as_ref())
+                .map(|mu| course.number(mu, "coefficient of friction"))
+                .transpose()?,
+        });
+        Ok(())
+    }
+
+    /// Refuses what does not begin to move with the strings.
+    pub fn fits(
+        &self,
+        course: &Course<'_>,
+        movers: &Movers,
+        speed: f64,
+        largest: f64,
+    ) -> Result<(), Lost> {
+        for end in &self.ends {
+            for i in &end.bodies {
+                let [.., u, v, spin] = movers.states[*i];
+                let off = (u - speed * end.along[0]).hypot(v - speed * end.along[1]);
+                let turns = movers.inertias[*i][1] > 0.0 && spin != 0.0;
+                if off > ROUNDING * largest || turns {
+                    return Err(
+                        course.contradiction("an end of a string does not begin to move with it")
+                    );
+                }
+            }
+        }
+        for pulley in &self.pulleys {
+            let [.., u, v, spin] = movers.states[pulley.body];
+            let slips = (spin / pulley.spin - speed).abs() > ROUNDING * largest;
+            if u.hypot(v) > ROUNDING * largest || slips && !pulley.is_light {
+                return Err(course.contradiction("a pulley does not begin to move with its string"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Masses and inertias that everything adds to the inertia of the body on the line, in kg.
+    pub fn mass(&self, movers: &Movers) -> f64 {
+        let ends = self.ends.iter().flat_map(|e| &e.bodies);
+        let pulleys = self.pulleys.iter();
+        ends.map(|i| movers.inertias[*i][0]).sum::<f64>()
+            + pulleys
+                .map(|p| movers.inertias[p.body][1] * p.spin * p.spin)
+                .sum::<f64>()
+    }
+
+    /// Weights along the lines by gravity [kg], and the bound of the frictions there by gravity [kg].
+    pub fn weights(&self, movers: &Movers) -> [f64; 2] {
+        let mut out = [0.0; 2];
+        for end in &self.ends {
+            let mass: f64 = end.bodies.iter().map(|i| movers.inertias[*i][0]).sum();
+            out[0] -= mass * end.along[1];
+            out[1] += mass * end.rough.unwrap_or(0.0);
+        }
+        out
+    }
+
+    /// What holds the ends on their lines: across the line first, in the order of the ends.
+    pub fn guides(&self) -> impl Iterator<Item = Constraint> {
+        let across = self.ends.iter().map(|e| across(e.bodies[0], e.along));
+        let turns = self.ends.iter().map(|e| fixed(3 * e.bodies[0] + 2));
+        across.chain(turns)
+    }
+
+    /// The bodies of one end move as one, and the pulleys stay where they are.
+    pub fn joints(&self, movers: &Movers, units: &Units) -> Vec<Constraint> {
+        let mut out = Vec::new();
+        for end in &self.ends {
+            let [x, y] = movers.arm(end.bodies[0]);
+            for i in &end.bodies[1..] {
+                let [u, v] = movers.arm(*i);
+                out.push(Constraint::Weld {
+                    bodies: [end.bodies[0], *i],
+                    arm: [(u - x) / units.length, (v - y) / units.length],
+                });
+            }
+        }
+        let centers = self
+            .pulleys
+            .iter()
+            .flat_map(|p| [3 * p.body, 3 * p.body + 1]);
+        out.extend(centers.map(fixed));
+        out
+    }
+
+    /// The parts of the strings keep their lengths; their multipliers are the tensions.
+    pub fn parts(&self, units: &Units) -> impl Iterator<Item = Constraint> {
+        let length = units.length;
+        self.parts.iter().map(move |row| {
+            let scaled = |(k, factor): &(usize, f64)| match k % 3 {
+                2 => (*k, factor / length),
+                _ => (*k, *factor),
+            };
+            Constraint::Sum(row.iter().map(scaled).collect())
+        })
+    }
+}
+
+impl Leg {
+    fn row(&self, body: usize, pulley: usize) -> Vec<(usize, f64)> {
+        let [x, y] = self.pull;
+        vec![
+            (3 * body, x),
+            (3 * body + 1, y),
+            (3 * pulley + 2, -self.rim),
+        ]
+    }
+}
+
+fn leg(
+    course: &Course<'_>,
+    movers: &Movers,
+    body: usize,
+    along: [f64; 2],
+    pulley: usize,
+) -> Result<Leg, Lost> {
+    let [from, center] = [body, pulley].map(|i| movers.arm(i));
+    let arm = [from[0] - center[0], from[1] - center[1]];
+    let ahead = -dot(&arm, &along);
+    let pull = along.map(|c| c * ahead.signum());
+    let rim = cross(&arm, &pull);
+    let shape = &course.scene.bodies[movers.bodies[pulley]].shape;
+    let radius = shape
+        .radius()
+        .ok_or_else(|| course.contradiction("a pulley has no radius"))?;
+    let radius = course.number(radius, "radius")?;
+    if (rim.abs() - radius).abs() > ROUNDING * radius.max(arm[0].hypot(arm[1])) || radius <= 0.0 {
+        return Err(course.contradiction("a string does not touch the rim of its pulley"));
+    }
+    Ok(Leg {
+        pull,
+        rim,
+        nears: ahead > 0.0,
+    })
+}
+
+/// The center of a body does not leave the line with this direction.
+pub(super) fn across(body: usize, along: [f64; 2]) -> Constraint {
+    Constraint::Sum(vec![(3 * body, -along[1]), (3 * body + 1, along[0])])
+}
+
+/// A coordinate that stays.
+pub(super) fn fixed(coordinate: usize) -> Constraint {
+    Constraint::Sum(vec![(coordinate, 1.0)])
+}

@@ -1,0 +1,217 @@
+//! Light inextensible strings from a body on a line over pulleys: all ends move along lines of their own at one speed.
+//!
+//! A string does not slip on its pulleys, which turn as it moves: with the body at the speed v a pulley of radius R has
+//! |ω| = v/R. It pulls and never pushes.
+
+use super::tidied;
+use crate::algebra::Sign;
+use crate::answer::calc::{Seen, essential, is_zero, sign};
+use crate::expr::{Expr, Vector, cross, dot, minus};
+use crate::formula::{Sentence, sentence};
+use crate::scene::{Slide, Stage, Strung};
+use crate::story::{Refused, State};
+
+/// A string, with what moves at its other end.
+pub(super) struct Pulled<'a> {
+    pub string: &'a Strung,
+    /// Mass at the other end \[kg\].
+    pub mass: Expr,
+    /// Moments of inertia of the pulleys by the squares of their radii \[kg\].
+    pub turning: Expr,
+    /// Weight of the other end along its direction \[N\].
+    pub pull: Expr,
+    /// Friction of the other end along its direction \[N\], not positive.
+    pub friction: Expr,
+    /// Spins of the pulleys where the speed is 1 \[1/m\], in the order of the string.
+    pub spins: Vec<Expr>,
+    /// Whether the other end moves away from the pulleys and draws the body.
+    pub draws: bool,
+}
+
+/// What the strings of a motion along a line move.
+pub(super) fn pulled<'a>(
+    stage: &'a Stage,
+    before: &State,
+    slide: &'a Slide,
+) -> Result<Vec<Pulled<'a>>, Refused> {
+    let strings = slide.strings.iter();
+    strings.map(|s| one(stage, before, slide, s)).collect()
+}
+
+fn one<'a>(
+    stage: &'a Stage,
+    before: &State,
+    slide: &Slide,
+    string: &'a Strung,
+) -> Result<Pulled<'a>, Refused> {
+    let scene = &stage.scene;
+    let all = string.to.iter();
+    let mass = tidied(
+        stage,
+        &Expr::sum(all.map(|b| scene.bodies[*b].mass.clone())),
+    )?;
+    let zero = Expr::zero();
+    let weight = &mass * slide.gravity.as_ref().unwrap_or(&zero);
+    let friction = match &string.friction {
+        None => Expr::zero(),
+        Some(mu) => {
+            let level = &string.along[0];
+            let across = match sign(level, &scene.domains) {
+                Seen::Proved(s) if s.is_not_negative() => level.clone(),
+                Seen::Proved(_) => -level,
+                _ => {
+                    return Err(Refused::new(
+                        &stage.name,
+                        format!(
+                            "whether the line of `{}` leads to the right or to the left is not decided, and so is which side the surface is on",
+                            scene.bodies[string.to[0]].name
+                        ),
+                        "say it by the domain of an angle, or by `relations`",
+                    ));
+                }
+            };
+            -(mu * &(&weight * &across))
+        }
+    };
+    let (first, last) = (string.over[0], string.over[string.over.len() - 1]);
+    let head = (&before.center[slide.body], &slide.along, slide.body);
+    let tail = (&before.center[string.to[0]], &string.along, string.to[0]);
+    let mut spins = vec![spin(stage, before, first, head)?];
+    let there = spin(stage, before, last, tail)?;
+    if string.over.len() > 1 {
+        spins.push(there);
+    } else if is_zero(&(&spins[0] - &there), &scene.domains) != Some(true) {
+        return Err(Refused::new(
+            &stage.name,
+            format!(
+                "the two parts of the string would turn `{}` opposite ways",
+                scene.bodies[first].name
+            ),
+            "one end moves towards the pulley and the other away from it",
+        ));
+    }
+    let nears = approaches(stage, before, first, head)?;
+    let draws = !approaches(stage, before, last, tail)?;
+    if nears != draws {
+        let how = if nears { "slack" } else { "longer" };
+        return Err(Refused::new(
+            &stage.name,
+            format!(
+                "the string from `{}` to `{}` would get {how}",
+                scene.bodies[head.2].name, scene.bodies[tail.2].name
+            ),
+            "one end moves towards the pulley and the other away from it",
+        ));
+    }
+    let pulleys = string.over.iter().zip(&spins);
+    let turning = pulleys.map(|(p, k)| &scene.bodies[*p].inertia * &k.powi(2));
+    Ok(Pulled {
+        string,
+        turning: tidied(stage, &Expr::sum(turning))?,
+        pull: tidied(stage, &-(&weight * &string.along[1]))?,
+        friction: tidied(stage, &friction)?,
+        mass,
+        spins,
+        draws,
+    })
+}
+
+/// Spin of a pulley where a body that hangs on its rim moves with the speed 1.
+fn spin(
+    stage: &Stage,
+    before: &State,
+    pulley: usize,
+    (center, along, body): (&Vector, &Vector, usize),
+) -> Result<Expr, Refused> {
+    let scene = &stage.scene;
+    let arm = tidied(stage, &cross(&minus(center, &before.center[pulley]), along))?;
+    let zero = Expr::zero();
+    let radius = scene.bodies[pulley].shape.radius().unwrap_or(&zero);
+    let square = radius.powi(2);
+    if is_zero(&(&arm.powi(2) - &square), &scene.domains) != Some(true) {
+        return Err(Refused::new(
+            &stage.name,
+            format!(
+                "the line along which `{}` moves does not touch the rim of `{}`: it passes the center at the distance {}",
+                scene.bodies[body].name,
+                scene.bodies[pulley].name,
+                crate::formula::write_plain(&arm)
+            ),
+            "the string leaves the pulley along that line, one radius from its center",
+        ));
+    }
+    tidied(stage, &(&arm / &square))
+}
+
+/// Whether a body moves towards a pulley.
+fn approaches(
+    stage: &Stage,
+    before: &State,
+    pulley: usize,
+    (center, along, body): (&Vector, &Vector, usize),
+) -> Result<bool, Refused> {
+    let ahead = dot(&minus(&before.center[pulley], center), along);
+    match sign(&ahead, &stage.scene.domains) {
+        Seen::Proved(Sign::Positive | Sign::NotNegative) => Ok(true),
+        Seen::Proved(Sign::Negative | Sign::NotPositive) => Ok(false),
+        _ => Err(Refused::new(
+            &stage.name,
+            format!(
+                "whether `{}` moves towards `{}` or away from it is not decided",
+                stage.scene.bodies[body].name, stage.scene.bodies[pulley].name
+            ),
+            "say it by `relations`",
+        )),
+    }
+}
+
+impl Pulled<'_> {
+    /// What must be ≥ 0 so that the string stays taut at this acceleration: its tensions at the other end and, where its
+    /// pulleys have inertia, at the body \[N\].
+    fn tensions(&self, acceleration: &Expr) -> Vec<Expr> {
+        let way = Expr::from(if self.draws { 1 } else { -1 });
+        let net = &(&self.pull + &self.friction) - &(&self.mass * acceleration);
+        let end = &way * &net;
+        if self.turning.is_zero() {
+            return vec![end];
+        }
+        let body = &end - &(&way * &(&self.turning * acceleration));
+        vec![end, body]
+    }
+
+    /// What the string needs so that it stays taut, and the words for what is not proved; refused where it goes slack.
+    pub(super) fn taut(
+        &self,
+        stage: &Stage,
+        acceleration: &Expr,
+        needs: &mut Vec<Expr>,
+        assumptions: &mut Vec<Sentence>,
+    ) -> Result<(), Refused> {
+        let domains = &stage.scene.domains;
+        let name = &stage.scene.bodies[self.string.to[0]].name;
+        for tension in self.tensions(acceleration) {
+            let tension = tidied(stage, &tension)?;
+            match sign(&tension, domains) {
+                Seen::Proved(s) if s.is_not_negative() => continue,
+                Seen::Proved(_) => {
+                    return Err(Refused::new(
+                        &stage.name,
+                        format!(
+                            "the string to `{name}` goes slack, and this motion takes it as taut"
+                        ),
+                        "let the bodies move each on its own",
+                    ));
+                }
+                _ => {}
+            }
+            assumptions.push(sentence![
+                &essential(&tension, domains),
+                " ≥ 0, so that the string to `",
+                name,
+                "` stays taut"
+            ]);
+            needs.push(tension);
+        }
+        Ok(())
+    }
+}
