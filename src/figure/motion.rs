@@ -13,7 +13,7 @@ use super::sheet::{Ink, Line, SIZE, SMALL, Sheet, arc};
 use super::stage::{Stage, spanning};
 use super::values::{Pair, Values, size};
 use crate::expr::Expr;
-use crate::scene::{Body, Fall, FallEnd, Hinge, Scene, SlideEnd, StageKind, Turn, Until};
+use crate::scene::{Body, Fall, FallEnd, Hinge, Scene, Slide, SlideEnd, StageKind, Turn, Until};
 
 /// Shortest length that is marked, in pixels.
 const SHORTEST: f64 = 8.0;
@@ -36,6 +36,11 @@ pub fn stand_in(scene: &Scene, kind: &StageKind) -> Scene {
     match kind {
         StageKind::Turn(turn) => hold(&turn.about_name, &turn.about, turn.body),
         StageKind::Wind(wind) => hold("pole", &wind.around, wind.body),
+        StageKind::Slide(slide) => {
+            for p in slide.pulleys() {
+                hold("", &scene.bodies[p].center, p);
+            }
+        }
         _ => {}
     }
     out
@@ -76,6 +81,8 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
             others.push((other.1.clone(), flown));
         }
     }
+    let strung = ends(values, kind, &begin, from, &end)?;
+    poses.extend(strung.iter().map(|(_, pose)| pose.clone()));
     let stage = spanning(scene, values, begin.clone(), &poses)?;
     stage.fixed(&mut sheet, &[]);
     if let StageKind::Slide(slide) = kind
@@ -91,18 +98,26 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
         stage.slack(&mut sheet, top, from.center, end.center);
     }
     for (i, pose) in begin.iter().enumerate() {
-        if i != body && !with.contains(&i) {
+        if i != body && !with.contains(&i) && strung.iter().all(|(b, _)| *b != i) {
             stage.body(&mut sheet, pose, [0.0, 0.0]);
         }
     }
-    beginning(&stage, &mut sheet, from);
+    // The beginning is broken lines, the end is the body as usual.
+    broken(&stage, &mut sheet, from);
     for (first, flown) in &others {
-        beginning(&stage, &mut sheet, first);
+        broken(&stage, &mut sheet, first);
         if let Some(last) = flown.last() {
             stage.body(&mut sheet, last, [0.0, 0.0]);
         }
         let points: Vec<Pair> = flown.iter().map(|pose| stage.px(pose.center)).collect();
         trail(&mut sheet, &points);
+    }
+    if let StageKind::Slide(slide) = kind {
+        strings(&stage, &mut sheet, slide, &begin, &end, &strung)?;
+    }
+    for (b, pose) in &strung {
+        broken(&stage, &mut sheet, begin.get(*b)?);
+        stage.body(&mut sheet, pose, [0.0, 0.0]);
     }
     if let (StageKind::Turn(turn), Look::Dot) = (kind, &from.look)
         && let Some(about) = stage.spot(&turn.about)
@@ -170,6 +185,78 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
     }
     sheet.settle();
     Some(sheet)
+}
+
+/// A body at the beginning.
+fn broken(stage: &Stage, sheet: &mut Sheet, pose: &Pose) {
+    let outline: Vec<Pair> = pose.outline().into_iter().map(|p| stage.px(p)).collect();
+    match pose.look {
+        Look::Dot => sheet.circle(stage.px(pose.center), 6.0, Line::dashed(Ink::Body)),
+        _ if !pose.skin.is_empty() => {
+            for line in pose.drawn() {
+                let line = line.into_iter().map(|p| stage.px(p)).collect();
+                sheet.path(line, true, Line::dashed(Ink::Body), 1.0);
+            }
+        }
+        _ => sheet.path(outline, true, Line::dashed(Ink::Body), 1.0),
+    }
+}
+
+/// The bodies at the other ends of strings, at the end: each as far along its line as the body itself.
+fn ends(
+    values: &Values,
+    kind: &StageKind,
+    begin: &[Pose],
+    from: &Pose,
+    end: &Pose,
+) -> Option<Vec<(usize, Pose)>> {
+    let StageKind::Slide(slide) = kind else {
+        return Some(Vec::new());
+    };
+    let far = size([0, 1].map(|k| end.center[k] - from.center[k]));
+    let mut out = Vec::new();
+    for string in &slide.strings {
+        let along = values.pair(&string.along)?;
+        for b in &string.to {
+            let pose = begin.get(*b)?;
+            let shift = along.map(|c| c * far);
+            out.push((*b, moved(pose, pose.center, 0.0, shift)));
+        }
+    }
+    Some(out)
+}
+
+/// The strings at the end of a motion: straight from each body to the rim of its pulley, and between two pulleys.
+fn strings(
+    stage: &Stage,
+    sheet: &mut Sheet,
+    slide: &Slide,
+    begin: &[Pose],
+    end: &Pose,
+    strung: &[(usize, Pose)],
+) -> Option<()> {
+    for string in &slide.strings {
+        let other = strung.iter().find(|(b, _)| *b == string.to[0])?;
+        let legs = [
+            (end, &slide.along, string.over[0]),
+            (&other.1, &string.along, string.over[string.over.len() - 1]),
+        ];
+        let mut feet = Vec::new();
+        for (pose, along, pulley) in legs {
+            let along = stage.values.pair(along)?;
+            let center = begin.get(pulley)?.center;
+            let ahead = (0..2).map(|k| (center[k] - pose.center[k]) * along[k]);
+            let ahead: f64 = ahead.sum();
+            let foot = [0, 1].map(|k| pose.center[k] + ahead * along[k]);
+            let ends = [pose.center, foot].map(|p| stage.px(p));
+            sheet.segment(ends[0], ends[1], Line::thin(Ink::Body), 1.0);
+            feet.push(stage.px(foot));
+        }
+        if string.over.len() > 1 {
+            sheet.segment(feet[0], feet[1], Line::thin(Ink::Body), 1.0);
+        }
+    }
+    Some(())
 }
 
 /// Poses on the way, the first one the beginning, each with the angle turned through.
@@ -360,21 +447,6 @@ fn angle(stage: &Stage, sheet: &mut Sheet, turn: &Turn, from: &Pose, end: &Pose,
                 reach: 1.5,
             },
         });
-    }
-}
-
-/// A body at the beginning, in broken lines; at the end it is drawn as usual.
-fn beginning(stage: &Stage, sheet: &mut Sheet, from: &Pose) {
-    let outline: Vec<Pair> = from.outline().into_iter().map(|p| stage.px(p)).collect();
-    match from.look {
-        Look::Dot => sheet.circle(stage.px(from.center), 6.0, Line::dashed(Ink::Body)),
-        _ if !from.skin.is_empty() => {
-            for line in from.drawn() {
-                let line = line.into_iter().map(|p| stage.px(p)).collect();
-                sheet.path(line, true, Line::dashed(Ink::Body), 1.0);
-            }
-        }
-        _ => sheet.path(outline, true, Line::dashed(Ink::Body), 1.0),
     }
 }
 

@@ -341,6 +341,11 @@ impl Body {
     pub fn is_particle(&self) -> bool {
         matches!(self.shape, Shape::Particle)
     }
+
+    /// Whether it is a pulley without mass: it turns as its strings do, and how it turned before plays no part.
+    pub fn is_light_pulley(&self) -> bool {
+        matches!(self.shape, Shape::Disk { .. }) && self.mass.is_zero()
+    }
 }
 
 /// The shapes a scene can name.

@@ -138,7 +138,7 @@ pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
         .filter_map(|point| doubles::run(scene, point))
         .collect();
     invariants(&runs, &mut proof);
-    admissible(&runs, &mut proof);
+    admissible(scene, &runs, &mut proof);
     for answer in &derivation.answers {
         let mut checks = Vec::new();
         if let Form::Value { closed, short } = &answer.form {
@@ -257,14 +257,16 @@ fn invariants(runs: &[Run<Rational>], proof: &mut Proof) {
 }
 
 /// Approach, push and friction as the exact points show them.
-fn admissible(runs: &[Run<Rational>], proof: &mut Proof) {
+fn admissible(scene: &Scene, runs: &[Run<Rational>], proof: &mut Proof) {
     let mut separating = 0;
     let mut friction: Option<Rational> = None;
     for run in runs.iter().filter(|r| r.motion.loose.is_empty()) {
         let reports = numeric::contact_reports(&run.given, &run.motion).into_iter();
         for (contact, report) in run.given.contacts.iter().zip(reports) {
             let Some(report) = report else { continue };
-            separating += usize::from(report.approach == Approach::Separating);
+            let is_light = |b: &usize| scene.bodies[*b].is_light_pulley();
+            let parts = report.approach == Approach::Separating;
+            separating += usize::from(parts && !contact.joint.bodies.iter().any(is_light));
             let sticks = matches!(contact.law, numeric::given::GivenLaw::Sticking);
             let needed = report
                 .required_friction

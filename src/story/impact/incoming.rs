@@ -120,9 +120,13 @@ pub(super) fn approach(
 ) -> Result<Vec<(String, Expr)>, Refused> {
     let mut conditions = Vec::new();
     for contact in &scene.contacts {
+        let is_light = |b: &usize| scene.bodies[*b].is_light_pulley();
         let Some(normal) = &contact.normal else {
             continue;
         };
+        if contact.bodies.iter().any(is_light) {
+            continue;
+        }
         let opening = dot(&contact.relative_velocity(scene), normal);
         if before.why_open([&opening]).is_some() {
             continue;

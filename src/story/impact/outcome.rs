@@ -233,7 +233,8 @@ pub(super) fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<
     for b in 0..scene.bodies.len() {
         let body = &scene.bodies[b];
         // What has no mass and takes no part has no law, and moves on.
-        if body.is_fixed() || body.mass.is_zero() && !takes_part(&scene, b) {
+        let has_law = !body.mass.is_zero() || takes_part(&scene, b);
+        if body.is_fixed() || !has_law {
             continue;
         }
         let value = |form: &crate::laws::Affine<Expr>| -> Result<Option<Expr>, Refused> {

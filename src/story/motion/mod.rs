@@ -22,7 +22,7 @@ use super::{Kept, Refused, StageTold, State};
 use crate::algebra::Sign;
 use crate::expr::Expr;
 use crate::formula::{Sentence, sentence};
-use crate::scene::{Shape, Stage};
+use crate::scene::Stage;
 
 fn half(e: &Expr) -> Expr {
     &Expr::ratio(1, 2) * e
@@ -88,10 +88,7 @@ pub(super) fn open(stage: &Stage, before: State) -> Option<StageTold> {
     let mut reason = None;
     for &b in &moved {
         let parts = before.center[b].iter().chain(&before.velocity[b]);
-        // Whatever a light pulley does takes nothing.
-        let is_light =
-            matches!(scene.bodies[b].shape, Shape::Disk { .. }) && scene.bodies[b].mass.is_zero();
-        let spin = Some(&before.spin[b]).filter(|_| !is_light);
+        let spin = Some(&before.spin[b]).filter(|_| !scene.bodies[b].is_light_pulley());
         reason = reason.or_else(|| before.why_open(parts.chain(spin)));
     }
     let why = reason?;

@@ -112,7 +112,7 @@ pub(in crate::story) fn slide(
     for (pulley, spin) in line.pulleys() {
         let body = &stage.scene.bodies[pulley];
         let gap = &before.spin[pulley] - &(spin * &line.speed);
-        if !body.mass.is_zero() && is_zero(&gap, domains) == Some(false) {
+        if !body.is_light_pulley() && is_zero(&gap, domains) == Some(false) {
             return Err(Refused::new(
                 &stage.name,
                 format!(

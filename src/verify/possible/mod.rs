@@ -220,7 +220,8 @@ impl Judge<'_> {
                 Sense::ByApproach => -&opening,
             };
             let signed = |e: Expr| &sense * &e;
-            if *is_given || !sticks {
+            let is_light = |b: &usize| self.scene.bodies[*b].is_light_pulley();
+            if (*is_given || !sticks) && !contact.bodies.iter().any(is_light) {
                 self.claim(
                     Rule::Approach,
                     format!("the bodies approach at `{name}`"),
