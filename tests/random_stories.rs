@@ -213,13 +213,108 @@ fn on_a_line() -> impl Strategy<Value = String> {
     })
 }
 
+/// A body on a table, an incline or a plumb line, tied over a wheel to what hangs or lies on another incline, and how that
+/// begins and ends.
+fn over_a_wheel() -> impl Strategy<Value = String> {
+    // Direction of the body, its place from the wheel, and the same of the other end.
+    let lines = select(vec![
+        ([["1", "0"], ["-d", "R"]], [["0", "-1"], ["R", "-b"]]),
+        ([["0", "1"], ["-R", "-d"]], [["0", "-1"], ["R", "-b"]]),
+        ([["0", "-1"], ["-R", "-d"]], [["0", "1"], ["R", "-b"]]),
+        (
+            [
+                ["cos(a)", "sin(a)"],
+                ["-R*sin(a)-d*cos(a)", "R*cos(a)-d*sin(a)"],
+            ],
+            [["0", "-1"], ["R", "-b"]],
+        ),
+        (
+            [
+                ["-cos(a)", "sin(a)"],
+                ["R*sin(a)+d*cos(a)", "R*cos(a)-d*sin(a)"],
+            ],
+            [
+                ["-cos(c)", "-sin(c)"],
+                ["-R*sin(c)-b*cos(c)", "R*cos(c)-b*sin(c)"],
+            ],
+        ),
+        // Two wheels, the second to the right of the first.
+        ([["0", "1"], ["-R", "-d"]], [["0", "-1"], ["q+R", "-b"]]),
+        ([["1", "0"], ["-d", "R"]], [["0", "-1"], ["q+R", "-b"]]),
+    ]);
+    let wheel = select(vec!["0", "0", "J"]);
+    let surfaces = select(vec![
+        ("", ""),
+        (r#""friction": "mu","#, ""),
+        (r#""friction": "mu", "force": "F","#, ""),
+        ("", r#""friction": "nu","#),
+        (r#""force": "-F","#, ""),
+    ]);
+    let end = select(vec![
+        r#""distance": "s""#,
+        r#""for": "t""#,
+        r#""until": "stops""#,
+    ]);
+    let begin = select(vec!["v", "0"]);
+    let rider = any::<bool>();
+    (lines, wheel, surfaces, end, begin, rider).prop_map(
+        |(lines, wheel, (own, other), end, v, rider)| {
+            let ([[ux, uy], [x, y]], [[wx, wy], [p, q]]) = lines;
+            let over = if p.contains('q') { r#""P", "Q""# } else { r#""P""# };
+            let with = if rider { r#""with": ["B2"],"# } else { "" };
+            // A plumb line has no surface.
+            let own = if ux == "0" { "" } else { own };
+            let other = if wx == "0" { "" } else { other };
+            format!(
+                r#"{{
+  "parameters": {{
+    "m": {{"unit": "kg"}}, "M": {{"unit": "kg"}}, "J": {{"unit": "kg"}}, "R": {{"unit": "m"}}, "v": {{"unit": "m/s"}},
+    "g": {{"unit": "m/s^2"}}, "s": {{"unit": "m"}}, "t": {{"unit": "s"}}, "F": {{"unit": "N"}}, "mu": {{"unit": "1"}},
+    "nu": {{"unit": "1"}}, "b": {{"unit": "m"}}, "d": {{"unit": "m"}}, "q": {{"unit": "m"}},
+    "a": {{"unit": "rad", "domain": {{"min": 0, "max": "pi/2"}}}}, "c": {{"unit": "rad", "domain": {{"min": 0, "max": "pi/2"}}}}
+  }},
+  "bodies": {{
+    "P": {{"shape": "disk", "mass": "{wheel}", "radius": "R", "center": ["0", "0"], "spin": "SPIN"}},
+    "Q": {{"shape": "ring", "mass": "M", "radius": "R", "center": ["q", "0"], "spin": "SPIN"}},
+    "B": {{"shape": "particle", "mass": "m", "center": ["{x}", "{y}"], "velocity": ["({v})*({ux})", "({v})*({uy})"]}},
+    "B2": {{"shape": "particle", "mass": "M", "center": ["{x}", "{y}"], "velocity": ["({v})*({ux})", "({v})*({uy})"]}},
+    "C": {{"shape": "particle", "mass": "M", "center": ["{p}", "{q}"], "velocity": ["({v})*({wx})", "({v})*({wy})"]}}
+  }},
+  "stages": [{{"name": "way", "slide": {{"body": "B", {with} "along": ["{ux}", "{uy}"], "gravity": "g", {own} {end},
+    "strings": [{{"to": ["C"], {other} "along": ["{wx}", "{wy}"], "over": [{over}]}}]}}}}],
+  "questions": {{"u": {{"velocity": "C"}}, "w1": {{"spin": "P"}}, "K": {{"energy": "lost"}}}}
+}}"#
+            )
+            .replace("SPIN", &wheel_spin([ux, uy], v))
+        },
+    )
+}
+
+/// How the wheel turns while its string moves: backwards where the body that comes to it passes above.
+fn wheel_spin([ux, uy]: [&str; 2], v: &str) -> String {
+    let clockwise = match ux {
+        "0" => uy == "1",
+        _ => !ux.starts_with('-'),
+    };
+    format!("{}({v})/R", if clockwise { "-" } else { "" })
+}
+
 #[test]
 fn what_moves_along_a_line_is_followed_to_the_same_end() {
+    same_end(on_a_line());
+}
+
+#[test]
+fn what_is_tied_over_a_wheel_is_followed_to_the_same_end() {
+    same_end(over_a_wheel());
+}
+
+fn same_end(stories: impl Strategy<Value = String>) {
     use std::sync::atomic::{AtomicU32, Ordering};
     let (followed, told) = (AtomicU32::new(0), AtomicU32::new(0));
     let mut config = ProptestConfig::default();
     config.cases = config.cases * 3 / 8;
-    proptest!(config, |(text in on_a_line())| {
+    proptest!(config, |(text in stories)| {
         let text = match text.contains("particle") {
             true => text.replace(r#""w1": {"spin": "B"}, "#, ""),
             false => text,

@@ -3,8 +3,8 @@
 
 use super::Page;
 use crate::answer::Answer;
-use crate::expr::{Expr, Node, Symbol};
-use crate::scene::{Ask, Scene, Stage, StageKind};
+use crate::expr::{Expr, Node, Symbol, dot};
+use crate::scene::{Ask, Scene, Slide, Stage, StageKind};
 use crate::solution::words::{name, say};
 use crate::solution::{Claim, Detail, Inline, Line, Math, Part, Solution};
 use crate::story::{StageTold, Step};
@@ -166,6 +166,14 @@ impl Page<'_> {
         let moved = stage.kind.moved();
         Expr::sum(moved.into_iter().map(|body| {
             let b = &stage.scene.bodies[body];
+            if let Some((slide, apparent)) = pulley(stage, body) {
+                let speed = dot(&told.before.velocity[slide.body], &slide.along);
+                let speed = tidied(self.scene, &speed);
+                return match speed.is_zero() || apparent.is_zero() {
+                    true => Expr::zero(),
+                    false => &half * tidied(self.scene, &apparent) * square(&speed),
+                };
+            }
             let [x, y] = &told.before.velocity[body];
             let spin = &told.before.spin[body];
             let mut energy = Expr::zero();
@@ -219,8 +227,11 @@ impl Page<'_> {
         let inertia = match (ask, &told.inertia) {
             (Ask::Spin { .. }, Some([_, about])) => about.clone(),
             (Ask::Velocity { .. }, None) => {
-                let moved = told.placed.kind.moved();
-                Expr::sum(moved.into_iter().map(|b| scene.bodies[b].mass.clone()))
+                let moved = told.placed.kind.moved().into_iter();
+                Expr::sum(moved.map(|b| match pulley(&told.placed, b) {
+                    Some((_, apparent)) => tidied(self.scene, &apparent),
+                    None => scene.bodies[b].mass.clone(),
+                }))
             }
             _ => return None,
         };
@@ -242,6 +253,18 @@ pub(super) fn tidied(scene: &Scene, e: &Expr) -> Expr {
         Ok(x) => field.expr(&x),
         Err(_) => e.clone(),
     }
+}
+
+/// The motion along a line in which a body is a pulley, and what it adds to the mass: its moment of inertia by the square
+/// of its radius.
+fn pulley(stage: &Stage, body: usize) -> Option<(&Slide, Expr)> {
+    let StageKind::Slide(slide) = &stage.kind else {
+        return None;
+    };
+    let b = &stage.scene.bodies[body];
+    let radius = b.shape.radius()?;
+    slide.pulleys().find(|p| *p == body)?;
+    Some((slide, &b.inertia / &radius.powi(2)))
 }
 
 /// Whether two formulas read alike, whatever the order of terms and factors.

@@ -420,7 +420,10 @@ impl<'a> Line<'a> {
                     "the acceleration along the string, the forces along it divided by all that it sets in motion"
                 }
             };
-            let raw = &self.net() / &self.mass;
+            let raw = match is_zero(&self.acceleration, self.domains()) {
+                Some(true) => Expr::zero(),
+                _ => &self.net() / &self.mass,
+            };
             out.push(Step::new("a", &raw, &self.acceleration, why));
         }
         if let Some(round) = self.round.as_ref().filter(|_| self.slips()) {

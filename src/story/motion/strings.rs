@@ -132,10 +132,8 @@ fn spin(
         return Err(Refused::new(
             &stage.name,
             format!(
-                "the line along which `{}` moves does not touch the rim of `{}`: it passes the center at the distance {}",
-                scene.bodies[body].name,
-                scene.bodies[pulley].name,
-                crate::formula::write_plain(&arm)
+                "the line along which `{}` moves does not touch the rim of `{}`",
+                scene.bodies[body].name, scene.bodies[pulley].name
             ),
             "the string leaves the pulley along that line, one radius from its center",
         ));
