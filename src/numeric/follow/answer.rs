@@ -6,7 +6,9 @@
 use std::fmt;
 
 use super::impact::velocity_at;
-use super::{Component, Course, Followed, Impact, Impulse, Lost, Open, Passed, What, kinetic};
+use super::{
+    BodyState, Component, Course, Followed, Impact, Impulse, Lost, Open, Passed, What, kinetic,
+};
 use crate::expr::{Point, Vector};
 use crate::numeric::Answer;
 use crate::numeric::given::{Freedom, Undefined, vector};
@@ -116,8 +118,36 @@ pub fn answer(
             };
             Ok(Answer::Scalar(orbital + own))
         }
+        Ask::Velocity {
+            body,
+            point: Some((name, _)),
+            along,
+        } if matches!(passed.what, What::Motion(_)) => {
+            let velocity = carried(&course, scene, &passed.after.bodies[*body], *body, name)?;
+            component(&course, velocity, along.as_ref())
+        }
         ask => about_end(&course, passed, ask),
     }
+}
+
+/// Velocity of the point of a body that the file has at a named point, where the body has carried it.
+fn carried(
+    course: &Course<'_>,
+    scene: &Scene,
+    state: &BodyState,
+    body: usize,
+    name: &str,
+) -> Result<[Component; 2], Unanswered> {
+    let point = scene.points.iter().find(|p| p.name == name);
+    let point = pair(course, &point.ok_or(Unanswered::NotANumber)?.at)?;
+    let solid = &course.solids[body];
+    let [x, y, angle, ..] = state.known()?;
+    let begin = super::finite(&scene.bodies[body].angle, course.values, || name.into())
+        .map_err(Unanswered::Undefined)?;
+    let (s, c) = (angle - begin).sin_cos();
+    let [p, q] = [0, 1].map(|k| point[k] - solid.center[k]);
+    let at = [x + p * c - q * s, y + p * s + q * c];
+    Ok(velocity_at(solid.freedom, state, &at))
 }
 
 /// A question about the end of a stage, or about the impact of a scene without stages.

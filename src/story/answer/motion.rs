@@ -7,7 +7,7 @@ use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::formula::{Sentence, sentence};
-use crate::scene::{Ask, EnergyWhen, Question, Scene, Stage, StageKind, Turn};
+use crate::scene::{Ask, EnergyWhen, Question, Scene, Stage, StageKind, Turn, direction};
 use crate::story::motion as stage;
 use crate::story::{StageTold, State};
 
@@ -161,13 +161,21 @@ pub(super) fn at_end(
     let refuse = |reason: &str| Refused::question(&question.name, reason, "");
     let ask = told.placed.asked(question);
     let what = match ask {
-        Ask::Spin { .. } => "angular velocity",
-        Ask::Velocity { .. } => "velocity of the center of mass",
+        Ask::Spin { .. } => String::from("angular velocity"),
+        Ask::Velocity { point: None, .. } => String::from("velocity of the center of mass"),
+        Ask::Velocity {
+            body,
+            point: Some((point, _)),
+            ..
+        } => format!(
+            "velocity of the point {point} of `{}`",
+            scene.bodies[*body].name
+        ),
         Ask::Energy {
             when: EnergyWhen::Lost,
             ..
-        } => "kinetic energy lost",
-        _ => "kinetic energy",
+        } => String::from("kinetic energy lost"),
+        _ => String::from("kinetic energy"),
     };
     let when = match &question.ask {
         Ask::Energy { when, .. } => match when {
@@ -184,24 +192,18 @@ pub(super) fn at_end(
             let w = &told.after.spin[*body];
             parts.push((String::new(), if *clockwise { -w } else { w.clone() }));
         }
-        Ask::Velocity {
-            body,
-            point: None,
-            along,
-        } => {
-            let v = &told.after.velocity[*body];
+        Ask::Velocity { body, point, along } => {
+            let v = match point {
+                Some((name, _)) => of_point(scene, &told.after, *body, name),
+                None => told.after.velocity[*body].clone(),
+            };
             match along {
-                Some(along) => parts.push((String::new(), dot(v, along))),
+                Some(along) => parts.push((String::new(), dot(&v, along))),
                 None => parts.extend([
                     ("_x".to_string(), v[0].clone()),
                     ("_y".to_string(), v[1].clone()),
                 ]),
             }
-        }
-        Ask::Velocity { .. } => {
-            return Err(refuse(
-                "at the end of a motion the velocity of the center of mass is known; a point of the body is elsewhere by then",
-            ));
         }
         Ask::Energy { when, of } => {
             let whole = told.energy.as_ref().filter(|_| is_alone(told, *of));
@@ -239,6 +241,21 @@ pub(super) fn at_end(
         out.push(a);
     }
     Ok(out)
+}
+
+/// The velocity of the point of a body that the file puts at a named point, wherever the body has taken it.
+fn of_point(scene: &Scene, state: &State, body: usize, name: &str) -> Vector {
+    let b = &scene.bodies[body];
+    let [x, y] = &state.velocity[body];
+    let point = scene.points.iter().find(|p| p.name == name);
+    let arm = point.map(|p| minus(&p.at, &b.center));
+    let Some([p, q]) = arm.filter(|_| !b.is_particle()) else {
+        return [x.clone(), y.clone()];
+    };
+    let [c, s] = direction(&(&state.angle[body] - &b.angle));
+    let r = [&(&p * &c) - &(&q * &s), &(&p * &s) + &(&q * &c)];
+    let spin = &state.spin[body];
+    [x - &(spin * &r[1]), y + &(spin * &r[0])]
 }
 
 /// Whether the motion of a stage is all that moves of what is asked about.
