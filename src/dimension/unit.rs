@@ -138,7 +138,9 @@ impl<'a> Reader<'a> {
             }
             let start = self.at;
             let atom = self.atom(depth)?;
-            let power = self.exponent(total != Unit::number())?;
+            // `ms-2` has two letters, of which the exponent belongs to the second.
+            let several = total != Unit::number() || &self.text[start..self.at] == "ms";
+            let power = self.exponent(several)?;
             let signed = if over { -power } else { power };
             if over {
                 below += 1;
@@ -195,9 +197,10 @@ impl<'a> Reader<'a> {
                         !(c.is_ascii_alphabetic() || matches!(c, 'µ' | 'μ' | 'Ω' | '\u{2126}'))
                     })
                     .unwrap_or(rest.len());
-                // `kgm` and `kgms` are written for kg·m and kg·m·s by many, and are nothing else.
+                // `kgm`, `kgms` and `rads` are written for kg·m, kg·m·s and rad·s by many, and are nothing else.
                 let length = match &rest[..length] {
                     "kgm" | "kgms" => 2,
+                    "rads" => 3,
                     _ => length,
                 };
                 let word = &rest[..length];
@@ -325,6 +328,13 @@ fn named(word: &str) -> Option<Unit> {
     if let Some(found) = plain(word) {
         return Some(found);
     }
+    // `Newton`: a word is no symbol, whatever it begins with.
+    if word.len() > 3 && word.starts_with(|c: char| c.is_ascii_uppercase()) {
+        let small = word.to_ascii_lowercase();
+        if let Some(found) = plain(&small).filter(|_| small[1..] == word[1..]) {
+            return Some(found);
+        }
+    }
     if let Some((prefix, power)) = LONG_PREFIXES.iter().find(|(p, _)| word.starts_with(p)) {
         let mut found = plain(&word[prefix.len()..]).filter(|_| word.len() > prefix.len() + 3)?;
         found.factor *= &raise(&ratio(10, 1), *power);
@@ -411,7 +421,7 @@ fn plain(word: &str) -> Option<Unit> {
     Some(match word {
         "kg" | "kilogram" | "kilograms" => si(1, 0, 0, one()),
         "g" | "gram" | "grams" => si(1, 0, 0, ratio(1, 1000)),
-        "t" => si(1, 0, 0, ratio(1000, 1)),
+        "t" | "tonne" | "tonnes" => si(1, 0, 0, ratio(1000, 1)),
         "m" | "meter" | "meters" | "metre" | "metres" => si(0, 1, 0, one()),
         "s" | "sec" | "second" | "seconds" => si(0, 0, 1, one()),
         "min" | "minute" | "minutes" => si(0, 0, 1, ratio(60, 1)),

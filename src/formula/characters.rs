@@ -62,7 +62,7 @@ impl Lexer<'_> {
                 );
                 return Err(fault.hint("write it in kelvins, K"));
             }
-            '°' | '∘' => Tok::Degree,
+            '°' | '∘' | 'º' | '˚' => Tok::Degree,
             '⟨' => Tok::Open('<'),
             '⟩' => Tok::Close('>'),
             'π' | '𝜋' | '𝛑' | '𝝅' => Tok::Name("pi".into()),
@@ -87,7 +87,7 @@ impl Lexer<'_> {
                     None => self.name(self.pos, self.pos + c.len_utf8()),
                 };
             }
-            _ if greek_name(c).is_some() || matches!(c, 'î' | 'ĵ' | 'ŷ') => {
+            _ if greek_name(c).is_some() || super::name::accented(c).is_some() => {
                 return self.name(self.pos, self.pos + c.len_utf8());
             }
             '\'' | '′' => {

@@ -48,8 +48,8 @@ pub use symbols::{Declared, Symbols};
 pub(crate) use units::plain_unit;
 pub use visible::{is_hidden, visible};
 pub use write::{latex_name, unicode_name, write_latex, write_plain, write_unicode};
-pub(crate) use written::has_arrow;
 pub use written::{Link, Literal, Shape, Sign, Written};
+pub(crate) use written::{has_arrow, is_component};
 
 /// Longest formula, in bytes.
 pub const MAX_BYTES: usize = 1 << 16;
@@ -571,12 +571,13 @@ fn unpunctuated(text: &str, start: usize) -> (&str, Option<(usize, usize)>) {
     else {
         return (text, None);
     };
-    // In `v1.` the digit belongs to a name, in `4.` the point belongs to the number.
+    // In `v1.` the digit belongs to a name, in `2.5.` another point to the number, in `4.` the point belongs to the number.
     let before = body.trim_end_matches(|c: char| c.is_ascii_digit());
-    let named = before.ends_with(|c: char| c.is_alphabetic() || c == '_');
+    let named = before.ends_with(|c: char| c.is_alphabetic() || matches!(c, '_' | '.'));
     let number = trimmed.ends_with('.') && before.len() < body.len() && !named;
     let empty = body[start..].trim().is_empty();
-    match number || empty || body.ends_with(['.', ',', ';', '\\']) {
+    let spaced = ["\\,", "\\;"].iter().any(|space| body.ends_with(space));
+    match number || empty || !spaced && body.ends_with(['.', ',', ';', '\\']) {
         true => (text, None),
         false => (body, Some((body.len(), trimmed.len()))),
     }

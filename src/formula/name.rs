@@ -492,13 +492,10 @@ pub(crate) fn base(text: &str, at: usize, parts: &mut Parts, depth: u32) -> Opti
             }
         }
         '{' => argument(text, at, parts, depth)?,
-        'î' | 'ĵ' | 'ŷ' => {
-            parts.accent = "hat";
-            parts.base.push(match c {
-                'î' => 'i',
-                'ĵ' => 'j',
-                _ => 'y',
-            });
+        c if accented(c).is_some() => {
+            let (letter, accent) = accented(c)?;
+            parts.accent = accent;
+            parts.base.push(letter);
             at + c.len_utf8()
         }
         c if c.is_ascii_alphabetic() => {
@@ -511,6 +508,25 @@ pub(crate) fn base(text: &str, at: usize, parts: &mut Parts, depth: u32) -> Opti
         }
     };
     Some(combining(text, end, parts))
+}
+
+/// Letter and accent of one character.
+pub(crate) fn accented(c: char) -> Option<(char, &'static str)> {
+    Some(match c {
+        'î' => ('i', "hat"),
+        'ĵ' => ('j', "hat"),
+        'ŷ' => ('y', "hat"),
+        'ẑ' => ('z', "hat"),
+        'ẋ' => ('x', "dot"),
+        'ẏ' => ('y', "dot"),
+        'ż' => ('z', "dot"),
+        'ṙ' => ('r', "dot"),
+        'ṡ' => ('s', "dot"),
+        'ṗ' => ('p', "dot"),
+        'ẍ' => ('x', "ddot"),
+        'ÿ' => ('y', "ddot"),
+        _ => return None,
+    })
 }
 
 /// An accent as a combining character behind the letter.

@@ -138,8 +138,8 @@ pub(crate) fn ten_to(power: i64) -> Rational {
     }
 }
 
-/// A number in groups of three digits: `12\,000` and `12 000` with spaces between them, `1,000,000` with two commas or more,
-/// which nothing else could be outside a `list`.
+/// A number in groups of three digits: `12\,000` and `12 000` with spaces between them, `1,000,000` with two commas or more or
+/// a point behind, which nothing else could be outside a `list`.
 pub(crate) fn grouped(text: &str, at: usize, list: bool) -> Option<Faulty<(Literal, usize)>> {
     const BETWEEN: [&str; 6] = ["\\,", "\u{202f}", "\u{2009}", "{,}", " ", ","];
     let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
@@ -158,7 +158,10 @@ pub(crate) fn grouped(text: &str, at: usize, list: bool) -> Option<Faulty<(Liter
         groups += 1;
     }
     let unclear = match *between {
-        "," | "{,}" => list || groups < 2 || text[end..].starts_with(','),
+        "," | "{,}" => {
+            let point = text[end..].starts_with('.') && digits(end + 1) > 0;
+            list || groups < 2 && !point || text[end..].starts_with(',')
+        }
         " " => plain.starts_with('0') || text[end..].starts_with(['.', ',']),
         _ => false,
     };
@@ -189,7 +192,7 @@ pub(crate) fn decimal_comma(text: &str, at: usize) -> Option<(Literal, usize)> {
         .windows(2)
         .any(|w| w[0] == b'.' && w[1].is_ascii_digit() || w[0] == b',' && sign == ",");
     let thousands = part == 3 && &text[at..at + whole] != "0";
-    if whole == 0 || part == 0 || sign == "," && thousands || points || whole + part > 18 {
+    if whole == 0 || part == 0 || thousands || points || whole + part > 18 {
         return None;
     }
     let plain = format!("{}.{}", &text[at..at + whole], &text[from..from + part]);

@@ -24,7 +24,10 @@ pub(super) fn alternatives(text: &str) -> Option<(usize, usize)> {
         let word = WORDS.iter().find(|word| text[at..].starts_with(**word));
         let length = match (word, c) {
             (Some(word), _) if depth == 0 => word.len(),
-            (None, ',') if depth == 0 && text[at + 1..].starts_with([' ', '\\']) => 1,
+            // Behind a comma a sign begins another value: `3,-3`.
+            (None, ',') if depth == 0 && text[at + 1..].starts_with([' ', '\\', '-', '−', '±']) => {
+                1
+            }
             _ => 0,
         };
         if length > 0 {
@@ -62,7 +65,10 @@ pub(super) fn conclusion(text: &str) -> Option<usize> {
         "⟺",
         "⇔",
     ];
-    const WORDS: [&str; 9] = [
+    const WORDS: [&str; 12] = [
+        "the final answer is",
+        "the answer is",
+        "final answer",
         "therefore",
         "hence",
         "thus",
@@ -74,6 +80,14 @@ pub(super) fn conclusion(text: &str) -> Option<usize> {
         "it follows that",
     ];
     // Nearly all texts hold no arrow: its first byte would be there.
+    // Where nothing stands before it an arrow leads on from the question.
+    if let Some(behind) = ["=>", "->", "→", "\\to", "\\rightarrow"]
+        .iter()
+        .find_map(|arrow| text.trim_start().strip_prefix(arrow))
+        && !behind.starts_with(|c: char| c.is_ascii_alphabetic())
+    {
+        return Some(text.len() - behind.len());
+    }
     let arrow = match text.bytes().any(|b| matches!(b, b'\\' | 0xe2)) {
         true => ARROWS
             .iter()
@@ -82,7 +96,7 @@ pub(super) fn conclusion(text: &str) -> Option<usize> {
             .filter(|at| !text[*at..].trim().is_empty()),
         false => None,
     };
-    if arrow.is_none() && !text.contains([',', ':', '=']) {
+    if arrow.is_none() && !text.contains([',', ':', '=']) && !text.contains(" is ") {
         return None;
     }
     let from = arrow.unwrap_or(0);
@@ -93,7 +107,8 @@ pub(super) fn conclusion(text: &str) -> Option<usize> {
         said.eq_ignore_ascii_case(word).then_some(())?;
         let mark = behind.starts_with([',', ':']);
         let gap = mark || (behind.starts_with(' ') && *word != "so" && *word != "then");
-        (gap && behind.contains('=') || mark).then_some(word.len() + usize::from(mark))
+        let said = behind.contains('=') || word.ends_with(" is");
+        (gap && said || mark).then_some(word.len() + usize::from(mark))
     });
     match (arrow, word) {
         (None, None) => None,

@@ -19,6 +19,13 @@ impl Parser<'_> {
             match self.peek()?.tok {
                 Tok::Caret | Tok::Raised(_) => {
                     let token = self.next()?;
+                    // A row or a column: which of them it is says nothing of a vector.
+                    if let (Shape::List(_), Tok::Caret) = (&base.shape, &token.tok)
+                        && let Some(length) = transposed(&self.lexer.text[self.lexer.pos..])
+                    {
+                        self.lexer.pos += length;
+                        continue;
+                    }
                     let exponent = match token.tok {
                         Tok::Caret => self.exponent()?,
                         _ => raised_number(&token),
@@ -260,4 +267,25 @@ pub(super) fn raised_number(token: &Token) -> Written {
 fn vulgar(n: i64, d: i64, start: usize, end: usize) -> Written {
     let part = |value| Box::new(whole_number(value, start, end));
     Written::new(Shape::Fraction(part(n), part(d)), start, end)
+}
+
+/// The bytes of the mark of a transpose behind `^`.
+fn transposed(rest: &str) -> Option<usize> {
+    let inside = rest.strip_prefix('{');
+    let mark = inside.unwrap_or(rest).trim_start_matches(' ');
+    let marks = [
+        "T",
+        "\\top",
+        "\\intercal",
+        "\\mathsf{T}",
+        "\\mathsf T",
+        "\\mathrm{T}",
+        "\\mathrm T",
+    ];
+    let behind = marks.iter().find_map(|known| mark.strip_prefix(known))?;
+    let behind = match inside {
+        Some(_) => behind.strip_prefix('}')?,
+        None => behind,
+    };
+    (!behind.starts_with(|c: char| c.is_alphanumeric())).then(|| rest.len() - behind.len())
 }

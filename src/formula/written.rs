@@ -224,3 +224,11 @@ pub(crate) fn is_axis(name: &str) -> bool {
 pub(crate) fn has_arrow(name: &str) -> bool {
     name.contains("_vec") && super::symbols::parts_of(name).accent == "vec"
 }
+
+/// Whether a name is the component of a vector written with an arrow along x, y or z.
+pub(crate) fn is_component(name: &str) -> bool {
+    let stem = ["_x", "_y", "_z"]
+        .iter()
+        .find_map(|axis| name.strip_suffix(axis));
+    stem.is_some_and(has_arrow)
+}

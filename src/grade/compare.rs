@@ -232,6 +232,9 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
             }
         }
         (Claim::Value(name, expected), Claim::Relations(mine, my_signs)) => {
+            if let Some(finding) = nameless(ctx, expected, mine, my_signs) {
+                return finding;
+            }
             let name = name
                 .cloned()
                 .or_else(|| asked.first().map(|g| g.name.clone()))
@@ -245,6 +248,32 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
             }
         }
     }
+}
+
+/// `3v/(2l) = 1.5 v/l` for `3v/(2l)`: a chain without a name, of which every side is the expected value; behind ≈ a rounded
+/// one will do.
+fn nameless(
+    ctx: &Context,
+    expected: &Content,
+    sides: &[Content],
+    signs: &[Relation],
+) -> Option<Finding> {
+    let plain = Context {
+        diagnose: false,
+        ..*ctx
+    };
+    let (first, others) = sides.split_first()?;
+    let finding = values(&plain, expected, first);
+    let right = finding.verdict == Verdict::Equivalent;
+    let follows = |(sign, side): (&Relation, &Content)| match sign {
+        Relation::Equal => values(&plain, expected, side).verdict == Verdict::Equivalent,
+        Relation::Approximately => {
+            let finding = values(&plain, expected, side);
+            finding.verdict == Verdict::Equivalent || finding.note == "DIFF_ROUNDED"
+        }
+        _ => false,
+    };
+    (right && signs.iter().zip(others).all(follows)).then_some(finding)
 }
 
 /// The sides of an equation between vectors, a name with an arrow in its components.

@@ -22,7 +22,7 @@ mod unit;
 mod verdict;
 
 use crate::dimension::Dimension;
-use crate::domain::Domains;
+use crate::domain::{Domain, Domains};
 use crate::expr::Symbol;
 use crate::formula::{self, Content, Fault, Reading, Symbols};
 pub(crate) use crate::verify::rounding::fraction;
@@ -162,6 +162,15 @@ fn from_reading(reading: Reading, question: &Question) -> Key {
     let mut names = reading.symbols();
     for given in question.symbols.iter().chain(&question.asked) {
         names.remove(&given.name);
+    }
+    // A component of a vector has either sign.
+    for name in &names {
+        if formula::is_component(name) && !question.domains.symbols.contains_key(name) {
+            question
+                .domains
+                .symbols
+                .insert(name.clone(), Domain::real());
+        }
     }
     let unknown = names.into_iter().map(|name| Given {
         name,

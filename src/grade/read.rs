@@ -97,10 +97,13 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         let last = format!("{}{}", " ".repeat(at + sign), &text[at + sign..]);
         if let Ok(reading) = formula::read(&last, &key.readable)
             && reading.symbols().is_empty()
-            && text[..at].contains(['=', '≈'])
+            && (text[..at].contains(['=', '≈']) || is_size(&text[..at]))
         {
             return Ok(reading);
         }
+    }
+    if measured && let Some(reading) = unit_apart(key, text) {
+        return Ok(reading);
     }
     // `v = 5 m/s`, where v is not declared and m is the unit.
     let named = left.filter(|name| !declared(key, name)).and_then(|name| {
@@ -109,6 +112,41 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         formula::read(text, &symbols).ok()
     });
     named.ok_or(fault)
+}
+
+/// Whether a side is the size of something, as in `|v| = 5 m/s`.
+fn is_size(side: &str) -> bool {
+    let side = side
+        .trim()
+        .trim_start_matches("\\left")
+        .trim_end_matches("\\right|");
+    let bars = ["|", "\\|", "\\lVert", "\\lvert", "‖"];
+    bars.iter().any(|bar| side.starts_with(bar)) && !side.contains(['+', '-'])
+}
+
+/// An answer whose unit a sign ties to its number, or brackets enclose: `9.81*m/s^2`, `5 (m/s)`.
+fn unit_apart(key: &Key, text: &str) -> Option<Reading> {
+    let quantity = |from: usize, to: usize, last: bool| {
+        let mut text = text.to_string();
+        text.replace_range(from..to, &" ".repeat(to - from));
+        if last {
+            text.truncate(text.trim_end().len() - 1);
+        }
+        let reading = formula::read(&text, &key.readable).ok()?;
+        let plain = matches!(reading.content.answer(), Content::Quantity(_));
+        (plain && reading.symbols().is_empty()).then_some(reading)
+    };
+    let signs = ["*", "·", "\\cdot", "\\times"];
+    let mut places = signs
+        .iter()
+        .flat_map(|sign| text.match_indices(sign).take(3));
+    places
+        .find_map(|(at, sign)| quantity(at, at + sign.len(), false))
+        .or_else(|| {
+            let at = text.rfind(['(', '{'])?;
+            let closed = text.trim_end().ends_with([')', '}']);
+            closed.then(|| quantity(at, at + 1, true)).flatten()
+        })
 }
 
 /// `dv = a dt` for `a = dv/dt`, and `F = dp/dt` for `F dt = dp`: the derivative by the time is the quotient of the
