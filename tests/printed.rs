@@ -57,8 +57,12 @@ const BOOK: &[(&str, usize, &[&str])] = &[
             "part 2, number, on the bar",
         ],
     ),
-    // The minus sign of restitution is missing where it is stated in vectors.
-    ("flying-dish.json", 26, &["kinematics, dotted with i"]),
+    // The minus sign of restitution is missing where it is stated in vectors, and that of the disk's spin in the comment.
+    (
+        "flying-dish.json",
+        26,
+        &["kinematics, dotted with i", "comment"],
+    ),
 ];
 
 #[test]

@@ -90,6 +90,10 @@ impl Lexer<'_> {
         if order != below.order || !(1..=9).contains(&order) {
             return None;
         }
+        if of.key() == by.key() {
+            let fault = Fault::new("the derivative of a name by itself", start, end);
+            return Some(Err(fault));
+        }
         let declared = |parts: &Parts| name::find(parts, self.symbols).is_some();
         let factor = self.symbols.find("d").is_some();
         if above.plain && factor && declared(&of) && declared(&by) {

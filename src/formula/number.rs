@@ -162,7 +162,7 @@ pub(crate) fn grouped(text: &str, at: usize, list: bool) -> Option<Faulty<(Liter
             let point = text[end..].starts_with('.') && digits(end + 1) > 0;
             list || groups < 2 && !point || text[end..].starts_with(',')
         }
-        " " => plain.starts_with('0') || text[end..].starts_with(['.', ',']),
+        " " => plain.starts_with('0') || text[end..].starts_with(','),
         _ => false,
     };
     if groups == 0 || unclear {

@@ -102,6 +102,13 @@ pub(super) fn conclusion(text: &str) -> Option<usize> {
     let from = arrow.unwrap_or(0);
     let rest = text[from..].trim_start();
     let start = text.len() - rest.len();
+    // `\text{so } t = …`
+    if let Some((said, behind)) = rest.strip_prefix("\\text{").and_then(|r| r.split_once('}')) {
+        let said = said.trim().trim_end_matches([',', ':']);
+        if WORDS.iter().any(|word| word.eq_ignore_ascii_case(said)) {
+            return Some(text.len() - behind.len());
+        }
+    }
     let word = WORDS.iter().find_map(|word| {
         let (said, behind) = rest.split_at_checked(word.len())?;
         said.eq_ignore_ascii_case(word).then_some(())?;

@@ -55,21 +55,22 @@ impl Symbols {
         self
     }
 
-    /// The same names, where i, j and k stand for the unit vectors along the axes unless they are declared: `2i − 3j`.
+    /// The same names, where i, j and k stand for the unit vectors along the axes unless they are declared, `2i − 3j`, and so
+    /// do e_x, e_y and e_z, and e_1, e_2 and e_3.
     pub fn with_axes(mut self) -> Symbols {
         self.axes = true;
         self
     }
 
-    /// The unit vector a letter stands for.
-    pub(crate) fn axis(&self, letter: &str) -> Option<&'static str> {
-        let axis = match letter {
-            "i" => "i_hat",
-            "j" => "j_hat",
-            "k" => "k_hat",
+    /// The unit vector a name stands for.
+    pub(crate) fn axis(&self, name: &str) -> Option<&'static str> {
+        let axis = match name {
+            "i" | "e_x" | "e1" | "e_hat1" => "i_hat",
+            "j" | "e_y" | "e2" | "e_hat2" => "j_hat",
+            "k" | "e_z" | "e3" | "e_hat3" => "k_hat",
             _ => return None,
         };
-        (self.axes && self.find(letter).is_none()).then_some(axis)
+        (self.axes && self.find(name).is_none()).then_some(axis)
     }
 
     /// The same names, where the first undeclared one ends reading: for trying whether a text can be read at all.

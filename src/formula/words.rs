@@ -119,7 +119,7 @@ impl Lexer<'_> {
             return Ok(Tok::Name(axis.into()));
         }
         if self.symbols.is_open() {
-            if run > 2
+            if (run > 2 || &rest[..run] == "is")
                 && self.before == Before::Nothing
                 && !self.notes.iter().any(|n| n.end >= start + run)
             {
@@ -193,6 +193,13 @@ impl Lexer<'_> {
             // `log10(x)`, while `log 2(a+b)` is the logarithm of a product.
             (None, None) => Some(behind).filter(|b| b.starts_with('(')),
         };
+        let euler = ["_e", "_{e}"].iter().find_map(|e| rest.strip_prefix(e));
+        if let Some(behind) = euler.filter(|b| !b.starts_with(|c: char| c.is_alphanumeric()))
+            && self.symbols.find("e").is_none()
+        {
+            self.pos = self.text.len() - behind.len();
+            return tok;
+        }
         match (digits[..count].parse::<i64>(), closed) {
             (Ok(base @ 2..=1_000), Some(behind)) => {
                 self.pos = self.text.len() - behind.len();
@@ -237,6 +244,13 @@ impl Lexer<'_> {
 
     /// `asin` is the arcsine unless `a` is declared and the other reading is asked for.
     pub(super) fn function_wanted(&mut self, word: &str, start: usize) -> bool {
+        // `lg` and `tg` are products where nothing is declared, or one of their letters is, or no argument follows.
+        if matches!(word, "lg" | "tg") {
+            let free = |at: usize| self.symbols.find(&word[at..=at]).is_none();
+            let behind = &self.text[start + word.len()..];
+            let argued = behind.starts_with([' ', '(', '\\', '{']) && behind.trim() != "";
+            return argued && !self.symbols.declared().is_empty() && free(0) && free(1);
+        }
         if !matches!(word, "asin" | "acos" | "atan") || self.symbols.find("a").is_none() {
             return true;
         }
@@ -446,7 +460,7 @@ impl Lexer<'_> {
                 false => whole,
             };
         let key = whole.key();
-        if let Some(vector) = unit_vector(&key) {
+        if let Some(vector) = unit_vector(&key).or_else(|| self.symbols.axis(&key)) {
             return Ok(Tok::Name(vector.into()));
         }
         if !self.symbols.is_open() {
@@ -510,6 +524,8 @@ pub(super) fn function(word: &str) -> Option<Tok> {
         b"sin" => Tok::Call(Sin),
         b"cos" => Tok::Call(Cos),
         b"tan" => Tok::Call(Tan),
+        b"tg" => Tok::Call(Tan),
+        b"lg" => Tok::Logarithm(10),
         b"asin" | b"arcsin" => Tok::Call(Asin),
         b"acos" | b"arccos" => Tok::Call(Acos),
         b"atan" | b"arctan" | b"arctg" => Tok::Call(Atan),

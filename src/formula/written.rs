@@ -232,3 +232,12 @@ pub(crate) fn is_component(name: &str) -> bool {
         .find_map(|axis| name.strip_suffix(axis));
     stem.is_some_and(has_arrow)
 }
+
+/// The name with an arrow over it; nothing where it has an accent.
+pub(crate) fn with_arrow(name: &str) -> Option<String> {
+    let mut parts = super::symbols::parts_of(name);
+    parts.accent.is_empty().then(|| {
+        parts.accent = "vec";
+        parts.key()
+    })
+}

@@ -5,11 +5,12 @@ mod scalar;
 use std::collections::BTreeMap;
 
 use super::{
-    Apart, Diagnosis, Key, Options, Proof, Strength, Verdict, partial, relation, show, unit,
+    Apart, Diagnosis, Key, Options, Proof, Strength, Tolerance, Verdict, number, partial, relation,
+    show, unit,
 };
 use crate::dimension::Dimension;
 use crate::equality::{self, Equality};
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Symbol, ratio};
 use crate::formula::{self, Content, Reading, Relation, write_unicode};
 pub(crate) use scalar::{WRITTEN, is_short, quotient, same_number, scalars};
 
@@ -265,12 +266,14 @@ fn nameless(
     let (first, others) = sides.split_first()?;
     let finding = values(&plain, expected, first);
     let right = finding.verdict == Verdict::Equivalent;
+    // Rounded to two digits a number is at most 1/20 off.
+    let close = |side: &Content| {
+        let share = quotient(side.expr()?, expected.expr()?, &plain)?;
+        number::within(&share, &Expr::one(), &Tolerance::Relative(ratio(1, 20)))
+    };
     let follows = |(sign, side): (&Relation, &Content)| match sign {
         Relation::Equal => values(&plain, expected, side).verdict == Verdict::Equivalent,
-        Relation::Approximately => {
-            let finding = values(&plain, expected, side);
-            finding.verdict == Verdict::Equivalent || finding.note == "DIFF_ROUNDED"
-        }
+        Relation::Approximately => close(side) == Some(true),
         _ => false,
     };
     (right && signs.iter().zip(others).all(follows)).then_some(finding)

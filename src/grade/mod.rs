@@ -156,7 +156,10 @@ pub fn key_of(content: Content, question: &Question) -> Key {
     from_reading(reading, question)
 }
 
-fn from_reading(reading: Reading, question: &Question) -> Key {
+fn from_reading(mut reading: Reading, question: &Question) -> Key {
+    if let Some(content) = read::sizes(&reading.content, question) {
+        reading.content = content;
+    }
     let declares_e = question.symbols.iter().any(|g| &*g.name == "e");
     let mut question = question.clone();
     let mut names = reading.symbols();
@@ -267,6 +270,9 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         return unreadable(fault);
     }
     unit::metres(key, &mut reading);
+    if let Some(content) = read::sizes(&reading.content, &key.question) {
+        reading.content = content;
+    }
     if matches!(reading.content, Content::Relations(..)) {
         read::differentials(key, &mut reading);
     }

@@ -69,6 +69,10 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     if !key.question.closed {
         return Err(fault);
     }
+    let measured = matches!(key.reading.content.answer(), Content::Quantity(_));
+    if measured && let Some(reading) = unit_apart(key, text) {
+        return Ok(reading);
+    }
     let mut open = Symbols::open();
     declare(&mut open, &key.question);
     let Ok(reading) = formula::read(text, &open) else {
@@ -80,7 +84,6 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     };
     let strange = |name: &Symbol| STRANGERS.contains(&&**name) || left.as_ref() == Some(name);
     let split = reading.notes.iter().any(|n| n.remark == Remark::Letters);
-    let measured = matches!(key.reading.content.answer(), Content::Quantity(_));
     let named_quantity = measured && left.is_some();
     if !split
         && reading
@@ -101,9 +104,6 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         {
             return Ok(reading);
         }
-    }
-    if measured && let Some(reading) = unit_apart(key, text) {
-        return Ok(reading);
     }
     // `v = 5 m/s`, where v is not declared and m is the unit.
     let named = left.filter(|name| !declared(key, name)).and_then(|name| {
@@ -170,6 +170,26 @@ pub(super) fn differentials(key: &Key, reading: &mut Reading) {
     if !same.is_empty() {
         reading.content = reading.content.map(&|e| e.substitute(&same));
     }
+}
+
+/// The size of a vector by its letter without the arrow, `ω²` for `ω⃗·ω⃗`, where the components of that vector occur and the
+/// letter is nothing else.
+pub(super) fn sizes(content: &Content, vectors: &Question) -> Option<Content> {
+    let mut names = std::collections::BTreeSet::new();
+    content.each(&mut |e| names.append(&mut e.symbols()));
+    let known = |name: &str| vectors.symbols.iter().any(|g| *g.name == *name);
+    let size = |name: Symbol| {
+        let arrow = formula::with_arrow(&name)?;
+        let along = ["x", "y", "z"].map(|axis| format!("{arrow}_{axis}"));
+        let here = along.iter().any(|c| known(c) || names.contains(&**c));
+        here.then(|| {
+            let squares = along.map(|c| Expr::symbol(&c).powi(2));
+            (name, Expr::sum(squares.to_vec()).sqrt())
+        })
+    };
+    let free = names.iter().filter(|name| !known(name)).cloned();
+    let same: BTreeMap<Symbol, Expr> = free.filter_map(size).collect();
+    (!same.is_empty()).then(|| content.map(&|e| e.substitute(&same)))
 }
 
 /// A text as a quantity with a unit, where no undeclared symbol is needed to read it.

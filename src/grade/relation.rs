@@ -13,22 +13,23 @@ mod locus;
 mod solved;
 mod system;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::compare::{Context, Finding};
 use super::{Apart, Diagnosis, Proof, Verdict};
 use crate::algebra::{Field, Sign};
 use crate::domain::{Domain, Domains, roles, samples};
+use crate::equality::{self, Equality};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Content, Relation, write_plain};
-use crate::interval::{Interval, Outcome, evaluate};
+use crate::interval::{Big, Interval, Outcome, evaluate};
 use cells::holds;
 use factor::{turned_term, unrooted};
 use inequality::inequalities;
 use locus::{Compared, Extent, Part};
 use num_traits::Signed;
 pub(super) use solved::solve_for;
-use solved::{same_angle, solved_in, unknowns};
+use solved::{lies_in, same_angle, solved_in, unknowns};
 
 /// `left − right  rel  0`, turned so that the relation is one of =, ≠, <, ≤.
 #[derive(Clone, Debug)]
@@ -48,6 +49,9 @@ pub(crate) fn compare(
         return Finding::different("DIFF_KIND", "kind", words);
     };
     let domains = &ctx.key.question.domains;
+    if let Some(found) = listed_beyond(ctx, &expected, mine) {
+        return found;
+    }
     if let Some(found) = system::in_one_symbol(ctx, &expected, &answer, domains) {
         return found;
     }
@@ -55,6 +59,47 @@ pub(crate) fn compare(
         ([e], [a]) => link(ctx, e, a),
         _ => system::compare(ctx, &expected, &answer, domains),
     }
+}
+
+/// The finding on a value that the answer lists although it fulfils no expected equation, which the domain would hide: −4 of
+/// `x = ±4` for `√x = 2` with x positive.
+fn listed_beyond(ctx: &Context, expected: &[Normal], mine: &[Content]) -> Option<Finding> {
+    let [name, Content::Either(values)] = mine else {
+        return None;
+    };
+    let name = name.expr()?.as_symbol()?;
+    let domains = &ctx.key.question.domains;
+    let outside = |value: &&Expr| {
+        let point = samples(&roles(&[value]), domains, 1).into_iter().next();
+        let point = point.filter(|_| value.is_constant());
+        point.is_some_and(|p| match evaluate::<Big<200>>(value, &p.point(true)) {
+            Outcome::Value(v) => !lies_in(&v.0, name, domains),
+            _ => false,
+        })
+    };
+    let value = values.iter().find(outside)?;
+    let there = BTreeMap::from([(name.clone(), value.clone())]);
+    let (mut missed, zero) = (false, Expr::zero());
+    for n in expected {
+        let left = n.difference.substitute(&there);
+        missed |= match equality::decide(&left, &zero, domains).equality {
+            Equality::Same { .. } => false,
+            Equality::Different(_) | Equality::Invalid { .. } => left.is_constant(),
+            Equality::Undecided { .. } => return None,
+        };
+    }
+    let equations = expected.iter().all(|n| n.relation == Relation::Equal);
+    (missed && equations).then(|| {
+        let words = format!(
+            "{name} = {} does not fulfil the expected equation",
+            ctx.say(value)
+        );
+        Finding::different("DIFF_ROOT_GAINED", "solutions", words.clone()).with(Diagnosis::new(
+            "ROOT_GAINED",
+            words,
+            "put each of your values into the equation",
+        ))
+    })
 }
 
 /// The relations of a chain; an equation between vectors is one for each component, and with ± it is one that vanishes for
@@ -67,6 +112,11 @@ fn links(sides: &[Content], signs: &[Relation]) -> Option<Vec<Normal>> {
             [Content::Vector(a), Content::Vector(b)] if *sign == Relation::Equal => {
                 let parts = a.iter().zip(b).map(|(a, b)| normal(a, b, *sign));
                 out.extend(parts.filter(|n| !n.difference.is_zero()));
+            }
+            [Content::Vector(v), other] | [other, Content::Vector(v)]
+                if *sign == Relation::Equal && other.expr().is_some_and(Expr::is_zero) =>
+            {
+                out.extend(v.iter().map(|c| normal(c, &Expr::zero(), *sign)));
             }
             [Content::Either(a), Content::Either(b)] if equation => {
                 out.push(either(&a[0], &b[0], &a[1], &b[1], *sign));

@@ -4,13 +4,17 @@
 //! values are cut where what they are taken of changes sign: on each part they are that or its negative.
 
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+use num_traits::{Signed, Zero};
 
 use super::Normal;
 use super::solved::replaced;
 use crate::algebra::{Cell, Field};
-use crate::domain::{Domains, roles};
-use crate::expr::{Expr, Function, Node, Rational, Symbol};
-use crate::formula::Relation;
+use crate::domain::{Domain, Domains, Limit, roles};
+use crate::expr::number::sqrt_exact;
+use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
+use crate::formula::{Relation, write_plain};
 use crate::interval::Enclosure;
 
 /// Most different absolute values.
@@ -27,7 +31,8 @@ pub(super) struct Along {
     pub holds: [[bool; 2]; 2],
 }
 
-/// Compares two systems in one symbol; `None` where there are more, or the differences are no quotients of polynomials.
+/// Compares two systems in one symbol; `None` where there are more, or the differences are no quotients of polynomials in it
+/// or in the one square root that it stands under.
 pub(super) fn compare(first: &[Normal], second: &[Normal], domains: &Domains) -> Option<Along> {
     let all: Vec<&Expr> = first.iter().chain(second).map(|n| &n.difference).collect();
     let uses = roles(&all);
@@ -37,6 +42,141 @@ pub(super) fn compare(first: &[Normal], second: &[Normal], domains: &Domains) ->
         return None;
     }
     let (domains, _) = domains.completed(&uses);
+    match radicand(&all, name)? {
+        None => along(first, second, name, &domains),
+        Some(inside) => under_root(first, second, (name, &inside), &domains),
+    }
+}
+
+/// What stands under square roots, where that is linear in the symbol and the same in all; `None` where it is not.
+fn radicand(all: &[&Expr], name: &Symbol) -> Option<Option<Expr>> {
+    let mut found: Vec<Expr> = Vec::new();
+    all.iter().for_each(|e| {
+        e.walk(&mut |part| {
+            if let Node::Power(base, k) = part.node()
+                && k.as_number().is_some_and(|k| !k.is_integer())
+                && !found.contains(base)
+            {
+                found.push(base.clone());
+            }
+        });
+    });
+    found.retain(|base| base.symbols().contains(name));
+    match found.as_slice() {
+        [] => Some(None),
+        [base] => {
+            let slope = base.derivative(name);
+            slope
+                .as_number()
+                .is_some_and(|k| !k.is_zero())
+                .then(|| Some(base.clone()))
+        }
+        _ => None,
+    }
+}
+
+/// Two systems with square roots of one linear radicand k x + c: where it is not negative, x is (s² − c)/k of the root s;
+/// elsewhere no relation with the root holds.
+fn under_root(
+    first: &[Normal],
+    second: &[Normal],
+    (name, inside): (&Symbol, &Expr),
+    domains: &Domains,
+) -> Option<Along> {
+    let zero = BTreeMap::from([(name.clone(), Expr::zero())]);
+    let constant = inside.substitute(&zero).as_number()?.clone();
+    let slope = inside.derivative(name).as_number()?.clone();
+    let domain = domains.symbols.get(name)?;
+    let (low, high) = match slope.is_positive() {
+        true => (&domain.low, &domain.high),
+        false => (&domain.high, &domain.low),
+    };
+    let value = |limit: &Limit| (!limit.of_pi).then(|| &(&limit.value * &slope) + &constant);
+    let none = Limit::number(Rational::zero(), false);
+    let mut below = None;
+    let mut end = |limit: &Option<Limit>, is_low: bool| match limit {
+        None if is_low => {
+            below = Some(());
+            Some(Some(none.clone()))
+        }
+        None => Some(None),
+        Some(limit) => {
+            let v = value(limit)?;
+            if v.is_negative() {
+                below = is_low.then_some(());
+                return is_low.then(|| Some(none.clone()));
+            }
+            Some(Some(Limit::number(sqrt_exact(&v)?, limit.open)))
+        }
+    };
+    let ends = Domain {
+        low: end(low, true)?,
+        high: end(high, false)?,
+    };
+    let root: Symbol = write_plain(&inside.sqrt()).into();
+    let s = Expr::symbol(&root);
+    let back = (s.powi(2) - Expr::from(constant.clone())) * Expr::from(slope.recip());
+    let there = BTreeMap::from([(name.clone(), back)]);
+    let put = |n: &Normal| Normal {
+        difference: rootless(&n.difference, inside, &s).substitute(&there),
+        relation: n.relation,
+    };
+    let systems = [first, second].map(|system| system.iter().map(put).collect::<Vec<_>>());
+    let mut inner = domains.clone();
+    inner.symbols.insert(root.clone(), ends);
+    let mut out = along(&systems[0], &systems[1], &root, &inner)?;
+    if below.is_some() {
+        let turn = -(&constant / &slope);
+        let limit = Some(Limit::number(turn, true));
+        let rest = match slope.is_positive() {
+            true => Domain {
+                low: domain.low.clone(),
+                high: limit,
+            },
+            false => Domain {
+                low: limit,
+                high: domain.high.clone(),
+            },
+        };
+        // Nothing that has the root holds there.
+        let never = |n: &Normal| match rootless(&n.difference, inside, &s) == n.difference {
+            true => n.clone(),
+            false => Normal {
+                difference: Expr::one(),
+                relation: Relation::Equal,
+            },
+        };
+        let systems = [first, second].map(|system| system.iter().map(never).collect::<Vec<_>>());
+        inner.symbols.insert(name.clone(), rest);
+        let outside = along(&systems[0], &systems[1], name, &inner)?;
+        out.lost = out.lost.or(outside.lost);
+        out.gained = out.gained.or(outside.gained);
+        for (seen, more) in out
+            .holds
+            .iter_mut()
+            .flatten()
+            .zip(outside.holds.iter().flatten())
+        {
+            *seen |= more;
+        }
+    }
+    Some(out)
+}
+
+/// A formula with the powers of a radicand as whole powers of its root.
+fn rootless(e: &Expr, inside: &Expr, root: &Expr) -> Expr {
+    match e.node() {
+        Node::Power(base, k) if base == inside => match k.as_number() {
+            Some(k) => root.power(Expr::from(k * &ratio(2, 1))),
+            None => e.clone(),
+        },
+        _ => e.map_parts(|part| rootless(part, inside, root)),
+    }
+}
+
+/// The comparison along the domain of the symbol.
+fn along(first: &[Normal], second: &[Normal], name: &Symbol, domains: &Domains) -> Option<Along> {
+    let all: Vec<&Expr> = first.iter().chain(second).map(|n| &n.difference).collect();
     // The differences for every choice of signs, then what absolute values are taken of.
     let folded = folded(&all)?;
     let choices = (0..1 << folded.len()).flat_map(|signs| {
@@ -44,7 +184,7 @@ pub(super) fn compare(first: &[Normal], second: &[Normal], domains: &Domains) ->
         all.iter().map(move |e| unfolded(e, folded, signs))
     });
     let choices: Vec<Expr> = choices.chain(folded.iter().cloned()).collect();
-    let mut field = Field::new(&domains);
+    let mut field = Field::new(domains);
     field.prepare(&choices);
     let elements: Option<Vec<_>> = choices.iter().map(|e| field.element(e).ok()).collect();
     let mut cells = field.signs_along(name, &elements?)?;

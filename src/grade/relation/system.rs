@@ -237,7 +237,10 @@ fn fulfilled(system: &[Normal], other: &[Normal], domains: &Domains) -> Option<R
         ) {
             continue;
         }
-        let (name, root) = unknowns(&left, &left)
+        // What may have any value is solved for first: its value lies in the domain.
+        let mut names = unknowns(&left, &left);
+        names.sort_by_key(|name| domains.symbols.get(name) != Some(&Domain::real()));
+        let (name, root) = names
             .into_iter()
             .find_map(|name| Some((name.clone(), solve_for(&left, &name, domains)?)))?;
         let one = BTreeMap::from([(name.clone(), root.clone())]);

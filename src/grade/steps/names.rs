@@ -3,11 +3,15 @@
 use super::super::relation::solve_for;
 use super::link::Weighed;
 use super::{Desk, Diagnosis, Options, Status};
+use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Content, Reading, Symbols};
+use crate::scene::Body;
 
 /// Most names a student may introduce.
 const MOST_NAMES: usize = 100;
+/// Most bodies whose moments of inertia are added.
+const MOST_BODIES: usize = 4;
 
 /// The lone name left of the first equality sign, and what stands right of it.
 fn named(text: &str) -> Option<(Symbol, &str)> {
@@ -70,6 +74,16 @@ impl Desk<'_> {
         let values: Option<Vec<&Expr>> = sides.iter().map(Content::expr).collect();
         let values = values?;
         let (first, last) = ((*values.first()?).clone(), (*values.last()?).clone());
+        if let Some(true_value) = self.other_inertia(&name, &first) {
+            let words = format!(
+                "the moment of inertia about {place} is another one",
+                place = name.trim_start_matches("I_")
+            );
+            let hint = "moments of inertia: I_G of the shape, plus m times the square of the distance to G";
+            self.own.insert(name.clone(), last);
+            self.slipped.push((number, name, true_value));
+            return Some((Status::Wrong, vec![Diagnosis::new("INERTIA", words, hint)]));
+        }
         if sides.len() == 1 {
             self.own.insert(name, last);
             return Some((Status::Defines, Vec::new()));
@@ -92,6 +106,35 @@ impl Desk<'_> {
                 (Status::Wrong, self.broken(&right, at).into_iter().collect())
             }
         })
+    }
+
+    /// The moment of inertia that a name such as I_A speaks of, A a point of the scene or G, where the value given to it is that
+    /// of no body and of no bodies together.
+    fn other_inertia(&self, name: &Symbol, value: &Expr) -> Option<Expr> {
+        let scene = &self.sheet.scene;
+        let place = name.strip_prefix("I_")?;
+        let point = scene.points.iter().find(|p| p.name == place);
+        if point.is_none() && place != "G" || scene.bodies.iter().any(|b| b.name == place) {
+            return None;
+        }
+        let about = |body: &Body| {
+            let at = point.map_or(&body.center, |p| &p.at);
+            let [x, y] = [0, 1].map(|k| &at[k] - &body.center[k]);
+            &body.inertia + &(&body.mass * &(x.powi(2) + y.powi(2)))
+        };
+        let free = scene.bodies.iter().filter(|b| !b.is_fixed());
+        let each: Vec<Expr> = free.map(about).take(MOST_BODIES).collect();
+        let value = self.with_own(value);
+        let others = (1..1usize << each.len()).all(|chosen| {
+            let parts = each
+                .iter()
+                .enumerate()
+                .filter(|(k, _)| chosen >> k & 1 == 1);
+            let total = Expr::sum(parts.map(|(_, e)| e.clone()).collect::<Vec<_>>());
+            let decision = equality::decide(&value, &total, &scene.domains);
+            matches!(decision.equality, Equality::Different(_))
+        });
+        others.then(|| each.into_iter().next()).flatten()
     }
 
     /// A chain such as `I_C = I_G + m d^2 = m l^2/12 + m d^2`, where a side has a new name: the other sides say what it is.
