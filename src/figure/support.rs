@@ -25,9 +25,13 @@ impl Stage<'_> {
                 (Some(x), Some(_)) if x.is_fixed() => (a, b),
                 (Some(_), Some(y)) if y.is_fixed() => (b, a),
                 (Some(_), Some(_)) if hints.string(&contact.name).is_some() => {
-                    if let [Some(from), Some(to)] = [a, b].map(|i| self.poses.get(i)) {
-                        let ends = [self.px(from.center), self.px(to.center)];
-                        sheet.segment(ends[0], ends[1], Line::thin(Ink::Body), 1.0);
+                    // It is tied to a particle, and to where it leaves a body with an outline, such as a pulley.
+                    let end = |i: usize| match self.scene.bodies[i].is_particle() {
+                        true => self.poses.get(i).map(|pose| pose.center),
+                        false => self.values.pair(&contact.at),
+                    };
+                    if let [Some(from), Some(to)] = [a, b].map(end) {
+                        sheet.segment(self.px(from), self.px(to), Line::thin(Ink::Body), 1.0);
                     }
                     continue;
                 }
