@@ -503,7 +503,7 @@ fn the_numbers_of_every_stage_are_printed() {
         "  acrobat  before    1.5      2            0          0          0             0",
         "  impulse of O on acrobat: (0, 3.16228) N s",
         "  it never gets to its end: it comes to rest before and turns back",
-        "omega = 3.16227766016838 1/s",
+        "omega = 3.16227766016838 rad/s",
     ] {
         assert!(text.lines().any(|l| l == line), "{line}\nis not in\n{text}");
     }

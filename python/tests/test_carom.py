@@ -23,7 +23,7 @@ FLAT = {"scene": STICK, "quantity": "omega"}
 def test_closed_forms_are_formulas_and_functions():
     stick = carom.derive(STICK)
     omega = stick["omega"]
-    assert stick.verified and omega.unit == "1/s"
+    assert stick.verified and omega.unit == "rad/s"
     assert carom.verify("3 v cos(theta)/(2 l)", omega.formula)
     v, theta = np.linspace(0, 2, 5), np.linspace(0, 1.5, 4)[:, None]
     values = omega(l=0.5, v=v, theta=theta)

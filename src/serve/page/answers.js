@@ -121,7 +121,7 @@ function known(one) {
     rests.length ? make("p", { class: "note" }, `Given that ${rests.join(", ")}.`) : null);
 }
 
-const number = (n) => (n.value === null ? (n.reason ?? "open") : `≈ ${digits(n.value)} ${n.unit === "1" ? "" : n.unit}`);
+const number = (n) => (n.value === null ? (n.reason ?? "open") : `≈ ${digits(n.value).replaceAll("-", "−")} ${n.unit === "1" ? "" : n.unit}`);
 
 // The numbers at the values of the sliders, from the geometry alone.
 export async function renumber() {
