@@ -41,9 +41,9 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     }
     let found = compare(&scene).map_err(|why| refused(why.to_string()))?;
     if let Some(path) = &args.output {
-        let svg = plot::curve(&friction::plane(&scene, &found));
-        let svg = svg.map_err(|why| refused(why.to_string()))?;
-        files::save(path, svg.as_bytes(), &[&args.scene])?;
+        let plane = plot::draw(&friction::plane(&scene, &found));
+        let plane = plane.map_err(|why| refused(why.to_string()))?;
+        files::save(path, plane.svg.as_bytes(), &[&args.scene])?;
     }
     print(&match args.format {
         Format::Text => friction::comparison(&scene, &found),

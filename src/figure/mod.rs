@@ -36,10 +36,12 @@ use crate::numeric::Motion;
 use crate::scene::{BlowImpulse, ContactLaw, KnownQuantity, Scene, Shape, StageKind};
 use label::advance;
 pub(crate) use label::visible;
-use place::Room;
+pub(crate) use place::{Room, Spot, Wish};
 #[cfg(feature = "png")]
 pub use png::{PngFault, png};
-use sheet::{Item, SMALL, Sheet};
+pub use sheet::Ink;
+use sheet::{Item, SMALL};
+pub(crate) use sheet::{Line, Sheet};
 use stage::Stage;
 pub use svg::escape;
 
@@ -423,30 +425,58 @@ fn finish(scene: &Scene, panels: Vec<Panel>) -> Drawing {
         caption.extend(panel.caption);
         alternatives.push(panel.alternative);
     }
-    let height = -top;
     let mut page = Sheet {
         items,
         ..Sheet::default()
     };
-    page.shift([0.0, height]);
-    let alternative = alternatives.join(" ");
+    page.shift([0.0, -top]);
     let title = if scene.title.is_empty() {
         "Collision"
     } else {
         &scene.title
     };
+    written(
+        &page,
+        [width, -top],
+        title,
+        caption,
+        &alternatives.join(" "),
+    )
+}
+
+/// A sheet as a picture, with a margin on all sides.
+pub(crate) fn framed(
+    mut sheet: Sheet,
+    title: &str,
+    caption: Vec<Piece>,
+    alternative: &str,
+) -> Drawing {
+    let room = sheet.room().unwrap_or(Room::around([0.0; 2], 0.0));
+    let page = room.grown(MARGIN);
+    sheet.shift([-page.low[0], -page.low[1]]);
+    written(&sheet, page.extent(), title, caption, alternative)
+}
+
+/// What lies on a page of this width and height, with its words.
+fn written(
+    page: &Sheet,
+    [width, height]: [f64; 2],
+    title: &str,
+    caption: Vec<Piece>,
+    alternative: &str,
+) -> Drawing {
     let svg = svg::write(&svg::Page {
         items: &page.items,
         width,
         height,
         title,
-        description: &alternative,
+        description: alternative,
     });
     Drawing {
         svg,
         tikz: tikz::write(&page.items),
         caption,
-        alternative: label::visible(&alternative),
+        alternative: label::visible(alternative),
     }
 }
 

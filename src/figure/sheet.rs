@@ -20,6 +20,10 @@ pub enum Ink {
     Dimension,
     /// Ground, walls and other things that do not move.
     Ground,
+    /// The lines that numbers along an axis stand at.
+    Grid,
+    /// A curve, by its number; after six the colors begin again.
+    Curve(usize),
 }
 
 /// How a line is drawn.
@@ -146,13 +150,14 @@ impl Line {
 }
 
 impl Sheet {
-    /// Draws a line through points; labels keep off it as much as `weight` says.
+    /// Draws a line through points; labels keep off it as much as `weight` says, and not at all for 0.
     pub fn path(&mut self, points: Vec<Pair>, closed: bool, line: Line, weight: f64) {
         let mut walls: Vec<(Pair, Pair, f64)> =
             points.windows(2).map(|w| (w[0], w[1], weight)).collect();
         if let (true, Some(first), Some(last)) = (closed, points.first(), points.last()) {
             walls.push((*last, *first, weight));
         }
+        walls.retain(|(.., weight)| *weight > 0.0);
         self.walls.extend(walls);
         self.items.push(Item::Path {
             points,
@@ -238,6 +243,17 @@ impl Sheet {
         });
         self.items.push(head(tip, along, 9.0, ink));
         self.kept.push(Room::around(tip, 5.0));
+    }
+
+    /// Writes a label at a point, with this share of its room to the left of it and below it; gives the room.
+    pub fn put(&mut self, label: Label, size: f64, at: Pair, share: Pair) -> Room {
+        let extent = extent(&label, size);
+        let low = [0, 1].map(|k| at[k] - share[k] * extent[k]);
+        let high = [0, 1].map(|k| low[k] + extent[k]);
+        let room = Room { low, high };
+        self.kept.push(room);
+        self.items.push(Item::text(label, size, false, room));
+        room
     }
 
     /// Asks for a label.

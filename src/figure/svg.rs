@@ -83,8 +83,15 @@ fn color(ink: Ink) -> &'static str {
         Ink::Motion => "#2f81d6",
         Ink::Impulse => "#d9534a",
         Ink::Dimension => "#858b93",
+        Ink::Grid => "#858b9340",
+        Ink::Curve(i) => CURVES[i % CURVES.len()],
     }
 }
+
+/// Colors of curves; TikZ knows them as `curve0` and on.
+pub(super) const CURVES: [&str; 6] = [
+    "#2f81d6", "#d9534a", "#2e965f", "#b06ecd", "#c4801c", "#1496a0",
+];
 
 /// A line through points, in the commands of a path.
 fn path(points: &[Pair], closed: bool, height: f64) -> String {

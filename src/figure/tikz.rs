@@ -13,7 +13,9 @@ use super::values::Pair;
 const SCALE: f64 = 0.72;
 
 /// The colors a document defines before its first figure.
-pub const COLORS: &str = "\\definecolor{motion}{HTML}{2F81D6}\n\\definecolor{impulse}{HTML}{D9534A}\n\\definecolor{dimension}{HTML}{858B93}\n";
+pub const COLORS: &str = "\\definecolor{motion}{HTML}{2F81D6}\n\\definecolor{impulse}{HTML}{D9534A}\n\\definecolor{dimension}{HTML}{858B93}\n\
+\\definecolor{curve0}{HTML}{2F81D6}\n\\definecolor{curve1}{HTML}{D9534A}\n\\definecolor{curve2}{HTML}{2E965F}\n\
+\\definecolor{curve3}{HTML}{B06ECD}\n\\definecolor{curve4}{HTML}{C4801C}\n\\definecolor{curve5}{HTML}{1496A0}\n";
 
 /// The picture; `y` grows upwards, as on the sheet.
 pub(super) fn write(items: &[Item]) -> String {
@@ -26,6 +28,9 @@ pub(super) fn write(items: &[Item]) -> String {
     out
 }
 
+/// Names of the colors of curves.
+const CURVES: [&str; 6] = ["curve0", "curve1", "curve2", "curve3", "curve4", "curve5"];
+
 fn at(p: &Pair) -> String {
     format!("({},{})", number(p[0]), number(p[1]))
 }
@@ -36,6 +41,8 @@ fn color(ink: Ink) -> &'static str {
         Ink::Motion => "motion",
         Ink::Impulse => "impulse",
         Ink::Dimension => "dimension",
+        Ink::Grid => "dimension!25",
+        Ink::Curve(i) => CURVES[i % CURVES.len()],
     }
 }
 

@@ -8,6 +8,7 @@ use super::{digits, latex, unicode};
 use crate::answer::{Answer, Check, Form};
 use crate::derive::friction::{Bound, Case, Table};
 use crate::expr::Expr;
+use crate::figure::{Ink, Label};
 use crate::formula::write_plain;
 use crate::plot::{Axis, Curve, Mark, Plot};
 use crate::scene::{Friction, Hypothesis, Scene};
@@ -480,7 +481,7 @@ pub fn plane(scene: &Scene, c: &Comparison) -> Plot {
         points.retain(|[x, y]| x.abs() <= side + slack && (-slack..=top + slack).contains(y));
         points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
         Curve {
-            label: label.into(),
+            label: Label::words(label),
             points,
         }
     };
@@ -491,7 +492,7 @@ pub fn plane(scene: &Scene, c: &Comparison) -> Plot {
     };
     let mut curves = vec![
         Curve {
-            label: String::from("friction cone"),
+            label: Label::words("friction cone"),
             points: vec![[-c.mu * reach, reach], [0.0, 0.0], [c.mu * reach, reach]],
         },
         line("sticking", s.a, s.b, s.tangential),
@@ -502,7 +503,7 @@ pub fn plane(scene: &Scene, c: &Comparison) -> Plot {
         .max_by(|a, b| a.1.impulse[1].total_cmp(&b.1.impulse[1]));
     if let Some((_, o)) = longest {
         curves.push(Curve {
-            label: String::from("path"),
+            label: Label::words("path"),
             points: o.corners.clone(),
         });
     }
@@ -510,10 +511,11 @@ pub fn plane(scene: &Scene, c: &Comparison) -> Plot {
     for (law, o) in outcomes() {
         let near = |m: &&mut Mark| (0..2).all(|i| (m.at[i] - o.impulse[i]).abs() <= 0.01 * top);
         match marks.iter_mut().find(near) {
-            Some(mark) => mark.label = format!("{}, {law}", mark.label),
+            Some(mark) => mark.label = Label::words(&format!("{}, {law}", mark.label.text())),
             None => marks.push(Mark {
                 at: o.impulse,
-                label: law.to_string(),
+                label: Label::words(law),
+                ink: Ink::Body,
             }),
         }
     }
@@ -521,12 +523,14 @@ pub fn plane(scene: &Scene, c: &Comparison) -> Plot {
     Plot {
         title: format!("Impulse at {contact}"),
         x: Axis {
-            label: String::from("P_t (N s)"),
+            label: Label::latex("P_t").then(Label::words(" (N s)")),
             range: Some([-side, side]),
+            ticks: Vec::new(),
         },
         y: Axis {
-            label: String::from("P_n (N s)"),
+            label: Label::latex("P_n").then(Label::words(" (N s)")),
             range: Some([0.0, top]),
+            ticks: Vec::new(),
         },
         curves,
         marks,

@@ -1,14 +1,13 @@
 //! Plots of a scene: curves sampled, zeros marked with their exact values, axes with symbols and units.
 //!
-//! In: the curves of [`crate::answer::graphs`] in closed form. Out: SVG with a caption.
+//! In: the curves of [`crate::answer::graphs`] in closed form. Out: a picture with a caption.
 
 use super::html::Picture;
-use super::unicode;
 use crate::answer::{Curve, Graph};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Point};
-use crate::figure::{Label, Piece};
-use crate::plot::{self, Axis, Mark, Plot, PlotFault};
+use crate::figure::{Ink, Label, Piece};
+use crate::plot::{self, Axis, Empty, Mark, Plot};
 use crate::scene::Scene;
 use crate::solution::Slot;
 
@@ -18,76 +17,71 @@ const POINTS: usize = 400;
 const MARKS: usize = 6;
 
 /// A plot as a picture.
-pub fn picture(scene: &Scene, graph: &Graph) -> Result<Picture, PlotFault> {
-    let variable = &graph.ask.against;
-    let symbol = unicode(scene, &Expr::symbol(variable));
+pub fn picture(scene: &Scene, graph: &Graph) -> Result<Picture, Empty> {
+    let formula = |e: &Expr| Label::formula(e, scene);
+    let variable = Expr::symbol(&graph.ask.against);
     let x = match &graph.ask.stands_for {
-        Some((formula, _)) => format!("{symbol} = {}", unicode(scene, formula)),
-        None => symbol.clone(),
+        Some((stands_for, _)) => equation(scene, &variable, stands_for),
+        None => formula(&variable),
     };
     let quantity = match &graph.ask.label {
-        Some(label) => label.clone(),
-        None => unicode(scene, &graph.ask.quantity),
+        Some(label) => Label::latex(&label.replace(' ', "\\ ")),
+        None => formula(&graph.ask.quantity),
     };
     let mut marks: Vec<Mark> = Vec::new();
     for (exact, at) in graph.curves.iter().flat_map(|c| &c.zeros) {
         let mark = Mark {
             at: [*at, 0.0],
-            label: format!("{symbol} = {}", unicode(scene, exact)),
+            label: equation(scene, &variable, exact),
+            ink: Ink::Body,
         };
         // Curves may cross the axis together.
         if !marks.contains(&mark) && marks.len() < MARKS {
             marks.push(mark);
         }
     }
+    let [from, to] = graph.range;
     let curves = graph.curves.iter().map(|c| plot::Curve {
         label: label(scene, c),
-        points: plot::sample(
-            |x| value(graph, c, x),
-            graph.range[0],
-            graph.range[1],
-            POINTS,
-        ),
+        points: plot::sample(|x| value(graph, c, x), from, to, POINTS),
     });
     let title = match graph.ask.title.as_str() {
-        "" => format!("{quantity} against {x}"),
+        "" => format!("{} against {}", quantity.text(), x.text()),
         title => title.to_string(),
     };
-    let zeros: Vec<String> = marks.iter().map(|m| m.label.clone()).collect();
     let whole = Plot {
-        title: title.clone(),
+        title,
         x: Axis {
-            label: with_unit(&x, &graph.x),
+            label: with_unit(x, &graph.x),
             range: Some(graph.range),
+            ticks: Vec::new(),
         },
         y: Axis {
-            label: with_unit(&quantity, &graph.y),
+            label: with_unit(quantity, &graph.y),
             range: None,
+            ticks: Vec::new(),
         },
         curves: curves.collect(),
         marks,
     };
-    let mut caption = vec![Piece::Words(title)];
-    for (i, zero) in zeros.iter().enumerate() {
+    let drawing = plot::draw(&whole)?;
+    let mut caption = drawing.caption;
+    for (i, zero) in whole.marks.iter().enumerate() {
         let lead = if i == 0 { "; zero at " } else { " and " };
         caption.push(Piece::Words(lead.to_string()));
-        caption.push(Piece::Symbol(Label::latex(&zero.replace(' ', "\\ "))));
+        caption.push(Piece::Symbol(zero.label.clone()));
     }
-    let end = if zeros.is_empty() { "." } else { ", exactly." };
+    let end = if whole.marks.is_empty() {
+        "."
+    } else {
+        ", exactly."
+    };
     caption.push(Piece::Words(end.to_string()));
-    let curves: Vec<&str> = whole.curves.iter().map(|c| c.label.as_str()).collect();
-    let curves = curves.join("; ");
     Ok(Picture {
         slot: Slot::Plot,
-        svg: plot::curve(&whole)?,
-        tikz: plot::tikz(&whole)?,
-        alternative: match zeros.as_slice() {
-            [] => format!("Plot of {quantity} against {x}. Curves: {curves}."),
-            zeros => format!(
-                "Plot of {quantity} against {x}. Curves: {curves}. Zero at {}.",
-                zeros.join(" and ")
-            ),
-        },
+        svg: drawing.svg,
+        tikz: drawing.tikz,
+        alternative: format!("Plot of {}", drawing.alternative),
         caption,
     })
 }
@@ -98,18 +92,25 @@ fn value(graph: &Graph, curve: &Curve, x: f64) -> f64 {
     curve.formula.evaluate(&point).unwrap_or(f64::NAN)
 }
 
-fn label(scene: &Scene, curve: &Curve) -> String {
-    let each = curve.with.iter().map(|(s, v)| {
-        let (s, v) = (unicode(scene, &Expr::symbol(s)), unicode(scene, v));
-        format!("{s} = {v}")
-    });
-    each.collect::<Vec<_>>().join(", ")
+fn equation(scene: &Scene, left: &Expr, right: &Expr) -> Label {
+    let [left, right] = [left, right].map(|e| Label::formula(e, scene));
+    left.then(Label::words(" = ")).then(right)
 }
 
-fn with_unit(label: &str, dimension: &Dimension) -> String {
-    if dimension.is_none() {
-        label.to_string()
-    } else {
-        format!("{label} ({})", dimension.si())
+fn label(scene: &Scene, curve: &Curve) -> Label {
+    let mut out = Label::default();
+    for (symbol, value) in &curve.with {
+        if !out.runs.is_empty() {
+            out = out.then(Label::words(", "));
+        }
+        out = out.then(equation(scene, &Expr::symbol(symbol), value));
+    }
+    out
+}
+
+fn with_unit(label: Label, dimension: &Dimension) -> Label {
+    match dimension.is_none() {
+        true => label,
+        false => label.then(Label::words(&format!(" ({})", dimension.si()))),
     }
 }

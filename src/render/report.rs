@@ -5,7 +5,8 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::mathml::escape;
-use crate::plot::{Axis, Curve, Plot, curve};
+use crate::figure::Label;
+use crate::plot::{Axis, Curve, Plot, draw};
 use crate::report::measure::{Cell, Swept};
 use crate::report::verdict::{nanoseconds, short};
 use crate::report::{BINS, Report, Route};
@@ -244,9 +245,9 @@ fn family_plot(report: &Report, family: &Swept) -> Option<String> {
         .into_iter()
         .map(|(routes, points)| Curve {
             label: match routes.as_slice() {
-                [one] => one.short().into(),
-                [one, rest @ ..] => format!("{} +{}", one.short(), rest.len()),
-                [] => String::new(),
+                [one] => Label::words(one.short()),
+                [one, rest @ ..] => Label::words(&format!("{} +{}", one.short(), rest.len())),
+                [] => Label::default(),
             },
             points,
         })
@@ -258,24 +259,26 @@ fn family_plot(report: &Report, family: &Swept) -> Option<String> {
         .map(|r| [r.x, level(r.condition)])
         .collect();
     curves.push(Curve {
-        label: "cond·u".into(),
+        label: Label::words("cond·u"),
         points: data,
     });
     let single = family.rows.len() < 2;
     let plot = Plot {
         title: format!("{}: {}", family.name, report.title),
         x: Axis {
-            label: family.axis.clone(),
+            label: Label::words(&family.axis),
             range: single.then(|| [family.rows[0].x - 1.0, family.rows[0].x + 1.0]),
+            ticks: Vec::new(),
         },
         y: Axis {
-            label: format!("{}: log10 of error [ulp]", family.name),
+            label: Label::words(&format!("{}: log10 of error [ulp]", family.name)),
             range: Some([-1.2, 17.5]),
+            ticks: Vec::new(),
         },
         curves,
         marks: Vec::new(),
     };
-    curve(&plot).ok()
+    Some(draw(&plot).ok()?.svg)
 }
 
 fn histogram(out: &mut String, report: &Report) {
