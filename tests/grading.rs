@@ -358,6 +358,27 @@ fn a_slash_without_brackets_is_refused_where_authors_ask_for_brackets() {
     );
 }
 
+/// A formula of answers comes out wrong where a belief makes the answers wrong.
+#[test]
+fn beliefs_are_tried_for_formulas_of_answers() {
+    let text = fs::read_to_string(root().join("derivations/book/falling-stick.json"));
+    let mut file: serde_json::Value =
+        serde_json::from_str(&text.expect("a scene")).expect("a scene as JSON");
+    file["questions"]["tip"] = serde_json::json!({"value": "omega*l"});
+    let sheet = keys(scene::read(&file.to_string()).expect("a sound scene"));
+    let entry = sheet.entry("tip").expect("a question of the scene");
+    for (answer, verdict, first) in [
+        ("3*v*cos(theta)/2", Verdict::Equivalent, None),
+        ("12 v cosθ/13", Verdict::Different, Some("LENGTH_HALVED")),
+        ("6 v cosθ/(1+3 cos²θ)", Verdict::Different, Some("SLIDES")),
+        ("7 v cosθ/2", Verdict::Different, Some("FACTOR")),
+    ] {
+        let grade = sheet.judge(&entry, answer, &Options::default());
+        let code = grade.diagnosis.first().map(|d| d.code);
+        assert_eq!((grade.verdict, code), (verdict, first), "{answer}");
+    }
+}
+
 /// SplitMix64.
 fn next(state: &mut u64) -> u64 {
     *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);

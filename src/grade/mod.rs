@@ -157,12 +157,15 @@ pub fn key_of(content: Content, question: &Question) -> Key {
 }
 
 fn from_reading(mut reading: Reading, question: &Question) -> Key {
-    if let Some(content) = read::sizes(&reading.content, question) {
-        reading.content = content;
-    }
     let declares_e = question.symbols.iter().any(|g| &*g.name == "e");
     let mut question = question.clone();
     let mut names = reading.symbols();
+    let components = names.iter().filter(|name| formula::is_component(name));
+    let declared = question.symbols.iter().map(|g| &g.name);
+    if let Some(content) = read::sizes(&reading.content, components.chain(declared)) {
+        reading.content = content;
+        names = reading.symbols();
+    }
     for given in question.symbols.iter().chain(&question.asked) {
         names.remove(&given.name);
     }
@@ -270,7 +273,8 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         return unreadable(fault);
     }
     unit::metres(key, &mut reading);
-    if let Some(content) = read::sizes(&reading.content, &key.question) {
+    let names = key.question.symbols.iter().map(|g| &g.name);
+    if let Some(content) = read::sizes(&reading.content, names) {
         reading.content = content;
     }
     if matches!(reading.content, Content::Relations(..)) {

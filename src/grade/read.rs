@@ -172,22 +172,27 @@ pub(super) fn differentials(key: &Key, reading: &mut Reading) {
     }
 }
 
-/// The size of a vector by its letter without the arrow, `ω²` for `ω⃗·ω⃗`, where the components of that vector occur and the
+/// The size of a vector by its letter without the arrow, `ω²` for `ω⃗·ω⃗`, where `components` of that vector are known and the
 /// letter is nothing else.
-pub(super) fn sizes(content: &Content, vectors: &Question) -> Option<Content> {
+pub(super) fn sizes<'a>(
+    content: &Content,
+    known: impl Iterator<Item = &'a Symbol>,
+) -> Option<Content> {
+    let (components, known): (Vec<&Symbol>, Vec<&Symbol>) =
+        known.partition(|name| formula::is_component(name));
+    if components.is_empty() {
+        return None;
+    }
     let mut names = std::collections::BTreeSet::new();
     content.each(&mut |e| names.append(&mut e.symbols()));
-    let known = |name: &str| vectors.symbols.iter().any(|g| *g.name == *name);
     let size = |name: Symbol| {
         let arrow = formula::with_arrow(&name)?;
         let along = ["x", "y", "z"].map(|axis| format!("{arrow}_{axis}"));
-        let here = along.iter().any(|c| known(c) || names.contains(&**c));
-        here.then(|| {
-            let squares = along.map(|c| Expr::symbol(&c).powi(2));
-            (name, Expr::sum(squares.to_vec()).sqrt())
-        })
+        let here = components.iter().any(|c| along.contains(&c.to_string()));
+        let squares = along.map(|c| Expr::symbol(&c).powi(2));
+        here.then(|| (name, Expr::sum(squares.to_vec()).sqrt()))
     };
-    let free = names.iter().filter(|name| !known(name)).cloned();
+    let free = names.into_iter().filter(|name| !known.contains(&name));
     let same: BTreeMap<Symbol, Expr> = free.filter_map(size).collect();
     (!same.is_empty()).then(|| content.map(&|e| e.substitute(&same)))
 }

@@ -28,7 +28,7 @@ pub(crate) const MOST_UNDER_ROOT: usize = 2_000;
 const MOST_BITS: u64 = 20_000;
 
 /// A polynomial with integer coefficients. Invariant: terms strictly descending, no zero coefficient.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Poly {
     stride: usize,
     exps: Mono,
@@ -37,6 +37,20 @@ pub(crate) struct Poly {
 
 /// Most polynomials are a single term, which costs no allocation.
 type Coeffs = SmallVec<[Int; 1]>;
+
+impl Clone for Poly {
+    /// Words are copied at once; a derived clone takes them one by one.
+    fn clone(&self) -> Poly {
+        Poly {
+            stride: self.stride,
+            exps: Mono::from_slice(&self.exps),
+            coeffs: match self.coeffs.as_slice() {
+                [one] => smallvec![one.clone()],
+                all => all.into(),
+            },
+        }
+    }
+}
 
 impl Poly {
     pub fn zero() -> Poly {
@@ -148,6 +162,20 @@ impl Poly {
 
     pub fn sub(&self, other: &Poly) -> Poly {
         self.combine(other, true)
+    }
+
+    /// The sum, in place where all terms of the other one come behind.
+    pub fn plus(mut self, other: Poly) -> Poly {
+        let last = self.len().checked_sub(1);
+        let behind = last.is_some_and(|last| {
+            self.stride == other.stride && !other.is_zero() && self.mono(last) > other.mono(0)
+        });
+        if !behind {
+            return self.add(&other);
+        }
+        self.exps.extend_from_slice(&other.exps);
+        self.coeffs.extend(other.coeffs);
+        self
     }
 
     fn combine(&self, other: &Poly, minus: bool) -> Poly {
@@ -268,7 +296,7 @@ impl Poly {
             2..=3 => {
                 let mut total = large.mul_term(small.mono(0), &small.coeffs[0])?;
                 for i in 1..small.len() {
-                    total = total.add(&large.mul_term(small.mono(i), &small.coeffs[i])?);
+                    total = total.plus(large.mul_term(small.mono(i), &small.coeffs[i])?);
                 }
                 return total.checked();
             }

@@ -214,22 +214,21 @@ impl Exact<'_> {
     /// Whether two quotients are equal, and their divisors are 0 at the same points of the domain.
     fn equal(&self, a: &Quotient, b: &Quotient) -> Option<()> {
         // With equal factors left out on both sides.
-        let (mut left, mut right) = (a.above.clone(), b.above.clone());
-        for (factor, power) in &b.factors {
-            let mine = a.factors.iter().find(|(f, _)| f == factor);
-            let extra = power.saturating_sub(mine.map_or(0, |m| m.1));
-            left = times(&left, &raised(factor, extra)?)?;
-        }
-        for (factor, power) in &a.factors {
-            let theirs = b.factors.iter().find(|(f, _)| f == factor);
-            let extra = power.saturating_sub(theirs.map_or(0, |t| t.1));
-            right = times(&right, &raised(factor, extra)?)?;
-        }
         let common = a.number.gcd(&b.number);
-        left = left.mul_term(&b.monomial, &(&b.number / &common)).ok()?;
-        right = right.mul_term(&a.monomial, &(&a.number / &common)).ok()?;
-        let difference = left.sub(&right);
-        if !self.reduced(&difference)?.is_zero() {
+        let over = |mine: &Quotient, other: &Quotient| {
+            let number = &other.number / &common;
+            let mut above = mine.above.mul_term(&other.monomial, &number).ok()?;
+            for (factor, power) in &other.factors {
+                let own = mine.factors.iter().find(|(f, _)| f == factor);
+                let extra = power.saturating_sub(own.map_or(0, |m| m.1));
+                if extra > 0 {
+                    above = times(&above, &raised(factor, extra)?)?;
+                }
+            }
+            Some(above)
+        };
+        let difference = over(a, b)?.sub(&over(b, a)?);
+        if !difference.is_zero() && !self.reduced(&difference)?.is_zero() {
             return None;
         }
         let same = self.divides(a, b)? && self.divides(b, a)?;
@@ -349,7 +348,7 @@ impl Builder for Exact<'_> {
         let level = a.number == b.number && a.monomial == b.monomial && a.factors == b.factors;
         if level {
             return Some(Quotient {
-                above: a.above.add(&b.above),
+                above: a.above.plus(b.above),
                 ..a
             });
         }
@@ -368,12 +367,14 @@ impl Builder for Exact<'_> {
             for (factor, power) in &factors {
                 let mine = q.factors.iter().find(|(f, _)| f == factor);
                 let missing = power - mine.map_or(0, |m| m.1);
-                above = times(&above, &raised(factor, missing)?)?;
+                if missing > 0 {
+                    above = times(&above, &raised(factor, missing)?)?;
+                }
             }
             Some(above)
         };
         Some(Quotient {
-            above: over(&a)?.add(&over(&b)?),
+            above: over(&a)?.plus(over(&b)?),
             number,
             monomial,
             factors,
@@ -407,11 +408,10 @@ impl Builder for Exact<'_> {
         } else {
             base
         };
-        let mut out = base.clone();
-        for _ in 1..k {
-            out = self.product(out, base.clone())?;
-        }
-        Some(out)
+        // The last factor is moved, the others are copies.
+        let mut factors = std::iter::repeat_n(base, k as usize);
+        let first = factors.next()?;
+        factors.try_fold(first, |out, factor| self.product(out, factor))
     }
 
     fn turn(&mut self, function: Function, turn: &Turn) -> Option<Quotient> {

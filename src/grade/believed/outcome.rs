@@ -4,7 +4,7 @@
 
 use super::super::belief::{Change, Slip};
 use super::Written;
-use crate::expr::{Point, Rational};
+use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::numeric::{self, Answer, Given, Motion, Number, Solution, System, Unknown};
 use crate::scene::{Ask, EnergyWhen, ImpulseAt};
 
@@ -60,6 +60,10 @@ fn read_off<T: Number>(
     mut given: Given<T>,
     motion: &Motion<T>,
 ) -> Option<Vec<T>> {
+    if let Ask::Value { formula, with, .. } = written.ask {
+        return (with.is_empty())
+            .then(|| in_formula(formula, written, slip, point, &given, motion))?;
+    }
     let mut ask = written.ask.clone();
     for change in &slip.changes {
         match change {
@@ -97,6 +101,37 @@ fn read_off<T: Number>(
             None => vec![x, y],
         }),
     }
+}
+
+/// A formula of other answers, each as it comes out under the slip.
+fn in_formula<T: Number>(
+    formula: &Expr,
+    written: &Written,
+    slip: &Slip,
+    point: &Point<T>,
+    given: &Given<T>,
+    motion: &Motion<T>,
+) -> Option<Vec<T>> {
+    let (used, mut there) = (formula.symbols(), point.clone());
+    for question in written.scene.asked_of_impact() {
+        let names = ["", "_x", "_y"].map(|part| Symbol::from(format!("{}{part}", question.name)));
+        if !names.iter().any(|name| used.contains(name)) {
+            continue;
+        }
+        let inner = Written {
+            scene: written.scene,
+            ask: &question.ask,
+            component: None,
+            values: Vec::new(),
+            rounding: written.rounding,
+        };
+        let [whole, x, y] = names;
+        match <[T; 2]>::try_from(read_off(&inner, slip, point, given.clone(), motion)?) {
+            Ok(values) => there.values.extend([x, y].into_iter().zip(values)),
+            Err(one) => there.values.extend([whole].into_iter().zip(one)),
+        }
+    }
+    formula.evaluate(&there).map(|value| vec![value])
 }
 
 /// Energies with one part left out.
