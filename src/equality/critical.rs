@@ -7,7 +7,7 @@
 use num_traits::{One, Zero};
 
 use super::Assumption;
-use super::line::{doubles, rough_zeros};
+use super::line::{doubles, lowest, rough_zeros};
 use super::refute::sign_at;
 use crate::algebra::{Field, Sign};
 use crate::domain::{Coordinate, Domain, Domains, Limit, Roles, Sample};
@@ -23,6 +23,9 @@ const ARGUMENTS: usize = 8;
 const SYMBOLS: usize = 6;
 /// Most points walked from.
 const STARTS: usize = 10;
+/// Points from which the least value of an expression is looked for, and rounds through its symbols.
+const DESCENTS: usize = 3;
+const ROUNDS: usize = 3;
 /// Most parts of a domain that are looked at.
 const PARTS: usize = 400;
 
@@ -299,6 +302,8 @@ pub(super) fn tested(
                 .take(1)
                 .flat_map(|start| corners(e, start, domains)),
         );
+        let starts = near.iter().take(DESCENTS);
+        all.extend(starts.map(|start| descended(e, start, domains, roles)));
         for start in near {
             for name in free_symbols(std::slice::from_ref(e), domains, start) {
                 if let (Some(domain), Some(Coordinate::Number(_))) =
@@ -319,6 +324,38 @@ pub(super) fn tested(
         left.push(assumption.clone());
     }
     Ok(left)
+}
+
+/// The point to which going down leads: symbol by symbol to where the expression is least along the domain.
+fn descended(e: &Expr, start: &Sample, domains: &Domains, roles: &Roles) -> Sample {
+    let mut at = start.clone();
+    let names = free_symbols(std::slice::from_ref(e), domains, start);
+    for name in names.iter().cycle().take(ROUNDS * names.len()) {
+        let here = doubles(&at);
+        let Some(domain) = domains.symbols.get(name) else {
+            continue;
+        };
+        let beside = |x: f64, side: f64| {
+            let value = from_f64(x + side * 1e-3 * x.abs().max(1e-2))?;
+            Some(Limit::number(value, false))
+        };
+        let role = roles.symbols.get(name).cloned().unwrap_or_default();
+        let value = lowest(e, name, &here, domain).and_then(|x| {
+            let part = Domain {
+                low: beside(x, -1.0),
+                high: beside(x, 1.0),
+            };
+            crate::domain::within(&part, domain, &role)
+        });
+        let Some(value) = value else { continue };
+        let mut moved = at.clone();
+        moved.coordinates.insert(name.clone(), value);
+        let [old, new] = [here, doubles(&moved)].map(|point| e.evaluate(&point));
+        if new.is_some() && new < old {
+            at = moved;
+        }
+    }
+    at
 }
 
 /// A point with the numbers of an expression led towards the ends of their domains in every combination: what is linear in

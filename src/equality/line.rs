@@ -91,6 +91,17 @@ pub(super) fn rough_zeros(f: &Expr, name: &Symbol, at: &Point<f64>, domain: &Dom
     out
 }
 
+/// Where a formula is least along a symbol, roughly.
+pub(super) fn lowest(f: &Expr, name: &Symbol, at: &Point<f64>, domain: &Domain) -> Option<f64> {
+    let mut point = at.clone();
+    let values = grid(domain).into_iter().filter_map(|x| {
+        point.values.insert(name.clone(), x);
+        Some((x, f.evaluate(&point).filter(|v| v.is_finite())?))
+    });
+    let least = values.min_by(|(_, v), (_, w)| v.total_cmp(w));
+    least.map(|(x, _)| x)
+}
+
 type Value<'a> = &'a mut dyn FnMut(f64) -> Option<f64>;
 
 /// Where a function changes sign between two numbers.

@@ -1,6 +1,7 @@
 //! Functions and roots, and how far they reach without brackets.
 
 use super::fault::{Fault, Faulty};
+use super::inverse::inverse;
 use super::lexer::Tok;
 use super::note::Remark;
 use super::parser::Parser;
@@ -156,24 +157,13 @@ impl Parser<'_> {
             .as_ref()
             .and_then(Written::literal)
             .is_some_and(|k| k.value == ratio(-1, 1));
-        let inverse = match function {
-            Function::Sin => Some(Function::Asin),
-            Function::Cos => Some(Function::Acos),
-            Function::Tan => Some(Function::Atan),
-            _ => None,
-        };
         let hyperbolic = matches!(function, Function::Sinh | Function::Cosh | Function::Tanh);
-        if minus_one && hyperbolic && !reciprocal {
-            return Ok(inverse_hyperbolic(function, argument, start, stop));
-        }
-        if let (true, Some(inverse), false) = (minus_one, inverse, reciprocal) {
+        if minus_one && (hyperbolic || trigonometric) {
             let raised_end = exponent.map_or(end, |e| e.end);
-            self.lexer.note(Remark::Inverse, start, start, raised_end);
-            return Ok(Written::new(
-                Shape::Call(inverse, Box::new(argument)),
-                start,
-                stop,
-            ));
+            if !hyperbolic {
+                self.lexer.note(Remark::Inverse, start, start, raised_end);
+            }
+            return Ok(inverse(function, reciprocal, argument, [start, stop]));
         }
         let argument = Box::new(argument);
         let shape = if reciprocal {
@@ -190,23 +180,6 @@ impl Parser<'_> {
             ),
             None => called,
         })
-    }
-
-    /// `arsinh x` is ln(x + √(x² + 1)), `arcosh x` is ln(x + √(x² − 1)), `artanh x` is half of ln((1 + x)/(1 − x)).
-    pub(super) fn area(&mut self, function: Function, start: usize, end: usize) -> Faulty<Written> {
-        let called = self.call(function, false, start, end)?;
-        match called.shape {
-            Shape::Call(_, x) => Ok(inverse_hyperbolic(function, *x, start, called.end)),
-            Shape::Power(base, exponent) => {
-                let Shape::Call(_, x) = base.shape else {
-                    return Err(Fault::new("this exponent is not read", start, end));
-                };
-                let inner = inverse_hyperbolic(function, *x, start, called.end);
-                let shape = Shape::Power(Box::new(inner), exponent);
-                Ok(Written::new(shape, start, called.end))
-            }
-            _ => Err(Fault::new("an argument is missing", start, end)),
-        }
     }
 
     /// `root(x, n)` is the root of index n.
@@ -364,33 +337,6 @@ impl Parser<'_> {
             _ => false,
         }
     }
-}
-
-/// The inverse of a hyperbolic function, as a logarithm.
-fn inverse_hyperbolic(function: Function, x: Written, start: usize, end: usize) -> Written {
-    let at = |shape| Written::new(shape, start, end);
-    let number = |k| whole_number(k, start, end);
-    let log = |w: Written| at(Shape::Call(Function::Ln, Box::new(w)));
-    let x = at(Shape::Bracket(Box::new(x)));
-    if function == Function::Tanh {
-        let sum = |sign| {
-            let terms = vec![(Sign::Plus, number(1)), (sign, x.clone())];
-            Box::new(at(Shape::Sum(terms)))
-        };
-        let quotient = at(Shape::Fraction(sum(Sign::Plus), sum(Sign::Minus)));
-        return at(Shape::Fraction(
-            Box::new(log(quotient)),
-            Box::new(number(2)),
-        ));
-    }
-    let sign = match function {
-        Function::Sinh => Sign::Plus,
-        _ => Sign::Minus,
-    };
-    let square = at(Shape::Power(Box::new(x.clone()), Box::new(number(2))));
-    let under = at(Shape::Sum(vec![(Sign::Plus, square), (sign, number(1))]));
-    let root = at(Shape::Root(None, Box::new(under)));
-    log(at(Shape::Sum(vec![(Sign::Plus, x), (Sign::Plus, root)])))
 }
 
 /// Whether the text goes on with a whole number that nothing multiplies.

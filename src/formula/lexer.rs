@@ -29,7 +29,7 @@ pub(crate) enum Tok {
     Logarithm(i64),
     /// The logarithm to the base that follows as an argument.
     LogarithmTo,
-    /// The inverse of a hyperbolic function.
+    /// The inverse of a hyperbolic function, or of the reciprocal of a sine, cosine or tangent.
     Area(Function),
     /// `root(x, n)`.
     RootOf,

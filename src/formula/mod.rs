@@ -12,6 +12,7 @@ mod differential;
 mod digits;
 mod echo;
 mod fault;
+mod inverse;
 mod lexer;
 mod measured;
 mod name;

@@ -28,6 +28,8 @@ pub struct Symbols {
     declared: Vec<Declared>,
     keys: FxHashMap<String, usize>,
     bases: FxHashSet<String>,
+    /// Names with an index of one letter, without the mark between: `vy` for v_y.
+    joined: FxHashSet<String>,
     longest_base: usize,
     open: bool,
     lists: bool,
@@ -115,6 +117,19 @@ impl Symbols {
             }
         }
         self.keys.insert(name.to_string(), index);
+        if let [base, b'_', letter] = name.as_bytes()
+            && base.is_ascii_alphabetic()
+            && letter.is_ascii_alphabetic()
+        {
+            let joined: String = [char::from(*base), char::from(*letter)].iter().collect();
+            let function = super::words::function(&joined).is_some() || joined == "pi";
+            let unit = crate::dimension::unit(&joined).is_ok();
+            if !function && !unit && !is_greek(&joined) {
+                self.keys.entry(joined.clone()).or_insert(index);
+                self.add_base(&joined);
+                self.joined.insert(joined);
+            }
+        }
         if name.len() > 1 && name.bytes().all(|b| b.is_ascii_alphabetic()) {
             self.add_base(name);
         }
@@ -145,6 +160,13 @@ impl Symbols {
     /// Whether some declared name starts with this word of letters as its base.
     pub(crate) fn has_base(&self, word: &str) -> bool {
         !self.bases.is_empty() && self.bases.contains(word)
+    }
+
+    /// Whether a word is a declared name only by an index that runs into it, and one of its letters is a name by itself: then
+    /// it is a product.
+    pub(crate) fn is_product(&self, word: &str) -> bool {
+        let letter = |at: usize| self.find(&word[at..=at]).is_some();
+        self.joined.contains(word) && (letter(0) || letter(1))
     }
 
     /// The declared name that looks most like `name`, when one is near.

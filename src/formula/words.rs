@@ -76,7 +76,7 @@ impl Lexer<'_> {
         }
         for length in (1..=run.min(self.symbols.longest_word())).rev() {
             let word = &rest[..length];
-            let base = length == 1 || self.symbols.has_base(word);
+            let base = length == 1 || self.symbols.has_base(word) && !self.symbols.is_product(word);
             if base && let Some(tok) = self.declared_name(start, start + length) {
                 return Ok(tok);
             }
@@ -538,6 +538,9 @@ pub(super) fn function(word: &str) -> Option<Tok> {
         b"asinh" | b"arsinh" | b"arcsinh" => Tok::Area(Sinh),
         b"acosh" | b"arcosh" | b"arccosh" => Tok::Area(Cosh),
         b"atanh" | b"artanh" | b"arctanh" => Tok::Area(Tanh),
+        b"acsc" | b"arccsc" => Tok::Area(Sin),
+        b"asec" | b"arcsec" => Tok::Area(Cos),
+        b"acot" | b"arccot" | b"arcctg" => Tok::Area(Tan),
         b"sech" => Tok::Reciprocal(Cosh),
         b"csch" | b"cosech" => Tok::Reciprocal(Sinh),
         b"coth" => Tok::Reciprocal(Tanh),

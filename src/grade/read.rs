@@ -124,11 +124,12 @@ fn is_size(side: &str) -> bool {
     bars.iter().any(|bar| side.starts_with(bar)) && !side.contains(['+', '-'])
 }
 
-/// An answer whose unit a sign ties to its number, or brackets enclose: `9.81*m/s^2`, `5 (m/s)`.
+/// An answer whose unit a sign ties to its number, or brackets enclose: `9.81*m/s^2`, `5 (m/s)`; and `2.4 s-1`.
 fn unit_apart(key: &Key, text: &str) -> Option<Reading> {
     let quantity = |from: usize, to: usize, last: bool| {
         let mut text = text.to_string();
-        text.replace_range(from..to, &" ".repeat(to - from));
+        let instead = if &text[from..to] == "s-1" { "/s" } else { "" };
+        text.replace_range(from..to, &format!("{instead:width$}", width = to - from));
         if last {
             text.truncate(text.trim_end().len() - 1);
         }
@@ -136,7 +137,7 @@ fn unit_apart(key: &Key, text: &str) -> Option<Reading> {
         let plain = matches!(reading.content.answer(), Content::Quantity(_));
         (plain && reading.symbols().is_empty()).then_some(reading)
     };
-    let signs = ["*", "·", "\\cdot", "\\times"];
+    let signs = ["s-1", "*", "·", "\\cdot", "\\times"];
     let mut places = signs
         .iter()
         .flat_map(|sign| text.match_indices(sign).take(3));
