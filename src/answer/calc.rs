@@ -140,6 +140,11 @@ pub fn essential(e: &Expr, domains: &Domains) -> Expr {
     let mut minus = false;
     let mut rest = Vec::new();
     for f in factors {
+        // One over a quantity has its sign.
+        let f = match f.node() {
+            Node::Power(base, k) if *k == Expr::from(-1) => base.clone(),
+            _ => f,
+        };
         match sign(&f, domains) {
             Seen::Proved(Sign::Positive) => {}
             Seen::Proved(Sign::Negative) => minus = !minus,

@@ -324,7 +324,8 @@ fn replay(
     let points: Vec<Point<Rational>> = match scene.friction() {
         None => (1..=POINTS).map(random).collect(),
         Some(_) => {
-            let seeds = (1..=SEEDS).map(random);
+            let wide = |seed| numeric::point_of_any_size(&needed, &scene.domains, seed);
+            let seeds = (1..=SEEDS).map(random).chain((1..=SEEDS).map(wide));
             // The values of the scene show a case that few points of the domain have.
             let own = numeric::exact_values(scene).ok();
             let fits = |p: &Point<Rational>| mode.is_some() && does(scene, p).as_deref() == mode;
@@ -513,6 +514,23 @@ fn symbols_at<T: Number + PartialOrd>(
         let Meaning::Asked(ask, axis) = meaning else {
             continue;
         };
+        // One component may be determined where the other is not.
+        let component = match (ask, axis) {
+            (
+                Ask::Impulse {
+                    from,
+                    on,
+                    along: None,
+                },
+                Some(axis),
+            ) => Some(Ask::Impulse {
+                from: *from,
+                on: *on,
+                along: Some([0, 1].map(|k| Expr::from(i64::from(k == *axis)))),
+            }),
+            _ => None,
+        };
+        let ask = component.as_ref().unwrap_or(ask);
         let value = match (numeric::answer(ask, point, &given, &motion), axis) {
             (Ok(Answer::Scalar(value)), _) => value,
             (Ok(Answer::Vector([x, _])), Some(0)) => x,

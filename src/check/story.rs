@@ -19,7 +19,9 @@ use crate::numeric::{self, Answer};
 use crate::scene::{Contact, ContactLaw, Mode, OneSided, Parameter, Scene, StageKind};
 
 /// Points looked at before a motion that does not get to its end is given up.
-const TRIES: u64 = 60;
+const TRIES: u64 = 120;
+/// The first of them are of ordinary size, the others of all sizes.
+const ORDINARY: u64 = 40;
 /// Relative difference between what is handed on and what is found.
 const CLOSE: f64 = 1e-7;
 
@@ -186,7 +188,11 @@ pub(super) fn replay(
         if points.len() as u64 >= POINTS && compared.iter().all(|c| *c) {
             break;
         }
-        let point = numeric::random_point(&needed, &scene.domains, seed);
+        let draw = match seed {
+            ..=ORDINARY => numeric::random_point,
+            _ => numeric::point_of_any_size,
+        };
+        let point = draw(&needed, &scene.domains, seed);
         let mut doubles = numeric::rounded(&point);
         let Ok(followed) = follow::follow(scene, &doubles) else {
             continue;

@@ -13,10 +13,10 @@ use crate::algebra::{Field, Sign};
 use crate::expr::{Expr, Function, Node, Symbol, Vector, cross, dot, minus};
 use crate::formula::Relation;
 use crate::laws::Affine;
-use crate::laws::friction::{ModeLaw, Side, When, modes, side, stopping_ratio};
+use crate::laws::friction::{Closing, ModeLaw, Side, When, modes, side, stopping_ratio};
 use crate::scene::{
-    Ask, Body, Condition, ContactLaw, ContactSpace, Decided, Friction, FrictionEvent, Hypothesis,
-    Mode, Question, Scene,
+    ALONE, Ask, Body, Condition, ContactLaw, ContactSpace, Decided, Friction, FrictionEvent,
+    Hypothesis, Mode, Question, Scene, beside_friction,
 };
 
 /// Everything known of a contact with friction before values are given.
@@ -39,8 +39,8 @@ pub struct Table {
     /// Number of modes that the domain rules out.
     pub ruled_out: usize,
     /// The least |P_t|/P_n of an impulse that stops the contact, with the sign of −P_t: what sticking without rebound needs,
-    /// whatever the law.
-    pub stopping_ratio: Expr,
+    /// whatever the law; `None` where the contact can move in one way only, so that no one impulse stops it.
+    pub stopping_ratio: Option<Expr>,
     /// |b|/a: with less friction a contact whose slip has ended does not hold; `None` where its sign is not known.
     pub holding: Option<Expr>,
     /// The coefficient of friction from which the contact jams while it slips (Painlevé), c/(s b); `None` where it never
@@ -67,6 +67,8 @@ pub struct Case {
     pub impulse: [Expr; 2],
     /// The scene with the mode's two conditions in place of the law.
     pub scene: Scene,
+    /// The scene up to where slip ends on the way; `None` where it lasts, or the law has no path.
+    pub slip_ends: Option<Scene>,
 }
 
 impl Case {
@@ -105,6 +107,7 @@ pub fn table(scene: &Scene) -> Result<Option<Table>, Stop> {
     let Some(normal) = scene.contacts[contact].normal.clone() else {
         return Ok(None);
     };
+    alone(scene, contact)?;
     let tangent = [normal[1].clone(), -&normal[0]];
     let raw = contact_space(scene, contact, [&tangent, &normal])?;
     let mut forms = Forms::new(scene, &law, &raw);
@@ -163,6 +166,28 @@ pub fn table(scene: &Scene) -> Result<Option<Table>, Stop> {
     }
     table.about = of_parameters(scene, asked);
     Ok(Some(table))
+}
+
+/// Nothing else may strike: the path of one impulse does not say which of two impacts comes first.
+fn alone(scene: &Scene, contact: usize) -> Result<(), Stop> {
+    let mut field = Field::new(&scene.domains);
+    for (i, other) in scene
+        .contacts
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| *i != contact)
+    {
+        for speed in scene.strikes(i) {
+            field.prepare([&speed]);
+            let element = field.element(&speed)?;
+            if field.sign(&element) != Some(Sign::Zero) {
+                let name = &scene.contacts[contact].name;
+                let what = beside_friction(&other.name, name);
+                return Err(Stop::Strikes(format!("{what}\nhint: {ALONE}")));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Writing and signs on the domain of a scene.
@@ -312,38 +337,27 @@ impl Forms {
         known_direction: bool,
         conditions: Vec<Bound>,
     ) -> Result<Case, Stop> {
-        let [t, n] = [&table.tangent, &table.normal];
-        let turned =
-            |[along, across]: &[Expr; 2]| [0, 1].map(|axis| along * &t[axis] + across * &n[axis]);
-        let mut closing = Vec::with_capacity(2);
-        for part in &mode.closing {
-            // A root stays as it is until the derivation takes it into its field.
-            let right = match part.right.has_root() {
-                true => part.right.clone(),
-                false => self.tidy(&part.right)?,
-            };
-            closing.push(Condition {
-                impulse: turned(&part.impulse),
-                velocity: turned(&part.velocity),
-                right,
-                words: part.words,
-            });
-        }
-        let mut settled = scene.clone();
-        // These two may gain energy; what they gain is told beside the table, and is no reason to withhold the answers.
-        settled.gains_energy |= matches!(
-            table.law.hypothesis,
-            Hypothesis::Newton | Hypothesis::Brach { .. }
-        );
-        if let [one, two] = closing.as_slice() {
-            let holds = |b: &Bound| (b.left.clone(), b.relation, b.right.clone());
+        let holds = |b: &Bound| (b.left.clone(), b.relation, b.right.clone());
+        let when: Vec<_> = conditions.iter().map(holds).collect();
+        let mut settled = |closing: &[Closing; 2]| -> Result<Scene, Stop> {
+            let [one, two] = closing;
+            let conditions = [self.condition(one, table)?, self.condition(two, table)?];
+            let mut settled = scene.clone();
+            // These two may gain energy; what they gain is told beside the table, and is no reason to withhold the answers.
+            settled.gains_energy |= matches!(
+                table.law.hypothesis,
+                Hypothesis::Newton | Hypothesis::Brach { .. }
+            );
             settled.contacts[table.contact].law = ContactLaw::Decided(Box::new(Decided {
                 law: table.law.clone(),
                 mode: mode.mode,
-                when: conditions.iter().map(holds).collect(),
-                conditions: [one.clone(), two.clone()],
+                when: when.clone(),
+                conditions,
             }));
-        }
+            Ok(settled)
+        };
+        let slip_ends = mode.slip_ends.as_ref().map(&mut settled).transpose()?;
+        let settled = settled(&mode.closing)?;
         Ok(Case {
             mode: mode.mode,
             direction,
@@ -351,13 +365,41 @@ impl Forms {
             conditions,
             impulse: mode.impulse,
             scene: settled,
+            slip_ends,
         })
     }
 
+    /// A condition of a mode in components along x and y.
+    fn condition(&mut self, part: &Closing, table: &Table) -> Result<Condition, Stop> {
+        let [t, n] = [&table.tangent, &table.normal];
+        let turned =
+            |[along, across]: &[Expr; 2]| [0, 1].map(|axis| along * &t[axis] + across * &n[axis]);
+        // A root stays as it is until the derivation takes it into its field.
+        let right = match part.right.has_root() {
+            true => part.right.clone(),
+            false => self.tidy(&part.right)?,
+        };
+        Ok(Condition {
+            impulse: turned(&part.impulse),
+            velocity: turned(&part.velocity),
+            right,
+            words: part.words,
+        })
+    }
+
+    /// Whether the contact can move in one way only, ac = b²: that of a body on a hinge, or on a track.
+    fn has_one_way(&mut self, space: &ContactSpace) -> Result<bool, Stop> {
+        let ContactSpace { a, b, c, .. } = space;
+        Ok(self.tidy(&(a * c - b * b))?.is_zero())
+    }
+
     /// The ratio |P_t|/P_n of stopping, without its sign where that is known.
-    fn ratio(&mut self, space: &ContactSpace) -> Result<Expr, Stop> {
-        let ratio = stopping_ratio(space);
-        self.size(&ratio)
+    fn ratio(&mut self, space: &ContactSpace) -> Result<Option<Expr>, Stop> {
+        let [above, below] = stopping_ratio(space);
+        if self.has_one_way(space)? || self.tidy(&below)?.is_zero() {
+            return Ok(None);
+        }
+        self.size(&(above / below)).map(Some)
     }
 
     /// |x|, without the bars where the sign is known.
@@ -371,6 +413,9 @@ impl Forms {
     }
 
     fn holding(&mut self, space: &ContactSpace) -> Result<Option<Expr>, Stop> {
+        if self.tidy(&space.a)?.is_zero() {
+            return Ok(None);
+        }
         let drive = &space.b / &space.a;
         self.size(&drive).map(Some)
     }
@@ -395,6 +440,9 @@ impl Forms {
             tangential,
             ..
         } = space;
+        if self.has_one_way(space)? {
+            return Ok(None);
+        }
         let stopping = self.tidy(&(b * tangential / (a * c - b * b)))?;
         let e = &law.restitution;
         Ok(match law.hypothesis {
@@ -517,7 +565,8 @@ fn contact_space(
 ) -> Result<ContactSpace, Stop> {
     let bodies = scene.contacts[contact].bodies;
     let before = scene.contacts[contact].relative_velocity(scene);
-    let [a, b, c] = match is_free(scene, bodies) {
+    let is_free = scene.contacts.len() == 1 && is_free(scene, bodies);
+    let [a, b, c] = match is_free {
         true => [(t, t), (t, n), (n, n)].map(|(d, e)| inverse_mass(scene, contact, d, e)),
         false => eliminated(scene, contact, [t, n])?,
     };

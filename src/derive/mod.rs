@@ -138,13 +138,15 @@ pub enum Stop {
     Contradiction(String),
     /// A coefficient of friction was asked that does not exist; the words say why.
     NoThreshold(String),
+    /// Something else strikes beside a contact with friction; the words say what.
+    Strikes(String),
 }
 
 impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Stop::Limit(what) => write!(f, "stopped at a limit: {what}"),
-            Stop::NoThreshold(why) => f.write_str(why),
+            Stop::NoThreshold(why) | Stop::Strikes(why) => f.write_str(why),
             Stop::Contradiction(law) => write!(
                 f,
                 "the laws contradict each other: {law} cannot hold together with the others"

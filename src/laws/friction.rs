@@ -26,6 +26,8 @@ pub struct ModeLaw {
     pub impulse: [Expr; 2],
     /// What the mode says of P and u⁺, as two linear conditions in tangential and normal components.
     pub closing: [Closing; 2],
+    /// The same where slip ends on the way; `None` where it lasts, or the law has no path.
+    pub slip_ends: Option<[Closing; 2]>,
 }
 
 /// A condition: an expression that is not negative, or positive.
@@ -96,8 +98,9 @@ pub fn modes(space: &ContactSpace, law: &Friction, s: i64) -> Vec<ModeLaw> {
     }
 }
 
-/// The impulse that stops the contact, −W⁻¹ u⁻, needs at least this |P_t|/P_n; the sign is that of −P_t.
-pub fn stopping_ratio(space: &ContactSpace) -> Expr {
+/// The impulse that stops the contact, −W⁻¹ u⁻, needs at least this |P_t|/P_n, as numerator and denominator; the sign is that
+/// of −P_t. Of a body on one hinge or track W is singular, and an impulse along the normal alone may do.
+pub fn stopping_ratio(space: &ContactSpace) -> [Expr; 2] {
     let ContactSpace {
         a,
         b,
@@ -105,7 +108,7 @@ pub fn stopping_ratio(space: &ContactSpace) -> Expr {
         tangential: u_t,
         normal: u_n,
     } = space;
-    (c * u_t - b * u_n) / (b * u_t - a * u_n)
+    [c * u_t - b * u_n, b * u_t - a * u_n]
 }
 
 /// The parts of the closed forms.
@@ -190,6 +193,7 @@ impl Forms<'_> {
             when: vec![not_negative(to_the_end.clone())],
             impulse: [-mu * s * &p_n, p_n],
             closing: [self.on_the_cone(false), self.restitution()],
+            slip_ends: None,
         }];
         let in_restitution = [
             not_negative(through_compression.clone()),
@@ -261,15 +265,7 @@ impl Forms<'_> {
             }
         };
         let (p_t, tangential) = match then {
-            Then::Sticks => (
-                -(b * &p_n + u_t) / a,
-                Closing {
-                    impulse: nothing(),
-                    velocity: [Expr::one(), Expr::zero()],
-                    right: Expr::zero(),
-                    words: "no slip after",
-                },
-            ),
+            Then::Sticks => (-(b * &p_n + u_t) / a, no_slip("no slip after")),
             Then::Reverses => (
                 &self.law.mu * &self.s * (&p_n - Expr::from(2) * &p_d),
                 self.on_the_cone(true),
@@ -280,6 +276,7 @@ impl Forms<'_> {
             when,
             impulse: [p_t, p_n],
             closing: [tangential, normal],
+            slip_ends: Some([self.on_the_cone(false), no_slip("slip ends")]),
         }
     }
 
@@ -325,6 +322,7 @@ impl Forms<'_> {
                 },
                 presses(p_n.clone(), "normal impulse (Chatterjee and Ruina)"),
             ],
+            slip_ends: None,
             impulse: [p_t, p_n],
         };
         vec![
@@ -358,6 +356,7 @@ impl Forms<'_> {
                     },
                     self.restitution(),
                 ],
+                slip_ends: None,
             }
         };
         if let Some(r) = ratio {
@@ -371,15 +370,8 @@ impl Forms<'_> {
             mode: Mode::Sticks,
             when: vec![not_negative(-&over)],
             impulse: [-(b * &p_n + u_t) / a, p_n],
-            closing: [
-                Closing {
-                    impulse: nothing(),
-                    velocity: [Expr::one(), Expr::zero()],
-                    right: Expr::zero(),
-                    words: "no slip after",
-                },
-                self.restitution(),
-            ],
+            closing: [no_slip("no slip after"), self.restitution()],
+            slip_ends: None,
         };
         vec![along(mu * s, Mode::Slides, vec![positive(over)]), sticks]
     }
@@ -395,6 +387,16 @@ fn not_negative(of: Expr) -> When {
 
 fn positive(of: Expr) -> When {
     When { of, strict: true }
+}
+
+/// u_t⁺ = 0.
+fn no_slip(words: &'static str) -> Closing {
+    Closing {
+        impulse: nothing(),
+        velocity: [Expr::one(), Expr::zero()],
+        right: Expr::zero(),
+        words,
+    }
 }
 
 /// u_n⁺ = speed.

@@ -5,9 +5,9 @@
 
 use super::answer::NoAnswer;
 use super::energy::relative_velocities;
-use super::given::{Given, GivenLaw};
+use super::given::{Given, GivenLaw, Joint};
 use super::number::{Number, dot, stretched, total};
-use super::path::{Event, NoPath, Path, follow};
+use super::path::{Corner, Event, NoPath, Path, follow};
 use super::solution::{Contradiction, Solution, motion};
 use super::system::{System, Unknown, assemble};
 use crate::scene::{Condition, ContactSpace, Hypothesis, Mode};
@@ -45,18 +45,49 @@ pub fn settle<T: Number + PartialOrd>(
     let Some((contact, law, normal)) = found else {
         return Ok(None);
     };
+    if (0..given.contacts.len()).any(|i| i != contact && strikes(given, i)) {
+        return Err(NoAnswer::NoPath(NoPath::Strikes));
+    }
     let space = contact_space(given, contact, normal, solve)?;
     let path = follow(&space, law).map_err(NoAnswer::NoPath)?;
-    let [p_t, p_n] = &path.end().impulse;
-    let impulse = total(&stretched(&tangent(normal), p_t), &stretched(normal, p_n));
-    let mut settled = given.clone();
-    settled.contacts[contact].law = known_impulse(&impulse);
+    let settled = at_corner(given, contact, path.end());
     let followed = Followed {
         contact,
         space,
         path,
     };
     Ok(Some((settled, followed)))
+}
+
+/// The scene with the impulse of its contact with friction known as it is at a corner of the path.
+pub fn at_corner<T: Number>(given: &Given<T>, contact: usize, corner: &Corner<T>) -> Given<T> {
+    let mut out = given.clone();
+    if let Some(normal) = &given.contacts[contact].normal {
+        let [p_t, p_n] = &corner.impulse;
+        let impulse = total(&stretched(&tangent(normal), p_t), &stretched(normal, p_n));
+        out.contacts[contact].law = known_impulse(&impulse);
+    }
+    out
+}
+
+/// Whether the bodies of a contact move against each other just before, where its law has something to say to that. Speeds
+/// below a share of those of its bodies are rounding.
+fn strikes<T: Number>(given: &Given<T>, contact: usize) -> bool {
+    let contact = &given.contacts[contact];
+    let Joint { bodies, at } = &contact.joint;
+    let speeds = bodies.map(|b| given.bodies[b].velocity_before(at));
+    let centers = bodies.map(|b| given.bodies[b].velocity.clone());
+    let parts = speeds.iter().chain(&centers).flatten();
+    let largest = parts.map(Number::size).fold(0.0, f64::max);
+    let along = super::number::difference(&speeds[1], &speeds[0]);
+    let opening = match (&contact.law, &contact.normal) {
+        (GivenLaw::Sticking, _) | (_, None) => along.to_vec(),
+        (_, Some(normal)) => vec![dot(&along, normal)],
+    };
+    let rounding = 1e3 * T::rounding() * largest;
+    opening
+        .iter()
+        .any(|speed| !speed.is_zero() && speed.size() > rounding)
 }
 
 /// The name of what a contact did, for those who name it: following it needs none. Where two events fall on one another, either
@@ -86,6 +117,11 @@ pub fn happened<T: Number + PartialOrd>(given: &Given<T>, followed: &Followed<T>
             Hypothesis::Newton | Hypothesis::Poisson | Hypothesis::Stronge => {}
         }
     }
+    // Where slip ends together with compression, that corner tells it; where it ends with the impact, it lasted.
+    let all = end.impulse[1].size();
+    let ends = |c: &Corner<T>| end.impulse[1].minus(&c.impulse[1]).size() <= 1e-12 * all;
+    let last = path.corners.iter().rfind(|c| !ends(c));
+    let lasts = last.is_some_and(|c| !c.velocity[0].is_zero());
     let at = |event| path.corners.iter().position(|c| c.event == event);
     let slip_at_start = !path.corners[0].velocity[0].is_zero();
     match (at(Event::SlipEnds), at(Event::Compressed), still) {
@@ -96,8 +132,9 @@ pub fn happened<T: Number + PartialOrd>(given: &Given<T>, followed: &Followed<T>
         // Without slip before, it sticks from the start or slips from the start.
         (None, _, true) if !slip_at_start => Mode::SticksInCompression,
         (None, _, false) if !slip_at_start => Mode::ReversesInCompression,
+        (None, _, _) if lasts => Mode::Slides,
         (None, _, true) => Mode::SticksInRestitution,
-        (None, _, false) => Mode::Slides,
+        (None, _, false) => Mode::ReversesInRestitution,
     }
 }
 

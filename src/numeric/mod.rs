@@ -40,7 +40,7 @@ pub use friction::settle;
 pub use given::{Given, Reason, Undefined, given};
 pub use invariants::{Approach, ContactReport, Identity, Invariant, contact_reports, identities};
 pub use number::Number;
-pub use points::{Needed, needed, random_point, rounded};
+pub use points::{Needed, needed, point_of_any_size, random_point, rounded};
 pub use solution::{Contradiction, Motion, Solution, motion};
 pub use system::{Law, System, Unknown, assemble};
 pub use values::{NoPoint, exact_values, values};

@@ -49,6 +49,8 @@ pub struct Path<T> {
 pub enum NoPath {
     /// The bodies separate already.
     Separating,
+    /// Another contact collides at the same moment: the path of one impulse does not say which comes first.
+    Strikes,
     /// Compression or restitution never ends: the contact sticks and yields no further, or it jams.
     NeverEnds,
     /// A law divides by something that vanishes here.
@@ -61,6 +63,7 @@ impl fmt::Display for NoPath {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             NoPath::Separating => "the bodies separate at the contact: they do not collide",
+            NoPath::Strikes => "another contact collides at the same moment",
             NoPath::NeverEnds => {
                 "under this hypothesis the impact has no end: the contact sticks where it cannot move along its normal, and e > 0 asks for a rebound (Poisson's hypothesis has an answer)"
             }

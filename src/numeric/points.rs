@@ -106,6 +106,27 @@ pub fn random_point(needed: &Needed, domains: &Domains, seed: u64) -> Point<Rati
         .unwrap_or_else(|| any_point(needed, domains, seed))
 }
 
+/// The same, with values of all sizes where nothing bounds them: some motions only come about where something is large or
+/// small against the rest.
+pub fn point_of_any_size(needed: &Needed, domains: &Domains, seed: u64) -> Point<Rational> {
+    let point = random_point(needed, domains, seed);
+    let mut scaled = point.clone();
+    for (name, value) in &mut scaled.values {
+        let domain = domains.symbols.get(name).cloned();
+        let domain = domain.unwrap_or_else(Domain::positive);
+        let factors = [(1, 100), (1, 10), (1, 1), (10, 1), (100, 1)].map(|(p, q)| ratio(p, q));
+        // Another sequence than the one that drew the value.
+        let other = &*value * &factors[Rng::of(!seed, name).below(factors.len())];
+        if domain.high.is_none() && domain.contains(&other) {
+            *value = other;
+        }
+    }
+    match keeps(domains, &rounded(&scaled)) {
+        true => scaled,
+        false => point,
+    }
+}
+
 /// Most points drawn for one that keeps to all relations.
 const DRAWS: u64 = 2000;
 

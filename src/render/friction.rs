@@ -168,10 +168,13 @@ fn feels(table: &Table) -> [(&'static str, &Expr); 5] {
 
 /// What holds whatever the case: the ratio that sticking needs, the friction that holds, jamming.
 fn bounds(scene: &Scene, table: &Table) -> Vec<String> {
-    let mut all = vec![format!(
-        "to stop the contact without rebound takes |P_t|/P_n = {}, whatever the law: necessary",
-        unicode(scene, &table.stopping_ratio)
-    )];
+    let mut all = Vec::new();
+    if let Some(ratio) = &table.stopping_ratio {
+        all.push(format!(
+            "to stop the contact without rebound takes |P_t|/P_n = {}, whatever the law: necessary",
+            unicode(scene, ratio)
+        ));
+    }
     if let Some(holding) = &table.holding {
         all.push(format!(
             "once slip has ended, the contact holds with friction of at least |b|/a = {}: the law's own threshold",
@@ -292,7 +295,7 @@ pub fn json(scene: &Scene, table: &Table, judged: &Judged, shown: &[Shown]) -> V
             "u_t": formula(&table.space.tangential),
             "u_n": formula(&table.space.normal),
         },
-        "necessary_ratio": formula(&table.stopping_ratio),
+        "necessary_ratio": table.stopping_ratio.as_ref().map(formula),
         "holding": table.holding.as_ref().map(formula),
         "jamming": table.jamming.as_ref().map(formula),
         "jump": table.jump.as_ref().map(formula),

@@ -6,7 +6,7 @@
 use super::fault::{Fault, Span};
 use super::parameters::number_words;
 use super::proof::{Given, Zero, given, middle, sign, violation, zero};
-use super::{Contact, Hinge, Scene, geometry, touch};
+use super::{ALONE, Contact, Hinge, Scene, beside_friction, geometry, touch};
 use crate::algebra::Sign;
 use crate::expr::{Expr, Function, Node, Symbol, Vector, dot, minus};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -39,6 +39,8 @@ pub(super) enum Claim {
     Touch(usize),
     /// Both bodies of this hinge move alike there.
     Hinge(usize),
+    /// The bodies of this contact do not strike, for another one has friction.
+    Rests(usize),
 }
 
 /// A claim and the place in the file that makes it.
@@ -190,6 +192,15 @@ fn try_claim(scene: &Scene, claimed: &Claimed, given: &Given) -> (Option<Fault>,
             let message = format!("`{place}` is not where the particle `{name}` is");
             let hint = "leave the particle's `center` out, or put it there; a body with extension is a disk, a rod, …";
             (Some(fault(message).hint(hint)), None)
+        }
+        Claim::Rests(i) => {
+            let strikes = |e: &Expr| !matches!(zero(e, &scene.domains), Zero::Yes);
+            let friction = scene.friction().map(|(f, _)| &scene.contacts[f].name);
+            let (Some(friction), true) = (friction, scene.strikes(*i).iter().any(strikes)) else {
+                return (None, None);
+            };
+            let message = beside_friction(&scene.contacts[*i].name, friction);
+            (Some(fault(message).hint(ALONE)), None)
         }
         Claim::Approach(i) => (approach(scene, *i, given, claimed.span), None),
         Claim::Touch(i) => {

@@ -7,7 +7,10 @@ use super::fault::{Fault, Span};
 use super::formulas::Quantity;
 use super::record::{Formula, Text, is_sound};
 use super::resolve::{Resolver, text};
-use super::{Contact, ContactLaw, Friction, Hypothesis, Known, KnownQuantity, Mode, Scene};
+use super::{
+    ALONE, Contact, ContactLaw, Friction, Hypothesis, Known, KnownQuantity, Mode, Scene,
+    beside_friction,
+};
 use crate::expr::{Expr, Vector, minus};
 
 impl Resolver<'_> {
@@ -102,24 +105,33 @@ impl Resolver<'_> {
         }
     }
 
-    /// Friction is followed along the path of one impulse: nothing else may act during the impact but hinges.
+    /// Friction is followed along the path of one impulse: beside it bodies may be held where they do not collide, by hinges,
+    /// contacts that stick, and in stages supports and strings, but nothing else may strike.
     pub(super) fn friction_alone(&mut self, scene: &Scene) {
         let Some((contact, _)) = scene.friction() else {
             return;
         };
         let name = scene.contacts[contact].name.clone();
-        let contacts = self.file.contacts.iter().flat_map(|m| &m.0);
-        let others = contacts.map(|(n, _)| n).filter(|n| n.text != name);
+        let mut strikes = None;
+        for (other, _) in self.file.contacts.iter().flat_map(|m| &m.0) {
+            let read = scene.contacts.iter().position(|c| c.name == other.text);
+            let Some(i) = read.filter(|i| *i != contact) else {
+                continue;
+            };
+            match &scene.contacts[i].law {
+                ContactLaw::Friction(_) | ContactLaw::Frictionless { .. } => strikes = Some(other),
+                // Supports and strings of a stage are without law here.
+                _ => self.claims.push(Claimed {
+                    span: other.span,
+                    claim: Claim::Rests(i),
+                }),
+            }
+        }
         let blows = self.file.blows.iter().flat_map(|m| &m.0).map(|(n, _)| n);
-        if let Some(other) = others.chain(blows).next() {
-            let message = format!(
-                "`{}` acts at the same time as the contact with friction `{name}`",
-                other.text
-            );
+        if let Some(other) = strikes.into_iter().chain(blows).next() {
+            let message = beside_friction(&other.text, &name);
             let fault = Fault::new(other.span, message);
-            self.faults.push(fault.hint(
-                "friction is worked out at one contact alone: take all contacts without friction, or one after the other in scenes of their own",
-            ));
+            self.faults.push(fault.hint(ALONE));
         }
         if let Some(known) = self.file.after.iter().flatten().next() {
             let message =

@@ -1,7 +1,8 @@
 //! Coulomb friction at a contact, as a scene states it: the coefficient, the restitution, and the hypothesis that ends the
 //! impact. Over any number type, so that formulas and numbers share one description. Nothing is solved here.
 
-use crate::expr::Expr;
+use super::{ContactLaw, Scene};
+use crate::expr::{Expr, dot};
 use crate::formula::Relation;
 
 /// Coulomb friction with restitution at one contact.
@@ -217,4 +218,25 @@ pub enum FrictionEvent {
     Slides,
     /// The normal velocity does not grow while it slips (Painlevé): with at least this coefficient.
     Jams,
+}
+
+/// What to do where something else strikes beside a contact with friction.
+pub const ALONE: &str = "friction is followed along the path of one impulse: beside it hinges may act, and where the bodies do not approach, contacts that stick and the `supports` and `strings` of an impact in `stages`; take all contacts without friction, or one impact after the other";
+
+/// What is wrong there.
+pub fn beside_friction(other: &str, friction: &str) -> String {
+    format!("`{other}` acts at the same time as the contact with friction `{friction}`")
+}
+
+impl Scene {
+    /// How fast the bodies of a contact move against each other, where its law has something to say to that \[m/s\]: beside
+    /// friction these vanish.
+    pub fn strikes(&self, contact: usize) -> Vec<Expr> {
+        let contact = &self.contacts[contact];
+        let velocity = contact.relative_velocity(self);
+        match (&contact.law, &contact.normal) {
+            (ContactLaw::Sticking, _) | (_, None) => velocity.to_vec(),
+            (_, Some(normal)) => vec![dot(&velocity, normal)],
+        }
+    }
 }

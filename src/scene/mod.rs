@@ -40,7 +40,10 @@ use crate::expr::{Expr, Symbol, Vector, minus};
 pub use ask::{Ask, EnergyWhen, ImpulseAt, PlotAsk, Question};
 pub use drawing::{Drawn, Outline, Support};
 pub use fault::{Fault, Faults, Span};
-pub use friction::{Condition, ContactSpace, Decided, Friction, FrictionEvent, Hypothesis, Mode};
+pub use friction::{
+    ALONE, Condition, ContactSpace, Decided, Friction, FrictionEvent, Hypothesis, Mode,
+    beside_friction,
+};
 pub use geometry::direction;
 pub use printed::{Print, Printed};
 pub use stage::{

@@ -15,7 +15,7 @@ use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::formula::Relation;
 use crate::numeric::Answer as Found;
 use crate::numeric::follow::{self, BodyState, Component, Followed, Lost, Passed, What};
-use crate::scene::{Ask, Question, Scene};
+use crate::scene::{Ask, ContactLaw, FrictionEvent, Mode, Question, Scene};
 
 /// Points at which each way through the cases is followed.
 const POINTS: usize = 2;
@@ -345,6 +345,10 @@ impl Second<'_> {
         for seen in &self.points {
             let world = &worlds[seen.world];
             let here = match answer.told {
+                // A threshold of friction is asked of the impact, whatever its contact does.
+                Some((stage, _)) if matches!(question.ask, Ask::Friction { .. }) => {
+                    world.outcome.contains_key(&stage)
+                }
                 Some((stage, case)) => world.outcome.get(&stage) == Some(&case),
                 None => answer.worlds.is_empty() || answer.worlds.contains(&seen.world),
             };
@@ -379,6 +383,20 @@ impl Second<'_> {
                         ));
                     }
                 }
+                Ask::Friction { contact, event } => {
+                    seen_any = true;
+                    let at = formula.evaluate(&seen.point);
+                    let Some(agrees) = at.and_then(|at| {
+                        self.turns_to(question.stage?, (*contact, *event), at, &seen.point)
+                    }) else {
+                        continue;
+                    };
+                    compared.points += 1;
+                    if !agrees {
+                        compared.apart =
+                            Some(String::from("the contact does something else beside it"));
+                    }
+                }
                 _ => {
                     let found = self.number(question, answer, &seen.point, &seen.followed);
                     let Some(found) = found else { continue };
@@ -393,6 +411,38 @@ impl Second<'_> {
         }
         let asks_motion = question.stage.is_some();
         (seen_any || asks_motion).then(|| compared.check("this answer", self))
+    }
+
+    /// Whether what a contact with friction does changes at a value of its coefficient as told; `None` where it was not seen.
+    fn turns_to(
+        &self,
+        stage: usize,
+        (contact, event): (usize, FrictionEvent),
+        at: f64,
+        point: &Point<f64>,
+    ) -> Option<bool> {
+        let law = &self.scene.stages[stage].scene.contacts[contact].law;
+        let ContactLaw::Friction(law) = law else {
+            return None;
+        };
+        let mu = law.mu.as_symbol()?;
+        let [below, above] = [-ASIDE, ASIDE].map(|step| {
+            let mut point = point.clone();
+            point.values.insert(mu.clone(), at * (1.0 + step));
+            let followed = follow::follow(self.scene, &point).ok()?;
+            match &followed.stages[stage].as_ref().ok()?.what {
+                What::Impact(impact) => impact.mode,
+                What::Motion(_) => None,
+            }
+        });
+        let [below, above] = [below?, above?];
+        let sticks = |mode: Mode| mode.sticks() || mode == Mode::InsideCone;
+        let slides = |mode: Mode| matches!(mode, Mode::Slides | Mode::OnCone);
+        match event {
+            FrictionEvent::Sticks => Some(sticks(above) && !sticks(below)),
+            FrictionEvent::Slides => Some(slides(below) && !slides(above)),
+            FrictionEvent::Jams => None,
+        }
     }
 
     /// The number a question asks for, from what was followed.

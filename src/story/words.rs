@@ -13,22 +13,21 @@ use crate::scene::{
 
 /// Which supports act in an outcome.
 pub(super) fn active(case: &Case) -> String {
-    match case.active.as_slice() {
-        [] if !case.rubs.is_empty() => case.rubs.replace('`', ""),
+    let names: Vec<String> = case.active.iter().map(|n| format!("`{n}`")).collect();
+    let acts = match names.as_slice() {
+        [] if !case.rubs.is_empty() => return case.rubs.replace('`', ""),
         [] => String::from("no support or string acts"),
-        names => {
-            let names: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
-            let acts = if names.len() == 1 { "acts" } else { "act" };
-            format!("{} {acts}", names.join(" and "))
-        }
+        [one] => format!("{one} acts"),
+        several => format!("{} act", several.join(" and ")),
+    };
+    match case.rubs.as_str() {
+        "" => acts,
+        rubs => format!("{acts} and {rubs}"),
     }
 }
 
 /// What each support and string does in an outcome: it pushes or pulls, or comes free or goes slack; or how a contact rubs.
 fn acting(one_sided: &[OneSided], case: &Case) -> String {
-    if one_sided.is_empty() {
-        return case.rubs.clone();
-    }
     let mut does: Vec<([&str; 2], Vec<String>)> = Vec::new();
     for o in one_sided {
         let verbs = match (case.active.contains(&o.name), o.is_string) {
@@ -48,7 +47,11 @@ fn acting(one_sided: &[OneSided], case: &Case) -> String {
         let verb = if names.len() == 1 { one } else { more };
         format!("{} {verb}", listed(&names))
     });
-    each.collect::<Vec<_>>().join(", ")
+    let mut all: Vec<String> = each.collect();
+    if !case.rubs.is_empty() {
+        all.push(case.rubs.clone());
+    }
+    all.join(", ")
 }
 
 /// Which outcomes lead through an outcome of a stage to what follows it.

@@ -127,6 +127,8 @@ pub struct Outcome {
     pub words: String,
     /// What must be ≥ 0 for it.
     pub when: Vec<Expr>,
+    /// The scene up to where slip ends on the way, where other contacts could let go there.
+    pub slip_ends: Option<Scene>,
 }
 
 /// The ways a scene with friction can go, as far as its values and what it supposes leave several; the scene itself where
@@ -139,6 +141,7 @@ pub fn outcomes(scene: &Scene) -> Result<Vec<Outcome>, String> {
                 scene: scene.clone(),
                 words: String::new(),
                 when: Vec::new(),
+                slip_ends: None,
             }]);
         }
         Err(stop) => return Err(stop.to_string()),
@@ -158,6 +161,7 @@ pub fn outcomes(scene: &Scene) -> Result<Vec<Outcome>, String> {
         scene: case.scene.clone(),
         words: format!("`{name}` {}", case.mode.words()),
         when: case.needs(&table.side),
+        slip_ends: case.slip_ends.clone(),
     };
     Ok(picked.iter().map(|i| outcome(&table.cases[*i])).collect())
 }

@@ -108,15 +108,24 @@ pub(super) fn ask(
             .push(fault.hint("\"threshold\": \"v\", \"holds\": \"K_top <= 0\""));
         return None;
     };
-    if let (Some(parameter), Some(asked)) = (&q.threshold, of_friction(base, holds)) {
-        return friction_threshold(base, parameter, asked);
+    if let (Some(parameter), Some(event)) = (&q.threshold, event(holds)) {
+        let places = places(base.file, q, event.0);
+        match places.as_slice() {
+            [] => {}
+            [one] => return friction_threshold(base, parameter, one, event.1),
+            _ => {
+                let message = format!("several impacts have a contact `{}`", event.0);
+                let fault = Fault::new(holds.span, message);
+                base.faults.push(fault.hint("say which with `at`"));
+                return None;
+            }
+        }
     }
-    if base.file.stages.is_some() && event(holds).is_some() {
-        let message = "a threshold of friction is asked of a scene without stages";
-        let fault = Fault::new(holds.span, message);
-        base.faults.push(fault.hint(
-            "without values every outcome of an impact in stages is told with its condition on the coefficient",
-        ));
+    if let Some(at) = q.at.as_ref().filter(|_| base.file.stages.is_some()) {
+        let message = "`at` belongs to a threshold of friction, such as \"C sticks\"";
+        let fault = Fault::new(at.span, message);
+        base.faults
+            .push(fault.hint("the answers in `holds` say at which stage they are asked"));
         return None;
     }
     let (left, relation, right) = relation(base, symbols, holds)?;
@@ -146,22 +155,49 @@ fn event(holds: &Text) -> Option<(&str, FrictionEvent)> {
     Some((name.trim(), event))
 }
 
-/// The contact and the event of a relation such as `C sticks`; `None` for a relation between formulas.
-fn of_friction<'f>(
-    base: &Resolver<'f>,
-    holds: &Text,
-) -> Option<(usize, &'f ContactFile, FrictionEvent)> {
-    let (name, event) = event(holds)?;
-    let contacts = base.file.contacts.iter().flat_map(|m| &m.0);
-    let found = contacts.enumerate().find(|(_, (n, _))| n.text == name);
-    found.and_then(|(i, (_, contact))| Some((i, contact.as_ref()?, event)))
+/// A contact of the file.
+struct ContactPlace<'f> {
+    /// Index of the stage it stands in; `None` in a scene of one impact.
+    stage: Option<usize>,
+    /// Its index there.
+    contact: usize,
+    file: &'f ContactFile,
+}
+
+/// The contacts of this name, at the stage that the question names if it does.
+fn places<'f>(file: &'f SceneFile, q: &QuestionFile, name: &str) -> Vec<ContactPlace<'f>> {
+    let all = |stage, contacts: &'f Option<Map<ContactFile>>| {
+        let contacts = contacts.iter().flat_map(|m| &m.0).enumerate();
+        contacts.filter_map(move |(contact, (n, file))| Some((stage, contact, n, file.as_ref()?)))
+    };
+    let stages = file.stages.iter().flatten().enumerate();
+    let named = stages.filter(|(_, s)| q.at.as_ref().is_none_or(|at| at.text == s.name.text));
+    let inside = named.filter_map(|(i, s)| Some(all(Some(i), &s.impact.as_ref()?.contacts)));
+    let found = all(None, &file.contacts).chain(inside.flatten());
+    found
+        .filter(|(_, _, n, _)| n.text == name)
+        .map(|(stage, contact, _, file)| ContactPlace {
+            stage,
+            contact,
+            file,
+        })
+        .collect()
+}
+
+/// The stage to which a question about answers belongs: a threshold of friction is one of its contact.
+pub(super) fn stage_of(file: &SceneFile, q: &QuestionFile, ask: &Ask) -> Option<usize> {
+    let (Ask::Friction { .. }, Some(holds)) = (ask, &q.holds) else {
+        return None;
+    };
+    places(file, q, event(holds)?.0).first()?.stage
 }
 
 /// A threshold of the coefficient of friction.
 fn friction_threshold(
     base: &mut Resolver<'_>,
     parameter: &Text,
-    (contact, file, event): (usize, &ContactFile, FrictionEvent),
+    ContactPlace { contact, file, .. }: &ContactPlace<'_>,
+    event: FrictionEvent,
 ) -> Option<Ask> {
     let Some(mu) = file
         .mu
@@ -188,7 +224,10 @@ fn friction_threshold(
         );
         return None;
     }
-    Some(Ask::Friction { contact, event })
+    Some(Ask::Friction {
+        contact: *contact,
+        event,
+    })
 }
 
 fn approximate(

@@ -74,7 +74,7 @@ static KINDS: &[Kind] = kinds! {
     Answers {
         value(with),
         solve(holds with),
-        threshold(holds with),
+        threshold(holds with at),
         maximum(over),
         limit(tends to),
         approximate(tends to order),
@@ -229,11 +229,19 @@ pub(super) fn of_stages(r: &mut Resolver<'_>, scene: &mut Scene, homes: &HashMap
                 found.map(|q| (Some(*stage), q.ask.clone()))
             }
             None => with_names(r, &names, |r, symbols| match kind.about {
-                About::Answers => Some((None, answers::ask(r, symbols, name, q)?)),
+                About::Answers => {
+                    let ask = answers::ask(r, symbols, name, q)?;
+                    Some((answers::stage_of(r.file, q, &ask), ask))
+                }
                 _ => motion::ask(r, symbols, scene, name, q),
             }),
         };
         if let Some((stage, ask)) = found {
+            if let (Some(stage), Ask::Friction { .. }) = (stage, &ask) {
+                // What its contact feels shows when the impact is worked out.
+                let asked = question(name, q, ask.clone());
+                scene.stages[stage].scene.questions.push(asked);
+            }
             scene.questions.push(Question {
                 stage,
                 ..question(name, q, ask)

@@ -343,7 +343,7 @@ fn one(
     // Motion before an impact, and places after another stage, are known only when the stages before it are worked out;
     // they are checked then.
     r.claims.retain(|c| match &c.claim {
-        Claim::Approach(_) | Claim::Hinge(_) => false,
+        Claim::Approach(_) | Claim::Hinge(_) | Claim::Rests(_) => false,
         Claim::AtParticle { .. } | Claim::Touch(_) => places.is_empty(),
         _ => true,
     });

@@ -306,6 +306,9 @@ fn quantity(
         out.told = Some((usize::MAX, 0));
         return Ok(vec![out]);
     }
+    if let Ask::Friction { .. } = question.ask {
+        return Ok(threshold(question, ways));
+    }
     let cases: usize = ways.iter().map(|(_, t, _)| t.cases.len().max(1)).sum();
     let mut number = 0;
     let mut out = Vec::new();
@@ -346,6 +349,38 @@ fn quantity(
     Ok(out)
 }
 
+/// A threshold of friction, which is the same whatever the contact does; one for each way the impact comes about, and each set
+/// of supports with another one.
+fn threshold(question: &Question, ways: Vec<(usize, &StageTold, Way)>) -> Vec<Answer> {
+    let mut out: Vec<Answer> = Vec::new();
+    for (i, told, way) in ways {
+        for (k, case) in told.cases.iter().enumerate() {
+            let asked = case.scene.questions.iter();
+            let Some(asked) = asked.into_iter().find(|q| q.name == question.name) else {
+                continue;
+            };
+            let Ask::Value {
+                formula, meaning, ..
+            } = &asked.ask
+            else {
+                continue;
+            };
+            let mut answer = Answer::blank(question, &question.name, meaning.as_str());
+            answer.form = Form::value(case.put_in(formula));
+            if out.iter().any(|a| a.form == answer.form) {
+                continue;
+            }
+            way.put(&mut answer);
+            if !out.is_empty() {
+                number_case(&mut answer, out.len() + 1);
+            }
+            answer.told = Some((i, k));
+            out.push(answer);
+        }
+    }
+    out
+}
+
 /// The answers of one outcome of an impact.
 fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
     let mut out = Vec::new();
@@ -359,7 +394,7 @@ fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
         };
         let mut a = Answer {
             words,
-            form: answer.form.map(|e| case.put_in(e)),
+            form: case.form(&answer.form),
             ..answer.clone()
         };
         if let Form::Open(names) = &a.form {

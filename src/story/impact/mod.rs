@@ -10,7 +10,7 @@ mod outcome;
 pub(super) use outcome::acting;
 
 use incoming::{approach, hand_on, hinges_fit, touches};
-use outcome::{ENERGY, case, gain, is_refuted, state_after};
+use outcome::{Active, ENERGY, case, gain, is_refuted, put_to_act, state_after};
 
 use super::{Case, Kept, Refused, StageTold, State};
 use crate::derive;
@@ -47,29 +47,26 @@ pub(super) fn tell(
     let handed = hand_on(&mut base, named);
     let mut cases: Vec<Case> = Vec::new();
     let mut contradiction = None;
-    let mut outcomes =
-        friction::outcomes(&base).map_err(|why| Refused::new(&stage.name, why, ""))?;
-    for outcome in &mut outcomes {
-        // No table stands beside this impact to tell what Newton's or Brach's law gains.
-        outcome.scene.gains_energy = base.gains_energy;
-    }
-    let sets = subsets(one_sided, supposed);
-    for (outcome, set) in outcomes
-        .iter()
-        .flat_map(|o| sets.iter().map(move |set| (o, set)))
-    {
-        match case(
-            outcome,
-            one_sided,
-            set,
-            supposed.is_some(),
-            &handed,
-            &before,
-        ) {
-            Ok(Some(case)) => cases.push(case),
-            Ok(None) => {}
-            Err(derive::Stop::Contradiction(law)) => contradiction = Some(law),
-            Err(stop) => return Err(Refused::stop(&stage.name, stop)),
+    for set in subsets(one_sided, supposed) {
+        let mut acting = base.clone();
+        let wanted = put_to_act(&mut acting, one_sided, &set);
+        let outcomes =
+            friction::outcomes(&acting).map_err(|why| Refused::new(&stage.name, why, ""))?;
+        for mut outcome in outcomes {
+            // No table stands beside this impact to tell what Newton's or Brach's law gains.
+            outcome.scene.gains_energy = base.gains_energy;
+            let active = Active {
+                one_sided,
+                set: &set,
+                wanted: &wanted,
+                is_supposed: supposed.is_some(),
+            };
+            match case(&outcome, &active, &handed, &before) {
+                Ok(Some(case)) => cases.push(case),
+                Ok(None) => {}
+                Err(derive::Stop::Contradiction(law)) => contradiction = Some(law),
+                Err(stop) => return Err(Refused::stop(&stage.name, stop)),
+            }
         }
     }
     if let Some(sure) = cases.iter().position(|c| c.conditions.is_empty()) {
@@ -89,7 +86,12 @@ pub(super) fn tell(
                 "no set of supports and strings fits: one of those that act would have to pull or push the wrong way",
             ),
         };
-        let hint = "look at the directions `normal`, and at the motion handed on";
+        let hint = match base.friction() {
+            None => "look at the directions `normal`, and at the motion handed on",
+            Some(_) => {
+                "look at the directions `normal`, and at the motion handed on; with friction a support may let go and come back while the impact lasts, which is not followed"
+            }
+        };
         return Err(Refused {
             contradicts: is_contradiction,
             ..Refused::new(&stage.name, reason, hint)

@@ -6,6 +6,7 @@ use crate::algebra::Sign;
 use crate::answer::Form;
 use crate::answer::calc::{Seen, essential, is_zero, sign, tidy};
 use crate::derive::{self, Derivation};
+use crate::domain::{Domains, Relation};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
 use crate::scene::{
@@ -22,15 +23,31 @@ pub(in crate::story) fn acting(name: &str) -> String {
     format!("whether {name} acts ")
 }
 
+/// A set of supports and strings that act.
+pub(super) struct Active<'a> {
+    /// All of them.
+    pub one_sided: &'a [OneSided],
+    /// Those that act, by index.
+    pub set: &'a [usize],
+    /// What tells of each one whether it does: the question, and what its answer says.
+    pub wanted: &'a [(String, String)],
+    /// Whether the scene says that these act.
+    pub is_supposed: bool,
+}
+
 /// One set of acting supports, where friction goes one way; `None` where it does not hold anywhere.
 pub(super) fn case(
     outcome: &friction::Outcome,
-    one_sided: &[OneSided],
-    set: &[usize],
-    is_supposed: bool,
+    active: &Active<'_>,
     handed: &BTreeMap<Symbol, Expr>,
     before: &State,
 ) -> Result<Option<Case>, derive::Stop> {
+    let Active {
+        one_sided,
+        set,
+        wanted,
+        is_supposed,
+    } = active;
     let mut scene = outcome.scene.clone();
     for contact in &mut scene.contacts {
         if let ContactLaw::Decided(decided) = &mut contact.law {
@@ -38,48 +55,54 @@ pub(super) fn case(
             decided.when.clear();
         }
     }
-    let wanted = put_to_act(&mut scene, one_sided, set);
     let derivation = derive::derive(&scene)?;
     if derivation.counting.contradictory {
         let laws = derivation.counting.conflict.join("; ");
         return Err(derive::Stop::Contradiction(laws));
     }
-    let values: BTreeMap<String, Expr> = derivation
-        .answers
-        .iter()
-        .filter_map(|a| match &a.form {
-            Form::Value { closed, .. } => Some((a.name.clone(), closed.substitute(handed))),
-            _ => None,
-        })
-        .collect();
+    let values = values_of(&derivation, handed);
+    // Each support or string acts or is left from the first to the last: what holds at the end holds where slip ends, too.
+    let on_the_way = match &outcome.slip_ends {
+        Some(scene) if !wanted.is_empty() => {
+            let mut scene = scene.clone();
+            scene.questions.retain(|q| q.hidden);
+            Some(values_of(&derive::derive(&scene)?, handed))
+        }
+        _ => None,
+    };
     let mut conditions = Vec::new();
-    for (i, (name, words)) in wanted.into_iter().enumerate() {
-        let amount = match (values.get(&name), values.get(&format!("{name}2"))) {
-            (Some(impulse), _) => impulse.clone(),
-            (None, Some(second)) => {
-                let first = values
-                    .get(&format!("{name}1"))
-                    .cloned()
-                    .unwrap_or_else(Expr::zero);
-                tidy(&(second - &first), &scene.domains)?
-            }
-            _ => continue,
+    for (i, (name, words)) in wanted.iter().enumerate() {
+        let Some(end) = amount(&values, name, &scene.domains)? else {
+            continue;
         };
-        if set.contains(&i) && is_zero(&amount, &scene.domains) == Some(true) && !is_supposed {
+        if set.contains(&i) && is_zero(&end, &scene.domains) == Some(true) && !is_supposed {
             // It touches and does nothing: the smaller set says the same.
             return Ok(None);
         }
-        match sign(&amount, &scene.domains) {
-            Seen::Proved(s) if s.is_not_negative() => {}
-            Seen::Proved(Sign::Negative | Sign::NotPositive) => return Ok(None),
-            _ => conditions.push((words, essential(&amount, &scene.domains))),
+        let way = match &on_the_way {
+            Some(values) => amount(values, name, &scene.domains)?,
+            None => None,
+        };
+        let amounts = match way {
+            // A push only grows, and what is left does not come back.
+            Some(way) if set.contains(&i) => vec![tidy(&(end - &way), &scene.domains)?, way],
+            Some(way) => vec![end, way],
+            None => vec![end],
+        };
+        for amount in amounts {
+            match sign(&amount, &scene.domains) {
+                Seen::Proved(s) if s.is_not_negative() => {}
+                Seen::Proved(Sign::Negative | Sign::NotPositive) => return Ok(None),
+                _ => conditions.push((words.clone(), essential(&amount, &scene.domains))),
+            }
         }
     }
     for need in &outcome.when {
         let need = need.substitute(handed);
         match sign(&need, &scene.domains) {
             Seen::Proved(s) if s.is_not_negative() => {}
-            Seen::Proved(Sign::Negative) => return Ok(None),
+            // Where it only vanishes, such as at e = 0, the mode beside it says the same.
+            Seen::Proved(Sign::Negative | Sign::NotPositive) => return Ok(None),
             _ => conditions.push((outcome.words.clone(), essential(&need, &scene.domains))),
         }
     }
@@ -93,6 +116,9 @@ pub(super) fn case(
         // One condition is the opposite of another: at most a boundary is left.
         return Ok(None);
     }
+    let Some(conditions) = independent(conditions, &scene.domains) else {
+        return Ok(None);
+    };
     let proof = verify::prove(&scene, &derivation);
     let possible = verify::possible::judge(&scene, &derivation);
     Ok(Some(Case {
@@ -108,9 +134,84 @@ pub(super) fn case(
     }))
 }
 
+/// Closed forms by name of the answer, with what was handed on put in.
+fn values_of(derivation: &Derivation, handed: &BTreeMap<Symbol, Expr>) -> BTreeMap<String, Expr> {
+    let answers = derivation.answers.iter();
+    answers
+        .filter_map(|a| match &a.form {
+            Form::Value { closed, .. } => {
+                let closed = outright(closed, derivation);
+                Some((a.name.clone(), closed.substitute(handed)))
+            }
+            _ => None,
+        })
+        .collect()
+}
+
+/// An expression in parameters alone, also where a derivation went in steps.
+fn outright(e: &Expr, derivation: &Derivation) -> Expr {
+    match derivation.in_steps {
+        true => verify::expand(e, derivation),
+        false => e.clone(),
+    }
+}
+
+/// The impulse of a support or string that acts, or how fast the bodies part at one that is left.
+fn amount(
+    values: &BTreeMap<String, Expr>,
+    name: &str,
+    domains: &Domains,
+) -> Result<Option<Expr>, derive::Stop> {
+    let get = |suffix: &str| values.get(&format!("{name}{suffix}")).cloned();
+    Ok(match (get(""), get("2")) {
+        (Some(impulse), _) => Some(impulse),
+        (None, Some(second)) => {
+            let first = get("1").unwrap_or_else(Expr::zero);
+            Some(tidy(&(second - &first), domains)?)
+        }
+        _ => None,
+    })
+}
+
+/// Longest condition that is held against others, in nodes.
+const LONGEST: usize = 120;
+
+/// Conditions without those that follow from the others, the longest left away first; `None` where one of them cannot hold
+/// beside the others.
+fn independent(
+    mut conditions: Vec<(String, Expr)>,
+    domains: &Domains,
+) -> Option<Vec<(String, Expr)>> {
+    let mut order: Vec<Expr> = conditions.iter().map(|(_, e)| e.clone()).collect();
+    order.sort_by_key(|e| std::cmp::Reverse(e.size()));
+    let short = order.iter().filter(|e| e.size() <= LONGEST);
+    for e in short.filter(|_| order.len() > 1) {
+        let mut given = domains.clone();
+        let others = conditions
+            .iter()
+            .filter(|(_, other)| other != e && other.size() <= LONGEST);
+        given.relations.extend(others.map(|(_, other)| Relation {
+            sides: [Expr::zero(), other.clone()],
+            excess: other.clone(),
+            closed: true,
+            words: String::new(),
+        }));
+        match sign(e, &given) {
+            Seen::Proved(s) if s.is_not_negative() => conditions.retain(|(_, other)| other != e),
+            Seen::Proved(Sign::Negative) => return None,
+            _ => {}
+        }
+    }
+    Some(conditions)
+}
+
 /// Makes contacts of the supports and strings that act, and asks for what tells whether each one acts or is left: the question,
 /// and what it would say. The energy lost is asked for too.
-fn put_to_act(scene: &mut Scene, one_sided: &[OneSided], set: &[usize]) -> Vec<(String, String)> {
+pub(super) fn put_to_act(
+    scene: &mut Scene,
+    one_sided: &[OneSided],
+    set: &[usize],
+) -> Vec<(String, String)> {
     // Among the questions the one-sided contacts count after the others; only those that act are contacts here.
     let others = scene.contacts.len();
     scene.questions.retain_mut(|q| match &mut q.ask {
@@ -245,6 +346,7 @@ pub(super) fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<
                 };
                 total = &total + &(k * v);
             }
+            let total = outright(&total, &case.derivation);
             tidy(&total.substitute(&case.handed), &scene.domains)
                 .map(Some)
                 .map_err(|s| Refused::stop(&stage.name, s))
@@ -299,9 +401,24 @@ impl Case {
     pub(in crate::story) fn value(&self, name: &str) -> Option<Expr> {
         let found = self.derivation.answers.iter().find(|a| a.name == name)?;
         match &found.form {
-            Form::Value { closed, .. } => Some(self.put_in(closed)),
+            Form::Value { closed, .. } => Some(self.put_in(&outright(closed, &self.derivation))),
             _ => None,
         }
+    }
+
+    /// The form of an answer of the impact in parameters alone: what is named in the impact has no name in later stages.
+    pub(in crate::story) fn form(&self, form: &Form) -> Form {
+        let Form::Value { closed, short } = form else {
+            return form.map(|e| self.put_in(e));
+        };
+        let closed = self.put_in(&outright(closed, &self.derivation));
+        let named = short.symbols();
+        let mut definitions = self.derivation.definitions.iter();
+        let short = match definitions.any(|d| named.contains(&d.name)) {
+            true => closed.clone(),
+            false => self.put_in(short),
+        };
+        Form::Value { closed, short }
     }
 
     /// An expression with what was handed on put in.

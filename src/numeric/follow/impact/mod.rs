@@ -131,8 +131,6 @@ struct Support {
 /// An impact in numbers.
 struct Table<'a> {
     given: Given<f64>,
-    /// What a contact with friction does; its impulse is known in `given`.
-    mode: Option<Mode>,
     one_sided: &'a [OneSided],
     supports: Vec<Support>,
     /// The contacts, hinges and blows that stand in `given`, by index in the stage's scene.

@@ -157,7 +157,7 @@ impl Table<'_> {
                 .iter()
                 .map(|t| t.set.iter().map(name).collect())
                 .collect(),
-            mode: self.mode,
+            mode: fitting.first().and_then(|t| t.mode),
             openings: Vec::new(),
             breaches: Vec::new(),
         };

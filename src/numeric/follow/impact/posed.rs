@@ -2,8 +2,6 @@
 
 use super::super::{BodyState, Course, Lost, State};
 use super::{ROUNDING, Support, Table, norm};
-use crate::numeric::float::solve_f64;
-use crate::numeric::friction::{happened, settle};
 use crate::numeric::given::{Freedom, GivenBody, around};
 use crate::numeric::number::difference;
 use crate::scene::{OneSided, Scene};
@@ -63,7 +61,7 @@ impl<'a> Table<'a> {
             .zip(course.solids)
             .map(|(body, solid)| body.given(solid))
             .collect();
-        let mut given = around(&part, bodies, course.values).map_err(|u| course.undefined(u))?;
+        let given = around(&part, bodies, course.values).map_err(|u| course.undefined(u))?;
         let mut supports = Vec::new();
         for o in one_sided {
             let is_placed = keeps(&o.bodies);
@@ -90,17 +88,8 @@ impl<'a> Table<'a> {
         if rubs && !loose.is_empty() {
             return Err(course.out_of_reach("friction is followed from a motion that is known"));
         }
-        // Along the path of the impulse; what it comes to takes the place of the law.
-        let settled = settle(&given, solve_f64)
-            .map_err(|why| course.contradiction(format!("friction leads to no motion: {why}")))?;
-        let mut mode = None;
-        if let Some((known, followed)) = settled {
-            mode = Some(happened(&given, &followed));
-            given = known;
-        }
         let mut table = Table {
             given,
-            mode,
             one_sided,
             supports,
             kept,

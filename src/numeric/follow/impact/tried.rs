@@ -5,9 +5,13 @@ use nalgebra::{DMatrix, DVector};
 use super::super::least::{Found, NoSolution, solve};
 use super::super::{Course, Lost};
 use super::{ROUNDING, Support, Table};
+use crate::numeric::float::solve_f64;
+use crate::numeric::friction::{at_corner, happened, settle};
 use crate::numeric::given::{Freedom, Given, GivenContact, GivenImpulse, GivenLaw, Joint};
 use crate::numeric::number::{cross, dot};
+use crate::numeric::path::Event;
 use crate::numeric::system::{Law, System, Unknown, assemble};
+use crate::scene::Mode;
 
 /// The equations with one set of supports, solved.
 pub(super) struct Tried {
@@ -15,6 +19,10 @@ pub(super) struct Tried {
     pub system: System<f64>,
     pub given: Given<f64>,
     pub found: Found,
+    /// What a contact with friction does; its impulse is known in `given`.
+    pub mode: Option<Mode>,
+    /// The same up to each corner of its path.
+    pub way: Vec<Tried>,
 }
 
 impl Table<'_> {
@@ -33,6 +41,33 @@ impl Table<'_> {
                 law: GivenLaw::Frictionless(0.0),
             }
         }));
+        // With these supports acting throughout, friction is followed along the path of its impulse; what that comes to takes
+        // the place of the law.
+        let settled = settle(&given, solve_f64)
+            .map_err(|why| course.contradiction(format!("friction leads to no motion: {why}")))?;
+        let Some((known, followed)) = settled else {
+            return self.solved(course, set, given);
+        };
+        let mode = Some(happened(&given, &followed));
+        let corners = followed.path.corners.iter();
+        let way = corners
+            .filter(|corner| matches!(corner.event, Event::SlipEnds | Event::Compressed))
+            .map(|corner| {
+                let there = at_corner(&given, followed.contact, corner);
+                self.solved(course, set.clone(), there)
+            })
+            .collect::<Result<Vec<Tried>, Lost>>()?;
+        let end = self.solved(course, set, known)?;
+        Ok(Tried { mode, way, ..end })
+    }
+
+    /// Solves the equations of these numbers.
+    fn solved(
+        &self,
+        course: &Course<'_>,
+        set: Vec<usize>,
+        given: Given<f64>,
+    ) -> Result<Tried, Lost> {
         let system = assemble(&given);
         let (m, n) = (system.laws.len(), system.unknowns.len());
         let mut matrix = DMatrix::zeros(m, n + self.loose.len());
@@ -53,6 +88,8 @@ impl Table<'_> {
                 system,
                 given,
                 found,
+                mode: None,
+                way: Vec::new(),
             }),
             Err(NoSolution::OutOfRange) => {
                 Err(course.out_of_reach("the equations of the impact go beyond the doubles"))
@@ -90,34 +127,50 @@ impl Table<'_> {
         }
     }
 
-    /// Whether the supports in the set act and the others let go; `None` where that is not determined.
+    /// Whether the supports in the set act and the others let go, from the first to the last; `None` where that is not
+    /// determined.
     pub(super) fn fits(&self, tried: &Tried) -> Option<bool> {
         let mut sure = true;
         let largest = tried.impulses().map(f64::abs).fold(self.momentum, f64::max);
+        let ways = tried.way.iter().chain([tried]);
         for i in &self.kept_supports {
             if let Some(place) = tried.set.iter().position(|k| k == i) {
-                let column = tried.column(Unknown::ContactNormal(self.kept[0].len() + place))?;
+                let unknown = Unknown::ContactNormal(self.kept[0].len() + place);
+                let column = tried.column(unknown)?;
                 if !tried.found.is_unique(column) {
                     sure = false;
-                } else if tried.found.values[column] <= ROUNDING * largest {
-                    // A support that touches and does nothing: the smaller set says the same.
+                    continue;
+                }
+                let pushes: Vec<f64> = ways.clone().map(|way| way.found.values[column]).collect();
+                let grows = |pair: &[f64]| pair[1] - pair[0] >= -ROUNDING * largest;
+                let all = [&[0.0], pushes.as_slice()].concat();
+                // A support that touches and does nothing: the smaller set says the same.
+                if !all.windows(2).all(grows) || tried.found.values[column] <= ROUNDING * largest {
                     return Some(false);
                 }
                 continue;
             }
-            let (terms, constant) = tried.opening(&self.supports[*i]);
-            let products = terms.iter().map(|(k, f)| f * tried.found.values[*k]);
-            let size = products
-                .clone()
-                .map(f64::abs)
-                .fold(self.speed.max(constant.abs()), f64::max);
-            if !tried.found.determines(&terms) {
-                sure = false;
-            } else if constant + products.sum::<f64>() < -ROUNDING * size {
-                return Some(false);
+            for way in ways.clone() {
+                match self.lets_go(way, *i) {
+                    Some(false) => return Some(false),
+                    None => sure = false,
+                    Some(true) => {}
+                }
             }
         }
         sure.then_some(true)
+    }
+
+    /// Whether the bodies do not approach at a support; `None` where that is not determined.
+    fn lets_go(&self, tried: &Tried, support: usize) -> Option<bool> {
+        let (terms, constant) = tried.opening(&self.supports[support]);
+        let products = terms.iter().map(|(k, f)| f * tried.found.values[*k]);
+        let size = products
+            .clone()
+            .map(f64::abs)
+            .fold(self.speed.max(constant.abs()), f64::max);
+        let determined = tried.found.determines(&terms);
+        determined.then(|| constant + products.sum::<f64>() >= -ROUNDING * size)
     }
 }
 
