@@ -167,6 +167,18 @@ impl Expr {
         self.as_number().is_some_and(Zero::is_zero)
     }
 
+    /// The rational factor it is written with, and the rest.
+    pub fn split_number(&self) -> (Rational, Expr) {
+        match self.node() {
+            Node::Number(value) => (value.clone(), Expr::one()),
+            Node::Product(factors) => match factors[0].as_number() {
+                Some(value) => (value.clone(), Expr::product(factors[1..].iter().cloned())),
+                None => (Rational::one(), self.clone()),
+            },
+            _ => (Rational::one(), self.clone()),
+        }
+    }
+
     /// Whether it is a negative number, or a product with one.
     pub fn is_negative(&self) -> bool {
         match self.node() {

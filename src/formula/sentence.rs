@@ -103,9 +103,21 @@ fn beyond_zero(e: &Expr, [sign, turned]: [&str; 2]) -> Sentence {
     };
     let (taken, kept): (Vec<Expr>, Vec<Expr>) = terms.into_iter().partition(Expr::is_negative);
     let taken = Expr::sum(taken.iter().map(|term| -term));
-    match kept.is_empty() {
-        true => sentence![&taken, turned, "0"],
-        false => sentence![&Expr::sum(kept), sign, &taken],
+    if kept.is_empty() {
+        return sentence![&taken, turned, "0"];
+    }
+    let kept = Expr::sum(kept);
+    // With a number on one side its factor is put in: `3 − 4μ ≥ 0` as `μ ≤ 3/4`.
+    match (kept.as_number(), taken.as_number().filter(|_| !taken.is_zero())) {
+        (Some(number), None) if !taken.is_zero() => {
+            let (factor, rest) = taken.split_number();
+            sentence![&rest, turned, &Expr::from(number / factor)]
+        }
+        (None, Some(number)) => {
+            let (factor, rest) = kept.split_number();
+            sentence![&rest, sign, &Expr::from(number / factor)]
+        }
+        _ => sentence![&kept, sign, &taken],
     }
 }
 

@@ -9,7 +9,6 @@ use super::body_file::{BodyFile, ShapeName, VelocityFile};
 use super::check::{Claim, Claimed};
 use super::fault::{Fault, Span};
 use super::formulas::{Quantity, Symbols};
-use super::geometry::split_number;
 use super::place_file::PositionFile;
 use super::record::{Formula, is_sound};
 use super::{Body, Shape};
@@ -294,7 +293,7 @@ fn uniform(shape: &Shape, mass: &Expr) -> Expr {
 /// Total mass, and the share of each part in it. Masses that are multiples of one, such as m and 3 m, have plain
 /// numbers as shares, and 4 m as sum.
 fn weights(parts: &[Body], total: Expr) -> (Expr, Vec<Expr>) {
-    let split: Vec<(Rational, Expr)> = parts.iter().map(|p| split_number(&p.mass)).collect();
+    let split: Vec<(Rational, Expr)> = parts.iter().map(|p| p.mass.split_number()).collect();
     let mut with_mass = split.iter().filter(|(k, _)| !k.is_zero());
     let unit = with_mass
         .next()

@@ -6,7 +6,7 @@
 use super::fault::{Fault, Span};
 use super::parameters::number_words;
 use super::proof::{Given, Zero, given, middle, sign, violation, zero};
-use super::{ALONE, Contact, Hinge, Scene, beside_friction, geometry, touch};
+use super::{ALONE, Contact, Hinge, Scene, beside_friction, touch};
 use crate::algebra::Sign;
 use crate::expr::{Expr, Function, Node, Symbol, Vector, dot, minus};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -276,7 +276,7 @@ fn approach(scene: &Scene, i: usize, given: &Given, span: Span) -> Option<Fault>
 /// Whether a vector is (cos φ, ± sin φ), or the same with its components exchanged or negated.
 fn is_cosine_and_sine(vector: &Vector) -> bool {
     let split = |e: &Expr| {
-        let (factor, rest) = geometry::split_number(e);
+        let (factor, rest) = e.split_number();
         let is_sign = factor.is_integer() && factor.numer().as_i64().is_some_and(|k| k.abs() == 1);
         match rest.node() {
             Node::Call(f @ (Function::Sin | Function::Cos), argument) if is_sign => {

@@ -4,7 +4,7 @@ use num_integer::Integer;
 use num_traits::{Signed, Zero};
 
 use crate::expr::angle::{Angle, angle};
-use crate::expr::{Expr, Int, Rational, Vector, ratio};
+use crate::expr::{Expr, Int, Vector, ratio};
 
 /// The unit vector at an angle counterclockwise from x. Multiples of π/2 are taken out, and of ±φ the one is used that
 /// does not start with a minus sign: the direction at π/2 + θ is (−sin θ, cos θ).
@@ -44,19 +44,6 @@ pub fn direction(e: &Expr) -> Vector {
 /// The velocity ω k × r of a point at r from a fixed point, in a body with spin ω.
 pub(super) fn turned(spin: &Expr, r: &Vector) -> Vector {
     [-(spin * &r[1]), spin * &r[0]]
-}
-
-/// The rational factor of an expression, and the rest.
-pub(super) fn split_number(e: &Expr) -> (Rational, Expr) {
-    use crate::expr::Node;
-    match e.node() {
-        Node::Number(value) => (value.clone(), Expr::one()),
-        Node::Product(factors) => match factors[0].as_number() {
-            Some(value) => (value.clone(), Expr::product(factors[1..].iter().cloned())),
-            None => (ratio(1, 1), e.clone()),
-        },
-        _ => (ratio(1, 1), e.clone()),
-    }
 }
 
 #[cfg(test)]

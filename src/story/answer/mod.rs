@@ -8,7 +8,7 @@ mod reached;
 use std::collections::BTreeSet;
 
 use super::{Case, StageTold, Told, second, spring, words, worlds};
-use crate::answer::{self, Answer, Form, Known, Refused};
+use crate::answer::{self, Answer, Check, Form, Known, Refused};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, sentence};
@@ -402,23 +402,13 @@ fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
             a.text
                 .push(sentence!["not determined: it depends on ", names]);
         }
-        for (name, value) in &case.handed {
-            a.text.push(sentence![
-                "derived and checked for any ",
-                name,
-                "; then ",
-                name,
-                " = ",
-                value,
-                " is substituted"
-            ]);
-        }
         a.assumptions.extend(case.assumptions().map(Sentence::from));
         for (why, e) in &case.conditions {
             a.assumptions
                 .push(sentence![Sentence::not_negative(e), " (", why, ")"]);
         }
-        a.checks = case.identities().chain(checks).cloned().collect();
+        let identities = case.identities().map(|check| for_any(case, check));
+        a.checks = identities.chain(checks.iter().cloned()).collect();
         out.push(a);
     }
     if out.is_empty() {
@@ -437,6 +427,24 @@ fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
         out.push(a);
     }
     out
+}
+
+/// What holds for any motion handed on, and so for the one that is.
+fn for_any(case: &Case, check: &Check) -> Check {
+    let mut check = check.clone();
+    if !case.handed.is_empty() {
+        let handed = case.handed.iter();
+        let (names, values): (Vec<String>, Vec<Sentence>) = handed
+            .map(|(name, value)| (name.to_string(), sentence![name, " = ", value]))
+            .unzip();
+        let values = Sentence::join(values, ", ");
+        check.words = format!(
+            "{} for any {}, and so for {values}",
+            check.words,
+            names.join(", ")
+        );
+    }
+    check
 }
 
 /// Names an answer after its case.
