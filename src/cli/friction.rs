@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{Failure, Format, files, pretty, print, read_scene, refused, work_out};
-use carom::render::friction;
 use carom::scene::{ContactLaw, Scene};
 use carom::verify::compare::{NoComparison, compare};
 use carom::{numeric, plot, render};
@@ -41,13 +40,13 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     }
     let found = compare(&scene).map_err(|why| refused(why.to_string()))?;
     if let Some(path) = &args.output {
-        let plane = plot::draw(&friction::plane(&scene, &found));
+        let plane = plot::draw(&render::compare::plane(&scene, &found));
         let plane = plane.map_err(|why| refused(why.to_string()))?;
         files::save(path, plane.svg.as_bytes(), &[&args.scene])?;
     }
     print(&match args.format {
-        Format::Text => friction::comparison(&scene, &found),
-        Format::Json => pretty(&friction::comparison_json(&scene, &found)),
+        Format::Text => render::compare::text(&scene, &found),
+        Format::Json => pretty(&render::compare::json(&scene, &found)),
     })?;
     Ok(0)
 }

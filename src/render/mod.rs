@@ -2,6 +2,7 @@
 //! and reason comes in ready.
 
 pub mod certified;
+pub mod compare;
 pub mod faults;
 mod fonts;
 pub mod friction;
@@ -68,6 +69,21 @@ pub fn terminal(text: &str) -> String {
         }
     }
     out
+}
+
+/// Rows with columns of equal width, numbers to the right and everything else to the left.
+fn columns(rows: &[Vec<String>], is_number: impl Fn(usize) -> bool) -> Vec<String> {
+    let width = |j: usize| rows.iter().map(|r| r[j].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..rows.first().map_or(0, Vec::len)).map(width).collect();
+    let line = |row: &Vec<String>| {
+        let cells = row.iter().zip(&widths).enumerate();
+        let cells = cells.map(|(j, (cell, width))| match is_number(j) {
+            true => format!("{cell:>width$}"),
+            false => format!("{cell:<width$}"),
+        });
+        cells.collect::<Vec<_>>().join("  ")
+    };
+    rows.iter().map(line).collect()
 }
 
 /// Data as JSON for people and programs; what would be hidden stands there by its number.

@@ -92,7 +92,10 @@ fn stage_text(followed: &Followed, passed: &Passed) -> String {
             rows.push(row);
         }
     }
-    let mut out = table(&rows);
+    let mut out = String::new();
+    for line in super::columns(&rows, |j| j > 1) {
+        let _ = writeln!(out, "  {}", line.trim_end());
+    }
     match &passed.what {
         What::Impact(impact) => {
             let all: Vec<&Component> = impulses(impact).flat_map(|p| &p.impulse).collect();
@@ -161,24 +164,6 @@ fn acting(impact: &Impact) -> String {
             )
         }
     }
-}
-
-/// Columns of equal width, names to the left and numbers to the right.
-fn table(rows: &[Vec<String>]) -> String {
-    let width = |j: usize| rows.iter().map(|r| r[j].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..rows[0].len()).map(width).collect();
-    let mut out = String::new();
-    for row in rows {
-        let cells = row.iter().zip(&widths).enumerate();
-        let cells: Vec<String> = cells
-            .map(|(j, (cell, width))| match j {
-                0 | 1 => format!("{cell:<width$}"),
-                _ => format!("{cell:>width$}"),
-            })
-            .collect();
-        let _ = writeln!(out, "  {}", cells.join("  ").trim_end());
-    }
-    out
 }
 
 fn impulses(impact: &Impact) -> impl Iterator<Item = &Impulse> {

@@ -202,40 +202,14 @@ pub fn matrix(scene: &Scene, m: &Matrix) -> String {
 }
 
 fn matrix_lines(out: &mut String, scene: &Scene, m: &Matrix) {
-    let cells: Vec<Vec<String>> = m
-        .entries
-        .iter()
-        .map(|row| row.iter().map(|e| unicode(scene, e)).collect())
-        .collect();
-    let width = |j: usize| {
-        cells
-            .iter()
-            .map(|row| row[j].chars().count())
-            .chain([m.unknowns[j].chars().count()])
-            .max()
-            .unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..m.unknowns.len()).map(width).collect();
-    let row = |cells: &[String]| {
-        let padded: Vec<String> = cells
-            .iter()
-            .zip(&widths)
-            .map(|(c, w)| format!("{c}{}", " ".repeat(w - c.chars().count())))
-            .collect();
-        padded.join("  ")
-    };
-    line(out, "      ", row(&m.unknowns).trim_end());
-    for (i, cells) in cells.iter().enumerate() {
-        line(
-            out,
-            "    [ ",
-            &format!(
-                "{} | {} ]   {}",
-                row(cells),
-                unicode(scene, &m.rhs[i]),
-                m.rows[i]
-            ),
-        );
+    let entries = m.entries.iter();
+    let entries = entries.map(|row| row.iter().map(|e| unicode(scene, e)).collect());
+    let rows: Vec<Vec<String>> = [m.unknowns.clone()].into_iter().chain(entries).collect();
+    let lines = super::columns(&rows, |_| false);
+    line(out, "      ", lines[0].trim_end());
+    for (i, cells) in lines[1..].iter().enumerate() {
+        let rhs = unicode(scene, &m.rhs[i]);
+        line(out, "    [ ", &format!("{cells} | {rhs} ]   {}", m.rows[i]));
     }
 }
 
