@@ -462,9 +462,6 @@ fn the_name_of_the_output_tells_the_format() {
 
 /// Every picture of a case, as its page and its document hold it.
 fn pictures(case: &Case) -> Vec<figure::Drawing> {
-    if !case.scene.has_stages() {
-        return figure::all(&case.scene);
-    }
     let chapters = case.worked.chapters();
     let each = chapters
         .iter()

@@ -1,7 +1,14 @@
 //! Every shipped scene is drawn; a folder given in `CAROM_GALLERY` gets the pictures, for looking at.
 
+use super::sheet::Item;
 use super::values::Pair;
 use super::*;
+
+/// The pictures of one impact.
+fn all(scene: &Scene) -> Vec<Drawing> {
+    let impact = Chapter::Impact(scene.clone());
+    chapter("", &impact).into_iter().map(|d| d.0).collect()
+}
 
 fn scenes() -> Vec<(String, Scene)> {
     let mut out = Vec::new();
