@@ -180,7 +180,7 @@ pub(super) fn replay(
             needed.add(&Expr::symbol(&parameter.name));
         }
     }
-    let needed = super::needed(needed, meanings, claims);
+    let needed = super::replay::needed(needed, meanings, claims);
     let mut points = Vec::new();
     let mut apart: Vec<Option<String>> = vec![None; impacts.len()];
     let mut compared = vec![false; impacts.len()];
@@ -253,7 +253,7 @@ pub(super) fn replay(
             None => report.held += 1,
         }
     }
-    super::compare(points, meanings, claims, report);
+    super::replay::compare(points, meanings, claims, report);
 }
 
 /// Whether the supports and strings that act are those of the outcome that the solution tells, and friction does the same.

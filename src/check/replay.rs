@@ -1,0 +1,230 @@
+//! Replays claims at random exact points: every symbol at the value that the independent solution of the scene gives it.
+//!
+//! In: a scene, what the symbols of its solution stand for, the claims. Out: which of them hold there, exactly or else in doubles.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::{Claim, Failure, Meaning, POINTS, Report};
+use crate::expr::{Point, Rational, Symbol};
+use crate::numeric::friction::happened;
+use crate::numeric::{self, Answer, Number};
+use crate::scene::Scene;
+
+/// Seeds tried where a contact with friction must do what the solution says.
+const SEEDS: u64 = 400;
+
+/// Relative difference allowed where a claim has no exact value and doubles must do.
+const ROUNDING: f64 = 1e-9;
+
+/// Replays the claims of a scene of one impact, or those of one of its impacts.
+pub(super) fn replay(
+    scene: &Scene,
+    meanings: &BTreeMap<Symbol, Meaning>,
+    claims: &[&Claim],
+    mode: Option<&str>,
+    report: &mut Report,
+) {
+    let needed = needed(numeric::needed(scene), meanings, claims);
+    let random = |seed| numeric::random_point(&needed, &scene.domains, seed);
+    let points: Vec<Point<Rational>> = match scene.friction() {
+        None => (1..=POINTS).map(random).collect(),
+        Some(_) => {
+            let wide = |seed| numeric::point_of_any_size(&needed, &scene.domains, seed);
+            let seeds = (1..=SEEDS).map(random).chain((1..=SEEDS).map(wide));
+            // The values of the scene show a case that few points of the domain have.
+            let own = numeric::exact_values(scene).ok();
+            let fits = |p: &Point<Rational>| mode.is_some() && does(scene, p).as_deref() == mode;
+            own.into_iter()
+                .chain(seeds)
+                .filter(fits)
+                .take(POINTS as usize)
+                .collect()
+        }
+    };
+    let points = points.into_iter().map(|mut point| {
+        let mut doubles = numeric::rounded(&point);
+        symbols_at(scene, meanings, &mut point, numeric::solve_exact);
+        symbols_at(scene, meanings, &mut doubles, numeric::solve_f64);
+        (point, doubles)
+    });
+    compare(points.collect(), meanings, claims, report);
+}
+
+/// What the contact with friction does at a point, followed in fractions, or in doubles where a root is no fraction.
+fn does(scene: &Scene, at: &Point<Rational>) -> Option<String> {
+    let given = numeric::given(scene, at).ok()?;
+    if let Ok(found) = numeric::settle(&given, numeric::solve_exact) {
+        let (_, followed) = found?;
+        return Some(happened(&given, &followed).words().to_string());
+    }
+    let given = numeric::given(scene, &numeric::rounded(at)).ok()?;
+    let (_, followed) = numeric::settle(&given, numeric::solve_f64).ok()??;
+    Some(happened(&given, &followed).words().to_string())
+}
+
+/// Everything that must have a value at a point; what the motion decides is found later.
+pub(super) fn needed(
+    mut needed: numeric::Needed,
+    meanings: &BTreeMap<Symbol, Meaning>,
+    claims: &[&Claim],
+) -> numeric::Needed {
+    for claim in claims {
+        needed.add(&claim.left);
+        needed.add(&claim.right);
+    }
+    needed.plain.retain(|name| !meanings.contains_key(name));
+    needed.angles.retain(|name, _| !meanings.contains_key(name));
+    needed
+}
+
+/// Puts points, exact and in doubles, into both sides of every claim.
+pub(super) fn compare(
+    points: Vec<(Point<Rational>, Point<f64>)>,
+    meanings: &BTreeMap<Symbol, Meaning>,
+    claims: &[&Claim],
+    report: &mut Report,
+) {
+    let mut held: BTreeSet<usize> = BTreeSet::new();
+    let mut rounded: BTreeSet<usize> = BTreeSet::new();
+    let mut failed: BTreeMap<usize, String> = BTreeMap::new();
+    for (mut point, mut doubles) in points {
+        for (name, (divisor, [cos, sin])) in &doubles.directions {
+            let angle = f64::from(*divisor) * sin.atan2(*cos);
+            doubles.values.entry(name.clone()).or_insert(angle);
+        }
+        for (i, claim) in claims.iter().enumerate() {
+            if let Some(name) = &claim.defines
+                && matches!(meanings.get(name), Some(Meaning::Defined))
+                && !doubles.values.contains_key(name)
+            {
+                if let Some(value) = claim.right.evaluate(&point) {
+                    point.values.insert(name.clone(), value);
+                }
+                if let Some(value) = claim.right.evaluate(&doubles) {
+                    doubles.values.insert(name.clone(), value);
+                }
+            }
+            match exact(claim, &point) {
+                Some(Ok(())) => {
+                    held.insert(i);
+                }
+                Some(Err(why)) => {
+                    failed.entry(i).or_insert(why);
+                }
+                None => match close(claim, &doubles) {
+                    Some(Ok(())) => {
+                        held.insert(i);
+                        rounded.insert(i);
+                    }
+                    Some(Err(why)) => {
+                        failed.entry(i).or_insert(why);
+                    }
+                    None => {}
+                },
+            }
+        }
+    }
+    for (i, claim) in claims.iter().enumerate() {
+        if let Some(why) = failed.get(&i) {
+            report.failed.push(Failure {
+                step: claim.step.clone(),
+                claim: claim.text.clone(),
+                why: why.clone(),
+            });
+        } else if held.contains(&i) {
+            report.held += 1;
+            report.in_doubles += usize::from(rounded.contains(&i));
+        } else {
+            report.open.push(claim.step.clone());
+        }
+    }
+}
+
+fn exact(claim: &Claim, point: &Point<Rational>) -> Option<Result<(), String>> {
+    let left = claim.left.evaluate(point)?;
+    let right = claim.right.evaluate(point)?;
+    Some(if left == right {
+        Ok(())
+    } else {
+        Err(format!(
+            "at an exact point the left side is {left}, the right side {right}"
+        ))
+    })
+}
+
+fn close(claim: &Claim, point: &Point<f64>) -> Option<Result<(), String>> {
+    let left = claim.left.evaluate(point)?;
+    let right = claim.right.evaluate(point)?;
+    let scale = left.abs().max(right.abs()).max(1.0);
+    let apart = (left - right).abs();
+    Some(
+        if apart <= ROUNDING * scale || apart <= shaken(claim, point) {
+            Ok(())
+        } else {
+            Err(format!(
+                "in doubles the left side is {left}, the right side {right}"
+            ))
+        },
+    )
+}
+
+/// By how much the sides of a claim come apart when a value changes by its rounding: large where a root is taken of what
+/// cancels.
+fn shaken(claim: &Claim, point: &Point<f64>) -> f64 {
+    let apart = |point: &Point<f64>| {
+        let sides = [&claim.left, &claim.right].map(|e| e.evaluate(point));
+        let [Some(left), Some(right)] = sides else {
+            return None;
+        };
+        Some((left - right).abs())
+    };
+    let symbols = claim
+        .left
+        .symbols()
+        .into_iter()
+        .chain(claim.right.symbols());
+    let both =
+        symbols.flat_map(|name| [-4.0, 4.0].map(|ulps| (name.clone(), 1.0 + ulps * f64::EPSILON)));
+    let all = both.filter_map(|(name, factor)| {
+        let mut near = point.clone();
+        *near.values.get_mut(&name)? *= factor;
+        apart(&near)
+    });
+    // What is apart by more than rounding stays so whatever is shaken.
+    let here = apart(point).unwrap_or(0.0);
+    all.map(|a| (a - here).abs()).fold(0.0, f64::max)
+}
+
+/// Gives every symbol its value in the independent solution; symbols that the laws leave open get none.
+fn symbols_at<T: Number + PartialOrd>(
+    scene: &Scene,
+    meanings: &BTreeMap<Symbol, Meaning>,
+    point: &mut Point<T>,
+    solve: impl Fn(&numeric::System<T>) -> Result<numeric::Solution<T>, numeric::Contradiction>,
+) {
+    let Ok(given) = numeric::given(scene, point) else {
+        return;
+    };
+    let given = match numeric::settle(&given, &solve) {
+        Ok(Some((settled, _))) => settled,
+        Ok(None) => given,
+        Err(_) => return,
+    };
+    let system = numeric::assemble(&given);
+    let Ok(solution) = solve(&system) else {
+        return;
+    };
+    let motion = numeric::motion(&given, &system, &solution);
+    for (name, meaning) in meanings {
+        let Meaning::Asked(ask, axis) = meaning else {
+            continue;
+        };
+        let value = match (numeric::answer(ask, point, &given, &motion), axis) {
+            (Ok(Answer::Scalar(value)), _) => value,
+            (Ok(Answer::Vector([x, _])), Some(0)) => x,
+            (Ok(Answer::Vector([_, y])), Some(1)) => y,
+            _ => continue,
+        };
+        point.values.insert(name.clone(), value);
+    }
+}
