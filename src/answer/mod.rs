@@ -213,11 +213,6 @@ impl Answer {
         let is = |axis: &&str| rest == *axis || rest.starts_with(&format!("{axis}_case"));
         ["_x", "_y"].iter().position(is)
     }
-
-    /// Whether no check failed.
-    pub fn holds(&self) -> bool {
-        self.checks.iter().all(|c| c.holds != Some(false))
-    }
 }
 
 /// Why a stage, a question or a plot cannot be worked out.

@@ -206,7 +206,6 @@ pub fn width(solution: &Solution, math: &[Math]) -> usize {
             .sum(),
         Math::Name(name) => 1.0 + 0.7 * (name.index.chars().count() as f64),
         Math::Op(op) => 2.0 + op.chars().count() as f64,
-        Math::Unit(_) => 1.0,
         Math::Brackets(inner) => width(solution, inner) as f64 + 2.0,
     });
     each.sum::<f64>().ceil() as usize
@@ -385,7 +384,6 @@ pub fn unicode(solution: &Solution, math: &[Math]) -> String {
                 continue;
             }
             Math::Op(op) => (*op).to_string(),
-            Math::Unit(axis) => UNICODE.units[*axis].to_string(),
             Math::Brackets(inner) if is_plain(inner) => unicode(solution, inner),
             Math::Brackets(inner) => format!("({})", unicode(solution, inner)),
         };
@@ -436,7 +434,6 @@ pub fn latex(solution: &Solution, math: &[Math]) -> String {
             }
             Math::Name(name) => latex_name(name),
             Math::Op(op) => latex_op(op).to_string(),
-            Math::Unit(axis) => LATEX.units[*axis].to_string(),
             Math::Brackets(inner) if is_plain(inner) => latex(solution, inner),
             Math::Brackets(inner) => format!("\\left({}\\right)", latex(solution, inner)),
         };

@@ -30,7 +30,6 @@ pub fn formula(solution: &Solution, math: &[Math]) -> String {
                 };
                 out.push_str(&format!("<mo{space}>{}</mo>", escape(op)));
             }
-            Math::Unit(axis) => out.push_str(unit(*axis)),
             Math::Brackets(inner) if is_plain(inner) => out.push_str(&formula(solution, inner)),
             Math::Brackets(inner) => out.push_str(&brackets(&formula(solution, inner))),
         }

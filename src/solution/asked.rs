@@ -253,7 +253,6 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
         text.push(say(","));
         solution.text(text);
     }
-    let holds = answer.checks.iter().all(|c| c.holds == Some(true));
     let mut lines: Vec<Line> = Vec::new();
     let plain = |e: &Expr| e.as_number().is_some();
     let stated = answer.stated.iter();
@@ -288,103 +287,11 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     let shown = claims(ask, answer, named.map(|f| (&symbol, f)));
     let reason = answer.put_in.first().map_or("what is asked", |p| p.2);
     let shown = (!shown.is_empty()).then(|| solution.step(Vec::new(), shown, reason));
-    if let Ask::Show {
-        left, right, with, ..
-    } = ask
-    {
-        for (asked, (raw, value, _)) in [left, right].into_iter().zip(&answer.put_in) {
-            if asked == value {
-                continue;
-            }
-            let mut forms = vec![raw, value];
-            forms.dedup();
-            forms.retain(|f| *f != asked && f.size() <= READABLE);
-            for (i, form) in forms.into_iter().enumerate() {
-                let mut math = vec![Math::Op("="), Math::Expr(form.clone())];
-                if i == 0 {
-                    math.insert(0, Math::Expr(asked.clone()));
-                }
-                lines.push(Line {
-                    math,
-                    step: shown.clone(),
-                });
-            }
-        }
-        if !with.is_empty() {
-            let mut text = vec![say("With ")];
-            for (i, (name, value)) in with.iter().enumerate() {
-                if i > 0 {
-                    text.push(say(" and "));
-                }
-                text.push(words::equation(&Expr::symbol(name), value));
-            }
-            text.push(say(","));
-            solution.text(text);
-        }
-        // The identity itself, in the symbols whose values an independent solution finds.
-        let known = |e: &Expr| {
-            let is_parameter = |s: &str| scene.parameters.iter().any(|p| *p.name == *s);
-            e.symbols()
-                .iter()
-                .all(|s| is_parameter(s) || solution.meanings.contains_key(s))
-        };
-        if holds && with.is_empty() && known(left) && known(right) {
-            let claim = Claim {
-                left: left.clone(),
-                right: right.clone(),
-            };
-            solution.step(Vec::new(), vec![claim], "what was to be shown");
-        }
-    }
-    let line = |left: &Expr, op: &'static str, right: &Expr, step: &Option<String>| Line {
-        math: vec![
-            Math::Expr(left.clone()),
-            Math::Op(op),
-            Math::Expr(right.clone()),
-        ],
-        step: step.clone(),
-    };
-    let mut found: Vec<Line> = Vec::new();
-    for (p, relation, value) in &answer.range {
-        let mut whole = line(p, relation.sign(), value, &shown);
-        // A name that later questions use is told where its value is found.
-        if fresh && answer.range.len() == 1 && is_used(scene, &name) {
-            let named = [Math::Expr(symbol.clone()), Math::Op("=")];
-            whole.math.splice(2..2, named);
-        }
-        found.push(whole);
+    if let Ask::Show { .. } = ask {
+        lines.extend(identity(solution, scene, ask, answer, &shown));
     }
     let named_step = defined.or_else(|| shown.clone());
-    if let Some(formula) = answer.formula()
-        && answer.range.is_empty()
-    {
-        let (left, op) = match stands_for(ask, answer) {
-            Some((of, op)) => (of, op),
-            None => (symbol.clone(), "="),
-        };
-        let mut whole = line(&left, op, formula, &named_step);
-        if let Ask::Value {
-            formula: asked,
-            with,
-            meaning,
-        } = ask
-            && with.is_empty()
-            && meaning.is_empty()
-            && asked != formula
-            && asked.size() <= READABLE / 4
-        {
-            whole
-                .math
-                .splice(2..2, [Math::Expr(asked.clone()), Math::Op("=")]);
-        }
-        found.push(whole);
-    }
-    if let Form::Equation { left, right } = &answer.form
-        && answer.stated.is_none()
-        && !matches!(ask, Ask::Show { .. })
-    {
-        found.push(line(left, "=", right, &named_step));
-    }
+    let found = found(scene, ask, answer, [&shown, &named_step], fresh);
     if !lines.is_empty() {
         solution.push(Part::Display(lines));
     }
@@ -400,38 +307,8 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     if let Some(value) = number(scene, answer).filter(|_| !stands) {
         solution.text(vec![say("In numbers: "), words::formula(&of), say(value)]);
     }
-    // At which values a formula is taken stands in the heading.
-    let in_heading = match ask {
-        Ask::Value { with, .. } => with.len(),
-        _ => 0,
-    };
-    let mut text: Vec<Vec<Inline>> = answer
-        .text
-        .iter()
-        .skip(in_heading)
-        .map(|t| full_sentence(scene, t))
-        .collect();
-    if let Ask::Show { claim, with, .. } = ask
-        && holds
-    {
-        // What is proved stands above; the values put in, before it.
-        text.drain(..text.len().min(1 + with.len()));
-        let end = match claim.as_str() {
-            "" => String::from("This was to be shown."),
-            claim => format!("So {}.", claim.trim_end_matches('.')),
-        };
-        text.insert(0, vec![say(end)]);
-    }
-    if text.len() > 1 && matches!(ask, Ask::Show { .. }) {
-        let sentences = std::mem::take(&mut text);
-        text.push(sentences.join(&say(" ")));
-    }
-    match text.len() {
-        0 => {}
-        1 => solution.text(text.remove(0)),
-        _ => solution.push(Part::List(text)),
-    }
-    if brief && holds {
+    said(solution, scene, ask, answer);
+    if brief && holds(answer) {
         return;
     }
     // Complex roots are worth a word only where every line of algebra is.
@@ -452,6 +329,167 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     }
     if let Some(words) = worth_telling(&answer.checks, solution.detail).filter(|_| !told) {
         solution.text(vec![say(called(scene, &words))]);
+    }
+}
+
+/// The lines on the way to an identity that was to be shown; where it holds, also the claim that it does.
+fn identity(
+    solution: &mut Solution,
+    scene: &Scene,
+    ask: &Ask,
+    answer: &Answer,
+    shown: &Option<String>,
+) -> Vec<Line> {
+    let Ask::Show {
+        left, right, with, ..
+    } = ask
+    else {
+        return Vec::new();
+    };
+    let mut lines = Vec::new();
+    for (asked, (raw, value, _)) in [left, right].into_iter().zip(&answer.put_in) {
+        if asked == value {
+            continue;
+        }
+        let mut forms = vec![raw, value];
+        forms.dedup();
+        forms.retain(|f| *f != asked && f.size() <= READABLE);
+        for (i, form) in forms.into_iter().enumerate() {
+            let mut math = vec![Math::Op("="), Math::Expr(form.clone())];
+            if i == 0 {
+                math.insert(0, Math::Expr(asked.clone()));
+            }
+            let step = shown.clone();
+            lines.push(Line { math, step });
+        }
+    }
+    if !with.is_empty() {
+        let mut text = vec![say("With ")];
+        for (i, (name, value)) in with.iter().enumerate() {
+            if i > 0 {
+                text.push(say(" and "));
+            }
+            text.push(words::equation(&Expr::symbol(name), value));
+        }
+        text.push(say(","));
+        solution.text(text);
+    }
+    // The identity itself, in the symbols whose values an independent solution finds.
+    let known = |e: &Expr| {
+        let is_parameter = |s: &str| scene.parameters.iter().any(|p| *p.name == *s);
+        e.symbols()
+            .iter()
+            .all(|s| is_parameter(s) || solution.meanings.contains_key(s))
+    };
+    if holds(answer) && with.is_empty() && known(left) && known(right) {
+        let claim = Claim {
+            left: left.clone(),
+            right: right.clone(),
+        };
+        solution.step(Vec::new(), vec![claim], "what was to be shown");
+    }
+    lines
+}
+
+/// Whether every check of an answer holds.
+fn holds(answer: &Answer) -> bool {
+    answer.checks.iter().all(|c| c.holds == Some(true))
+}
+
+/// What goes into the box: a range of a parameter, a value, an equation. Steps are the one that shows the answer, and the one
+/// that names it.
+fn found(
+    scene: &Scene,
+    ask: &Ask,
+    answer: &Answer,
+    [shown, named_step]: [&Option<String>; 2],
+    fresh: bool,
+) -> Vec<Line> {
+    let symbol = Expr::symbol(&answer.name);
+    let name = crate::expr::Symbol::from(answer.name.as_str());
+    let line = |left: &Expr, op: &'static str, right: &Expr, step: &Option<String>| Line {
+        math: vec![
+            Math::Expr(left.clone()),
+            Math::Op(op),
+            Math::Expr(right.clone()),
+        ],
+        step: step.clone(),
+    };
+    let mut found: Vec<Line> = Vec::new();
+    for (p, relation, value) in &answer.range {
+        let mut whole = line(p, relation.sign(), value, shown);
+        // A name that later questions use is told where its value is found.
+        if fresh && answer.range.len() == 1 && is_used(scene, &name) {
+            let named = [Math::Expr(symbol.clone()), Math::Op("=")];
+            whole.math.splice(2..2, named);
+        }
+        found.push(whole);
+    }
+    if let Some(formula) = answer.formula()
+        && answer.range.is_empty()
+    {
+        let (left, op) = match stands_for(ask, answer) {
+            Some((of, op)) => (of, op),
+            None => (symbol.clone(), "="),
+        };
+        let mut whole = line(&left, op, formula, named_step);
+        if let Ask::Value {
+            formula: asked,
+            with,
+            meaning,
+        } = ask
+            && with.is_empty()
+            && meaning.is_empty()
+            && asked != formula
+            && asked.size() <= READABLE / 4
+        {
+            whole
+                .math
+                .splice(2..2, [Math::Expr(asked.clone()), Math::Op("=")]);
+        }
+        found.push(whole);
+    }
+    if let Form::Equation { left, right } = &answer.form
+        && answer.stated.is_none()
+        && !matches!(ask, Ask::Show { .. })
+    {
+        found.push(line(left, "=", right, named_step));
+    }
+    found
+}
+
+/// What is said of an answer in sentences.
+fn said(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer) {
+    // At which values a formula is taken stands in the heading.
+    let in_heading = match ask {
+        Ask::Value { with, .. } => with.len(),
+        _ => 0,
+    };
+    let mut text: Vec<Vec<Inline>> = answer
+        .text
+        .iter()
+        .skip(in_heading)
+        .map(|t| full_sentence(scene, t))
+        .collect();
+    if let Ask::Show { claim, with, .. } = ask
+        && holds(answer)
+    {
+        // What is proved stands above; the values put in, before it.
+        text.drain(..text.len().min(1 + with.len()));
+        let end = match claim.as_str() {
+            "" => String::from("This was to be shown."),
+            claim => format!("So {}.", claim.trim_end_matches('.')),
+        };
+        text.insert(0, vec![say(end)]);
+    }
+    if text.len() > 1 && matches!(ask, Ask::Show { .. }) {
+        let sentences = std::mem::take(&mut text);
+        text.push(sentences.join(&say(" ")));
+    }
+    match text.len() {
+        0 => {}
+        1 => solution.text(text.remove(0)),
+        _ => solution.push(Part::List(text)),
     }
 }
 

@@ -4,6 +4,7 @@
 //! system, about which point, which impulses drop out and why, what was divided by, what to notice. Every equation shown is a
 //! [`Claim`] of a [`Step`], so that `check` can put exact numbers into both sides. This module knows no output format.
 
+mod angular;
 mod answers;
 mod asked;
 mod balance;
@@ -209,8 +210,6 @@ pub enum Math {
     Name(Name),
     /// `=`, `+`, `−`, `×`, `·`, `≈`, `⇒`, `→` or a comma.
     Op(&'static str),
-    /// Unit vector: 0 î, 1 ĵ, 2 k̂.
-    Unit(usize),
     /// Something in brackets.
     Brackets(Vec<Math>),
 }
