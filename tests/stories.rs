@@ -385,11 +385,11 @@ fn a_speed_at_a_stage_is_the_length_of_the_velocity_there() {
         Some((a.name.as_str(), a.latex.as_str(), value))
     });
     let expected = [
-        ("v_vec_x", "v_{1,x}", "u"),
-        ("v_vec_y", "v_{1,y}", "-sqrt(2*g*h)"),
+        ("v_velocity_x", "v_{1,x}", "u"),
+        ("v_velocity_y", "v_{1,y}", "-sqrt(2*g*h)"),
         ("v", "v_1", "sqrt(2*g*h+u^2)"),
-        ("w_vec_x", "w_{x}", "u"),
-        ("w_vec_y", "w_{y}", "e*sqrt(2*g*h)"),
+        ("w_velocity_x", "w_{x}", "u"),
+        ("w_velocity_y", "w_{y}", "e*sqrt(2*g*h)"),
         ("w", "w", "sqrt(u^2+2*e^2*g*h)"),
     ];
     let found: Vec<_> = answers

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use num_traits::Signed;
 
 use super::Check;
-use super::calc::{essential, is_zero, sign, tidy, within};
+use super::calc::{Seen, essential, is_zero, sign, tidy, within};
 use super::{Answer, Form, Near};
 use crate::algebra::{Element, Field, Sign};
 use crate::domain::{Domain, Domains, roles, samples};
@@ -52,9 +52,11 @@ enum Side {
 
 /// A limit: value, none, or not found, with the reason.
 pub fn fill(out: &mut Answer, of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) {
-    if let Some(to) = to
-        && let Some(words) = outside(to, parameter, domains)
-    {
+    let outside = match to {
+        Some(to) => outside(to, parameter, domains),
+        None => bounded(parameter, domains),
+    };
+    if let Some(words) = outside {
         out.text.push(words);
         out.checks.push(open("limit"));
         return;
@@ -197,6 +199,21 @@ fn open(kind: &'static str) -> Check {
 
 /// Words for a value that the parameter cannot come to.
 fn outside(to: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence> {
+    let there = BTreeMap::from([(parameter.clone(), to.clone())]);
+    let mut relations = domains.relations.iter();
+    let broken = relations.find(|r| {
+        let far = r.excess.substitute(&there);
+        far != r.excess && matches!(sign(&far, domains), Seen::Proved(Sign::Negative))
+    });
+    if let Some(broken) = broken {
+        return Some(sentence![
+            parameter,
+            " cannot come to ",
+            to,
+            ": the scene states ",
+            &broken.words
+        ]);
+    }
     let domain = domains.symbols.get(parameter)?;
     let below = domain.low.as_ref().map(|l| to - &end(l));
     let above = domain.high.as_ref().map(|h| &end(h) - to);
@@ -213,6 +230,32 @@ fn outside(to: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence>
             within(domain, parameter)
         ]
     })
+}
+
+/// Words for a parameter that cannot grow beyond all bounds while the others stay as they are.
+fn bounded(parameter: &Symbol, domains: &Domains) -> Option<Sentence> {
+    let domain = domains.symbols.get(parameter);
+    let high = domain.filter(|d| d.high.is_some());
+    if let Some(domain) = high {
+        return Some(sentence![
+            parameter,
+            " cannot grow beyond all bounds: ",
+            within(domain, parameter)
+        ]);
+    }
+    let mut relations = domains.relations.iter();
+    let broken = relations.find(|r| {
+        let far = match r.excess.symbols().contains(parameter) {
+            true => by_powers(&r.excess, parameter, true, domains),
+            false => None,
+        };
+        far.is_some_and(|far| matches!(far.tends, Tends::Beyond(Some(false))))
+    })?;
+    Some(sentence![
+        parameter,
+        " cannot grow beyond all bounds: the scene states ",
+        &broken.words
+    ])
 }
 
 fn end(limit: &crate::domain::Limit) -> Expr {
@@ -356,9 +399,8 @@ impl<'a> Taylor<'a> {
 
 /// What must not vanish, in words; nothing where that is proved.
 fn not_zero(e: &Expr, domains: &Domains) -> Option<Sentence> {
-    use super::calc::Seen::Proved;
     match sign(e, domains) {
-        Proved(Sign::Positive | Sign::Negative) => None,
+        Seen::Proved(Sign::Positive | Sign::Negative) => None,
         _ => Some(sentence![&essential(e, domains), " ≠ 0"]),
     }
 }

@@ -43,6 +43,8 @@ pub(super) fn replay(
     };
     let points = points.into_iter().map(|mut point| {
         let mut doubles = numeric::rounded(&point);
+        // An angle may stand in a sum, such as θ + π/4, whose sine is no fraction.
+        with_angles(&mut doubles);
         symbols_at(scene, meanings, &mut point, numeric::solve_exact);
         symbols_at(scene, meanings, &mut doubles, numeric::solve_f64);
         (point, doubles)
@@ -52,8 +54,10 @@ pub(super) fn replay(
 
 /// What the contact with friction does at a point, followed in fractions, or in doubles where a root is no fraction.
 fn does(scene: &Scene, at: &Point<Rational>) -> Option<String> {
-    let given = numeric::given(scene, at).ok()?;
-    if let Ok(found) = numeric::settle(&given, numeric::solve_exact) {
+    // A place that was handed on may hold a root.
+    if let Ok(given) = numeric::given(scene, at)
+        && let Ok(found) = numeric::settle(&given, numeric::solve_exact)
+    {
         let (_, followed) = found?;
         return Some(happened(&given, &followed).words().to_string());
     }
@@ -77,6 +81,14 @@ pub(super) fn needed(
     needed
 }
 
+/// Gives the angles that are known by their directions their values.
+fn with_angles(point: &mut Point<f64>) {
+    for (name, (divisor, [cos, sin])) in &point.directions {
+        let angle = f64::from(*divisor) * sin.atan2(*cos);
+        point.values.entry(name.clone()).or_insert(angle);
+    }
+}
+
 /// Puts points, exact and in doubles, into both sides of every claim.
 pub(super) fn compare(
     points: Vec<(Point<Rational>, Point<f64>)>,
@@ -88,10 +100,7 @@ pub(super) fn compare(
     let mut rounded: BTreeSet<usize> = BTreeSet::new();
     let mut failed: BTreeMap<usize, String> = BTreeMap::new();
     for (mut point, mut doubles) in points {
-        for (name, (divisor, [cos, sin])) in &doubles.directions {
-            let angle = f64::from(*divisor) * sin.atan2(*cos);
-            doubles.values.entry(name.clone()).or_insert(angle);
-        }
+        with_angles(&mut doubles);
         for (i, claim) in claims.iter().enumerate() {
             if let Some(name) = &claim.defines
                 && matches!(meanings.get(name), Some(Meaning::Defined))

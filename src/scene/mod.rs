@@ -67,7 +67,7 @@ pub fn read(text: &str) -> Result<Scene, Faults> {
     let file: Option<file::SceneFile> = record::Read::read(&root, &mut faults);
     let mut scene = Scene::default();
     if let Some(file) = &file {
-        let lone = stages::lone(file).or_else(|| questions::with_velocities(file));
+        let lone = stages::lone(file).or_else(|| questions::with_parts(file));
         (scene, faults) = resolve::resolve(lone.as_ref().unwrap_or(file), faults);
     }
     if faults.is_empty() {

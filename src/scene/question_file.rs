@@ -61,7 +61,7 @@ record! {
         /// just after the impact, for a velocity, a speed or a spin. Missing: the end, or just after.
         when: Option<EndName>,
         /// Speed just after of this body (its center of mass), or of this point of the body named in `of`; in a scene with stages
-        /// its velocity is answered too, under the same name with `_vec`.
+        /// its velocity is answered too, under the same name with `_velocity`.
         speed: Option<Text>,
         /// Moment of inertia of this body about the point `about`.
         inertia: Option<Text>,

@@ -337,12 +337,15 @@ fn meant(word: &str) -> Option<&'static str> {
             "a body rolls in a `slide` with \"rolling\": true, or with `friction` and \"until\": \"rolls\""
         }
         "swing" | "rotate" | "pivot" => "a body turns about a point in a `turn`",
-        "fly" | "flight" | "throw" => "a body flies in a `fall`, with `gravity` or without",
+        "fly" | "flight" | "throw" | "drop" | "free_fall" => {
+            "a body flies in a `fall`, with `gravity` or without"
+        }
         "stage" => "the stage a question asks about is `at`",
         "position" | "place" | "location" => "a body stands at its `center`",
         "momentum" => {
             "\"balance\": \"momentum\" gives an equation, `angular_momentum` with `about` a quantity"
         }
+        "collisions" | "impacts" => "bodies collide at their `contacts`",
         "moment_of_inertia" => "a moment of inertia is `inertia`",
         "gravity" => {
             "gravity belongs to a motion in `stages`; in an impact weight has no impulse, and is one of `forces`"
@@ -444,16 +447,16 @@ pub(super) fn word<T: Copy>(
         .map(|(_, value)| *value);
     if found.is_none() {
         let fault = Fault::new(node.span, format!("`{text}` is none of {}", all()));
-        let near = nearest(text, words.iter().map(|(w, _)| *w));
-        faults.push(
-            match meant(text)
-                .map(str::to_owned)
-                .or_else(|| near.map(|n| format!("did you mean `{n}`?")))
-            {
-                Some(hint) => fault.hint(hint),
-                None => fault,
-            },
-        );
+        let names = || words.iter().map(|(w, _)| *w);
+        // `stick` is more likely to be `sticking` here than a rod.
+        let begun = names().find(|w| text.len() > 2 && w.starts_with(text.as_ref() as &str));
+        let likely = |n: &str| format!("did you mean `{n}`?");
+        let known = || meant(text).map(str::to_owned);
+        let near = || nearest(text, names()).map(likely);
+        faults.push(match begun.map(likely).or_else(known).or_else(near) {
+            Some(hint) => fault.hint(hint),
+            None => fault,
+        });
     }
     found
 }

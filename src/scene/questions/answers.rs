@@ -111,7 +111,20 @@ pub(super) fn ask(
     if let (Some(parameter), Some(event)) = (&q.threshold, event(holds)) {
         let places = places(base.file, q, event.0);
         match places.as_slice() {
-            [] => {}
+            // A product of parameters with such a name.
+            [] if symbols
+                .names()
+                .declared()
+                .iter()
+                .any(|d| *d.name == *event.0) => {}
+            [] => {
+                let message = format!("no impact has a contact `{}`", event.0);
+                let fault = Fault::new(holds.span, message);
+                base.faults.push(
+                    fault.hint("a threshold of friction names its contact, such as \"C sticks\""),
+                );
+                return None;
+            }
             [one] => return friction_threshold(base, parameter, one, event.1),
             _ => {
                 let message = format!("several impacts have a contact `{}`", event.0);

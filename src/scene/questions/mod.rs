@@ -14,11 +14,11 @@ use super::fault::Fault;
 use super::file::SceneFile;
 use super::formulas::Symbols;
 use super::question_file::QuestionFile;
-use super::record::{Map, Text, is_sound};
+use super::record::{Formula, Map, Text, is_sound};
 use super::resolve::{Resolver, entries};
 use super::stage_file::EndName;
 use super::{Ask, Question, Scene};
-use crate::formula::latex_name;
+use crate::formula::{latex_name, with_subscript};
 
 /// What a kind of question is about.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -69,7 +69,7 @@ static KINDS: &[Kind] = kinds! {
         speed(of when at),
         angular_momentum(about when at),
         inertia(about),
-        instantaneous_center(),
+        instantaneous_center(at),
     }
     Answers {
         value(with),
@@ -257,41 +257,133 @@ fn question(name: &Text, q: &QuestionFile, ask: Ask) -> Question {
     Question::new(&name.text, q.latex.as_ref().map(|t| t.text.clone()), ask)
 }
 
-/// The same file where in a scene with stages the velocity stands before each speed that is asked, under a name of its own:
-/// the speed is a formula of it.
-pub(super) fn with_velocities(file: &SceneFile) -> Option<SceneFile> {
-    let speeds = |q: &QuestionFile| q.speed.is_some() && q.velocity.is_none();
-    let asked = entries(file.questions.as_ref()).any(|(_, q)| speeds(q));
-    if file.stages.is_none() || !asked {
+/// The same file where in a scene with stages that from which something is put together stands before it, under names of its
+/// own: of a speed the velocity, of an instantaneous center the velocity, the spin and the place of the body.
+pub(super) fn with_parts(file: &SceneFile) -> Option<SceneFile> {
+    let asked = entries(file.questions.as_ref());
+    let names = |q: &QuestionFile| kinds(q).map(|kind| kind.name).collect::<Vec<_>>();
+    let parted = |q: &QuestionFile| matches!(names(q)[..], ["speed" | "instantaneous_center"]);
+    if file.stages.is_none() || !asked.into_iter().any(|(_, q)| parted(q)) {
         return None;
     }
     let mut out = file.clone();
-    let mut all = Vec::new();
-    for (name, q) in file.questions.iter().flat_map(|m| &m.0) {
-        if let Some(q) = q.as_ref().filter(|q| speeds(q)) {
-            let latex = match &q.latex {
-                Some(latex) => latex.text.clone(),
-                None => latex_name(&name.text),
-            };
-            let velocity = QuestionFile {
-                latex: Some(Text {
-                    span: name.span,
-                    text: format!("\\vec{{{latex}}}"),
-                }),
-                velocity: q.speed.clone(),
-                speed: None,
-                ..q.clone()
-            };
-            let own = Text {
-                span: name.span,
-                text: format!("{}_vec", name.text),
-            };
-            all.push((own, Some(velocity)));
+    let mut all: Vec<Entry> = Vec::new();
+    for (name, entry) in file.questions.iter().flat_map(|m| &m.0) {
+        match entry.as_ref().filter(|q| parted(q)) {
+            Some(q) if q.speed.is_some() => {
+                all.push(velocity_of(name, q));
+                all.push((name.clone(), entry.clone()));
+            }
+            Some(q) => {
+                let parts = parts_of_center(&all, name, q);
+                all.extend(parts);
+            }
+            None => all.push((name.clone(), entry.clone())),
         }
-        all.push((name.clone(), q.clone()));
     }
     out.questions = Some(Map(all));
     Some(out)
+}
+
+type Entry = (Text, Option<QuestionFile>);
+
+fn own_name(name: &Text, suffix: &str) -> Text {
+    Text {
+        span: name.span,
+        text: format!("{}{suffix}", name.text),
+    }
+}
+
+/// The velocity of a speed.
+fn velocity_of(name: &Text, q: &QuestionFile) -> Entry {
+    let latex = match &q.latex {
+        Some(latex) => latex.text.clone(),
+        None => latex_name(&name.text),
+    };
+    let velocity = QuestionFile {
+        latex: Some(Text {
+            span: name.span,
+            text: format!("\\vec{{{latex}}}"),
+        }),
+        velocity: q.speed.clone(),
+        speed: None,
+        ..q.clone()
+    };
+    (own_name(name, "_velocity"), Some(velocity))
+}
+
+/// The instantaneous center by its coordinates: with v = ω k × (G − C), it lies v/ω to the left of the motion of the center
+/// of mass G. What it is put together from is asked before it, unless it has been.
+fn parts_of_center(earlier: &[Entry], name: &Text, q: &QuestionFile) -> Vec<Entry> {
+    let body = &q.instantaneous_center;
+    let is_at = |asked: &Option<Text>| match (asked, &q.at) {
+        (Some(asked), Some(at)) => asked.text == at.text,
+        (asked, at) => asked.is_none() && at.is_none(),
+    };
+    let is_body = |asked: &Option<Text>| match (asked, body) {
+        (Some(asked), Some(body)) => asked.text == body.text,
+        _ => false,
+    };
+    let whole = |q: &QuestionFile| is_at(&q.at) && q.along.is_none() && q.of.is_none();
+    let bare = QuestionFile {
+        instantaneous_center: None,
+        latex: None,
+        ..q.clone()
+    };
+    let mut out = Vec::new();
+    let mut part = |suffix, letter: &str, is: &dyn Fn(&QuestionFile) -> bool, q: QuestionFile| {
+        let found = earlier
+            .iter()
+            .find(|(_, e)| e.as_ref().is_some_and(|e| whole(e) && is(e)));
+        if let Some((found, _)) = found {
+            return found.text.clone();
+        }
+        let own = own_name(name, suffix);
+        let latex = Some(Text {
+            span: name.span,
+            text: with_subscript(letter, &latex_name(&name.text)),
+        });
+        let text = own.text.clone();
+        out.push((own, Some(QuestionFile { latex, ..q })));
+        text
+    };
+    let velocity = QuestionFile {
+        velocity: body.clone(),
+        ..bare.clone()
+    };
+    let v = part("_velocity", "v", &|q| is_body(&q.velocity), velocity);
+    let spin = QuestionFile {
+        spin: body.clone(),
+        ..bare.clone()
+    };
+    let counts_up = |q: &QuestionFile| is_body(&q.spin) && q.clockwise != Some(true);
+    let w = part("_spin", "\\omega", &counts_up, spin);
+    let place = QuestionFile {
+        position: body.clone(),
+        ..bare.clone()
+    };
+    let r = part("_from", "r", &|q| is_body(&q.position), place);
+    for (axis, text) in [
+        ("x", format!("{r}_x - {v}_y/{w}")),
+        ("y", format!("{r}_y + {v}_x/{w}")),
+    ] {
+        let subscript = |latex: &Text| Text {
+            span: latex.span,
+            text: with_subscript(&latex.text, axis),
+        };
+        let value = QuestionFile {
+            at: None,
+            latex: q.latex.as_ref().map(subscript),
+            value: Some(Formula {
+                span: name.span,
+                text,
+                start: None,
+            }),
+            ..bare.clone()
+        };
+        out.push((own_name(name, &format!("_{axis}")), Some(value)));
+    }
+    out
 }
 
 /// A question and a parameter need different names, unless that parameter is what is sought.

@@ -21,16 +21,8 @@ pub(super) fn ask(
     name: &Text,
     q: &QuestionFile,
 ) -> Option<(Option<usize>, Ask)> {
-    if q.instantaneous_center.is_some() {
-        let message = "`instantaneous_center` is asked of a scene without stages";
-        let fault = Fault::new(name.span, message);
-        base.faults.push(fault.hint(
-            "ask for the velocity and the spin `at` that stage, and for a `value` of them, such as \"-v_y/omega\"",
-        ));
-        return None;
-    }
     let told = match (&q.speed, &q.inertia) {
-        (Some(_), _) => Some(told::speed_of(&format!("{}_vec", name.text))),
+        (Some(_), _) => Some(told::speed_of(&format!("{}_velocity", name.text))),
         (_, Some(_)) => Some(told::inertia(base, scene, name, q)?),
         _ => None,
     };

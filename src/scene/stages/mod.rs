@@ -167,7 +167,10 @@ pub(super) fn stage_named(
         faults.push(
             match nearest(&name.text, stages.iter().map(|s| s.name.text.as_str())) {
                 Some(near) => fault.hint(format!("did you mean `{near}`?")),
-                None => fault,
+                None => {
+                    let names = stages.iter().map(|s| s.name.text.as_str());
+                    fault.hint(format!("there is {}", names.collect::<Vec<_>>().join(", ")))
+                }
             },
         );
     }
