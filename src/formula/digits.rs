@@ -88,7 +88,7 @@ impl Lexer<'_> {
                 };
             }
         }
-        let (literal, end) = match number::grouped(self.text, start, self.list) {
+        let (literal, end) = match number::grouped(self.text, start, self.list, self.open > 0) {
             Some(found) => found?,
             None => match number::decimal_comma(self.text, start)
                 .filter(|_| !self.list && self.open == 0)

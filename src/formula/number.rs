@@ -139,8 +139,13 @@ pub(crate) fn ten_to(power: i64) -> Rational {
 }
 
 /// A number in groups of three digits: `12\,000` and `12 000` with spaces between them, `1,000,000` with two commas or more or
-/// a point behind, which nothing else could be outside a `list`.
-pub(crate) fn grouped(text: &str, at: usize, list: bool) -> Option<Faulty<(Literal, usize)>> {
+/// a point behind, which nothing else could be outside a `list`; `inside` brackets `(1,234.5)` could be one.
+pub(crate) fn grouped(
+    text: &str,
+    at: usize,
+    list: bool,
+    inside: bool,
+) -> Option<Faulty<(Literal, usize)>> {
     const BETWEEN: [&str; 6] = ["\\,", "\u{202f}", "\u{2009}", "{,}", " ", ","];
     let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
     let first = digits(at);
@@ -159,7 +164,7 @@ pub(crate) fn grouped(text: &str, at: usize, list: bool) -> Option<Faulty<(Liter
     }
     let unclear = match *between {
         "," | "{,}" => {
-            let point = text[end..].starts_with('.') && digits(end + 1) > 0;
+            let point = !inside && text[end..].starts_with('.') && digits(end + 1) > 0;
             list || groups < 2 && !point || text[end..].starts_with(',')
         }
         " " => plain.starts_with('0') || text[end..].starts_with(','),

@@ -70,8 +70,9 @@ fn listed_beyond(ctx: &Context, expected: &[Normal], mine: &[Content]) -> Option
     let name = name.expr()?.as_symbol()?;
     let domains = &ctx.key.question.domains;
     let outside = |value: &&Expr| {
-        let point = samples(&roles(&[value]), domains, 1).into_iter().next();
-        let point = point.filter(|_| value.is_constant());
+        let uses = roles(&[value]);
+        let (all, _) = domains.completed(&uses);
+        let point = samples(&uses, &all, 1).into_iter().next();
         point.is_some_and(|p| match evaluate::<Big<200>>(value, &p.point(true)) {
             Outcome::Value(v) => !lies_in(&v.0, name, domains),
             _ => false,
@@ -84,7 +85,7 @@ fn listed_beyond(ctx: &Context, expected: &[Normal], mine: &[Content]) -> Option
         let left = n.difference.substitute(&there);
         missed |= match equality::decide(&left, &zero, domains).equality {
             Equality::Same { .. } => false,
-            Equality::Different(_) | Equality::Invalid { .. } => left.is_constant(),
+            Equality::Different(_) | Equality::Invalid { .. } => true,
             Equality::Undecided { .. } => return None,
         };
     }
