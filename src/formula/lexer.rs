@@ -357,7 +357,7 @@ impl<'a> Lexer<'a> {
                 Some(tok) => return Ok(tok),
                 None => (1, Tok::Open('{')),
             },
-            b'|' => (1, Tok::Bar),
+            b'|' => (1, sided_bar(&self.text[..self.pos])),
             b',' | b';' => (1, Tok::Comma),
             b'%' => return self.percent(self.pos, 1),
             b'&' if self.matrix != Matrix::Outside => return self.component(Matrix::Row, 1),
@@ -411,5 +411,20 @@ impl<'a> Lexer<'a> {
         self.text[self.pos..]
             .chars()
             .all(|c| c.is_whitespace() || c == '$')
+    }
+}
+
+/// A bar behind `\left` or `\right` says itself which side it is; any other may be either.
+fn sided_bar(before: &str) -> Tok {
+    let before = before.trim_end();
+    let sizes = ["\\big", "\\Big", "\\bigg", "\\Bigg"];
+    let sided = |letter: char| {
+        let size = before.strip_suffix(letter);
+        size.is_some_and(|size| sizes.iter().any(|s| size.ends_with(s)))
+    };
+    match before {
+        _ if before.ends_with("\\left") || sided('l') => Tok::OpenBar,
+        _ if before.ends_with("\\right") || sided('r') => Tok::CloseBar,
+        _ => Tok::Bar,
     }
 }
