@@ -290,6 +290,45 @@ fn over_a_wheel() -> impl Strategy<Value = String> {
     )
 }
 
+/// Bodies with one freedom, in motion or at rest: a rod between two guides, two rods on a floor, a bead on a wire, a yoke.
+fn of_one_freedom() -> impl Strategy<Value = String> {
+    let linkage = select(vec![
+        r#""A": {"shape": "rod", "mass": "m", "length": "L", "angle": "-q", "center": ["L/2*cos(q)", "L/2*sin(q)"],
+            "velocity": ["-L/2*sin(q)*(RATE)", "L/2*cos(q)*(RATE)"], "spin": "-(RATE)"}"#,
+        r#""A": {"shape": "rod", "mass": "m", "length": "L", "angle": "q", "center": ["-L/2*cos(q)", "L/2*sin(q)"],
+            "velocity": ["L/2*sin(q)*(RATE)", "L/2*cos(q)*(RATE)"], "spin": "RATE"},
+           "B": {"shape": "rod", "mass": "M", "length": "L", "angle": "-q", "center": ["L/2*cos(q)", "L/2*sin(q)"],
+            "velocity": ["-L/2*sin(q)*(RATE)", "L/2*cos(q)*(RATE)"], "spin": "-(RATE)"}"#,
+        r#""A": {"shape": "particle", "mass": "m", "center": ["L*sin(q)", "L*sin(q)^2"],
+            "velocity": ["L*cos(q)*(RATE)", "2*L*sin(q)*cos(q)*(RATE)"]}"#,
+        r#""A": {"shape": "ring", "mass": "m", "radius": "L", "angle": "q", "center": [0, 0], "spin": "RATE"},
+           "B": {"shape": "particle", "mass": "M", "center": ["2*L", "L*sin(q)"], "velocity": [0, "L*cos(q)*(RATE)"]}"#,
+    ]);
+    let course = select(vec![
+        (r#""to": "b", "gravity": "g""#, "b < q", "0"),
+        (r#""to": "b", "gravity": "g""#, "b < q", "-w"),
+        (r#""to": "b""#, "b < q", "-w"),
+        (r#""to": "b", "gravity": "g""#, "b > q", "w"),
+        (r#""to": "b""#, "b > q", "w"),
+    ]);
+    (linkage, course).prop_map(|(bodies, (course, relation, rate))| {
+        format!(
+            r#"{{
+  "parameters": {{
+    "m": {{"unit": "kg"}}, "M": {{"unit": "kg"}}, "L": {{"unit": "m"}}, "w": {{"unit": "rad/s"}}, "g": {{"unit": "m/s^2"}},
+    "q": {{"unit": "rad", "domain": {{"min": "pi/12", "max": "5*pi/12"}}}},
+    "b": {{"unit": "rad", "domain": {{"min": "pi/12", "max": "5*pi/12"}}}}
+  }},
+  "relations": ["{relation}"],
+  "bodies": {{{}}},
+  "stages": [{{"name": "way", "linkage": {{"coordinate": "q", {course}}}}}],
+  "questions": {{"u": {{"velocity": "A"}}, "K": {{"energy": "lost"}}}}
+}}"#,
+            bodies.replace("RATE", rate)
+        )
+    })
+}
+
 /// How the wheel turns while its string moves: backwards where the body that comes to it passes above.
 fn wheel_spin([ux, uy]: [&str; 2], v: &str) -> String {
     let clockwise = match ux {
@@ -307,6 +346,11 @@ fn what_moves_along_a_line_is_followed_to_the_same_end() {
 #[test]
 fn what_is_tied_over_a_wheel_is_followed_to_the_same_end() {
     same_end(over_a_wheel());
+}
+
+#[test]
+fn what_has_one_freedom_is_followed_to_the_same_end() {
+    same_end(of_one_freedom());
 }
 
 fn same_end(stories: impl Strategy<Value = String>) {

@@ -228,6 +228,23 @@ fn symbols_at<T: Number + PartialOrd>(
         let Meaning::Asked(ask, axis) = meaning else {
             continue;
         };
+        // One component may be determined where the other is not.
+        let component = match (ask, axis) {
+            (
+                Ask::Impulse {
+                    from,
+                    on,
+                    along: None,
+                },
+                Some(axis),
+            ) => Some(Ask::Impulse {
+                from: *from,
+                on: *on,
+                along: Some([0, 1].map(|k| Expr::from(i64::from(k == *axis)))),
+            }),
+            _ => None,
+        };
+        let ask = component.as_ref().unwrap_or(ask);
         let value = match (numeric::answer(ask, point, &given, &motion), axis) {
             (Ok(Answer::Scalar(value)), _) => value,
             (Ok(Answer::Vector([x, _])), Some(0)) => x,

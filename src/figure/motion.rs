@@ -13,7 +13,7 @@ use super::sheet::{Ink, Line, SIZE, SMALL, Sheet, arc};
 use super::stage::{Stage, spanning};
 use super::values::{Pair, Values, size};
 use crate::expr::Expr;
-use crate::scene::{Body, Fall, FallEnd, Hinge, Scene, Slide, SlideEnd, StageKind, Turn, Until};
+use crate::scene::{Body, Fall, FallEnd, Hinge, Linkage, Scene, Slide, SlideEnd, StageKind, Turn, Until};
 
 /// Shortest length that is marked, in pixels.
 const SHORTEST: f64 = 8.0;
@@ -55,6 +55,7 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
         StageKind::Slide(s) => s.body,
         StageKind::Fall(f) => f.body,
         StageKind::Wind(w) => w.body,
+        StageKind::Linkage(l) => l.places.first()?.0,
         StageKind::Impact { .. } => return None,
     };
     let from = begin.get(body)?;
@@ -168,7 +169,7 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
                 }
             }
         }
-        StageKind::Impact { .. } => {}
+        StageKind::Linkage(_) | StageKind::Impact { .. } => {}
     }
     forces(&stage, &mut sheet, kind, body, &end);
     centers(&stage, &mut sheet, &[body]);
@@ -202,7 +203,8 @@ fn broken(stage: &Stage, sheet: &mut Sheet, pose: &Pose) {
     }
 }
 
-/// The bodies at the other ends of strings, at the end: each as far along its line as the body itself.
+/// What else a motion moves, at its end: the other bodies of a linkage, and what hangs at the other ends of strings, as far
+/// along its line as the body itself.
 fn ends(
     values: &Values,
     kind: &StageKind,
@@ -210,6 +212,16 @@ fn ends(
     from: &Pose,
     end: &Pose,
 ) -> Option<Vec<(usize, Pose)>> {
+    if let StageKind::Linkage(linkage) = kind {
+        let others = linkage.places.iter().skip(1);
+        let end = |(b, place): &(usize, [Expr; 3])| {
+            Some((
+                *b,
+                linked(values, linkage, place, begin.get(*b)?, &linkage.ends[1])?,
+            ))
+        };
+        return others.map(end).collect();
+    }
     let StageKind::Slide(slide) = kind else {
         return Some(Vec::new());
     };
@@ -317,6 +329,16 @@ fn way(
             };
             (0..=STEPS).map(at).collect()
         }
+        StageKind::Linkage(linkage) => {
+            let (_, place) = linkage.places.first()?;
+            let [begin, end] = &linkage.ends;
+            let at = |k: u32| {
+                let part = Expr::ratio(i64::from(k), i64::from(STEPS));
+                let value = begin + &(&part * &(end - begin));
+                Some((linked(values, linkage, place, from, &value)?, 0.0))
+            };
+            (0..=STEPS).map(at).collect::<Option<Vec<_>>>()?
+        }
         StageKind::Impact { .. } => return None,
     })
 }
@@ -364,6 +386,19 @@ fn flight(
         false => moved(from, from.center, 0.0, goal.map(|d| d * part(k))),
     };
     Some((0..=STEPS).map(at).collect())
+}
+
+/// A body of a linkage where its coordinate has a value.
+fn linked(
+    values: &Values,
+    linkage: &Linkage,
+    place: &[Expr; 3],
+    from: &Pose,
+    value: &Expr,
+) -> Option<Pose> {
+    let [x, y, angle] = place.each_ref().map(|e| values.of(&linkage.at(e, value)));
+    let shift = [x? - from.center[0], y? - from.center[1]];
+    Some(moved(from, from.center, angle? - from.angle, shift))
 }
 
 /// The angle of a rotation, counterclockwise.

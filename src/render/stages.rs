@@ -11,7 +11,7 @@ use crate::numeric::follow::{
     answer,
 };
 use crate::numeric::given::Freedom;
-use crate::scene::{Scene, StageKind};
+use crate::scene::Scene;
 
 /// Names of the components of a body's state, with their units.
 const COMPONENTS: [(&str, &str); 6] = [
@@ -27,7 +27,7 @@ const COMPONENTS: [(&str, &str); 6] = [
 pub fn text(scene: &Scene, followed: &Followed, at: &Point<f64>) -> String {
     let mut out = String::new();
     for (stage, found) in scene.stages.iter().zip(&followed.stages) {
-        let kind = kind(&stage.kind);
+        let kind = stage.kind.word();
         let _ = match found {
             Ok(passed) => {
                 let time = match (&passed.time, &passed.what) {
@@ -181,16 +181,6 @@ fn breach_words(breach: &Breach) -> String {
     }
 }
 
-fn kind(kind: &StageKind) -> &'static str {
-    match kind {
-        StageKind::Impact { .. } => "impact",
-        StageKind::Turn(_) => "turn",
-        StageKind::Slide(_) => "slide",
-        StageKind::Fall(_) => "fall",
-        StageKind::Wind(_) => "wind",
-    }
-}
-
 /// Name, unit and value of every answer that is a number.
 fn answers(
     scene: &Scene,
@@ -222,7 +212,7 @@ pub fn json(scene: &Scene, followed: &Followed, at: &Point<f64>) -> Value {
         .map(|(stage, found)| {
             let mut out = Map::new();
             out.insert("name".into(), json!(stage.name));
-            out.insert("kind".into(), json!(kind(&stage.kind)));
+            out.insert("kind".into(), json!(stage.kind.word()));
             match found {
                 Ok(passed) => stage_json(followed, passed, &mut out),
                 Err(lost) => {

@@ -115,6 +115,8 @@ pub enum StageKind {
     Fall(Fall),
     /// A particle on a rope that winds round a thin pole.
     Wind(Wind),
+    /// Bodies joined so that one coordinate tells where they all are.
+    Linkage(Linkage),
 }
 
 impl StageKind {
@@ -159,6 +161,10 @@ impl StageKind {
                 wind.around.iter_mut().for_each(&mut *put);
                 put(&mut wind.to);
             }
+            StageKind::Linkage(linkage) => {
+                linkage.ends.iter_mut().for_each(&mut *put);
+                linkage.gravity.iter_mut().for_each(put);
+            }
         }
     }
 
@@ -170,6 +176,7 @@ impl StageKind {
             StageKind::Slide(_) => "slide",
             StageKind::Fall(_) => "fall",
             StageKind::Wind(_) => "wind",
+            StageKind::Linkage(_) => "linkage",
         }
     }
 
@@ -181,6 +188,7 @@ impl StageKind {
             StageKind::Slide(slide) => slide.bodies(),
             StageKind::Fall(fall) => fall.bodies(),
             StageKind::Wind(wind) => vec![wind.body],
+            StageKind::Linkage(linkage) => linkage.places.iter().map(|(b, _)| *b).collect(),
         }
     }
 
@@ -191,6 +199,7 @@ impl StageKind {
             StageKind::Turn(turn) => turn.gravity.as_ref(),
             StageKind::Slide(slide) => slide.gravity.as_ref(),
             StageKind::Fall(fall) => fall.gravity.as_ref(),
+            StageKind::Linkage(linkage) => linkage.gravity.as_ref(),
         }
     }
 }
@@ -412,4 +421,25 @@ pub struct Wind {
     pub around: Vector,
     /// Free length at the end \[m\].
     pub to: Expr,
+}
+
+/// Bodies with one freedom: joints and guides without friction leave them no other places than those that the file gives for
+/// each value of a coordinate.
+#[derive(Clone, Debug)]
+pub struct Linkage {
+    /// The coordinate, a parameter of the scene.
+    pub coordinate: Symbol,
+    /// Its values at the beginning and at the end.
+    pub ends: [Expr; 2],
+    /// Index of each body that moves with it, with center x, y \[m\] and angle \[rad\] as the file has them.
+    pub places: Vec<(usize, [Expr; 3])>,
+    /// Gravity g \[m/s²\], downwards.
+    pub gravity: Option<Expr>,
+}
+
+impl Linkage {
+    /// An expression at a value of the coordinate.
+    pub fn at(&self, e: &Expr, value: &Expr) -> Expr {
+        e.substitute(&BTreeMap::from([(self.coordinate.clone(), value.clone())]))
+    }
 }

@@ -6,7 +6,7 @@ use super::place_file::{DirectionFile, PositionFile};
 use super::record::{Formula, Map, Pair, Text, choice, record};
 
 record! {
-    /// A stage: exactly one of impact, turn, slide, fall and wind.
+    /// A stage: exactly one of impact, turn, slide, fall, wind and linkage.
     StageFile {
         /// Name, by which questions and later stages refer to it.
         name: Text,
@@ -24,6 +24,8 @@ record! {
         fall: Option<FallFile>,
         /// A particle on a rope that winds round a thin pole.
         wind: Option<WindFile>,
+        /// Bodies joined so that one coordinate tells where they all are.
+        linkage: Option<LinkageFile>,
     }
 }
 
@@ -187,6 +189,21 @@ record! {
         around: PositionFile,
         /// Free length at the end.
         to: Formula,
+    }
+}
+
+record! {
+    /// Bodies with one freedom, on joints and guides without friction: every body whose place in `bodies` depends on the
+    /// coordinate moves as the coordinate goes from one value to another.
+    LinkageFile {
+        /// Name of the parameter that is the coordinate, an angle or a length.
+        coordinate: Text,
+        /// Its value at the beginning. Missing: the parameter itself.
+        from: Option<Formula>,
+        /// Its value at the end.
+        to: Formula,
+        /// Gravity, such as "g".
+        gravity: Option<Formula>,
     }
 }
 

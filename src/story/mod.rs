@@ -22,9 +22,9 @@ pub use sheet::{beginning, impact, impacts, is_clockwise, sheet};
 use crate::answer::{Answer, Check, Refused};
 use crate::derive::{Derivation, Stop};
 use crate::domain::Domain;
-use crate::expr::{Expr, Symbol, Vector};
+use crate::expr::{Expr, Symbol, Vector, minus};
 use crate::formula::Sentence;
-use crate::scene::{Ask, ContactLaw, Scene, Stage, StageKind};
+use crate::scene::{Ask, ContactLaw, Scene, Stage, StageKind, direction};
 use crate::verify::Proof;
 use crate::verify::possible::Possible;
 
@@ -100,6 +100,18 @@ impl State {
         if !scene.bodies[b].is_particle() {
             self.angle[b] = self.open(scene, ["theta", ""], b, why);
         }
+    }
+
+    /// From the center of mass of a body to the point of it that the file puts at a named point, wherever that is by now.
+    pub fn carried(&self, scene: &Scene, body: usize, point: &str) -> Vector {
+        let b = &scene.bodies[body];
+        let point = scene.points.iter().find(|p| p.name == point);
+        let arm = point.map(|p| minus(&p.at, &b.center));
+        let Some([p, q]) = arm.filter(|_| !b.is_particle()) else {
+            return [Expr::zero(), Expr::zero()];
+        };
+        let [c, s] = direction(&(&self.angle[body] - &b.angle));
+        [&(&p * &c) - &(&q * &s), &(&p * &s) + &(&q * &c)]
     }
 
     /// What stands for the places of a stage that begins like this.
@@ -439,6 +451,7 @@ fn one(
         StageKind::Slide(slide) => motion::slide(stage, before, slide),
         StageKind::Fall(fall) => motion::fall(stage, before, fall),
         StageKind::Wind(wind) => motion::wind(stage, before, wind),
+        StageKind::Linkage(linkage) => motion::linkage(stage, before, linkage),
     }
 }
 

@@ -170,6 +170,17 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                 }
             }
         }
+        StageKind::Linkage(linkage) => {
+            let names = linkage.places.iter();
+            let names = names.map(|(b, _)| format!("`{}`", scene.bodies[*b].name));
+            let lead = format!("{} move together", names.collect::<Vec<_>>().join(" and "));
+            let coordinate = Expr::symbol(&linkage.coordinate);
+            let [from, to] = &linkage.ends;
+            out.push(match *from == coordinate {
+                true => sentence![lead, " from ", from, " to ", to],
+                false => sentence![lead, ": ", &coordinate, " goes from ", from, " to ", to],
+            });
+        }
         StageKind::Wind(wind) => out.push(sentence![
             "the rope winds up until ",
             &wind.to,

@@ -139,9 +139,28 @@ impl Mechanism {
         let is_sound = found.iter().all(|v| v.is_finite());
         is_sound.then(|| (found[..n].to_vec(), found[n..].to_vec()))
     }
+}
+
+impl Mobile for Mechanism {
+    fn accelerations_of(&self, y: &[f64]) -> Option<Vec<f64>> {
+        Some(self.accelerations(y)?.0)
+    }
+
+    fn looks(&self) -> &Cell<u32> {
+        &self.looks
+    }
+}
+
+/// What moves by itself in time, with places in the first half of its state and rates in the second.
+pub(super) trait Mobile {
+    /// How the rates change.
+    fn accelerations_of(&self, y: &[f64]) -> Option<Vec<f64>>;
+
+    /// How often that was asked for.
+    fn looks(&self) -> &Cell<u32>;
 
     /// Moves on until the goal is reached.
-    pub fn until(&self, start: &[f64], goal: &mut Goal<'_>) -> Result<Run, Stop> {
+    fn until(&self, start: &[f64], goal: &mut Goal<'_>) -> Result<Run, Stop> {
         let mut run = Run {
             time: 0.0,
             end: start.to_vec(),
@@ -180,7 +199,7 @@ impl Mechanism {
     }
 
     /// Moves on for a time.
-    pub fn lasting(&self, start: &[f64], time: f64) -> Result<Run, Stop> {
+    fn lasting(&self, start: &[f64], time: f64) -> Result<Run, Stop> {
         let mut run = Run {
             time: 0.0,
             end: start.to_vec(),
@@ -255,11 +274,11 @@ impl Mechanism {
             return Ok(start.to_vec());
         }
         let rates = |y: &[f64]| {
-            self.looks.set(self.looks.get() + 1);
-            (self.looks.get() <= LOOKS).then(|| self.rates(y))?
+            self.looks().set(self.looks().get() + 1);
+            (self.looks().get() <= LOOKS).then(|| self.rates(y))?
         };
         let found = integrated(&rates, start, time);
-        match self.looks.get() > LOOKS {
+        match self.looks().get() > LOOKS {
             true => Err(Stop::TooLong),
             false => found.ok_or(Stop::Broken),
         }
@@ -267,8 +286,7 @@ impl Mechanism {
 
     fn rates(&self, y: &[f64]) -> Option<Vec<f64>> {
         let n = y.len() / 2;
-        let (accelerations, _) = self.accelerations(y)?;
-        Some([&y[n..], &accelerations].concat())
+        Some([&y[n..], &self.accelerations_of(y)?].concat())
     }
 }
 

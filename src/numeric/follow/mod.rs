@@ -387,6 +387,7 @@ fn of_kind(kind: &StageKind) -> Vec<&Expr> {
             fall.gravity.iter().chain([end]).collect()
         }
         StageKind::Wind(wind) => wind.around.iter().chain([&wind.to]).collect(),
+        StageKind::Linkage(linkage) => linkage.ends.iter().chain(&linkage.gravity).collect(),
     }
 }
 
@@ -629,5 +630,6 @@ fn one(
         StageKind::Slide(slide) => motion::slide(&course, before, slide),
         StageKind::Fall(fall) => motion::fall(&course, before, fall),
         StageKind::Wind(wind) => wind::wind(&course, before, wind),
+        StageKind::Linkage(linkage) => motion::linkage(&course, before, linkage),
     }
 }

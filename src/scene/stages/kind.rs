@@ -10,10 +10,11 @@ use crate::scene::place_file::PositionFile;
 use crate::scene::record::{Formula, Text};
 use crate::scene::resolve::Resolver;
 use crate::scene::stage::{
-    Fall, FallEnd, OneSided, Slide, SlideEnd, StageKind, Strung, Turn, Until, Wind,
+    Fall, FallEnd, Linkage, OneSided, Slide, SlideEnd, StageKind, Strung, Turn, Until, Wind,
 };
 use crate::scene::stage_file::{
-    FallFile, ImpactFile, SlideEndName, SlideFile, StageFile, StrungFile, TurnFile, UntilName,
+    FallFile, ImpactFile, LinkageFile, SlideEndName, SlideFile, StageFile, StrungFile, TurnFile,
+    UntilName,
 };
 use crate::scene::{Scene, Shape};
 
@@ -30,6 +31,7 @@ pub(super) fn kind(
     r: &mut Resolver<'_>,
     scene: &mut Scene,
     stage: &StageFile,
+    places: &[[Expr; 3]],
 ) -> Option<StageKind> {
     let given = [
         stage.impact.is_some(),
@@ -37,10 +39,11 @@ pub(super) fn kind(
         stage.slide.is_some(),
         stage.fall.is_some(),
         stage.wind.is_some(),
+        stage.linkage.is_some(),
     ];
     if given.iter().filter(|g| **g).count() != 1 {
         let message = format!(
-            "the stage `{}` is one of impact, turn, slide, fall and wind",
+            "the stage `{}` is one of impact, turn, slide, fall, wind and linkage",
             stage.name.text
         );
         let hint =
@@ -60,6 +63,9 @@ pub(super) fn kind(
     }
     if let Some(fall) = &stage.fall {
         return fall_of(r, fall, stage.name.span).map(StageKind::Fall);
+    }
+    if let Some(linkage) = &stage.linkage {
+        return linkage_of(r, scene, linkage, places).map(StageKind::Linkage);
     }
     let wind = stage.wind.as_ref()?;
     let body = r.moving(&wind.body);
@@ -332,6 +338,53 @@ fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {
         gravity,
         until,
         rising,
+    })
+}
+
+fn linkage_of(
+    r: &mut Resolver<'_>,
+    scene: &Scene,
+    linkage: &LinkageFile,
+    places: &[[Expr; 3]],
+) -> Option<Linkage> {
+    const LENGTH: Quantity = Quantity::other([0, 1, 0], "a value of the coordinate, a length");
+    const ANGLE: Quantity = Quantity::other([0, 0, 0], "a value of the coordinate, an angle");
+    let name = &linkage.coordinate;
+    let parameter = scene.parameters.iter().find(|p| *p.name == *name.text);
+    let length = LENGTH.dimension();
+    let quantity = match parameter.map(|p| &p.dimension) {
+        Some(d) if *d == length => LENGTH,
+        Some(d) if *d == ANGLE.dimension() => ANGLE,
+        _ => {
+            let message = format!(
+                "`{}` is no parameter that is an angle or a length",
+                name.text
+            );
+            let fault = Fault::new(name.span, message);
+            r.faults
+                .push(fault.hint("the coordinate is a parameter by which `bodies` gives places"));
+            return None;
+        }
+    };
+    let coordinate = parameter?.name.clone();
+    let depends = |e: &Expr| e.symbols().contains(&coordinate);
+    let moving = places.iter().enumerate();
+    let moving = moving.filter(|(b, p)| !scene.bodies[*b].is_fixed() && p.iter().any(depends));
+    let moving: Vec<(usize, [Expr; 3])> = moving.map(|(b, p)| (b, p.clone())).collect();
+    if moving.is_empty() {
+        let message = format!("the place of no body depends on `{}`", name.text);
+        let fault = Fault::new(name.span, message);
+        r.faults
+            .push(fault.hint("give `center` and `angle` of what moves by the coordinate"));
+        return None;
+    }
+    let from = optional(r, linkage.from.as_ref(), quantity)?;
+    let to = r.symbols.read(&linkage.to, quantity, &mut r.faults)?;
+    Some(Linkage {
+        ends: [from.unwrap_or_else(|| Expr::symbol(&coordinate)), to],
+        coordinate,
+        places: moving,
+        gravity: optional(r, linkage.gravity.as_ref(), ACCELERATION)?,
     })
 }
 

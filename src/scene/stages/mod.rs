@@ -39,6 +39,7 @@ pub(super) fn lone(file: &SceneFile) -> Option<SceneFile> {
         stage.slide.is_some(),
         stage.fall.is_some(),
         stage.wind.is_some(),
+        stage.linkage.is_some(),
         stage.start.is_some(),
         stage.from.as_ref().is_some_and(|f| f.text != "start"),
         impact.supports.is_some() || impact.strings.is_some() || impact.supposing.is_some(),
@@ -317,6 +318,16 @@ fn one(
     r.point_places.fill(Place::Untouched);
     r.fill(&mut scene);
     scene.figure = whole.figure.clone();
+    let file_places: Vec<[Expr; 3]> = scene
+        .bodies
+        .iter()
+        .enumerate()
+        .map(|(b, body)| {
+            let given = from_file.get(b).cloned().flatten();
+            let [x, y] = given.unwrap_or_else(|| body.center.clone());
+            [x, y, body.angle.clone()]
+        })
+        .collect();
     for (b, (body, [_, _, angle])) in scene.bodies.iter_mut().zip(&places).enumerate() {
         let turned = Expr::symbol(angle);
         if let (Shape::Composite { parts }, Some(center)) = (&mut body.shape, &from_file[b]) {
@@ -326,7 +337,7 @@ fn one(
         body.angle = turned;
     }
     let starts = starts(&mut r, &scene, stage, from);
-    let kind = kind::kind(&mut r, &mut scene, stage);
+    let kind = kind::kind(&mut r, &mut scene, stage, &file_places);
     if let Some(StageKind::Impact { one_sided, .. }) = &kind {
         for string in one_sided.iter().filter(|o| o.is_string) {
             if scene.figure.string(&string.name).is_none() {

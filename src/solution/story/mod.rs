@@ -325,6 +325,10 @@ impl Page<'_> {
                 };
                 self.solution.meanings.insert(symbol.clone(), meaning);
                 let ask = self.told.stages[i].placed.asked(question).clone();
+                for line in self.carried(&self.told.stages[i], &ask) {
+                    let known = steps.iter().any(|l: &Line| l.math == line.math);
+                    steps.extend((!known).then_some(line));
+                }
                 let flown = self.flown(&self.told.stages[i], &ask, answer);
                 let claimed = flown.as_ref().map(|[_, claimed]| claimed);
                 let sides = [Some(&Expr::symbol(&symbol)), claimed];

@@ -4,8 +4,8 @@
 use super::Page;
 use crate::answer::Answer;
 use crate::expr::{Expr, Node, Symbol, dot};
-use crate::scene::{Ask, Scene, Slide, Stage, StageKind};
-use crate::solution::words::{name, say};
+use crate::scene::{Ask, Linkage, Scene, Slide, Stage, StageKind};
+use crate::solution::words::{self, name, say};
 use crate::solution::{Claim, Detail, Inline, Line, Math, Part, Solution};
 use crate::story::{StageTold, Step};
 
@@ -105,6 +105,9 @@ impl Page<'_> {
             lines.push(Line { math, step });
         }
         let t = |mark| vec![name("T", "", mark, false)];
+        if let StageKind::Linkage(linkage) = &stage.kind {
+            self.velocities(told, linkage);
+        }
         let raw = self.start_energy(stage, told);
         let math = chain(t("-"), &raw, start);
         let step = claim(
@@ -148,6 +151,62 @@ impl Page<'_> {
             "work changes kinetic energy",
         );
         lines.push(Line { math, step });
+        if let (Some([inertia, _]), StageKind::Linkage(linkage)) = (&told.inertia, &stage.kind) {
+            let square = self.rate(linkage).powi(2);
+            let energy = Math::Expr(Expr::ratio(1, 2) * inertia * square);
+            let math = vec![energy, Math::Op("="), name("T", "", "+", false)];
+            lines.push(Line { math, step: None });
+        }
+        self.solution.push(Part::Display(lines));
+    }
+
+    /// The rate of the coordinate of a linkage, as a symbol.
+    fn rate(&mut self, linkage: &Linkage) -> Expr {
+        let of = &linkage.coordinate;
+        let symbol = Symbol::from(format!("{of}_dot").as_str());
+        let latex = match self.solution.names.get(of) {
+            Some(latex) => latex.clone(),
+            None => crate::formula::latex_name(of),
+        };
+        let latex = format!("\\dot{{{latex}}}");
+        self.solution.names.insert(symbol.clone(), latex);
+        Expr::symbol(&symbol)
+    }
+
+    /// How all bodies of a linkage move by the rate of its coordinate.
+    fn velocities(&mut self, told: &StageTold, linkage: &Linkage) {
+        let rate = self.rate(linkage);
+        let scene = &told.placed.scene;
+        let mut lines = Vec::new();
+        for (b, place) in &linkage.places {
+            let called = words::center(self.scene, *b);
+            let per = place.each_ref().map(|e| {
+                let change = tidied(self.scene, &e.derivative(&linkage.coordinate));
+                &change * &rate
+            });
+            let [x, y, angle] = per;
+            if !(x.is_zero() && y.is_zero()) {
+                let math = vec![
+                    name("v", &called, "", true),
+                    Math::Op("="),
+                    Math::Vector([x, y]),
+                ];
+                lines.push(Line { math, step: None });
+            }
+            if !scene.bodies[*b].is_particle() && !angle.is_zero() {
+                let math = vec![
+                    name("omega", &called, "", false),
+                    Math::Op("="),
+                    Math::Expr(angle),
+                ];
+                lines.push(Line { math, step: None });
+            }
+        }
+        self.solution.text(vec![
+            say("The places of all bodies follow from "),
+            words::formula(&Expr::symbol(&linkage.coordinate)),
+            say(", and their velocities from its rate:"),
+        ]);
         self.solution.push(Part::Display(lines));
     }
 
@@ -204,6 +263,55 @@ impl Page<'_> {
         }
     }
 
+    /// How a point of a body moves at the end of a motion: v = ω × r from the fixed point of a rotation, else with the velocity
+    /// of the center of mass.
+    pub(super) fn carried(&self, told: &StageTold, ask: &Ask) -> Vec<Line> {
+        let Ask::Velocity {
+            body,
+            point: Some((point, _)),
+            ..
+        } = ask
+        else {
+            return Vec::new();
+        };
+        let scene = &told.placed.scene;
+        if told.energy.is_none() || scene.bodies[*body].is_particle() {
+            return Vec::new();
+        }
+        let from_center = told.after.carried(self.scene, *body, point);
+        let called = &scene.bodies[*body].name;
+        let (base, from, carrier) = match &told.placed.kind {
+            StageKind::Turn(turn) => (turn.about_name.clone(), turn.about.clone(), None),
+            _ => {
+                let velocity = told.after.velocity[*body].each_ref().map(|v| self.named(v));
+                let center = words::center(self.scene, *body);
+                (center, told.after.center[*body].clone(), Some(velocity))
+            }
+        };
+        let arm = [0, 1].map(|k| &(&told.after.center[*body][k] + &from_center[k]) - &from[k]);
+        let arm = arm.map(|e| tidied(self.scene, &e));
+        let spin = self.named(&told.after.spin[*body]);
+        let mut math = vec![name("v", point, "+", true), Math::Op("=")];
+        if carrier.is_some() {
+            math.extend([name("v", &base, "+", true), Math::Op("+")]);
+        }
+        math.extend([
+            name("omega", called, "+", true),
+            Math::Op("×"),
+            name("r", &format!("{point}/{base}"), "", true),
+            Math::Op("="),
+        ]);
+        if let Some(velocity) = carrier {
+            math.extend([Math::Brackets(vec![Math::Vector(velocity)]), Math::Op("+")]);
+        }
+        math.extend([
+            Math::Brackets(vec![Math::Along(spin)]),
+            Math::Op("×"),
+            Math::Brackets(vec![Math::Vector(arm)]),
+        ]);
+        vec![Line { math, step: None }]
+    }
+
     /// Whether this answer is the kinetic energy at the end of a motion.
     pub(super) fn is_end_energy(told: &StageTold, answer: &Answer) -> bool {
         let Some([_, end]) = &told.energy else {
@@ -224,6 +332,9 @@ impl Page<'_> {
     ) -> Option<Line> {
         let [_, end] = told.energy.as_ref()?;
         let scene = &told.placed.scene;
+        if let StageKind::Linkage(_) = told.placed.kind {
+            return None;
+        }
         let inertia = match (ask, &told.inertia) {
             (Ask::Spin { .. }, Some([_, about])) => about.clone(),
             (Ask::Velocity { .. }, None) => {

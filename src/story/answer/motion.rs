@@ -7,7 +7,7 @@ use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::formula::{Sentence, sentence};
-use crate::scene::{Ask, EnergyWhen, Question, Scene, Stage, StageKind, Turn, direction};
+use crate::scene::{Ask, EnergyWhen, Question, Scene, Stage, StageKind, Turn};
 use crate::story::motion as stage;
 use crate::story::{StageTold, State};
 
@@ -243,19 +243,12 @@ pub(super) fn at_end(
     Ok(out)
 }
 
-/// The velocity of the point of a body that the file puts at a named point, wherever the body has taken it.
+/// The velocity of a point that a body carries along.
 fn of_point(scene: &Scene, state: &State, body: usize, name: &str) -> Vector {
-    let b = &scene.bodies[body];
     let [x, y] = &state.velocity[body];
-    let point = scene.points.iter().find(|p| p.name == name);
-    let arm = point.map(|p| minus(&p.at, &b.center));
-    let Some([p, q]) = arm.filter(|_| !b.is_particle()) else {
-        return [x.clone(), y.clone()];
-    };
-    let [c, s] = direction(&(&state.angle[body] - &b.angle));
-    let r = [&(&p * &c) - &(&q * &s), &(&p * &s) + &(&q * &c)];
+    let [p, q] = state.carried(scene, body, name);
     let spin = &state.spin[body];
-    [x - &(spin * &r[1]), y + &(spin * &r[0])]
+    [x - &(spin * &q), y + &(spin * &p)]
 }
 
 /// Whether the motion of a stage is all that moves of what is asked about.

@@ -1,10 +1,12 @@
-//! Motions between impacts: rotation about a point, sliding, falling, a rope that winds up. Work changes kinetic energy,
+//! Motions between impacts: rotation about a point, sliding with strings over pulleys, falling, linkages with one freedom, a
+//! rope that winds up. Work changes kinetic energy,
 //! and where the time has a closed form everything that moves is carried on by it.
 //!
 //! In: a stage and the motion it begins with. Out: the motion it ends with, what is conserved and why, the time it takes.
 
 mod bearing;
 mod fall;
+mod linkage;
 mod meanwhile;
 mod slide;
 mod strings;
@@ -12,6 +14,7 @@ mod turn;
 mod wind;
 
 pub(super) use fall::fall;
+pub(super) use linkage::linkage;
 pub(super) use slide::slide;
 pub(super) use turn::{arms, inertia_about, sense, turn};
 pub(super) use wind::wind;

@@ -1,7 +1,7 @@
 //! Flight of bodies, with gravity or without, until a time, a height or a horizontal distance.
 
 use super::{Moved, Movers, REST, Units, all_open, others, stopped};
-use crate::numeric::follow::mechanism::{Goal, Mechanism, Run};
+use crate::numeric::follow::mechanism::{Goal, Mechanism, Mobile, Run};
 use crate::numeric::follow::{BodyState, Component, Course, Lost, Open, Passed, State, What, Why};
 use crate::scene::{Fall, FallEnd};
 use std::cell::Cell;

@@ -1,14 +1,17 @@
-//! Motions between impacts: rotation about a point, sliding along a line, flight. Integrated in time.
+//! Motions between impacts: rotation about a point, sliding along a line with strings over pulleys, flight, linkages.
+//! Integrated in time.
 //!
 //! In: a stage and the state before. Out: the stage as [`Passed`], or why the motion does not get to its end. Sense of a
 //! rotation, end and time come from the motion itself.
 
 mod fall;
+mod linkage;
 mod slide;
 mod strings;
 mod turn;
 
 pub(super) use fall::fall;
+pub(super) use linkage::linkage;
 pub(super) use slide::slide;
 pub(super) use turn::turn;
 

@@ -6,7 +6,7 @@
 use super::strings::{Ropes, across, fixed};
 use super::{Moved, Movers, REST, ROUNDING, Units, all_open, others, stopped};
 use crate::numeric::follow::impact::first_open;
-use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Run};
+use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Mobile, Run};
 use crate::numeric::follow::{Course, Lost, Passed, State, What, Why};
 use crate::numeric::number::{cross, dot};
 use crate::scene::{Slide, SlideEnd};

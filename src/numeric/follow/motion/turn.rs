@@ -1,7 +1,7 @@
 //! Rotation of bodies welded together about a fixed point; sense, turning back and end come from the motion itself.
 
 use super::{Moved, Movers, NUDGE, REST, ROUNDING, Units, all_open, others, stopped};
-use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Run};
+use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Mobile, Run};
 use crate::numeric::follow::{Course, Lost, Passed, State, What, Why};
 use crate::numeric::given::Freedom;
 use crate::numeric::number::{cross, dot};

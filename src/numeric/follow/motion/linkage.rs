@@ -1,0 +1,275 @@
+//! Bodies with one freedom, whose places the file gives by a coordinate: Newton's and Euler's equations with the principle of
+//! virtual velocities, integrated in time.
+//!
+//! What joints and guides exert does no work on a possible motion, so that Σ r'·(F − m a) − φ' I α = 0, where r' and φ' are
+//! the changes of places and angles by the coordinate. These are central differences of the order 8 in the places alone.
+
+use std::cell::Cell;
+
+use super::{Moved, NUDGE, REST, ROUNDING, SAMPLES, Sample, all_open, others, stopped};
+use crate::expr::Point;
+use crate::numeric::follow::impact::first_open;
+use crate::numeric::follow::mechanism::{Goal, Mobile, Run};
+use crate::numeric::follow::{Course, Lost, Passed, State, What, Why};
+use crate::numeric::given::Freedom;
+use crate::scene::Linkage;
+
+/// Steps of the differences, in parts of the whole way.
+const STEP: f64 = 0.02;
+/// First and second differences, by distance.
+const FIRST: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+const SECOND: [f64; 5] = [
+    -205.0 / 72.0,
+    8.0 / 5.0,
+    -1.0 / 5.0,
+    8.0 / 315.0,
+    -1.0 / 560.0,
+];
+
+/// The linkage in numbers; the coordinate counts from 0 at the beginning to 1 at the end.
+struct Moving<'a> {
+    course: &'a Course<'a>,
+    linkage: &'a Linkage,
+    ends: [f64; 2],
+    gravity: f64,
+    /// Unit of time \[s\].
+    time: f64,
+    looks: Cell<u32>,
+}
+
+/// Places, and their first and second changes by the coordinate.
+struct Shape {
+    places: Vec<[f64; 3]>,
+    first: Vec<[f64; 3]>,
+    second: Vec<[f64; 3]>,
+}
+
+impl Moving<'_> {
+    fn places(&self, s: f64) -> Option<Vec<[f64; 3]>> {
+        let value = self.ends[0] + (self.ends[1] - self.ends[0]) * s;
+        let mut point: Point<f64> = self.course.values.clone();
+        point.directions.remove(&self.linkage.coordinate);
+        point.values.insert(self.linkage.coordinate.clone(), value);
+        let mut out = Vec::new();
+        for (b, place) in &self.linkage.places {
+            let mut numbers = [0.0; 3];
+            let is_particle = self.course.solids[*b].freedom == Freedom::Particle;
+            let known = if is_particle { 2 } else { 3 };
+            for (number, e) in numbers.iter_mut().zip(place).take(known) {
+                *number = e.evaluate(&point).filter(|v| v.is_finite())?;
+            }
+            out.push(numbers);
+        }
+        Some(out)
+    }
+
+    fn shape(&self, s: f64) -> Option<Shape> {
+        let places = self.places(s)?;
+        let flat = |f: f64| places.iter().map(|p| p.map(|v| v * f)).collect::<Vec<_>>();
+        let (mut first, mut second) = (flat(0.0), flat(SECOND[0]));
+        for k in 0..4 {
+            let far = STEP * (k + 1) as f64;
+            let [ahead, behind] = [self.places(s + far)?, self.places(s - far)?];
+            for (b, (p, q)) in ahead.iter().zip(&behind).enumerate() {
+                for c in 0..3 {
+                    first[b][c] += FIRST[k] * (p[c] - q[c]);
+                    second[b][c] += SECOND[k + 1] * (p[c] + q[c]);
+                }
+            }
+        }
+        let by = |all: Vec<[f64; 3]>, step: f64| {
+            let each = all.into_iter().map(|p| p.map(|v| v / step));
+            each.collect::<Vec<_>>()
+        };
+        Some(Shape {
+            places,
+            first: by(first, STEP),
+            second: by(second, STEP * STEP),
+        })
+    }
+
+    fn masses(&self, i: usize) -> [f64; 3] {
+        let solid = &self.course.solids[self.linkage.places[i].0];
+        [solid.mass, solid.mass, solid.inertia]
+    }
+
+    /// Second derivative of the coordinate, in the unit of time.
+    fn acceleration(&self, s: f64, rate: f64) -> Option<f64> {
+        let shape = self.shape(s)?;
+        let (mut force, mut inertia) = (0.0, 0.0);
+        for (i, (first, second)) in shape.first.iter().zip(&shape.second).enumerate() {
+            let masses = self.masses(i);
+            force -= masses[1] * self.gravity * self.time * self.time * first[1];
+            for k in 0..3 {
+                force -= masses[k] * first[k] * second[k] * rate * rate;
+                inertia += masses[k] * first[k] * first[k];
+            }
+        }
+        Some(force / inertia).filter(|a| a.is_finite())
+    }
+
+    /// The state of each body: place, angle, velocity and spin.
+    fn states(&self, [s, rate]: [f64; 2]) -> Option<Vec<[f64; 6]>> {
+        let shape = self.shape(s)?;
+        let both = shape.places.iter().zip(&shape.first);
+        let all = both.map(|(p, v)| {
+            let [u, v, w] = v.map(|c| c * rate / self.time);
+            [p[0], p[1], p[2], u, v, w]
+        });
+        Some(all.collect())
+    }
+}
+
+impl Mobile for Moving<'_> {
+    fn accelerations_of(&self, y: &[f64]) -> Option<Vec<f64>> {
+        Some(vec![self.acceleration(y[0], y[1])?])
+    }
+
+    fn looks(&self) -> &Cell<u32> {
+        &self.looks
+    }
+}
+
+/// Motion of a linkage.
+pub(in crate::numeric::follow) fn linkage(
+    course: &Course<'_>,
+    before: State,
+    linkage: &Linkage,
+) -> Result<Passed, Lost> {
+    let bodies: Vec<usize> = linkage.places.iter().map(|(b, _)| *b).collect();
+    let has_forces = linkage.gravity.is_some();
+    let mut known = Vec::new();
+    for b in &bodies {
+        let body = &before.bodies[*b];
+        let Ok(state) = body.known() else {
+            debug_assert!(first_open(body.components()).is_some());
+            let time = Err(course.open(Why::Needed));
+            return Ok(all_open(course, before, &bodies, has_forces, time));
+        };
+        known.push(state);
+    }
+    let mut moving = Moving {
+        course,
+        linkage,
+        ends: [
+            course.number(&linkage.ends[0], "coordinate")?,
+            course.number(&linkage.ends[1], "coordinate")?,
+        ],
+        gravity: course.optional(linkage.gravity.as_ref(), "gravity")?,
+        time: 1.0,
+        looks: Cell::new(0),
+    };
+    let lost = || course.out_of_reach("the places of the linkage have no value on its way");
+    let first = moving.shape(0.0).ok_or_else(lost)?;
+    let rate = begins(course, &moving, &first, &known)?;
+    let mut fastest = 0.0f64;
+    for k in 0..=16 {
+        let there = moving.acceleration(f64::from(k) / 16.0, 0.0);
+        fastest = fastest.max(there.ok_or_else(lost)?.abs());
+    }
+    let unit = 1.0 / (fastest.sqrt() + rate.abs());
+    if !unit.is_finite() {
+        return Err(course.never("it is at rest, and nothing sets it going"));
+    }
+    moving.time = unit;
+    let rate = rate * unit;
+    let begins = moving.acceleration(0.0, 0.0).ok_or_else(lost)?;
+    let rests = rate.abs() <= REST;
+    if rate < -REST || rests && begins < -REST {
+        return Err(course.contradiction("the coordinate begins to change the other way"));
+    }
+    let is_balanced = rests && begins.abs() <= REST;
+    let start = [
+        if is_balanced { NUDGE } else { 0.0 },
+        if rests { 0.0 } else { rate },
+    ];
+    let mut goal = Goal {
+        left: &|y| y[0] - 1.0,
+        rate: &|y| y[1],
+        never: &mut |_, turns_back| turns_back,
+    };
+    let run = moving.until(&start, &mut goal);
+    let run: Run =
+        run.map_err(|stop| stopped(course, stop, "it comes to rest before and turns back"))?;
+    let time = match is_balanced {
+        true => Err(course.open(Why::Push)),
+        false => Ok(run.time * moving.time),
+    };
+    let mut after = before.clone();
+    let ended = moving.states([1.0, run.end[1]]).ok_or_else(lost)?;
+    for (b, state) in bodies.iter().zip(ended) {
+        let body = &mut after.bodies[*b];
+        let angle = body.angle.clone();
+        body.set(state);
+        body.has_begun = true;
+        if course.solids[*b].freedom == Freedom::Particle {
+            (body.angle, body.spin) = (angle, Ok(0.0));
+        }
+    }
+    let stride = run.samples.len().div_ceil(SAMPLES);
+    let sample = |(at, y): &(f64, Vec<f64>)| {
+        Some(Sample {
+            time: at * moving.time,
+            poses: moving.places(y[0])?,
+        })
+    };
+    let samples = run
+        .samples
+        .iter()
+        .step_by(stride)
+        .filter_map(sample)
+        .collect();
+    others(course, &before, &mut after, &bodies, &time, has_forces);
+    let moved = Moved {
+        bodies,
+        clockwise: None,
+        reaction: None,
+        samples,
+    };
+    Ok(course.passed(time, before, after, What::Motion(moved)))
+}
+
+/// The rate of the coordinate at the beginning, in 1/s; every body is where it puts it and moves as it lets it.
+fn begins(
+    course: &Course<'_>,
+    moving: &Moving<'_>,
+    first: &Shape,
+    known: &[[f64; 6]],
+) -> Result<f64, Lost> {
+    let (mut momentum, mut inertia) = (0.0, 0.0);
+    let mut size = [0.0f64; 2];
+    for (i, (state, rates)) in known.iter().zip(&first.first).enumerate() {
+        let masses = moving.masses(i);
+        for k in 0..3 {
+            momentum += masses[k] * rates[k] * state[3 + k];
+            inertia += masses[k] * rates[k] * rates[k];
+        }
+        for k in 0..2 {
+            size[0] = size[0].max(rates[k].abs());
+            size[1] = size[1].max(state[3 + k].abs());
+        }
+    }
+    if inertia <= 0.0 {
+        return Err(course.contradiction("nothing moves with the coordinate"));
+    }
+    let rate = momentum / inertia;
+    for ((i, state), rates) in known.iter().enumerate().zip(&first.first) {
+        let is_particle = moving.masses(i)[2] == 0.0;
+        for k in 0..2 {
+            let off = (state[k] - first.places[i][k]).abs();
+            if off > ROUNDING * size[0].max(state[k].abs()) {
+                return Err(course.contradiction("a body is not where the coordinate puts it"));
+            }
+        }
+        for k in 0..if is_particle { 2 } else { 3 } {
+            let off = (state[3 + k] - rates[k] * rate).abs();
+            let largest = size[1].max(state[3 + k].abs());
+            if off > 1e-8 * largest {
+                return Err(
+                    course.contradiction("a body does not begin to move as the linkage lets it")
+                );
+            }
+        }
+    }
+    Ok(rate)
+}

@@ -1,0 +1,326 @@
+//! Bodies with one freedom: T = ½ M(q) q̇², with the velocities of all bodies per unit of q̇ from their places.
+
+use super::{arrival, balance, half, kept, meanwhile, tidied};
+use crate::algebra::Sign;
+use crate::answer::calc::{Seen, is_zero, sign};
+use crate::expr::{Expr, Point};
+use crate::formula::{Sentence, sentence, unicode_name, write_plain};
+use crate::scene::{Linkage, Stage};
+use crate::story::{Refused, StageTold, State, integrate};
+
+/// Where the bodies are and how fast they move where the rate of the coordinate is 1.
+struct Pose {
+    /// x, y and angle of each body.
+    places: Vec<[Expr; 3]>,
+    rates: Vec<[Expr; 3]>,
+    /// Σ m v² + I ω² at that rate.
+    inertia: Expr,
+}
+
+/// Motion of a linkage from one value of its coordinate to another.
+pub(in crate::story) fn linkage(
+    stage: &Stage,
+    before: State,
+    linkage: &Linkage,
+) -> Result<StageTold, Refused> {
+    let domains = &stage.scene.domains;
+    let [begin, end] = &linkage.ends;
+    let [first, last] = [pose(stage, linkage, begin)?, pose(stage, linkage, end)?];
+    stands(stage, &before, linkage, &first)?;
+    let (mut needs, mut assumptions) = (Vec::new(), Vec::new());
+    let way = way(stage, linkage, &mut needs, &mut assumptions)?;
+    let rate = rate(stage, &before, linkage, &first)?;
+    sets_out(stage, linkage, &rate, way, &mut needs, &mut assumptions)?;
+    let start = tidied(stage, &half(&(&first.inertia * &rate.powi(2))))?;
+    let work = work(stage, linkage, &first, &last);
+    let lead = linkage.places[0].0;
+    let (gained, energy, reaches) = balance(stage, lead, &start, &work)?;
+    if is_zero(&last.inertia, domains) != Some(false) {
+        return Err(Refused::new(
+            &stage.name,
+            "at its end nothing moves with the coordinate, or that is not decided",
+            "end it a little before, or choose another coordinate",
+        ));
+    }
+    if let Some(words) = arrival(stage, lead, &energy, reaches) {
+        assumptions.push(words);
+        needs.push(energy.clone());
+    }
+    let speed = match gained.is_zero() && first.inertia == last.inertia {
+        true => rate.clone(),
+        false => {
+            let size = (&(&Expr::from(2) * &energy) / &last.inertia).sqrt();
+            tidied(stage, &(&Expr::from(way) * &size))?
+        }
+    };
+    let mut after = before.clone();
+    for ((b, _), (place, rates)) in linkage
+        .places
+        .iter()
+        .zip(last.places.iter().zip(&last.rates))
+    {
+        let [x, y, angle] = place.clone();
+        let [u, v, w] = rates.each_ref().map(|r| tidied(stage, &(r * &speed)));
+        after.center[*b] = [x, y];
+        after.velocity[*b] = [u?, v?];
+        if !stage.scene.bodies[*b].is_particle() {
+            after.angle[*b] = angle;
+            after.spin[*b] = w?;
+        }
+    }
+    assumptions.extend(meanwhile::others(stage, &before, &mut after, None));
+    let mut out = StageTold::new(stage, before, after);
+    let why = match linkage.gravity {
+        Some(_) => "joints and guides do no work, and weight has a potential",
+        None => "joints and guides do no work",
+    };
+    out.kept = vec![kept("energy", true, why)];
+    out.kinetic = Some(half(&(&last.inertia * &speed.powi(2))));
+    out.inertia = Some([last.inertia.clone(), last.inertia]);
+    out.energy = Some([start, energy]);
+    out.work = work;
+    out.needs = needs;
+    out.assumptions = assumptions;
+    Ok(out)
+}
+
+/// 1 where the coordinate grows, −1 where it falls; what is not proved is seen at points of the domain and taken for granted.
+fn way(
+    stage: &Stage,
+    linkage: &Linkage,
+    needs: &mut Vec<Expr>,
+    assumptions: &mut Vec<Sentence>,
+) -> Result<i64, Refused> {
+    const POINTS: usize = 12;
+    let [begin, end] = &linkage.ends;
+    let grows = end - begin;
+    match sign(&grows, &stage.scene.domains) {
+        Seen::Proved(Sign::Positive | Sign::NotNegative) => return Ok(1),
+        Seen::Proved(Sign::Negative | Sign::NotPositive) => return Ok(-1),
+        _ => {}
+    }
+    let names = grows.symbols().into_iter().collect();
+    let points = integrate::points_of(names, &stage.scene.domains, POINTS);
+    let seen = |way: f64| {
+        let mut all = points.iter().map(|p| grows.evaluate(p));
+        all.all(|v| v.is_some_and(|v| way * v >= 0.0))
+    };
+    let way = match (seen(1.0), seen(-1.0)) {
+        (true, false) => 1,
+        (false, true) => -1,
+        _ => {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "whether `{}` grows or falls is not decided",
+                    linkage.coordinate
+                ),
+                "say it by `relations`, or by the domains of both values",
+            ));
+        }
+    };
+    let need = &Expr::from(way) * &grows;
+    assumptions.push(sentence![&need, " ≥ 0"]);
+    needs.push(need);
+    Ok(way)
+}
+
+/// Places, and what each moves by where the coordinate grows by one.
+fn pose(stage: &Stage, linkage: &Linkage, value: &Expr) -> Result<Pose, Refused> {
+    let at = |e: &Expr| tidied(stage, &linkage.at(e, value));
+    let mut out = Pose {
+        places: Vec::new(),
+        rates: Vec::new(),
+        inertia: Expr::zero(),
+    };
+    let mut parts = Vec::new();
+    for (b, place) in &linkage.places {
+        let body = &stage.scene.bodies[*b];
+        let [x, y, angle] = place.each_ref().map(at);
+        let rates = place
+            .each_ref()
+            .map(|e| at(&e.derivative(&linkage.coordinate)));
+        let [u, v, w] = rates;
+        let [u, v, w] = [u?, v?, w?];
+        parts.push(&body.mass * &(&u.powi(2) + &v.powi(2)));
+        parts.push(&body.inertia * &w.powi(2));
+        out.places.push([x?, y?, angle?]);
+        out.rates.push([u, v, w]);
+    }
+    out.inertia = tidied(stage, &Expr::sum(parts))?;
+    Ok(out)
+}
+
+/// Refuses bodies that are not where the coordinate puts them.
+fn stands(stage: &Stage, before: &State, linkage: &Linkage, pose: &Pose) -> Result<(), Refused> {
+    for ((b, _), place) in linkage.places.iter().zip(&pose.places) {
+        let body = &stage.scene.bodies[*b];
+        let [x, y] = &before.center[*b];
+        let all = [x, y, &before.angle[*b]].into_iter().zip(place);
+        let seen = if body.is_particle() { 2 } else { 3 };
+        let mut gaps = all.take(seen).map(|(a, b)| a - b);
+        if gaps.any(|gap| is_zero(&gap, &stage.scene.domains) != Some(true)) {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "`{}` is not where `{}` = {} puts it",
+                    body.name,
+                    linkage.coordinate,
+                    write_plain(&linkage.ends[0])
+                ),
+                "give `from`, the value of the coordinate at the beginning",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The rate of the coordinate at the beginning; refused where no rate gives the motion of all bodies.
+fn rate(stage: &Stage, before: &State, linkage: &Linkage, pose: &Pose) -> Result<Expr, Refused> {
+    let domains = &stage.scene.domains;
+    let motion = |b: usize| {
+        let [u, v] = &before.velocity[b];
+        [u, v, &before.spin[b]]
+    };
+    let mut momentum = Vec::new();
+    for ((b, _), [u, v, w]) in linkage.places.iter().zip(&pose.rates) {
+        let body = &stage.scene.bodies[*b];
+        let [x, y, spin] = motion(*b);
+        momentum.push(&body.mass * &(&(u * x) + &(v * y)));
+        momentum.push(&body.inertia * &(w * spin));
+    }
+    let momentum = tidied(stage, &Expr::sum(momentum))?;
+    let rate = match momentum.is_zero() {
+        true => momentum,
+        false => tidied(stage, &(&momentum / &pose.inertia))?,
+    };
+    for ((b, _), rates) in linkage.places.iter().zip(&pose.rates) {
+        let body = &stage.scene.bodies[*b];
+        let seen = if body.is_particle() { 2 } else { 3 };
+        let all = motion(*b).into_iter().zip(rates).take(seen);
+        let mut gaps = all.map(|(is, per)| is - &(per * &rate));
+        if gaps.any(|gap| is_zero(&gap, domains) == Some(false)) {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "`{}` does not begin to move as the linkage lets it",
+                    body.name
+                ),
+                "put an impact before it that joins the bodies, or begin at rest",
+            ));
+        }
+    }
+    Ok(rate)
+}
+
+/// Work of the weights.
+fn work(stage: &Stage, linkage: &Linkage, first: &Pose, last: &Pose) -> Vec<(&'static str, Expr)> {
+    let Some(g) = &linkage.gravity else {
+        return Vec::new();
+    };
+    let all = linkage
+        .places
+        .iter()
+        .zip(first.places.iter().zip(&last.places));
+    let parts = all.map(|((b, _), ([_, from, _], [_, to, _]))| {
+        &(&stage.scene.bodies[*b].mass * g) * &(from - to)
+    });
+    vec![("weight", Expr::sum(parts))]
+}
+
+/// Whether the linkage begins to move the way it is said to, and keeps on: at rest its weight has to draw it, and energy
+/// compares the ends only.
+fn sets_out(
+    stage: &Stage,
+    linkage: &Linkage,
+    rate: &Expr,
+    way: i64,
+    needs: &mut Vec<Expr>,
+    assumptions: &mut Vec<Sentence>,
+) -> Result<(), Refused> {
+    let domains = &stage.scene.domains;
+    let way = Expr::from(way);
+    let name = unicode_name(&linkage.coordinate);
+    let ahead = &way * rate;
+    match sign(&ahead, domains) {
+        Seen::Proved(s) if s.is_not_negative() => {}
+        Seen::Proved(_) => {
+            return Err(Refused::new(
+                &stage.name,
+                format!("`{}` begins to change the other way", linkage.coordinate),
+                "look at the motion handed on, and at `to`",
+            ));
+        }
+        _ => {
+            assumptions.push(sentence![&ahead, " ≥ 0"]);
+            needs.push(ahead.clone());
+        }
+    }
+    let lifted = linkage
+        .places
+        .iter()
+        .map(|(b, [_, y, _])| &stage.scene.bodies[*b].mass * &y.derivative(&linkage.coordinate));
+    let drawn = -(&way * &Expr::sum(lifted));
+    let rests = ahead.is_zero();
+    let Some(_) = &linkage.gravity else {
+        return match rests {
+            true => Err(Refused::new(
+                &stage.name,
+                "it is at rest, and nothing moves it",
+                "add \"gravity\": \"g\"",
+            )),
+            false => Ok(()),
+        };
+    };
+    if rests {
+        let begins = tidied(stage, &linkage.at(&drawn, &linkage.ends[0]))?;
+        match sign(&begins, domains) {
+            Seen::Proved(Sign::Positive | Sign::NotNegative) => {}
+            Seen::Proved(_) => {
+                return Err(Refused::new(
+                    &stage.name,
+                    format!(
+                        "at rest its weight does not make `{}` change this way",
+                        linkage.coordinate
+                    ),
+                    "look at `to`, or give it a velocity",
+                ));
+            }
+            _ => {
+                assumptions.push(sentence![&begins, " ≥ 0, so that weight sets it going"]);
+                needs.push(begins);
+            }
+        }
+    }
+    if !falls_all_the_way(stage, linkage, &drawn) {
+        assumptions.push(sentence![
+            "it does not come to rest while ",
+            name,
+            " changes"
+        ]);
+    }
+    Ok(())
+}
+
+/// Whether weight draws the linkage on at every place on the way, seen at points of the domain.
+fn falls_all_the_way(stage: &Stage, linkage: &Linkage, drawn: &Expr) -> bool {
+    const POINTS: usize = 12;
+    const PARTS: u32 = 16;
+    let [begin, end] = &linkage.ends;
+    let names = [begin, end, drawn].into_iter().flat_map(|e| e.symbols());
+    let points = integrate::points_of(names.collect(), &stage.scene.domains, POINTS);
+    let falls = |point: &Point<f64>| {
+        let ends = [begin, end].map(|e| e.evaluate(point));
+        let [Some(from), Some(to)] = ends else {
+            return false;
+        };
+        (0..=PARTS).all(|k| {
+            let mut there = point.clone();
+            let value = from + (to - from) * f64::from(k) / f64::from(PARTS);
+            there.directions.remove(&linkage.coordinate);
+            there.values.insert(linkage.coordinate.clone(), value);
+            drawn.evaluate(&there).is_some_and(|d| d >= -1e-12)
+        })
+    };
+    points.iter().all(falls)
+}
