@@ -580,6 +580,16 @@ pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence
     if !falls.is_empty() {
         out.push(sentence!["in ", listed(&falls), " there is no drag"]);
     }
+    let strung = named(|kind| matches!(kind, StageKind::Slide(s) if !s.strings.is_empty()));
+    if !strung.is_empty() {
+        let why = " strings have no mass, keep their length and do not slip on their pulleys, whose axles are frictionless";
+        out.push(sentence!["in ", listed(&strung), why]);
+    }
+    let linked = named(|kind| matches!(kind, StageKind::Linkage(_)));
+    if !linked.is_empty() {
+        let why = " joints and guides hold the bodies all the way, pulling where need be, and are frictionless";
+        out.push(sentence!["in ", listed(&linked), why]);
+    }
     for told in stages {
         let stage = &told.placed;
         if let StageKind::Turn(turn) = &stage.kind {

@@ -255,9 +255,8 @@ fn begins(
     let rate = momentum / inertia;
     for ((i, state), rates) in known.iter().enumerate().zip(&first.first) {
         let is_particle = moving.masses(i)[2] == 0.0;
-        for k in 0..2 {
-            let off = (state[k] - first.places[i][k]).abs();
-            if off > ROUNDING * size[0].max(state[k].abs()) {
+        for (is, put) in state.iter().zip(&first.places[i]).take(2) {
+            if (is - put).abs() > ROUNDING * size[0].max(is.abs()) {
                 return Err(course.contradiction("a body is not where the coordinate puts it"));
             }
         }

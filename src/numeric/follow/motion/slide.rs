@@ -290,8 +290,8 @@ fn on_line(
     });
     let weights = movers.inertias.iter().map(|[m, _]| -m * acting.gravity);
     let mut forces: Vec<[f64; 3]> = weights.map(|w| [0.0, w / units.force(), 0.0]).collect();
-    for k in 0..2 {
-        forces[0][k] += acting.force * acting.along[k] / units.force();
+    for (total, along) in forces[0].iter_mut().zip(acting.along) {
+        *total += acting.force * along / units.force();
     }
     let mut inertias = movers.scaled(units);
     for (i, inertia) in inertias.iter_mut().enumerate() {
