@@ -5,10 +5,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Claim, Failure, Meaning, POINTS, Report};
-use crate::expr::{Point, Rational, Symbol};
+use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::numeric::friction::happened;
 use crate::numeric::{self, Answer, Number};
-use crate::scene::Scene;
+use crate::scene::{Ask, Scene};
 
 /// Seeds tried where a contact with friction must do what the solution says.
 const SEEDS: u64 = 400;

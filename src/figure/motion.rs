@@ -13,7 +13,9 @@ use super::sheet::{Ink, Line, SIZE, SMALL, Sheet, arc};
 use super::stage::{Stage, spanning};
 use super::values::{Pair, Values, size};
 use crate::expr::Expr;
-use crate::scene::{Body, Fall, FallEnd, Hinge, Linkage, Scene, Slide, SlideEnd, StageKind, Turn, Until};
+use crate::scene::{
+    Body, Fall, FallEnd, Hinge, Linkage, Scene, Slide, SlideEnd, StageKind, Turn, Until,
+};
 
 /// Shortest length that is marked, in pixels.
 const SHORTEST: f64 = 8.0;

@@ -108,7 +108,10 @@ fn beyond_zero(e: &Expr, [sign, turned]: [&str; 2]) -> Sentence {
     }
     let kept = Expr::sum(kept);
     // With a number on one side its factor is put in: `3 − 4μ ≥ 0` as `μ ≤ 3/4`.
-    match (kept.as_number(), taken.as_number().filter(|_| !taken.is_zero())) {
+    match (
+        kept.as_number(),
+        taken.as_number().filter(|_| !taken.is_zero()),
+    ) {
         (Some(number), None) if !taken.is_zero() => {
             let (factor, rest) = taken.split_number();
             sentence![&rest, turned, &Expr::from(number / factor)]
