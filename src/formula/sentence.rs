@@ -107,19 +107,15 @@ fn beyond_zero(e: &Expr, [sign, turned]: [&str; 2]) -> Sentence {
         return sentence![&taken, turned, "0"];
     }
     let kept = Expr::sum(kept);
-    // With a number on one side its factor is put in: `3 − 4μ ≥ 0` as `μ ≤ 3/4`.
-    match (
-        kept.as_number(),
-        taken.as_number().filter(|_| !taken.is_zero()),
-    ) {
-        (Some(number), None) if !taken.is_zero() => {
-            let (factor, rest) = taken.split_number();
-            sentence![&rest, turned, &Expr::from(number / factor)]
-        }
-        (None, Some(number)) => {
-            let (factor, rest) = kept.split_number();
-            sentence![&rest, sign, &Expr::from(number / factor)]
-        }
+    // With a constant on one side its factor is put in: `3 − 4μ ≥ 0` as `μ ≤ 3/4`.
+    let is_constant = |e: &Expr| e.symbols().is_empty();
+    let solved = |side: &Expr, sign, constant: &Expr| {
+        let (factor, rest) = side.split_number();
+        sentence![&rest, sign, &(constant * &Expr::from(factor.recip()))]
+    };
+    match (is_constant(&kept), is_constant(&taken)) {
+        (true, false) => solved(&taken, turned, &kept),
+        (false, true) if !taken.is_zero() => solved(&kept, sign, &taken),
         _ => sentence![&kept, sign, &taken],
     }
 }
