@@ -97,7 +97,10 @@ impl Sentence {
 
 /// A relation to zero, with what is taken away on the other side; the second sign stands where nothing is added.
 fn beyond_zero(e: &Expr, [sign, turned]: [&str; 2]) -> Sentence {
-    let terms = match e.node() {
+    // The size of a factor before a sum says nothing of its sign.
+    let (factor, rest) = e.split_number();
+    let terms = match rest.node() {
+        Node::Sum(terms) if Expr::from(factor).is_negative() => terms.iter().map(|t| -t).collect(),
         Node::Sum(terms) => terms.clone(),
         _ => vec![e.clone()],
     };

@@ -173,7 +173,13 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
         StageKind::Linkage(linkage) => {
             let names = linkage.places.iter();
             let names = names.map(|(b, _)| format!("`{}`", scene.bodies[*b].name));
-            let lead = format!("{} move together", names.collect::<Vec<_>>().join(" and "));
+            let names: Vec<String> = names.collect();
+            let verb = if names.len() == 1 {
+                "moves"
+            } else {
+                "move together"
+            };
+            let lead = format!("{} {verb}", names.join(" and "));
             let coordinate = Expr::symbol(&linkage.coordinate);
             let [from, to] = &linkage.ends;
             out.push(match *from == coordinate {

@@ -120,7 +120,7 @@ fn way(
         }
     };
     let need = &Expr::from(way) * &grows;
-    assumptions.push(sentence![&need, " ≥ 0"]);
+    assumptions.push(Sentence::not_negative(&need));
     needs.push(need);
     Ok(way)
 }
@@ -252,7 +252,7 @@ fn sets_out(
             ));
         }
         _ => {
-            assumptions.push(sentence![&ahead, " ≥ 0"]);
+            assumptions.push(Sentence::not_negative(&ahead));
             needs.push(ahead.clone());
         }
     }
@@ -287,7 +287,10 @@ fn sets_out(
                 ));
             }
             _ => {
-                assumptions.push(sentence![&begins, " ≥ 0, so that weight sets it going"]);
+                assumptions.push(sentence![
+                    Sentence::not_negative(&begins),
+                    ", so that weight sets it going"
+                ]);
                 needs.push(begins);
             }
         }

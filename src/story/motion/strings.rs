@@ -5,7 +5,7 @@
 
 use super::tidied;
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, essential, is_zero, sign};
+use crate::answer::calc::{Seen, at_least_zero, is_zero, sign};
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Slide, Stage, Strung};
@@ -203,8 +203,8 @@ impl Pulled<'_> {
                 _ => {}
             }
             assumptions.push(sentence![
-                &essential(&tension, domains),
-                " ≥ 0, so that the string to `",
+                at_least_zero(&tension, domains),
+                ", so that the string to `",
                 name,
                 "` stays taut"
             ]);

@@ -40,7 +40,7 @@ pub(super) struct Ropes {
 struct Leg {
     /// From the body to the pulley, along the line of the body.
     pull: [f64; 2],
-    /// Speed of the rim along that for a spin of 1 [m].
+    /// Speed of the rim along that for a spin of 1 \[m\].
     rim: f64,
     /// Whether the body moves towards the pulley.
     nears: bool,
@@ -144,7 +144,7 @@ impl Ropes {
                 .sum::<f64>()
     }
 
-    /// Weights along the lines by gravity [kg], and the bound of the frictions there by gravity [kg].
+    /// Weights along the lines by gravity \[kg\], and the bound of the frictions there by gravity \[kg\].
     pub fn weights(&self, movers: &Movers) -> [f64; 2] {
         let mut out = [0.0; 2];
         for end in &self.ends {
