@@ -71,8 +71,8 @@ pub(super) fn case(
         _ => None,
     };
     let mut conditions = Vec::new();
-    for (i, (name, words)) in wanted.iter().enumerate() {
-        let Some(end) = amount(&values, name, &scene.domains)? else {
+    for (i, (_, words)) in wanted.iter().enumerate() {
+        let Some(end) = amount(&values, &scene, active, i)? else {
             continue;
         };
         if set.contains(&i) && is_zero(&end, &scene.domains) == Some(true) && !is_supposed {
@@ -80,7 +80,7 @@ pub(super) fn case(
             return Ok(None);
         }
         let way = match &on_the_way {
-            Some(values) => amount(values, name, &scene.domains)?,
+            Some(values) => amount(values, &scene, active, i)?,
             None => None,
         };
         let amounts = match way {
@@ -156,21 +156,42 @@ fn outright(e: &Expr, derivation: &Derivation) -> Expr {
     }
 }
 
-/// The impulse of a support or string that acts, or how fast the bodies part at one that is left.
+/// The impulse of a support or string that acts, or how fast the bodies part at one that is left. Strings over a pulley without
+/// mass are one: it turns as they want, and what one end gives the other may take.
 fn amount(
     values: &BTreeMap<String, Expr>,
-    name: &str,
-    domains: &Domains,
+    scene: &Scene,
+    active: &Active<'_>,
+    i: usize,
 ) -> Result<Option<Expr>, derive::Stop> {
-    let get = |suffix: &str| values.get(&format!("{name}{suffix}")).cloned();
-    Ok(match (get(""), get("2")) {
-        (Some(impulse), _) => Some(impulse),
-        (None, Some(second)) => {
-            let first = get("1").unwrap_or_else(Expr::zero);
-            Some(tidy(&(second - &first), domains)?)
+    let get = |j: usize, suffix: &str| {
+        let (name, _) = &active.wanted[j];
+        values.get(&format!("{name}{suffix}")).cloned()
+    };
+    if let Some(impulse) = get(i, "") {
+        return Ok(Some(impulse));
+    }
+    let is_light = |b: &usize| scene.bodies[*b].is_light_pulley();
+    let ends = match active.one_sided[i].bodies.into_iter().find(is_light) {
+        None => vec![i],
+        Some(pulley) => {
+            let left = (0..active.one_sided.len()).filter(|j| !active.set.contains(j));
+            left.filter(|j| active.one_sided[*j].bodies.contains(&pulley))
+                .collect()
         }
-        _ => None,
-    })
+    };
+    let mut parting = Expr::zero();
+    for j in ends {
+        let [_, second] = active.one_sided[j].bodies;
+        let first = get(j, "1").unwrap_or_else(Expr::zero);
+        let second = match get(j, "2") {
+            None if is_light(&second) => Expr::zero(),
+            None => return Ok(None),
+            Some(second) => second,
+        };
+        parting = parting + second - first;
+    }
+    Ok(Some(tidy(&parting, &scene.domains)?))
 }
 
 /// Longest condition that is held against others, in nodes.
