@@ -52,12 +52,26 @@ impl Clash {
                 right,
                 right_is,
             } => {
+                let minus = if right.begins_with_minus() {
+                    "−"
+                } else {
+                    "+"
+                };
+                let size = if minus == "−" { &-right } else { right };
                 let parts = format!(
-                    "{} + {}: {left_is} against {right_is}",
+                    "{} {minus} {}: {left_is} against {right_is}",
                     write(left),
-                    write(right)
+                    write(size)
                 );
-                format!("{parts}; {}", missing(left_is, right_is, &write(right)))
+                let plain = [left, right].into_iter().find(|e| e.as_number().is_some());
+                let hint = match plain {
+                    Some(number) => format!(
+                        "{} has no unit: let a parameter with a unit stand for it",
+                        write(number)
+                    ),
+                    None => missing(left_is, right_is, &write(size)),
+                };
+                format!("{parts}; {hint}")
             }
             Clash::NotANumber {
                 whole,

@@ -186,6 +186,10 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                 true => sentence![lead, " from ", from, " to ", to],
                 false => sentence![lead, ": ", &coordinate, " goes from ", from, " to ", to],
             });
+            let by_it = |e: &Expr| e.symbols().contains(&linkage.coordinate);
+            if scene.points.iter().any(|p| p.at.iter().any(by_it)) {
+                out.push(sentence!["points given by ", &coordinate, " go with it"]);
+            }
         }
         StageKind::Wind(wind) => out.push(sentence![
             "the rope winds up until ",

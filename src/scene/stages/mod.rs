@@ -7,7 +7,7 @@ mod kind;
 
 pub(super) use kind::TIME;
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use crate::expr::{Expr, Symbol, Vector, minus};
 use crate::scene::body_file::VelocityFile;
@@ -316,6 +316,14 @@ fn one(
         r.body_places[b] = Place::Done(Some([Expr::symbol(x), Expr::symbol(y)]));
     }
     r.point_places.fill(Place::Untouched);
+    let left_at = left_at(&whole.stages, from);
+    if stage.impact.is_some() && !left_at.is_empty() {
+        for i in 0..r.point_places.len() {
+            let at = r.point(i);
+            let at = at.map(|at| at.map(|e| e.substitute(&left_at)));
+            r.point_places[i] = Place::Done(at);
+        }
+    }
     r.fill(&mut scene);
     scene.figure = whole.figure.clone();
     let file_places: Vec<[Expr; 3]> = scene
@@ -379,6 +387,22 @@ fn one(
         scene,
     });
     (read, symbols, faults)
+}
+
+/// The values at which linkages on the way to a stage have left their coordinates: an impact finds the points that the file
+/// gives by a coordinate where its last value puts them.
+fn left_at(stages: &[Stage], from: Option<usize>) -> BTreeMap<Symbol, Expr> {
+    let mut out = BTreeMap::new();
+    let mut before = from;
+    while let Some(stage) = before.and_then(|i| stages.get(i)) {
+        if let StageKind::Linkage(linkage) = &stage.kind {
+            let [_, end] = &linkage.ends;
+            out.entry(linkage.coordinate.clone())
+                .or_insert_with(|| end.clone());
+        }
+        before = stage.from;
+    }
+    out
 }
 
 /// Carries the parts of a composite along with its center, turned by an angle about it.
