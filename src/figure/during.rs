@@ -263,7 +263,8 @@ pub(super) fn impulses(stage: &Stage, system: &[usize], motion: Option<&Motion<f
             &contact.at,
             known,
             along,
-            true,
+            // A string pulls.
+            scene.figure.string(&contact.name).is_none(),
             &contact.name,
         );
     }

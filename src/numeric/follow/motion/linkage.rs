@@ -5,9 +5,10 @@
 //! the changes of places and angles by the coordinate. These are central differences of the order 8 in the places alone.
 
 use std::cell::Cell;
+use std::collections::BTreeSet;
 
 use super::{Moved, NUDGE, REST, ROUNDING, SAMPLES, Sample, all_open, others, stopped};
-use crate::expr::Point;
+use crate::expr::{Expr, Point, Symbol};
 use crate::numeric::follow::impact::first_open;
 use crate::numeric::follow::mechanism::{Goal, Mobile, Run};
 use crate::numeric::follow::{Course, Lost, Passed, State, What, Why};
@@ -30,6 +31,8 @@ const SECOND: [f64; 5] = [
 struct Moving<'a> {
     course: &'a Course<'a>,
     linkage: &'a Linkage,
+    /// What the places hold besides the coordinate.
+    values: Point<f64>,
     ends: [f64; 2],
     gravity: f64,
     /// Unit of time \[s\].
@@ -47,8 +50,7 @@ struct Shape {
 impl Moving<'_> {
     fn places(&self, s: f64) -> Option<Vec<[f64; 3]>> {
         let value = self.ends[0] + (self.ends[1] - self.ends[0]) * s;
-        let mut point: Point<f64> = self.course.values.clone();
-        point.directions.remove(&self.linkage.coordinate);
+        let mut point = self.values.clone();
         point.values.insert(self.linkage.coordinate.clone(), value);
         let mut out = Vec::new();
         for (b, place) in &self.linkage.places {
@@ -148,9 +150,18 @@ pub(in crate::numeric::follow) fn linkage(
         };
         known.push(state);
     }
+    // Places are looked at thousands of times.
+    let places = linkage.places.iter().flat_map(|(_, place)| place);
+    let held: BTreeSet<Symbol> = places.flat_map(Expr::symbols).collect();
+    let mut values = course.values.clone();
+    values.values.retain(|name, _| held.contains(name));
+    values
+        .directions
+        .retain(|name, _| held.contains(name) && *name != linkage.coordinate);
     let mut moving = Moving {
         course,
         linkage,
+        values,
         ends: [
             course.number(&linkage.ends[0], "coordinate")?,
             course.number(&linkage.ends[1], "coordinate")?,
