@@ -433,7 +433,7 @@ fn take(
         Some(false) if squared => {
             // Squaring adds solutions; a point decides.
             match seen(&put_in, domains) {
-                Seen::Mixed if !put_in.symbols().is_empty() => out.inside.push(Root {
+                Seen::Mixed if !put_in.is_constant() => out.inside.push(Root {
                     value,
                     proved: false,
                     given,

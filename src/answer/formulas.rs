@@ -488,7 +488,7 @@ fn put_in_fits(
     with: &[(Symbol, Expr)],
     at: &str,
 ) -> Result<(), Refused> {
-    for (name, value) in with.iter().filter(|(_, v)| !v.symbols().is_empty()) {
+    for (name, value) in with.iter().filter(|(_, v)| !v.is_constant()) {
         let own = stated_dimension(scene, known, &Expr::symbol(name), at)?;
         let put = stated_dimension(scene, known, value, at)?;
         if let (Some(own), Some(put)) = (own, put)

@@ -368,17 +368,7 @@ fn is_exact_atom(e: &Expr) -> bool {
 
 /// −e, where e is a negative number or a product with a negative coefficient.
 fn negated(e: &Expr) -> Option<Expr> {
-    match e.node() {
-        Node::Number(v) if v.is_negative() => Some(Expr::from(-v.clone())),
-        Node::Product(factors) => {
-            let k = factors[0].as_number().filter(|k| k.is_negative())?;
-            let rest = factors[1..].iter().cloned();
-            Some(Expr::product(
-                [Expr::from(-k.clone())].into_iter().chain(rest),
-            ))
-        }
-        _ => None,
-    }
+    e.is_negative().then(|| -e)
 }
 
 /// The sign an expression has wherever its symbols have theirs.

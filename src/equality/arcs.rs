@@ -76,20 +76,15 @@ fn whole_turns(difference: &Expr, domains: &Domains) -> Option<Proof> {
 
 /// A term as a number times the rest.
 fn coefficient(term: &Expr) -> Option<(Rational, Expr)> {
-    match term.node() {
-        Node::Product(factors) => match factors.as_slice() {
-            [k, atom] => Some((k.as_number()?.clone(), atom.clone())),
-            _ => None,
-        },
-        Node::Number(_) => None,
-        _ => Some((Rational::from(crate::expr::Int::from(1)), term.clone())),
-    }
+    let (k, atom) = term.split_number();
+    let is_atom = !matches!(atom.node(), Node::Number(_) | Node::Product(_));
+    is_atom.then_some((k, atom))
 }
 
 /// Bounds of an arc, of π, or of an angle that lives between two ends.
 fn range(atom: &Expr, domains: &Domains) -> Option<[f64; 2]> {
     use std::f64::consts::{FRAC_PI_2, PI};
-    if atom.symbols().is_empty()
+    if atom.is_constant()
         && let Outcome::Value(value) = evaluate::<Interval>(atom, &Point::default())
     {
         return Some([value.low, value.high]);

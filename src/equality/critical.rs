@@ -34,7 +34,7 @@ const PARTS: usize = 400;
 pub(super) fn arguments(formulas: &[&Expr]) -> Vec<(Expr, bool)> {
     let mut out: Vec<(Expr, bool)> = Vec::new();
     let mut note = |e: Expr, needed: bool| {
-        if !e.symbols().is_empty()
+        if !e.is_constant()
             && out.len() < ARGUMENTS
             && !out.iter().any(|(f, n)| *f == e && *n == needed)
         {

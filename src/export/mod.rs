@@ -132,7 +132,7 @@ fn item(sheet: &Sheet, entry: &Entry) -> Result<Item, String> {
     if !answer.symbols().iter().all(is_given) || answer.size() > LARGEST {
         return Err(String::from("its closed form goes over several lines"));
     }
-    if answer.symbols().is_empty() {
+    if answer.is_constant() {
         return Err(format!("it is {} whatever the values", write_plain(answer)));
     }
     let wrong: Vec<Wrong> = sheet

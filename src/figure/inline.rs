@@ -5,7 +5,7 @@
 use num_traits::Signed;
 
 use super::label::{LONGEST, Label, Level};
-use crate::expr::{Expr, Node, Rational, ratio};
+use crate::expr::{Expr, Node, ratio};
 use crate::scene::Scene;
 
 /// Deepest formula that is written out.
@@ -28,7 +28,7 @@ pub(super) fn write(e: &Expr, scene: &Scene, out: &mut Label, depth: usize) {
         }
         Node::Sum(terms) => {
             for (i, term) in terms.iter().enumerate() {
-                let negative = is_negative(term);
+                let negative = term.is_negative();
                 let sign = match (i, negative) {
                     (0, false) => "",
                     (0, true) => "−",
@@ -117,14 +117,4 @@ fn factor(e: &Expr, scene: &Scene, out: &mut Label, depth: usize) {
     out.push(if bracket { "(" } else { "" }, false, Level::Base);
     write(e, scene, out, depth + 1);
     out.push(if bracket { ")" } else { "" }, false, Level::Base);
-}
-
-/// Whether a term is written with a minus sign in front.
-pub fn is_negative(e: &Expr) -> bool {
-    let below = |value: &Rational| value.is_negative();
-    match e.node() {
-        Node::Number(value) => below(value),
-        Node::Product(factors) => factors.first().and_then(Expr::as_number).is_some_and(below),
-        _ => false,
-    }
 }

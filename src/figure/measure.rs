@@ -294,14 +294,7 @@ fn collected(e: &Expr) -> BTreeMap<Expr, Rational> {
         _ => vec![e.clone()],
     };
     for part in parts {
-        let (factor, rest) = match part.node() {
-            Node::Number(k) => (k.clone(), Expr::one()),
-            Node::Product(f) => match f[0].as_number() {
-                Some(k) => (k.clone(), Expr::product(f[1..].iter().cloned())),
-                None => (Rational::one(), part.clone()),
-            },
-            _ => (Rational::one(), part.clone()),
-        };
+        let (factor, rest) = part.split_number();
         *terms.entry(rest).or_insert_with(Rational::zero) += factor;
     }
     terms.retain(|_, k| !k.is_zero());

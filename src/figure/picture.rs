@@ -3,7 +3,6 @@
 //! In: a scene on stage, and the motion after as numbers. Out: a sheet.
 
 use super::during::impulses;
-use super::inline::is_negative;
 use super::label::Label;
 use super::marks::{axes, centers, masses, names, turning, velocity, wall_point};
 use super::measure;
@@ -101,12 +100,12 @@ pub fn before(stage: &Stage, after: Option<&Motion<f64>>) -> Sheet {
             );
         }
         if spin.abs() > 1e-12 && !body.is_particle() {
-            let e = if (spin < 0.0) == is_negative(&body.spin) {
+            let e = if (spin < 0.0) == body.spin.is_negative() {
                 body.spin.clone()
             } else {
                 -&body.spin
             };
-            let e = if is_negative(&e) { -&e } else { e };
+            let e = if e.is_negative() { -&e } else { e };
             let mut label = Label::formula(&e, scene);
             if label.text().chars().count() > LEGIBLE {
                 label = spin_before(stage, i);

@@ -1,6 +1,5 @@
 //! What velocities, spins and impulses are called: as the questions name them, else by the book's usual letters.
 
-use super::inline::is_negative;
 use super::label::Label;
 use super::stage::{Stage, center_name};
 use super::values::{Pair, size};
@@ -128,10 +127,10 @@ pub(super) fn speed(stage: &Stage, body: usize, v: &Vector, value: Pair) -> Labe
 pub(super) fn magnitude(stage: &Stage, v: &Vector, value: Pair) -> Option<Label> {
     let scene = stage.scene;
     let signed = |e: &Expr, value: f64| {
-        let positive = if is_negative(e) { -e } else { e.clone() };
+        let positive = if e.is_negative() { -e } else { e.clone() };
         let label = Label::formula(&positive, scene);
         // What points against its symbol carries a minus sign.
-        if (value < 0.0) == is_negative(e) {
+        if (value < 0.0) == e.is_negative() {
             label
         } else {
             label.negated()

@@ -43,7 +43,7 @@ use fault::Faulty;
 pub use note::{Note, Remark};
 use parser::{Parser, Side};
 pub(crate) use sentence::sentence;
-pub use sentence::{Piece, Sentence};
+pub use sentence::{Piece, Sentence, sides};
 pub(crate) use symbols::is_greek;
 pub use symbols::{Declared, Symbols};
 pub(crate) use units::plain_unit;

@@ -5,6 +5,8 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use num_traits::Signed;
+
 use super::write_plain;
 use crate::expr::{Expr, Node, Symbol};
 
@@ -95,30 +97,30 @@ impl Sentence {
     }
 }
 
-/// A relation to zero, with what is taken away on the other side; the second sign stands where nothing is added.
-fn beyond_zero(e: &Expr, [sign, turned]: [&str; 2]) -> Sentence {
+/// Both sides of `e ≥ 0` or `e = 0` as people write them: what is taken away stands on the right.
+pub fn sides(e: &Expr) -> [Expr; 2] {
     // The size of a factor before a sum says nothing of its sign.
     let (factor, rest) = e.split_number();
     let terms = match rest.node() {
-        Node::Sum(terms) if Expr::from(factor).is_negative() => terms.iter().map(|t| -t).collect(),
+        Node::Sum(terms) if factor.is_negative() => terms.iter().map(|t| -t).collect(),
         Node::Sum(terms) => terms.clone(),
         _ => vec![e.clone()],
     };
     let (taken, kept): (Vec<Expr>, Vec<Expr>) = terms.into_iter().partition(Expr::is_negative);
-    let taken = Expr::sum(taken.iter().map(|term| -term));
-    if kept.is_empty() {
-        return sentence![&taken, turned, "0"];
-    }
-    let kept = Expr::sum(kept);
-    // With a constant on one side its factor is put in: `3 − 4μ ≥ 0` as `μ ≤ 3/4`.
-    let is_constant = |e: &Expr| e.symbols().is_empty();
+    [Expr::sum(kept), -Expr::sum(taken)]
+}
+
+/// A relation to zero by its two sides; the second sign stands where they change places.
+fn beyond_zero(e: &Expr, [sign, turned]: [&str; 2]) -> Sentence {
+    let [kept, taken] = sides(e);
+    // A constant stands on the right, with the factor of the other side put in: `3 − 4μ ≥ 0` as `μ ≤ 3/4`.
     let solved = |side: &Expr, sign, constant: &Expr| {
         let (factor, rest) = side.split_number();
         sentence![&rest, sign, &(constant * &Expr::from(factor.recip()))]
     };
-    match (is_constant(&kept), is_constant(&taken)) {
+    match (kept.is_constant(), taken.is_constant()) {
         (true, false) => solved(&taken, turned, &kept),
-        (false, true) if !taken.is_zero() => solved(&kept, sign, &taken),
+        (false, true) => solved(&kept, sign, &taken),
         _ => sentence![&kept, sign, &taken],
     }
 }

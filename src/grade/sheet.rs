@@ -250,7 +250,7 @@ impl Sheet {
         if !values.iter().all(known) || values.iter().any(|e| e.size() > 2_000) {
             return grade;
         }
-        let told = values.iter().any(|v| !v.symbols().is_empty());
+        let told = values.iter().any(|v| !v.is_constant());
         let written = Written {
             scene: &self.scene,
             ask: entry.asked_of_impact(),

@@ -4,9 +4,10 @@ use serde_json::{Value, json};
 
 use super::{latex, unicode};
 use crate::answer::Check;
-use crate::formula::write_plain;
+use crate::expr::Expr;
+use crate::formula::{self, write_plain};
 use crate::scene::Scene;
-use crate::verify::possible::{Condition, Possible, Verdict, inequality};
+use crate::verify::possible::{Condition, Possible, Verdict};
 
 /// The conditions under which it is possible, such as `2 l ≥ d`.
 pub fn conditions(scene: &Scene, possible: &Possible) -> Vec<String> {
@@ -14,7 +15,7 @@ pub fn conditions(scene: &Scene, possible: &Possible) -> Vec<String> {
     possible
         .open()
         .into_iter()
-        .filter_map(|c| sides(c, written))
+        .filter_map(|c| sides(c, "≥", written))
         .collect()
 }
 
@@ -69,8 +70,8 @@ pub fn json(scene: &Scene, possible: &Possible) -> Value {
                 "rule": c.rule.name(),
                 "words": c.words,
                 "verdict": verdict(c.verdict),
-                "condition": sides(c, write_plain),
-                "latex": sides_latex(scene, c),
+                "condition": sides(c, "≥", write_plain),
+                "latex": sides(c, "\\ge", |e| latex(scene, e)),
                 "at_values": c.at_values,
             })
         })
@@ -95,18 +96,9 @@ fn verdict(verdict: Verdict) -> &'static str {
     }
 }
 
-fn sides(c: &Condition, written: impl Fn(&crate::expr::Expr) -> String) -> Option<String> {
-    let (left, right) = inequality(c.essential.as_ref()?);
-    let relation = if c.is_equation { "=" } else { "≥" };
+/// A condition by its two sides; `at_least` is how ≥ is written.
+fn sides(c: &Condition, at_least: &str, written: impl Fn(&Expr) -> String) -> Option<String> {
+    let [left, right] = formula::sides(c.essential.as_ref()?);
+    let relation = if c.is_equation { "=" } else { at_least };
     Some(format!("{} {relation} {}", written(&left), written(&right)))
-}
-
-fn sides_latex(scene: &Scene, c: &Condition) -> Option<String> {
-    let (left, right) = inequality(c.essential.as_ref()?);
-    let relation = if c.is_equation { "=" } else { "\\ge" };
-    Some(format!(
-        "{} {relation} {}",
-        latex(scene, &left),
-        latex(scene, &right)
-    ))
 }

@@ -255,7 +255,7 @@ impl Page<'_> {
             known && a.formula().is_some_and(|f| f == e || *f == minus)
         };
         match self.told.answers.iter().find(told) {
-            Some(a) if !e.symbols().is_empty() => match a.formula() == Some(e) {
+            Some(a) if !e.is_constant() => match a.formula() == Some(e) {
                 true => Expr::symbol(&a.name),
                 false => -Expr::symbol(&a.name),
             },

@@ -158,21 +158,6 @@ fn essential(e: &Expr, domains: &Domains) -> Expr {
     tidied.unwrap_or(turned)
 }
 
-/// Both sides of `e ≥ 0` as a person would write it: what is subtracted stands on the right.
-pub fn inequality(e: &Expr) -> (Expr, Expr) {
-    let terms: Vec<Expr> = match e.node() {
-        Node::Sum(terms) => terms.clone(),
-        _ => vec![e.clone()],
-    };
-    let is_subtracted = |t: &Expr| match t.node() {
-        Node::Number(value) => value.is_negative(),
-        Node::Product(factors) => factors[0].as_number().is_some_and(Signed::is_negative),
-        _ => false,
-    };
-    let (right, left): (Vec<Expr>, Vec<Expr>) = terms.into_iter().partition(is_subtracted);
-    (Expr::sum(left), -Expr::sum(right))
-}
-
 /// Lets a condition that follows from a shorter one be that one: v² − u² ≥ 0 and e (v − u) ≥ 0 follow from v − u ≥ 0.
 pub(super) fn without_consequences(conditions: &mut [Condition], domains: &Domains) {
     let known = conditions.iter().filter(|c| !c.is_equation);

@@ -35,7 +35,6 @@ use crate::laws::{self, Unknown};
 use crate::scene::outline::Need;
 use crate::scene::{Body, Contact, ContactLaw, Scene, touch};
 
-pub use decide::inequality;
 use decide::{Values, decide};
 use sides::{Sense, Side};
 
@@ -330,7 +329,7 @@ impl Judge<'_> {
         for (need, decided) in best.into_iter().flatten() {
             let (Need::Zero(e) | Need::NotNegative(e)) = &need;
             // Numbers and given values that are off the outline were refused when the scene was read.
-            if e.symbols().is_empty() {
+            if e.is_constant() {
                 continue;
             }
             let at_values = self.values.knows(e).then_some(true);
