@@ -15,8 +15,8 @@ use nalgebra::{DMatrix, DVector};
 
 /// Pieces into which a motion may be cut.
 const PIECES: usize = 20_000;
-/// Times that the accelerations of one motion may be asked for.
-const LOOKS: u32 = 1_000_000;
+/// Times that the accelerations of one motion may be asked for; at usual values it is some thousand times.
+const LOOKS: u32 = 50_000;
 /// Length of a piece; in the units of the mechanism something happens within 1.
 const PIECE: f64 = 0.5;
 /// What counts as reached at a place where the motion comes to rest.
