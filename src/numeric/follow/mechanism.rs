@@ -8,7 +8,7 @@
 //!
 //! A state is a list: x, y, angle of each body, then their rates.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 use nalgebra::{DMatrix, DVector};
@@ -53,9 +53,19 @@ pub(super) struct Mechanism {
     pub constraints: Vec<Constraint>,
     /// Force and moment on each body; they do not change.
     pub forces: Vec<[f64; 3]>,
-    /// How often the accelerations were asked for.
-    pub looks: Cell<u32>,
+    /// What was asked of it so far.
+    pub asked: Asked,
 }
+
+/// How often accelerations were asked for, and what was found last.
+#[derive(Default)]
+pub(super) struct Asked {
+    looks: Cell<u32>,
+    last: RefCell<Option<(Vec<f64>, Solved)>>,
+}
+
+/// Accelerations, and the multipliers of the constraints.
+type Solved = (Vec<f64>, Vec<f64>);
 
 /// A motion that got to its end.
 pub(super) struct Run {
@@ -90,7 +100,34 @@ pub(super) struct Goal<'a> {
 
 impl Mechanism {
     /// Accelerations, and the multipliers in the order of the constraints; those of a pin are the force on the body.
-    pub fn accelerations(&self, y: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+    pub fn accelerations(&self, y: &[f64]) -> Option<Solved> {
+        let key = self.changing(y);
+        if let Some((at, solved)) = &*self.asked.last.borrow()
+            && *at == key
+        {
+            return Some(solved.clone());
+        }
+        let solved = self.solved(y)?;
+        *self.asked.last.borrow_mut() = Some((key, solved.clone()));
+        Some(solved)
+    }
+
+    /// What the accelerations depend on: the forces, and the angle and spin of each body whose arm turns.
+    fn changing(&self, y: &[f64]) -> Vec<f64> {
+        let mut all: Vec<f64> = self.forces.iter().flatten().copied().collect();
+        for constraint in &self.constraints {
+            let body = match constraint {
+                Constraint::Pin { body, .. } => *body,
+                Constraint::Weld { bodies, .. } => bodies[0],
+                Constraint::Sum(_) => continue,
+            };
+            let angle = 3 * body + 2;
+            all.extend([y[angle], y[y.len() / 2 + angle]]);
+        }
+        all
+    }
+
+    fn solved(&self, y: &[f64]) -> Option<Solved> {
         let n = 3 * self.inertias.len();
         let (place, rate) = y.split_at(n);
         let turned = |b: usize, [x, y]: [f64; 2]| {
@@ -147,7 +184,7 @@ impl Mobile for Mechanism {
     }
 
     fn looks(&self) -> &Cell<u32> {
-        &self.looks
+        &self.asked.looks
     }
 }
 

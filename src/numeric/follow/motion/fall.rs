@@ -1,11 +1,9 @@
 //! Flight of bodies, with gravity or without, until a time, a height or a horizontal distance.
 
 use super::{Moved, Movers, REST, Units, all_open, others, stopped};
-use crate::numeric::follow::mechanism::{Goal, Mechanism, Mobile, Run};
+use crate::numeric::follow::mechanism::{Asked, Goal, Mechanism, Mobile, Run};
 use crate::numeric::follow::{BodyState, Component, Course, Lost, Open, Passed, State, What, Why};
 use crate::scene::{Fall, FallEnd};
-use std::cell::Cell;
-
 /// How a flight ends.
 enum End {
     Time(f64),
@@ -156,7 +154,7 @@ fn flight(
         inertias,
         constraints: Vec::new(),
         forces,
-        looks: Cell::new(0),
+        asked: Asked::default(),
     };
     let start = movers.start(&units);
     let n = start.len() / 2;

@@ -6,12 +6,10 @@
 use super::strings::{Ropes, across, fixed};
 use super::{Moved, Movers, REST, ROUNDING, Units, all_open, others, stopped};
 use crate::numeric::follow::impact::first_open;
-use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Mobile, Run};
+use crate::numeric::follow::mechanism::{Asked, Constraint, Goal, Mechanism, Mobile, Run};
 use crate::numeric::follow::{Course, Lost, Passed, State, What, Why};
 use crate::numeric::number::{cross, dot};
 use crate::scene::{Slide, SlideEnd};
-use std::cell::Cell;
-
 /// What acts along the line, in numbers.
 struct Acting {
     along: [f64; 2],
@@ -307,7 +305,7 @@ fn on_line(
         inertias,
         constraints: held.chain(ropes.parts(units)).collect(),
         forces,
-        looks: Cell::new(0),
+        asked: Asked::default(),
     }
 }
 

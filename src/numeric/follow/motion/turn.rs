@@ -1,12 +1,11 @@
 //! Rotation of bodies welded together about a fixed point; sense, turning back and end come from the motion itself.
 
 use super::{Moved, Movers, NUDGE, REST, ROUNDING, Units, all_open, others, stopped};
-use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Mobile, Run};
+use crate::numeric::follow::mechanism::{Asked, Constraint, Goal, Mechanism, Mobile, Run};
 use crate::numeric::follow::{Course, Lost, Passed, State, What, Why};
 use crate::numeric::given::Freedom;
 use crate::numeric::number::{cross, dot};
 use crate::scene::{Turn, Until};
-use std::cell::Cell;
 use std::f64::consts::TAU;
 
 /// A rotation in numbers.
@@ -177,7 +176,7 @@ impl Rotation {
             inertias: self.movers.scaled(units),
             constraints,
             forces,
-            looks: Cell::new(0),
+            asked: Asked::default(),
         }
     }
 
