@@ -47,14 +47,16 @@ impl Field {
         let Some((p, axes)) = self.axes(p, &[]) else {
             return Found::Unknown;
         };
-        let first = self.on_box(&p, &axes);
-        if first != Found::Unknown {
-            return first;
-        }
-        // Halving helps only where every variable ranges over an interval.
         let all = p.variables();
-        if !all.iter().all(|v| axes.iter().any(|a| a.v == *v)) || changes_sign(&p, &axes) {
+        let are_bounded = all.iter().all(|v| axes.iter().any(|a| a.v == *v));
+        // In one variable a change of sign is proved rather than seen.
+        if are_bounded && all.len() > 1 && changes_sign(&p, &axes) {
             return Found::Unknown;
+        }
+        let first = self.on_box(&p, &axes);
+        // Halving helps only where every variable ranges over an interval.
+        if first != Found::Unknown || !are_bounded || changes_sign(&p, &axes) {
+            return first;
         }
         let degree: u32 = all.iter().map(|v| p.degree(*v)).sum();
         let most = MOST_PARTS[all.len().saturating_sub(1).min(2)];
@@ -394,15 +396,21 @@ const LOOKS: usize = 12;
 /// Whether doubles see both signs, so that no proof of one is worth trying.
 fn changes_sign(p: &Poly, axes: &[Axis]) -> bool {
     let (mut plus, mut minus) = (false, false);
+    let coefficient = |k: &Int| to_f64(&Rational::from(k.clone()));
+    let terms: Vec<_> = p.terms().map(|(mono, k)| (mono, coefficient(k))).collect();
     for k in 0..LOOKS {
         let (mut total, mut size) = (0.0, 0.0);
-        for (mono, coeff) in p.terms() {
-            let mut value = to_f64(&Rational::from(coeff.clone()));
-            for (i, axis) in axes.iter().enumerate() {
+        let at: Vec<f64> = (axes.iter().enumerate())
+            .map(|(i, axis)| {
                 // Multiples of the golden ratio's powers spread well, and differ between the axes.
                 let share = 0.618_033_988_749_895_f64.powi(1 + i as i32) * (1 + k) as f64;
-                let share = 0.001 + 0.998 * share.fract();
-                value *= axis.at(share).powi(exponent(mono, axis.v) as i32);
+                axis.at(0.001 + 0.998 * share.fract())
+            })
+            .collect();
+        for (mono, coefficient) in &terms {
+            let mut value = *coefficient;
+            for (axis, at) in axes.iter().zip(&at) {
+                value *= at.powi(exponent(mono, axis.v) as i32);
             }
             total += value;
             size += value.abs();

@@ -77,6 +77,11 @@ impl Limit {
         if !self.of_pi || self.value.is_zero() {
             return Some(compare(x, &self.value));
         }
+        let [near, end] = [crate::expr::number::to_f64(x), self.approximate()];
+        if (near - end).abs() > 1e-12 * near.abs().max(end.abs()) {
+            // Doubles tell, unless the two are as good as equal or leave the doubles.
+            return near.partial_cmp(&end);
+        }
         let [low, high] = pi_bounds().map(|p| p * &self.value);
         let (low, high) = if low <= high {
             (low, high)
