@@ -20,6 +20,19 @@ use crate::scene::Scene;
 const ROOT: &str = "\u{1}root";
 /// The combination of two parameters.
 const JOINT: &str = "\u{1}joint";
+/// What a refusal says of the way.
+const ONE_VARIABLE: &str =
+    "the largest value is found over one parameter, or two of which one combination matters";
+
+/// A formula of one variable in the place of its parameters.
+struct Reduced {
+    of: Expr,
+    variable: Symbol,
+    /// What the variable stands for.
+    combination: Expr,
+    /// The parameters, where there are two.
+    pair: Option<[Symbol; 2]>,
+}
 
 /// The largest value of a formula over parameters.
 pub(super) fn maximum(
@@ -29,105 +42,117 @@ pub(super) fn maximum(
     over: &[Symbol],
 ) -> Result<Vec<Answer>, Refused> {
     let mut domains = scene.domains.clone();
-    let name = out.name.clone();
-    let refused = |reason: &str| {
-        Refused::question(
-            &name,
-            reason.to_string(),
-            String::from(
-                "the largest value is found over one parameter, or two of which one combination matters",
-            ),
-        )
-    };
     let plays = |s: &Symbol| !tidy(&of.derivative(s), &domains).is_ok_and(|d| d.is_zero());
-    let idle: Vec<&Symbol> = over.iter().filter(|s| !plays(s)).collect();
+    let (free, idle): (Vec<Symbol>, Vec<Symbol>) = over.iter().cloned().partition(plays);
     for s in &idle {
-        out.text.push(sentence![*s, " plays no part"]);
+        out.text.push(sentence![s, " plays no part"]);
     }
-    let free: Vec<Symbol> = over.iter().filter(|s| !idle.contains(s)).cloned().collect();
-    let (reduced, variable, combination) = match free.as_slice() {
-        [] => {
-            out.form = Form::value(of.clone());
-            return Ok(vec![out]);
+    if free.is_empty() {
+        out.form = Form::value(of.clone());
+        return Ok(vec![out]);
+    }
+    let name = out.name.clone();
+    let refused = |reason: String| Refused::question(&name, reason, ONE_VARIABLE);
+    let reduced = reduced(of, &free, &mut domains).map_err(refused)?;
+    if reduced.pair.is_some() {
+        out.text.push(sentence![
+            "only the combination ",
+            &reduced.combination,
+            " matters"
+        ]);
+    }
+    let range = domains.symbols.get(&reduced.variable);
+    let is_positive = range.is_none_or(|d| *d == Domain::positive() || *d == Domain::nonnegative());
+    let related = |r: &crate::domain::Relation| r.excess.symbols().contains(&reduced.variable);
+    if !is_positive || domains.relations.iter().any(related) {
+        return bounded(scene, out, &reduced.of, &reduced.variable);
+    }
+    over_positive(scene, out, &reduced, domains)
+}
+
+/// The formula through one variable, whose domain is entered where it is new; an error tells why there is none.
+fn reduced(of: &Expr, free: &[Symbol], domains: &mut Domains) -> Result<Reduced, String> {
+    let (p, q) = match free {
+        [p] => {
+            return Ok(Reduced {
+                of: of.clone(),
+                variable: p.clone(),
+                combination: Expr::symbol(p),
+                pair: None,
+            });
         }
-        [p] => (of.clone(), p.clone(), Expr::symbol(p)),
-        [p, q] => {
-            let Some(k) = joint(of, p, q, &domains) else {
-                return Err(refused(&format!(
-                    "{p} and {q} do not matter through one combination only"
-                )));
-            };
-            // u = p qᵏ, so that p = u q⁻ᵏ; what is left of q must cancel.
-            let joint: Symbol = JOINT.into();
-            domains.symbols.insert(joint.clone(), Domain::positive());
-            let replaced = &Expr::symbol(JOINT) * &Expr::symbol(q).power(-&k);
-            let reduced = tidy(
-                &of.substitute(&BTreeMap::from([(p.clone(), replaced)])),
-                &domains,
-            )
-            .map_err(|s| refused(&s.to_string()))?;
-            if reduced.symbols().contains(q) {
-                return Err(refused(&format!("{q} does not cancel")));
-            }
-            let combination = tidy(&(&Expr::symbol(p) * &Expr::symbol(q).power(k)), &domains)
-                .map_err(|s| refused(&s.to_string()))?;
-            out.text
-                .push(sentence!["only the combination ", &combination, " matters"]);
-            (reduced, joint, combination)
-        }
-        _ => return Err(refused("more than two parameters")),
+        [p, q] => (p, q),
+        _ => return Err(String::from("more than two parameters")),
     };
-    let positive = domains
-        .symbols
-        .get(&variable)
-        .is_none_or(|d| *d == Domain::positive() || *d == Domain::nonnegative());
-    let related = |r: &crate::domain::Relation| r.excess.symbols().contains(&variable);
-    if !positive || domains.relations.iter().any(related) {
-        return bounded(scene, out, &reduced, &variable);
+    let k = joint(of, p, q, domains)
+        .ok_or_else(|| format!("{p} and {q} do not matter through one combination only"))?;
+    // u = p qᵏ, so that p = u q⁻ᵏ; what is left of q must cancel.
+    let variable: Symbol = JOINT.into();
+    domains.symbols.insert(variable.clone(), Domain::positive());
+    let replaced = &Expr::symbol(JOINT) * &Expr::symbol(q).power(-&k);
+    let through = of.substitute(&BTreeMap::from([(p.clone(), replaced)]));
+    let through = tidy(&through, domains).map_err(|s| s.to_string())?;
+    if through.symbols().contains(q) {
+        return Err(format!("{q} does not cancel"));
     }
+    let combination = &Expr::symbol(p) * &Expr::symbol(q).power(k);
+    Ok(Reduced {
+        of: through,
+        variable,
+        combination: tidy(&combination, domains).map_err(|s| s.to_string())?,
+        pair: Some([p.clone(), q.clone()]),
+    })
+}
+
+/// The largest value over one variable that may be any positive number, and where it is.
+fn over_positive(
+    scene: &Scene,
+    mut out: Answer,
+    reduced: &Reduced,
+    mut domains: Domains,
+) -> Result<Vec<Answer>, Refused> {
+    let name = out.name.clone();
+    let refused = |reason: String| Refused::question(&name, reason, ONE_VARIABLE);
+    let words = write_plain(&reduced.combination);
     let root: Symbol = ROOT.into();
     domains.symbols.insert(root.clone(), Domain::positive());
-    let x = Expr::symbol(ROOT);
-    let f = tidy(
-        &reduced.substitute(&BTreeMap::from([(variable.clone(), x.powi(2))])),
-        &domains,
-    )
-    .map_err(|s| refused(&s.to_string()))?;
-    let slope = tidy(&f.derivative(&root), &domains).map_err(|s| refused(&s.to_string()))?;
-    let words = write_plain(&combination);
+    let tidy = |e: &Expr| tidy(e, &domains).map_err(|s| refused(s.to_string()));
+    let put = |e: &Expr, x: Expr| e.substitute(&BTreeMap::from([(root.clone(), x)]));
+    let square = Expr::symbol(ROOT).powi(2);
+    let through = BTreeMap::from([(reduced.variable.clone(), square)]);
+    let f = tidy(&reduced.of.substitute(&through))?;
+    let slope = tidy(&f.derivative(&root))?;
     let roots = match solve(&slope, &root, &domains) {
         Ok(roots) => roots,
         Err(Unsolved::Absent) => {
             return Ok(vec![at_the_rim(out, &slope, &words, &domains)]);
         }
-        Err(Unsolved::Inside) => return Err(refused("the parameter stands inside a function")),
-        Err(Unsolved::Limit(what)) => return Err(refused(&what)),
+        Err(Unsolved::Inside) => {
+            return Err(refused("the parameter stands inside a function".into()));
+        }
+        Err(Unsolved::Limit(what)) => return Err(refused(what)),
     };
-    let named = BTreeMap::from([(root.clone(), combination.sqrt())]);
+    let named = BTreeMap::from([(root.clone(), reduced.combination.sqrt())]);
     let discarded: Vec<Sentence> = roots.discarded.iter().map(|d| d.put_in(&named)).collect();
     if roots.inside.is_empty() {
         out.discarded = discarded;
         return Ok(vec![at_the_rim(out, &slope, &words, &domains)]);
     }
     let [best] = roots.inside.as_slice() else {
-        return Err(elsewhere(&name, &variable, &roots.inside));
+        return Err(elsewhere(&name, &reduced.variable, &roots.inside));
     };
     out.assumptions.extend(best.given.iter().cloned());
     let side = |factor: Expr| {
-        let e = slope.substitute(&BTreeMap::from([(root.clone(), &factor * &best.value)]));
+        let e = put(&slope, &factor * &best.value);
         sign(&essential(&e, &domains), &domains)
     };
     let (before, after) = (side(Expr::ratio(1, 2)), side(Expr::from(2)));
     if !(before.is_positive() && after.is_negative()) {
-        return Err(elsewhere(&name, &variable, &roots.inside));
+        return Err(elsewhere(&name, &reduced.variable, &roots.inside));
     }
-    let value = tidy(
-        &f.substitute(&BTreeMap::from([(root.clone(), best.value.clone())])),
-        &domains,
-    )
-    .map_err(|s| refused(&s.to_string()))?;
+    let value = tidy(&put(&f, best.value.clone()))?;
     let value = super::calc::shorter(&value, &domains);
-    let place = tidy(&best.value.powi(2), &domains).map_err(|s| refused(&s.to_string()))?;
+    let place = tidy(&best.value.powi(2))?;
     out.discarded = discarded;
     out.dimension = super::formulas::dimension_of(scene, &value, &name)?;
     out.checks.push(by_signs(
@@ -140,14 +165,14 @@ pub(super) fn maximum(
         words: String::from("the derivative at that place is zero in the normal form"),
         holds: best.proved.then_some(true),
     });
-    let at_best = BTreeMap::from([(root.clone(), best.value.clone())]);
+    let at_best = |e: &Expr| put(e, best.value.clone());
     out.put_in = vec![
         (
-            slope.substitute(&at_best),
+            at_best(&slope),
             Expr::zero(),
             "the derivative at that place",
         ),
-        (f.substitute(&at_best), value.clone(), "the value there"),
+        (at_best(&f), value.clone(), "the value there"),
     ];
     let mut at = out.clone();
     at.name = format!("{name}_at");
@@ -155,21 +180,21 @@ pub(super) fn maximum(
     at.words = format!("{words} for which it is largest");
     // How it was found is told with the value.
     at.discarded = Vec::new();
-    at.text = match free.as_slice() {
-        [p, q] => vec![sentence![
+    at.text = Vec::new();
+    if let Some([p, q]) = &reduced.pair {
+        at.text.push(sentence![
             "every pair ",
             p,
             ", ",
             q,
             " with this ",
-            &combination,
+            &reduced.combination,
             " does it: the maximisers form a curve"
-        ]],
-        _ => Vec::new(),
-    };
-    at.range
-        .push((combination.clone(), Relation::Equal, place.clone()));
+        ]);
+    }
+    let combination = reduced.combination.clone();
     at.dimension = super::formulas::dimension_of(scene, &combination, &name)?;
+    at.range.push((combination, Relation::Equal, place.clone()));
     at.form = Form::value(place);
     out.form = Form::value(value);
     Ok(vec![out, at])
@@ -195,62 +220,29 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
     let domains = &scene.domains;
     let name = out.name.clone();
     let refused = |reason: String| Refused::question(&name, reason, "");
-    let domain = domains
-        .symbols
-        .get(p)
-        .cloned()
-        .unwrap_or_else(Domain::positive);
     if let Some(pole) = pole(f, p, domains) {
         return Err(refused(format!(
             "{} may vanish within the interval",
             write_plain(&pole)
         )));
     }
-    let slope = tidy(&f.derivative(p), domains).map_err(|s| refused(s.to_string()))?;
-    let at = |x: &Expr, e: &Expr| {
-        tidy(
-            &e.substitute(&BTreeMap::from([(p.clone(), x.clone())])),
-            domains,
-        )
+    let search = Search {
+        name: &name,
+        f,
+        slope: tidy(&f.derivative(p), domains).map_err(|s| refused(s.to_string()))?,
+        p,
+        domain: (domains.symbols.get(p).cloned()).unwrap_or_else(Domain::positive),
+        domains,
     };
-    let (inside, discarded) = match solve(&slope, p, domains) {
-        Ok(roots) if roots.open.is_none() => {
-            let given = roots.inside.iter().flat_map(|r| r.given.clone());
-            out.assumptions.extend(given);
-            (roots.inside, roots.discarded)
-        }
-        Ok(_) | Err(Unsolved::Inside) => {
-            return Err(refused(format!(
-                "where the derivative by {p} vanishes has no closed form here"
-            )));
-        }
-        Err(Unsolved::Absent) => (Vec::new(), Vec::new()),
-        Err(Unsolved::Limit(what)) => return Err(refused(what)),
-    };
-    out.discarded = discarded;
-    let value_of = |end: &Limit| match end.of_pi {
-        true => Expr::from(end.value.clone()) * Expr::pi(),
-        false => Expr::from(end.value.clone()),
-    };
-    let ends: Vec<Expr> = [&domain.low, &domain.high]
-        .into_iter()
-        .flatten()
-        .map(value_of)
-        .collect();
-    let is_end = |x: &Expr| {
-        ends.iter()
-            .any(|e| is_zero(&(x - e), domains) == Some(true))
-    };
-    let inside: Vec<Expr> = inside
-        .into_iter()
-        .map(|r| r.value)
-        .filter(|x| !is_end(x))
-        .collect();
+    let ends = search.ends();
+    let is_end = |x: &Expr| (ends.iter()).any(|e| is_zero(&(x - e), domains) == Some(true));
+    let mut inside = search.flat(&mut out)?;
+    inside.retain(|x| !is_end(x));
     let bends = match inside.as_slice() {
-        [only] => {
-            let bend = at(only, &slope.derivative(p)).map_err(|s| refused(s.to_string()))?;
-            Some(sign(&bend, domains))
-        }
+        [only] => Some(sign(
+            &search.at(only, &search.slope.derivative(p))?,
+            domains,
+        )),
         _ => None,
     };
     let place = match inside.as_slice() {
@@ -262,82 +254,13 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
             });
             best.clone()
         }
-        [] => {
-            let rising = sign(&slope, domains);
-            // Where the slope is zero at an end alone, it has one sign inside.
-            let grows = if rising.is_positive() || rising == Seen::Proved(Sign::NotNegative) {
-                true
-            } else if rising.is_negative() || rising == Seen::Proved(Sign::NotPositive) {
-                false
-            } else {
-                return Err(refused(format!(
-                    "whether it grows with {p} could not be decided"
-                )));
-            };
-            let limit = if grows { &domain.high } else { &domain.low };
-            let (value, open) = match (related_end(p, grows, domains).map_err(refused)?, limit) {
-                (Some(end), _) => end,
-                (None, Some(end)) => (value_of(end), end.open),
-                (None, None) => return Ok(vec![at_the_rim(out, &slope, p, domains)]),
-            };
-            let words = "the derivative has one sign inside the interval ({how})";
-            out.checks
-                .push(by_signs("maximum", words, rising.is_proved()));
-            out.text.push(sentence![
-                "the derivative by ",
-                p,
-                " does not vanish inside: the largest value is ",
-                if open {
-                    "approached at, and not reached, as the domain excludes"
-                } else {
-                    "at"
-                },
-                " the bound ",
-                p,
-                " = ",
-                &value
-            ]);
-            value
-        }
-        several => {
-            let closed = |end: &Option<Limit>| end.as_ref().is_some_and(|e| !e.open);
-            if !closed(&domain.low) || !closed(&domain.high) {
-                return Err(Refused {
-                    hint: format!(
-                        "give {p} a \"domain\" with `min` and `max`: the ends are then compared too"
-                    ),
-                    ..refused(format!(
-                        "the derivative by {p} vanishes where the value is not largest, and the interval does not end"
-                    ))
-                });
-            }
-            let mut found: Vec<(Expr, Expr)> = Vec::new();
-            for x in several.iter().chain(&ends) {
-                found.push((x.clone(), at(x, f).map_err(|s| refused(s.to_string()))?));
-            }
-            let above = |a: &Expr, b: &Expr| sign(&(a - b), domains);
-            let is_best = |(i, (_, value)): &(usize, &(Expr, Expr))| {
-                let mut others = found.iter().enumerate().filter(|(j, _)| j != i);
-                others.all(|(_, (_, other))| {
-                    let s = above(value, other);
-                    s.is_positive() || matches!(s, Seen::Proved(s) if s.is_not_negative())
-                })
-            };
-            let Some((i, (place, value))) = found.iter().enumerate().find(is_best) else {
-                return Err(refused(format!(
-                    "which of the values where the derivative by {p} vanishes and at the ends is largest hangs on the other parameters"
-                )));
-            };
-            let others = found.iter().enumerate().filter(|(j, _)| *j != i);
-            let proved = others
-                .clone()
-                .all(|(_, (_, other))| above(value, other).is_proved());
-            let words = "of the places where the derivative vanishes and the two ends it is largest there ({how})";
-            out.checks.push(by_signs("maximum", words, proved));
-            place.clone()
-        }
+        [] => match search.at_an_end(&mut out)? {
+            Some(place) => place,
+            None => return Ok(vec![at_the_rim(out, &search.slope, p, domains)]),
+        },
+        several => search.compared(several, &ends, &mut out)?,
     };
-    let value = at(&place, f).map_err(|s| refused(s.to_string()))?;
+    let value = search.at(&place, f)?;
     out.dimension = super::formulas::dimension_of(scene, &value, &name)?;
     let there = BTreeMap::from([(p.clone(), place.clone())]);
     out.put_in
@@ -345,6 +268,143 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
     out.range.push((Expr::symbol(p), Relation::Equal, place));
     out.form = Form::value(value);
     Ok(vec![out])
+}
+
+/// A search for the largest value over one parameter in an interval.
+struct Search<'a> {
+    /// The question.
+    name: &'a str,
+    f: &'a Expr,
+    /// Its derivative.
+    slope: Expr,
+    p: &'a Symbol,
+    domain: Domain,
+    domains: &'a Domains,
+}
+
+impl Search<'_> {
+    fn refused(&self, reason: String) -> Refused {
+        Refused::question(self.name, reason, "")
+    }
+
+    /// An expression where the parameter has a value.
+    fn at(&self, x: &Expr, e: &Expr) -> Result<Expr, Refused> {
+        let there = e.substitute(&BTreeMap::from([(self.p.clone(), x.clone())]));
+        tidy(&there, self.domains).map_err(|s| self.refused(s.to_string()))
+    }
+
+    fn ends(&self) -> Vec<Expr> {
+        let ends = [&self.domain.low, &self.domain.high];
+        ends.into_iter().flatten().map(value_of).collect()
+    }
+
+    /// Where the derivative vanishes.
+    fn flat(&self, out: &mut Answer) -> Result<Vec<Expr>, Refused> {
+        match solve(&self.slope, self.p, self.domains) {
+            Ok(roots) if roots.open.is_none() => {
+                let given = roots.inside.iter().flat_map(|r| r.given.clone());
+                out.assumptions.extend(given);
+                out.discarded = roots.discarded;
+                Ok(roots.inside.into_iter().map(|r| r.value).collect())
+            }
+            Ok(_) | Err(Unsolved::Inside) => Err(self.refused(format!(
+                "where the derivative by {} vanishes has no closed form here",
+                self.p
+            ))),
+            Err(Unsolved::Absent) => Ok(Vec::new()),
+            Err(Unsolved::Limit(what)) => Err(self.refused(what)),
+        }
+    }
+
+    /// The end towards which the value grows all the way; `None` where the interval does not end there.
+    fn at_an_end(&self, out: &mut Answer) -> Result<Option<Expr>, Refused> {
+        let p = self.p;
+        let rising = sign(&self.slope, self.domains);
+        // Where the slope is zero at an end alone, it has one sign inside.
+        let grows = if rising.is_positive() || rising == Seen::Proved(Sign::NotNegative) {
+            true
+        } else if rising.is_negative() || rising == Seen::Proved(Sign::NotPositive) {
+            false
+        } else {
+            return Err(self.refused(format!("whether it grows with {p} could not be decided")));
+        };
+        let limit = if grows {
+            &self.domain.high
+        } else {
+            &self.domain.low
+        };
+        let related = related_end(p, grows, self.domains).map_err(|why| self.refused(why))?;
+        let end = related.or_else(|| limit.as_ref().map(|end| (value_of(end), end.open)));
+        let Some((value, open)) = end else {
+            return Ok(None);
+        };
+        let words = "the derivative has one sign inside the interval ({how})";
+        out.checks
+            .push(by_signs("maximum", words, rising.is_proved()));
+        out.text.push(sentence![
+            "the derivative by ",
+            p,
+            " does not vanish inside: the largest value is ",
+            if open {
+                "approached at, and not reached, as the domain excludes"
+            } else {
+                "at"
+            },
+            " the bound ",
+            p,
+            " = ",
+            &value
+        ]);
+        Ok(Some(value))
+    }
+
+    /// The best of the places where the derivative vanishes and of the two ends.
+    fn compared(&self, flat: &[Expr], ends: &[Expr], out: &mut Answer) -> Result<Expr, Refused> {
+        let p = self.p;
+        let closed = |end: &Option<Limit>| end.as_ref().is_some_and(|e| !e.open);
+        if !closed(&self.domain.low) || !closed(&self.domain.high) {
+            return Err(Refused {
+                hint: format!(
+                    "give {p} a \"domain\" with `min` and `max`: the ends are then compared too"
+                ),
+                ..self.refused(format!(
+                    "the derivative by {p} vanishes where the value is not largest, and the interval does not end"
+                ))
+            });
+        }
+        let mut found: Vec<(&Expr, Expr)> = Vec::new();
+        for x in flat.iter().chain(ends) {
+            found.push((x, self.at(x, self.f)?));
+        }
+        // How each value stands to the others.
+        let above = |i: usize| -> Vec<Seen> {
+            let others = found.iter().enumerate().filter(|(j, _)| *j != i);
+            let over = |other: &Expr| sign(&(&found[i].1 - other), self.domains);
+            others.map(|(_, (_, other))| over(other)).collect()
+        };
+        let is_above =
+            |s: &Seen| s.is_positive() || matches!(s, Seen::Proved(s) if s.is_not_negative());
+        let best = (0..found.len())
+            .map(|i| (found[i].0, above(i)))
+            .find(|(_, above)| above.iter().all(is_above));
+        let Some((place, above)) = best else {
+            return Err(self.refused(format!(
+                "which of the values where the derivative by {p} vanishes and at the ends is largest hangs on the other parameters"
+            )));
+        };
+        let words = "of the places where the derivative vanishes and the two ends it is largest there ({how})";
+        let is_proved = above.iter().all(|s| s.is_proved());
+        out.checks.push(by_signs("maximum", words, is_proved));
+        Ok(place.clone())
+    }
+}
+
+fn value_of(end: &Limit) -> Expr {
+    let value = Expr::from(end.value.clone());
+    match end.of_pi {
+        true => value * Expr::pi(),
+        false => value,
+    }
 }
 
 /// The end that a relation sets to a parameter on the side to which a value grows, and whether it is excluded; an error where
