@@ -69,21 +69,6 @@ pub enum Remark {
 }
 
 impl Note {
-    /// Whether another reading exists at this place.
-    pub fn is_choice(&self) -> bool {
-        use Remark::*;
-        matches!(
-            self.remark,
-            Slash { .. }
-                | Argument { .. }
-                | Root { .. }
-                | PowerOfTen { .. }
-                | Component { .. }
-                | ArcOrFactor { .. }
-                | UnitNotSymbols
-        )
-    }
-
     /// The remark in words; `text` is the formula.
     pub fn message(&self, text: &str) -> String {
         let piece = |from: usize, to: usize| text.get(from..to).unwrap_or("").trim();

@@ -11,7 +11,7 @@ mod remainder;
 
 use std::collections::BTreeMap;
 
-use crate::answer::{Answer, Form};
+use crate::answer::Form;
 use crate::derive::Derivation;
 use crate::dimension::Dimension;
 use crate::equality::{self, Equality};
@@ -408,9 +408,4 @@ impl<'a> Desk<'a> {
         }
         finding.holds = holds;
     }
-}
-
-/// Answers of a derivation by name, for those who list them.
-pub fn answer<'a>(derivation: &'a Derivation, name: &str) -> Option<&'a Answer> {
-    derivation.answers.iter().find(|a| a.name == name)
 }
