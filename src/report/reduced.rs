@@ -1,352 +1,191 @@
-//! Two routes a person would take in doubles: coordinates that the joints leave free, and the effective mass.
+//! Two routes a person would take in doubles, each a smaller system: coordinates that the joints leave free, and the
+//! effective mass.
 //!
-//! In: the numbers of a scene. Out: the motion after, by nalgebra's LU on the small system each way leads to. Not every
-//! scene has them: unknown laws and values known after belong to the full system alone.
+//! In: the numbers of a scene and its full system. Out: the unknowns, by nalgebra's LU on the system each way leads to. In
+//! the full system the momenta stand above the conditions of joints and contacts, velocities left of impulses:
+//! M v + B P = p, J v + D P = u.
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::numeric::given::{Freedom, GivenImpulse, GivenLaw};
-use crate::numeric::{Given, Motion};
+use crate::numeric::given::Freedom;
+use crate::numeric::{Given, Law, System, Unknown};
 
-/// Whether every contact has a law and nothing is known but the motion before.
-pub fn is_plain(given: &Given<f64>) -> bool {
-    given.known.is_empty()
-        && given
-            .contacts
-            .iter()
-            .all(|c| !matches!(c.law, GivenLaw::None))
-        && given
-            .blows
-            .iter()
-            .all(|b| matches!(b.impulse, GivenImpulse::Whole(_)))
-}
-
-/// A condition on the motion after: relative velocity at a point along a direction equals `target`; its impulse.
-struct Row {
-    joint: Place,
-    bodies: [usize; 2],
-    at: [f64; 2],
-    along: [f64; 2],
-    target: f64,
-}
-
-#[derive(Clone, Copy, PartialEq)]
-enum Place {
-    Hinge(usize),
-    Contact(usize),
-}
-
-fn cross(a: &[f64; 2], b: &[f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
-}
-
-/// Conditions of one joint: two for hinges and sticking contacts, one for a frictionless one.
-fn rows_of(given: &Given<f64>, place: Place) -> Vec<Row> {
-    let (joint, law) = match place {
-        Place::Hinge(h) => (&given.hinges[h], None),
-        Place::Contact(c) => (&given.contacts[c].joint, Some(&given.contacts[c])),
-    };
-    let row = |along: [f64; 2], target: f64| Row {
-        joint: place,
-        bodies: joint.bodies,
-        at: joint.at,
-        along,
-        target,
-    };
-    match law.map(|c| (&c.law, &c.normal)) {
-        Some((GivenLaw::Frictionless(e), Some(n))) => {
-            let [one, two] = joint
-                .bodies
-                .map(|b| given.bodies[b].velocity_before(&joint.at));
-            let before = n[0] * (two[0] - one[0]) + n[1] * (two[1] - one[1]);
-            vec![row(*n, -e * before)]
-        }
-        _ => vec![row([1.0, 0.0], 0.0), row([0.0, 1.0], 0.0)],
-    }
-}
-
-fn places(given: &Given<f64>) -> Vec<Place> {
-    let hinges = (0..given.hinges.len()).map(Place::Hinge);
-    hinges
-        .chain((0..given.contacts.len()).map(Place::Contact))
-        .collect()
-}
-
-fn holds_velocity(given: &Given<f64>, place: Place) -> bool {
-    match place {
-        Place::Hinge(_) => true,
-        Place::Contact(c) => matches!(given.contacts[c].law, GivenLaw::Sticking),
-    }
-}
-
-/// Generalized velocity of each body, three rows a body: v_x, v_y, ω = matrix · q + rest.
-struct Free {
+/// A system as a matrix, with the velocities of free bodies before.
+struct Parts {
     matrix: DMatrix<f64>,
-    rest: DVector<f64>,
-    /// Attachments in order, carriers first: body, joint.
-    tree: Vec<(usize, Place)>,
-    loops: Vec<Place>,
+    right: DVector<f64>,
+    before: DVector<f64>,
 }
 
-fn joint(given: &Given<f64>, place: Place) -> ([usize; 2], [f64; 2]) {
-    let joint = match place {
-        Place::Hinge(h) => &given.hinges[h],
-        Place::Contact(c) => &given.contacts[c].joint,
-    };
-    (joint.bodies, joint.at)
-}
-
-fn free(given: &Given<f64>) -> Free {
-    let count = given.bodies.len();
-    let mut columns: Vec<DVector<f64>> = Vec::new();
-    let mut rest = DVector::zeros(3 * count);
-    let mut placed = vec![false; count];
-    let (mut tree, mut used) = (Vec::new(), Vec::new());
-    for (b, body) in given.bodies.iter().enumerate() {
-        if body.freedom == Freedom::Fixed {
-            placed[b] = true;
-            rest[3 * b] = body.velocity[0];
-            rest[3 * b + 1] = body.velocity[1];
-            rest[3 * b + 2] = body.spin;
-        }
-    }
-    let stiff: Vec<Place> = places(given)
-        .into_iter()
-        .filter(|p| holds_velocity(given, *p))
-        .collect();
-    loop {
-        let next = stiff.iter().find_map(|place| {
-            let (bodies, at) = joint(given, *place);
-            let side = (0..2).find(|s| placed[bodies[*s]] && !placed[bodies[1 - s]])?;
-            (!used.contains(place)).then_some((*place, bodies[side], bodies[1 - side], at))
-        });
-        if let Some((place, carrier, body, at)) = next {
-            let (to, from) = (given.bodies[carrier].arm(&at), given.bodies[body].arm(&at));
-            // Velocity of the joint by the carrier; the body's center follows from it and the body's own spin.
-            for column in &mut columns {
-                column[3 * body] = column[3 * carrier] - column[3 * carrier + 2] * to[1];
-                column[3 * body + 1] = column[3 * carrier + 1] + column[3 * carrier + 2] * to[0];
-            }
-            rest[3 * body] = rest[3 * carrier] - rest[3 * carrier + 2] * to[1];
-            rest[3 * body + 1] = rest[3 * carrier + 1] + rest[3 * carrier + 2] * to[0];
-            if given.bodies[body].freedom == Freedom::Rigid {
-                let mut own = DVector::zeros(3 * count);
-                own[3 * body] = from[1];
-                own[3 * body + 1] = -from[0];
-                own[3 * body + 2] = 1.0;
-                columns.push(own);
-            }
-            placed[body] = true;
-            used.push(place);
-            tree.push((body, place));
-            continue;
-        }
-        let Some(root) = placed.iter().position(|p| !p) else {
-            break;
-        };
-        placed[root] = true;
-        let own = if given.bodies[root].freedom == Freedom::Rigid {
-            3
-        } else {
-            2
-        };
-        for k in 0..own {
-            let mut column = DVector::zeros(3 * count);
-            column[3 * root + k] = 1.0;
-            columns.push(column);
-        }
-    }
-    let loops = places(given)
-        .into_iter()
-        .filter(|p| !used.contains(p))
-        .collect();
-    let matrix = if columns.is_empty() {
-        DMatrix::zeros(3 * count, 0)
-    } else {
-        DMatrix::from_columns(&columns)
-    };
-    Free {
-        matrix,
-        rest,
-        tree,
-        loops,
-    }
-}
-
-/// J of a condition: relative velocity = J · (velocities of all bodies).
-fn gradient(given: &Given<f64>, row: &Row) -> DVector<f64> {
-    let mut j = DVector::zeros(3 * given.bodies.len());
-    for (body, sign) in [(row.bodies[0], -1.0), (row.bodies[1], 1.0)] {
-        j[3 * body] += sign * row.along[0];
-        j[3 * body + 1] += sign * row.along[1];
-        j[3 * body + 2] += sign * cross(&given.bodies[body].arm(&row.at), &row.along);
-    }
-    j
-}
-
-/// M v⁻ + Q, M, v⁻; fixed bodies count as massless.
-fn momenta(given: &Given<f64>) -> (DVector<f64>, DVector<f64>, DVector<f64>) {
-    let n = 3 * given.bodies.len();
-    let (mut mass, mut before, mut blow) =
-        (DVector::zeros(n), DVector::zeros(n), DVector::zeros(n));
-    for (b, body) in given.bodies.iter().enumerate() {
-        before[3 * b] = body.velocity[0];
-        before[3 * b + 1] = body.velocity[1];
-        before[3 * b + 2] = body.spin;
-        if body.freedom != Freedom::Fixed {
-            mass[3 * b] = body.mass;
-            mass[3 * b + 1] = body.mass;
-            mass[3 * b + 2] = body.inertia;
-        }
-    }
-    for b in &given.blows {
-        if let GivenImpulse::Whole(q) = &b.impulse {
-            blow[3 * b.body] += q[0];
-            blow[3 * b.body + 1] += q[1];
-            blow[3 * b.body + 2] += cross(&given.bodies[b.body].arm(&b.at), q);
-        }
-    }
-    (mass.component_mul(&before) + blow, mass, before)
-}
-
-/// Angular momentum about the joints: unknowns are what hinges and sticking contacts leave free, so their impulses never
-/// appear. `None` where nothing is jointed, or the small system is singular.
-pub fn about_joints(given: &Given<f64>) -> Option<Motion<f64>> {
-    let free = free(given);
-    if free.tree.is_empty() || !is_plain(given) {
-        return None;
-    }
-    let (momentum, mass, _) = momenta(given);
-    let rows: Vec<Row> = free.loops.iter().flat_map(|p| rows_of(given, *p)).collect();
-    let (q, l) = (free.matrix.ncols(), rows.len());
-    let weighted = DMatrix::from_fn(free.matrix.nrows(), q, |r, c| mass[r] * free.matrix[(r, c)]);
-    let small = free.matrix.transpose() * &weighted;
-    let right = free.matrix.transpose() * (&momentum - mass.component_mul(&free.rest));
-    let mut matrix = DMatrix::zeros(q + l, q + l);
-    let mut known = DVector::zeros(q + l);
-    matrix.view_mut((0, 0), (q, q)).copy_from(&small);
-    known.rows_mut(0, q).copy_from(&right);
-    for (k, row) in rows.iter().enumerate() {
-        let j = gradient(given, row);
-        let reduced = free.matrix.transpose() * &j;
-        for c in 0..q {
-            matrix[(q + k, c)] = reduced[c];
-            matrix[(c, q + k)] = -reduced[c];
-        }
-        known[q + k] = row.target - j.dot(&free.rest);
-    }
-    let x = if q + l == 0 {
-        known
-    } else {
-        matrix.lu().solve(&known)?
-    };
-    let after = &free.matrix * x.rows(0, q) + &free.rest;
-    let mut motion = start(given, &after);
-    // What each body still lacks in momentum came through the joint that carries it, leaves first.
-    let mut lack = mass.component_mul(&after) - momentum;
-    for (k, row) in rows.iter().enumerate() {
-        add(&mut motion, row, x[q + k]);
-        lack -= gradient(given, row) * x[q + k];
-    }
-    for (body, place) in free.tree.iter().rev() {
-        let (bodies, at) = joint(given, *place);
-        let felt = [lack[3 * body], lack[3 * body + 1]];
-        let sign = if bodies[1] == *body { 1.0 } else { -1.0 };
-        for (axis, along) in [[1.0, 0.0], [0.0, 1.0]].into_iter().enumerate() {
-            let row = Row {
-                joint: *place,
-                bodies,
-                at,
-                along,
-                target: 0.0,
+impl Parts {
+    fn of(given: &Given<f64>, system: &System<f64>) -> Parts {
+        let free = given.bodies.iter().flat_map(|b| {
+            let [x, y] = b.velocity;
+            let motion = [x, y, b.spin];
+            let count = match b.freedom {
+                Freedom::Fixed => 0,
+                Freedom::Particle => 2,
+                Freedom::Rigid => 3,
             };
-            add(&mut motion, &row, sign * felt[axis]);
-            lack -= gradient(given, &row) * (sign * felt[axis]);
+            motion.into_iter().take(count)
+        });
+        let (rows, columns) = (system.laws.len(), system.unknowns.len());
+        Parts {
+            matrix: DMatrix::from_row_slice(rows, columns, &system.matrix),
+            right: DVector::from_column_slice(&system.right),
+            before: DVector::from_vec(free.collect()),
         }
     }
-    finite(motion)
+
+    fn picked(&self, rows: &[usize], columns: &[usize]) -> DMatrix<f64> {
+        self.matrix.select_rows(rows).select_columns(columns)
+    }
 }
 
-/// Effective mass: impulses from J M⁻¹ Jᵀ P = u⁺ − u⁻, velocities from the impulses. `None` where a mass is zero.
-pub fn effective_mass(given: &Given<f64>) -> Option<Motion<f64>> {
-    let rows: Vec<Row> = places(given)
-        .iter()
-        .flat_map(|p| rows_of(given, *p))
-        .collect();
-    if rows.is_empty() || !is_plain(given) {
+/// Effective mass: impulses from (D − J M⁻¹ B) P = u − J M⁻¹ p, velocities from the impulses. `None` where nothing acts or a
+/// mass is zero.
+pub fn effective_mass(given: &Given<f64>, system: &System<f64>) -> Option<Vec<f64>> {
+    let parts = Parts::of(given, system);
+    let (rows, columns) = parts.matrix.shape();
+    let v = parts.before.len();
+    let mass = parts.matrix.view((0, 0), (v, v)).diagonal();
+    if rows != columns || columns == v || mass.iter().any(|m| *m == 0.0) {
         return None;
     }
-    let (momentum, mass, before) = momenta(given);
-    let mut inverse = DVector::zeros(mass.len());
-    for (b, body) in given.bodies.iter().enumerate() {
-        let own = match body.freedom {
-            Freedom::Fixed => 0,
-            Freedom::Particle => 2,
-            Freedom::Rigid => 3,
+    let per_mass = |of: DVector<f64>| of.component_div(&mass);
+    let given = parts.right.rows(0, v) - mass.component_mul(&parts.before);
+    let free = &parts.before + per_mass(given);
+    let mut moved = parts.matrix.view((0, v), (v, columns - v)).clone_owned();
+    for mut column in moved.column_iter_mut() {
+        column.component_div_assign(&mass);
+    }
+    let conditions = parts.matrix.view((v, 0), (rows - v, v));
+    let direct = parts.matrix.view((v, v), (rows - v, columns - v));
+    let effective = direct - conditions * &moved;
+    let gap = parts.right.rows(v, rows - v) - conditions * &free;
+    let impulses = effective.lu().solve(&gap)?;
+    let velocities = free - moved * &impulses;
+    finite(velocities.iter().chain(impulses.iter()))
+}
+
+/// Where a joint that carries a body stands in the system: the first of its two conditions, the first velocity of the body,
+/// the first component of the impulse. The second ones follow.
+type Carrier = [usize; 3];
+
+/// Joints that carry a body each, from fixed bodies and one body of each free group outwards.
+fn carriers(given: &Given<f64>, system: &System<f64>) -> Option<Vec<Carrier>> {
+    let joints = system.laws.iter().enumerate();
+    let joints = joints.filter_map(|(row, law)| match *law {
+        Law::HingeX(h) => Some((row, given.hinges[h].bodies, Unknown::HingeX(h))),
+        Law::StickingX(c) => Some((row, given.contacts[c].joint.bodies, Unknown::ContactX(c))),
+        _ => None,
+    });
+    let joints: Vec<_> = joints.collect();
+    let is_fixed = given.bodies.iter().map(|b| b.freedom == Freedom::Fixed);
+    let mut placed: Vec<bool> = is_fixed.collect();
+    let mut found = Vec::new();
+    while let Some(root) = placed.iter().position(|p| !p) {
+        let next = joints.iter().find_map(|(row, [a, b], impulse)| {
+            let body = match (placed[*a], placed[*b]) {
+                (true, false) => *b,
+                (false, true) => *a,
+                _ => return None,
+            };
+            Some((*row, body, *impulse))
+        });
+        let Some((row, body, impulse)) = next else {
+            placed[root] = true;
+            continue;
         };
-        for k in 3 * b..3 * b + own {
-            if mass[k] == 0.0 {
-                return None;
-            }
-            inverse[k] = 1.0 / mass[k];
-        }
+        placed[body] = true;
+        found.push([
+            row,
+            system.column(Unknown::VelocityX(body))?,
+            system.column(impulse)?,
+        ]);
     }
-    let blow = momentum - mass.component_mul(&before);
-    let free = &before + inverse.component_mul(&blow);
-    let j: Vec<DVector<f64>> = rows.iter().map(|r| gradient(given, r)).collect();
-    let n = rows.len();
-    let w = DMatrix::from_fn(n, n, |a, b| j[a].dot(&inverse.component_mul(&j[b])));
-    let gap = DVector::from_fn(n, |a, _| rows[a].target - j[a].dot(&free));
-    let impulse = w.lu().solve(&gap)?;
-    let mut after = free;
-    for (k, j) in j.iter().enumerate() {
-        after += inverse.component_mul(j) * impulse[k];
-    }
-    let mut motion = start(given, &after);
-    for (row, p) in rows.iter().zip(impulse.iter()) {
-        add(&mut motion, row, *p);
-    }
-    finite(motion)
+    Some(found)
 }
 
-fn start(given: &Given<f64>, after: &DVector<f64>) -> Motion<f64> {
-    let count = given.bodies.len();
-    Motion {
-        velocity: (0..count)
-            .map(|b| [after[3 * b], after[3 * b + 1]])
-            .collect(),
-        spin: (0..count).map(|b| after[3 * b + 2]).collect(),
-        hinge: vec![[0.0; 2]; given.hinges.len()],
-        contact: vec![[0.0; 2]; given.contacts.len()],
-        blow: given
-            .blows
-            .iter()
-            .map(|b| match &b.impulse {
-                GivenImpulse::Whole(q) => *q,
-                GivenImpulse::Along(_) => [0.0; 2],
-            })
-            .collect(),
-        loose: Vec::new(),
+/// Angular momentum about the joints: unknowns are the velocities that hinges and sticking contacts leave free, so that their
+/// impulses appear nowhere. `None` where nothing is jointed, or the small system is singular.
+pub fn about_joints(given: &Given<f64>, system: &System<f64>) -> Option<Vec<f64>> {
+    let parts = Parts::of(given, system);
+    let (rows, columns) = parts.matrix.shape();
+    let v = parts.before.len();
+    let carriers = carriers(given, system)?;
+    if carriers.is_empty() || rows != columns {
+        return None;
     }
-}
-
-fn add(motion: &mut Motion<f64>, row: &Row, size: f64) {
-    let to = match row.joint {
-        Place::Hinge(h) => &mut motion.hinge[h],
-        Place::Contact(c) => &mut motion.contact[c],
+    let both = |k: usize| carriers.iter().flat_map(move |c| [c[k], c[k] + 1]);
+    let [joints, carried, held] = [0, 1, 2].map(|k| both(k).collect::<Vec<usize>>());
+    let rest = |all: std::ops::Range<usize>, without: &[usize]| -> Vec<usize> {
+        all.filter(|i| !without.contains(i)).collect()
     };
-    to[0] += size * row.along[0];
-    to[1] += size * row.along[1];
+    let (free, other_rows) = (rest(0..v, &carried), rest(v..rows, &joints));
+    let others = rest(v..columns, &held);
+    // Velocities = basis · those left free + what fixed bodies lend them.
+    let by_joints = parts.picked(&joints, &carried).lu();
+    let follow = by_joints.solve(&parts.picked(&joints, &free))?;
+    let lent = by_joints.solve(&parts.right.select_rows(&joints))?;
+    let (q, l) = (free.len(), others.len());
+    let mut basis = DMatrix::zeros(v, q);
+    let mut start = DVector::zeros(v);
+    for (k, column) in free.iter().enumerate() {
+        basis[(*column, k)] = 1.0;
+    }
+    for (k, column) in carried.iter().enumerate() {
+        basis.row_mut(*column).copy_from(&-follow.row(k));
+        start[*column] = lent[k];
+    }
+    let all: Vec<usize> = (0..v).collect();
+    let mass = parts.matrix.view((0, 0), (v, v)).diagonal();
+    let mut weighted = basis.clone();
+    for mut column in weighted.column_iter_mut() {
+        column.component_mul_assign(&mass);
+    }
+    let acting = parts.picked(&all, &others);
+    let conditions = parts.picked(&other_rows, &all);
+    let momenta = parts.right.rows(0, v);
+    let mut small = DMatrix::zeros(q + l, q + l);
+    let turned = basis.transpose();
+    small
+        .view_mut((0, 0), (q, q))
+        .copy_from(&(&turned * weighted));
+    small
+        .view_mut((0, q), (q, l))
+        .copy_from(&(&turned * &acting));
+    small
+        .view_mut((q, 0), (l, q))
+        .copy_from(&(&conditions * &basis));
+    small
+        .view_mut((q, q), (l, l))
+        .copy_from(&parts.picked(&other_rows, &others));
+    let mut known = DVector::zeros(q + l);
+    known
+        .rows_mut(0, q)
+        .copy_from(&(&turned * (momenta - mass.component_mul(&start))));
+    known
+        .rows_mut(q, l)
+        .copy_from(&(parts.right.select_rows(&other_rows) - &conditions * &start));
+    if q + l > 0 {
+        known = small.lu().solve(&known)?;
+    }
+    let velocities = basis * known.rows(0, q) + start;
+    // What bodies still lack in momentum came through the joints that carry them.
+    let lack = momenta - mass.component_mul(&velocities) - acting * known.rows(q, l);
+    let through = parts.picked(&carried, &held).lu();
+    let through = through.solve(&lack.select_rows(&carried))?;
+    let mut found = vec![0.0; columns];
+    found[..v].copy_from_slice(velocities.as_slice());
+    let impulses = others.iter().zip(known.iter().skip(q));
+    for (column, value) in impulses.chain(held.iter().zip(through.iter())) {
+        found[*column] = *value;
+    }
+    finite(found.iter())
 }
 
-fn finite(motion: Motion<f64>) -> Option<Motion<f64>> {
-    let all = motion
-        .velocity
-        .iter()
-        .flatten()
-        .chain(&motion.spin)
-        .chain(motion.hinge.iter().flatten());
-    all.chain(motion.contact.iter().flatten())
-        .all(|v| v.is_finite())
-        .then_some(motion)
+fn finite<'a>(values: impl Iterator<Item = &'a f64>) -> Option<Vec<f64>> {
+    let values: Vec<f64> = values.copied().collect();
+    values.iter().all(|v| v.is_finite()).then_some(values)
 }

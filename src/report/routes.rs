@@ -243,14 +243,17 @@ impl<'a> Prepared<'a> {
                 let values = programs.iter().map(|p| p.value(&at.inputs, &mut slots));
                 Some(values.collect())
             }
-            Route::AboutJoints => Some(self.of_motion(at, &reduced::about_joints(&at.given)?)),
-            Route::EffectiveMass => Some(self.of_motion(at, &reduced::effective_mass(&at.given)?)),
-            Route::LuRaw | Route::LuScaled | Route::LuRefined => {
+            Route::Exact => Some(self.truth(&at.exact)?.iter().map(to_f64).collect()),
+            _ => {
                 let system = assemble(&at.given);
-                let solution = Solution::determined(full(route, &system)?);
+                let unknowns = match route {
+                    Route::AboutJoints => reduced::about_joints(&at.given, &system)?,
+                    Route::EffectiveMass => reduced::effective_mass(&at.given, &system)?,
+                    _ => full(route, &system)?,
+                };
+                let solution = Solution::determined(unknowns);
                 Some(self.of_motion(at, &motion(&at.given, &system, &solution)))
             }
-            Route::Exact => Some(self.truth(&at.exact)?.iter().map(to_f64).collect()),
         }
     }
 
