@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 use carom::derive;
 use carom::dimension::Dimension;
 use carom::domain::Limit;
-use carom::emit::{Function, Heading, Language, Style, file, file_as, functions};
+use carom::emit::{Function, Heading, Language, Style, file, functions};
 use carom::expr::number::{from_f64, to_f64};
 use carom::expr::{Expr, Point, Scalar};
 use carom::formula::{Symbols, read_expr};
@@ -240,9 +240,9 @@ fn output(command: &mut Command) -> String {
     String::from_utf8(done.stdout).expect("text")
 }
 
-/// The calls of a case, in the order in which [`hold`] expects their values.
-fn calls<'a>(case: &'a Case, text: &'a str) -> impl Iterator<Item = String> + 'a {
-    let names = text.lines().filter_map(|l| {
+/// The names of the functions that a text offers, in the order of the answers.
+fn named(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().filter_map(|l| {
         let rest = l
             .strip_prefix("pub fn ")
             .or(l.strip_prefix("double "))
@@ -252,8 +252,12 @@ fn calls<'a>(case: &'a Case, text: &'a str) -> impl Iterator<Item = String> + 'a
             .iter()
             .any(|h| name.starts_with(h));
         (!helper).then_some(name)
-    });
-    names.zip(&case.arguments).flat_map(|(name, points)| {
+    })
+}
+
+/// The calls of a case, in the order in which [`hold`] expects their values.
+fn calls<'a>(case: &'a Case, text: &'a str) -> impl Iterator<Item = String> + 'a {
+    named(text).zip(&case.arguments).flat_map(|(name, points)| {
         points.iter().map(move |x| {
             let list: Vec<String> = x.iter().map(|v| format!("{v:?}")).collect();
             format!("{name}({})", list.join(", "))
@@ -302,12 +306,46 @@ fn hold(cases: &[Case], language: &str, output: &str) {
     );
 }
 
+/// Functions alone, under the names of the answers.
+fn plainly(language: Language) -> Style {
+    Style {
+        language,
+        prefix: String::new(),
+        record: false,
+    }
+}
+
 fn text(case: &Case, language: Language) -> String {
     let heading = Heading {
         title: case.scene.title.clone(),
         ..Heading::default()
     };
-    file(language, &heading, &case.functions)
+    file(&plainly(language), &heading, &case.functions)
+}
+
+/// All cases in Rust as modules of one crate, and a program that prints every value.
+fn in_rust(language: Language, own: &str) -> [String; 2] {
+    let mut whole = String::new();
+    let mut main = String::from("fn main() {\n");
+    for case in cases() {
+        let text = text(case, language);
+        for call in calls(case, &text) {
+            let name = &case.name;
+            main.push_str(&format!("    println!(\"{{:?}}\", {own}{name}::{call});\n"));
+        }
+        whole.push_str(&format!("pub mod {} {{\n{text}}}\n", case.name));
+    }
+    [whole, format!("{main}}}\n")]
+}
+
+fn rustc(folder: &Path, arguments: &[&str]) {
+    let always = ["--edition", "2021", "-D", "warnings"];
+    output(
+        Command::new("rustc")
+            .current_dir(folder)
+            .args(always)
+            .args(arguments),
+    );
 }
 
 #[test]
@@ -315,28 +353,60 @@ fn rust_compiles_without_remarks_and_keeps_its_bound() {
     if !is_there("rustc") {
         return;
     }
-    let cases = cases();
     let folder = folder("rust");
-    let mut whole = String::new();
-    let mut main = String::from("fn main() {\n");
-    for case in cases {
-        let text = text(case, Language::Rust);
-        for call in calls(case, &text) {
-            main.push_str(&format!(
-                "    println!(\"{{:?}}\", {}::{call});\n",
-                case.name
-            ));
-        }
-        whole.push_str(&format!("mod {} {{\n{text}}}\n", case.name));
+    let [whole, main] = in_rust(Language::Rust, "");
+    fs::write(folder.join("all.rs"), whole + &main).expect("written");
+    rustc(&folder, &["-o", "all", "all.rs"]);
+    let printed = output(&mut Command::new(folder.join("all")));
+    hold(cases(), "Rust", &printed);
+}
+
+/// What emitted code asks of the crate `libm`, by the standard library.
+const LIBM: &str = "pub fn sqrt(x: f64) -> f64 { x.sqrt() }
+pub fn sin(x: f64) -> f64 { x.sin() }
+pub fn cos(x: f64) -> f64 { x.cos() }
+pub fn round(x: f64) -> f64 { x.round() }
+pub fn fabs(x: f64) -> f64 { x.abs() }
+pub fn pow(x: f64, y: f64) -> f64 { x.powf(y) }
+";
+
+#[test]
+fn rust_without_the_standard_library_compiles_and_keeps_its_bound() {
+    if !is_there("rustc") {
+        return;
     }
-    fs::write(folder.join("all.rs"), format!("{whole}{main}}}\n")).expect("written");
-    let arguments = ["--edition", "2021", "-D", "warnings", "-o", "all", "all.rs"];
-    output(Command::new("rustc").current_dir(&folder).args(arguments));
-    hold(
-        cases,
-        "Rust",
-        &output(&mut Command::new(folder.join("all"))),
+    let folder = folder("no_std");
+    let [whole, main] = in_rust(Language::NoStd, "all::");
+    fs::write(folder.join("libm.rs"), LIBM).expect("written");
+    fs::write(folder.join("all.rs"), format!("#![no_std]\n{whole}")).expect("written");
+    fs::write(folder.join("main.rs"), main).expect("written");
+    rustc(&folder, &["--crate-type", "rlib", "libm.rs"]);
+    rustc(
+        &folder,
+        &[
+            "--crate-type",
+            "rlib",
+            "-L",
+            ".",
+            "--extern",
+            "libm=liblibm.rlib",
+            "all.rs",
+        ],
     );
+    rustc(
+        &folder,
+        &[
+            "-L",
+            ".",
+            "--extern",
+            "all=liball.rlib",
+            "-o",
+            "main",
+            "main.rs",
+        ],
+    );
+    let printed = output(&mut Command::new(folder.join("main")));
+    hold(cases(), "Rust without std", &printed);
 }
 
 #[test]
@@ -399,6 +469,47 @@ fn python_runs_and_keeps_its_bound() {
 }
 
 #[test]
+fn arrays_of_numpy_give_every_point_its_value_within_the_bound() {
+    let has_numpy = || {
+        Command::new("python3")
+            .args(["-c", "import numpy"])
+            .status()
+    };
+    if !is_there("python3") || !has_numpy().is_ok_and(|s| s.success()) {
+        eprintln!("skipped: no NumPy on this machine");
+        return;
+    }
+    let folder = folder("numpy");
+    let mut driver = String::from("import numpy as np\n");
+    for case in cases() {
+        let text = text(case, Language::NumPy);
+        driver.push_str(&format!("import {}\n", case.name));
+        // One call for all points of a function: a column for each argument.
+        for (name, points) in named(&text).zip(&case.arguments) {
+            let columns = (0..points[0].len()).map(|a| {
+                let column: Vec<String> = points.iter().map(|x| format!("{:?}", x[a])).collect();
+                format!("np.array([{}])", column.join(", "))
+            });
+            let columns = columns.collect::<Vec<_>>().join(", ");
+            let count = points.len();
+            driver.push_str(&format!(
+                "for v in np.broadcast_to({}.{name}({columns}), ({count},)): print(repr(float(v)))\n",
+                case.name
+            ));
+        }
+        fs::write(folder.join(format!("{}.py", case.name)), text).expect("written");
+    }
+    fs::write(folder.join("driver.py"), driver).expect("written");
+    let mut python = Command::new("python3");
+    let printed = output(
+        python
+            .current_dir(&folder)
+            .args(["-B", "-W", "error", "driver.py"]),
+    );
+    hold(cases(), "NumPy", &printed);
+}
+
+#[test]
 fn the_formula_in_the_comment_is_what_the_independent_solver_finds() {
     let mut compared = 0;
     for case in cases() {
@@ -458,7 +569,7 @@ fn by_struct(case: &Case, language: Language) -> (String, String) {
         prefix: String::from("c_"),
         record: true,
     };
-    let text = file_as(&style, &Heading::default(), &case.functions);
+    let text = file(&style, &Heading::default(), &case.functions);
     let mut given: Vec<(String, f64)> = Vec::new();
     for (f, points) in case.functions.iter().zip(&case.arguments) {
         for (argument, value) in f.arguments.iter().zip(&points[0]) {
@@ -484,13 +595,13 @@ fn by_struct(case: &Case, language: Language) -> (String, String) {
     let printed: String = fields
         .chain(calls)
         .map(|value| match language {
-            Language::Rust => format!("    println!(\"{{:?}}\", {value});\n"),
+            Language::Rust | Language::NoStd => format!("    println!(\"{{:?}}\", {value});\n"),
             Language::C => format!("    printf(\"%.17g\\n\", {value});\n"),
-            Language::Python => format!("print(repr({value}))\n"),
+            Language::Python | Language::NumPy => format!("print(repr({value}))\n"),
         })
         .collect();
     let program = match language {
-        Language::Rust => format!(
+        Language::Rust | Language::NoStd => format!(
             "{text}\nfn main() {{\n    let out = c_solve(&CIn {{ {} }});\n{printed}}}\n",
             list(&|name, v| format!("{name}: {v:?}")),
         ),
@@ -498,7 +609,7 @@ fn by_struct(case: &Case, language: Language) -> (String, String) {
             "#include <stdio.h>\nint main(void) {{\n    const c_in given = {{ {} }};\n    const c_out out = c_solve(&given);\n{printed}    return 0;\n}}\n",
             list(&|name, v| format!(".{name} = {v:?}")),
         ),
-        Language::Python => format!(
+        Language::Python | Language::NumPy => format!(
             "{text}\n\nout = c_solve(CIn({}))\n{printed}",
             list(&|name, v| format!("{name}={v:?}")),
         ),

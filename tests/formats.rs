@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use proptest::prelude::*;
 use serde_json::json;
 
-use carom::emit::{Heading, Language, file, functions};
+use carom::emit::{Heading, Language, Style, file, functions};
 use carom::figure::{self, Which};
 use carom::formula::is_hidden;
 use carom::render::html::Picture;
@@ -167,7 +167,14 @@ fn formats(text: &str) -> Option<Formats> {
         html: render::html::page(&solution, &[picture]),
         svg: vec![drawn.svg],
         plain: render::plain::solution(&solution),
-        code: LANGUAGES.map(|language| file(language, &heading, &found)),
+        code: LANGUAGES.map(|language| {
+            let style = Style {
+                language,
+                prefix: String::new(),
+                record: false,
+            };
+            file(&style, &heading, &found)
+        }),
     })
 }
 
@@ -249,9 +256,9 @@ fn code(language: Language, text: &str, names: usize) -> Vec<String> {
     let mut inside = false;
     for line in text.lines().map(str::trim) {
         let (start, end) = match language {
-            Language::Rust => (line.starts_with("//"), true),
+            Language::Rust | Language::NoStd => (line.starts_with("//"), true),
             Language::C => (line.starts_with("/*"), line.ends_with("*/")),
-            Language::Python => {
+            Language::Python | Language::NumPy => {
                 let opens = line.starts_with("\"\"\"");
                 (
                     opens || inside,

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::{Failure, complain, files, impact_of, print, read_scene, refused, work_out};
-use carom::emit::{Heading, Language, Style, file_as, functions};
+use carom::emit::{Heading, Language, Style, file, functions};
 
 /// Arguments of `carom emit`.
 #[derive(Args)]
@@ -41,8 +41,12 @@ const PLAIN_REACH: i32 = 30;
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Lang {
     Rust,
+    /// Rust with core alone and the crate libm
+    NoStd,
     C,
     Python,
+    /// Python on arrays of NumPy
+    Numpy,
 }
 
 /// Runs `carom emit`: exit status 0, or 1 where the closed forms did not stand their proof and nothing is written.
@@ -103,14 +107,16 @@ pub fn run(args: &EmitArgs) -> Result<u8, Failure> {
     let language = match args.lang {
         Lang::Rust => Language::Rust,
         Lang::C => Language::C,
+        Lang::NoStd => Language::NoStd,
         Lang::Python => Language::Python,
+        Lang::Numpy => Language::NumPy,
     };
     let style = Style {
         language,
         prefix: args.prefix.clone(),
         record: args.record,
     };
-    let text = file_as(&style, &heading, &found);
+    let text = file(&style, &heading, &found);
     match &args.output {
         Some(path) => files::save(path, text.as_bytes(), &[&args.scene])?,
         None => print(&text)?,

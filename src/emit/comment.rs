@@ -1,7 +1,8 @@
 //! Comments of emitted code: what stands at the head of a file, what a function takes, and the error it promises.
 
+use super::dialect::Language;
 use super::function::{Function, LIBRARY};
-use super::write::{Heading, Language};
+use super::write::Heading;
 use crate::formula::visible;
 
 /// What stands at the head of a file.
@@ -26,7 +27,7 @@ pub(super) fn comment(language: Language, lines: &[String], of_file: bool) -> St
     let lines: Vec<String> = lines.iter().flat_map(|l| wrapped(&harmless(l))).collect();
     let mut out = String::new();
     match language {
-        Language::Rust => {
+        Language::Rust | Language::NoStd => {
             let mark = if of_file { "//!" } else { "///" };
             for line in &lines {
                 out.push_str(format!("{mark} {line}").trim_end());
@@ -38,7 +39,7 @@ pub(super) fn comment(language: Language, lines: &[String], of_file: bool) -> St
             out.push_str(&lines.join("\n   ").replace("   \n", "\n"));
             out.push_str(" */\n");
         }
-        Language::Python => {
+        Language::Python | Language::NumPy => {
             let indent = if of_file { "" } else { "    " };
             out.push_str(&format!("{indent}\"\"\"{}", lines[0]));
             for line in &lines[1..] {

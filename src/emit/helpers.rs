@@ -1,9 +1,9 @@
-//! The double-double arithmetic that emitted functions call, in three languages: the operations of [`super::dd`],
+//! The double-double arithmetic that emitted functions call, in every language: the operations of [`super::dd`],
 //! rounding for rounding.
 
 use std::collections::BTreeSet;
 
-use super::write::Language;
+use super::dialect::{Language, filled};
 
 /// A helper, in an order in which each needs only earlier ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -105,17 +105,12 @@ pub fn is_helper(name: &str) -> bool {
 
 /// What stands before the functions: imports, and the helpers used.
 pub fn text(language: Language, used: &BTreeSet<Helper>) -> String {
-    let mut out = String::from(match language {
-        Language::Rust => "",
-        Language::C => "#include <math.h>\n\n",
-        Language::Python => "import math\n\n",
-    });
+    let dialect = language.dialect();
+    let mut out = String::from(dialect.imports);
     if !used.is_empty() {
-        out.push_str(match language {
-            Language::Rust => "// Double-doubles: the sum of two doubles, about 32 digits.\n",
-            Language::C => "/* Double-doubles: the sum of two doubles, about 32 digits. */\n",
-            Language::Python => "# Double-doubles: the sum of two doubles, about 32 digits.\n",
-        });
+        let [open, close] = dialect.remark;
+        let words = "Double-doubles: the sum of two doubles, about 32 digits.";
+        out.push_str(&format!("{open}{words}{close}\n"));
     }
     for helper in used {
         let text = source(language, *helper);
@@ -149,14 +144,17 @@ pub fn prefixed(code: &str, prefix: &str) -> String {
 /// A helper in one language; empty where the language has it already.
 fn source(language: Language, helper: Helper) -> String {
     match (language, helper) {
-        (Language::Rust, Helper::Pair) => "type Wide = (f64, f64);\n".into(),
+        (_, Helper::Pair) if language.is_rust() => "type Wide = (f64, f64);\n".into(),
         (Language::C, Helper::Pair) => C_PAIR.into(),
-        (Language::Rust | Language::Python, Helper::Widen) | (Language::Python, Helper::Pair) => {
-            String::new()
-        }
+        (_, Helper::Widen | Helper::Pair) if language != Language::C => String::new(),
         (Language::Rust, Helper::Turn) => RUST_TURN.into(),
+        (Language::NoStd, Helper::Turn) => RUST_TURN
+            .replace("f64::round(", "libm::round(")
+            .replace("f64::abs(", "libm::fabs("),
         (Language::C, Helper::Turn) => C_TURN.into(),
         (Language::Python, Helper::Turn) => PYTHON_TURN.into(),
+        (Language::NumPy, Helper::Turn) => NUMPY_TURN.into(),
+        (Language::NumPy, Helper::Root) => NUMPY_ROOT.into(),
         _ => straight(language, helper),
     }
 }
@@ -209,55 +207,54 @@ fn straight(language: Language, helper: Helper) -> String {
         let each = parameters.iter().map(|p| of.replace('#', p));
         each.collect::<Vec<_>>().join(", ")
     };
-    let head = match (language, takes_wide) {
-        (Language::Rust, true) => format!("fn {name}({}) -> Wide {{\n", list("#: Wide")),
-        (Language::Rust, false) => format!("fn {name}({}) -> Wide {{\n", list("#: f64")),
-        (Language::C, true) => format!("static wide {name}({}) {{\n", list("wide #")),
-        (Language::C, false) => format!("static wide {name}({}) {{\n", list("double #")),
-        (Language::Python, _) => format!("\ndef {name}({}):\n", list("#")),
+    let kind = match (language, takes_wide) {
+        (Language::C, true) => "wide #",
+        (Language::C, false) => "double #",
+        (_, true) => "#: Wide",
+        (_, false) => "#: f64",
     };
+    let mut out = match language {
+        Language::Rust | Language::NoStd => format!("fn {name}({}) -> Wide {{\n", list(kind)),
+        Language::C => format!("static wide {name}({}) {{\n", list(kind)),
+        Language::Python | Language::NumPy => format!("\ndef {name}({}):\n", list("#")),
+    };
+    let dialect = language.dialect();
     let own = |text: &str| match language {
         Language::C => text
             .replace("pair(", "wide_pair(")
             .replace("root(", "sqrt("),
-        Language::Rust => text
+        _ => text
             .replace("pair(", "(")
-            .replace("root(a.high)", "a.0.sqrt()")
-            .replace(".high", ".0")
-            .replace(".low", ".1"),
-        Language::Python => text
-            .replace("pair(", "(")
-            .replace("root(", "math.sqrt(")
-            .replace(".high", "[0]")
-            .replace(".low", "[1]"),
+            .replace("root(a.high)", &dialect.library("sqrt", "a.high"))
+            .replace(".high", &filled(dialect.high, "", ""))
+            .replace(".low", &filled(dialect.high, "", "").replace('0', "1")),
     };
-    let mut out = head;
     for step in steps(helper).split("; ") {
         let step = own(step);
         let condition = step.strip_prefix("if ").and_then(|s| s.split_once(": "));
-        let line = match (condition, step.split_once(" = "), language) {
-            (Some((test, value)), _, Language::Rust) => format!("if {test} {{ return {value}; }}"),
-            (Some((test, value)), _, Language::C) => format!("if ({test}) return {value};"),
-            (Some((test, value)), _, Language::Python) => format!("if {test}: return {value}"),
-            (_, Some((name, value)), Language::Rust) => format!("let {name} = {value};"),
-            (_, Some((name, value)), Language::C) => {
+        let line = match (condition, step.split_once(" = ")) {
+            (Some((test, value)), _) => match language {
+                Language::C => format!("if ({test}) return {value};"),
+                _ if language.is_rust() => format!("if {test} {{ return {value}; }}"),
+                _ => format!("if {test}: return {value}"),
+            },
+            (_, Some((name, value))) => {
                 let called = value.split('(').next().unwrap_or_default();
                 let is_wide = called.starts_with("wide_")
                     || called.ends_with("two_sum")
                     || called == "two_product";
-                format!(
-                    "const {} {name} = {value};",
-                    if is_wide { "wide" } else { "double" }
-                )
+                let pattern = if is_wide {
+                    dialect.wide
+                } else {
+                    dialect.double
+                };
+                filled(pattern, name, value)
             }
-            (_, Some(_), Language::Python) => step,
-            (_, None, Language::Rust) => step,
-            (_, None, Language::C) => format!("return {step};"),
-            (_, None, Language::Python) => format!("return {step}"),
+            (_, None) => filled(dialect.result, &step, ""),
         };
         out.push_str(&format!("    {line}\n"));
     }
-    if language != Language::Python {
+    if !language.is_python() {
         out.push_str("}\n");
     }
     out
@@ -265,7 +262,7 @@ fn straight(language: Language, helper: Helper) -> String {
 
 const RUST_TURN: &str = "/// Cosine (`lead` 0) or sine (`lead` 1).
 fn wide_turn(angle: Wide, lead: i64) -> Wide {
-    let quarters = (angle.0 / 1.5707963267948966).round();
+    let quarters = f64::round(angle.0 / 1.5707963267948966);
     let mut rest = angle;
     for part in [1.5707963267948966, 6.123233995736766e-17, -1.4973849048591698e-33] {
         rest = wide_add(rest, wide_neg(two_product(quarters, part)));
@@ -274,7 +271,7 @@ fn wide_turn(angle: Wide, lead: i64) -> Wide {
     let quadrant = (quarters as i64 - lead).rem_euclid(4);
     let (mut term, mut k) = if quadrant % 2 == 0 { ((1.0, 0.0), 1.0) } else { (rest, 2.0) };
     let mut sum = term;
-    while term.0.abs() > 1e-36 {
+    while f64::abs(term.0) > 1e-36 {
         term = wide_div(wide_mul(term, square), (k * (k + 1.0), 0.0));
         sum = wide_add(sum, term);
         k += 2.0;
@@ -324,6 +321,37 @@ def wide_turn(angle, lead):
         total = wide_add(total, term)
         k += 2.0
     return wide_neg(total) if quadrant in (1, 2) else total
+";
+
+const NUMPY_TURN: &str = "
+def wide_turn(angle, lead):
+    # Cosine (lead 0) or sine (lead 1).
+    parts = (1.5707963267948966, 6.123233995736766e-17, -1.4973849048591698e-33)
+    quarters = np.round(angle[0] / parts[0])
+    rest = angle
+    for part in parts:
+        rest = wide_add(rest, wide_neg(two_product(quarters, part)))
+    square = wide_neg(wide_mul(rest, rest))
+    quadrant = np.mod(quarters - lead, 4.0)
+    even = np.mod(quadrant, 2.0) == 0.0
+    term = (np.where(even, 1.0, rest[0]), np.where(even, 0.0, rest[1]))
+    k = np.where(even, 1.0, 2.0)
+    total = term
+    while np.any(np.abs(term[0]) > 1e-36):
+        term = wide_div(wide_mul(term, square), (k * (k + 1.0), 0.0))
+        total = wide_add(total, term)
+        k = k + 2.0
+    back = (quadrant == 1.0) | (quadrant == 2.0)
+    return tuple(np.where(back, -part, part) for part in total)
+";
+
+const NUMPY_ROOT: &str = "
+def wide_sqrt(a):
+    none = a[0] <= 0.0
+    first = np.sqrt(np.where(none, 1.0, a[0]))
+    rest = wide_add(a, wide_neg(two_product(first, first)))
+    root = quick_two_sum(first, rest[0] / (2.0 * first))
+    return tuple(np.where(none, 0.0, part) for part in root)
 ";
 
 const C_PAIR: &str = "typedef struct { double high, low; } wide;

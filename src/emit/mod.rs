@@ -1,12 +1,13 @@
-//! From a closed form to code: arranged for accuracy, with an error bound it can state, in three languages.
+//! From a closed form to code: arranged for accuracy, with an error bound it can state, as Rust, C or Python.
 //!
 //! `arrange` turns an expression into a straight-line program, `program` runs it and bounds its error, `range` tells where it
-//! over- or underflows, `units` keep it from that, `function` gathers what a reader has to know, `write` writes it out. Knows nothing of how the
+//! over- or underflows, `units` keep it from that, `function` gathers what a reader has to know, `write` writes it out as a `dialect` has it. Knows nothing of how the
 //! closed form was found.
 
 pub mod arrange;
 mod comment;
 mod dd;
+mod dialect;
 pub mod function;
 mod helpers;
 mod names;
@@ -17,6 +18,7 @@ pub mod units;
 pub mod write;
 
 pub use arrange::{Atoms, Signs, arranged, as_derived, signs, without_angles};
+pub use dialect::Language;
 pub use function::{Function, functions};
 pub use program::{Bound, Op, Program, Step};
-pub use write::{Heading, Language, Style, file, file_as};
+pub use write::{Heading, Style, file};

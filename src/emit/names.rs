@@ -1,4 +1,4 @@
-//! Identifiers that all three languages accept.
+//! Identifiers that all languages accept.
 
 use std::collections::BTreeSet;
 
@@ -10,8 +10,8 @@ pub(super) struct Names(BTreeSet<String>);
 
 const KEPT: &str = "False None True abs abstract alignas and as assert async auto await become bool box break case char class const \
     continue cos crate def default del do double dyn elif else enum except extern fabs false final finally float fmax fn \
-    for from gen global goto if impl import in inline int is lambda let long loop macro main match math max mod \
-    move mut nonlocal not or override pass pow priv pub raise ref register remainder restrict return round self short signed sin \
+    for from gen global goto if impl import in inline int is lambda let long loop macro main libm match math max mod \
+    move mut nonlocal not np or override pass pow priv pub raise ref register remainder restrict return round self short signed sin \
     sizeof sqrt static struct super switch tan trait true try type typedef typeof union unsafe unsigned unsized use virtual \
     void volatile where while wide with yield Self";
 
@@ -20,7 +20,7 @@ pub(super) const C_LIBRARY: &str = "abort bsearch ceil clock div exit exp floor 
     rand read remove rename signal sleep time times tgamma lgamma trunc wait write y0 y1 yn";
 
 impl Names {
-    /// The name as an identifier of all three languages, not given before.
+    /// The name as an identifier of all languages, not given before.
     pub(super) fn fresh(&mut self, name: &str) -> String {
         // One underscore for any number of other signs.
         let mut base = String::new();

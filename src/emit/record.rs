@@ -2,9 +2,10 @@
 //!
 //! In: functions with the names they were given. Out: two types and a function in each language, and the guard of a header.
 
+use super::dialect::Language;
 use super::function::Function;
 use super::names::Names;
-use super::write::{Language, Style};
+use super::write::Style;
 
 /// The two types, and the function from one to the other.
 pub(super) fn record(
@@ -68,7 +69,7 @@ pub(super) fn record(
         unread = "    (void)given;\n";
     }
     match style.language {
-        Language::Rust => {
+        Language::Rust | Language::NoStd => {
             let given = if inputs.is_empty() { "_" } else { "given" };
             let kept = "#[allow(non_snake_case)]\n#[derive(Clone, Copy, Debug, PartialEq)]\n";
             format!(
@@ -80,7 +81,7 @@ pub(super) fn record(
             "\n/* Everything the functions take. */\ntypedef struct {{\n{taken}}} {inside};\n\n/* Everything they give. */\ntypedef struct {{\n{made}}} {outside};\n\n\
              /* All values at once. */\nstatic inline {outside} {solve}(const {inside} *given) {{\n    {outside} result;\n{unread}{values}    return result;\n}}\n"
         ),
-        Language::Python => {
+        Language::Python | Language::NumPy => {
             let member = |lines: String| match lines.is_empty() {
                 true => String::from("    pass\n"),
                 false => lines,
@@ -98,7 +99,7 @@ pub(super) fn record(
 /// A field of a type, a value that fills one, and how an argument is read.
 fn lines(language: Language) -> [&'static str; 3] {
     match language {
-        Language::Rust => [
+        Language::Rust | Language::NoStd => [
             "    /// [@unit]\n    pub @name: f64,\n",
             "        @name: @call,\n",
             "given.",
@@ -107,6 +108,11 @@ fn lines(language: Language) -> [&'static str; 3] {
             "    double @name; /* [@unit] */\n",
             "    result.@name = @call;\n",
             "given->",
+        ],
+        Language::NumPy => [
+            "    @name: np.ndarray  # [@unit]\n",
+            "        @name=@call,\n",
+            "given.",
         ],
         Language::Python => [
             "    @name: float  # [@unit]\n",

@@ -7,7 +7,7 @@
 
 use num_traits::{One, Signed, Zero};
 
-use super::write::Language;
+use super::dialect::Language;
 use crate::dimension::Dimension;
 use crate::expr::{Rational, ratio};
 
@@ -104,12 +104,22 @@ fn powers(base: &[[Rational; 3]], target: &[Rational; 3]) -> Option<Vec<Rational
 pub const NAMES: [&str; 3] = ["unit_far", "unit_size", "unit_scaled"];
 
 /// Whether an argument is beyond 1/limit … limit, half the exponent of the largest, and a number times a power of two.
-pub fn helpers(language: Language) -> &'static str {
-    match language {
-        Language::Rust => {
-            "// Units of powers of two, for arguments so large or small that products would leave the range of doubles.
-fn unit_far(x: f64, limit: f64) -> bool {
-    x != 0.0 && !(1.0 / limit..=limit).contains(&x.abs())
+pub fn helpers(language: Language) -> String {
+    let [open, close] = language.dialect().remark;
+    let source = match language {
+        Language::Rust => RUST.to_string(),
+        Language::NoStd => RUST.replace("f64::abs(", "libm::fabs("),
+        Language::C => C.to_string(),
+        Language::Python => PYTHON.to_string(),
+        Language::NumPy => NUMPY.to_string(),
+    };
+    format!(
+        "{open}Units of powers of two, for arguments so large or small that products would leave the range of doubles.{close}\n{source}"
+    )
+}
+
+const RUST: &str = "fn unit_far(x: f64, limit: f64) -> bool {
+    x != 0.0 && !(1.0 / limit..=limit).contains(&f64::abs(x))
 }
 
 fn unit_size(largest: f64) -> i32 {
@@ -131,11 +141,9 @@ fn unit_scaled(mut x: f64, mut power: i32) -> f64 {
     x
 }
 
-"
-        }
-        Language::C => {
-            "/* Units of powers of two, for arguments so large or small that products would leave the range of doubles. */
-static int unit_far(double x, double limit) {
+";
+
+const C: &str = "static int unit_far(double x, double limit) {
     return x != 0.0 && !(fabs(x) >= 1.0 / limit && fabs(x) <= limit);
 }
 
@@ -149,11 +157,9 @@ static double unit_scaled(double x, int power) {
     return ldexp(x, power);
 }
 
-"
-        }
-        Language::Python => {
-            "# Units of powers of two, for arguments so large or small that products would leave the range of doubles.
-def unit_far(x, limit):
+";
+
+const PYTHON: &str = "def unit_far(x, limit):
     return x != 0.0 and not 1.0 / limit <= abs(x) <= limit
 
 
@@ -168,10 +174,21 @@ def unit_scaled(x, power):
         return math.copysign(math.inf, x)
 
 
-"
-        }
-    }
-}
+";
+
+const NUMPY: &str = "def unit_far(x, limit):
+    return np.not_equal(x, 0.0) & ~((np.abs(x) >= 1.0 / limit) & (np.abs(x) <= limit))
+
+
+def unit_size(largest):
+    return np.where(np.isfinite(largest), np.frexp(largest)[1] // 2, 0)
+
+
+def unit_scaled(x, power):
+    return np.ldexp(x, power)
+
+
+";
 
 #[cfg(test)]
 mod tests {

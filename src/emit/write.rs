@@ -1,29 +1,19 @@
-//! Functions as source text: Rust, C or Python, self-contained, with everything a reader needs in the comment.
+//! Functions as source text in any of the languages, self-contained, with everything a reader needs in the comment.
 //!
 //! Steps used once are written where they are used, with brackets that keep their order; every rounding is that of the
-//! program, so the three languages give the same bits wherever their library gives the same cosines.
+//! program, so the languages give the same bits wherever their library gives the same cosines.
 
 use std::collections::BTreeSet;
 
 use super::comment::{comment, documentation, head};
 use super::dd::Dd;
+use super::dialect::{Dialect, Language, filled};
 use super::function::{Function, Turn};
 use super::helpers::{self, Helper};
 use super::names::{C_LIBRARY, Names};
 use super::program::{Op, Step};
 use super::record;
 use super::units::{self, Units};
-
-/// The languages.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Language {
-    /// A module of functions on `f64`.
-    Rust,
-    /// A translation unit of functions on `double`; C99.
-    C,
-    /// A module of functions on floats; Python 3.
-    Python,
-}
 
 /// What stands at the head of a file.
 #[derive(Clone, Debug, Default)]
@@ -34,11 +24,6 @@ pub struct Heading {
     pub source: String,
     /// What all functions take for granted.
     pub assumptions: Vec<String>,
-}
-
-/// The functions with what they need, as one file.
-pub fn file(language: Language, heading: &Heading, functions: &[Function]) -> String {
-    file_as(&Style::of(language), heading, functions)
 }
 
 /// How a file is written.
@@ -64,8 +49,8 @@ impl Style {
     }
 }
 
-/// The same in a style of one's own.
-pub fn file_as(style: &Style, heading: &Heading, functions: &[Function]) -> String {
+/// The functions with what they need, as one file.
+pub fn file(style: &Style, heading: &Heading, functions: &[Function]) -> String {
     let language = style.language;
     let mut given: Vec<String> = Vec::new();
     let mut used = BTreeSet::new();
@@ -84,12 +69,12 @@ pub fn file_as(style: &Style, heading: &Heading, functions: &[Function]) -> Stri
         })
         .collect();
     let mut out = String::from("\n");
-    if style.record && language == Language::Python {
+    if style.record && language.is_python() {
         out.push_str("import typing\n");
     }
     out.push_str(&helpers::text(language, &used));
     if functions.iter().any(|f| f.units.is_some()) {
-        out.push_str(units::helpers(language));
+        out.push_str(&units::helpers(language));
     }
     out.push_str(&bodies.join("\n"));
     if style.record {
@@ -165,50 +150,57 @@ impl<'a> Writer<'a> {
             let each = self.arguments.iter().map(|a| of.replace('#', a));
             each.collect::<Vec<_>>().join(", ")
         };
-        let mut out = String::new();
-        match self.language {
-            Language::Rust => {
-                out.push_str(&comment(self.language, &documentation, false));
-                let odd = name
+        let documented = comment(self.language, &documentation, false);
+        let arguments = list("#");
+        let (head, end) = match self.language {
+            Language::Rust | Language::NoStd => {
+                let mut marks = String::new();
+                if name
                     .chars()
-                    .chain(list("#").chars())
-                    .any(char::is_uppercase);
-                if odd {
-                    out.push_str("#[allow(non_snake_case)]\n");
+                    .chain(arguments.chars())
+                    .any(char::is_uppercase)
+                {
+                    marks.push_str("#[allow(non_snake_case)]\n");
                 }
                 if self.arguments.len() > 7 {
-                    out.push_str("#[allow(clippy::too_many_arguments)]\n");
+                    marks.push_str("#[allow(clippy::too_many_arguments)]\n");
                 }
-                out.push_str(&format!("pub fn {name}({}) -> f64 {{\n", list("#: f64")));
-                self.lines
-                    .iter()
-                    .for_each(|l| out.push_str(&format!("    {l}\n")));
-                out.push_str(&format!("    {value}\n}}\n"));
+                let list = list("#: f64");
+                (
+                    format!("{documented}{marks}pub fn {name}({list}) -> f64 {{\n"),
+                    "}\n",
+                )
             }
             Language::C => {
-                out.push_str(&comment(self.language, &documentation, false));
-                let list = if self.arguments.is_empty() {
-                    "void".into()
-                } else {
-                    list("double #")
+                let list = match arguments.is_empty() {
+                    true => String::from("void"),
+                    false => list("double #"),
                 };
                 let kind = if of_header { "static inline " } else { "" };
-                out.push_str(&format!("{kind}double {name}({list}) {{\n"));
-                self.lines
-                    .iter()
-                    .for_each(|l| out.push_str(&format!("    {l}\n")));
-                out.push_str(&format!("    return {value};\n}}\n"));
+                (
+                    format!("{documented}{kind}double {name}({list}) {{\n"),
+                    "}\n",
+                )
             }
-            Language::Python => {
-                out.push_str(&format!("\ndef {name}({}):\n", list("#")));
-                out.push_str(&comment(self.language, &documentation, false));
-                self.lines
-                    .iter()
-                    .for_each(|l| out.push_str(&format!("    {l}\n")));
-                out.push_str(&format!("    return {value}\n"));
+            Language::Python | Language::NumPy => {
+                (format!("\ndef {name}({arguments}):\n{documented}"), "")
             }
+        };
+        let is_constant = function
+            .program
+            .steps
+            .iter()
+            .all(|s| !matches!(s.op, Op::Input(_)));
+        if self.language == Language::NumPy && is_constant && !arguments.is_empty() {
+            value = format!("np.full(np.broadcast({arguments}).shape, {value})");
         }
-        out
+        self.lines.push(filled(self.dialect().result, &value, ""));
+        let lines: String = self.lines.iter().map(|l| format!("    {l}\n")).collect();
+        head + &lines + end
+    }
+
+    fn dialect(&self) -> &'static Dialect {
+        self.language.dialect()
     }
 
     /// Measures the arguments in units near them where one is far from one; gives the names of the units' exponents.
@@ -218,51 +210,30 @@ impl<'a> Writer<'a> {
         let changed: Vec<(&Vec<i64>, String)> = powers
             .filter(|(powers, _)| powers.iter().any(|p| *p != 0))
             .collect();
-        let or = if self.language == Language::Python {
-            " or "
-        } else {
-            " || "
-        };
+        let dialect = self.dialect();
         let tests = changed
             .iter()
             .map(|(_, a)| format!("unit_far({a}, {limit})"));
-        let tests = tests.collect::<Vec<_>>().join(or);
+        let tests = tests.collect::<Vec<_>>().join(dialect.or);
         let far = self.names.fresh("far");
-        self.lines.push(match self.language {
-            Language::Rust => format!("let {far} = {tests};"),
-            Language::C => format!("const int {far} = {tests};"),
-            Language::Python => format!("{far} = {tests}"),
-        });
+        self.lines.push(filled(dialect.whole, &far, &tests));
         let mut scales = Vec::new();
         for class in &units.of {
             let sizes = class
                 .iter()
                 .map(|a| self.library("abs", &self.arguments[*a], Holds::Atom));
-            let largest = sizes.reduce(|a, b| match self.language {
-                Language::Rust => format!("{a}.max({b})"),
-                Language::C => format!("fmax({a}, {b})"),
-                Language::Python => format!("max({a}, {b})"),
-            });
+            let largest = sizes.reduce(|a, b| filled(dialect.larger, &a, &b));
             let largest = largest.unwrap_or_default();
             let name = format!("size_{}", self.arguments[class[0]]);
             let name = self.names.fresh(&name);
-            self.lines.push(match self.language {
-                Language::Rust => {
-                    format!("let {name} = if {far} {{ unit_size({largest}) }} else {{ 0 }};")
-                }
-                Language::C => format!("const int {name} = {far} ? unit_size({largest}) : 0;"),
-                Language::Python => format!("{name} = unit_size({largest}) if {far} else 0"),
-            });
+            let size = filled(dialect.choice, &far, &format!("unit_size({largest})"));
+            self.lines.push(filled(dialect.whole, &name, &size));
             scales.push(name);
         }
         for (powers, argument) in changed {
             if let Some(power) = power(powers, &scales, -1) {
-                let text = format!("{argument} = unit_scaled({argument}, {power})");
-                self.lines.push(match self.language {
-                    Language::Rust => format!("let {text};"),
-                    Language::C => format!("{text};"),
-                    Language::Python => text,
-                });
+                let scaled = format!("unit_scaled({argument}, {power})");
+                self.lines.push(filled(dialect.again, &argument, &scaled));
             }
         }
         scales
@@ -281,7 +252,7 @@ impl<'a> Writer<'a> {
             .map(|a| self.arguments[a].clone())
             .collect();
         match self.language {
-            Language::Rust if !free.is_empty() => {
+            Language::Rust | Language::NoStd if !free.is_empty() => {
                 self.lines.push(format!("let _ = ({},);", free.join(", ")));
             }
             Language::C => free
@@ -292,12 +263,9 @@ impl<'a> Writer<'a> {
     }
 
     fn assign(&mut self, name: &str, value: &str, wide: bool) {
-        self.lines.push(match self.language {
-            Language::Rust => format!("let {name} = {value};"),
-            Language::C if wide => format!("const wide {name} = {value};"),
-            Language::C => format!("const double {name} = {value};"),
-            Language::Python => format!("{name} = {value}"),
-        });
+        let dialect = self.dialect();
+        let pattern = if wide { dialect.wide } else { dialect.double };
+        self.lines.push(filled(pattern, name, value));
     }
 
     fn call(&mut self, helper: Helper, arguments: &[&str]) -> String {
@@ -367,22 +335,14 @@ impl<'a> Writer<'a> {
     }
 
     fn library(&self, name: &str, argument: &str, holds: Holds) -> String {
-        match self.language {
-            Language::Rust if holds == Holds::Atom => format!("{argument}.{name}()"),
-            Language::Rust => format!("({argument}).{name}()"),
-            Language::C if name == "abs" => format!("fabs({argument})"),
-            Language::C => format!("{name}({argument})"),
-            Language::Python if name == "abs" => format!("abs({argument})"),
-            Language::Python => format!("math.{name}({argument})"),
+        match holds == Holds::Atom || self.language != Language::Rust {
+            true => self.dialect().library(name, argument),
+            false => self.dialect().library(name, &format!("({argument})")),
         }
     }
 
     fn high(&self, wide: &str) -> String {
-        match self.language {
-            Language::Rust => format!("{wide}.0"),
-            Language::C => format!("{wide}.high"),
-            Language::Python => format!("{wide}[0]"),
-        }
+        filled(self.dialect().high, wide, "")
     }
 
     fn widened(&mut self, plain: &str) -> String {
@@ -482,29 +442,23 @@ impl<'a> Writer<'a> {
             Op::Divide(a, b) => infix(a, "/", b, Holds::Product),
             Op::Negate(a) => (format!("-{}", right(a)), Holds::Product),
             Op::Root(a) => (self.library("sqrt", &texts[a].0, texts[a].1), Holds::Atom),
-            Op::Power(a, b) => (
-                match self.language {
-                    Language::Rust => format!("{}.powf({})", right(a), text(b)),
-                    Language::C => format!("pow({}, {})", text(a), text(b)),
-                    Language::Python => format!("{} ** {}", right(a), right(b)),
-                },
-                Holds::Atom,
-            ),
-            Op::Call(f, a) => {
-                let name = match (self.language, f.name()) {
-                    (Language::Rust, "log") => "ln",
-                    (Language::C | Language::Python, "ln") => "log",
-                    (_, name) => name,
+            Op::Power(a, b) => {
+                // A method stands behind a bracket, and so does an operator; what a call takes needs none.
+                let [base, exponent] = match self.language {
+                    Language::Rust => [right(a), text(b).to_string()],
+                    Language::C | Language::NoStd => [a, b].map(|i| text(i).to_string()),
+                    Language::Python | Language::NumPy => [right(a), right(b)],
                 };
-                (self.library(name, &texts[a].0, texts[a].1), Holds::Atom)
+                (filled(self.dialect().power, &base, &exponent), Holds::Atom)
             }
+            Op::Call(f, a) => (self.library(f.name(), &texts[a].0, texts[a].1), Holds::Atom),
             Op::Round(a) => (self.high(text(a)), Holds::Atom),
             Op::Widen(a) => (text(a).to_string(), texts[a].1),
         }
     }
 }
 
-/// A double as all three languages read it.
+/// A double as all languages read it.
 pub(super) fn number(v: f64) -> String {
     format!("{v:?}")
 }
