@@ -7,6 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::{Claim, Failure, Meaning, POINTS, Report};
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::numeric::friction::happened;
+use crate::numeric::points::with_angles;
 use crate::numeric::{self, Answer, Number};
 use crate::scene::{Ask, Scene};
 
@@ -42,9 +43,8 @@ pub(super) fn replay(
         }
     };
     let points = points.into_iter().map(|mut point| {
-        let mut doubles = numeric::rounded(&point);
         // An angle may stand in a sum, such as θ + π/4, whose sine is no fraction.
-        with_angles(&mut doubles);
+        let mut doubles = with_angles(&numeric::rounded(&point));
         symbols_at(scene, meanings, &mut point, numeric::solve_exact);
         symbols_at(scene, meanings, &mut doubles, numeric::solve_f64);
         (point, doubles)
@@ -81,14 +81,6 @@ pub(super) fn needed(
     needed
 }
 
-/// Gives the angles that are known by their directions their values.
-fn with_angles(point: &mut Point<f64>) {
-    for (name, (divisor, [cos, sin])) in &point.directions {
-        let angle = f64::from(*divisor) * sin.atan2(*cos);
-        point.values.entry(name.clone()).or_insert(angle);
-    }
-}
-
 /// Puts points, exact and in doubles, into both sides of every claim.
 pub(super) fn compare(
     points: Vec<(Point<Rational>, Point<f64>)>,
@@ -99,8 +91,8 @@ pub(super) fn compare(
     let mut held: BTreeSet<usize> = BTreeSet::new();
     let mut rounded: BTreeSet<usize> = BTreeSet::new();
     let mut failed: BTreeMap<usize, String> = BTreeMap::new();
-    for (mut point, mut doubles) in points {
-        with_angles(&mut doubles);
+    for (mut point, doubles) in points {
+        let mut doubles = with_angles(&doubles);
         for (i, claim) in claims.iter().enumerate() {
             if let Some(name) = &claim.defines
                 && matches!(meanings.get(name), Some(Meaning::Defined))

@@ -122,9 +122,9 @@ fn enclosed<const BITS: u32>(
     let Ok(numbers) = given(scene, &at) else {
         return Ok(None);
     };
-    let mut known = true;
-    numbers.map(|v| known &= matches!(v, Outcome::Value(_)));
     let system = assemble(&numbers);
+    let mut entries = system.matrix.iter().chain(&system.right);
+    let known = entries.all(|v| matches!(v, Outcome::Value(_)));
     let solution = match part {
         None => eliminate(&system).map(Solution::determined),
         Some(part) => solve_part(&system, part),

@@ -196,6 +196,17 @@ pub fn rounded(point: &Point<Rational>) -> Point<f64> {
     Point { values, directions }
 }
 
+/// The same point, in which angles that are known by their direction only have their value between −π and π, times the
+/// divisor.
+pub fn with_angles(point: &Point<f64>) -> Point<f64> {
+    let mut out = point.clone();
+    for (name, (divisor, [c, s])) in &point.directions {
+        let whole = s.atan2(*c) * f64::from(*divisor);
+        out.values.entry(name.clone()).or_insert(whole);
+    }
+    out
+}
+
 /// (cos φ, sin φ) for t = tan(φ/2).
 pub fn circle_point(t: &Rational) -> [Rational; 2] {
     let square = t * t;

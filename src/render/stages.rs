@@ -7,8 +7,8 @@ use serde_json::{Map, Value, json};
 use crate::expr::Point;
 use crate::numeric::Answer;
 use crate::numeric::follow::{
-    BodyState, Breach, Component, Followed, Impact, Impulse, Lost, Moved, Passed, Unanswered, What,
-    answer,
+    BodyState, Breach, Component, Followed, Impact, Impulse, Loss, Lost, Moved, Passed, Unanswered,
+    What, answer,
 };
 use crate::numeric::given::Freedom;
 use crate::scene::Scene;
@@ -237,12 +237,12 @@ pub fn json(scene: &Scene, followed: &Followed, at: &Point<f64>) -> Value {
 }
 
 fn lost_kind(lost: &Lost) -> &'static str {
-    match lost {
-        Lost::Contradiction { .. } => "contradiction",
-        Lost::NeverEnds { .. } => "never ends",
-        Lost::OutOfReach { .. } => "not followed",
-        Lost::Undefined { .. } => "no value",
-        Lost::After { .. } => "after one that was lost",
+    match lost.why {
+        Loss::Contradiction(_) => "contradiction",
+        Loss::NeverEnds(_) => "never ends",
+        Loss::OutOfReach(_) => "not followed",
+        Loss::Undefined(_) => "no value",
+        Loss::After(_) => "after one that was lost",
     }
 }
 

@@ -14,7 +14,7 @@ use crate::dimension::Dimension;
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::formula::Relation;
 use crate::numeric::Answer as Found;
-use crate::numeric::follow::{self, BodyState, Component, Followed, Lost, Passed, What};
+use crate::numeric::follow::{self, BodyState, Component, Followed, Loss, Lost, Passed, What};
 use crate::scene::{Ask, ContactLaw, FrictionEvent, Mode, Question, Scene};
 
 /// Points at which each way through the cases is followed.
@@ -238,7 +238,7 @@ impl Compared {
 impl Second<'_> {
     /// Whether the second way found a contradiction wherever it was tried.
     fn contradicts(&self) -> bool {
-        let is_one = |lost: &Lost| matches!(lost, Lost::Contradiction { .. });
+        let is_one = |lost: &Lost| matches!(lost.why, Loss::Contradiction(_));
         self.points.is_empty() && !self.lost.is_empty() && self.lost.iter().all(is_one)
     }
 

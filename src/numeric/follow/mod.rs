@@ -32,100 +32,30 @@
 mod answer;
 mod impact;
 mod least;
+mod lost;
 mod mechanism;
 mod motion;
 mod outline;
+mod state;
 mod wind;
 
 #[cfg(test)]
 mod tests;
 
 use std::collections::BTreeSet;
-use std::fmt;
 
-use super::given::{Freedom, GivenBody, Reason, Undefined, value};
-use super::points::{self, Needed, needed};
+use super::given::{Freedom, Reason, Undefined, value};
+use super::points::{self, Needed, needed, with_angles};
 use crate::expr::{Expr, Point, Symbol, Vector};
 use crate::scene::{FallEnd, Scene, SlideEnd, Stage, StageKind, Until};
 
 pub use answer::{Unanswered, answer};
 pub use impact::{Breach, Impact, Impulse, Opening};
+pub use lost::{Loss, Lost};
 pub(in crate::numeric) use mechanism::integrated;
 pub use motion::{Moved, Sample};
 pub use outline::Solid;
-
-/// A component of the motion, or why it has no value.
-pub type Component = Result<f64, Open>;
-
-/// Why a component has no value.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Open {
-    /// Name of the stage that left it open.
-    pub stage: String,
-    /// What left it open.
-    pub why: Why,
-}
-
-/// What leaves a component open.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Why {
-    /// The laws of the impact allow several values.
-    Laws,
-    /// Several sets of supports and strings fit, with different motions.
-    Supports,
-    /// It needs a component that was open before.
-    Needed,
-    /// The stage takes a time that is not known.
-    Time,
-    /// Gravity or a force acts in the stage, and what acts on this body is not said.
-    Forces,
-    /// Joined to a body that moves on, and not said to move along.
-    Joined,
-    /// It grows beyond bounds as the pole becomes thinner.
-    Pole,
-    /// The body is balanced, and the push that sets it going decides.
-    Push,
-}
-
-impl fmt::Display for Open {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let stage = &self.stage;
-        match self.why {
-            Why::Laws => write!(f, "not determined by the laws of `{stage}`"),
-            Why::Supports => write!(f, "several sets of supports fit in `{stage}`"),
-            Why::Needed => write!(f, "`{stage}` needs what is open before it"),
-            Why::Time => write!(f, "`{stage}` takes a time that is not known"),
-            Why::Forces => write!(f, "what acts on it during `{stage}` is not said"),
-            Why::Joined => write!(f, "joined to a body that moves on in `{stage}`"),
-            Why::Pole => write!(f, "the thinner the pole in `{stage}`, the more it grows"),
-            Why::Push => write!(f, "depends on the push that begins `{stage}`"),
-        }
-    }
-}
-
-/// How one body stands and moves.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BodyState {
-    /// Center of mass G \[m\].
-    pub center: [Component; 2],
-    /// Orientation as in [`crate::scene::Body::angle`] \[rad\]; as the file has it for a particle.
-    pub angle: Component,
-    /// Velocity of G [m/s].
-    pub velocity: [Component; 2],
-    /// Angular velocity [rad/s], counterclockwise; 0 for a particle, which has none.
-    pub spin: Component,
-    /// Whether it has taken part in an impact or a motion.
-    pub has_begun: bool,
-}
-
-/// How all bodies stand and move.
-#[derive(Clone, Debug, PartialEq)]
-pub struct State {
-    /// The bodies, in the scene's order.
-    pub bodies: Vec<BodyState>,
-    /// Bodies that a sticking contact or a hinge of the last impact joins.
-    pub joined: Vec<[usize; 2]>,
-}
+pub use state::{BodyState, Component, Open, State, Why, kinetic};
 
 /// A stage that was followed to its end.
 #[derive(Clone, Debug)]
@@ -152,73 +82,6 @@ pub enum What {
     /// Bodies moved.
     Motion(Moved),
 }
-
-/// Why a stage was not followed to its end.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Lost {
-    /// Its laws, or the motion it begins with, contradict each other.
-    Contradiction {
-        /// Name of the stage.
-        stage: String,
-        /// What cannot hold, in words.
-        reason: String,
-    },
-    /// The motion never gets to its end.
-    NeverEnds {
-        /// Name of the stage.
-        stage: String,
-        /// What happens instead, in words.
-        reason: String,
-    },
-    /// A limit of the calculation was met, so that nothing is known.
-    OutOfReach {
-        /// Name of the stage.
-        stage: String,
-        /// The limit, in words.
-        reason: String,
-    },
-    /// A formula of the stage has no value at the point.
-    Undefined {
-        /// Name of the stage.
-        stage: String,
-        /// The quantity.
-        quantity: Undefined,
-    },
-    /// The stage before was lost.
-    After {
-        /// Name of the stage.
-        stage: String,
-        /// Name of the stage that was lost.
-        lost: String,
-    },
-}
-
-impl Lost {
-    /// Name of the stage.
-    pub fn stage(&self) -> &str {
-        match self {
-            Lost::Contradiction { stage, .. }
-            | Lost::NeverEnds { stage, .. }
-            | Lost::OutOfReach { stage, .. }
-            | Lost::Undefined { stage, .. }
-            | Lost::After { stage, .. } => stage,
-        }
-    }
-}
-
-impl fmt::Display for Lost {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Lost::Contradiction { reason, .. } => write!(f, "a contradiction: {reason}"),
-            Lost::NeverEnds { reason, .. } => write!(f, "it never gets to its end: {reason}"),
-            Lost::OutOfReach { reason, .. } => write!(f, "not followed: {reason}"),
-            Lost::Undefined { quantity, .. } => write!(f, "{quantity}"),
-            Lost::After { lost, .. } => write!(f, "`{lost}` before it does not get to its end"),
-        }
-    }
-}
-
-impl std::error::Error for Lost {}
 
 /// A scene, followed from its beginning to the end of every stage.
 #[derive(Clone, Debug)]
@@ -259,9 +122,9 @@ pub fn follow(scene: &Scene, values: &Point<f64>) -> Result<Followed, Undefined>
             None => changed(stage, &start, &values),
             Some(j) => match &stages[j] {
                 Ok(passed) => Ok(passed.after.clone()),
-                Err(_) => Err(Lost::After {
+                Err(_) => Err(Lost {
                     stage: stage.name.clone(),
-                    lost: scene.stages[j].name.clone(),
+                    why: Loss::After(scene.stages[j].name.clone()),
                 }),
             },
         };
@@ -411,32 +274,27 @@ impl Course<'_> {
         }
     }
 
-    fn contradiction(&self, reason: impl Into<String>) -> Lost {
-        Lost::Contradiction {
+    fn lost(&self, why: Loss) -> Lost {
+        Lost {
             stage: self.name.into(),
-            reason: reason.into(),
+            why,
         }
+    }
+
+    fn contradiction(&self, reason: impl Into<String>) -> Lost {
+        self.lost(Loss::Contradiction(reason.into()))
     }
 
     fn never(&self, reason: impl Into<String>) -> Lost {
-        Lost::NeverEnds {
-            stage: self.name.into(),
-            reason: reason.into(),
-        }
+        self.lost(Loss::NeverEnds(reason.into()))
     }
 
     fn out_of_reach(&self, reason: impl Into<String>) -> Lost {
-        Lost::OutOfReach {
-            stage: self.name.into(),
-            reason: reason.into(),
-        }
+        self.lost(Loss::OutOfReach(reason.into()))
     }
 
     fn undefined(&self, quantity: Undefined) -> Lost {
-        Lost::Undefined {
-            stage: self.name.into(),
-            quantity,
-        }
+        self.lost(Loss::Undefined(quantity))
     }
 
     fn number(&self, e: &Expr, what: &str) -> Result<f64, Lost> {
@@ -462,82 +320,6 @@ impl Course<'_> {
             what,
         }
     }
-}
-
-/// Kinetic energy of one body, or of all that are not fixed \[J\].
-pub fn kinetic(solids: &[Solid], state: &State, of: Option<usize>) -> Component {
-    let mut total = 0.0;
-    for (b, (solid, body)) in solids.iter().zip(&state.bodies).enumerate() {
-        if solid.freedom == Freedom::Fixed || of.is_some_and(|o| o != b) {
-            continue;
-        }
-        if solid.mass > 0.0 {
-            for v in &body.velocity {
-                total += 0.5 * solid.mass * v.clone()?.powi(2);
-            }
-        }
-        if solid.freedom == Freedom::Rigid && solid.inertia > 0.0 {
-            total += 0.5 * solid.inertia * body.spin.clone()?.powi(2);
-        }
-    }
-    Ok(total)
-}
-
-impl BodyState {
-    /// The six components: place, angle, velocity, spin.
-    pub fn components(&self) -> [&Component; 6] {
-        let [x, y] = &self.center;
-        let [u, v] = &self.velocity;
-        [x, y, &self.angle, u, v, &self.spin]
-    }
-
-    /// Place, angle, velocity and spin where all are known.
-    fn known(&self) -> Result<[f64; 6], Open> {
-        let mut out = [0.0; 6];
-        for (out, component) in out.iter_mut().zip(self.components()) {
-            *out = component.clone()?;
-        }
-        Ok(out)
-    }
-
-    fn set(&mut self, [x, y, angle, u, v, spin]: [f64; 6]) {
-        self.center = [Ok(x), Ok(y)];
-        self.angle = Ok(angle);
-        self.velocity = [Ok(u), Ok(v)];
-        self.spin = Ok(spin);
-    }
-
-    /// Leaves every component open.
-    fn leave_open(&mut self, open: &Open) {
-        let open = || Err(open.clone());
-        self.center = [open(), open()];
-        self.angle = open();
-        self.velocity = [open(), open()];
-        self.spin = open();
-    }
-
-    /// The body in numbers as an impact takes it, open velocities as zero.
-    fn given(&self, solid: &Solid) -> GivenBody<f64> {
-        let number = |c: &Component| c.clone().unwrap_or(0.0);
-        GivenBody {
-            freedom: solid.freedom,
-            mass: solid.mass,
-            inertia: solid.inertia,
-            center: [number(&self.center[0]), number(&self.center[1])],
-            velocity: [number(&self.velocity[0]), number(&self.velocity[1])],
-            spin: number(&self.spin),
-        }
-    }
-}
-
-/// Angles that are known by their direction only get their value between −π and π, times the divisor.
-fn with_angles(values: &Point<f64>) -> Point<f64> {
-    let mut out = values.clone();
-    for (name, (divisor, [c, s])) in &values.directions {
-        let whole = s.atan2(*c) * f64::from(*divisor);
-        out.values.entry(name.clone()).or_insert(whole);
-    }
-    out
 }
 
 /// A value, where it is a number that can be reckoned with.
@@ -586,9 +368,9 @@ fn start(scene: &Scene, solids: &[Solid], at: &Point<f64>) -> Result<State, Unde
 /// The beginning, with what a stage has otherwise.
 fn changed(stage: &Stage, start: &State, at: &Point<f64>) -> Result<State, Lost> {
     let mut state = start.clone();
-    let lost = |quantity| Lost::Undefined {
+    let lost = |quantity| Lost {
         stage: stage.name.clone(),
-        quantity,
+        why: Loss::Undefined(quantity),
     };
     for (body, velocity, spin) in &stage.start {
         let name = &stage.scene.bodies[*body].name;

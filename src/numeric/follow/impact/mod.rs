@@ -10,7 +10,7 @@ mod outcome;
 mod posed;
 mod tried;
 
-use super::{BodyState, Component, Course, Lost, Open, State};
+use super::{BodyState, Component, Course, Loss, Lost, Open, State};
 use crate::numeric::given::{Freedom, Given};
 use crate::scene::{Mode, OneSided};
 use tried::Tried;
@@ -86,7 +86,7 @@ pub(super) fn impact(
     let mut refused = None;
     for set in sets(one_sided, supposed) {
         match table.tried(course, set) {
-            Err(lost @ Lost::Contradiction { .. }) => refused = Some(lost),
+            Err(lost) if matches!(lost.why, Loss::Contradiction(_)) => refused = Some(lost),
             Err(lost) => return Err(lost),
             Ok(tried) if supposed.is_some() => fitting.push(tried),
             Ok(tried) => match table.fits(&tried) {

@@ -126,11 +126,20 @@ fn every_stage_of_a_random_course_obeys_laws_it_did_not_use() {
         for (k, (stage, kind)) in followed.stages.iter().zip(&kinds).enumerate() {
             let passed = match stage {
                 Ok(passed) => passed,
-                Err(Lost::NeverEnds { .. } | Lost::After { .. }) => break,
+                Err(Lost {
+                    why: Loss::NeverEnds(_) | Loss::After(_),
+                    ..
+                }) => break,
                 // At rest and without weight nothing says which way a body turns.
-                Err(Lost::Contradiction { .. }) if matches!(kind, Kind::Turn { .. }) => break,
+                Err(Lost {
+                    why: Loss::Contradiction(_),
+                    ..
+                }) if matches!(kind, Kind::Turn { .. }) => break,
                 // A formula that needs a place which is open has no value.
-                Err(Lost::Undefined { .. }) if k > 0 => break,
+                Err(Lost {
+                    why: Loss::Undefined(_),
+                    ..
+                }) if k > 0 => break,
                 Err(lost) => panic!("seed {seed}, stage {k}: {lost}\n{text}"),
             };
             if let (true, Ok(last)) = (k > 0, &followed.stages[k.saturating_sub(1)]) {
