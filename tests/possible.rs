@@ -11,7 +11,7 @@ use carom::{derive, render, verify};
 /// Parameters that every scene of the table may use.
 const PARAMETERS: &str = r#""m": {"unit": "kg"}, "M": {"unit": "kg"}, "I": {"unit": "kg m^2"}, "l": {"unit": "m"}, "d": {"unit": "m"},
     "a": {"unit": "m"}, "b": {"unit": "m"}, "h": {"unit": "m"}, "r": {"unit": "m"}, "v": {"unit": "m/s"}, "u": {"unit": "m/s"},
-    "e": {"domain": {"min": 0, "max": 1}}"#;
+    "g": {"unit": "m/s^2"}, "e": {"domain": {"min": 0, "max": 1}}"#;
 
 struct Row {
     verdict: String,
@@ -103,6 +103,30 @@ fn every_scene_of_the_table_is_judged_as_it_says() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn stories_that_cannot_happen_are_told_as_such() {
+    let text = fs::read_to_string("tests/possible/stories.tsv").expect("the table");
+    for line in text.lines().filter(|l| !l.starts_with('#')) {
+        let cells: Vec<&str> = line.split('\t').collect();
+        let [told, values, scene, reason] = cells[..] else {
+            panic!("four cells a row: {line}");
+        };
+        let row = Row {
+            verdict: String::new(),
+            at_values: String::new(),
+            told: told.into(),
+            values: values.into(),
+            scene: scene.into(),
+            reason: reason.into(),
+        };
+        let scene = read(&row).unwrap_or_else(|fault| panic!("{reason}: {fault}"));
+        let found = carom::story::tell(&scene).unwrap_or_else(|stop| panic!("{reason}: {stop}"));
+        let said = found.refusals();
+        let said = said.first().map_or("-", String::as_str);
+        assert_eq!((said, found.holds()), (told, told == "-"), "{reason}");
+    }
 }
 
 /// A motion of the plane that turns right angles into right angles, exact in formulas.

@@ -10,7 +10,7 @@ use num_integer::Integer;
 use super::Check;
 use crate::algebra::{Element, Field, Powers, Sign, Stop};
 use crate::domain::{Domain, Domains, roles, samples};
-use crate::expr::{Expr, Function, Node, Symbol};
+use crate::expr::{Expr, Function, Node, Point, Symbol};
 use crate::formula::{Sentence, sentence};
 use crate::interval::{Interval, Outcome, evaluate};
 
@@ -39,6 +39,15 @@ impl Seen {
     /// Below zero, proved or seen.
     pub fn is_negative(self) -> bool {
         matches!(self, Seen::Proved(Sign::Negative) | Seen::Negative)
+    }
+
+    /// Whether it is above zero, or below, wherever it is not zero; `None` where that is not proved.
+    pub fn side(self) -> Option<bool> {
+        match self {
+            Seen::Proved(Sign::Positive | Sign::NotNegative) => Some(true),
+            Seen::Proved(Sign::Negative | Sign::NotPositive) => Some(false),
+            _ => None,
+        }
     }
 
     /// Whether it is proved.
@@ -108,7 +117,19 @@ pub fn sign(e: &Expr, domains: &Domains) -> Seen {
     {
         return Seen::Proved(sign);
     }
-    seen(e, domains)
+    constant(e).map_or_else(|| seen(e, domains), Seen::Proved)
+}
+
+/// The sign of a formula without symbols, such as cos(π/18) − 0.98: its enclosure proves it.
+pub fn constant(e: &Expr) -> Option<Sign> {
+    if !e.is_constant() {
+        return None;
+    }
+    match evaluate::<Interval>(e, &Point::default()) {
+        Outcome::Value(v) if v.low > 0.0 => Some(Sign::Positive),
+        Outcome::Value(v) if v.high < 0.0 => Some(Sign::Negative),
+        _ => None,
+    }
 }
 
 /// The sign at points of the domain, by enclosures.

@@ -414,13 +414,8 @@ fn by_taylor(of: &Expr, p: &Symbol, to: &Expr, domains: &Domains) -> Option<Foun
     } else if side == Side::Both && series.lowest % 2 != 0 {
         Tends::Apart
     } else {
-        let seen = sign(lead, domains);
         let turned = side == Side::Below && series.lowest % 2 != 0;
-        if !seen.is_proved() {
-            Tends::Beyond(None)
-        } else {
-            Tends::Beyond(Some(seen.is_positive() != turned))
-        }
+        Tends::Beyond(sign(lead, domains).side().map(|above| above != turned))
     };
     let how = match series.lowest {
         0.. => "found from the lowest powers of numerator and denominator there",
@@ -499,8 +494,7 @@ fn by_powers(of: &Expr, p: &Symbol, at_infinity: bool, domains: &Domains) -> Opt
         std::cmp::Ordering::Equal => Tends::To(ratio),
         std::cmp::Ordering::Less => {
             given.extend(not_zero(&above, &domains));
-            let seen = sign(&ratio, &domains);
-            Tends::Beyond(seen.is_proved().then(|| seen.is_positive()))
+            Tends::Beyond(sign(&ratio, &domains).side())
         }
     };
     Some(Found {

@@ -257,6 +257,11 @@ pub(super) fn beside(
             } else {
                 number
             };
+            // Where the value lies at the end or beyond, there is nothing on this side of it.
+            let inside = essential(&(Expr::from(way) * (&number - value)), &domains);
+            if sign(&inside, &domains) == Seen::Mixed {
+                domains = domains.given(&inside, false);
+            }
             &Expr::ratio(1, 2) * &(value + &number)
         }
         None if way > 0 && sign(value, &domains).is_positive() => Expr::from(2) * value.clone(),

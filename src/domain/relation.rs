@@ -30,6 +30,18 @@ impl Relation {
 }
 
 impl Domains {
+    /// The same with something that is positive besides, or not negative where `closed`.
+    pub fn given(&self, excess: &Expr, closed: bool) -> Domains {
+        let mut domains = self.clone();
+        domains.relations.push(Relation {
+            sides: [Expr::zero(), excess.clone()],
+            excess: excess.clone(),
+            closed,
+            words: String::new(),
+        });
+        domains
+    }
+
     /// The relations that bear upon some symbols, directly or through each other.
     pub fn relations_of(&self, symbols: &BTreeSet<Symbol>) -> Vec<&Relation> {
         let mut reached = symbols.clone();

@@ -137,14 +137,24 @@ pub fn set(scene: &mut Scene, name: &str, value: &str) -> Result<(), Fault> {
     if let Some(domain) = scene.domains.symbols.get(&parameter.name) {
         parameters::lies_in(name, &read, domain).map_err(|message| Fault::new(all, message))?;
     }
-    let before = scene.parameters[index].value.replace(read);
+    let name = parameter.name.clone();
+    let before = put(scene, &name, Some(read));
     match check::at_values(scene, all) {
         None => Ok(()),
         Some(fault) => {
-            scene.parameters[index].value = before;
+            put(scene, &name, before);
             Err(fault)
         }
     }
+}
+
+/// Gives a parameter its value, in the scenes of the stages too. Gives the value it had.
+fn put(scene: &mut Scene, name: &Symbol, value: Option<Expr>) -> Option<Expr> {
+    for stage in &mut scene.stages {
+        put(&mut stage.scene, name, value.clone());
+    }
+    let parameter = scene.parameters.iter_mut().find(|p| p.name == *name)?;
+    std::mem::replace(&mut parameter.value, value)
 }
 
 /// What is wrong with the values now given taken together, such as a relation that they break. The fault has no place.

@@ -18,8 +18,11 @@ const CLOSE: f64 = 1e-7;
 
 /// Most points drawn to find some that keep to the relations.
 const DRAWS: u64 = 2000;
+/// Their square and cube roots are independent, so that the points of a sequence of their multiples fill a box of all symbols
+/// (Kronecker).
+const PRIMES: [u32; 16] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53];
 
-/// Points of the domain in doubles for some symbols: every symbol at its own golden fraction of the interval, the same on
+/// Points of the domain in doubles for some symbols: every symbol at its own irrational fraction of the interval, the same on
 /// every machine; of these, points that keep to the relations.
 pub(super) fn points_of(
     mut names: BTreeSet<Symbol>,
@@ -28,12 +31,13 @@ pub(super) fn points_of(
 ) -> Vec<Point<f64>> {
     let bearing = domains.relations_of(&names);
     names.extend(bearing.iter().flat_map(|r| r.excess.symbols()));
-    let value = |name: &Symbol, k: u64, seed: u64| {
+    let value = |name: &Symbol, k: usize, seed: u64| {
         let domain = domains.symbols.get(name);
+        let prime = f64::from(PRIMES[k % PRIMES.len()]);
         let fraction =
-            (0.618_033_988_75 * (k + 1) as f64 + 0.381_7 * seed as f64).fract() * 0.9 + 0.05;
+            (0.618_033_988_75 * (k + 1) as f64 + prime.sqrt() * seed as f64).fract() * 0.9 + 0.05;
         // Later points are of all sizes: a motion may get to its end only where something is large.
-        let size = (0.754_877_666 * (k + 1) as f64 + 0.569_840_291 * seed as f64).fract();
+        let size = (0.754_877_666 * (k + 1) as f64 + prime.cbrt() * seed as f64).fract();
         let size = match seed {
             0..=ORDINARY => 1.0,
             _ => 10f64.powf(6.0 * size - 3.0),

@@ -19,11 +19,13 @@ use std::collections::BTreeMap;
 
 pub use sheet::{beginning, impact, impacts, is_clockwise, sheet};
 
+use crate::algebra::Sign;
+use crate::answer::calc::{at_least_zero, constant};
 use crate::answer::{Answer, Check, Refused};
 use crate::derive::{Derivation, Stop};
 use crate::domain::Domain;
 use crate::expr::{Expr, Symbol, Vector, minus};
-use crate::formula::Sentence;
+use crate::formula::{Sentence, write_plain};
 use crate::scene::{Ask, ContactLaw, Scene, Stage, StageKind, direction};
 use crate::verify::Proof;
 use crate::verify::possible::Possible;
@@ -310,7 +312,12 @@ impl Told {
                 name => format!("{name}: {refusal}"),
             })
         });
-        all.collect()
+        let motions = self.stages.iter().flat_map(|s| {
+            let failed = s.checks.iter();
+            let failed = failed.filter(|c| c.kind == second::POSSIBLE && c.holds == Some(false));
+            failed.map(|c| format!("{}: not possible: {}", s.name, c.words))
+        });
+        all.chain(motions).collect()
     }
 
     /// Whether no check failed, and no laws contradict each other.
@@ -370,7 +377,7 @@ pub fn tell(scene: &Scene) -> Result<Told, Refused> {
                     .symbols
                     .insert(open.clone(), Domain::real());
             }
-            let mut told = match one(scene, &stages, &placed, before) {
+            let mut told = match one(scene, &stages, &placed, (before, &given)) {
                 Ok(told) => told,
                 Err(why) if why.contradicts => {
                     ended.push(why);
@@ -378,6 +385,7 @@ pub fn tell(scene: &Scene) -> Result<Told, Refused> {
                 }
                 Err(why) => return Err(why),
             };
+            told.checks.extend(at_values(scene, &told));
             told.branch = branch;
             told.given = given;
             if let Some((parent, case)) = branch
@@ -400,6 +408,23 @@ pub fn tell(scene: &Scene) -> Result<Told, Refused> {
     let mut told = answer::all(scene, stages)?;
     told.ended = ended;
     Ok(told)
+}
+
+/// What a motion needs and the given values do not keep to.
+fn at_values(scene: &Scene, told: &StageTold) -> Option<Check> {
+    let given = scene.parameters.iter();
+    let given = given.filter_map(|p| Some((p.name.clone(), p.value.clone()?)));
+    let given: BTreeMap<Symbol, Expr> = given.collect();
+    let fails = |e: &&Expr| constant(&e.substitute(&given)) == Some(Sign::Negative);
+    let broken = told.needs.iter().find(fails)?;
+    let need = at_least_zero(broken, &scene.domains).written(write_plain);
+    Some(Check {
+        kind: second::POSSIBLE,
+        words: format!(
+            "it goes on as told only where {need}, and that is not so at the given values"
+        ),
+        holds: Some(false),
+    })
 }
 
 type Beginning = (Option<(usize, usize)>, State, Vec<(String, Expr)>);
@@ -426,12 +451,12 @@ fn beginnings(stage: &Stage, stages: &[StageTold], told_as: &[Vec<usize>]) -> Ve
     out
 }
 
-/// One stage, from a state.
+/// One stage, from a state and what must be ≥ 0 on the way there.
 fn one(
     scene: &Scene,
     stages: &[StageTold],
     stage: &Stage,
-    before: State,
+    (before, given): (State, &[(String, Expr)]),
 ) -> Result<StageTold, Refused> {
     if !stage.kind.moved().is_empty() {
         if let Some(open) = motion::open(stage, before.clone()) {
@@ -445,7 +470,7 @@ fn one(
             supposed,
         } => {
             let named = named(scene, stages);
-            impact::tell(stage, before, one_sided, supposed.as_deref(), &named)
+            impact::tell(stage, before, one_sided, supposed.as_deref(), &named, given)
         }
         StageKind::Turn(turn) => motion::turn(stage, before, turn),
         StageKind::Slide(slide) => motion::slide(stage, before, slide),

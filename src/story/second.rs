@@ -19,12 +19,15 @@ use crate::scene::{Ask, ContactLaw, FrictionEvent, Mode, Question, Scene};
 
 /// Points at which each way through the cases is followed.
 const POINTS: usize = 2;
-/// Points that are tried to find them.
-const TRIED: usize = 40;
+/// Points that are tried to find them, and points of which those are tried where what is told should happen.
+const TRIED: [usize; 2] = [40, 1000];
 /// Difference that counts as agreement, in parts of the largest quantity of its kind; the integrator works to 1e-12.
 const CLOSE: f64 = 1e-7;
 /// How far from a threshold its sides are looked at, in parts of it.
 const ASIDE: f64 = 1e-3;
+
+/// The kind of check that tells whether a motion can be.
+pub(super) const POSSIBLE: &str = "possible";
 
 /// A scene followed at some points.
 pub(super) struct Second<'a> {
@@ -70,8 +73,13 @@ pub(super) fn look<'a>(scene: &'a Scene, worlds: &[World], stages: &[StageTold])
     }
     let is_whole = names.iter().all(|name| own.values.contains_key(name));
     let own = is_whole.then_some(own);
-    let random = points_of(names, &scene.domains, TRIED);
-    for point in own.into_iter().chain(random) {
+    let random = points_of(names, &scene.domains, TRIED[1]);
+    for (k, point) in own.into_iter().chain(random).enumerate() {
+        let is_wanted = |w: usize| out.points.iter().filter(|s| s.world == w).count() < POINTS;
+        let promises = |w: usize| is_wanted(w) && promises(&worlds[w], stages, &point);
+        if k > TRIED[0] && !(0..worlds.len()).any(promises) {
+            continue;
+        }
         let Ok(followed) = follow::follow(scene, &point) else {
             continue;
         };
@@ -95,6 +103,16 @@ pub(super) fn look<'a>(scene: &'a Scene, worlds: &[World], stages: &[StageTold])
         }
     }
     out
+}
+
+/// Whether all that a way through the cases needs is so at a point. What is followed there decides.
+fn promises(world: &World, stages: &[StageTold], point: &Point<f64>) -> bool {
+    let holds = |e: &Expr| e.evaluate(point).is_none_or(|v| v > 0.0);
+    world.outcome.iter().all(|(i, k)| {
+        let told = &stages[*i];
+        let conditions = told.cases.get(*k).into_iter().flat_map(|c| &c.conditions);
+        told.needs.iter().all(holds) && conditions.map(|(_, e)| e).all(holds)
+    })
 }
 
 /// The way through the cases that the second way takes by itself; `None` where it does not get to its end or lies on a
@@ -247,6 +265,30 @@ impl Second<'_> {
             (true, Some(lost)) => format!(" ({lost})"),
             _ => String::new(),
         }
+    }
+
+    /// Bodies that pass through each other in a stage: a failed check where they do at every point followed.
+    pub fn passage(&self, worlds: &[World], index: usize, told: &StageTold) -> Option<Check> {
+        let here = |seen: &&Seen| worlds[seen.world].outcome.contains_key(&index);
+        let all = self.points.iter().filter(here);
+        let all = all.filter_map(|seen| passed(self.scene, &seen.followed, told));
+        let all: Vec<&Passed> = all.collect();
+        let [a, b] = *all.iter().find_map(|p| p.passing.first())?;
+        let often = all.iter().filter(|p| p.passing.contains(&[a, b])).count();
+        let [a, b] = [a, b].map(|b| &self.scene.bodies[b].name);
+        let is_certain = often == all.len();
+        let words = match is_certain {
+            true => format!("`{a}` and `{b}` pass through each other on the way"),
+            false => format!(
+                "`{a}` and `{b}` pass through each other on the way at {often} of {} points",
+                all.len()
+            ),
+        };
+        Some(Check {
+            kind: POSSIBLE,
+            words,
+            holds: is_certain.then_some(false),
+        })
     }
 
     /// Holds places, angles, velocities, spins and times of a stage against what was followed.

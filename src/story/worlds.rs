@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use super::StageTold;
 use super::answer::number_case;
 use crate::answer::{Answer, Known, Refused};
-use crate::expr::Symbol;
+use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, sentence};
 use crate::scene::Scene;
 
@@ -41,7 +41,9 @@ pub(super) fn of(stages: &[StageTold]) -> Vec<World> {
                 for (k, case) in told.cases.iter().enumerate() {
                     let mut one = world.clone();
                     one.outcome.insert(i, k);
-                    let given = case.conditions.iter();
+                    // What an impact before needs is not said again.
+                    let known = |e: &Expr| told.given.iter().any(|(_, given)| given == e);
+                    let given = case.conditions.iter().filter(|(_, e)| !known(e));
                     one.given.extend(
                         given.map(|(why, e)| sentence![Sentence::not_negative(e), " (", why, ")"]),
                     );

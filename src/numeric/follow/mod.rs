@@ -15,7 +15,7 @@
 //! Nothing here comes from `laws`, `derive` or `algebra`, and of `scene` only what the file says of places, joints and
 //! motions: mass, center and moment of inertia are integrated over the outlines (`outline`), impacts are one linear system of
 //! all bodies and impulses (`impact`), one-sided supports are found by complementarity, motions are integrated in time
-//! from the equations of motion with their constraints (`mechanism`, `motion`, `wind`). No step uses energy, so that
+//! from the equations of motion with their constraints (`mechanism`, `motion`, `wind`; `passage` tells whether bodies pass through each other meanwhile). No step uses energy, so that
 //! energies can be held against it.
 //!
 //! A component that the laws leave open stays open, and so does what needs it. A scene without stages is one impact.
@@ -36,6 +36,7 @@ mod lost;
 mod mechanism;
 mod motion;
 mod outline;
+mod passage;
 mod state;
 mod wind;
 
@@ -70,6 +71,8 @@ pub struct Passed {
     pub after: State,
     /// Kinetic energy of all bodies that are not fixed, at the beginning and at the end \[J\].
     pub energy: [Component; 2],
+    /// Pairs of bodies that pass through each other on the way, by index.
+    pub passing: Vec<[usize; 2]>,
     /// What happened.
     pub what: What,
 }
@@ -128,7 +131,11 @@ pub fn follow(scene: &Scene, values: &Point<f64>) -> Result<Followed, Undefined>
                 }),
             },
         };
-        stages.push(before.and_then(|before| one(stage, &solids, before, &values)));
+        let mut passed = before.and_then(|before| one(stage, &solids, before, &values));
+        if let Ok(passed) = &mut passed {
+            passed.passing = passage::passing(scene, &solids, &values, passed);
+        }
+        stages.push(passed);
     }
     Ok(Followed { solids, stages })
 }
@@ -317,6 +324,7 @@ impl Course<'_> {
             energy: [&before, &after].map(|state| kinetic(self.solids, state, None)),
             before,
             after,
+            passing: Vec::new(),
             what,
         }
     }

@@ -48,10 +48,16 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
     }
     let each = stages.iter().enumerate();
     let checks: Vec<_> = each
-        .map(|(i, told)| second.stage(&worlds, i, told))
+        .map(|(i, told)| {
+            (
+                second.stage(&worlds, i, told),
+                second.passage(&worlds, i, told),
+            )
+        })
         .collect();
-    for (told, check) in stages.iter_mut().zip(checks) {
-        told.checks.push(check);
+    for (told, (followed, passage)) in stages.iter_mut().zip(checks) {
+        told.checks.push(followed);
+        told.checks.extend(passage);
     }
     let unused = unused(scene, &answers);
     Ok(Told {

@@ -1,13 +1,13 @@
 //! What is asked of a motion: its end, how long and how far it went, places, angular momenta, the force of a fixed point.
 
-use crate::answer::calc::{is_zero, tidy};
+use crate::answer::calc::{Seen, is_zero, sign, tidy};
 use crate::answer::{Answer, Check, Form, Refused};
 use crate::derive;
 use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::formula::{Sentence, sentence};
-use crate::scene::{Ask, EnergyWhen, Question, Scene, Stage, StageKind, Turn};
+use crate::scene::{Ask, EnergyWhen, Question, Scene, SlideEnd, Stage, StageKind, Turn};
 use crate::story::motion as stage;
 use crate::story::{StageTold, State};
 
@@ -74,9 +74,28 @@ pub(super) fn time(question: &Question, told: &StageTold) -> Answer {
 
 /// How far a motion along a line leads.
 pub(super) fn distance(question: &Question, told: &StageTold) -> Answer {
-    let words = format!("distance covered in `{}`", told.name);
+    let words = match turns_back(told) {
+        true => format!(
+            "displacement in `{}`, negative where it ends behind its beginning",
+            told.name
+        ),
+        false => format!("distance covered in `{}`", told.name),
+    };
     let value = (&told.way, "where it leads is open");
     measured(question, told, words, Dimension::new(0, 1, 0), value)
+}
+
+/// Whether friction may turn a body round before it rolls.
+fn turns_back(told: &StageTold) -> bool {
+    let StageKind::Slide(slide) = &told.placed.kind else {
+        return false;
+    };
+    let forward = |state: &State| {
+        let speed = dot(&state.velocity[slide.body], &slide.along);
+        let seen = sign(&speed, &told.placed.scene.domains);
+        seen.is_positive() || matches!(seen, Seen::Proved(s) if s.is_not_negative())
+    };
+    matches!(slide.until, SlideEnd::Rolls) && !(forward(&told.before) && forward(&told.after))
 }
 
 /// Where the center of mass of a body is at the beginning or end of a stage, along a direction.

@@ -10,7 +10,9 @@ mod outcome;
 pub(super) use outcome::acting;
 
 use incoming::{approach, hand_on, hinges_fit, touches};
-use outcome::{Active, ENERGY, case, gain, is_refuted, put_to_act, state_after};
+use outcome::{
+    Active, ENERGY, add_possible, case, fits, gain, is_refuted, put_to_act, state_after,
+};
 
 use super::{Case, Kept, Refused, StageTold, State};
 use crate::derive;
@@ -26,6 +28,7 @@ pub(super) fn tell(
     one_sided: &[OneSided],
     supposed: Option<&[String]>,
     named: &[(Symbol, Expr)],
+    given: &[(String, Expr)],
 ) -> Result<StageTold, Refused> {
     let mut base = stage.scene.clone();
     for (body, (v, w)) in base
@@ -74,7 +77,7 @@ pub(super) fn tell(
         cases = vec![cases.swap_remove(sure)];
     }
     if cases.len() > 1 {
-        cases.retain(|case| !is_refuted(&base, case, &handed));
+        cases.retain(|case| !is_refuted(&base, case, &handed) && fits(case, given, &base.domains));
     }
     if cases.is_empty() {
         let is_contradiction = contradiction.is_some();
@@ -97,14 +100,18 @@ pub(super) fn tell(
             ..Refused::new(&stage.name, reason, hint)
         });
     }
+    let mut places = Vec::new();
     for case in &mut cases {
         case.conditions.extend(approaching.iter().cloned());
+        places.extend(add_possible(case, &base.domains));
         case.after = state_after(stage, &before, case)?;
     }
     let after = cases[0].after.clone();
     let kept = kept(&base, one_sided, &cases);
     let mut assumptions: Vec<Sentence> = Vec::new();
-    for (words, e) in &cases[0].conditions {
+    places.sort_by(|a, b| a.1.cmp(&b.1));
+    places.dedup_by(|a, b| a.1 == b.1);
+    for (words, e) in cases[0].conditions.iter().chain(&places) {
         assumptions.push(sentence![Sentence::not_negative(e), " (", words, ")"]);
     }
     assumptions.extend(cases.iter().filter_map(|case| gain(&base, case)));

@@ -6,13 +6,14 @@ use crate::algebra::Sign;
 use crate::answer::Form;
 use crate::answer::calc::{Seen, essential, is_zero, sign, tidy};
 use crate::derive::{self, Derivation};
-use crate::domain::{Domains, Relation};
+use crate::domain::Domains;
 use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
 use crate::scene::{
     Ask, Contact, ContactLaw, EnergyWhen, Hypothesis, ImpulseAt, OneSided, Question, Scene, Stage,
 };
 use crate::story::{Case, Part, Refused, State};
+use crate::verify::possible::Rule;
 use crate::verify::{self, friction};
 
 /// Name of the question after the kinetic energy lost; no name of a scene has a blank at its end.
@@ -60,7 +61,7 @@ pub(super) fn case(
         let laws = derivation.counting.conflict.join("; ");
         return Err(derive::Stop::Contradiction(laws));
     }
-    let values = values_of(&derivation, handed);
+    let closed = values_of(&derivation, handed);
     // Each support or string acts or is left from the first to the last: what holds at the end holds where slip ends, too.
     let on_the_way = match &outcome.slip_ends {
         Some(scene) if !wanted.is_empty() => {
@@ -72,7 +73,7 @@ pub(super) fn case(
     };
     let mut conditions = Vec::new();
     for (i, (_, words)) in wanted.iter().enumerate() {
-        let Some(end) = amount(&values, &scene, active, i)? else {
+        let Some(end) = amount(&closed, &scene, active, i)? else {
             continue;
         };
         if set.contains(&i) && is_zero(&end, &scene.domains) == Some(true) && !is_supposed {
@@ -120,7 +121,8 @@ pub(super) fn case(
         return Ok(None);
     };
     let proof = verify::prove(&scene, &derivation);
-    let possible = verify::possible::judge(&scene, &derivation);
+    let mut possible = verify::possible::judge(&scene, &derivation);
+    possible.put(handed, &values(&scene), &scene.domains);
     Ok(Some(Case {
         possible,
         active: set.iter().map(|i| one_sided[*i].name.clone()).collect(),
@@ -207,23 +209,46 @@ fn independent(
     order.sort_by_key(|e| std::cmp::Reverse(e.size()));
     let short = order.iter().filter(|e| e.size() <= LONGEST);
     for e in short.filter(|_| order.len() > 1) {
-        let mut given = domains.clone();
         let others = conditions
             .iter()
             .filter(|(_, other)| other != e && other.size() <= LONGEST);
-        given.relations.extend(others.map(|(_, other)| Relation {
-            sides: [Expr::zero(), other.clone()],
-            excess: other.clone(),
-            closed: true,
-            words: String::new(),
-        }));
+        let given = others.fold(domains.clone(), |given, (_, other)| {
+            given.given(other, true)
+        });
         match sign(e, &given) {
             Seen::Proved(s) if s.is_not_negative() => conditions.retain(|(_, other)| other != e),
-            Seen::Proved(Sign::Negative) => return None,
+            // Where it only vanishes, at most a boundary is left.
+            Seen::Proved(Sign::Negative | Sign::NotPositive) => return None,
             _ => {}
         }
     }
     Some(conditions)
+}
+
+/// Whether the conditions of a case can hold beside those of the way that leads to it.
+pub(super) fn fits(case: &Case, given: &[(String, Expr)], domains: &Domains) -> bool {
+    let mut all: Vec<(String, Expr)> = given.to_vec();
+    all.extend(case.conditions.iter().cloned());
+    all.sort_by(|a, b| a.1.cmp(&b.1));
+    all.dedup_by(|a, b| a.1 == b.1);
+    independent(all, domains).is_some()
+}
+
+/// Adds what must hold so that a case is possible, where its conditions do not say it. Gives what must hold of places, whatever
+/// the case.
+pub(super) fn add_possible(case: &mut Case, domains: &Domains) -> Vec<(String, Expr)> {
+    let known = case.conditions.iter();
+    let known = known.fold(domains.clone(), |given, (_, e)| given.given(e, true));
+    let mut places = Vec::new();
+    for open in case.possible.open_within(&known) {
+        let Some(e) = &open.essential else { continue };
+        let into = match open.rule {
+            Rule::Place => &mut places,
+            _ => &mut case.conditions,
+        };
+        into.push((open.words.clone(), e.clone()));
+    }
+    places
 }
 
 /// Makes contacts of the supports and strings that act, and asks for what tells whether each one acts or is left: the question,

@@ -7,6 +7,7 @@ use num_traits::Signed;
 
 use super::{Condition, Verdict};
 use crate::algebra::{Field, Sign};
+use crate::answer::calc::constant;
 use crate::derive::Derivation;
 use crate::domain::{Domains, roles, samples};
 use crate::expr::{Expr, Node, Point, Rational, Scalar, Symbol};
@@ -58,7 +59,8 @@ pub(super) fn sign(e: &Expr, domains: &Domains) -> Option<Sign> {
     field.prepare([e]);
     let element = field.element(e).ok()?;
     let proved = field.assumptions().is_empty();
-    proved.then(|| field.sign(&element))?
+    let found = proved.then(|| field.sign(&element)).flatten();
+    found.or_else(|| constant(e))
 }
 
 /// Where an expression is not negative.

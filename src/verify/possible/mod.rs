@@ -143,6 +143,47 @@ impl Possible {
         reasons
     }
 
+    /// The conditions on parameters that a part of the domain does not keep to throughout.
+    pub fn open_within(&self, part: &Domains) -> Vec<&Condition> {
+        let breaks = |c: &&Condition| {
+            let essential = c.essential.as_ref();
+            essential.is_some_and(|e| decide(e, part).verdict == Verdict::Where)
+        };
+        let open = self.open().into_iter();
+        open.filter(|c| !c.is_equation).filter(breaks).collect()
+    }
+
+    /// Puts in what stands for the motion handed on by an earlier stage, and the given values.
+    pub fn put(
+        &mut self,
+        handed: &BTreeMap<Symbol, Expr>,
+        values: &BTreeMap<Symbol, Expr>,
+        domains: &Domains,
+    ) {
+        if handed.is_empty() {
+            return;
+        }
+        for condition in &mut self.conditions {
+            let Some(essential) = condition
+                .essential
+                .as_ref()
+                .filter(|_| !condition.is_equation)
+            else {
+                continue;
+            };
+            let outright = essential.substitute(handed);
+            let decided = decide(&outright, domains);
+            (condition.verdict, condition.essential) = (decided.verdict, decided.essential);
+            let number = outright.substitute(values);
+            if condition.at_values.is_none() && number.is_constant() {
+                let sign = decide::sign(&number, domains);
+                condition.at_values = sign.map(crate::algebra::Sign::is_not_negative);
+            }
+        }
+        decide::without_consequences(&mut self.conditions, domains);
+        (self.verdict, self.at_values) = concluded(&self.conditions, &self.not_judged);
+    }
+
     /// The conditions on parameters, each once.
     pub fn open(&self) -> Vec<&Condition> {
         let mut open: Vec<&Condition> = Vec::new();
@@ -493,22 +534,7 @@ impl Judge<'_> {
 
     fn outcome(mut self) -> Possible {
         decide::without_consequences(&mut self.conditions, &self.scene.domains);
-        let any = |v| self.conditions.iter().any(|c| c.verdict == v);
-        let open = any(Verdict::Undecided) || !self.not_judged.is_empty();
-        let verdict = match () {
-            () if any(Verdict::Nowhere) => Verdict::Nowhere,
-            () if any(Verdict::Where) => Verdict::Where,
-            () if open => Verdict::Undecided,
-            () => Verdict::Everywhere,
-        };
-        let known: Option<Vec<bool>> = self.conditions.iter().map(|c| c.at_values).collect();
-        let at_values = if self.conditions.iter().any(|c| c.at_values == Some(false)) {
-            Some(false)
-        } else {
-            known
-                .filter(|k| !k.is_empty())
-                .map(|k| k.into_iter().all(|held| held))
-        };
+        let (verdict, at_values) = concluded(&self.conditions, &self.not_judged);
         Possible {
             verdict,
             at_values,
@@ -517,6 +543,24 @@ impl Judge<'_> {
             notes: self.notes,
         }
     }
+}
+
+/// What conditions come to together, for symbols and at the given values.
+fn concluded(conditions: &[Condition], not_judged: &[String]) -> (Verdict, Option<bool>) {
+    let any = |v| conditions.iter().any(|c| c.verdict == v);
+    let open = any(Verdict::Undecided) || !not_judged.is_empty();
+    let verdict = match () {
+        () if any(Verdict::Nowhere) => Verdict::Nowhere,
+        () if any(Verdict::Where) => Verdict::Where,
+        () if open => Verdict::Undecided,
+        () => Verdict::Everywhere,
+    };
+    let known: Option<Vec<bool>> = conditions.iter().map(|c| c.at_values).collect();
+    let at_values = match conditions.iter().any(|c| c.at_values == Some(false)) {
+        true => Some(false),
+        false => known.filter(|k| !k.is_empty()).map(|_| true),
+    };
+    (verdict, at_values)
 }
 
 /// Whether an expression is zero on the whole domain, by its normal form.

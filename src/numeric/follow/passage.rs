@@ -1,0 +1,286 @@
+//! Bodies that pass through each other during a motion: the equations of motion do not know that, their outlines do.
+//!
+//! In: the file's bodies, and a motion with samples. Out: the pairs of bodies that are apart when it begins and in each other on
+//! the way. Bodies that a hinge, a sticking contact or a linkage joins at any time may overlap; so may those that do when the
+//! stage begins.
+
+use super::{Component, Passed, Solid, What, finite, finite_pair};
+use crate::expr::{Expr, Point};
+use crate::numeric::given::Undefined;
+use crate::scene::{Body, ContactLaw, Scene, Shape, Stage, StageKind};
+
+/// Places looked at between two samples.
+const BETWEEN: usize = 24;
+/// Bodies that are in each other by less than this share of what is at hand only touch.
+const TOUCH: f64 = 1e-4;
+
+/// A rectangle with round corners: a disk has no sides, a rod no height, a particle neither.
+struct Piece {
+    /// Its middle, from the body's center, as the file puts the body \[m\].
+    at: [f64; 2],
+    /// Half its sides \[m\].
+    half: [f64; 2],
+    /// Direction of the first side, as the file puts the body \[rad\].
+    angle: f64,
+    /// How far the outline lies around the rectangle \[m\].
+    radius: f64,
+}
+
+/// A piece where its body has come to.
+struct Placed<'a> {
+    piece: &'a Piece,
+    at: [f64; 2],
+    /// Unit vectors along the sides.
+    axes: [[f64; 2]; 2],
+}
+
+/// The pairs of bodies that pass through each other in a stage.
+pub(super) fn passing(
+    scene: &Scene,
+    solids: &[Solid],
+    values: &Point<f64>,
+    passed: &Passed,
+) -> Vec<[usize; 2]> {
+    let What::Motion(moved) = &passed.what else {
+        return Vec::new();
+    };
+    let Some(last) = moved.samples.last().filter(|s| s.time > 0.0) else {
+        return Vec::new();
+    };
+    let outlines: Vec<Vec<Piece>> = (scene.bodies.iter().zip(solids))
+        .map(|(body, solid)| {
+            let mut out = Vec::new();
+            let known = pieces(body, solid.center, values, &mut out);
+            known.map(|()| out).unwrap_or_default()
+        })
+        .collect();
+    let angles = scene.bodies.iter().map(|b| match b.is_particle() {
+        true => Some(0.0),
+        false => b.angle.evaluate(values),
+    });
+    let angles: Vec<Option<f64>> = angles.collect();
+    let pose = |b: usize, time: f64| -> Option<[f64; 3]> {
+        if let Some(i) = moved.bodies.iter().position(|m| *m == b) {
+            return Some(interpolated(&moved.samples, i, time));
+        }
+        let at = |state: &super::BodyState| -> Option<[f64; 3]> {
+            let number = |c: &Component| c.as_ref().ok().copied();
+            let [x, y] = &state.center;
+            Some([number(x)?, number(y)?, number(&state.angle)?])
+        };
+        let [before, after] = [&passed.before, &passed.after].map(|s| at(&s.bodies[b]));
+        let (before, after) = (before?, after?);
+        let share = time / last.time;
+        Some([0, 1, 2].map(|k| before[k] + share * (after[k] - before[k])))
+    };
+    let mut times: Vec<f64> = Vec::new();
+    for pair in moved.samples.windows(2) {
+        let step = (pair[1].time - pair[0].time) / BETWEEN as f64;
+        times.extend((0..BETWEEN).map(|k| pair[0].time + step * k as f64));
+    }
+    times.push(last.time);
+    let mut out = Vec::new();
+    for &a in &moved.bodies {
+        for b in (0..outlines.len()).filter(|b| *b != a) {
+            let is_seen = moved.bodies.contains(&b) && b < a;
+            if is_seen || outlines[a].is_empty() || outlines[b].is_empty() || joined(scene, [a, b])
+            {
+                continue;
+            }
+            let placed = |body: usize, time: f64| -> Option<Vec<Placed<'_>>> {
+                let (pose, from) = (pose(body, time)?, angles[body]?);
+                Some(outlines[body].iter().map(|p| p.at(pose, from)).collect())
+            };
+            let course: Option<Vec<[Vec<Placed<'_>>; 2]>> = times
+                .iter()
+                .map(|t| Some([placed(a, *t)?, placed(b, *t)?]))
+                .collect();
+            if course.is_some_and(|course| pass(&course)) {
+                out.push([a.min(b), a.max(b)]);
+            }
+        }
+    }
+    out
+}
+
+/// Whether a hinge, a sticking contact or a linkage joins two bodies somewhere in a scene.
+fn joined(scene: &Scene, [a, b]: [usize; 2]) -> bool {
+    let joins = |scene: &Scene| {
+        let sticking = scene.contacts.iter();
+        let sticking = sticking.filter(|c| c.law == ContactLaw::Sticking);
+        let mut all = sticking
+            .map(|c| c.bodies)
+            .chain(scene.hinges.iter().map(|h| h.bodies));
+        all.any(|pair| pair.contains(&a) && pair.contains(&b))
+    };
+    let linked = |stage: &Stage| {
+        let moved = stage.kind.moved();
+        matches!(stage.kind, StageKind::Linkage(_)) && moved.contains(&a) && moved.contains(&b)
+    };
+    let mut stages = scene.stages.iter();
+    joins(scene) || stages.any(|s| joins(&s.scene) || linked(s))
+}
+
+/// Place and angle of a moved body at a time: the cubic through the four samples around it.
+fn interpolated(samples: &[super::Sample], i: usize, time: f64) -> [f64; 3] {
+    let next = samples.partition_point(|s| s.time < time);
+    let first = next.saturating_sub(2).min(samples.len().saturating_sub(4));
+    let near = &samples[first..samples.len().min(first + 4)];
+    [0, 1, 2].map(|k| {
+        let terms = near.iter().enumerate().map(|(j, s)| {
+            let others = near.iter().enumerate().filter(|(m, _)| *m != j);
+            let weight = others.map(|(_, o)| (time - o.time) / (s.time - o.time));
+            s.poses[i][k] * weight.product::<f64>()
+        });
+        terms.sum()
+    })
+}
+
+/// Whether two bodies that are apart at the beginning are in each other later.
+fn pass(course: &[[Vec<Placed<'_>>; 2]]) -> bool {
+    let [first, second] = [0, 1].map(|k| course[0][k].len());
+    let each = (0..first).flat_map(|i| (0..second).map(move |j| (i, j)));
+    let ways: Vec<Vec<f64>> = each
+        .map(|(i, j)| {
+            let all = course.iter();
+            all.map(|[a, b]| gap(&a[i], &b[j])).collect()
+        })
+        .collect();
+    let sizes = course.iter().flatten().flatten();
+    let size = sizes.fold(0.0f64, |size, p| {
+        let reach = p.piece.half[0].max(p.piece.half[1]) + p.piece.radius;
+        size.max(reach).max(p.at[0].hypot(p.at[1]))
+    });
+    let tolerance = TOUCH * size;
+    if ways.iter().any(|way| way[0] < -tolerance) {
+        return false;
+    }
+    let enters = |way: &Vec<f64>| way.iter().any(|gap| *gap < -tolerance);
+    ways.iter().any(enters) || crosses(course, tolerance)
+}
+
+/// Whether a particle gets from one side of a thin rod, or of another particle, to the other.
+fn crosses(course: &[[Vec<Placed<'_>>; 2]], tolerance: f64) -> bool {
+    let is_thin = |p: &Placed<'_>| p.piece.half[1] + p.piece.radius == 0.0;
+    let is_particle = |p: &Placed<'_>| is_thin(p) && p.piece.half[0] == 0.0;
+    [(0, 1), (1, 0)].into_iter().any(|(first, second)| {
+        let thin = (0..course[0][first].len()).filter(|i| is_thin(&course[0][first][*i]));
+        let each = thin.flat_map(|i| (0..course[0][second].len()).map(move |j| (i, j)));
+        let mut each = each.filter(|(_, j)| is_particle(&course[0][second][*j]));
+        each.any(|(i, j)| {
+            let half = course[0][first][i].piece.half[0];
+            let seen = course.iter().map(|at| at[first][i].seen(&at[second][j].at));
+            let is_apart = |p: &[f64; 2]| match half > 0.0 {
+                true => p[1].abs() > tolerance,
+                false => p[0].hypot(p[1]) > tolerance,
+            };
+            let apart: Vec<[f64; 2]> = seen.filter(is_apart).collect();
+            apart.windows(2).any(|pair| {
+                let [from, to] = [pair[0], pair[1]];
+                if half > 0.0 {
+                    let share = from[1] / (from[1] - to[1]);
+                    let meets = from[0] + share * (to[0] - from[0]);
+                    return from[1] * to[1] < 0.0 && meets.abs() < half - tolerance;
+                }
+                let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+                let beside = (from[0] * to[1] - from[1] * to[0]).abs();
+                dot(&from, &to) < 0.0 && beside <= tolerance * length
+            })
+        })
+    })
+}
+
+/// How far two pieces are apart \[m\]; below zero, how far they are in each other at least.
+fn gap(a: &Placed<'_>, b: &Placed<'_>) -> f64 {
+    let between = [b.at[0] - a.at[0], b.at[1] - a.at[1]];
+    let round = |p: &Placed<'_>| p.piece.half == [0.0; 2];
+    let radii = a.piece.radius + b.piece.radius;
+    let sides = match (round(a), round(b)) {
+        (true, true) => between[0].hypot(between[1]),
+        (true, false) => outside(b, &a.at),
+        (false, true) => outside(a, &b.at),
+        (false, false) => {
+            let axes = a.axes.iter().chain(&b.axes);
+            let reach = |p: &Placed<'_>, axis: &[f64; 2]| {
+                let along = [0, 1].map(|k| p.piece.half[k] * dot(&p.axes[k], axis).abs());
+                along[0] + along[1]
+            };
+            axes.map(|axis| dot(&between, axis).abs() - reach(a, axis) - reach(b, axis))
+                .fold(f64::NEG_INFINITY, f64::max)
+        }
+    };
+    sides - radii
+}
+
+/// How far a place lies outside a rectangle; below zero inside it.
+fn outside(box_: &Placed<'_>, place: &[f64; 2]) -> f64 {
+    let seen = box_.seen(place);
+    let beyond = [0, 1].map(|k| seen[k].abs() - box_.piece.half[k]);
+    match beyond[0].max(beyond[1]) {
+        inside if inside <= 0.0 => inside,
+        _ => beyond[0].max(0.0).hypot(beyond[1].max(0.0)),
+    }
+}
+
+fn dot(a: &[f64; 2], b: &[f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+impl Piece {
+    fn at(&self, [x, y, angle]: [f64; 3], from: f64) -> Placed<'_> {
+        let turned = |[p, q]: [f64; 2], angle: f64| {
+            let (s, c) = angle.sin_cos();
+            [p * c - q * s, p * s + q * c]
+        };
+        let [p, q] = turned(self.at, angle - from);
+        let along = self.angle + angle - from;
+        Placed {
+            piece: self,
+            at: [x + p, y + q],
+            axes: [turned([1.0, 0.0], along), turned([0.0, 1.0], along)],
+        }
+    }
+}
+
+impl Placed<'_> {
+    /// A place along and across the sides.
+    fn seen(&self, place: &[f64; 2]) -> [f64; 2] {
+        let arm = [place[0] - self.at[0], place[1] - self.at[1]];
+        [dot(&arm, &self.axes[0]), dot(&arm, &self.axes[1])]
+    }
+}
+
+/// The outline of a body from its center; none where the file gives none.
+fn pieces(
+    body: &Body,
+    center: [f64; 2],
+    values: &Point<f64>,
+    into: &mut Vec<Piece>,
+) -> Result<(), Undefined> {
+    let number = |e: &Expr| finite(e, values, || format!("outline of {}", body.name));
+    let (half, radius) = match &body.shape {
+        Shape::Composite { parts } => {
+            let mut parts = parts.iter();
+            return parts.try_for_each(|part| pieces(part, center, values, into));
+        }
+        Shape::Fixed | Shape::Other => return Ok(()),
+        Shape::Particle => ([0.0; 2], 0.0),
+        Shape::Rod { length } => ([number(length)? / 2.0, 0.0], 0.0),
+        Shape::Ring { radius } | Shape::Disk { radius } | Shape::Sphere { radius } => {
+            ([0.0; 2], number(radius)?)
+        }
+        Shape::Rectangle { width, height } => ([number(width)? / 2.0, number(height)? / 2.0], 0.0),
+    };
+    let at = finite_pair(&body.center, values, || format!("center of {}", body.name))?;
+    let angle = match half {
+        [0.0, 0.0] => 0.0,
+        _ => number(&body.angle)?,
+    };
+    into.push(Piece {
+        at: [at[0] - center[0], at[1] - center[1]],
+        half,
+        angle,
+        radius,
+    });
+    Ok(())
+}
