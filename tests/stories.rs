@@ -206,6 +206,14 @@ fn energy_is_kept_wherever_a_stage_says_so() {
     }
 }
 
+#[test]
+fn where_laws_contradict_the_solution_says_so_first() {
+    let worked = carom::worked::out(&scene("laws-contradict")).expect("a scene that is told");
+    let solution = worked.solution(carom::solution::Detail::Normal);
+    let text = format!("{solution:?}");
+    assert!(text.contains("the laws contradict each other"), "{text}");
+}
+
 /// A story in which a rod catches a peg, with these questions beside.
 fn with(questions: &str) -> Result<Told, String> {
     let text = format!(

@@ -10,37 +10,19 @@ use std::collections::BTreeMap;
 use num_traits::Signed;
 
 use super::Check;
-use super::calc::{Seen, essential, is_zero, sign, tidy, within};
+use super::calc::{Seen, is_zero, sign, tidy, within};
+use super::powers::{Found, Tends, by_powers, not_zero};
 use super::{Answer, Form, Near};
-use crate::algebra::{Element, Field, Sign};
+use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, roles, samples};
 use crate::expr::{Expr, Node, Point, Symbol};
 use crate::formula::{Sentence, sentence};
 use crate::interval::{Interval, Outcome, evaluate};
 
-/// The symbol whose square stands for the parameter.
-const ROOT: &str = "\u{1}root";
 /// Highest power of the distance that is looked at.
 const POWERS: usize = 12;
 /// Largest formula whose derivatives are followed, in nodes.
 const LONGEST: usize = 4_000;
-
-/// What a formula tends to.
-enum Tends {
-    /// A value.
-    To(Expr),
-    /// Beyond all bounds, upwards, downwards, or with a sign that hangs on other parameters.
-    Beyond(Option<bool>),
-    /// Up on one side and down on the other.
-    Apart,
-}
-
-/// What was found, the reason, and what must not vanish for it.
-struct Found {
-    tends: Tends,
-    how: &'static str,
-    given: Vec<Sentence>,
-}
 
 /// From which sides a parameter can come to a value.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -397,14 +379,6 @@ impl<'a> Taylor<'a> {
     }
 }
 
-/// What must not vanish, in words; nothing where that is proved.
-fn not_zero(e: &Expr, domains: &Domains) -> Option<Sentence> {
-    match sign(e, domains) {
-        Seen::Proved(Sign::Positive | Sign::Negative) => None,
-        _ => Some(sentence![&essential(e, domains), " ≠ 0"]),
-    }
-}
-
 fn by_taylor(of: &Expr, p: &Symbol, to: &Expr, domains: &Domains) -> Option<Found> {
     let series = Series::of(of, p, to, 0, domains)?;
     let lead = series.coefficients.first()?;
@@ -459,56 +433,6 @@ pub(super) fn common(of: &Expr, domains: &Domains) -> Option<(Expr, Expr)> {
         }
         _ => Some(over(&tidied)),
     }
-}
-
-/// The lowest powers of x where the parameter is x², or 1/x² for a limit at infinity.
-fn by_powers(of: &Expr, p: &Symbol, at_infinity: bool, domains: &Domains) -> Option<Found> {
-    let mut domains = domains.clone();
-    domains.symbols.insert(ROOT.into(), Domain::positive());
-    let x = Expr::symbol(ROOT).powi(if at_infinity { -2 } else { 2 });
-    let e = of.substitute(&BTreeMap::from([(p.clone(), x)]));
-    let mut field = Field::new(&domains);
-    field.prepare([&e]);
-    let element = field.element(&e).ok()?;
-    if field.is_zero(&element) {
-        return Some(Found {
-            tends: Tends::To(Expr::zero()),
-            how: "it is zero throughout",
-            given: Vec::new(),
-        });
-    }
-    // The numerator over the element is the denominator, with its sign.
-    let coefficients = field.numerator(&element, ROOT).ok()??;
-    let mut numerator = field.integer(0);
-    for (k, c) in coefficients.iter().enumerate() {
-        let power = field.element(&Expr::symbol(ROOT).powi(k as i64)).ok()?;
-        numerator = field.add(&numerator, &field.mul(c, &power).ok()?).ok()?;
-    }
-    let denominator = field.div(&numerator, &element).ok()?;
-    let (low, above) = lowest(&mut field, &numerator)?;
-    let (down, below) = lowest(&mut field, &denominator)?;
-    let ratio = tidy(&(&above / &below), &domains).ok()?;
-    let mut given: Vec<Sentence> = not_zero(&below, &domains).into_iter().collect();
-    let tends = match low.cmp(&down) {
-        std::cmp::Ordering::Greater => Tends::To(Expr::zero()),
-        std::cmp::Ordering::Equal => Tends::To(ratio),
-        std::cmp::Ordering::Less => {
-            given.extend(not_zero(&above, &domains));
-            Tends::Beyond(sign(&ratio, &domains).side())
-        }
-    };
-    Some(Found {
-        tends,
-        how: "found from the lowest powers of numerator and denominator",
-        given,
-    })
-}
-
-/// The lowest power of x in a numerator, and its coefficient.
-fn lowest(field: &mut Field, e: &Element) -> Option<(usize, Expr)> {
-    let coefficients = field.numerator(e, ROOT).ok()??;
-    let k = coefficients.iter().position(|c| !field.is_zero(c))?;
-    Some((k, field.expr(&coefficients[k])))
 }
 
 /// The formula against what stands for it, in doubles close by or far out: what is left out must shrink faster than the power

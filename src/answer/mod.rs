@@ -9,6 +9,7 @@ mod graph;
 mod intervals;
 pub mod limit;
 mod optimum;
+mod powers;
 mod roots;
 mod threshold;
 mod zeros;

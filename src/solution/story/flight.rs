@@ -196,7 +196,7 @@ impl Page<'_> {
     /// Whether something of a kind is answered at the end of a stage.
     fn asked(&self, told: &StageTold, is: fn(&Ask) -> bool) -> bool {
         let at_its_end = |a: &&Answer| {
-            let stage = a.told.map(|(i, _)| &self.told.stages[i]);
+            let stage = a.told.and_then(|(i, _)| self.told.stages.get(i));
             stage.is_some_and(|stage| std::ptr::eq(stage, told))
         };
         let mut mine = self.told.answers.iter().filter(at_its_end);

@@ -105,6 +105,12 @@ fn one(
     let domains = &scene.domains;
     let name = question.name.as_str();
     let stage = question.stage.map(|i| &scene.stages[i]);
+    if stage.is_some_and(|stage| ways(stages, stage).is_empty()) {
+        let why = Sentence::words("the laws contradict each other before");
+        let mut out = unanswered(question, &why);
+        out.told = Some((usize::MAX, 0));
+        return Ok(vec![out]);
+    }
     let mut out = match &question.ask {
         Ask::Reaction { along, at_end } => {
             return each_way(stages, stage, |told| {
@@ -306,12 +312,6 @@ fn quantity(
     stage: &Stage,
 ) -> Result<Vec<Answer>, Refused> {
     let ways = ways(stages, stage);
-    if ways.is_empty() {
-        let why = Sentence::words("the laws contradict each other before");
-        let mut out = unanswered(question, &why);
-        out.told = Some((usize::MAX, 0));
-        return Ok(vec![out]);
-    }
     if let Ask::Friction { .. } = question.ask {
         return Ok(threshold(question, ways));
     }
