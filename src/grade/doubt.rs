@@ -36,7 +36,7 @@ pub(super) fn power_of_function(content: &Content) -> Option<Content> {
 
 /// `e^x` against `exp(x)` with an e that nobody declared: only one of them knows a symbol e. Where they are equal with e as
 /// the base of the natural logarithm, that is what was meant, unless an expected e may be a restitution to the power of a
-/// count: then nothing is decided.
+/// count, without a logarithm beside it: then nothing is decided.
 pub(super) fn euler(
     key: &Key,
     reading: &Reading,
@@ -84,7 +84,13 @@ pub(super) fn euler(
     if found.verdict != Verdict::Equivalent {
         return;
     }
-    let mut counts = occurs(expected);
+    let mut logarithm = false;
+    for content in [expected, answer] {
+        content.each(&mut |e| {
+            e.walk(&mut |part| logarithm |= matches!(part.node(), Node::Call(Function::Ln, _)));
+        });
+    }
+    let mut counts = occurs(expected) && !logarithm;
     let mut note = |part: &Expr| {
         if let Node::Power(base, k) = part.node()
             && base.as_symbol().is_some_and(|s| &**s == "e")

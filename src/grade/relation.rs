@@ -9,27 +9,28 @@
 mod cells;
 mod factor;
 mod inequality;
+mod listed;
 mod locus;
 mod solved;
 mod system;
+mod undone;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::compare::{Context, Finding};
 use super::{Apart, Diagnosis, Proof, Verdict};
 use crate::algebra::{Field, Sign};
 use crate::domain::{Domain, Domains, roles, samples};
-use crate::equality::{self, Equality};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Content, Relation, write_plain};
-use crate::interval::{Big, Interval, Outcome, evaluate};
+use crate::interval::{Interval, Outcome, evaluate};
 use cells::holds;
 use factor::{turned_term, unrooted};
 use inequality::inequalities;
 use locus::{Compared, Extent, Part};
 use num_traits::Signed;
 pub(super) use solved::solve_for;
-use solved::{lies_in, same_angle, solved_in, unknowns};
+use solved::{same_angle, solved_in, unknowns};
 
 /// `left − right  rel  0`, turned so that the relation is one of =, ≠, <, ≤.
 #[derive(Clone, Debug)]
@@ -49,7 +50,7 @@ pub(crate) fn compare(
         return Finding::different("DIFF_KIND", "kind", words);
     };
     let domains = &ctx.key.question.domains;
-    if let Some(found) = listed_beyond(ctx, &expected, mine) {
+    if let Some(found) = listed::beyond(ctx, &expected, mine) {
         return found;
     }
     if let Some(found) = system::in_one_symbol(ctx, &expected, &answer, domains) {
@@ -59,48 +60,6 @@ pub(crate) fn compare(
         ([e], [a]) => link(ctx, e, a),
         _ => system::compare(ctx, &expected, &answer, domains),
     }
-}
-
-/// The finding on a value that the answer lists although it fulfils no expected equation, which the domain would hide: −4 of
-/// `x = ±4` for `√x = 2` with x positive.
-fn listed_beyond(ctx: &Context, expected: &[Normal], mine: &[Content]) -> Option<Finding> {
-    let [name, Content::Either(values)] = mine else {
-        return None;
-    };
-    let name = name.expr()?.as_symbol()?;
-    let domains = &ctx.key.question.domains;
-    let outside = |value: &&Expr| {
-        let uses = roles(&[value]);
-        let (all, _) = domains.completed(&uses);
-        let point = samples(&uses, &all, 1).into_iter().next();
-        point.is_some_and(|p| match evaluate::<Big<200>>(value, &p.point(true)) {
-            Outcome::Value(v) => !lies_in(&v.0, name, domains),
-            _ => false,
-        })
-    };
-    let value = values.iter().find(outside)?;
-    let there = BTreeMap::from([(name.clone(), value.clone())]);
-    let (mut missed, zero) = (false, Expr::zero());
-    for n in expected {
-        let left = n.difference.substitute(&there);
-        missed |= match equality::decide(&left, &zero, domains).equality {
-            Equality::Same { .. } => false,
-            Equality::Different(_) | Equality::Invalid { .. } => true,
-            Equality::Undecided { .. } => return None,
-        };
-    }
-    let equations = expected.iter().all(|n| n.relation == Relation::Equal);
-    (missed && equations).then(|| {
-        let words = format!(
-            "{name} = {} does not fulfil the expected equation",
-            ctx.say(value)
-        );
-        Finding::different("DIFF_ROOT_GAINED", "solutions", words.clone()).with(Diagnosis::new(
-            "ROOT_GAINED",
-            words,
-            "put each of your values into the equation",
-        ))
-    })
 }
 
 /// The relations of a chain; an equation between vectors is one for each component, and with ± it is one that vanishes for
@@ -169,7 +128,46 @@ fn rooted(difference: Expr) -> Expr {
     }
 }
 
+/// Two relations as they are written, or else with the functions undone that stand around both sides.
 fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
+    let mut finding = as_written(ctx, expected, answer);
+    let mut pair = [expected.clone(), answer.clone()];
+    let (domains, _) =
+        (ctx.key.question.domains).completed(&roles(&[&expected.difference, &answer.difference]));
+    let mut given = Vec::new();
+    for step in undone::STEPS {
+        if finding.verdict != Verdict::Undecided {
+            break;
+        }
+        let undone = pair.each_ref().map(|n| step(n, &domains));
+        if undone.iter().all(Option::is_none) {
+            continue;
+        }
+        for (n, undone) in pair
+            .iter_mut()
+            .zip(undone)
+            .filter_map(|(n, u)| Some((n, u?)))
+        {
+            *n = undone.normal;
+            given.extend(undone.given);
+        }
+        let found = as_written(ctx, &pair[0], &pair[1]);
+        // Beyond what has to hold beside, the one may hold where the other has no value.
+        let equation = expected.relation == Relation::Equal;
+        match found.verdict {
+            Verdict::Equivalent if equation || given.is_empty() => finding = found,
+            Verdict::Different if given.is_empty() => finding = found,
+            _ => {}
+        }
+    }
+    given.retain(|words| !finding.assumed.contains(words));
+    if finding.verdict == Verdict::Equivalent {
+        finding.assumed.extend(given);
+    }
+    finding
+}
+
+fn as_written(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     let is_equation = |n: &Normal| !matches!(n.relation, Relation::Less | Relation::LessEqual);
     match (is_equation(expected), is_equation(answer)) {
         (true, true) if expected.relation == answer.relation => equations(ctx, expected, answer),
@@ -317,7 +315,9 @@ fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
             return found;
         }
     }
-    undecided("the equations could not be solved to compare their solutions")
+    listed::values(expected, answer, domains).unwrap_or_else(|| {
+        undecided("the equations could not be solved to compare their solutions")
+    })
 }
 
 /// Two equations that both hold nowhere on the domain, or both everywhere.

@@ -29,6 +29,8 @@ pub(super) struct Along {
     pub gained: Option<String>,
     /// Whether the first holds somewhere, and whether it does not somewhere; the same of the second.
     pub holds: [[bool; 2]; 2],
+    /// At how many numbers each holds; `None` where it holds along an interval.
+    pub count: [Option<usize>; 2],
 }
 
 /// Compares two systems in one symbol; `None` where there are more, or the differences are no quotients of polynomials in it
@@ -139,9 +141,17 @@ fn under_root(
             },
         };
         // Nothing that has the root holds there.
-        let never = |n: &Normal| match rootless(&n.difference, inside, &s) == n.difference {
-            true => n.clone(),
-            false => Normal {
+        let rooted = |n: &Normal| rootless(&n.difference, inside, &s) != n.difference;
+        if [first, second]
+            .iter()
+            .all(|system| system.iter().any(rooted))
+        {
+            out.holds.iter_mut().for_each(|seen| seen[1] = true);
+            return Some(out);
+        }
+        let never = |n: &Normal| match rooted(n) {
+            false => n.clone(),
+            true => Normal {
                 difference: Expr::one(),
                 relation: Relation::Equal,
             },
@@ -158,6 +168,9 @@ fn under_root(
             .zip(outside.holds.iter().flatten())
         {
             *seen |= more;
+        }
+        for (count, more) in out.count.iter_mut().zip(outside.count) {
+            *count = count.zip(more).map(|(a, b)| a + b);
         }
     }
     Some(out)
@@ -199,6 +212,7 @@ fn along(first: &[Normal], second: &[Normal], name: &Symbol, domains: &Domains) 
         lost: None,
         gained: None,
         holds: [[false; 2]; 2],
+        count: [Some(0); 2],
     };
     for cell in &cells {
         let (mine, theirs) = cell.signs[..all.len()].split_at(first.len());
@@ -210,6 +224,9 @@ fn along(first: &[Normal], second: &[Normal], name: &Symbol, domains: &Domains) 
         });
         for (seen, truth) in out.holds.iter_mut().zip(truth) {
             seen[usize::from(!truth)] = true;
+        }
+        for (count, _) in out.count.iter_mut().zip(truth).filter(|(_, holds)| *holds) {
+            *count = count.filter(|_| cell.single).map(|n| n + 1);
         }
         match truth {
             [true, false] => out.lost = out.lost.take().or_else(|| Some(words(cell, name))),

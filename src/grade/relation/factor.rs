@@ -1,14 +1,11 @@
 //! What one equation is of another: a multiple of it, or the same with the sign of a term turned.
 
 use super::super::compare::WRITTEN;
-use super::solved::{replaced, solve_for};
 use super::{Normal, same_sign};
 use crate::algebra::{Element, Field, Sign};
-use crate::domain::{Domains, Limit, roles};
-use crate::expr::angle::angle as turns;
-use crate::expr::{Expr, Function, Node, Symbol, ratio};
-use crate::formula::{Relation, write_plain};
-use num_traits::{Signed, Zero};
+use crate::domain::{Domains, roles};
+use crate::expr::{Expr, Node, ratio};
+use crate::formula::Relation;
 
 /// The one term of the answer whose sign has to be turned to make the equations the same.
 pub(super) fn turned_term(f: &Expr, g: &Expr, domains: &Domains) -> Option<Expr> {
@@ -107,45 +104,6 @@ pub(super) fn unrooted(n: &Normal, domains: &Domains) -> Option<Normal> {
     let product = field.element(&(&n.difference * &other)).ok()?;
     Some(Normal {
         difference: field.expr(&product),
-        relation: n.relation,
-    })
-}
-
-/// The same relation without an arctangent: `k atan u + W` has the sign of k (u − tan w) with w = −W/k, where w is an angle
-/// between −π/2 and π/2. At an end the tangent has no value, and the relation must not hold there either.
-pub(super) fn unwound(n: &Normal, domains: &Domains) -> Option<Normal> {
-    let mut arc = None;
-    n.difference.walk(&mut |part| {
-        if let Node::Call(Function::Atan, inside) = part.node() {
-            arc.get_or_insert((part.clone(), inside.clone()));
-        }
-    });
-    let (arc, inside) = arc?;
-    let letter: Symbol = write_plain(&arc).into();
-    let linear = replaced(&n.difference, &arc, &Expr::symbol(&letter));
-    let k = linear.derivative(&letter).as_number()?.clone();
-    let angle = solve_for(&linear, &letter, domains)?;
-    let read = turns(&angle).filter(|read| read.symbols.len() == 1)?;
-    let (name, factor) = read.symbols.first_key_value()?;
-    let (all, _) = domains.completed(&roles(&[&Expr::symbol(name).sin()]));
-    let domain = all.symbols.get(name)?;
-    let (low, high) = (domain.low.as_ref()?, domain.high.as_ref()?);
-    // The angle's two ends in units of π, and whether it reaches them.
-    let end = |limit: &Limit| {
-        let value = (limit.of_pi || limit.value.is_zero()).then(|| &limit.value * factor)?;
-        Some((value + &read.pi, !limit.open))
-    };
-    let mut ends = [end(low)?, end(high)?];
-    if factor.is_negative() {
-        ends.reverse();
-    }
-    let [(from, at_from), (to, at_to)] = ends;
-    let half = ratio(1, 2);
-    let inside_quarter = !k.is_zero()
-        && (to < half || to == half && !(at_to && k.is_positive()))
-        && (from > -half.clone() || from == -half && !(at_from && k.is_negative()));
-    inside_quarter.then(|| Normal {
-        difference: Expr::from(k) * (inside - angle.tan()),
         relation: n.relation,
     })
 }

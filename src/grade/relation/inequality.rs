@@ -2,7 +2,7 @@
 
 use super::super::compare::{Context, Finding, scalars};
 use super::super::{Apart, Diagnosis, Verdict};
-use super::factor::{factor, unwound};
+use super::factor::factor;
 use super::locus::{self, Extent};
 use super::{
     Normal, REALS, apart_at_points, over_reals, same_solutions, says_nothing, solve_for, sought_in,
@@ -63,8 +63,7 @@ pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) ->
     }
     let common = factor(f, g, domains);
     if common.is_none() {
-        let plain = |n: &Normal| unrooted(n, domains).or_else(|| unwound(n, domains));
-        let [a, b] = [expected, answer].map(|n| plain(n).unwrap_or_else(|| n.clone()));
+        let [a, b] = [expected, answer].map(|n| unrooted(n, domains).unwrap_or_else(|| n.clone()));
         if factor(&a.difference, &b.difference, domains).is_some() {
             return inequalities(ctx, &a, &b);
         }

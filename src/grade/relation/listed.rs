@@ -1,0 +1,137 @@
+//! Values that one side lists, `x = 2` or `x = 1 ± √2`, held against an equation: each is put in, and they are counted.
+
+use std::collections::BTreeMap;
+
+use super::super::Diagnosis;
+use super::super::compare::{Context, Finding};
+use super::solved::{lies_in, solve_for};
+use super::{Normal, cells, same_solutions};
+use crate::domain::{Domains, roles, samples};
+use crate::equality::{self, Equality};
+use crate::expr::{Expr, Node, Symbol};
+use crate::formula::{Content, Relation, write_plain};
+use crate::interval::{Big, Enclosure, Outcome, evaluate};
+
+/// The finding on a value that the answer lists although it fulfils no expected equation, which the domain would hide: −4 of
+/// `x = ±4` for `√x = 2` with x positive.
+pub(super) fn beyond(ctx: &Context, expected: &[Normal], mine: &[Content]) -> Option<Finding> {
+    let [name, Content::Either(values)] = mine else {
+        return None;
+    };
+    let name = name.expr()?.as_symbol()?;
+    let domains = &ctx.key.question.domains;
+    let outside =
+        |value: &&Expr| number(value, domains).is_some_and(|v| !lies_in(&v, name, domains));
+    let value = values.iter().find(outside)?;
+    let there = BTreeMap::from([(name.clone(), value.clone())]);
+    let (mut missed, zero) = (false, Expr::zero());
+    for n in expected {
+        let left = n.difference.substitute(&there);
+        missed |= match equality::decide(&left, &zero, domains).equality {
+            Equality::Same { .. } => false,
+            Equality::Different(_) | Equality::Invalid { .. } => true,
+            Equality::Undecided { .. } => return None,
+        };
+    }
+    let equations = expected.iter().all(|n| n.relation == Relation::Equal);
+    (missed && equations).then(|| {
+        let value = ctx.say(value);
+        gained(format!(
+            "{name} = {value} does not fulfil the expected equation"
+        ))
+    })
+}
+
+/// The value of a formula, in symbols at some point of the domain.
+fn number(value: &Expr, domains: &Domains) -> Option<Enclosure> {
+    let uses = roles(&[value]);
+    let (all, _) = domains.completed(&uses);
+    let point = samples(&uses, &all, 1).into_iter().next()?;
+    match evaluate::<Big<200>>(value, &point.point(true)) {
+        Outcome::Value(v) => Some(v.0),
+        _ => None,
+    }
+}
+
+fn gained(words: String) -> Finding {
+    let hint = "put each of your values into the equation";
+    Finding::different("DIFF_ROOT_GAINED", "solutions", words.clone()).with(Diagnosis::new(
+        "ROOT_GAINED",
+        words,
+        hint,
+    ))
+}
+
+/// Compares two equations in one symbol of which one lists values, that need not be fractions: they are the solutions of the
+/// other where each fulfils it and it has no more of them.
+pub(super) fn values(expected: &Normal, answer: &Normal, domains: &Domains) -> Option<Finding> {
+    if expected.relation != Relation::Equal {
+        return None;
+    }
+    let (mine, name, list, other) = match listed(answer, domains) {
+        Some((name, list)) => (true, name, list, expected),
+        None => {
+            let (name, list) = listed(expected, domains)?;
+            (false, name, list, answer)
+        }
+    };
+    if !other.difference.symbols().iter().eq([&name]) {
+        return None;
+    }
+    let alone = std::slice::from_ref(other);
+    let count = cells::compare(alone, alone, domains)?.count[0]?;
+    let mut inside: Vec<Enclosure> = Vec::new();
+    let mut beside = None;
+    for value in list {
+        let place = number(&value, domains)?;
+        if !lies_in(&place, &name, domains) {
+            continue;
+        }
+        let there = BTreeMap::from([(name.clone(), value.clone())]);
+        let left = other.difference.substitute(&there);
+        match equality::decide(&left, &Expr::zero(), domains).equality {
+            Equality::Same { .. } if inside.iter().all(|v| v.is_disjoint(&place)) => {
+                inside.push(place);
+            }
+            Equality::Different(_) => beside = Some(value),
+            _ => return None,
+        }
+    }
+    let all = inside.len() == count;
+    match (beside, all) {
+        (None, true) if count > 0 => Some(same_solutions(
+            "each value listed fulfils the equation, which has no other",
+        )),
+        (Some(value), true) if mine => Some(gained(format!(
+            "{name} = {} does not fulfil the expected equation",
+            write_plain(&value)
+        ))),
+        (None, false) if mine && !inside.is_empty() => {
+            let words = "a solution of the expected equation does not fulfil the answer";
+            let hint = "a solution is missing or the equation says something else";
+            let finding = Finding::different("DIFF_ROOT_LOST", "solutions", words);
+            Some(finding.with(Diagnosis::new("ROOT_LOST", words, hint)))
+        }
+        (None, true) => None,
+        _ => {
+            let words = "the equation says something else than the expected one";
+            let hint = "put each of the values into the equation";
+            let finding = Finding::different("DIFF_EQUATION", "solutions", words);
+            Some(finding.with(Diagnosis::new("EQUATION", words, hint)))
+        }
+    }
+}
+
+/// The symbol and the values of an equation such as `x = a` or `(x − a)(x − b) = 0`.
+fn listed(n: &Normal, domains: &Domains) -> Option<(Symbol, Vec<Expr>)> {
+    let name = n.difference.symbols().into_iter().next()?;
+    let parts = match n.difference.node() {
+        Node::Product(parts) => parts.as_slice(),
+        _ => std::slice::from_ref(&n.difference),
+    };
+    let linear = parts.iter().filter(|part| part.as_number().is_none());
+    let values: Option<Vec<Expr>> = linear.map(|part| solve_for(part, &name, domains)).collect();
+    let values = values?;
+    let constant = values.iter().all(|value| value.symbols().is_empty());
+    constant.then_some((name, values))
+}
