@@ -116,7 +116,8 @@ impl<'a> Reader<'a> {
                         self.at + c.len_utf8(),
                     ));
                 }
-                '*' | '·' | '⋅' | '.' | '×' => {
+                // `N-s` and `kg-m²`: a hyphen between two units ties them.
+                '*' | '·' | '⋅' | '.' | '×' | '-' if c != '-' || self.hyphen() => {
                     self.at += c.len_utf8();
                     // kg/m·s: the dot multiplies the denominator for some and the whole for others.
                     if over && below > 0 {
@@ -161,6 +162,16 @@ impl<'a> Reader<'a> {
         Ok(total)
     }
 
+    /// Whether a hyphen here stands right between two units of which the first is no length or time: `2 m-s` may be 2m − s.
+    fn hyphen(&self) -> bool {
+        let (before, behind) = (&self.text[..self.at], &self.text[self.at + 1..]);
+        let first = ["N", "kg", "lb", "lbf", "ft"].iter().any(|unit| {
+            let rest = before.strip_suffix(unit);
+            rest.is_some_and(|rest| !rest.ends_with(|c: char| c.is_alphanumeric() && c != 'k'))
+        });
+        first && behind.starts_with(|c: char| c.is_ascii_alphabetic())
+    }
+
     fn unclear(&self, at: usize) -> UnitFault {
         let message = "what is below the slash is unclear; write brackets, as in kg/(m s)";
         fault(message.into(), at, self.text.len())
@@ -197,10 +208,12 @@ impl<'a> Reader<'a> {
                         !(c.is_ascii_alphabetic() || matches!(c, 'µ' | 'μ' | 'Ω' | '\u{2126}'))
                     })
                     .unwrap_or(rest.len());
-                // `kgm`, `kgms` and `rads` are written for kg·m, kg·m·s and rad·s by many, and are nothing else.
+                // `kgm`, `kgms` and `rads` are written for kg·m, kg·m·s and rad·s by many, and are nothing else; `rads` alone
+                // or above a slash is more than one.
+                let plural = matches!(rest[length..].chars().next(), None | Some('/' | ' '));
                 let length = match &rest[..length] {
                     "kgm" | "kgms" => 2,
-                    "rads" => 3,
+                    "rads" if !plural => 3,
                     _ => length,
                 };
                 let word = &rest[..length];
@@ -371,7 +384,9 @@ const PREFIXES: [(&str, i64); 13] = [
 ];
 
 /// Units a prefix may stand before.
-const TAKES_PREFIX: [&str; 9] = ["g", "m", "s", "N", "J", "W", "Pa", "Hz", "rad"];
+const TAKES_PREFIX: [&str; 12] = [
+    "g", "m", "s", "N", "J", "W", "Pa", "Hz", "rad", "Nm", "Ns", "Ws",
+];
 
 /// Electrical units, which take the prefixes that do not look like a product of letters.
 const ELECTRICAL: [&str; 6] = ["A", "V", "Ω", "C", "F", "T"];
@@ -430,6 +445,7 @@ fn plain(word: &str) -> Option<Unit> {
         // Nm and Ns are not SI spelling, but how newton metre and newton second are often typed.
         "Nm" | "J" | "joule" | "joules" => si(1, 2, -2, one()),
         "Ns" => si(1, 1, -1, one()),
+        "Ws" => si(1, 2, -2, one()),
         "kilometer" | "kilometers" | "kilometre" | "kilometres" => si(0, 1, 0, ratio(1000, 1)),
         "centimeter" | "centimeters" | "centimetre" | "centimetres" => si(0, 1, 0, ratio(1, 100)),
         "millimeter" | "millimeters" | "millimetre" | "millimetres" => si(0, 1, 0, ratio(1, 1000)),
@@ -489,7 +505,7 @@ fn plain(word: &str) -> Option<Unit> {
             },
             ..Unit::number()
         },
-        "rad" | "radian" | "radians" => angle(one(), 0),
+        "rad" | "rads" | "radian" | "radians" => angle(one(), 0),
         "deg" | "degree" | "degrees" => angle(ratio(1, 180), 1),
         "rev" | "turn" | "revolution" | "revolutions" => angle(ratio(2, 1), 1),
         "rpm" => Unit {

@@ -100,6 +100,10 @@ impl Lexer<'_> {
                 None => number::literal(self.text, start, exponent, self.list)?,
             },
         };
+        let (literal, end) = match number::repeating(self.text, start, end, &literal) {
+            Some(found) => found,
+            None => (literal, end),
+        };
         self.long_digits += (literal.digits + literal.place.unsigned_abs()).saturating_sub(18);
         if self.long_digits > MAX_LONG_DIGITS {
             let message =

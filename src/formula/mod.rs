@@ -213,6 +213,9 @@ impl Reading {
 /// Reads a formula. Of several `\boxed{}` the last counts, and what stands around it is passed over; so are words
 /// around a single formula in dollars.
 pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
+    if let Some(text) = box_beside_unit(text) {
+        return read(&text, symbols);
+    }
     if let Some(pair) = two_values(text, symbols) {
         return pair;
     }
@@ -232,6 +235,16 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
             end,
         });
         return Ok(reading);
+    }
+    // What no rule read as words is no product of their letters.
+    let between = |word: &str| Some((text.find(word)?, word.len()));
+    if usual.is_ok()
+        && text.contains(['o', 'a'])
+        && !text.contains("\\boxed")
+        && let Some((at, length)) = between(" or ").or_else(|| between(" and "))
+    {
+        let fault = Fault::new("a word between two formulas", at + 1, at + length - 1);
+        return Err(*fault.hint("at most two values or bounds are read, as in x = 1 or x = 2"));
     }
     usual.map_err(|fault| *fault)
 }
@@ -254,14 +267,18 @@ fn two_values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fault>> {
     let (first, second) = (part(start, start + end)?, part(start + next, stop)?);
     let word = &text[start + end..start + next];
     if let (Content::Relations(a, s), Content::Relations(b, t)) = (&first.content, &second.content)
-        && word != ","
         && s.iter().chain(t).any(|sign| *sign != Relation::Equal)
     {
         let (a, b) = (a.as_slice(), b.as_slice());
         let ([x, low], [y, high], [s], [t]) = (a, b, s.as_slice(), t.as_slice()) else {
             return None;
         };
-        if x != y || !word.contains("and") {
+        // `a < x, x < b` begins with the lower bound.
+        let (x, low, s) = match x == y {
+            true => (x, low, *s),
+            false => (low, x, s.turned()),
+        };
+        if x != y || word.contains("or") {
             let fault = Fault::new(
                 "two relations joined by a word are not read",
                 start + end,
@@ -534,6 +551,20 @@ fn has_both_signs(w: &Written) -> bool {
     }
 }
 
+/// `\boxed{1.5}\text{ m}`: the text with blanks for all that stands before the inside of the box, and for what closes it,
+/// where a unit stands behind.
+fn box_beside_unit(text: &str) -> Option<String> {
+    if !text.contains("\\boxed") {
+        return None;
+    }
+    let (start, end) = boxed(text).ok()?;
+    let ends = |c: char| c.is_whitespace() || "$.".contains(c);
+    let behind = text[end..].strip_prefix('}')?.trim_end_matches(ends);
+    let unit = crate::dimension::unit(&plain_unit(behind)?);
+    unit.is_ok_and(|unit| !unit.dimension.is_none() || unit.angle)
+        .then(|| format!("{:start$}{} {behind}", "", &text[start..end]))
+}
+
 /// Start and end of the inside of the last `\boxed{}`; without one of the whole text.
 fn boxed(text: &str) -> Faulty<(usize, usize)> {
     const OPEN: &str = "\\boxed";
@@ -563,7 +594,16 @@ fn boxed(text: &str) -> Faulty<(usize, usize)> {
 
 /// The text without a full stop or comma behind it, and the place of that; `4.` keeps its point.
 fn unpunctuated(text: &str, start: usize) -> (&str, Option<(usize, usize)>) {
-    let trimmed = text.trim_end_matches(|c: char| c.is_whitespace() || c == '$');
+    let blank = |c: char| c.is_whitespace() || c == '$';
+    let trimmed = text.trim_end_matches(blank);
+    // A line of LaTeX ends in two backslashes.
+    let (text, trimmed) = match trimmed
+        .strip_suffix("\\\\")
+        .filter(|line| line.len() > start)
+    {
+        Some(line) => (line, line.trim_end_matches(blank)),
+        None => (text, trimmed),
+    };
     let Some(body) = trimmed
         .strip_suffix(['.', ',', ';'])
         .filter(|b| b.len() >= start)

@@ -80,7 +80,8 @@ impl Note {
         };
         match self.remark {
             Remark::Slash { tight } => {
-                let (above, below) = first.split_once(['/', '÷']).unwrap_or((first, ""));
+                let first = first.replace("\\div", "÷");
+                let (above, below) = first.split_once(['/', '÷']).unwrap_or((&first, ""));
                 let (above, below) = (above.trim(), below.trim());
                 pick(
                     tight,

@@ -138,6 +138,33 @@ pub(crate) fn ten_to(power: i64) -> Rational {
     }
 }
 
+/// `0.1\overline{6}` and `0.\bar{3}`: a decimal number whose last digits repeat without end.
+pub(crate) fn repeating(
+    text: &str,
+    at: usize,
+    end: usize,
+    begun: &Literal,
+) -> Option<(Literal, usize)> {
+    let rest = &text[end..];
+    let mark = ["\\overline{", "\\bar{"]
+        .iter()
+        .find(|mark| rest.starts_with(**mark))?;
+    let digits = rest[mark.len()..].split('}').next()?;
+    let period = digits.parse::<u32>().ok().filter(|_| digits.len() < 9)?;
+    if !text[at..end].contains('.') {
+        return None;
+    }
+    let nines = ten_to(digits.len() as i64) - Rational::from(Int::from(1));
+    let tail = Rational::from(Int::from(i64::from(period))) / nines;
+    let value = &begun.value + &(tail * ten_to(i64::from(begun.place)));
+    let literal = Literal {
+        value,
+        decimal: false,
+        ..begun.clone()
+    };
+    Some((literal, end + mark.len() + digits.len() + 1))
+}
+
 /// A number in groups of three digits: `12\,000` and `12 000` with spaces between them, `1,000,000` with two commas or more or
 /// a point behind, which nothing else could be outside a `list`; `inside` brackets `(1,234.5)` could be one.
 pub(crate) fn grouped(

@@ -65,9 +65,12 @@ pub(super) fn conclusion(text: &str) -> Option<usize> {
         "⟺",
         "⇔",
     ];
-    const WORDS: [&str; 12] = [
+    const WORDS: [&str; 15] = [
         "the final answer is",
         "the answer is",
+        "the solution is",
+        "the result is",
+        "we get",
         "final answer",
         "therefore",
         "hence",
@@ -96,6 +99,7 @@ pub(super) fn conclusion(text: &str) -> Option<usize> {
             .filter(|at| !text[*at..].trim().is_empty()),
         false => None,
     };
+    let arrow = arrow.or_else(|| said_between(text));
     if arrow.is_none() && !text.contains([',', ':', '=']) && !text.contains(" is ") {
         return None;
     }
@@ -113,7 +117,13 @@ pub(super) fn conclusion(text: &str) -> Option<usize> {
         let (said, behind) = rest.split_at_checked(word.len())?;
         said.eq_ignore_ascii_case(word).then_some(())?;
         let mark = behind.starts_with([',', ':']);
-        let gap = mark || (behind.starts_with(' ') && *word != "so" && *word != "then");
+        // `so x = …`, where a name alone stands before the sign.
+        let named = || {
+            let name = behind.split('=').next().unwrap_or_default().trim();
+            !name.is_empty() && !name.contains(' ')
+        };
+        let short = matches!(*word, "so" | "then");
+        let gap = mark || (behind.starts_with(' ') && (!short || named()));
         let said = behind.contains('=') || word.ends_with(" is");
         (gap && said || mark).then_some(word.len() + usize::from(mark))
     });
@@ -122,6 +132,27 @@ pub(super) fn conclusion(text: &str) -> Option<usize> {
         (_, Some(length)) => Some(start + length),
         (Some(_), None) => Some(start),
     }
+}
+
+/// Where an equation starts that a word ties to the one before it: `½mv² = mgh so v = √(2gh)`.
+fn said_between(text: &str) -> Option<usize> {
+    const WORDS: [&str; 7] = [
+        " so ",
+        " hence ",
+        " thus ",
+        " therefore ",
+        " gives ",
+        " yields ",
+        " and so ",
+    ];
+    if text.matches('=').count() < 2 {
+        return None;
+    }
+    let found = WORDS
+        .iter()
+        .filter_map(|word| text.rfind(word).map(|at| (at, at + word.len())));
+    let (start, end) = found.max_by_key(|(_, end)| *end)?;
+    (text[..start].contains('=') && text[end..].contains('=')).then_some(end)
 }
 
 /// Start and end of the only formula in a sentence; nothing where there are none or several, or no words around it.

@@ -249,6 +249,15 @@ impl<'a> Lexer<'a> {
                 self.pos = end;
                 return Ok(Tok::Name("pi".into()));
             }
+            // `\mathbf{12}` is a number in another font.
+            if trimmed.starts_with(|c: char| c.is_ascii_digit())
+                && let Ok((literal, used)) =
+                    super::number::literal(trimmed, 0, super::number::Exponent::Symbol, false)
+                && used == trimmed.len()
+            {
+                self.pos = end;
+                return Ok(Tok::Number(literal));
+            }
         }
         let mut parts = Parts::default();
         match name::base(self.text, start, &mut parts, 0) {
@@ -364,7 +373,13 @@ pub(super) fn decoration(rest: &str) -> Option<usize> {
             | "sf"
             | "nonumber"
             | "mathstrut"
+            | "underline"
     );
+    // The number of an equation.
+    if matches!(&rest[..length], "tag" | "label") {
+        let group = rest[length..].strip_prefix('{')?;
+        return Some(length + 2 + group.find('}')?);
+    }
     known.then_some(length)
 }
 

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::dimension::Dimension;
 use crate::equality::{self, Equality};
-use crate::expr::{Expr, Symbol, ratio};
+use crate::expr::{Expr, Node, Symbol, ratio};
 use crate::formula::{self, Content, Reading, Relation, write_unicode};
 pub(crate) use scalar::{WRITTEN, is_short, quotient, same_number, scalars};
 
@@ -236,16 +236,22 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
             if let Some(finding) = nameless(ctx, expected, mine, my_signs) {
                 return finding;
             }
-            let name = name
-                .cloned()
-                .or_else(|| asked.first().map(|g| g.name.clone()))
-                .or_else(|| stranger(ctx, mine));
-            match name {
-                Some(name) => {
-                    let sides = [Content::Scalar(Expr::symbol(&name)), expected.clone()];
-                    relation::compare(ctx, (&sides, &[Relation::Equal]), (mine, my_signs))
-                }
-                None => kind("a value is expected, and the answer is a relation"),
+            let solved = |name: &Symbol| {
+                let sides = [Content::Scalar(Expr::symbol(name)), expected.clone()];
+                relation::compare(ctx, (&sides, &[Relation::Equal]), (mine, my_signs))
+            };
+            if let Some(name) = name.or_else(|| asked.first().map(|g| &g.name)) {
+                return solved(name);
+            }
+            match strangers(ctx, mine).as_slice() {
+                [name] => solved(name),
+                // `mgh = ½mv²` says what v is, whatever m is.
+                names => names
+                    .iter()
+                    .take(3)
+                    .map(solved)
+                    .find(|finding| finding.verdict == Verdict::Equivalent)
+                    .unwrap_or_else(|| kind("a value is expected, and the answer is a relation")),
             }
         }
     }
@@ -264,7 +270,14 @@ fn nameless(
         ..*ctx
     };
     let (first, others) = sides.split_first()?;
-    let finding = values(&plain, expected, first);
+    let mut finding = values(&plain, expected, first);
+    // `KE = mv²/2`: letters that stand nowhere else are a name of the value.
+    if let [name, value] = sides
+        && name.expr().is_some_and(|e| is_word(ctx, e))
+        && strangers(ctx, std::slice::from_ref(value)).is_empty()
+    {
+        finding = values(&plain, expected, value);
+    }
     let right = finding.verdict == Verdict::Equivalent;
     // Rounded to two digits a number is at most 1/20 off.
     let close = |side: &Content| {
@@ -277,6 +290,15 @@ fn nameless(
         _ => false,
     };
     (right && signs.iter().zip(others).all(follows)).then_some(finding)
+}
+
+/// Whether letters side by side, none of them of the question, are a name such as `KE`.
+fn is_word(ctx: &Context, e: &Expr) -> bool {
+    let letter = |e: &Expr| {
+        e.as_symbol()
+            .is_some_and(|name| !declared_symbol(ctx, name))
+    };
+    matches!(e.node(), Node::Product(letters) if letters.iter().all(letter))
 }
 
 /// The sides of an equation between vectors, a name with an arrow in its components.
@@ -296,15 +318,14 @@ fn declared_symbol(ctx: &Context, name: &Symbol) -> bool {
     ctx.key.question.symbols.iter().any(|g| g.name == *name)
 }
 
-/// The one name of an equation that the expected value does not know.
-fn stranger(ctx: &Context, sides: &[Content]) -> Option<Symbol> {
+/// The names of an equation that the expected value does not know.
+fn strangers(ctx: &Context, sides: &[Content]) -> Vec<Symbol> {
     let mut found = std::collections::BTreeSet::new();
     sides
         .iter()
         .for_each(|s| s.each(&mut |e| found.extend(e.symbols())));
-    let mut strange = found.into_iter().filter(|name| !declared_symbol(ctx, name));
-    let first = strange.next()?;
-    strange.next().is_none().then_some(first)
+    found.retain(|name| !declared_symbol(ctx, name));
+    found.into_iter().collect()
 }
 
 fn kind(words: &str) -> Finding {
@@ -373,8 +394,11 @@ fn values(ctx: &Context, expected: &Content, answer: &Content) -> Finding {
             finding.with(Diagnosis::new("ONE_OF_TWO", words, "there are two values"))
         }
         (Content::Scalar(e), Content::Either(a)) => {
-            let one = a.iter().any(|a| equal(ctx, e, a));
-            let words = match one {
+            let right = a.each_ref().map(|a| equal(ctx, e, a));
+            if right == [true; 2] {
+                return scalars(ctx, e, &a[0]);
+            }
+            let words = match right.contains(&true) {
                 true => "one of the two values is the expected one; the other is not",
                 false => "one value is expected",
             };
@@ -383,6 +407,10 @@ fn values(ctx: &Context, expected: &Content, answer: &Content) -> Finding {
             finding.with(Diagnosis::new("TWO_FOR_ONE", words, hint))
         }
         (Content::Vector(e), Content::Scalar(a)) => {
+            // `a × a = 0`
+            if a.is_zero() && e.iter().all(|e| equal(ctx, e, a)) {
+                return scalars(ctx, &e[0], a);
+            }
             let nonzero: Vec<&Expr> = e.iter().filter(|c| !c.is_zero()).collect();
             let right = nonzero.len() == 1 && equal(ctx, nonzero[0], a);
             let message = match right {

@@ -3,8 +3,9 @@
 use num_traits::Signed;
 
 use super::compare;
-use super::{Diagnosis, Key, Options, Proof, Verdict, show};
-use crate::expr::{Expr, Function, Node};
+use super::{Diagnosis, Key, Options, Proof, Verdict, read, show};
+use crate::dimension;
+use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{self, Content, Fault, Note, Reading, Remark};
 
 /// `cosθ^2`, read as the cosine of a square, would be right as the square of the cosine.
@@ -36,7 +37,7 @@ pub(super) fn power_of_function(content: &Content) -> Option<Content> {
 
 /// `e^x` against `exp(x)` with an e that nobody declared: only one of them knows a symbol e. Where they are equal with e as
 /// the base of the natural logarithm, that is what was meant, unless an expected e may be a restitution to the power of a
-/// count, without a logarithm beside it: then nothing is decided.
+/// count: then nothing is decided, unless a logarithm takes part and no letter that counts.
 pub(super) fn euler(
     key: &Key,
     reading: &Reading,
@@ -90,12 +91,13 @@ pub(super) fn euler(
             e.walk(&mut |part| logarithm |= matches!(part.node(), Node::Call(Function::Ln, _)));
         });
     }
-    let mut counts = occurs(expected) && !logarithm;
+    let mut counts = occurs(expected);
     let mut note = |part: &Expr| {
         if let Node::Power(base, k) = part.node()
             && base.as_symbol().is_some_and(|s| &**s == "e")
         {
-            counts &= is_count(k);
+            let counter = |name: &Symbol| matches!(&**name, "n" | "N" | "k" | "i" | "j");
+            counts &= is_count(k) && !(logarithm && !k.symbols().iter().any(counter));
         }
     };
     expected.each(&mut |e| e.walk(&mut note));
@@ -164,6 +166,51 @@ pub(super) fn slashes(
         .diagnosis
         .insert(0, Diagnosis::new("READING", message, hint));
     *reading = other;
+}
+
+/// `mv sinθ N s`: a wrong answer with a unit behind its last spaces whose letters the question does not know is right when
+/// the formula before it is, and is told so. One letter, or two small ones, are a factor.
+pub(super) fn unit_behind(
+    key: &Key,
+    answer: &str,
+    options: &Options,
+    reading: &mut Reading,
+    finding: &mut compare::Finding,
+) {
+    let known = |word: &str| key.question.symbols.iter().any(|g| *g.name == *word);
+    if finding.verdict != Verdict::Different || reading.symbols().iter().all(|name| known(name)) {
+        return;
+    }
+    let spaces = answer.rmatch_indices(' ').take(3);
+    let found = spaces.into_iter().find_map(|(at, _)| {
+        let (formula, behind) = (answer[..at].trim_end(), &answer[at..]);
+        let text = formula::plain_unit(behind)?;
+        let letters = text.split(|c: char| !c.is_alphabetic());
+        let unit = dimension::unit(&text).ok()?;
+        let mut words = letters.filter(|word| !word.is_empty());
+        let mut plain = !text.contains(['/', '^', '²', '⁻']);
+        let declared = words.any(|word| {
+            plain &= word.len() == 1 && word.to_lowercase() == word;
+            known(word)
+        });
+        let letter = text.chars().count() == 1;
+        if declared || letter || plain || unit.dimension.is_none() {
+            return None;
+        }
+        let mut other = read::answer(key, formula).ok()?;
+        let verdict = compare::verdict_of(key, &other, options);
+        other.unit = Some(unit);
+        (verdict == Verdict::Equivalent).then_some((other, text))
+    });
+    if let Some((other, unit)) = found {
+        *finding = compare::contents(key, &other, options);
+        finding.note = "EQUIV_READING";
+        let message = format!("right with {unit} read as a unit, not as a factor");
+        let hint = "symbols carry their units: leave the unit away";
+        let diagnosis = Diagnosis::new("READING", message, hint);
+        finding.diagnosis.insert(0, diagnosis);
+        *reading = other;
+    }
 }
 
 /// What an author should know about an expected formula in which a slash could reach further or less far.

@@ -21,6 +21,17 @@ pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> 
             _ => Err(fault),
         }
     })?;
+    // `3 i + 4 j`: two letters i and j in every term are the directions.
+    let reading = match along_axes(text, symbols).filter(vector) {
+        Some(other)
+            if ["i", "j"]
+                .iter()
+                .all(|axis| reading.symbols().contains(*axis)) =>
+        {
+            other
+        }
+        _ => reading,
+    };
     // Authors say which product they mean.
     match reading.notes.iter().find(|n| n.remark == Remark::Cross) {
         None => Ok(reading),
@@ -32,6 +43,12 @@ pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> 
             also: Vec::new(),
         }),
     }
+}
+
+/// A text with the letters i and j, where these are the directions.
+fn along_axes(text: &str, symbols: &Symbols) -> Option<Reading> {
+    let axes = ['i', 'j'].iter().all(|axis| text.contains(*axis));
+    axes.then(|| formula::read(text, &symbols.clone().with_lists().with_axes()).ok())?
 }
 
 /// Whether a text is read in the same way once its names are declared: there was nothing to choose, no unit, and every
@@ -50,6 +67,20 @@ pub(super) fn is_stable(reading: &Reading) -> bool {
 
 /// Reads an answer.
 pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
+    let said = text.trim_end_matches([' ', '.', ')']);
+    let sense = said.len().saturating_sub("clockwise".len());
+    if said
+        .get(sense..)
+        .is_some_and(|word| word.eq_ignore_ascii_case("clockwise"))
+    {
+        return Err(Fault {
+            message: "a sense of rotation is no part of the formula".into(),
+            start: said[..sense].rfind(' ').map_or(0, |at| at + 1),
+            end: said.len(),
+            hint: Some("which sense counts as positive is told by the question".into()),
+            also: Vec::new(),
+        });
+    }
     let usual = formula::read(text, &key.readable);
     if vector(&key.reading) && !usual.as_ref().is_ok_and(vector) {
         // Where a vector is asked, `(2,3)` is one, and so is `2i + 3j`.
@@ -203,8 +234,11 @@ pub(super) fn quantity(text: &str, question: &Question) -> Option<Reading> {
     let mut symbols = Symbols::strict().briefly();
     declare(&mut symbols, question);
     let list = || {
-        let lists = text.contains(',').then(|| symbols.clone().with_lists())?;
-        formula::read(text, &lists).ok().filter(vector)
+        let lists = text.contains(',').then(|| symbols.clone().with_lists());
+        let reading = lists.and_then(|lists| formula::read(text, &lists).ok());
+        reading
+            .or_else(|| along_axes(text, &symbols))
+            .filter(vector)
     };
     let reading = formula::read(text, &symbols).ok().or_else(list);
     reading.filter(|reading| {

@@ -117,6 +117,7 @@ pub const MAX_LINES: usize = 400;
 pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
     let mut desk = Desk::new(sheet);
     desk.ahead = names::definitions(text);
+    let mut before = String::new();
     let lines = text
         .lines()
         .enumerate()
@@ -124,7 +125,9 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
         .take(MAX_LINES)
         .map(|(i, line)| {
             let line = line.trim();
-            let (status, diagnosis) = desk.line(i + 1, line, options);
+            let whole = text::continued(&before, line);
+            let (status, diagnosis) = desk.line(i + 1, &whole, options);
+            before = whole;
             Line {
                 number: i + 1,
                 text: line.to_string(),
@@ -193,6 +196,11 @@ impl<'a> Desk<'a> {
                     .is_some_and(|q| matches!(q.ask, Ask::Velocity { .. } | Ask::Spin { .. }))
                 {
                     moving.insert(Symbol::from(answer.name.as_str()));
+                }
+                // What is asked of a parameter under a condition is not what the parameter is.
+                let mut parameters = sheet.scene.parameters.iter();
+                if parameters.any(|p| *p.name == *answer.name) {
+                    continue;
                 }
                 closed.insert(Symbol::from(answer.name.as_str()), value.clone());
             }

@@ -9,6 +9,7 @@ use super::super::sheet::Entry;
 use super::super::{Diagnosis, Options, Tolerance, Verdict, number};
 use super::{Desk, Final, Status};
 use crate::algebra::{Field, Sign};
+use crate::answer::Form;
 use crate::expr::{Expr, Function, Rational, Symbol};
 use crate::formula::{Content, Reading, Relation};
 use crate::scene::Ask;
@@ -131,18 +132,31 @@ impl Desk<'_> {
                 _ => return false,
             },
         };
-        let Some(share) = coarsest(text, &values) else {
+        let Some((share, decimal)) = coarsest(text, &values) else {
             return false;
         };
+        let room = Tolerance::Relative(share);
         sides.iter().all(|(a, b)| {
             if !(a.symbols().is_empty() || b.symbols().is_empty()) {
-                return false;
+                // `5v/7 ≈ 0.714 v`: up to a rounded factor.
+                let [a, b] = [a, b].map(|e| self.put_in(e, instead));
+                let share = self.share(&a, &b).filter(|_| decimal);
+                return share
+                    .is_some_and(|k| number::within(&k, &Expr::one(), &room) == Some(true));
             }
             let (a, b) = (exact(a), exact(b));
             let constant = a.symbols().is_empty() && b.symbols().is_empty();
-            let room = Tolerance::Relative(share.clone());
             constant && number::within(&b, &a, &room) == Some(true)
         })
+    }
+
+    /// The constant factor between two formulas.
+    fn share(&self, a: &Expr, b: &Expr) -> Option<Expr> {
+        let mut field = Field::new(&self.sheet.scene.domains);
+        field.prepare([a, b]);
+        let (a, b) = (field.element(a).ok()?, field.element(b).ok()?);
+        let share = field.expr(&field.div(&b, &a).ok()?);
+        share.is_constant().then_some(share)
     }
 
     /// What is asked with a condition, with its question and the difference of its sides.
@@ -202,7 +216,13 @@ impl Desk<'_> {
     ) -> bool {
         let none = BTreeMap::new();
         let domains = &self.sheet.scene.domains;
-        let answered = self.closed.get(question).cloned();
+        let answers = self.sheet.derivation.answers.iter();
+        let answered = answers
+            .filter(|a| *a.name == *question)
+            .find_map(|a| match &a.form {
+                Form::Value { closed, .. } => Some(closed.clone()),
+                _ => None,
+            });
         let found =
             answered.or_else(|| solve_for(&self.put_in(condition, &none), parameter, domains));
         let Some(root) = found else {
@@ -382,8 +402,8 @@ impl Desk<'_> {
 }
 
 /// How far numbers of a line may be off, as a share: half a unit in the last digit of the coarsest one. What stands last
-/// counts from two digits, what leads to it from three; values of the scene are exact.
-fn coarsest(text: &str, values: &BTreeMap<Symbol, Expr>) -> Option<Rational> {
+/// counts from two digits, what leads to it from three; values of the scene are exact. Also whether any has a decimal point.
+fn coarsest(text: &str, values: &BTreeMap<Symbol, Expr>) -> Option<(Rational, bool)> {
     let last = text.rfind(['=', '≈']).unwrap_or(0);
     let share = |word: &str, least: usize| {
         let value = number::decimal(word).filter(Signed::is_positive)?;
@@ -409,9 +429,11 @@ fn coarsest(text: &str, values: &BTreeMap<Symbol, Expr>) -> Option<Rational> {
         .filter(decimal)
         .filter_map(|w| share(w, 2))
         .collect();
+    let led: Vec<Rational> = led.collect();
+    let decimals = !(led.is_empty() && ends.is_empty());
     if ends.is_empty() {
         let whole = behind.iter().find(|w| !w.is_empty() && !w.contains('.'));
         ends.extend(whole.and_then(|w| share(w, 1)));
     }
-    led.chain(ends).max()
+    Some((led.into_iter().chain(ends).max()?, decimals))
 }

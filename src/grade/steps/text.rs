@@ -88,6 +88,20 @@ pub(super) fn equations(text: &str) -> Vec<&str> {
     out
 }
 
+/// A line that goes on with an equality sign, with the ends of the chain before it: what is spoken of, and its last side.
+pub(super) fn continued(before: &str, line: &str) -> String {
+    let rest = line.trim_start_matches(['&', '$', ' ']);
+    let goes_on =
+        rest.starts_with(['=', '≈']) && !rest.starts_with("=>") || rest.starts_with("\\approx");
+    let chain = equations(before).pop().filter(|_| goes_on);
+    let Some((first, last)) =
+        chain.and_then(|chain| Some((chain.split('=').next()?, chain.rsplit(['=', '≈']).next()?)))
+    else {
+        return line.to_string();
+    };
+    format!("{first}= {last} {rest}")
+}
+
 /// Whether what follows a separator is an equation of its own; behind an arrow a chain may go on without a name.
 fn parts(sign: &str, behind: &str) -> bool {
     let next = BETWEEN[5..].iter().filter_map(|s| behind.find(s)).min();
