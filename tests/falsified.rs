@@ -17,12 +17,12 @@ use carom::answer::Form;
 use carom::derive::{Derivation, derive};
 use carom::equality::{Equality, decide};
 use carom::expr::{Expr, Point, Rational, ratio};
-use carom::grade::{Options, sheet};
+use carom::grade::Options;
 use carom::interval::{Interval, Outcome, evaluate};
 use carom::numeric::{self, Motion};
 use carom::scene::{self, Scene, Shape};
 use carom::verify::{Trust, prove, trust};
-use carom::{check, render, solution, worked};
+use carom::{check, command, render, solution, worked};
 
 /// The rows of a table, cell by cell.
 fn rows(name: &str) -> Vec<Vec<String>> {
@@ -407,7 +407,8 @@ fn a_belief_is_told_where_it_led_to_the_answer_and_nowhere_else() {
     for row in rows("beliefs") {
         let [path, quantity, answer, verdict, codes] = [0, 1, 2, 3, 4].map(|i| row[i].as_str());
         let text = fs::read_to_string(format!("derivations/{path}")).expect("a scene");
-        let sheet = sheet::sheet(scene::read(&text).expect("a sound scene")).expect("answers");
+        let scene = scene::read(&text).expect("a sound scene");
+        let (sheet, _) = command::sheet(scene).expect("answers");
         let entry = sheet.entry(quantity).expect("a quantity");
         let grade = sheet.judge(&entry, answer, &Options::default());
         let told: Vec<&str> = grade.diagnosis.iter().map(|d| d.code).collect();

@@ -4,7 +4,7 @@ use crate::answer::Answer;
 use crate::derive::friction::table;
 use crate::grade::sheet::{Bound, Sheet};
 use crate::scene::Scene;
-use crate::{verify, worked};
+use crate::{story, verify, worked};
 
 /// The answers of a scene, proved; and what is to be said of them all the same.
 pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
@@ -23,11 +23,13 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
     }
     notes.extend(worked.refusals());
     let bounds = bounds(worked.answers());
+    let impacts = story::impacts(&worked.scene, &worked.told);
     let (scene, derivation) = worked.sheet()?;
     let sheet = Sheet {
         scene,
         derivation,
         bounds,
+        impacts: impacts.into_iter().map(|(_, impact)| impact).collect(),
     };
     Ok((sheet, notes))
 }

@@ -21,6 +21,8 @@ pub struct Sheet {
     pub derivation: Derivation,
     /// Answers that say for which values of a parameter something holds.
     pub bounds: Vec<Bound>,
+    /// The impacts of a scene with stages, each with the motion that comes in and with its own questions.
+    pub impacts: Vec<Scene>,
 }
 
 /// An answer such as d ≤ 4ℓ/3.
@@ -51,16 +53,6 @@ pub struct Entry {
     pub key: Key,
 }
 
-impl Entry {
-    /// What is asked of the impact that beliefs are tried on; of another stage nothing is that they would change.
-    fn asked_of_impact(&self) -> &Ask {
-        match self.question.stage {
-            None => &self.question.ask,
-            Some(_) => &Ask::Describe,
-        }
-    }
-}
-
 /// Derives a scene's answers.
 pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
     let derivation = derive::derive(&scene)?;
@@ -68,10 +60,25 @@ pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
         scene,
         derivation,
         bounds: Vec::new(),
+        impacts: Vec::new(),
     })
 }
 
 impl Sheet {
+    /// The impact that beliefs are tried on, and what is asked of it; of a motion nothing is that they would change.
+    fn impact<'a>(&'a self, entry: &'a Entry) -> (&'a Scene, &'a Ask) {
+        let question = &entry.question;
+        if question.stage.is_none() {
+            return (&self.scene, &question.ask);
+        }
+        let of = |impact: &'a Scene| {
+            let asked = impact.questions.iter().find(|q| q.name == question.name)?;
+            Some((impact, &asked.ask))
+        };
+        let found = self.impacts.iter().find_map(of);
+        found.unwrap_or((&self.scene, &Ask::Describe))
+    }
+
     /// The questions that have an answer.
     pub fn answered(&self) -> impl Iterator<Item = &scene::Question> {
         let answers = &self.derivation.answers;
@@ -251,9 +258,10 @@ impl Sheet {
             return grade;
         }
         let told = values.iter().any(|v| !v.is_constant());
+        let (scene, ask) = self.impact(entry);
         let written = Written {
-            scene: &self.scene,
-            ask: entry.asked_of_impact(),
+            scene,
+            ask,
             component: entry.component,
             values,
             rounding,
@@ -308,9 +316,10 @@ impl Sheet {
             Content::Vector([x, y, _]) => vec![x.clone(), y.clone()],
             _ => return Vec::new(),
         };
+        let (scene, ask) = self.impact(entry);
         believed::answers(&Written {
-            scene: &self.scene,
-            ask: entry.asked_of_impact(),
+            scene,
+            ask,
             component: entry.component,
             values,
             rounding: None,

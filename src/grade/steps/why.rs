@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::behind::{Named, behind};
+use super::super::belief::BELIEFS;
 use super::super::relation::solve_for;
 use super::super::{Diagnosis, Options};
 use super::{Desk, MOST_TERMS};
@@ -81,7 +82,13 @@ impl Desk<'_> {
             let own = side.map(|side| (side, self.with_own(side)));
             let own = own.filter(|(side, own)| *side != own || sides.len() > 2);
             let text = own.map_or(text.to_string(), |(_, own)| formula::write_plain(&own));
-            return self.sheet.judge(&entry, &text, options).diagnosis;
+            let mut found = self.sheet.judge(&entry, &text, options).diagnosis;
+            // Behind a side that is right a slip of algebra follows, and no belief.
+            if at > 0 {
+                let belief = |code| code == "TWO_BELIEFS" || BELIEFS.iter().any(|b| b.code == code);
+                found.retain(|d| !belief(d.code));
+            }
+            return found;
         }
         // A law with a slip.
         let [left, right] = sides.as_slice() else {
