@@ -14,11 +14,13 @@ use std::collections::BTreeMap;
 use crate::answer::Form;
 use crate::derive::Derivation;
 use crate::dimension::Dimension;
+use crate::domain::{roles, samples};
 use crate::equality::{self, Equality};
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Symbol, dot};
 use crate::formula::{self, Content, Reading, Relation, Symbols, write_unicode};
+use crate::interval::{Interval, Outcome, evaluate};
 use crate::laws;
-use crate::scene::{Print, Printed, Scene};
+use crate::scene::{Ask, Print, Printed, Scene};
 
 /// The finding about one printed thing.
 #[derive(Clone, Debug)]
@@ -66,6 +68,8 @@ struct Desk<'a> {
     closed: BTreeMap<Symbol, Expr>,
     /// Components of vectors by name.
     vectors: BTreeMap<Symbol, [Expr; 2]>,
+    /// The same by their names with an arrow, with those just before.
+    arrows: BTreeMap<Symbol, [Expr; 2]>,
     dimensions: BTreeMap<Symbol, Dimension>,
 }
 
@@ -117,10 +121,28 @@ impl<'a> Desk<'a> {
                 }
             }
         }
+        let arrowed = |name: &str| formula::with_arrow(name).map(Symbol::from);
+        let mut arrows: BTreeMap<Symbol, [Expr; 2]> = vectors
+            .iter()
+            .filter_map(|(name, v)| Some((arrowed(name)?, v.clone())))
+            .collect();
+        for (name, value) in before(scene) {
+            match value.as_slice() {
+                [x, y] => {
+                    for (axis, part) in [("x", x), ("y", y)] {
+                        closed.insert(format!("{name}_{axis}^-").into(), part.clone());
+                    }
+                    let arrow = arrowed(&format!("{name}^-"));
+                    arrows.extend(arrow.map(|arrow| (arrow, [x.clone(), y.clone()])));
+                }
+                one => closed.extend(one.iter().map(|v| (format!("{name}^-").into(), v.clone()))),
+            }
+        }
         Desk {
             scene,
             closed,
             vectors,
+            arrows,
             dimensions,
         }
     }
@@ -131,12 +153,51 @@ impl<'a> Desk<'a> {
             symbols.declare_as(&p.name, p.latex.as_deref(), Some(p.dimension.clone()));
         }
         for name in self.closed.keys() {
-            symbols.declare_as(name, None, self.dimensions.get(name).cloned());
+            let latex = name.contains('^').then(|| formula::latex_name(name));
+            let dimension = self.dimensions.get(name).cloned();
+            symbols.declare_as(name, latex.as_deref(), dimension);
+        }
+        for name in self.arrows.keys() {
+            symbols.declare(name);
+            let after = format!("{}^{{+}}", formula::latex_name(name));
+            if !name.contains('^') {
+                symbols.declare_as(name, Some(&after), None);
+            }
         }
         for [name, _] in &printed.short {
             symbols.declare(name);
         }
         symbols
+    }
+
+    /// The components of a side: one of a number, three of a vector or a multiple of one that is asked for.
+    fn components(&self, side: &Content) -> Option<Vec<Expr>> {
+        if let Content::Vector(v) = side {
+            return Some(v.to_vec());
+        }
+        let e = side.expr()?;
+        let used = e
+            .symbols()
+            .into_iter()
+            .filter(|n| self.arrows.contains_key(n));
+        let used: Vec<Symbol> = used.collect();
+        if used.is_empty() {
+            return Some(vec![e.clone()]);
+        }
+        let along = |axis: usize| -> BTreeMap<Symbol, Expr> {
+            let part = |name: &Symbol| self.arrows[name].get(axis).cloned();
+            let parts = used
+                .iter()
+                .map(|n| (n.clone(), part(n).unwrap_or_else(Expr::zero)));
+            parts.collect()
+        };
+        // Only what is linear in the vectors goes component by component.
+        let linear = used.iter().all(|name| {
+            let slope = e.derivative(name).symbols();
+            used.iter().all(|other| !slope.contains(other))
+        });
+        let whole = e.substitute(&along(2)).is_zero() && linear;
+        whole.then(|| (0..3).map(|axis| e.substitute(&along(axis))).collect())
     }
 
     fn read(&self, text: &str, printed: &Printed) -> Result<Reading, String> {
@@ -289,23 +350,34 @@ impl<'a> Desk<'a> {
         let Content::Relations(sides, signs) = &reading.content else {
             return Err("an equation has two sides".into());
         };
-        let mut values = Vec::new();
+        let mut values: Vec<Vec<Expr>> = Vec::new();
         for side in sides {
-            let e = side
-                .expr()
-                .ok_or("a side of the equation is no single expression")?;
-            values.push(self.put_in(e, printed)?);
+            let parts = self
+                .components(side)
+                .ok_or("a side of the equation is neither a number nor a vector")?;
+            let parts = parts.iter().map(|e| self.put_in(e, printed));
+            values.push(parts.collect::<Result<_, _>>()?);
+        }
+        let size = values.iter().map(Vec::len).max().unwrap_or(1);
+        for parts in values.iter_mut().filter(|parts| parts.len() < size) {
+            if !parts[0].is_zero() {
+                return Err("one side is a vector and another a number".into());
+            }
+            parts.resize(size, Expr::zero());
         }
         if signs.iter().all(|s| *s == Relation::Equal) {
-            let pairs: Vec<(Expr, Expr)> = values
-                .windows(2)
-                .map(|w| (w[0].clone(), w[1].clone()))
+            let rows = values.windows(2);
+            let pairs: Vec<(Expr, Expr)> = rows
+                .flat_map(|w| w[0].iter().cloned().zip(w[1].iter().cloned()))
                 .collect();
-            finding.carom = values
-                .iter()
-                .map(|v| self.tidy(v))
-                .collect::<Vec<_>>()
-                .join(" against ");
+            let shown = values.iter().map(|parts| {
+                let parts: Vec<String> = parts.iter().map(|v| self.tidy(v)).collect();
+                match parts.as_slice() {
+                    [x, y, _] => format!("[{x}, {y}]"),
+                    one => one.concat(),
+                }
+            });
+            finding.carom = shown.collect::<Vec<_>>().join(" against ");
             self.identities(&pairs, printed, finding);
             if finding.holds == Some(false) {
                 self.caught(&pairs, finding);
@@ -320,6 +392,10 @@ impl<'a> Desk<'a> {
             }
             return Ok(());
         }
+        if size > 1 {
+            return Err("an inequality compares numbers, and a side is a vector".into());
+        }
+        let values: Vec<Expr> = values.into_iter().flatten().collect();
         // An inequality claimed on the whole domain: the sign of each difference.
         let mut holds = Some(true);
         for (pair, sign) in values.windows(2).zip(signs) {
@@ -332,10 +408,52 @@ impl<'a> Desk<'a> {
             };
         }
         finding.holds = holds;
-        if holds == Some(false) {
-            self.loose(&values, signs, finding);
+        match holds {
+            Some(false) => self.loose(&values, signs, finding),
+            None => self.at_points(&values, signs, finding),
+            Some(true) => {}
         }
         Ok(())
+    }
+
+    /// An inequality whose sign is not known: it does not hold where a point shows that it fails, and is told where it does.
+    fn at_points(&self, values: &[Expr], signs: &[Relation], finding: &mut Finding) {
+        let all: Vec<&Expr> = values.iter().collect();
+        let uses = roles(&all);
+        let (domains, _) = self.scene.domains.completed(&uses);
+        let mut seen = [None, None];
+        for sample in samples(&uses, &domains, 24) {
+            let point = sample.point::<Interval>(true);
+            let links = values.windows(2).zip(signs).map(|(pair, sign)| {
+                let Outcome::Value(gap) = evaluate::<Interval>(&(&pair[1] - &pair[0]), &point)
+                else {
+                    return None;
+                };
+                let (less, more) = (gap.low > 0.0, gap.high < 0.0);
+                match sign {
+                    Relation::Less | Relation::LessEqual => (less || more).then_some(less),
+                    Relation::Greater | Relation::GreaterEqual => (less || more).then_some(more),
+                    _ => None,
+                }
+            });
+            let links: Option<Vec<bool>> = links.collect();
+            if let Some(links) = links {
+                let holds = links.iter().all(|l| *l);
+                seen[usize::from(holds)].get_or_insert_with(|| sample.words());
+            }
+        }
+        match seen {
+            [Some(fails), holds] => {
+                finding.holds = Some(false);
+                finding.because = format!("it fails at {fails}");
+                finding.explained = Some(match holds {
+                    Some(at) => format!("it holds at {at}: it is not true everywhere"),
+                    None => "it holds at no point tried".into(),
+                });
+                finding.caught_by = Some("putting simple numbers in".into());
+            }
+            _ => finding.because = "the sign is not decided, and it fails at no point tried".into(),
+        }
     }
 
     fn tidy(&self, e: &Expr) -> String {
@@ -408,4 +526,30 @@ impl<'a> Desk<'a> {
         }
         finding.holds = holds;
     }
+}
+
+/// What is asked of velocities and spins, just before: one value, or two components.
+fn before(scene: &Scene) -> Vec<(&str, Vec<Expr>)> {
+    let asked = scene.asked_of_impact().filter_map(|q| {
+        let value = match &q.ask {
+            Ask::Velocity { body, point, along } => {
+                let body = &scene.bodies[*body];
+                let velocity = match point {
+                    Some((_, at)) => body.velocity_at(at),
+                    None => body.velocity.clone(),
+                };
+                match along {
+                    Some(along) => vec![dot(&velocity, along)],
+                    None => velocity.to_vec(),
+                }
+            }
+            Ask::Spin { body, clockwise } => {
+                let spin = &scene.bodies[*body].spin;
+                vec![if *clockwise { -spin } else { spin.clone() }]
+            }
+            _ => return None,
+        };
+        Some((q.name.as_str(), value))
+    });
+    asked.collect()
 }
