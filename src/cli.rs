@@ -308,38 +308,63 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// The one impact a command works on: the scene itself, or the one of a stage with the motion that goes into it.
+/// The impacts of a scene by name of their stages, each with the motion that goes into it; a scene without stages is one
+/// impact without a name, with its friction as it stands.
+fn impacts(path: &Path, scene: &scene::Scene) -> Result<Vec<(String, scene::Scene)>, Failure> {
+    match scene.has_stages() {
+        true => Ok(work_out(path, scene)?.impacts()),
+        false => Ok(vec![(String::new(), scene.clone())]),
+    }
+}
+
+/// Of what belongs to stages, what belongs to one: all of it where none is named.
+fn of_stage<T>(
+    path: &Path,
+    mut all: Vec<(String, T)>,
+    stage: Option<&str>,
+) -> Result<Vec<(String, T)>, Failure> {
+    let Some(stage) = stage else { return Ok(all) };
+    let known: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();
+    all.retain(|(name, _)| name == stage);
+    if !all.is_empty() {
+        return Ok(all);
+    }
+    Err(refused(
+        path,
+        match known.as_slice() {
+            [none] if none.is_empty() => format!("no stage {stage}: this scene is one impact"),
+            known => format!("no stage {stage}\nhint: there are: {}", known.join("; ")),
+        },
+    ))
+}
+
+/// The only impact there is, or the one of a stage.
+fn only(
+    path: &Path,
+    all: Vec<(String, scene::Scene)>,
+    stage: Option<&str>,
+) -> Result<scene::Scene, Failure> {
+    if all.is_empty() {
+        return Err(refused(path, "no stage of this scene is an impact"));
+    }
+    let mut all = of_stage(path, all, stage)?;
+    if let [_, _, ..] = all.as_slice() {
+        let names: Vec<String> = all.into_iter().map(|(name, _)| name).collect();
+        let names = names.join("; ");
+        let why = format!("several impacts\nhint: choose one with --stage: {names}");
+        return Err(refused(path, why));
+    }
+    Ok(all.swap_remove(0).1)
+}
+
+/// The one impact a command works on, in the case that its values pick.
 fn impact_of(
     scene: &scene::Scene,
     path: &Path,
     stage: Option<&str>,
 ) -> Result<scene::Scene, Failure> {
-    let refused = |why: String| refused(path, why);
-    if !scene.has_stages() {
-        return match stage {
-            Some(name) => Err(refused(format!(
-                "no stage {name}: this scene is one impact"
-            ))),
-            None => settled(scene).map_err(refused),
-        };
-    }
-    let mut impacts = work_out(path, scene)?.impacts();
-    let names: Vec<&str> = impacts.iter().map(|(name, _)| name.as_str()).collect();
-    let names = names.join("; ");
-    if let Some(stage) = stage {
-        impacts.retain(|(name, _)| name == stage);
-    }
-    match impacts.len() {
-        1 => Ok(impacts.swap_remove(0).1),
-        0 if names.is_empty() => Err(refused(String::from("no stage of this scene is an impact"))),
-        0 => Err(refused(format!(
-            "no impact {}\nhint: the impacts here: {names}",
-            stage.unwrap_or_default()
-        ))),
-        _ => Err(refused(format!(
-            "several impacts\nhint: choose one with --stage: {names}"
-        ))),
-    }
+    let one = only(path, impacts(path, scene)?, stage)?;
+    settled(&one).map_err(|why| refused(path, why))
 }
 
 /// Reads a scene and puts in the values given on the command line.
@@ -353,7 +378,7 @@ fn read_scene_text(path: &Path, set: &[String]) -> Result<(scene::Scene, String)
     let scene = command::scene(&path.display().to_string(), &text, set).map_err(Failure::Input)?;
     Ok((scene, text))
 }
-/// Prints to standard output. Where nobody reads on, the command still ends with the status of what it found.
+
 /// What a shell needs to complete the commands.
 fn completions(shell: clap_complete::Shell) -> String {
     let mut out = Vec::new();
@@ -377,6 +402,7 @@ fn manual() -> String {
     String::from_utf8_lossy(&out).into_owned()
 }
 
+/// Prints to standard output. Where nobody reads on, the command still ends with the status of what it found.
 fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     let text = render::terminal(text);

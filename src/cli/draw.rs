@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::solution::plots;
-use super::{Failure, files, print, read_scene, refused, work_out};
+use super::{Failure, files, of_stage, print, read_scene, refused, work_out};
 use carom::figure::{self, Chapter, Drawing, Subject, Which};
 use carom::scene::Scene;
 use carom::verify::friction::settled;
@@ -53,22 +53,14 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
     if let Some(name) = &args.plot {
         return write(args, &plotted(args, &mut scene, name)?);
     }
-    if scene.has_stages() {
-        let mut all = work_out(&args.scene, &scene)?.chapters();
-        if let Some(name) = &args.stage {
-            let names: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();
-            all.retain(|(stage, _)| stage == name);
-            if all.is_empty() {
-                let known = names.join(", ");
-                let why = format!("no stage {name}\nhint: stages here: {known}");
-                return Err(refused(&args.scene, why));
-            }
-        }
-        match all.as_slice() {
-            // One impact by itself has the pictures of a collision.
-            [(_, Chapter::Impact(impact))] => scene = impact.clone(),
-            all => return write(args, &figure::chapters(&scene, all)),
-        }
+    let all = match scene.has_stages() {
+        true => work_out(&args.scene, &scene)?.chapters(),
+        false => vec![(String::new(), Chapter::Impact(scene.clone()))],
+    };
+    // One impact by itself has the pictures of a collision.
+    match of_stage(&args.scene, all, args.stage.as_deref())?.as_slice() {
+        [(_, Chapter::Impact(impact))] => scene = impact.clone(),
+        all => return write(args, &figure::chapters(&scene, all)),
     }
     // What comes after is drawn in the case that the values pick; without one the pictures before and during stand.
     if matches!(args.which, Picture::After | Picture::All) {

@@ -53,10 +53,8 @@ enum Lang {
 pub fn run(args: &EmitArgs) -> Result<u8, Failure> {
     let mut scene = read_scene(&args.scene, &[])?;
     let name = args.scene.display();
-    if !scene.has_stages() || args.stage.is_some() {
+    if args.stage.is_some() {
         scene = impact_of(&scene, &args.scene, args.stage.as_deref())?;
-        // Numbers of the motion are written, and not what is asked about them.
-        scene.questions.retain(|q| q.ask.is_motion());
     }
     let worked = work_out(&args.scene, &scene)?;
     let holds = worked.failed().is_empty();

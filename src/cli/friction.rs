@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Failure, Format, files, pretty, print, read_scene, refused, work_out};
+use super::{Failure, Format, files, impacts, only, pretty, print, read_scene, refused};
 use carom::scene::{ContactLaw, Scene};
 use carom::verify::compare::{NoComparison, compare};
 use carom::{numeric, plot, render};
@@ -30,10 +30,9 @@ pub struct CompareArgs {
 
 /// Lays the laws of contact side by side.
 pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
-    let mut scene = read_scene(&args.scene, &args.set)?;
-    if scene.has_stages() || args.stage.is_some() {
-        scene = undecided(&scene, args)?;
-    }
+    let scene = read_scene(&args.scene, &args.set)?;
+    let all = undecided(impacts(&args.scene, &scene)?);
+    let scene = only(&args.scene, all, args.stage.as_deref())?;
     let refused = |reason: String| refused(&args.scene, reason);
     if scene.friction().is_none() && scene.contacts.len() > 1 {
         return several(&scene, args, &refused);
@@ -51,14 +50,8 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     Ok(0)
 }
 
-/// The impact of a stage with the motion handed on, before anything is decided about its contact.
-fn undecided(scene: &Scene, args: &CompareArgs) -> Result<Scene, Failure> {
-    let path = &args.scene;
-    let mut impacts = match scene.has_stages() {
-        true => work_out(path, scene)?.impacts(),
-        false => Vec::new(),
-    };
-    // All outcomes of a stage begin alike.
+/// Impacts before anything is decided about their contacts; all outcomes of a stage begin alike.
+fn undecided(mut impacts: Vec<(String, Scene)>) -> Vec<(String, Scene)> {
     for (name, impact) in &mut impacts {
         name.truncate(name.find(", case ").unwrap_or(name.len()));
         for contact in &mut impact.contacts {
@@ -68,21 +61,7 @@ fn undecided(scene: &Scene, args: &CompareArgs) -> Result<Scene, Failure> {
         }
     }
     impacts.dedup_by(|a, b| a.0 == b.0);
-    let names: Vec<String> = impacts.iter().map(|(name, _)| name.clone()).collect();
-    if let Some(stage) = &args.stage {
-        impacts.retain(|(name, _)| name == stage);
-    }
-    match impacts.len() {
-        1 => Ok(impacts.swap_remove(0).1),
-        0 if names.is_empty() => Err(refused(path, "no stage of this scene is an impact")),
-        _ => Err(refused(
-            path,
-            format!(
-                "choose an impact\nhint: --stage with one of: {}",
-                names.join("; ")
-            ),
-        )),
-    }
+    impacts
 }
 
 /// Lays what laws for several contacts at once give side by side.

@@ -10,7 +10,7 @@ use super::{Failure, collect, complain, files, refused, work_out};
 use carom::command;
 use carom::figure::{self, Which};
 use carom::render::{html, site};
-use carom::scene::{self, Scene};
+use carom::scene;
 use carom::solution::Detail;
 use carom::verify::friction::settled;
 
@@ -102,19 +102,26 @@ fn page(args: &SiteArgs, path: &Path) -> Result<(site::Listed, bool), Failure> {
         .into_owned();
     let up = "../".repeat(below.components().count() - 1);
     let (above, file) = (site::above(&up), site::source(&name, &text));
-    let (html, sound) = match settled(&scene) {
+    let (html, sound, svg) = match settled(&scene) {
         Ok(settled) => {
             let worked = work_out(path, &settled)?;
             let solution = worked.solution(Detail::Normal);
             let page = html::page_among(&solution, &pictures(path, &worked)?, &above, &file);
-            (page, worked.holds())
+            let chapters = worked.chapters();
+            let first = chapters
+                .first()
+                .map(|(name, all)| figure::chapter(name, all));
+            let first = first.and_then(|drawn| drawn.into_iter().next());
+            let svg = first.map_or_else(String::new, |(drawing, _)| drawing.svg);
+            (page, worked.holds(), svg)
         }
         // Friction leaves several cases: all of them, as they are derived.
         Err(_) => {
             let found =
                 command::derive(&scene, command::Format::Text).map_err(|why| refused(path, why))?;
             let page = site::printed(&scene.title, &found.text, &above, &file);
-            (page, found.status == 0)
+            let svg = figure::draw(&scene, Which::Before).svg;
+            (page, found.status == 0, svg)
         }
     };
     save(&target, &text)?;
@@ -138,7 +145,7 @@ fn page(args: &SiteArgs, path: &Path) -> Result<(site::Listed, bool), Failure> {
         title: scene.title.clone(),
         source: scene.source.clone(),
         words: words.join(" "),
-        svg: thumbnail(&scene),
+        svg,
     };
     Ok((listed, sound))
 }
@@ -149,12 +156,4 @@ fn address(path: &Path) -> String {
     [("%", "%25"), ("#", "%23"), ("?", "%3F")]
         .iter()
         .fold(path, |path, (mark, code)| path.replace(mark, code))
-}
-
-/// The bodies before, small.
-fn thumbnail(scene: &Scene) -> String {
-    match scene.has_stages() {
-        false => figure::draw(scene, Which::Before).svg,
-        true => String::new(),
-    }
 }

@@ -19,14 +19,36 @@ pub(super) fn impact(scene: &Scene, told: &Told, impact: &Case) -> Value {
         possible,
         ..
     } = impact;
-    let counting = &derivation.counting;
     let answers = told.answers.iter();
     let answers = answers.map(|a| answer(scene, told, a));
-    let used: usize = derivation.blocks.iter().map(|b| b.equations.len()).sum();
-    json!({
+    let mut out = object(json!({
         "title": scene.title,
         "source": scene.source,
         "answers": answers.collect::<Vec<_>>(),
+    }));
+    out.extend(equations(scene, derivation));
+    out.extend(object(json!({
+        "assumptions": super::assumptions(scene, derivation, proof),
+        "checks": proof.scene.iter().map(check).collect::<Vec<_>>(),
+        "admissible": super::possible::json(scene, possible),
+        "verified": told.is_proved(),
+    })));
+    Value::Object(out)
+}
+
+/// The fields of an object.
+pub(super) fn object(value: Value) -> Map<String, Value> {
+    match value {
+        Value::Object(fields) => fields,
+        _ => Map::new(),
+    }
+}
+
+/// The equations that an impact took, and what it did not need.
+pub(super) fn equations(scene: &Scene, derivation: &Derivation) -> Map<String, Value> {
+    let counting = &derivation.counting;
+    let used: usize = derivation.blocks.iter().map(|b| b.equations.len()).sum();
+    object(json!({
         "where": definitions(scene, derivation, None),
         "equations_used": used,
         "equations_full": counting.equations,
@@ -44,11 +66,7 @@ pub(super) fn impact(scene: &Scene, told: &Told, impact: &Case) -> Value {
             "unknowns": b.unknowns.iter().map(|u| derivation.names.plain(*u)).collect::<Vec<_>>(),
         })).collect::<Vec<_>>(),
         "left_out": derivation.left_out.iter().map(|l| json!({"what": l.what, "why": l.why})).collect::<Vec<_>>(),
-        "assumptions": super::assumptions(scene, derivation, proof),
-        "checks": proof.scene.iter().map(check).collect::<Vec<_>>(),
-        "admissible": super::possible::json(scene, possible),
-        "verified": told.is_proved(),
-    })
+    }))
 }
 
 /// The numbers of a numeric solution.

@@ -49,17 +49,27 @@ fn stage(scene: &Scene, s: &StageTold) -> Value {
         "kind": s.placed.kind.word(),
         "words": plain(&s.words),
         "conserved": s.kept.iter().map(|k| json!({"what": k.what, "conserved": k.conserved, "why": k.why.to_string()})).collect::<Vec<_>>(),
-        "cases": s.cases.iter().map(|c| json!({
-            "active": c.active,
-            "conditions": c.conditions.iter().map(|(why, e)| format!("{} >= 0 ({why})", write_plain(e))).collect::<Vec<_>>(),
-            "verified": c.proof.holds(),
-            "admissible": super::possible::json(scene, &c.possible),
-        })).collect::<Vec<_>>(),
+        "cases": s.cases.iter().map(|c| case(scene, c)).collect::<Vec<_>>(),
         "energy": s.energy.as_ref().map(|[a, b]| json!({"before": write_plain(a), "after": write_plain(b)})),
         "bodies": bodies,
         "assumptions": plain(&s.assumptions),
         "checks": s.checks.iter().map(super::json::check).collect::<Vec<_>>(),
     })
+}
+
+/// An outcome of an impact, with the equations it took.
+fn case(scene: &Scene, case: &Case) -> Value {
+    let conditions = case.conditions.iter();
+    let conditions = conditions.map(|(why, e)| format!("{} >= 0 ({why})", write_plain(e)));
+    let mut out = super::json::object(json!({
+        "active": case.active,
+        "conditions": conditions.collect::<Vec<_>>(),
+        "verified": case.proof.holds(),
+        "admissible": super::possible::json(scene, &case.possible),
+    }));
+    let (asked, derivation) = case.asked();
+    out.extend(super::json::equations(&asked, &derivation));
+    Value::Object(out)
 }
 
 fn plain(all: &[Sentence]) -> Vec<String> {
