@@ -21,9 +21,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
+use clap::{CommandFactory, Parser, Subcommand};
 
-use carom::command::{self, Numbers, Output};
+use carom::command::{self, Format, Numbers, Output};
 use carom::render::pretty;
 use carom::verify::friction::settled;
 use carom::worked::{self, Worked};
@@ -129,21 +129,6 @@ enum Command {
     },
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Text,
-    Json,
-}
-
-impl From<Format> for command::Format {
-    fn from(format: Format) -> command::Format {
-        match format {
-            Format::Text => command::Format::Text,
-            Format::Json => command::Format::Json,
-        }
-    }
-}
-
 /// Why a command ended without a result.
 enum Failure {
     /// Unusable input: the message is complete.
@@ -222,7 +207,7 @@ fn derive_command(
         scene = impact_of(&scene, path, stage)?;
     }
     if !matrix {
-        return print_output(path, command::derive(&scene, format.into()));
+        return print_output(path, command::derive(&scene, format));
     }
     let names = derive::Names::of(&scene);
     let full = derive::full_matrix(&scene, &names).map_err(|stop| refused(path, stop))?;
@@ -240,7 +225,7 @@ fn solve_command(
     numbers: Numbers,
 ) -> Result<u8, Failure> {
     let scene = read_scene(path, set)?;
-    print_output(path, command::solve(&scene, numbers, format.into()))
+    print_output(path, command::solve(&scene, numbers, format))
 }
 
 /// Why a command has no result for the scene of a file.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::{Failure, complain, files, impact_of, print, read_scene, refused, work_out};
 use carom::emit::{Heading, Language, Style, file, functions};
@@ -13,8 +13,8 @@ pub struct EmitArgs {
     /// Scene file, `-` for standard input
     scene: PathBuf,
     /// Language of the code
-    #[arg(long, value_enum, default_value_t = Lang::Rust)]
-    lang: Lang,
+    #[arg(long, value_enum, default_value_t = Language::Rust)]
+    lang: Language,
     /// Only this answer, such as omega or v_x; may be repeated
     #[arg(long, value_name = "NAME")]
     quantity: Vec<String>,
@@ -37,17 +37,6 @@ pub struct EmitArgs {
 
 /// Powers of ten that arguments may have either way where nothing is scaled.
 const PLAIN_REACH: i32 = 30;
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Lang {
-    Rust,
-    /// Rust with core alone and the crate libm
-    NoStd,
-    C,
-    Python,
-    /// Python on arrays of NumPy
-    Numpy,
-}
 
 /// Runs `carom emit`: exit status 0, or 1 where the closed forms did not stand their proof and nothing is written.
 pub fn run(args: &EmitArgs) -> Result<u8, Failure> {
@@ -102,15 +91,8 @@ pub fn run(args: &EmitArgs) -> Result<u8, Failure> {
         source: scene.source.clone(),
         assumptions,
     };
-    let language = match args.lang {
-        Lang::Rust => Language::Rust,
-        Lang::C => Language::C,
-        Lang::NoStd => Language::NoStd,
-        Lang::Python => Language::Python,
-        Lang::Numpy => Language::NumPy,
-    };
     let style = Style {
-        language,
+        language: args.lang,
         prefix: args.prefix.clone(),
         record: args.record,
     };

@@ -304,7 +304,7 @@ pub fn verify(args: &VerifyArgs) -> Result<u8, Failure> {
 /// Runs `carom read`.
 pub fn read(args: &ReadArgs) -> Result<u8, Failure> {
     let sheet = args.scene.as_deref().map(open).transpose()?;
-    let output = command::read(&args.formula, sheet.as_ref(), args.format.into());
+    let output = command::read(&args.formula, sheet.as_ref(), args.format);
     let output = output.map_err(Failure::Input)?;
     print(&output.text)?;
     Ok(output.status)

@@ -21,7 +21,7 @@ pub use read::read;
 pub use sheet::{only_quantity, sheet};
 
 /// How a result is written.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
 pub enum Format {
     /// For people.
     Text,

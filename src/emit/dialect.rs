@@ -1,7 +1,7 @@
 //! How the languages write what every program is made of.
 
 /// The languages.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Language {
     /// A module of functions on `f64`.
     Rust,
@@ -12,6 +12,7 @@ pub enum Language {
     /// A module of functions on floats; Python 3.
     Python,
     /// A module of functions on arrays of doubles, and on floats; Python 3 with NumPy.
+    #[value(name = "numpy")]
     NumPy,
 }
 

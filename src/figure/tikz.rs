@@ -246,7 +246,7 @@ fn run(run: &Run) -> String {
             c if c.is_ascii() => out.push(c),
             c => match command(c) {
                 Some(known) => {
-                    out.push_str(known);
+                    out.push_str(&known);
                     if known.ends_with(|c: char| c.is_alphabetic()) {
                         out.push(' ');
                     }
