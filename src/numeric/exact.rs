@@ -15,40 +15,17 @@ use crate::expr::{Int, Rational};
 
 /// Solves a system exactly, also where it determines only some unknowns.
 pub fn solve_exact(system: &System<Rational>) -> Result<Solution<Rational>, Contradiction> {
-    let n = system.unknowns.len();
+    let (rows, n) = (system.laws.len(), system.unknowns.len());
     let whole = integer_rows(system);
     let small: Option<Vec<i128>> = whole.iter().map(|v| v.as_i64().map(i128::from)).collect();
-    let mut outcome = small.and_then(|rows| cramer(rows, system.laws.len(), n));
-    if outcome.is_none() {
-        outcome = match cramer::<BigInt>(
-            whole.iter().map(Int::to_bigint).collect(),
-            system.laws.len(),
-            n,
-        ) {
-            Some(Cramer::Solved {
-                numerators,
-                determinant,
-            }) => {
-                let values = numerators
-                    .into_iter()
-                    .map(|x| Rational::new(x.into(), determinant.clone().into()));
-                return Ok(Solution::determined(values.collect()));
-            }
-            _ => None,
-        };
-    }
-    match outcome {
-        Some(Cramer::Solved {
-            numerators,
-            determinant,
-        }) => {
-            let values = numerators
-                .into_iter()
-                .map(|x| fraction(x, determinant))
-                .collect();
-            Ok(Solution::determined(values))
-        }
-        _ => solve_any_rank(system),
+    let outcome = small.and_then(|cells| Some(cramer(cells, rows, n)?.values()));
+    let outcome = outcome.or_else(|| {
+        let cells: Vec<BigInt> = whole.iter().map(Int::to_bigint).collect();
+        Some(cramer(cells, rows, n)?.values())
+    });
+    match outcome.flatten() {
+        Some(values) => Ok(Solution::determined(values)),
+        None => reduced(system).map(|(solution, _)| solution),
     }
 }
 
@@ -89,13 +66,15 @@ fn integer_rows(system: &System<Rational>) -> Vec<Int> {
 }
 
 /// An integer type the elimination runs in; `None` where a result does not fit it.
-pub(super) trait Whole: Clone {
+trait Whole: Clone {
     fn one() -> Self;
     fn is_zero(&self) -> bool;
     /// (p·a − q·b) / d, the division being exact.
     fn eliminate(p: &Self, a: &Self, q: &Self, b: &Self, d: &Self) -> Option<Self>;
     /// a·p / d, the division being exact.
     fn raise(a: &Self, p: &Self, d: &Self) -> Option<Self>;
+    /// The fraction a / d.
+    fn over(self, d: &Self) -> Rational;
 }
 
 impl Whole for i128 {
@@ -111,6 +90,9 @@ impl Whole for i128 {
     }
     fn raise(a: &i128, p: &i128, d: &i128) -> Option<i128> {
         quotient(a.checked_mul(*p)?, *d)
+    }
+    fn over(self, d: &i128) -> Rational {
+        fraction(self, *d)
     }
 }
 
@@ -136,18 +118,39 @@ impl Whole for BigInt {
     fn raise(a: &BigInt, p: &BigInt, d: &BigInt) -> Option<BigInt> {
         Some(a * p / d)
     }
+    fn over(self, d: &BigInt) -> Rational {
+        Rational::new(self.into(), d.clone().into())
+    }
 }
 
 /// How the elimination ended.
-pub(super) enum Cramer<I> {
+enum Cramer<I> {
     /// Every unknown is numerator / determinant, and all rows agree.
     Solved { numerators: Vec<I>, determinant: I },
     /// The unknowns are not all determined, or rows contradict each other.
     Singular,
 }
 
+impl<I: Whole> Cramer<I> {
+    /// The unknowns, where all are determined.
+    fn values(self) -> Option<Vec<Rational>> {
+        match self {
+            Cramer::Solved {
+                numerators,
+                determinant,
+            } => Some(
+                numerators
+                    .into_iter()
+                    .map(|x| x.over(&determinant))
+                    .collect(),
+            ),
+            Cramer::Singular => None,
+        }
+    }
+}
+
 /// Eliminates `rows` × (`n` + 1) integers; `None` where the integer type is too narrow.
-pub(super) fn cramer<I: Whole>(mut cells: Vec<I>, rows: usize, n: usize) -> Option<Cramer<I>> {
+fn cramer<I: Whole>(mut cells: Vec<I>, rows: usize, n: usize) -> Option<Cramer<I>> {
     let width = n + 1;
     if rows < n {
         return Some(Cramer::Singular);
@@ -245,7 +248,7 @@ fn substitute<I: Whole>(
 }
 
 /// The entry with the fewest fill-ins among the open rows and columns; the first of equals.
-pub(super) fn cheapest_pivot<I: Whole>(
+fn cheapest_pivot<I: Whole>(
     cells: &[I],
     width: usize,
     rows: &[usize],
@@ -284,12 +287,8 @@ pub(super) fn cheapest_pivot<I: Whole>(
     best
 }
 
-/// Gauss–Jordan over fractions, for systems that leave something open or contradict themselves.
-fn solve_any_rank(system: &System<Rational>) -> Result<Solution<Rational>, Contradiction> {
-    reduced(system).map(|(solution, _)| solution)
-}
-
-/// The same, with row and column of each pivot. Every row carries along which of the original rows it is made of.
+/// Gauss–Jordan over fractions, for systems that leave something open or contradict themselves; with row and column of each
+/// pivot. Every row carries along which of the original rows it is made of.
 pub(super) fn reduced(
     system: &System<Rational>,
 ) -> Result<(Solution<Rational>, Vec<[usize; 2]>), Contradiction> {

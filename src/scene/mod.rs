@@ -33,6 +33,8 @@ mod stage_file;
 mod stages;
 pub mod touch;
 
+use std::borrow::Cow;
+
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector, minus};
@@ -214,6 +216,14 @@ impl Scene {
     /// Whether it goes through stages, and is not one impact.
     pub fn has_stages(&self) -> bool {
         !self.stages.is_empty()
+    }
+
+    /// Its stages, or its one impact as the only stage.
+    pub fn course(&self) -> Cow<'_, [Stage]> {
+        match self.has_stages() {
+            true => Cow::Borrowed(&self.stages),
+            false => Cow::Owned(vec![Stage::alone(self)]),
+        }
     }
 
     /// The questions about this impact: its motion, impulses, energy and equations.

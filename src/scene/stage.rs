@@ -29,6 +29,21 @@ pub struct Stage {
 }
 
 impl Stage {
+    /// The one impact of a scene without stages, as its only stage; it has no name.
+    pub fn alone(scene: &Scene) -> Stage {
+        Stage {
+            name: String::new(),
+            from: None,
+            start: Vec::new(),
+            kind: StageKind::Impact {
+                one_sided: Vec::new(),
+                supposed: None,
+            },
+            places: Vec::new(),
+            scene: scene.clone(),
+        }
+    }
+
     /// The stage with what is known of the places put in; a symbol without a value stays.
     pub fn placed(&self, values: &BTreeMap<Symbol, Expr>) -> Stage {
         let mut out = self.clone();
@@ -121,7 +136,7 @@ pub enum StageKind {
 
 impl StageKind {
     /// Every formula of the stage.
-    fn formulas_mut(&mut self, put: &mut impl FnMut(&mut Expr)) {
+    pub fn formulas_mut(&mut self, put: &mut impl FnMut(&mut Expr)) {
         match self {
             StageKind::Impact { one_sided, .. } => {
                 for o in one_sided {

@@ -8,7 +8,7 @@ use super::{Case, StageTold, State, Told};
 use crate::answer::{Answer, Refused};
 use crate::derive;
 use crate::formula::Sentence;
-use crate::scene::{Scene, Stage, StageKind};
+use crate::scene::{Scene, Stage};
 use crate::verify::{self, possible};
 
 /// Tells the one impact of a scene.
@@ -29,17 +29,7 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
             "",
         )
     });
-    let stage = Stage {
-        name: String::new(),
-        from: None,
-        start: Vec::new(),
-        kind: StageKind::Impact {
-            one_sided: Vec::new(),
-            supposed: None,
-        },
-        places: Vec::new(),
-        scene: scene.clone(),
-    };
+    let stage = Stage::alone(scene);
     let before = super::start(scene, &[]);
     let after = unasked(scene, &before);
     let case = Case {

@@ -48,7 +48,7 @@ use std::collections::BTreeSet;
 use super::given::{Freedom, Reason, Undefined, value};
 use super::points::{self, Needed, needed, with_angles};
 use crate::expr::{Expr, Point, Symbol, Vector};
-use crate::scene::{FallEnd, Scene, SlideEnd, Stage, StageKind, Until};
+use crate::scene::{Scene, Stage, StageKind};
 
 pub use answer::{Unanswered, answer};
 pub use impact::{Breach, Impact, Impulse, Opening};
@@ -107,27 +107,16 @@ pub fn follow(scene: &Scene, values: &Point<f64>) -> Result<Followed, Undefined>
     let solids = solids(scene, values)?;
     let values = with_angles(values);
     let start = start(scene, &solids, &values)?;
-    if !scene.has_stages() {
-        let only = Course {
-            name: "",
-            scene,
-            solids: &solids,
-            values: &values,
-        };
-        let stage = impact::impact(&only, &[], None, &start)
-            .map(|(what, after)| only.passed(Ok(0.0), start.clone(), after, What::Impact(what)));
-        let stages = vec![stage];
-        return Ok(Followed { solids, stages });
-    }
+    let course = scene.course();
     let mut stages: Vec<Result<Passed, Lost>> = Vec::new();
-    for stage in &scene.stages {
+    for stage in course.iter() {
         let before = match stage.from {
             None => changed(stage, &start, &values),
             Some(j) => match &stages[j] {
                 Ok(passed) => Ok(passed.after.clone()),
                 Err(_) => Err(Lost {
                     stage: stage.name.clone(),
-                    why: Loss::After(scene.stages[j].name.clone()),
+                    why: Loss::After(course[j].name.clone()),
                 }),
             },
         };
@@ -165,30 +154,27 @@ pub fn symbols(scene: &Scene) -> BTreeSet<Symbol> {
         let names = needed.plain.into_iter().chain(needed.angles.into_keys());
         names.for_each(|n| add(&Expr::symbol(&n)));
     };
-    if !scene.has_stages() {
-        of_scene(scene);
-        return out;
-    }
     let bodies = Scene {
         bodies: scene.bodies.clone(),
         ..Scene::default()
     };
     of_scene(&bodies);
-    for stage in &scene.stages {
+    let course = scene.course();
+    for stage in course.iter() {
         let without = Scene {
             bodies: Vec::new(),
             ..stage.scene.clone()
         };
         of_scene(&without);
     }
-    for stage in &scene.stages {
+    for stage in course.iter() {
         for (_, velocity, spin) in &stage.start {
             velocity.iter().flatten().for_each(&mut add);
             spin.iter().for_each(&mut add);
         }
-        of_kind(&stage.kind).into_iter().for_each(&mut add);
+        stage.kind.clone().formulas_mut(&mut |e| add(e));
     }
-    let places = scene.stages.iter().flat_map(|s| s.places.iter().flatten());
+    let places = course.iter().flat_map(|s| s.places.iter().flatten());
     places.for_each(|symbol| {
         out.remove(symbol);
     });
@@ -223,41 +209,6 @@ pub fn values(scene: &Scene) -> Result<Point<f64>, Vec<Symbol>> {
     match missing.is_empty() {
         true => Ok(point),
         false => Err(missing),
-    }
-}
-
-/// Every formula of a kind of stage.
-fn of_kind(kind: &StageKind) -> Vec<&Expr> {
-    match kind {
-        StageKind::Impact { one_sided, .. } => one_sided
-            .iter()
-            .flat_map(|o| o.at.iter().chain(&o.normal))
-            .collect(),
-        StageKind::Turn(turn) => {
-            let end = match &turn.until {
-                Until::By(e) | Until::For(e) => Some(e),
-                Until::Above | Until::Below => None,
-            };
-            let forces = turn.gravity.iter().chain(&turn.torque);
-            turn.about.iter().chain(end).chain(forces).collect()
-        }
-        StageKind::Slide(slide) => {
-            let end = match &slide.until {
-                SlideEnd::Distance(e) | SlideEnd::Time(e) => Some(e),
-                SlideEnd::Stops | SlideEnd::Rolls => None,
-            };
-            let forces = slide.gravity.iter().chain(&slide.force);
-            let others = slide.strings.iter();
-            let others = others.flat_map(|s| s.along.iter().chain(&s.friction));
-            let way = slide.along.iter().chain(end).chain(others);
-            way.chain(forces).chain(&slide.friction).collect()
-        }
-        StageKind::Fall(fall) => {
-            let (FallEnd::Drop(end) | FallEnd::Range(end) | FallEnd::Time(end)) = &fall.until;
-            fall.gravity.iter().chain([end]).collect()
-        }
-        StageKind::Wind(wind) => wind.around.iter().chain([&wind.to]).collect(),
-        StageKind::Linkage(linkage) => linkage.ends.iter().chain(&linkage.gravity).collect(),
     }
 }
 
