@@ -318,7 +318,10 @@ fn of_stage<T>(
         path,
         match known.as_slice() {
             [none] if none.is_empty() => format!("no stage {stage}: this scene is one impact"),
-            known => format!("no stage {stage}\nhint: there are: {}", known.join("; ")),
+            known => format!(
+                "no stage {stage}\nhint: --stage with one of: {}",
+                known.join("; ")
+            ),
         },
     ))
 }
@@ -336,7 +339,7 @@ fn only(
     if let [_, _, ..] = all.as_slice() {
         let names: Vec<String> = all.into_iter().map(|(name, _)| name).collect();
         let names = names.join("; ");
-        let why = format!("several impacts\nhint: choose one with --stage: {names}");
+        let why = format!("several impacts\nhint: --stage with one of: {names}");
         return Err(refused(path, why));
     }
     Ok(all.swap_remove(0).1)
