@@ -104,7 +104,9 @@ pub(super) fn conclusion(text: &str) -> Option<usize> {
         return None;
     }
     let from = arrow.unwrap_or(0);
-    let rest = text[from..].trim_start();
+    // `**Answer:** …` in Markdown.
+    let bold = text[from..].trim_start().starts_with("**");
+    let rest = text[from..].trim_start_matches(|c: char| c.is_whitespace() || bold && c == '*');
     let start = text.len() - rest.len();
     // `\text{so } t = …`
     if let Some((said, behind)) = rest.strip_prefix("\\text{").and_then(|r| r.split_once('}')) {
@@ -125,7 +127,8 @@ pub(super) fn conclusion(text: &str) -> Option<usize> {
         let short = matches!(*word, "so" | "then");
         let gap = mark || (behind.starts_with(' ') && (!short || named()));
         let said = behind.contains('=') || word.ends_with(" is");
-        (gap && said || mark).then_some(word.len() + usize::from(mark))
+        let stars = 2 * usize::from(bold && behind[usize::from(mark)..].starts_with("**"));
+        (gap && said || mark).then_some(word.len() + usize::from(mark) + stars)
     });
     match (arrow, word) {
         (None, None) => None,

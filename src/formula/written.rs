@@ -115,18 +115,24 @@ impl Written {
         }
     }
 
-    /// Whether vectors with arrows are multiplied by each other or measured, so that their components matter.
+    /// Whether vectors with arrows are multiplied with vectors, measured, or added to components, so that theirs matter.
     pub(crate) fn multiplies_vectors(&self) -> bool {
         let arrow = |w: &Written| w.is_vector() && w.has_arrow();
         let inside = |w: &Written| w.multiplies_vectors();
         match &self.shape {
             Shape::Product(factors) => {
-                factors.iter().filter(|(_, f)| arrow(f)).count() > 1
+                let vectors = factors.iter().filter(|(_, f)| f.is_vector()).count();
+                vectors > 1 && factors.iter().any(|(_, f)| arrow(f))
                     || factors.iter().any(|(_, f)| inside(f))
             }
             Shape::Abs(inner) => arrow(inner) || inside(inner),
             Shape::Power(base, exponent) => arrow(base) || inside(base) || inside(exponent),
-            Shape::Sum(terms) => terms.iter().any(|(_, t)| inside(t)),
+            // `\vec{v} + 2\hat{\imath}` adds components too.
+            Shape::Sum(terms) => {
+                let plain = |w: &Written| w.is_vector() && !w.has_arrow();
+                terms.iter().any(|(_, t)| inside(t))
+                    || terms.iter().any(|(_, t)| arrow(t)) && terms.iter().any(|(_, t)| plain(t))
+            }
             Shape::Fraction(a, b) => inside(a) || inside(b),
             Shape::Root(_, a)
             | Shape::Call(_, a)

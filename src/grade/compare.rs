@@ -301,14 +301,17 @@ fn is_word(ctx: &Context, e: &Expr) -> bool {
     matches!(e.node(), Node::Product(letters) if letters.iter().all(letter))
 }
 
-/// The sides of an equation between vectors, a name with an arrow in its components.
+/// The sides of an equation between vectors, names with an arrow and sums of them in their components.
 fn spread(sides: &[Content]) -> Vec<Content> {
     let vectors = sides.iter().any(|side| matches!(side, Content::Vector(_)));
     let components = |side: &Content| {
-        let name = side.expr().and_then(Expr::as_symbol);
-        let name = name.filter(|name| vectors && formula::has_arrow(name))?;
-        let along = |axis: &str| Expr::symbol(&format!("{name}_{axis}"));
-        Some(Content::Vector(["x", "y", "z"].map(along)))
+        let e = side.expr().filter(|_| vectors)?;
+        let mut names = e.symbols();
+        names.retain(|name| formula::has_arrow(name) && !formula::is_component(name));
+        let part =
+            |name: &Symbol, axis: &str| (name.clone(), Expr::symbol(&format!("{name}_{axis}")));
+        let along = |axis: &str| e.substitute(&names.iter().map(|n| part(n, axis)).collect());
+        (!names.is_empty()).then(|| Content::Vector(["x", "y", "z"].map(along)))
     };
     let spread = |side: &Content| components(side).unwrap_or_else(|| side.clone());
     sides.iter().map(spread).collect()

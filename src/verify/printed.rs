@@ -228,7 +228,19 @@ impl<'a> Desk<'a> {
         for angle in &printed.small {
             special.insert(Symbol::from(angle.as_str()), Expr::zero());
         }
-        Ok(out.substitute(&self.closed).substitute(&special))
+        let parts = self.arrows.iter().flat_map(|(name, [x, y])| {
+            let all = [("x", x.clone()), ("y", y.clone()), ("z", Expr::zero())];
+            all.map(|(axis, value)| (Symbol::from(format!("{name}_{axis}")), value))
+        });
+        let out = out.substitute(&self.closed).substitute(&parts.collect());
+        if out
+            .symbols()
+            .iter()
+            .any(|name| self.arrows.contains_key(name))
+        {
+            return Err("a vector stands where a number belongs".into());
+        }
+        Ok(out.substitute(&special))
     }
 
     fn say(&self, e: &Expr) -> String {

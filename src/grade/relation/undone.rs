@@ -12,7 +12,7 @@ use super::Normal;
 use super::solved::replaced;
 use crate::algebra::{Field, Sign};
 use crate::domain::{Domains, Limit, roles};
-use crate::expr::angle::angle as turns;
+use crate::expr::angle::angle as combination;
 use crate::expr::number::from_f64;
 use crate::expr::{Expr, Function, Int, Node, Rational, Symbol, ratio};
 use crate::formula::{Relation, write_plain};
@@ -28,7 +28,7 @@ pub(super) struct Undone {
 pub(super) type Step = fn(&Normal, &Domains) -> Option<Undone>;
 
 /// The ways, in the order in which they are tried: each works on what the one before leaves.
-pub(super) const STEPS: [Step; 4] = [logarithms, arcs, powers, exponents];
+pub(super) const STEPS: [Step; 5] = [logarithms, arcs, turns, powers, exponents];
 
 /// The sign of a formula on the domain.
 fn sign(e: &Expr, domains: &Domains) -> Option<Sign> {
@@ -156,29 +156,65 @@ fn logarithms(n: &Normal, domains: &Domains) -> Option<Undone> {
     })
 }
 
+/// A call of one of these functions that a relation is linear in, with its argument: `k f(u) + W`, given as the call, the
+/// function, u, k and −W/k.
+fn called(n: &Normal, functions: &[Function]) -> Option<(Expr, Function, Expr, Rational, Expr)> {
+    let mut found = None;
+    n.difference.walk(&mut |part| {
+        if let Node::Call(function, inside) = part.node()
+            && functions.contains(function)
+        {
+            found.get_or_insert((part.clone(), *function, inside.clone()));
+        }
+    });
+    let (call, function, inside) = found?;
+    let letter: Symbol = write_plain(&call).into();
+    let linear = replaced(&n.difference, &call, &Expr::symbol(&letter));
+    let k = linear.derivative(&letter);
+    let k = k.as_number().filter(|k| !k.is_zero())?.clone();
+    let rest = linear.substitute(&BTreeMap::from([(letter, Expr::zero())]));
+    let other = rest * Expr::from(-k.recip());
+    Some((call, function, inside, k, other))
+}
+
+/// An inequality with one sine, cosine or tangent of an angle on whose domain it only grows or only falls, as one of the
+/// angle: `tan θ < 1` is `θ < arctan 1`.
+fn turns(n: &Normal, domains: &Domains) -> Option<Undone> {
+    use Function::{Acos, Asin, Atan, Cos, Sin, Tan};
+    if !matches!(n.relation, Relation::Less | Relation::LessEqual) {
+        return None;
+    }
+    let (_, function, angle, k, value) = called(n, &[Sin, Cos, Tan])?;
+    let [(from, at_from), (to, at_to)] = ends(&angle, domains)?;
+    let [least, most] = match function {
+        Cos => [ratio(0, 1), ratio(1, 1)],
+        _ => [ratio(-1, 2), ratio(1, 2)],
+    };
+    let open = function == Tan;
+    let monotone = (to < most || to == most && !(open && at_to))
+        && (from > least || from == least && !(open && at_from));
+    let reached = open || is_not_negative(&(Expr::one() - value.powi(2)), domains);
+    let (arc, k) = match function {
+        Sin => (Asin, k),
+        Cos => (Acos, -k),
+        _ => (Atan, k),
+    };
+    (monotone && reached).then(|| Undone {
+        normal: Normal {
+            difference: Expr::from(k) * (angle - Expr::call(arc, value)),
+            relation: n.relation,
+        },
+        given: Vec::new(),
+    })
+}
+
 /// The same relation without an arc: `k f⁻¹(u) + W` has the sign of k (u − f(w)) with w = −W/k, where w is an angle that
 /// the arc can be; of an arccosine, the other sign. At an end the tangent has no value, and the relation must not hold
 /// there either. Two arcs of a kind compare as what stands inside.
 pub(super) fn arcs(n: &Normal, domains: &Domains) -> Option<Undone> {
-    let mut arc = None;
-    n.difference.walk(&mut |part| {
-        if let Node::Call(function, inside) = part.node()
-            && let Function::Atan | Function::Asin | Function::Acos = function
-        {
-            arc.get_or_insert((part.clone(), *function, inside.clone()));
-        }
-    });
-    let (arc, function, inside) = arc?;
-    let letter: Symbol = write_plain(&arc).into();
-    let linear = replaced(&n.difference, &arc, &Expr::symbol(&letter));
-    let k = linear
-        .derivative(&letter)
-        .as_number()
-        .filter(|k| !k.is_zero())?
-        .clone();
-    let rest = linear.substitute(&BTreeMap::from([(letter, Expr::zero())]));
-    let angle = rest * Expr::from(-k.recip());
-    let k = if function == Function::Acos { -k } else { k };
+    use Function::{Acos, Asin, Atan};
+    let (arc, function, inside, k, angle) = called(n, &[Atan, Asin, Acos])?;
+    let k = if function == Acos { -k } else { k };
     let other = match angle.node() {
         Node::Call(same, other) if *same == function => other.clone(),
         _ => {
@@ -221,7 +257,7 @@ pub(super) fn arcs(n: &Normal, domains: &Domains) -> Option<Undone> {
 /// The least and the greatest value of an angle in units of π, each with whether it is reached: of a number, or of one
 /// symbol and a multiple of π.
 fn ends(angle: &Expr, domains: &Domains) -> Option<[(Rational, bool); 2]> {
-    let Some(read) = turns(angle).filter(|read| read.symbols.len() < 2) else {
+    let Some(read) = combination(angle).filter(|read| read.symbols.len() < 2) else {
         let Outcome::Value(value) = evaluate::<Interval>(angle, &Default::default()) else {
             return None;
         };
