@@ -4,14 +4,16 @@ use super::super::compare::{Context, Finding, scalars};
 use super::super::{Apart, Diagnosis, Verdict};
 use super::factor::factor;
 use super::locus::{self, Extent};
+use super::solved::lies_in;
 use super::{
     Normal, REALS, apart_at_points, over_reals, same_solutions, says_nothing, solve_for, sought_in,
     undecided, unknowns, unrooted,
 };
 use crate::algebra::{Field, Sign};
-use crate::domain::{Domains, roles};
+use crate::domain::{Domains, Sample, roles, samples};
 use crate::expr::Expr;
 use crate::formula::{Relation, write_plain};
+use crate::interval::{Big, Outcome, evaluate};
 
 /// Where a relation `difference < 0` or `≤ 0` holds on a domain, as far as the sign of its difference tells.
 pub(super) fn extent(n: &Normal, domains: &Domains) -> Extent {
@@ -58,6 +60,13 @@ pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) ->
         ] if a != b => {
             let words = "one holds everywhere on the domain and the other nowhere";
             return Finding::different("DIFF_INEQUALITY", "solutions", words);
+        }
+        // Where one always or never holds, the other can say the same only if it does so on its boundary too.
+        [Extent::All | Extent::None, Extent::Unknown] => {
+            return beside_boundary(ctx, answer, expected);
+        }
+        [Extent::Unknown, Extent::All | Extent::None] => {
+            return beside_boundary(ctx, expected, answer);
         }
         _ => {}
     }
@@ -133,7 +142,24 @@ pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) ->
     })
 }
 
-/// Whether two inequalities set different bounds on the same symbol.
+/// A relation that changes on its boundary at most, held against one that always or never holds: different where the boundary
+/// is reached, or where a point tells them apart.
+fn beside_boundary(ctx: &Context, open: &Normal, sure: &Normal) -> Finding {
+    let domains = &ctx.key.question.domains;
+    let pair = [open, sure].map(std::slice::from_ref);
+    if let Some(finding) = apart_at_points(ctx, pair[0], pair[1]) {
+        return finding;
+    }
+    match locus::vanishing(&open.difference, &Expr::one(), domains) {
+        Some(_) => {
+            let words = "on its boundary one holds where the other does not";
+            Finding::different("DIFF_INEQUALITY", "solutions", words)
+        }
+        None => undecided("the two differ at most on a boundary"),
+    }
+}
+
+/// Whether two inequalities set different bounds on the same symbol, one of which lies in its domain somewhere.
 fn other_bound(ctx: &Context, f: &Expr, g: &Expr) -> Option<Finding> {
     let domains = &ctx.key.question.domains;
     let plain = Context {
@@ -143,6 +169,18 @@ fn other_bound(ctx: &Context, f: &Expr, g: &Expr) -> Option<Finding> {
     };
     unknowns(f, g).iter().find_map(|name| {
         let (a, b) = (solve_for(f, name, domains)?, solve_for(g, name, domains)?);
+        let uses = roles(&[&a, &b]);
+        let (all, _) = domains.completed(&uses);
+        let inside = |bound: &Expr, sample: &Sample| {
+            let Outcome::Value(value) = evaluate::<Big<200>>(bound, &sample.point(true)) else {
+                return false;
+            };
+            lies_in(&value.0, name, domains)
+        };
+        let mut points = samples(&uses, &all, 12).into_iter();
+        if !points.any(|sample| inside(&a, &sample) || inside(&b, &sample)) {
+            return None;
+        }
         let finding = scalars(&plain, &a, &b);
         (finding.verdict == Verdict::Different).then_some(Finding {
             note: "DIFF_INEQUALITY",
