@@ -97,7 +97,7 @@ pub(super) fn euler(
             && base.as_symbol().is_some_and(|s| &**s == "e")
         {
             let counter = |name: &Symbol| matches!(&**name, "n" | "N" | "k" | "i" | "j");
-            counts &= is_count(k) && !(logarithm && !k.symbols().iter().any(counter));
+            counts &= is_count(k) && (!logarithm || k.symbols().iter().any(counter));
         }
     };
     expected.each(&mut |e| e.walk(&mut note));

@@ -309,6 +309,16 @@ impl<'a> Desk<'a> {
                 if let Some(found) = self.definition(number, text, options) {
                     return found;
                 }
+                let parts = text::measured_end(text);
+                if let Some(parts) = parts.filter(|parts| self.are_read(parts)) {
+                    let [mut first, second] =
+                        parts.map(|part| self.equation(number, &part, options));
+                    if second.0.weight() > first.0.weight() {
+                        first.0 = second.0;
+                    }
+                    first.1.extend(second.1);
+                    return first;
+                }
                 // A name that looks like one of the scene's is a slip of the pen rather than a new name.
                 let near = text::is_near(&fault, text);
                 match self.looked_ahead(text) {
@@ -328,6 +338,14 @@ impl<'a> Desk<'a> {
             self.note_final(number, text, &reading);
         }
         found
+    }
+
+    /// Whether texts are read as they stand.
+    fn are_read(&self, parts: &[String]) -> bool {
+        let symbols = self.symbols();
+        parts
+            .iter()
+            .all(|part| formula::read(part, &symbols).is_ok())
     }
 
     fn judged(

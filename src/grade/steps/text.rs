@@ -102,6 +102,17 @@ pub(super) fn continued(before: &str, line: &str) -> String {
     format!("{first}= {last} {rest}")
 }
 
+/// A chain that ends in a number with its unit, `ω = 3v/(2l) = 5.2 rad/s`, as the chain before that and its name with the
+/// number: symbols and units do not stand in one formula.
+pub(super) fn measured_end(text: &str) -> Option<[String; 2]> {
+    let at = text.rfind(['=', '≈'])?;
+    let (chain, end) = text.split_at(at);
+    let (name, _) = chain.split_once('=')?;
+    let number = end.trim_start_matches(['=', '≈', ' ', '-', '−']);
+    let measured = number.starts_with(|c: char| c.is_ascii_digit() || c == '.');
+    measured.then(|| [chain.trim_end().to_string(), format!("{name}{end}")])
+}
+
 /// Whether what follows a separator is an equation of its own; behind an arrow a chain may go on without a name.
 fn parts(sign: &str, behind: &str) -> bool {
     let next = BETWEEN[5..].iter().filter_map(|s| behind.find(s)).min();
@@ -116,6 +127,13 @@ fn parts(sign: &str, behind: &str) -> bool {
 /// The equation of a piece of text, without the words before it.
 fn equation(text: &str) -> &str {
     let mut rest = text.trim().trim_start_matches('$').trim_start();
+    // `\text{LMB of both: }`
+    if let Some((said, behind)) = rest.strip_prefix("\\text{").and_then(|r| r.split_once('}'))
+        && said.contains([' ', ':', ','])
+        && relates(behind)
+    {
+        rest = behind.trim_start();
+    }
     // A law or body named before a colon; a definition `a := b` has its sign behind the colon.
     if let Some((words, behind)) = rest.split_once(':')
         && !behind.starts_with('=')

@@ -38,6 +38,15 @@ impl Desk<'_> {
                 if let Some(root) = solve_for(&reduced, &name, &self.sheet.scene.domains) {
                     let mut values = earlier.clone();
                     self.carry_along(&name, &root, &mut values);
+                    // What is the same in truth, as a spin some time later, is believed to be the same.
+                    let truth = &self.closed[&name];
+                    for (other, _) in self
+                        .closed
+                        .iter()
+                        .filter(|(n, v)| **n != name && *v == truth)
+                    {
+                        values.entry(other.clone()).or_insert_with(|| root.clone());
+                    }
                     values.insert(name, root);
                     self.believed.push((cause, values));
                 }
