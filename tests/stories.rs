@@ -207,6 +207,19 @@ fn energy_is_kept_wherever_a_stage_says_so() {
 }
 
 #[test]
+fn ways_that_only_a_boundary_would_allow_are_not_told() {
+    let told = told(&scene("ball-bounces-twice-on-rough-ground"));
+    let ways = told.answers.iter().filter(|a| a.question == "w2").count();
+    assert_eq!(ways, 5);
+    let held = |a: &carom::answer::Answer| {
+        a.checks
+            .iter()
+            .any(|c| c.kind == "integration" && c.holds == Some(true))
+    };
+    assert!(told.answers.iter().all(held));
+}
+
+#[test]
 fn where_laws_contradict_the_solution_says_so_first() {
     let worked = carom::worked::out(&scene("laws-contradict")).expect("a scene that is told");
     let solution = worked.solution(carom::solution::Detail::Normal);

@@ -249,14 +249,16 @@ pub(super) fn beside(
     domains: &Domains,
 ) -> Seen {
     let mut domains = domains.clone();
-    let place = match end {
-        Some(end) => {
-            let number = Expr::from(end.value.clone());
-            let number = if end.of_pi {
-                number * Expr::pi()
-            } else {
-                number
-            };
+    let end = end.map(|end| {
+        let number = Expr::from(end.value.clone());
+        if end.of_pi {
+            number * Expr::pi()
+        } else {
+            number
+        }
+    });
+    let place = match stated(parameter, way, &domains).or(end) {
+        Some(number) => {
             // Where the value lies at the end or beyond, there is nothing on this side of it.
             let inside = essential(&(Expr::from(way) * (&number - value)), &domains);
             if sign(&inside, &domains) == Seen::Mixed {
@@ -273,6 +275,29 @@ pub(super) fn beside(
     };
     let e = gap.substitute(&BTreeMap::from([(parameter.clone(), place)]));
     sign(&essential(&e, &domains), &domains)
+}
+
+/// The one end that relations put to a parameter on one side.
+fn stated(parameter: &Symbol, way: i64, domains: &Domains) -> Option<Expr> {
+    let p = Expr::symbol(parameter);
+    let ends = domains.relations.iter().filter_map(|relation| {
+        let slope = tidy(&relation.excess.derivative(parameter), domains).ok()?;
+        let toward = sign(&slope, domains);
+        let is_end = if way < 0 {
+            toward.is_positive()
+        } else {
+            toward.is_negative()
+        };
+        if slope.symbols().contains(parameter) || !toward.is_proved() || !is_end {
+            return None;
+        }
+        tidy(&(&p - &(&relation.excess / &slope)), domains).ok()
+    });
+    let ends: Vec<Expr> = ends.collect();
+    match ends.as_slice() {
+        [only] => Some(only.clone()),
+        _ => None,
+    }
 }
 
 /// Words for a difference that has no value somewhere, and may change its sign there without being zero.

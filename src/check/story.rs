@@ -146,6 +146,7 @@ fn acting(support: &OneSided) -> Contact {
         law: ContactLaw::Frictionless {
             restitution: Expr::zero(),
         },
+        passes: false,
     }
 }
 

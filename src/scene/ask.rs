@@ -189,6 +189,16 @@ pub enum Ask {
         /// How long the blow lasts \[s\].
         during: Expr,
     },
+    /// Acceleration of a body along its own way, in a motion along a line.
+    Acceleration {
+        /// Index of the body.
+        body: usize,
+    },
+    /// Pull of the string at a body, in a motion along a line.
+    Tension {
+        /// Index of the body.
+        body: usize,
+    },
     /// Which forces have an impulse in this stage, and why.
     Impulsive,
     /// What happens in this stage, in words.
@@ -217,6 +227,8 @@ impl Ask {
                 | Ask::Matrix { .. }
                 | Ask::Time
                 | Ask::Distance
+                | Ask::Acceleration { .. }
+                | Ask::Tension { .. }
                 | Ask::Position { .. }
         )
     }

@@ -29,6 +29,12 @@ impl Resolver<'_> {
             value
         });
         self.belongs_to_friction(contact);
+        if let (Some(true), Some(_)) = (contact.passes, contact.law) {
+            let fault = Fault::new(name.span, "a contact with a law lets nothing pass");
+            self.faults.push(fault.hint(
+                "leave out the law, and say with `after` how fast the body comes out behind",
+            ));
+        }
         let law = match contact.law {
             Some(LawName::Friction) => {
                 self.friction(name, contact, restitution.flatten(), normal.is_some())
@@ -100,6 +106,7 @@ impl Resolver<'_> {
                 bodies,
                 at,
                 normal,
+                passes: law == ContactLaw::None && contact.passes.unwrap_or_default(),
                 law,
             });
         }

@@ -86,6 +86,9 @@ record! {
         /// Ratio of tangential to normal impulse of "brach"; the tangent is the normal turned clockwise by 90 degrees.
         /// Missing: the ratio that ends the slip, at most `mu` in size.
         impulse_ratio: Option<Formula>,
+        /// Whether one body goes through the other here, as a bullet that comes out behind: of a contact without law, whose impulse
+        /// follows from what is known `after`.
+        passes: Option<bool>,
         /// What the contact does, if the answer for this one case is wanted.
         supposing: Option<SupposedName>,
     }

@@ -451,6 +451,8 @@ pub struct Contact {
     pub normal: Option<Vector>,
     /// The law that closes the equations.
     pub law: ContactLaw,
+    /// Whether one body goes through the other.
+    pub passes: bool,
 }
 
 impl Contact {

@@ -73,6 +73,10 @@ record! {
         time: Option<Text>,
         /// Name of a stage in which a body slides or rolls: how far does it get?
         distance: Option<Text>,
+        /// Acceleration of this body along its own way in the stage `at`, a `slide`: negative where it slows down.
+        acceleration: Option<Text>,
+        /// Pull of the string at this body in the stage `at`, a `slide` with `strings`.
+        tension: Option<Text>,
         /// Where the center of mass of this body is at the end of the stage `at`: coordinates by `_x` and `_y`, or along `along`.
         position: Option<Text>,
         /// Angular momentum of this body about the point `about`.

@@ -225,6 +225,10 @@ pub struct StageTold {
     pub cases: Vec<Case>,
     /// Distance along the line of a motion along one \[m\].
     pub way: Option<Expr>,
+    /// Acceleration along the line of a motion along one \[m/s²\].
+    pub acceleration: Option<Expr>,
+    /// Pulls of the strings at bodies, by index of body \[N\].
+    pub tensions: Vec<(usize, Expr)>,
     /// What forces give by Newton's laws, where a motion does not follow from its energy alone.
     pub steps: Vec<Step>,
     /// Kinetic energy at the beginning and at the end, of a motion \[J\].
@@ -254,6 +258,8 @@ impl StageTold {
             needs: Vec::new(),
             time: None,
             way: None,
+            acceleration: None,
+            tensions: Vec::new(),
             steps: Vec::new(),
             before,
             after,
@@ -473,7 +479,16 @@ fn one(
             impact::tell(stage, before, one_sided, supposed.as_deref(), &named, given)
         }
         StageKind::Turn(turn) => motion::turn(stage, before, turn),
-        StageKind::Slide(slide) => motion::slide(stage, before, slide),
+        StageKind::Slide(slide) => {
+            let mine = scene
+                .questions
+                .iter()
+                .filter(|q| q.stage.is_some_and(|i| scene.stages[i].name == stage.name));
+            let by_newton =
+                |ask: &Ask| matches!(ask, Ask::Acceleration { .. } | Ask::Tension { .. });
+            let is_driven = mine.into_iter().any(|q| by_newton(&q.ask));
+            motion::slide(stage, before, slide, is_driven)
+        }
         StageKind::Fall(fall) => motion::fall(stage, before, fall),
         StageKind::Wind(wind) => motion::wind(stage, before, wind),
         StageKind::Linkage(linkage) => motion::linkage(stage, before, linkage),

@@ -77,6 +77,18 @@ pub fn answer(
             component(&course, reaction[usize::from(*at_end)].clone(), Some(along))
         }
         Ask::Time => Ok(Answer::Scalar(passed.time.clone()?)),
+        Ask::Acceleration { body } | Ask::Tension { body } => {
+            let What::Motion(moved) = &passed.what else {
+                return Err(Unanswered::NotANumber);
+            };
+            let driven = moved.driven.iter().find(|d| d.body == *body);
+            let driven = driven.ok_or(Unanswered::NotANumber)?;
+            let value = match &question.ask {
+                Ask::Tension { .. } => driven.tension,
+                _ => Some(driven.acceleration),
+            };
+            value.map(Answer::Scalar).ok_or(Unanswered::NotANumber)
+        }
         Ask::Distance => {
             let StageKind::Slide(slide) = &stage.kind else {
                 return Err(Unanswered::NotANumber);

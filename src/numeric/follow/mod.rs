@@ -54,7 +54,7 @@ pub use answer::{Unanswered, answer};
 pub use impact::{Breach, Impact, Impulse, Opening};
 pub use lost::{Loss, Lost};
 pub(in crate::numeric) use mechanism::integrated;
-pub use motion::{Moved, Sample};
+pub use motion::{Driven, Moved, Sample};
 pub use outline::Solid;
 pub use state::{BodyState, Component, Open, State, Why, kinetic};
 

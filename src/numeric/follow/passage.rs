@@ -107,7 +107,7 @@ pub(super) fn passing(
 fn joined(scene: &Scene, [a, b]: [usize; 2]) -> bool {
     let joins = |scene: &Scene| {
         let sticking = scene.contacts.iter();
-        let sticking = sticking.filter(|c| c.law == ContactLaw::Sticking);
+        let sticking = sticking.filter(|c| c.law == ContactLaw::Sticking || c.passes);
         let mut all = sticking
             .map(|c| c.bodies)
             .chain(scene.hinges.iter().map(|h| h.bodies));

@@ -43,6 +43,7 @@ pub(super) fn wind(course: &Course<'_>, before: State, wind: &Wind) -> Result<Pa
         bodies: vec![wind.body],
         clockwise: None,
         reaction: None,
+        driven: Vec::new(),
         samples: Vec::new(),
     };
     Ok(course.passed(time, before, after, What::Motion(moved)))

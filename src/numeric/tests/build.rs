@@ -96,6 +96,7 @@ pub fn sticks(one: usize, two: usize, place: Vector, normal: Option<Vector>) -> 
         at: place,
         normal,
         law: ContactLaw::Sticking,
+        passes: false,
     }
 }
 
@@ -113,6 +114,7 @@ pub fn bounces(
         at: place,
         normal: Some(normal),
         law,
+        passes: false,
     }
 }
 

@@ -83,6 +83,8 @@ static KINDS: &[Kind] = kinds! {
     Stage {
         time(),
         distance(),
+        acceleration(at),
+        tension(at),
         position(along when at),
         reaction(along when),
         share(),

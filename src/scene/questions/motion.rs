@@ -6,7 +6,7 @@ use crate::scene::formulas::{Quantity, Symbols};
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
 use crate::scene::resolve::Resolver;
-use crate::scene::stage_file::EndName;
+use crate::scene::stage_file::{EndName, SlideFile};
 use crate::scene::stages::{TIME, stage_named};
 use crate::scene::{Ask, Scene};
 
@@ -71,6 +71,46 @@ pub(super) fn ask(
             return None;
         }
         let ask = q.time.as_ref().map_or(Ask::Distance, |_| Ask::Time);
+        return Some((Some(i), ask));
+    }
+    if let Some(name) = q.acceleration.as_ref().or(q.tension.as_ref()) {
+        let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
+        let body = base.moving(name)?;
+        let (what, hint) = match q.tension {
+            Some(_) => (
+                "tension",
+                "a tension is that of a body on one of the `strings` of a `slide`",
+            ),
+            None => (
+                "acceleration",
+                "an acceleration is that of a body which a `slide` moves",
+            ),
+        };
+        let ask = match q.tension {
+            Some(_) => Ask::Tension { body },
+            None => Ask::Acceleration { body },
+        };
+        let slide = stages[i].slide.as_ref();
+        let strung = |slide: &SlideFile| {
+            slide
+                .strings
+                .iter()
+                .flatten()
+                .flat_map(|s| &s.to)
+                .any(|b| b.text == name.text)
+        };
+        let own = |slide: &SlideFile| {
+            slide.body.text == name.text || slide.with.iter().flatten().any(|b| b.text == name.text)
+        };
+        let fits = slide.is_some_and(|slide| {
+            let has_strings = slide.strings.as_ref().is_some_and(|s| !s.is_empty());
+            strung(slide) || own(slide) && (q.tension.is_none() || has_strings)
+        });
+        if !fits {
+            let message = format!("no {what} of `{}` can be asked of this stage", name.text);
+            base.faults.push(Fault::new(name.span, message).hint(hint));
+            return None;
+        }
         return Some((Some(i), ask));
     }
     if let Some(body) = &q.position {

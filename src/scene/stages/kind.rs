@@ -413,7 +413,8 @@ fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
     let about = r.position(&turn.about);
     let about_name = match &turn.about {
         PositionFile::Name(name) => name.text.clone(),
-        _ => String::from("the fixed point"),
+        // Named when all stages are read.
+        _ => String::new(),
     };
     let until = match (&turn.by, turn.until, &turn.time) {
         (Some(by), ..) => Until::By(r.symbols.read(by, Quantity::ANGLE, &mut r.faults)?),

@@ -126,8 +126,44 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
         stage.scene.axles = axles.clone();
     }
     scene.axles = axles;
+    name_pivots(scene);
     if base.faults.is_empty() {
         questions::of_stages(base, scene, &homes);
+    }
+}
+
+/// Gives the fixed points of rotations that the file puts at coordinates the name of a hinge, contact or point that is there, or
+/// a letter that is free.
+fn name_pivots(scene: &mut Scene) {
+    let joints = scene.stages.iter().flat_map(|s| {
+        let hinges = s.scene.hinges.iter().map(|h| (&h.name, &h.at));
+        hinges.chain(s.scene.contacts.iter().map(|c| (&c.name, &c.at)))
+    });
+    let points = scene.points.iter().map(|p| (&p.name, &p.at));
+    let known: Vec<(String, Vector)> = (joints.chain(points))
+        .map(|(name, at)| (name.clone(), at.clone()))
+        .collect();
+    let bodies = scene.bodies.iter().map(|b| &b.name);
+    let taken: Vec<&String> = known.iter().map(|(name, _)| name).chain(bodies).collect();
+    let letters = ["O", "P", "Q", "S", "Z"].map(String::from);
+    let mut free: Vec<String> = letters
+        .into_iter()
+        .filter(|l| !taken.contains(&l))
+        .collect();
+    let mut known = known.clone();
+    for stage in &mut scene.stages {
+        let StageKind::Turn(turn) = &mut stage.kind else {
+            continue;
+        };
+        if !turn.about_name.is_empty() {
+            continue;
+        }
+        turn.about_name = match known.iter().find(|(_, at)| *at == turn.about) {
+            Some((name, _)) => name.clone(),
+            None if free.is_empty() => String::from("pivot"),
+            None => free.remove(0),
+        };
+        known.push((turn.about_name.clone(), turn.about.clone()));
     }
 }
 
@@ -181,6 +217,13 @@ pub(super) fn stage_named(
 /// The stage before, `Some(None)` for the start.
 fn predecessor(base: &mut Resolver<'_>, stages: &[StageFile], i: usize) -> Option<Option<usize>> {
     let stage = &stages[i];
+    let name = stage.name.text.trim();
+    if name.is_empty() || name.chars().any(char::is_control) {
+        let fault = Fault::new(stage.name.span, "a stage has a name that can be read");
+        base.faults
+            .push(fault.hint("such as \"fall\" or \"swing back\""));
+        return None;
+    }
     if stages[..i].iter().any(|s| s.name.text == stage.name.text) || stage.name.text == "start" {
         let fault = Fault::new(
             stage.name.span,
@@ -240,6 +283,7 @@ fn composed(
             hypothesis: None,
             tangential_restitution: None,
             impulse_ratio: None,
+            passes: None,
             supposing: None,
         });
         (name.clone(), entry)

@@ -121,6 +121,16 @@ fn one(
         Ask::Distance => {
             return each_way(stages, stage, |told| Ok(motion::distance(question, told)));
         }
+        Ask::Acceleration { .. } => {
+            return each_way(stages, stage, |told| {
+                Ok(motion::acceleration(question, told))
+            });
+        }
+        Ask::Tension { body } => {
+            return each_way(stages, stage, |told| {
+                Ok(motion::tension(question, told, *body))
+            });
+        }
         Ask::Position {
             body,
             along,

@@ -72,6 +72,28 @@ pub(super) fn time(question: &Question, told: &StageTold) -> Answer {
     measured(question, told, words, Dimension::new(0, 0, 1), value)
 }
 
+/// How a body on a line gets faster.
+pub(super) fn acceleration(question: &Question, told: &StageTold) -> Answer {
+    let words = format!("acceleration along its way in `{}`", told.name);
+    let value = (&told.acceleration, "what comes before is open");
+    measured(question, told, words, Dimension::new(0, 1, -2), value)
+}
+
+/// How a string pulls a body.
+pub(super) fn tension(question: &Question, told: &StageTold, body: usize) -> Answer {
+    let name = &told.placed.scene.bodies[body].name;
+    let words = format!("pull of the string at `{name}` in `{}`", told.name);
+    let pull = told.tensions.iter().find(|(b, _)| *b == body);
+    let why = match told.tensions.is_empty() {
+        true => "what comes before is open",
+        false => {
+            "several strings pull it; ask it of the body at the other end of the one that is meant"
+        }
+    };
+    let value = (&pull.map(|(_, pull)| pull.clone()), why);
+    measured(question, told, words, Dimension::new(1, 1, -2), value)
+}
+
 /// How far a motion along a line leads.
 pub(super) fn distance(question: &Question, told: &StageTold) -> Answer {
     let words = match turns_back(told) {
@@ -249,12 +271,17 @@ pub(super) fn at_end(
             &format!("{}{suffix}", question.name),
             words.clone(),
         );
-        let value = tidy(&value, domains).map_err(|stop| refuse(&stop.to_string()))?;
+        let tidied = tidy(&value, domains).map_err(|stop| refuse(&stop.to_string()))?;
+        let is_energy = matches!(ask, Ask::Energy { .. });
+        let value = match is_energy && value.size() < tidied.size() {
+            true => value,
+            false => tidied,
+        };
         a.checks.extend(told.checks.iter().cloned());
         a.checks.extend(energy_check(told, domains));
         a.form = Form::value(value);
         a.dimension = dimension.clone();
-        if !matches!(ask, Ask::Energy { .. }) {
+        if !is_energy {
             a.assumptions = told.assumptions.clone();
         }
         out.push(a);

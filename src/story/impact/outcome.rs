@@ -298,6 +298,7 @@ pub(super) fn put_to_act(
                 law: ContactLaw::Frictionless {
                     restitution: Expr::zero(),
                 },
+                passes: false,
             });
             let verb = if o.is_string { "pulls" } else { "pushes" };
             wanted.push((name, format!("`{}` {verb}", o.name)));

@@ -53,7 +53,13 @@ fn balance(
     parts: &[(&'static str, Expr)],
 ) -> Result<(Expr, Expr, Seen), Refused> {
     let work = tidied(stage, &Expr::sum(parts.iter().map(|(_, w)| w.clone())))?;
-    let end = tidied(stage, &(start + &work))?;
+    let joined = tidied(stage, &(start + &work))?;
+    // What it begins with and the work may be short, and long under one denominator.
+    let apart = start + &work;
+    let end = match apart.size() < joined.size() {
+        true => apart,
+        false => joined,
+    };
     let reaches = sign(&end, &stage.scene.domains);
     if let Seen::Proved(Sign::Negative | Sign::NotPositive) = reaches {
         return Err(Refused::new(

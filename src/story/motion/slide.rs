@@ -57,11 +57,12 @@ struct Course {
     spin: Expr,
 }
 
-/// Motion along a line.
+/// Motion along a line; `is_driven` where its acceleration or the pull of a string is asked.
 pub(in crate::story) fn slide(
     stage: &Stage,
     before: State,
     slide: &Slide,
+    is_driven: bool,
 ) -> Result<StageTold, Refused> {
     let mut assumptions = Vec::new();
     let mut needs = Vec::new();
@@ -73,7 +74,7 @@ pub(in crate::story) fn slide(
     }
     let mut steps = line.steps();
     let course = line.course(&mut steps, &mut assumptions, &mut needs)?;
-    if !matches!(slide.until, SlideEnd::Distance(_)) || line.round.is_some() {
+    if !matches!(slide.until, SlideEnd::Distance(_)) || line.round.is_some() || is_driven {
         line.told(&course, &mut steps);
     } else {
         steps.clear();
@@ -123,8 +124,20 @@ pub(in crate::story) fn slide(
             ));
         }
     }
+    if let ([string], true) = (line.strings.as_slice(), is_driven) {
+        steps.extend(string.steps(stage, &line.acceleration)?);
+    }
+    let mut tensions = Vec::new();
     for string in &line.strings {
-        string.taut(stage, &line.acceleration, &mut needs, &mut assumptions)?;
+        let pulls = string.taut(stage, &line.acceleration, &mut needs, &mut assumptions)?;
+        let own = slide.company().into_iter().map(|b| (b, pulls.last()));
+        // Of several strings at one body none is meant more than another.
+        let own = own.filter(|_| line.strings.len() == 1);
+        let others = string.string.to.iter().map(|b| (*b, pulls.first()));
+        tensions.extend(
+            own.chain(others)
+                .filter_map(|(b, pull)| Some((b, pull?.clone()))),
+        );
     }
     let mut after = before.clone();
     for (bodies, along) in lumps(slide) {
@@ -165,6 +178,8 @@ pub(in crate::story) fn slide(
     out.time = course.time;
     out.way = Some(course.distance);
     out.steps = steps;
+    out.acceleration = Some(line.acceleration.clone());
+    out.tensions = tensions;
     out.assumptions = assumptions;
     needs.push(line.speed.clone());
     if let SlideEnd::Distance(_) = &slide.until {

@@ -9,7 +9,7 @@ use crate::answer::calc::{Seen, at_least_zero, is_zero, sign};
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Slide, Stage, Strung};
-use crate::story::{Refused, State};
+use crate::story::{Refused, State, Step};
 
 /// A string, with what moves at its other end.
 pub(super) struct Pulled<'a> {
@@ -177,18 +177,36 @@ impl Pulled<'_> {
         vec![end, body]
     }
 
-    /// What the string needs so that it stays taut, and the words for what is not proved; refused where it goes slack.
+    /// The tensions as steps of a solution.
+    pub(super) fn steps(&self, stage: &Stage, acceleration: &Expr) -> Result<Vec<Step>, Refused> {
+        let why = [
+            "the pull of the string at its other end, by the forces on what hangs there",
+            "the pull of the string on this side of the pulleys, by the moment that turns them",
+        ];
+        let letters = ["T", "S"];
+        let each = letters
+            .into_iter()
+            .zip(why)
+            .zip(self.tensions(acceleration));
+        each.map(|((letter, why), raw)| Ok(Step::new(letter, &raw, &tidied(stage, &raw)?, why)))
+            .collect()
+    }
+
+    /// The tensions: at the other end first, at the body last. Adds what the string needs so that it stays taut, and the words for
+    /// what is not proved; refused where it goes slack.
     pub(super) fn taut(
         &self,
         stage: &Stage,
         acceleration: &Expr,
         needs: &mut Vec<Expr>,
         assumptions: &mut Vec<Sentence>,
-    ) -> Result<(), Refused> {
+    ) -> Result<Vec<Expr>, Refused> {
         let domains = &stage.scene.domains;
         let name = &stage.scene.bodies[self.string.to[0]].name;
+        let mut all = Vec::new();
         for tension in self.tensions(acceleration) {
             let tension = tidied(stage, &tension)?;
+            all.push(tension.clone());
             match sign(&tension, domains) {
                 Seen::Proved(s) if s.is_not_negative() => continue,
                 Seen::Proved(_) => {
@@ -210,6 +228,6 @@ impl Pulled<'_> {
             ]);
             needs.push(tension);
         }
-        Ok(())
+        Ok(all)
     }
 }

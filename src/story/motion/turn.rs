@@ -455,6 +455,16 @@ fn fits(stage: &Stage, before: &State, turn: &Turn, spin: &Expr) -> Result<(), R
             gaps.push(&before.spin[b] - spin);
         }
         let moves = |gap: &Expr| is_zero(gap, &stage.scene.domains) == Some(false);
+        if gaps.iter().any(moves) && b != turn.body {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "`{}` does not begin to turn like `{}`",
+                    body.name, stage.scene.bodies[turn.body].name
+                ),
+                "bodies turn along together after an impact in which they stick; what stuck before holds on in a later impact where a contact says so there, too",
+            ));
+        }
         if gaps.iter().any(moves) {
             return Err(Refused::new(
                 &stage.name,

@@ -12,7 +12,8 @@
 //! - approach: u⁻·n ≤ 0; otherwise the bodies part before they collide. A sticking contact grips and may catch what moves
 //!   away, like a hook; it has to approach only along a normal that the scene gives;
 //! - apart: u⁺·n ≥ 0 at every touching point, also at the ends of straight sides that lie along each other (first order:
-//!   positions are frozen during the impact). At the point of a sticking contact itself u⁺ = 0 by its law;
+//!   positions are frozen during the impact). At the point of a sticking contact itself u⁺ = 0 by its law; a bullet may go
+//!   through where the scene says so;
 //! - push: P·n ≥ 0, except where the contact sticks: what grips may pull, and that is told where n is given;
 //! - energy: nothing is gained at all contacts together, −Σ ½ P·(u⁻ + u⁺) ≥ 0 (Kelvin's theorem; moving walls do their work
 //!   outside this sum). Where all contacts have one restitution, Carnot's theorem gives it; where a blow acts at the same
@@ -269,7 +270,14 @@ impl Judge<'_> {
                     signed(-&opening),
                 );
             }
-            if !sticks {
+            if contact.passes {
+                self.claim(
+                    Rule::Apart,
+                    format!("one body comes out behind the other at `{name}`"),
+                    format!("neither body gets through the other at `{name}`"),
+                    signed(-dot(&after, normal)),
+                );
+            } else if !sticks {
                 self.claim(
                     Rule::Apart,
                     format!("the bodies do not enter each other at `{name}`"),
@@ -291,7 +299,8 @@ impl Judge<'_> {
             let approaches = self.conditions[from..]
                 .iter()
                 .all(|c| c.rule != Rule::Approach || c.verdict != Verdict::Nowhere);
-            if contact.law == ContactLaw::None && approaches && !self.scene.gains_energy {
+            let is_free = contact.law == ContactLaw::None && !contact.passes;
+            if is_free && approaches && !self.scene.gains_energy {
                 let rest = dot(&before, normal) + dot(&after, normal);
                 self.claim(
                     Rule::Restitution,
@@ -304,7 +313,9 @@ impl Judge<'_> {
                 self.by_approach_alone(from, contact);
             }
         }
-        self.along_sides(contact, &before, &sides);
+        if !contact.passes {
+            self.along_sides(contact, &before, &sides);
+        }
     }
 
     /// The other touching points, where straight sides lie along each other.

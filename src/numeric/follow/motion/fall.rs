@@ -84,6 +84,7 @@ pub(in crate::numeric::follow) fn fall(
         bodies,
         clockwise: None,
         reaction: None,
+        driven: Vec::new(),
         samples: if is_known { samples } else { Vec::new() },
     };
     Ok(course.passed(time, before, after, What::Motion(moved)))

@@ -235,6 +235,7 @@ pub(in crate::numeric::follow) fn linkage(
         bodies,
         clockwise: None,
         reaction: None,
+        driven: Vec::new(),
         samples,
     };
     Ok(course.passed(time, before, after, What::Motion(moved)))

@@ -37,8 +37,21 @@ pub struct Moved {
     pub clockwise: Option<bool>,
     /// Force of the fixed point of a rotation on the bodies, at the beginning and at the end \[N\].
     pub reaction: Option<[[Component; 2]; 2]>,
+    /// What drives each body of a motion along a line; empty for other motions.
+    pub driven: Vec<Driven>,
     /// Places on the way, for pictures; empty where something is open.
     pub samples: Vec<Sample>,
+}
+
+/// How a body on a line is driven.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Driven {
+    /// Index of the body.
+    pub body: usize,
+    /// Acceleration along its own way [m/s²].
+    pub acceleration: f64,
+    /// Pull of the string at it \[N\]; `None` without one, and with several.
+    pub tension: Option<f64>,
 }
 
 /// Where the moved bodies are at a time.
@@ -208,6 +221,7 @@ fn all_open(
         bodies: bodies.to_vec(),
         clockwise: None,
         reaction: None,
+        driven: Vec::new(),
         samples: Vec::new(),
     };
     course.passed(time, before, after, What::Motion(moved))

@@ -4,7 +4,7 @@
 //! times its coefficient acts at the point of contact against the way this point moves, for as long as it moves.
 
 use super::strings::{Ropes, across, fixed};
-use super::{Moved, Movers, REST, ROUNDING, Units, all_open, others, stopped};
+use super::{Driven, Moved, Movers, REST, ROUNDING, Units, all_open, others, stopped};
 use crate::numeric::follow::impact::first_open;
 use crate::numeric::follow::mechanism::{Asked, Constraint, Goal, Mechanism, Mobile, Run};
 use crate::numeric::follow::{Course, Lost, Passed, State, What, Why};
@@ -212,10 +212,25 @@ pub(in crate::numeric::follow) fn slide(
     let (mut after, samples) = movers.ended(course, &units, &run, &before);
     let time = Ok(run.time * units.time);
     others(course, &before, &mut after, &bodies, &time, has_forces);
+    let rates = mechanism.accelerations(&start).map(|(rates, _)| rates);
+    let rates =
+        rates.ok_or_else(|| course.out_of_reach("the equations of motion have no solution"))?;
+    let driven = directions
+        .iter()
+        .enumerate()
+        .filter(|(_, along)| **along != [0.0; 2]);
+    let driven = driven.map(|(i, along)| Driven {
+        body: bodies[i],
+        acceleration: dot(&[rates[3 * i], rates[3 * i + 1]], along) * units.length
+            / (units.time * units.time),
+        tension: ropes.pull(i, company, tensions).map(|t| t * units.force()),
+    });
+    let driven = driven.collect();
     let moved = Moved {
         bodies: bodies.to_vec(),
         clockwise: None,
         reaction: None,
+        driven,
         samples,
     };
     Ok(course.passed(time, before, after, What::Motion(moved)))

@@ -183,6 +183,25 @@ impl Ropes {
         out
     }
 
+    /// The tension at a moved body, of those of the parts: of the first of the bodies that move as one; `None` for none or
+    /// several.
+    pub fn pull(&self, i: usize, company: usize, tensions: &[f64]) -> Option<f64> {
+        let end = self.ends.iter().find(|e| e.bodies.contains(&i));
+        let first = match end {
+            Some(end) => *end.bodies.first()?,
+            None if i < company => 0,
+            None => return None,
+        };
+        let at_it = |row: &Vec<(usize, f64)>| row.iter().any(|(k, _)| k / 3 == first);
+        let mut mine = self
+            .parts
+            .iter()
+            .zip(tensions)
+            .filter(|(row, _)| at_it(row));
+        let (_, tension) = mine.next()?;
+        mine.next().is_none().then_some(*tension)
+    }
+
     /// The parts of the strings keep their lengths; their multipliers are the tensions.
     pub fn parts(&self, units: &Units) -> impl Iterator<Item = Constraint> {
         let length = units.length;

@@ -346,6 +346,7 @@ pub(in crate::numeric::follow) fn turn(
         bodies,
         clockwise: Some(rotation.way < 0.0),
         reaction: Some(reaction),
+        driven: Vec::new(),
         samples,
     };
     Ok(course.passed(time, before, after, What::Motion(moved)))
