@@ -257,7 +257,13 @@ pub(super) fn beside(
             number
         }
     });
-    let place = match stated(parameter, way, &domains).or(end) {
+    // A relation counts where it leaves less than the domain.
+    let stated = stated(parameter, way, &domains).filter(|stated| {
+        let less =
+            |end: &Expr| sign(&(Expr::from(way) * (end - stated)), &domains).side() == Some(true);
+        end.as_ref().is_none_or(less)
+    });
+    let place = match stated.or(end) {
         Some(number) => {
             // Where the value lies at the end or beyond, there is nothing on this side of it.
             let inside = essential(&(Expr::from(way) * (&number - value)), &domains);

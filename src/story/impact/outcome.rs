@@ -238,10 +238,13 @@ pub(super) fn fits(case: &Case, given: &[(String, Expr)], domains: &Domains) -> 
 /// the case.
 pub(super) fn add_possible(case: &mut Case, domains: &Domains) -> Vec<(String, Expr)> {
     let known = case.conditions.iter();
-    let known = known.fold(domains.clone(), |given, (_, e)| given.given(e, true));
+    let mut known = known.fold(domains.clone(), |given, (_, e)| given.given(e, true));
     let mut places = Vec::new();
-    for open in case.possible.open_within(&known) {
-        let Some(e) = &open.essential else { continue };
+    for open in case.possible.open() {
+        let Some(e) = open.essential.as_ref().filter(|_| open.divides(&known)) else {
+            continue;
+        };
+        known = known.given(e, true);
         let into = match open.rule {
             Rule::Place => &mut places,
             _ => &mut case.conditions,

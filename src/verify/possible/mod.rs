@@ -98,6 +98,14 @@ pub struct Condition {
     pub at_values: Option<bool>,
 }
 
+impl Condition {
+    /// Whether it holds on some of a part of the domain, and not on all of it.
+    pub fn divides(&self, part: &Domains) -> bool {
+        let essential = self.essential.as_ref().filter(|_| !self.is_equation);
+        essential.is_some_and(|e| decide(e, part).verdict == Verdict::Where)
+    }
+}
+
 /// The outcome.
 #[derive(Clone, Debug)]
 pub struct Possible {
@@ -142,16 +150,6 @@ impl Possible {
             }
         }
         reasons
-    }
-
-    /// The conditions on parameters that a part of the domain does not keep to throughout.
-    pub fn open_within(&self, part: &Domains) -> Vec<&Condition> {
-        let breaks = |c: &&Condition| {
-            let essential = c.essential.as_ref();
-            essential.is_some_and(|e| decide(e, part).verdict == Verdict::Where)
-        };
-        let open = self.open().into_iter();
-        open.filter(|c| !c.is_equation).filter(breaks).collect()
     }
 
     /// Puts in what stands for the motion handed on by an earlier stage, and the given values.
