@@ -62,6 +62,7 @@ fn two_bodies(n: impl Fn(f64) -> Expr) -> Scene {
         at: [n(0.03), n(0.01)],
         normal,
         law,
+        passes: false,
     };
     Scene {
         bodies: vec![disk, plate],
