@@ -5,6 +5,7 @@
 //! anything about mechanics: the motion after comes from [`crate::numeric`] at the values the scene is drawn at.
 
 mod during;
+mod fixture;
 mod inline;
 mod label;
 mod latex;
@@ -273,6 +274,36 @@ fn geometry(scene: &Scene) -> BTreeSet<Symbol> {
         }
     }
     out
+}
+
+/// The parameters that the motion just after hangs on.
+fn bearing(scene: &Scene) -> BTreeSet<Symbol> {
+    let mut names = geometry(scene);
+    for body in scene.bodies.iter().filter(|b| !b.is_fixed()) {
+        names.extend(
+            [&body.mass, &body.inertia, &body.spin]
+                .into_iter()
+                .flat_map(Expr::symbols),
+        );
+        names.extend(body.velocity.iter().flat_map(Expr::symbols));
+    }
+    for contact in &scene.contacts {
+        match &contact.law {
+            ContactLaw::Frictionless { restitution } => names.extend(restitution.symbols()),
+            ContactLaw::Decided(decided) => {
+                names.extend(decided.law.mu.symbols());
+                names.extend(decided.law.restitution.symbols());
+            }
+            _ => {}
+        }
+    }
+    for blow in &scene.blows {
+        if let BlowImpulse::Given(given) = &blow.impulse {
+            names.extend(given.iter().flat_map(Expr::symbols));
+        }
+    }
+    names.extend(scene.after.iter().flat_map(|known| known.value.symbols()));
+    names
 }
 
 #[cfg(test)]

@@ -98,7 +98,8 @@ pub(super) fn panel(stage: &Stage, motion: Option<&Motion<f64>>, which: Which) -
             };
             let labels = labels(&sheet);
             let mut caption = say(format!("{heading}."));
-            caption.extend(told(&|_| true));
+            let bears = super::bearing(scene);
+            caption.extend(told(&|name| bears.contains(name)));
             if !notes.is_empty() {
                 caption.push(Piece::Words(format!(" {}", notes.join(" "))));
             }

@@ -114,7 +114,8 @@ pub(super) fn speed(stage: &Stage, body: usize, v: &Vector, value: Pair) -> Labe
         if pair.text().chars().count() <= 14 {
             return pair;
         }
-        let index = if stage.movable().len() == 1 {
+        let only = stage.movable().len() == 1 && !scene.bodies[body].is_particle();
+        let index = if only {
             "G".to_string()
         } else {
             index(stage, body)

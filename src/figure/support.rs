@@ -3,9 +3,10 @@
 //! In: a scene on stage. Out: lines on the sheet. What stands at a point is the author's word; without it, it follows from the
 //! normal, from where the body lies and from where it comes.
 
+use super::fixture::{edge, hatched, peg, spring, stop, support, wheel};
 use super::place::Room;
 use super::pose::{Look, Pose};
-use super::sheet::{Ink, Item, Line, Sheet};
+use super::sheet::{Ink, Line, Sheet};
 use super::stage::{DOT, PEG, Stage, THICK};
 use super::values::{Pair, dot, size};
 use crate::expr::Vector;
@@ -91,7 +92,19 @@ impl Stage<'_> {
             };
             support(sheet, self.px(at), away);
         }
+        self.springs(sheet);
         self.ground(sheet);
+    }
+
+    /// The springs under bodies on which their force acts.
+    fn springs(&self, sheet: &mut Sheet) {
+        for force in &self.scene.forces {
+            for at in self.scene.figure.springs(&force.name) {
+                if let Some(at) = self.values.pair(at) {
+                    spring(sheet, self.touch(force.body, at, [0.0, 1.0]));
+                }
+            }
+        }
     }
 
     /// The level ground, where the author gives its height.
@@ -190,6 +203,7 @@ impl Stage<'_> {
         let n = normal.unwrap_or([0.0, 1.0]);
         let to = end
             .and_then(|v| self.spot(v))
+            .or_else(|| self.hook(from, n))
             .unwrap_or([from[0] + n[0] * STRING, from[1] + n[1] * STRING]);
         let line = Line {
             width: 1.1,
@@ -200,6 +214,16 @@ impl Stage<'_> {
         let back = [0.0, if up { 1.0 } else { -1.0 }];
         let half = if up { 18.0 } else { -18.0 };
         hatched(sheet, [to[0] + half, to[1]], [to[0] - half, to[1]], back);
+    }
+
+    /// The named point that lies in the direction of a string, where its hook must be.
+    fn hook(&self, from: Pair, n: Pair) -> Option<Pair> {
+        let mut points = self.scene.points.iter().filter_map(|p| self.spot(&p.at));
+        points.find(|p| {
+            let d = [p[0] - from[0], p[1] - from[1]];
+            let [along, across] = [dot(d, n), d[0] * n[1] - d[1] * n[0]];
+            along > 2.0 * DOT && across.abs() < 1.0
+        })
     }
 
     /// What stands where a body is touched, and which way it faces.
@@ -337,147 +361,4 @@ impl Stage<'_> {
         let spot = |t: f64| [at[0] + along[0] * t, at[1] + along[1] * t];
         hatched(sheet, spot(low), spot(high), [-n[0], -n[1]]);
     }
-}
-
-/// A line with strokes on its far side.
-fn hatched(sheet: &mut Sheet, from: Pair, to: Pair, back: Pair) {
-    let d = [to[0] - from[0], to[1] - from[1]];
-    let length = size(d).max(1e-9);
-    let unit = [d[0] / length, d[1] / length];
-    sheet.segment(
-        from,
-        to,
-        Line {
-            width: 1.9,
-            ..Line::of(Ink::Ground)
-        },
-        2.0,
-    );
-    sheet.grounds.push((from, to, back));
-    let count = (length / 7.0).floor() as usize;
-    for k in 0..count.min(100) {
-        let t = (k as f64 + 0.85) * length / count as f64;
-        let foot = [from[0] + unit[0] * t, from[1] + unit[1] * t];
-        let end = [
-            foot[0] + back[0] * 7.0 - unit[0] * 5.5,
-            foot[1] + back[1] * 7.0 - unit[1] * 5.5,
-        ];
-        sheet.items.push(Item::Path {
-            points: vec![foot, end],
-            closed: false,
-            line: Line::thin(Ink::Ground),
-        });
-    }
-    for depth in [3.5, 7.5] {
-        let behind = |p: Pair| [p[0] + back[0] * depth, p[1] + back[1] * depth];
-        sheet.walls.push((behind(from), behind(to), 3.0));
-    }
-}
-
-fn peg(sheet: &mut Sheet, at: Pair) {
-    sheet.circle(
-        at,
-        PEG,
-        Line {
-            filled: true,
-            ..Line::of(Ink::Ground)
-        },
-    );
-    for k in [-3.0, 0.0, 3.0] {
-        let half = f64::sqrt(PEG * PEG - k * k) * 0.75;
-        let points = vec![
-            [at[0] + k - half * 0.6, at[1] - half * 0.8],
-            [at[0] + k + half * 0.6, at[1] + half * 0.8],
-        ];
-        sheet.items.push(Item::Path {
-            points,
-            closed: false,
-            line: Line::thin(Ink::Ground),
-        });
-    }
-    sheet.kept.push(Room::around(at, PEG));
-}
-
-fn support(sheet: &mut Sheet, at: Pair, away: Pair) {
-    let across = [-away[1], away[0]];
-    let spot = |out: f64, side: f64| {
-        [
-            at[0] + away[0] * out + across[0] * side,
-            at[1] + away[1] * out + across[1] * side,
-        ]
-    };
-    sheet.path(
-        vec![at, spot(15.0, 10.0), spot(15.0, -10.0)],
-        true,
-        Line {
-            filled: true,
-            ..Line::thin(Ink::Ground)
-        },
-        1.0,
-    );
-    hatched(sheet, spot(15.0, 18.0), spot(15.0, -18.0), away);
-}
-
-/// A low block on the ground whose lower corner is at a point; it stands in the way of what comes.
-fn stop(sheet: &mut Sheet, at: Pair, way: f64) {
-    let at = [at[0] + way * 0.8, at[1]];
-    let far = at[0] + way * 11.0;
-    let block = vec![at, [far, at[1]], [far, at[1] + 13.0], [at[0], at[1] + 13.0]];
-    let line = Line {
-        filled: true,
-        ..Line::of(Ink::Ground)
-    };
-    sheet.path(block, true, line, 2.0);
-    sheet.kept.push(Room {
-        low: [at[0].min(far), at[1]],
-        high: [at[0].max(far), at[1] + 13.0],
-    });
-    for k in [3.0, 6.0, 9.0] {
-        sheet.items.push(Item::Path {
-            points: vec![
-                [at[0] + way * k, at[1] + 2.0],
-                [at[0] + way * k, at[1] + 11.0],
-            ],
-            closed: false,
-            line: Line::thin(Ink::Ground),
-        });
-    }
-}
-
-/// The corner of a table: its top leads away from the body, its side goes down.
-fn edge(sheet: &mut Sheet, at: Pair, n: Pair, out: f64) {
-    let along = [n[1] * out, -n[0] * out];
-    let back = [-n[0], -n[1]];
-    let inner = [at[0] - along[0] * 4.0, at[1] - along[1] * 4.0];
-    let far = [at[0] + along[0] * 58.0, at[1] + along[1] * 58.0];
-    let foot = [inner[0] + back[0] * 40.0, inner[1] + back[1] * 40.0];
-    match out > 0.0 {
-        true => hatched(sheet, inner, far, back),
-        false => hatched(sheet, far, inner, back),
-    }
-    let line = Line {
-        width: 1.9,
-        ..Line::of(Ink::Ground)
-    };
-    sheet.segment(inner, foot, line, 2.0);
-}
-
-/// A wheel between the body and the ground.
-fn wheel(sheet: &mut Sheet, at: Pair, n: Pair) {
-    const RADIUS: f64 = 9.0;
-    let spot = |down: f64, side: f64| {
-        [
-            at[0] - n[0] * down + n[1] * side,
-            at[1] - n[1] * down - n[0] * side,
-        ]
-    };
-    sheet.circle(spot(RADIUS, 0.0), RADIUS, Line::of(Ink::Ground));
-    sheet.dot(spot(RADIUS, 0.0), 1.6, Ink::Ground);
-    let back = [-n[0], -n[1]];
-    hatched(
-        sheet,
-        spot(2.0 * RADIUS + 0.8, -24.0),
-        spot(2.0 * RADIUS + 0.8, 24.0),
-        back,
-    );
 }

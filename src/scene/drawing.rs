@@ -23,6 +23,8 @@ pub struct Drawn {
     pub supports: Vec<(String, Support)>,
     /// Strings: the contact that stands for one or a body, and where it is fastened; `None` leaves that open.
     pub strings: Vec<(String, Option<Vector>)>,
+    /// Springs under a body: the name of the force that they exert, and the points above them \[m\].
+    pub springs: Vec<(String, Vec<Vector>)>,
     /// Height of the level ground \[m\].
     pub ground: Option<Expr>,
 }
@@ -72,6 +74,12 @@ impl Drawn {
             .iter()
             .find(|(n, _)| n == name)
             .map(|(_, s)| *s)
+    }
+
+    /// The points above the springs that exert a force; none where no spring does.
+    pub fn springs(&self, force: &str) -> &[Vector] {
+        let found = self.springs.iter().find(|(name, _)| name == force);
+        found.map_or(&[], |(_, places)| places)
     }
 
     /// Where a string is fastened: `None` where there is none.
@@ -130,6 +138,16 @@ pub(super) fn hints(r: &mut Resolver<'_>, domains: &Domains) -> Drawn {
             let at = r.position(at);
             out.strings.push((name.text.clone(), at));
         }
+    }
+    let forces = forces(r);
+    for (name, places) in entries(file.springs.as_ref()) {
+        if !forces.contains(&name.text.as_str()) {
+            let forces = forces.clone();
+            r.unknown(name, "force", |_| forces);
+            continue;
+        }
+        let places = places.iter().filter_map(|at| r.position(at)).collect();
+        out.springs.push((name.text.clone(), places));
     }
     if let Some(height) = &file.ground {
         out.ground = r.symbols.read(height, Quantity::LENGTH, &mut r.faults);
@@ -199,6 +217,15 @@ fn places<'f>(r: &Resolver<'f>) -> Vec<&'f str> {
         out.extend(keys(&impact.supports).chain(keys(&impact.strings)));
     }
     out
+}
+
+/// Names of the finite forces, in the scene and in its stages.
+fn forces<'f>(r: &Resolver<'f>) -> Vec<&'f str> {
+    let stages = r.file.stages.iter().flatten();
+    let impacts = stages.filter_map(|s| s.impact.as_ref());
+    let all = impacts.flat_map(|i| i.forces.iter().flatten());
+    let all = all.chain(r.file.forces.iter().flatten());
+    all.map(|f| f.name.text.as_str()).collect()
 }
 
 fn known(r: &mut Resolver<'_>, name: &Text, places: &[&str]) -> bool {

@@ -76,6 +76,8 @@ record! {
         supports: Option<Map<SupportName>>,
         /// Where strings are fastened: by the name of a string, or of a body that hangs on one.
         strings: Option<Map<PositionFile>>,
+        /// Where springs stand under a body, by the name of the force that they exert: the points above them.
+        springs: Option<Map<Vec<PositionFile>>>,
         /// Height of the level ground.
         ground: Option<Formula>,
     }

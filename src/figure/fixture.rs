@@ -1,0 +1,176 @@
+//! The fixtures that bodies stand on, hang from or strike: hatched ground, pegs, hinge supports, stops, edges, wheels, springs.
+//!
+//! In: a place on the sheet, in pixels, and which way it faces. Out: lines on the sheet.
+
+use super::place::Room;
+use super::sheet::{Ink, Item, Line, Sheet};
+use super::stage::PEG;
+use super::values::{Pair, size};
+
+/// A line with strokes on its far side.
+pub(super) fn hatched(sheet: &mut Sheet, from: Pair, to: Pair, back: Pair) {
+    let d = [to[0] - from[0], to[1] - from[1]];
+    let length = size(d).max(1e-9);
+    let unit = [d[0] / length, d[1] / length];
+    sheet.segment(
+        from,
+        to,
+        Line {
+            width: 1.9,
+            ..Line::of(Ink::Ground)
+        },
+        2.0,
+    );
+    sheet.grounds.push((from, to, back));
+    let count = (length / 7.0).floor() as usize;
+    for k in 0..count.min(100) {
+        let t = (k as f64 + 0.85) * length / count as f64;
+        let foot = [from[0] + unit[0] * t, from[1] + unit[1] * t];
+        let end = [
+            foot[0] + back[0] * 7.0 - unit[0] * 5.5,
+            foot[1] + back[1] * 7.0 - unit[1] * 5.5,
+        ];
+        sheet.items.push(Item::Path {
+            points: vec![foot, end],
+            closed: false,
+            line: Line::thin(Ink::Ground),
+        });
+    }
+    for depth in [3.5, 7.5] {
+        let behind = |p: Pair| [p[0] + back[0] * depth, p[1] + back[1] * depth];
+        sheet.walls.push((behind(from), behind(to), 3.0));
+    }
+}
+
+/// A round peg, seen from its end.
+pub(super) fn peg(sheet: &mut Sheet, at: Pair) {
+    sheet.circle(
+        at,
+        PEG,
+        Line {
+            filled: true,
+            ..Line::of(Ink::Ground)
+        },
+    );
+    for k in [-3.0, 0.0, 3.0] {
+        let half = f64::sqrt(PEG * PEG - k * k) * 0.75;
+        let points = vec![
+            [at[0] + k - half * 0.6, at[1] - half * 0.8],
+            [at[0] + k + half * 0.6, at[1] + half * 0.8],
+        ];
+        sheet.items.push(Item::Path {
+            points,
+            closed: false,
+            line: Line::thin(Ink::Ground),
+        });
+    }
+    sheet.kept.push(Room::around(at, PEG));
+}
+
+/// The support of a hinge: a triangle on a hatched line, away from the body.
+pub(super) fn support(sheet: &mut Sheet, at: Pair, away: Pair) {
+    let across = [-away[1], away[0]];
+    let spot = |out: f64, side: f64| {
+        [
+            at[0] + away[0] * out + across[0] * side,
+            at[1] + away[1] * out + across[1] * side,
+        ]
+    };
+    sheet.path(
+        vec![at, spot(15.0, 10.0), spot(15.0, -10.0)],
+        true,
+        Line {
+            filled: true,
+            ..Line::thin(Ink::Ground)
+        },
+        1.0,
+    );
+    hatched(sheet, spot(15.0, 18.0), spot(15.0, -18.0), away);
+}
+
+/// A low block on the ground whose lower corner is at a point; it stands in the way of what comes.
+pub(super) fn stop(sheet: &mut Sheet, at: Pair, way: f64) {
+    let at = [at[0] + way * 0.8, at[1]];
+    let far = at[0] + way * 11.0;
+    let block = vec![at, [far, at[1]], [far, at[1] + 13.0], [at[0], at[1] + 13.0]];
+    let line = Line {
+        filled: true,
+        ..Line::of(Ink::Ground)
+    };
+    sheet.path(block, true, line, 2.0);
+    sheet.kept.push(Room {
+        low: [at[0].min(far), at[1]],
+        high: [at[0].max(far), at[1] + 13.0],
+    });
+    for k in [3.0, 6.0, 9.0] {
+        sheet.items.push(Item::Path {
+            points: vec![
+                [at[0] + way * k, at[1] + 2.0],
+                [at[0] + way * k, at[1] + 11.0],
+            ],
+            closed: false,
+            line: Line::thin(Ink::Ground),
+        });
+    }
+}
+
+/// The corner of a table: its top leads away from the body, its side goes down.
+pub(super) fn edge(sheet: &mut Sheet, at: Pair, n: Pair, out: f64) {
+    let along = [n[1] * out, -n[0] * out];
+    let back = [-n[0], -n[1]];
+    let inner = [at[0] - along[0] * 4.0, at[1] - along[1] * 4.0];
+    let far = [at[0] + along[0] * 58.0, at[1] + along[1] * 58.0];
+    let foot = [inner[0] + back[0] * 40.0, inner[1] + back[1] * 40.0];
+    match out > 0.0 {
+        true => hatched(sheet, inner, far, back),
+        false => hatched(sheet, far, inner, back),
+    }
+    let line = Line {
+        width: 1.9,
+        ..Line::of(Ink::Ground)
+    };
+    sheet.segment(inner, foot, line, 2.0);
+}
+
+/// A wheel between the body and the ground.
+pub(super) fn wheel(sheet: &mut Sheet, at: Pair, n: Pair) {
+    const RADIUS: f64 = 9.0;
+    let spot = |down: f64, side: f64| {
+        [
+            at[0] - n[0] * down + n[1] * side,
+            at[1] - n[1] * down - n[0] * side,
+        ]
+    };
+    sheet.circle(spot(RADIUS, 0.0), RADIUS, Line::of(Ink::Ground));
+    sheet.dot(spot(RADIUS, 0.0), 1.6, Ink::Ground);
+    let back = [-n[0], -n[1]];
+    hatched(
+        sheet,
+        spot(2.0 * RADIUS + 0.8, -24.0),
+        spot(2.0 * RADIUS + 0.8, 24.0),
+        back,
+    );
+}
+
+/// A spring between a body above it and the ground.
+pub(super) fn spring(sheet: &mut Sheet, at: Pair) {
+    const TURNS: usize = 5;
+    const LEAD: f64 = 4.0;
+    const HIGH: f64 = 30.0;
+    const HALF: f64 = 6.0;
+    let step = (HIGH - 2.0 * LEAD) / (2 * TURNS) as f64;
+    let mut points = vec![at, [at[0], at[1] - LEAD]];
+    for k in 0..2 * TURNS {
+        let side = if k % 2 == 0 { HALF } else { -HALF };
+        points.push([at[0] + side, at[1] - LEAD - (k as f64 + 0.5) * step]);
+    }
+    points.extend([[at[0], at[1] - HIGH + LEAD], [at[0], at[1] - HIGH]]);
+    sheet.path(points, false, Line::of(Ink::Ground), 1.0);
+    let foot = at[1] - HIGH - 0.8;
+    hatched(
+        sheet,
+        [at[0] - 16.0, foot],
+        [at[0] + 16.0, foot],
+        [0.0, -1.0],
+    );
+}
