@@ -882,3 +882,129 @@ fn no_phrase_that_an_editor_would_strike() {
         }
     }
 }
+
+/// Every line of a section, with whether it stands in a box.
+fn lines(section: &solution::Section) -> impl Iterator<Item = (bool, &solution::Line)> {
+    section.parts.iter().flat_map(|part| {
+        let (boxed, lines) = match part {
+            solution::Part::Display(lines) => (false, lines.as_slice()),
+            solution::Part::Result(lines) => (true, lines.as_slice()),
+            _ => (false, &[][..]),
+        };
+        lines.iter().map(move |line| (boxed, line))
+    })
+}
+
+#[test]
+fn what_is_boxed_does_not_stand_above_the_box_as_well() {
+    use solution::Math::{Expr, Op};
+    for case in cases() {
+        for section in &case.solution(Detail::Normal).sections {
+            let mut values = Vec::new();
+            for part in &section.parts {
+                // Where a sentence leads to a law of one line, that line is the law.
+                if let solution::Part::Display(lines) = part
+                    && lines.len() > 1
+                {
+                    for line in lines {
+                        let math = line.math.strip_prefix(&[Op("⇒")]).unwrap_or(&line.math);
+                        if let [Expr(name), Op("="), Expr(value)] = math {
+                            values.push((name.clone(), value.clone()));
+                        }
+                    }
+                }
+            }
+            for (_, line) in lines(section).filter(|(boxed, _)| *boxed) {
+                if let [Expr(_), Op("="), Expr(name), Op("="), Expr(value)] = line.math.as_slice() {
+                    let twice = values.iter().any(|(n, v)| n == name && v == value);
+                    assert!(!twice, "{:?}: {name:?} = {value:?}", case.path);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn energies_are_told_before_they_are_used() {
+    let is_energy = |m: &solution::Math| matches!(m, solution::Math::Name(n) if n.letter == "E" && n.index.starts_with('K'));
+    for case in cases() {
+        let solution = case.solution(Detail::Normal);
+        let mut told: Vec<solution::Math> = Vec::new();
+        for section in &solution.sections {
+            if section.depth == 0 {
+                told.clear();
+            }
+            for (_, line) in lines(section) {
+                if line.math.first().is_some_and(is_energy) {
+                    told.push(line.math[0].clone());
+                }
+                for energy in line.math.iter().filter(|m| is_energy(m)) {
+                    assert!(told.contains(energy), "{:?}: {energy:?}", case.path);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn like_factors_are_gathered_and_nothing_is_times_zero() {
+    use carom::expr::Node;
+    for case in cases() {
+        for section in &case.solution(Detail::Normal).sections {
+            for m in lines(section).flat_map(|(_, line)| &line.math) {
+                let (solution::Math::Expr(e) | solution::Math::Factor(e)) = m else {
+                    continue;
+                };
+                e.walk(&mut |part| {
+                    let Node::Product(factors) = part.node() else {
+                        return;
+                    };
+                    let twice = |(i, f)| factors[..i].contains(f);
+                    let gathered = !factors.iter().enumerate().any(twice);
+                    let zero = factors.iter().any(carom::expr::Expr::is_zero);
+                    assert!(gathered && !zero, "{:?}: {e:?}", case.path);
+                });
+            }
+        }
+    }
+}
+
+#[test]
+fn cases_of_one_impact_share_what_they_have_in_common() {
+    for case in cases() {
+        let mut told: Vec<Vec<Vec<solution::Math>>> = Vec::new();
+        for section in &case.solution(Detail::Normal).sections {
+            if section.depth == 0 {
+                told.clear();
+            }
+            for parts in section.parts.windows(2) {
+                let [solution::Part::Text(lead), solution::Part::Display(lines)] = parts else {
+                    continue;
+                };
+                let lead = match lead.first() {
+                    Some(solution::Inline::Text(lead)) => lead.as_str(),
+                    _ => "",
+                };
+                if lead.starts_with("Balance") || lead.starts_with("Take") {
+                    let lines: Vec<_> = lines.iter().map(|l| l.math.clone()).collect();
+                    assert!(!told.contains(&lines), "{:?}: {lead}", case.path);
+                    told.push(lines);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn results_in_numbers_name_the_values_they_rest_on() {
+    for case in cases() {
+        let text = render::markdown::solution(&case.solution(Detail::Normal), &[]);
+        let first = text.find("In numbers: ").unwrap_or(usize::MAX);
+        let values = text.find("With the values in brackets, ");
+        assert!(
+            values.unwrap_or(usize::MAX) <= first,
+            "{}",
+            case.path.display()
+        );
+    }
+}

@@ -401,6 +401,7 @@ fn unicode_name(name: &Name) -> String {
     let mark = match name.mark {
         "+" => "⁺",
         "-" => "⁻",
+        "2" => "²",
         _ => "",
     };
     let index = &name.index;

@@ -87,6 +87,7 @@ fn quantity(name: &Name) -> String {
     let mark = match name.mark {
         "" => String::new(),
         "-" => String::from("<mo>−</mo>"),
+        "2" => String::from("<mn>2</mn>"),
         mark => format!("<mo>{mark}</mo>"),
     };
     scripts(&base, &index, &mark)

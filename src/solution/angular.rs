@@ -37,11 +37,11 @@ impl Writer<'_> {
         }
         if let [one] = silent.as_slice() {
             text.push_str(&format!(
-                " The impulse at {one} acts at this point and has no moment about it."
+                " The impulse at {one} acts there and has no moment."
             ));
         } else if !silent.is_empty() {
             text.push_str(&format!(
-                " The impulses at {} act at this point and have no moment about it.",
+                " The impulses at {} act there and have no moment.",
                 words::list(&silent)
             ));
         }
@@ -136,7 +136,7 @@ impl Writer<'_> {
                 if any {
                     definition.push(Math::Op("+"));
                 }
-                definition.extend([self.inertia_name(b), name("omega", &c, "", true)]);
+                definition.extend([self.inertia_name(b), words::spin(self.scene, b, "")]);
                 any = true;
             }
         }

@@ -133,7 +133,7 @@ impl Writer<'_> {
         }
         if turns {
             math.extend([
-                name("omega", &center, "+", true),
+                words::spin(self.scene, body, "+"),
                 Math::Op("×"),
                 name("r", &format!("{point}/{base}"), "", true),
             ]);
@@ -327,6 +327,7 @@ impl Writer<'_> {
             EnergyWhen::Lost => &[(0, "-"), (1, "+")],
         };
         let named = answers.first().is_some_and(|a| !self.is_solved(&a.name));
+        let mut shown = Vec::new();
         for &(i, mark) in ends {
             let claim = Claim {
                 left: raw[i].clone(),
@@ -341,7 +342,8 @@ impl Writer<'_> {
             if i == 0 {
                 self.say("The kinetic energies before and after are");
             }
-            let mut math = vec![name("T", &index, mark, false), Math::Op("=")];
+            let mut math = vec![words::kinetic(&index, mark), Math::Op("=")];
+            shown.push(math[0].clone());
             if self.detail() == Detail::Full && raw[i] != tidy[i] && raw[i].size() < 80 {
                 math.extend([Math::Expr(raw[i].clone()), Math::Op("=")]);
             }
@@ -354,12 +356,21 @@ impl Writer<'_> {
             EnergyWhen::After => after,
             EnergyWhen::Lost => before - after,
         };
-        self.values(&[raw], answers, None);
+        // By the energies of the lines above.
+        let by = match shown.as_slice() {
+            [before, after] => Some(vec![before.clone(), Math::Op("−"), after.clone()]),
+            [after] => Some(vec![after.clone()]),
+            _ => None,
+        };
+        self.values(&[raw], answers, by);
     }
 
     /// Closed forms of answers, each from its expression in the symbols found above; `via` is told between name and value.
     fn values(&mut self, raw: &[Expr], answers: &[Answer], via: Option<Vec<Math>>) {
         let mut lines = Vec::new();
+        // An unknown by its name in the chain says where the value comes from.
+        let has_name = |via: &Vec<Math>| !via.iter().any(|m| matches!(m, Math::Name(_)));
+        let by_name = via.as_ref().is_some_and(has_name);
         for (answer, raw) in answers.iter().zip(raw) {
             let Form::Value { closed, short } = &answer.form else {
                 continue;
@@ -386,6 +397,11 @@ impl Writer<'_> {
                 "with the values found above",
             );
             let mut math = vec![Math::Expr(symbol), Math::Op("=")];
+            if by_name {
+                for name in raw.symbols() {
+                    self.solution.untell(&Expr::symbol(&name));
+                }
+            }
             if let Some(via) = via.clone().filter(|v| *v != [Math::Expr(short.clone())]) {
                 math.extend(via);
                 math.push(Math::Op("="));
@@ -413,9 +429,10 @@ impl Writer<'_> {
                     found.push(Expr::symbol(&e));
                 }
             }
-            if via.is_some() {
-                // The name in the chain says where the value comes from.
-            } else if !found.is_empty() && found.len() <= 4 {
+            if by_name {
+                found.clear();
+            }
+            if !found.is_empty() && found.len() <= 4 {
                 let mut text = vec![say("With ")];
                 for (i, symbol) in found.iter().enumerate() {
                     if i > 0 {
@@ -433,7 +450,7 @@ impl Writer<'_> {
                 .extend(answers.iter().map(|a| Symbol::from(a.name.as_str())));
             let last = self.solution.sections.last_mut();
             match last.and_then(|s| s.parts.last_mut()) {
-                Some(Part::Result(others)) if via.is_some() => others.extend(lines),
+                Some(Part::Result(others)) if by_name => others.extend(lines),
                 _ => self.push(Part::Result(lines)),
             }
         }

@@ -1,10 +1,12 @@
 //! What is asked beyond the motion: thresholds, largest values, limits, identities, words. One function turns an answer into
 //! the section of a worked solution, whether the scene has stages or not.
 
+use super::neat::tidied;
+use super::opening::NUMBERS;
 use super::words::{self, say};
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Solution};
 use crate::answer::{Answer, Check, Form};
-use crate::expr::Expr;
+use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
 use crate::formula::{Piece, Sentence};
 use crate::scene::{Ask, Scene};
@@ -14,23 +16,123 @@ const READABLE: usize = 120;
 
 /// Adds what is asked beyond the motion, a section for each question.
 pub(super) fn beyond_motion(solution: &mut Solution, scene: &Scene, answers: &[Answer]) {
+    let mut before: Option<&Ask> = None;
     for question in &scene.questions {
         // What happens in a stage stands where the stage is told.
-        if question.ask.is_motion() || matches!(question.ask, Ask::Assumed | Ask::Describe) {
+        let in_stage = matches!(
+            question.ask,
+            Ask::Assumed | Ask::Describe | Ask::Reaction { .. }
+        );
+        if question.ask.is_motion() || in_stage {
             continue;
         }
         let mine = answers.iter().filter(|a| a.question == question.name);
         let mine: Vec<Answer> = mine.cloned().collect();
-        answered(solution, scene, &question.ask, &mine);
+        let Some(first) = mine.first() else {
+            continue;
+        };
+        let ask = &question.ask;
+        match before.is_some_and(|before| goes_on(before, ask)) {
+            true => further(solution, ask, first),
+            false => solution.section(0, heading(scene, ask, first)),
+        }
+        if let Ask::Value { meaning, .. } = ask
+            && let Some(reason) = because(meaning)
+            && solution.detail != Detail::Brief
+        {
+            solution.say(reason);
+        }
+        if let Ask::Maximum { of, over } = ask {
+            slope(solution, scene, answers, (of, over), &mine);
+        }
+        answered(solution, scene, ask, &mine);
+        before = Some(ask);
     }
+}
+
+/// Why a coefficient of friction is the least or the largest with which something happens.
+fn because(meaning: &str) -> Option<&'static str> {
+    let (_, event) = meaning.split_once("coefficient of friction with which it ")?;
+    Some(match event {
+        "sticks" => {
+            "It sticks as long as the tangential impulse this takes is at most the coefficient times the normal one:"
+        }
+        "slides" => {
+            "It slides to the end as long as friction cannot end its slip before the normal impulse has done its work:"
+        }
+        _ => {
+            "It jams where the friction of its slip turns it so fast into the surface that a normal impulse no longer slows its approach:"
+        }
+    })
+}
+
+/// Whether a question needs no heading of its own after the one before: values one after the other, and one formula to
+/// several orders.
+fn goes_on(before: &Ask, ask: &Ask) -> bool {
+    let plain = |ask: &Ask| matches!(ask, Ask::Value { with, meaning, .. } if with.is_empty() && meaning.is_empty());
+    match (before, ask) {
+        (
+            Ask::Approximate {
+                of, parameter, to, ..
+            },
+            Ask::Approximate {
+                of: f,
+                parameter: p,
+                to: t,
+                ..
+            },
+        ) => (of, parameter, to) == (f, p, t),
+        _ => plain(before) && plain(ask),
+    }
+}
+
+/// What a further question adds to the heading, or says before its answer.
+fn further(solution: &mut Solution, ask: &Ask, answer: &Answer) {
+    if let Ask::Approximate { order, .. } = ask {
+        return solution.say(&format!("To order {order},"));
+    }
+    let Some(section) = solution.sections.last_mut() else {
+        return;
+    };
+    if let Some(Inline::Text(lead)) = section.heading.first_mut() {
+        *lead = lead.replace("Value of", "Values of");
+    }
+    section
+        .heading
+        .extend([say(", "), words::formula(&Expr::symbol(&answer.name))]);
+}
+
+/// Where a value is largest inside its range: its derivative vanishes there.
+fn slope(
+    solution: &mut Solution,
+    scene: &Scene,
+    answers: &[Answer],
+    (of, over): (&Expr, &[Symbol]),
+    mine: &[Answer],
+) {
+    let place = mine.iter().find_map(|a| a.range.first());
+    let ([p], Some((at, Relation::Equal, place))) = (over, place) else {
+        return;
+    };
+    let known = answers.iter();
+    let known = known.filter_map(|a| Some((Symbol::from(a.name.as_str()), a.formula()?.clone())));
+    let slope = tidied(scene, &of.substitute(&known.collect()).derivative(p));
+    let there = std::collections::BTreeMap::from([(p.clone(), place.clone())]);
+    let vanishes = tidied(scene, &slope.substitute(&there)).is_zero();
+    if at.as_symbol() != Some(p) || !vanishes || slope.size() > READABLE {
+        return;
+    }
+    solution.text(vec![
+        say("It is largest where its derivative with respect to "),
+        words::formula(at),
+        say(" vanishes:"),
+    ]);
+    let math = vec![Math::Expr(slope), Math::Op("="), Math::Expr(Expr::zero())];
+    solution.push(Part::Display(vec![Line { math, step: None }]));
 }
 
 /// Adds a section with the answers to one question, in the order they were found.
 fn answered(solution: &mut Solution, scene: &Scene, ask: &Ask, answers: &[Answer]) {
-    let Some(first) = answers.first() else {
-        return;
-    };
-    solution.section(0, heading(scene, ask, first));
     for (i, answer) in answers.iter().enumerate() {
         let checks = |a: &Answer| known(&a.checks);
         let told = i > 0 && checks(&answers[i - 1]) == checks(answer);
@@ -150,7 +252,11 @@ fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> {
         Ask::Value { formula, with, .. } => {
             let mut out = vec![math(formula)];
             for (i, (name, value)) in with.iter().enumerate() {
-                out.push(say(if i == 0 { " at " } else { " and " }));
+                out.push(say(match (i, with.len() - i) {
+                    (0, _) => " at ",
+                    (_, 1) => " and ",
+                    _ => ", ",
+                }));
                 out.push(words::equation(&Expr::symbol(name), value));
             }
             out
@@ -218,7 +324,9 @@ fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> {
                 let near = near.into_iter().chain([Math::Expr(to.clone())]);
                 out.extend([say(" for "), Inline::Math(near.collect())]);
             }
-            out.push(say(format!(", to order {order}")));
+            if *order > 0 {
+                out.push(say(format!(", to order {order}")));
+            }
             out
         }
         Ask::Show {
@@ -305,7 +413,8 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     };
     let stands = stands_for(ask, answer).is_some();
     if let Some(value) = number(scene, answer).filter(|_| !stands) {
-        solution.text(vec![say("In numbers: "), words::formula(&of), say(value)]);
+        let value = say(format!("{value}."));
+        solution.text(vec![say(NUMBERS), words::formula(&of), value]);
     }
     said(solution, scene, ask, answer);
     if brief && holds(answer) {
@@ -426,7 +535,7 @@ fn found(
         found.push(whole);
     }
     if let Some(formula) = answer.formula()
-        && answer.range.is_empty()
+        && (answer.range.is_empty() || is_largest(ask, answer))
     {
         let (left, op) = match stands_for(ask, answer) {
             Some((of, op)) => (of, op),
@@ -456,6 +565,12 @@ fn found(
         found.push(line(left, "=", right, named_step));
     }
     found
+}
+
+/// Whether an answer is a largest value beside the place where it is reached.
+fn is_largest(ask: &Ask, answer: &Answer) -> bool {
+    let place = answer.range.first().map(|(_, _, place)| place);
+    matches!(ask, Ask::Maximum { .. }) && answer.formula() != place
 }
 
 /// What is said of an answer in sentences.
@@ -545,7 +660,7 @@ fn stands_for(ask: &Ask, answer: &Answer) -> Option<(Expr, &'static str)> {
     })
 }
 
-/// ` = 1.2 m/s` where the scene gives every value.
+/// ` = 1.2 m/s`, where the scene gives every value.
 pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
     let formula = answer.formula()?;
     if formula.symbols().iter().all(|s| s.as_ref() == "pi") {
@@ -560,7 +675,7 @@ pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
         .substitute(&values)
         .evaluate(&crate::expr::Point::<f64>::default())?;
     let number = answer.dimension.measured(&words::digits(value));
-    Some(format!(" = {number}."))
+    Some(format!(" = {number}"))
 }
 
 /// What is told of checks: that one holds is told once, at the end of a solution, and by itself only at full length.

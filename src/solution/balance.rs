@@ -53,9 +53,7 @@ impl Writer<'_> {
                 ));
             }
             Law::Given(k) => self.given(*k),
-            Law::Condition(..) => {
-                self.say(&format!("{}:", words::capital(&reason)));
-            }
+            Law::Condition(c, i) => self.rubs(*c, *i),
         }
         let shown = matches!(self.last_line(), Some((l, r)) if l == left && r == right);
         if !shown {
@@ -191,7 +189,7 @@ impl Writer<'_> {
                     math.push(Math::Op("+"));
                 }
                 math.extend([
-                    name("omega", &c, "+", true),
+                    words::spin(self.scene, b, "+"),
                     Math::Op("×"),
                     name("r", &format!("{c}/{at}"), "", true),
                 ]);
@@ -226,7 +224,11 @@ impl Writer<'_> {
             let id = self.step(Vec::new(), claims, "the joint leaves only the spin free");
             if !self.scene.bodies[b].is_particle() {
                 let w = self.spin_after(b);
-                let math = vec![name("omega", &c, "+", true), Math::Op("="), Math::Along(w)];
+                let math = vec![
+                    words::spin(self.scene, b, "+"),
+                    Math::Op("="),
+                    Math::Along(w),
+                ];
                 self.show(math, None);
             }
             self.show(math, Some(id));

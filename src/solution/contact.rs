@@ -204,7 +204,7 @@ impl Writer<'_> {
         }
         let arm = format!("{point}/{base}");
         whole.extend([
-            name("omega", &words::center(self.scene, b), "+", true),
+            words::spin(self.scene, b, "+"),
             Math::Op("×"),
             name("r", &arm, "", true),
         ]);

@@ -11,9 +11,12 @@ mod balance;
 mod block;
 mod contact;
 mod eliminate;
+mod neat;
 mod notice;
+mod opening;
 mod page;
 mod results;
+mod rough;
 mod story;
 mod through;
 mod words;
@@ -29,7 +32,7 @@ use crate::derive::{self, Derivation, Reduction};
 use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Affine, Geometry, Kinematics, Unknown};
 use crate::scene::{ContactLaw, Mode, Scene};
-use crate::story::Told;
+use crate::story::{Case, Told};
 use crate::verify::Proof;
 
 /// How much is shown.
@@ -272,9 +275,16 @@ pub struct Step {
 
 /// Writes the solution of everything a scene asks.
 pub fn write(scene: &Scene, told: &Told, detail: Detail) -> Solution {
-    let Some(impact) = told.alone() else {
-        return story::tell(scene, told, detail);
+    let mut solution = match told.alone() {
+        Some(impact) => lone(scene, told, impact, detail),
+        None => story::tell(scene, told, detail),
     };
+    solution.explain(scene);
+    solution
+}
+
+/// The solution of a scene that is one impact and nothing else.
+fn lone(scene: &Scene, told: &Told, impact: &Case, detail: Detail) -> Solution {
     let mut writer = Writer::new(scene, &impact.derivation, &impact.proof, detail);
     writer.opening();
     writer.blocks();

@@ -3,7 +3,8 @@
 //! In: pieces of text and claims, in order. Out: the [`Solution`] with them at its end.
 
 use super::words::say;
-use super::{Claim, Inline, Part, Section, Solution, Step};
+use super::{Claim, Inline, Line, Math, Part, Section, Solution, Step};
+use crate::expr::Expr;
 
 impl Solution {
     /// Opens a section; what comes next stands in it.
@@ -28,6 +29,42 @@ impl Solution {
 
     pub(super) fn say(&mut self, text: &str) {
         self.text(vec![say(text)]);
+    }
+
+    /// Takes away the line of the open section that gives a symbol its value, where the box that comes next tells it again;
+    /// a law that a sentence leads to stays.
+    pub(super) fn untell(&mut self, symbol: &Expr) {
+        let Some(section) = self.sections.last_mut() else {
+            return;
+        };
+        let gives = |line: &Line| {
+            let math = line.math.strip_prefix(&[Math::Op("⇒")]);
+            let math = math.unwrap_or(&line.math);
+            matches!(math, [Math::Expr(left), Math::Op("="), Math::Expr(_)] if left == symbol)
+        };
+        for p in (0..section.parts.len()).rev() {
+            let (before, from) = section.parts.split_at_mut(p);
+            let Part::Display(lines) = &mut from[0] else {
+                continue;
+            };
+            let Some(i) = lines.iter().position(gives) else {
+                continue;
+            };
+            if lines.len() > 1 {
+                let removed = lines.remove(i);
+                let leads = removed.math[0] == Math::Op("⇒");
+                if let Some(next) = lines.get_mut(i).filter(|_| leads) {
+                    next.math.insert(0, Math::Op("⇒"));
+                }
+                return;
+            }
+            let led_to = matches!(before.last(), Some(Part::Text(text))
+                if matches!(text.last(), Some(Inline::Text(words)) if words.ends_with(':')));
+            if !led_to {
+                section.parts.remove(p);
+            }
+            return;
+        }
     }
 
     /// Records a step and gives its id.

@@ -1,5 +1,6 @@
 //! The results in one place, their abbreviations, and what was checked.
 
+use super::opening::NUMBERS;
 use super::words::{self, say};
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Writer};
 use crate::answer::Form;
@@ -212,7 +213,7 @@ impl Writer<'_> {
             items.push(say(format!(" = {number}")));
         }
         if !items.is_empty() {
-            items.insert(0, say("In numbers: "));
+            items.insert(0, say(NUMBERS));
             items.push(say("."));
             self.text(items);
         }

@@ -2,6 +2,7 @@
 //! follows from the impulses alone, the balances are told together and leave equations for the impulses.
 
 use super::Writer;
+use super::neat::neat;
 use super::words::{self, say};
 use crate::derive::{Block, Equation};
 use crate::expr::{Expr, Symbol};
@@ -333,6 +334,7 @@ impl Writer<'_> {
         let mut counted: Vec<(Expr, i64)> = Vec::new();
         for part in parts {
             let tidy = self.tidy(&part);
+            let part = neat(self.scene, &part);
             let part = if tidy.size() <= part.size() {
                 tidy
             } else {

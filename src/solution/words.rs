@@ -80,7 +80,8 @@ pub fn point(scene: &Scene, place: Place) -> String {
 /// The letter of a center of mass.
 pub fn center(scene: &Scene, b: usize) -> String {
     let moving = scene.bodies.iter().filter(|b| !b.is_fixed()).count();
-    if moving == 1 && !scene.bodies[b].is_fixed() {
+    let body = &scene.bodies[b];
+    if moving == 1 && !body.is_fixed() && !body.is_particle() {
         String::from("G")
     } else {
         scene.bodies[b].name.clone()
@@ -115,8 +116,24 @@ pub fn name(letter: &'static str, index: &str, mark: &'static str, vector: bool)
     })
 }
 
-/// `Here m is the mass and ℓ is the length.`
-pub fn meant(scene: &Scene) -> Option<Vec<Inline>> {
+/// Kinetic energy, of one body where the index names it: E_K, for T is as often a tension, a time or a point.
+pub fn kinetic(index: &str, mark: &'static str) -> Math {
+    let index = match index {
+        "" => String::from("K"),
+        body => format!("K,{body}"),
+    };
+    name("E", &index, mark, false)
+}
+
+/// The angular velocity of a body as a vector, with an index where several bodies move.
+pub fn spin(scene: &Scene, b: usize, mark: &'static str) -> Math {
+    let index = center(scene, b);
+    let index = if index == "G" { "" } else { &index };
+    name("omega", index, mark, true)
+}
+
+/// `Here m is the mass and ℓ is the length.` With the values that the scene gives: `the mass (2 kg)`.
+pub fn meant(scene: &Scene, values: bool) -> Option<Vec<Inline>> {
     let meant: Vec<_> = scene
         .parameters
         .iter()
@@ -149,6 +166,14 @@ pub fn meant(scene: &Scene) -> Option<Vec<Inline>> {
         };
         text.push(say(format!(" is {article}")));
         text.extend(with_symbols(scene, &p.meaning));
+        if let Some(value) = p.value.as_ref().filter(|_| values) {
+            text.push(say(" ("));
+            text.push(match value.as_number().map(crate::expr::number::to_f64) {
+                Some(number) => say(p.dimension.measured(&digits(number))),
+                None => formula(value),
+            });
+            text.push(say(")"));
+        }
         text.push(say(end));
     }
     Some(text)

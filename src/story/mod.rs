@@ -6,6 +6,7 @@
 
 mod alone;
 mod answer;
+mod change;
 mod impact;
 mod integrate;
 mod motion;

@@ -1,11 +1,9 @@
 //! Sentences about stages, made from what was found of them: what happens, which forces have impulses, what is open.
 
-use super::{Case, StageTold};
-use crate::algebra::Sign;
-use crate::answer::calc::{Seen, essential, is_zero, sign};
+use super::{Case, StageTold, change};
+use crate::answer::calc::is_zero;
 use crate::derive;
-use crate::domain::Domains;
-use crate::expr::{Expr, minus};
+use crate::expr::Expr;
 use crate::formula::{Sentence, sentence};
 use crate::scene::{
     BlowImpulse, ContactLaw, FallEnd, OneSided, Scene, Slide, SlideEnd, Stage, StageKind, Turn,
@@ -85,31 +83,18 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
     match &stage.kind {
         StageKind::Impact { one_sided, .. } => {
             for case in &told.cases {
-                if told.cases.len() > 1 || !one_sided.is_empty() {
-                    let acts = acting(one_sided, case);
-                    out.push(match case.conditions.is_empty() {
-                        true => sentence![acts],
-                        false => sentence!["where ", conditions(case), ": ", acts],
-                    });
+                let mut all: Vec<Sentence> = Vec::new();
+                let several = told.cases.len() > 1 || !one_sided.is_empty();
+                if several {
+                    all.push(acting(one_sided, case).into());
                 }
-                let moving = scene
-                    .bodies
-                    .iter()
-                    .enumerate()
-                    .filter(|(_, b)| !b.is_fixed());
-                let given: Vec<&Expr> = case.conditions.iter().map(|(_, e)| e).collect();
-                for (b, body) in moving {
-                    out.push(
-                        Change {
-                            told,
-                            case,
-                            b,
-                            domains: &scene.domains,
-                            given: &given,
-                        }
-                        .words(&body.name, body.is_particle())
-                        .into(),
-                    );
+                all.extend(change::words(told, case).into_iter().map(Sentence::from));
+                // Of several, an outcome is one sentence, with the condition that it hangs on.
+                if several && !case.conditions.is_empty() && !all.is_empty() {
+                    let does = Sentence::join(all, "; ");
+                    out.push(sentence!["where ", conditions(case), ": ", does]);
+                } else {
+                    out.extend(all);
                 }
             }
         }
@@ -277,7 +262,7 @@ fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> Sentence {
         1 => ["turns", ", and gains speed", ", and slows down"],
         _ => ["turn as one body", ", and gain speed", ", and slow down"],
     };
-    let rate = match way(&gain, domains, &[]) {
+    let rate = match change::way(&gain, domains, &[]) {
         _ if same => " at a steady rate",
         _ if from_rest => ", from rest",
         Some(true) => and_grows,
@@ -289,127 +274,6 @@ fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> Sentence {
         format!(" {turns}{sense} about `{}`", turn.about_name),
         rate
     ]
-}
-
-/// How an impact changes a body's motion, where its conditions hold.
-struct Change<'a> {
-    told: &'a StageTold,
-    case: &'a Case,
-    b: usize,
-    domains: &'a Domains,
-    given: &'a [&'a Expr],
-}
-
-impl Change<'_> {
-    fn words(&self, name: &str, is_particle: bool) -> String {
-        let (before, after) = (&self.told.before, &self.case.after);
-        let parts = [before, after].map(|s| s.velocity[self.b].iter().chain([&s.spin[self.b]]));
-        if let Some(why) = after.why_open(parts.into_iter().flatten()) {
-            return format!("how `{name}` moves is not determined: {why}");
-        }
-        let (v0, v1) = (&before.velocity[self.b], &after.velocity[self.b]);
-        let zero = |v: &[Expr; 2]| v.iter().all(|c| is_zero(c, self.domains) == Some(true));
-        let center = if is_particle {
-            format!("`{name}`")
-        } else {
-            format!("the center of mass of `{name}`")
-        };
-        let mut words = match (zero(&minus(v0, v1)), zero(v1)) {
-            (true, true) => format!("{center} stays at rest"),
-            (true, false) => format!("{center} keeps its velocity"),
-            (false, true) => format!("{center} comes to rest"),
-            (false, false) => match self.heading(v1).as_str() {
-                "" => format!("the velocity of {center} changes"),
-                heading => format!("{center} moves {heading}"),
-            },
-        };
-        if !is_particle {
-            let (w0, w1) = (&before.spin[self.b], &after.spin[self.b]);
-            let turning = spin_words(w0, w1, self.domains, self.given);
-            words.push_str(&format!(", and `{name}` {turning}"));
-        }
-        words
-    }
-
-    fn heading(&self, v: &[Expr; 2]) -> String {
-        // Where the sign depends on the values, the formula says more than words.
-        let part = |e: &Expr, plus: &str, minus: &str| {
-            let words = [plus, minus, "not at all", ""];
-            let stays = is_zero(e, self.domains) == Some(true);
-            let word = one_of(e, self.domains, self.given, words);
-            (!stays && !word.is_empty()).then_some(word)
-        };
-        let x = part(&v[0], "to the right", "to the left");
-        let y = part(&v[1], "up", "down");
-        let parts: Vec<String> = [x, y].into_iter().flatten().collect();
-        parts.join(" and ")
-    }
-}
-
-/// The word for a value above zero, below or at it, or what is said where the sign is not known.
-fn one_of(
-    e: &Expr,
-    domains: &Domains,
-    given: &[&Expr],
-    [plus, minus, none, either]: [&str; 4],
-) -> String {
-    match (way(e, domains, given), sign(e, domains)) {
-        (Some(true), _) => plus.to_string(),
-        (Some(false), _) => minus.to_string(),
-        (None, Seen::Proved(Sign::NotNegative)) => format!("{plus} or {none}"),
-        (None, Seen::Proved(Sign::NotPositive)) => format!("{minus} or {none}"),
-        (None, _) => either.to_string(),
-    }
-}
-
-/// Whether a value is above zero where some others are not negative; `None` where that is not known.
-fn way(e: &Expr, domains: &Domains, given: &[&Expr]) -> Option<bool> {
-    let s = sign(e, domains);
-    if s.is_positive() || s.is_negative() {
-        return Some(s.is_positive());
-    }
-    let rest = essential(e, domains);
-    let matches = |f: Expr| {
-        given
-            .iter()
-            .any(|g| is_zero(&(&f - *g), domains) == Some(true))
-    };
-    if matches(rest.clone()) {
-        Some(true)
-    } else if matches(-&rest) {
-        Some(false)
-    } else {
-        None
-    }
-}
-
-/// How the spin of a body changes, as what the body does.
-fn spin_words(before: &Expr, after: &Expr, domains: &Domains, given: &[&Expr]) -> String {
-    if is_zero(&(before - after), domains) == Some(true) {
-        return String::from(match is_zero(after, domains) {
-            Some(true) => "does not turn",
-            _ => "goes on turning as before",
-        });
-    }
-    if is_zero(after, domains) == Some(true) {
-        return String::from("stops turning");
-    }
-    let either = "in a sense that depends on the values";
-    let words = ["counterclockwise", "clockwise", "not at all", either];
-    let sense = one_of(after, domains, given, words);
-    if is_zero(before, domains) == Some(true) {
-        return format!("begins to turn, {sense}");
-    }
-    if let (Some(a), Some(b)) = (way(before, domains, given), way(after, domains, given))
-        && a != b
-    {
-        return format!("turns the other way, {sense}");
-    }
-    match way(&(&after.powi(2) - &before.powi(2)), domains, given) {
-        Some(true) => format!("turns faster, {sense}"),
-        Some(false) => format!("turns more slowly, {sense}"),
-        None => format!("turns at another rate, {sense}"),
-    }
 }
 
 /// Which forces have an impulse, and why; which have none.

@@ -2,10 +2,11 @@
 //! and the time follow from where it begins.
 
 use super::Page;
-use super::motion::{alike, tidied};
+use super::motion::alike;
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol, Vector, dot};
 use crate::scene::{Ask, Fall, FallEnd, StageKind};
+use crate::solution::neat::{neat, tidied};
 use crate::solution::words::{self, name, say};
 use crate::solution::{Claim, Line, Math, Part};
 use crate::story::StageTold;
@@ -190,6 +191,7 @@ impl Page<'_> {
             }
             _ => return None,
         };
+        let both = both.map(|e| neat(self.scene, &e));
         Some(both).filter(|[shown, _]| !answer.formula().is_some_and(|value| alike(shown, value)))
     }
 
@@ -210,7 +212,7 @@ impl Page<'_> {
 
     /// A flight that is told by its acceleration, and its time: each but those whose energy is asked for, or that go straight up
     /// or down through a height and are asked for no more than their velocity, which energy gives at once.
-    fn kinematic<'t>(&self, told: &'t StageTold) -> Option<(&'t Fall, &'t Expr)> {
+    pub(super) fn kinematic<'t>(&self, told: &'t StageTold) -> Option<(&'t Fall, &'t Expr)> {
         let StageKind::Fall(fall) = &told.placed.kind else {
             return None;
         };

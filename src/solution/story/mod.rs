@@ -4,11 +4,16 @@
 //! the motion handed on by the stage before; a motion is told in [`motion`], a flight in
 //! [`flight`].
 
+mod cases;
 mod flight;
 mod motion;
+mod pivot;
 
 use super::asked::{self, full_sentence};
-use super::words::{self, name, say};
+use super::neat::tidied;
+use super::opening::{AXES, NUMBERS};
+use super::rough;
+use super::words::{self, say};
 use super::{
     Before, Claim, Detail, Inline, Line, Math, Meaning, Part, Scope, Slot, Solution, Writer,
 };
@@ -16,7 +21,7 @@ use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
 use crate::scene::{Scene, Stage};
-use crate::story::{Case, StageTold, Told};
+use crate::story::{Case, StageTold, Step, Told};
 
 /// Writes the solution of a scene with stages.
 pub(super) fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
@@ -29,6 +34,7 @@ pub(super) fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
     page.opening();
     for i in 0..told.stages.len() {
         page.stage(i);
+        page.pivot(i);
     }
     asked::beyond_motion(&mut page.solution, scene, &told.answers);
     page.rests_on();
@@ -91,7 +97,7 @@ impl Page<'_> {
         if self.solution.detail == Detail::Brief {
             return;
         }
-        if let Some(text) = words::meant(self.scene) {
+        if let Some(text) = words::meant(self.scene, false) {
             self.solution.text(text);
         }
         if !self.told.readings.is_empty() {
@@ -99,9 +105,7 @@ impl Page<'_> {
                 .text(vec![say("The statement is read as follows:")]);
             self.readings();
         }
-        self.solution.text(vec![say(
-            "Let x point right and y up; counterclockwise is positive unless said otherwise.",
-        )]);
+        self.solution.say(&format!("{AXES} unless said otherwise."));
     }
 
     fn readings(&mut self) {
@@ -137,16 +141,30 @@ impl Page<'_> {
             }
         }
         self.solution.push(Part::Figure(Slot::Stage(i)));
-        if !self.flight(told) {
+        let rests = told.time.as_ref().is_some_and(Expr::is_zero);
+        if !rests && !self.flight(told) {
             self.kept(told);
             if told.cases.is_empty() {
                 self.motion(stage, told);
             }
         }
-        for (k, case) in told.cases.iter().enumerate() {
-            self.impact(stage, told, case, k);
+        // What goes into every case stands before them.
+        let together = told.cases.windows(2).all(|c| c[0].handed == c[1].handed);
+        if let (Some(first), true) = (told.cases.first(), together) {
+            self.handed(first);
         }
-        self.asked_of(i);
+        let mut shared = Vec::new();
+        for (k, case) in told.cases.iter().enumerate() {
+            let from = self.solution.sections.len();
+            self.impact(stage, told, case, k, together);
+            if told.cases.len() > 1 {
+                cases::share(&mut shared, k + 1, &mut self.solution.sections[from..]);
+            }
+            self.asked_of(i, k);
+        }
+        if told.cases.is_empty() {
+            self.asked_of(i, 0);
+        }
         if brief || !told.cases.is_empty() {
             return;
         }
@@ -202,7 +220,7 @@ impl Page<'_> {
     }
 
     /// An impact, written like a collision by itself.
-    fn impact(&mut self, stage: &Stage, told: &StageTold, case: &Case, k: usize) {
+    fn impact(&mut self, stage: &Stage, told: &StageTold, case: &Case, k: usize, together: bool) {
         let several = told.cases.len() > 1;
         let id = if several {
             format!("{}/{}", told.name, k + 1)
@@ -221,7 +239,7 @@ impl Page<'_> {
             self.solution.section(1, heading);
         }
         let (scene, derivation) = case.asked();
-        if self.solution.detail != Detail::Brief {
+        if !together {
             self.handed(case);
         }
         let mut writer = Writer::new(&scene, &derivation, &case.proof, self.solution.detail);
@@ -233,7 +251,9 @@ impl Page<'_> {
         let mut names = self.solution.names.clone();
         names.append(&mut writer.solution.names);
         writer.solution.names = names;
-        writer.friction();
+        if self.solution.detail != Detail::Brief && !several {
+            writer.case();
+        }
         writer.blocks();
         if !derivation.definitions.is_empty() {
             writer.results();
@@ -279,25 +299,33 @@ impl Page<'_> {
         });
     }
 
-    /// What an earlier stage hands on, where it got a symbol of its own.
+    /// What an earlier stage hands on, where it got a symbol of its own, and the law of a rough contact.
     fn handed(&mut self, case: &Case) {
-        if case.handed.is_empty() {
+        if self.solution.detail == Detail::Brief {
             return;
         }
-        let mut text = vec![say("From the stage before, ")];
-        for (i, (name, value)) in case.handed.iter().enumerate() {
-            if i > 0 {
-                text.push(say(" and "));
+        if !case.handed.is_empty() {
+            let mut text = vec![say("From the stage before, ")];
+            for (i, (name, value)) in case.handed.iter().enumerate() {
+                if i > 0 {
+                    text.push(say(" and "));
+                }
+                text.push(words::equation(
+                    &Expr::symbol(name),
+                    &tidied(self.scene, value),
+                ));
             }
-            text.push(words::equation(&Expr::symbol(name), value));
+            text.push(say("."));
+            self.solution.text(text);
         }
-        text.push(say("."));
-        self.solution.text(text);
+        if let Some(law) = rough::law(&case.scene) {
+            self.solution.text(law);
+        }
     }
 
-    /// Answers about the end of a stage.
-    fn asked_of(&mut self, i: usize) {
-        let mut lines: Vec<(usize, Line)> = Vec::new();
+    /// Answers about the end of a stage, of an impact in one of its outcomes.
+    fn asked_of(&mut self, i: usize, outcome: usize) {
+        let mut lines: Vec<Line> = Vec::new();
         let mut steps = Vec::new();
         let mut numbers = Vec::new();
         let several = self.told.stages[i].cases.len() > 1;
@@ -307,7 +335,7 @@ impl Page<'_> {
             }
             let all = self.told.answers.iter();
             let mine: Vec<&Answer> = all
-                .filter(|a| a.told.is_some_and(|(t, _)| t == i) && a.question == question.name)
+                .filter(|a| a.told == Some((i, outcome)) && a.question == question.name)
                 .collect();
             for answer in mine {
                 let Some(formula) = answer.formula() else {
@@ -323,13 +351,14 @@ impl Page<'_> {
                     false => Meaning::Answer(question.name.clone(), axis),
                     true => Meaning::Defined,
                 };
-                self.solution.meanings.insert(symbol.clone(), meaning);
                 let ask = self.told.stages[i].placed.asked(question).clone();
+                // What it comes from goes by the names that were told before.
+                let flown = self.flown(&self.told.stages[i], &ask, answer);
+                self.solution.meanings.insert(symbol.clone(), meaning);
                 for line in self.carried(&self.told.stages[i], &ask) {
                     let known = steps.iter().any(|l: &Line| l.math == line.math);
                     steps.extend((!known).then_some(line));
                 }
-                let flown = self.flown(&self.told.stages[i], &ask, answer);
                 let claimed = flown.as_ref().map(|[_, claimed]| claimed);
                 let sides = [Some(&Expr::symbol(&symbol)), claimed];
                 let claims = sides.into_iter().flatten().map(|left| Claim {
@@ -344,14 +373,21 @@ impl Page<'_> {
                 }
                 let mut math = vec![Math::Expr(Expr::symbol(&symbol)), Math::Op("=")];
                 if Self::is_end_energy(&self.told.stages[i], answer) {
-                    math.extend([name("T", "", "+", false), Math::Op("=")]);
+                    math.extend([words::kinetic("", "+"), Math::Op("=")]);
                 }
                 steps.extend(self.energy_in(&self.told.stages[i], &question.ask, &symbol, formula));
                 if let Some([shown, _]) = flown {
                     math.extend([Math::Expr(shown), Math::Op("=")]);
                 }
+                let here = &self.told.stages[i];
+                let found = |s: &&Step| {
+                    let answering = self.answering(here, s);
+                    answering.is_some_and(|a| a.name == answer.name)
+                };
+                if let Some(step) = here.steps.iter().find(found) {
+                    math.extend(self.made_of(step));
+                }
                 math.push(Math::Expr(formula.clone()));
-                let outcome = answer.told.map_or(0, |(_, k)| k);
                 // Within a case the name needs no number; what is in given quantities already stands in its box.
                 if several {
                     math[0] = Math::Expr(Expr::symbol(&plain));
@@ -359,37 +395,26 @@ impl Page<'_> {
                 let case = self.told.stages[i].cases.get(outcome);
                 if case.is_none_or(|case| changes(case, formula)) {
                     let step = Some(id);
-                    lines.push((outcome, Line { math, step }));
+                    lines.push(Line { math, step });
                 }
                 if let Some(value) = asked::number(self.scene, answer) {
-                    numbers.push(vec![words::formula(&Expr::symbol(&symbol)), say(value)]);
+                    numbers.push(say(if numbers.is_empty() { NUMBERS } else { ", " }));
+                    numbers.extend([words::formula(&Expr::symbol(&symbol)), say(value)]);
                 }
             }
         }
         if !lines.is_empty() && !steps.is_empty() {
             self.solution.push(Part::Display(steps));
         }
-        let cases = self.told.stages[i].cases.len();
-        for k in 0..cases.max(1) {
-            let of_it = lines.iter().filter(|(outcome, _)| *outcome == k);
-            let of_it: Vec<Line> = of_it.map(|(_, line)| line.clone()).collect();
-            if of_it.is_empty() {
-                continue;
+        if !lines.is_empty() {
+            if !self.told.stages[i].cases.is_empty() {
+                self.solution.say("In terms of the given quantities,");
             }
-            match cases {
-                0 => {}
-                1 => self
-                    .solution
-                    .text(vec![say("In terms of the given quantities,")]),
-                _ => self.solution.text(vec![say(format!(
-                    "In terms of the given quantities, in case {},",
-                    k + 1
-                ))]),
-            }
-            self.solution.push(Part::Result(of_it));
+            self.solution.push(Part::Result(lines));
         }
         if !numbers.is_empty() {
-            self.solution.push(Part::List(numbers));
+            numbers.push(say("."));
+            self.solution.text(numbers);
         }
     }
 
@@ -456,8 +481,20 @@ impl Page<'_> {
         }
         let motions = self.told.stages.iter().filter(|s| s.cases.is_empty());
         let said: Vec<&Sentence> = motions.flat_map(|s| &s.assumptions).collect();
+        // So are the conditions of the cases, each with what happens there.
+        let words = self.told.stages.iter().flat_map(|s| &s.words);
+        let words: Vec<String> = words.map(ToString::to_string).collect();
+        let in_a_case = |a: &Sentence| {
+            let text = a.to_string();
+            let condition = text.split(" (").next().unwrap_or_default();
+            words
+                .iter()
+                .any(|w| w.starts_with(&format!("where {condition}:")))
+        };
         let unread = all.into_iter().skip(self.told.readings.len());
-        unread.filter(|a| !said.contains(&a)).collect()
+        unread
+            .filter(|a| !said.contains(&a) && !in_a_case(a))
+            .collect()
     }
 }
 

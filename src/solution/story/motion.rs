@@ -4,7 +4,8 @@
 use super::Page;
 use crate::answer::Answer;
 use crate::expr::{Expr, Node, Symbol, dot};
-use crate::scene::{Ask, Linkage, Scene, Slide, Stage, StageKind};
+use crate::scene::{Ask, Linkage, Slide, Stage, StageKind};
+use crate::solution::neat::{neat, tidied};
 use crate::solution::words::{self, name, say};
 use crate::solution::{Claim, Detail, Inline, Line, Math, Part, Solution};
 use crate::story::{StageTold, Step};
@@ -30,7 +31,12 @@ impl Page<'_> {
                 ""
             };
             let index = if taken(step) { index } else { "" };
-            let letter = name(step.letter, index, mark, false);
+            // What is asked for goes by the name of its answer, and stands in the box.
+            let answer = self.answering(told, step);
+            let letter = match answer {
+                Some(answer) => Math::Expr(Expr::symbol(&answer.name)),
+                None => name(step.letter, index, mark, false),
+            };
             letters.push(say(match (i, told.steps.len() - i) {
                 (0, _) => "",
                 (_, 1) => " and ",
@@ -41,16 +47,18 @@ impl Page<'_> {
                 Inline::Math(vec![letter.clone()]),
                 say(format!("{be}{}", step.why)),
             ]);
-            let mut math = vec![letter, Math::Op("=")];
-            if crate::formula::write_plain(&step.raw) != crate::formula::write_plain(&step.value) {
-                math.extend([Math::Expr(step.raw.clone()), Math::Op("=")]);
-            }
-            math.push(Math::Expr(step.value.clone()));
+            let is_boxed = answer.is_some();
             let claim = Claim {
                 left: step.raw.clone(),
                 right: step.value.clone(),
             };
             let claimed = self.solution.step(Vec::new(), vec![claim], step.why);
+            if is_boxed {
+                continue;
+            }
+            let mut math = vec![letter, Math::Op("=")];
+            math.extend(self.made_of(step));
+            math.push(Math::Expr(step.value.clone()));
             lines.push(Line {
                 math,
                 step: Some(claimed),
@@ -60,15 +68,44 @@ impl Page<'_> {
         if self.solution.detail != Detail::Brief {
             self.solution.text(letters);
         }
-        self.solution.push(Part::Display(lines));
+        if !lines.is_empty() {
+            self.solution.push(Part::Display(lines));
+        }
+    }
+
+    /// What a step comes from, with the sign that leads on to its value; nothing where it reads the same.
+    pub(super) fn made_of(&self, step: &Step) -> Vec<Math> {
+        let raw = neat(self.scene, &step.raw);
+        let written = crate::formula::write_plain;
+        match alike(&raw, &step.value) || written(&raw) == written(&step.value) {
+            true => Vec::new(),
+            false => vec![Math::Expr(raw), Math::Op("=")],
+        }
+    }
+
+    /// The answer that is what a step of a motion finds.
+    pub(super) fn answering(&self, told: &StageTold, step: &Step) -> Option<&Answer> {
+        let here = |a: &&Answer| {
+            let stage = a.told.map(|(i, _)| &self.told.stages[i]);
+            stage.is_some_and(|stage| std::ptr::eq(stage, told))
+        };
+        let fits = |ask: &Ask| match step.letter {
+            "t" => matches!(ask, Ask::Time),
+            "s" => matches!(ask, Ask::Distance | Ask::Position { .. }),
+            "v" => matches!(ask, Ask::Velocity { point: None, .. }),
+            "omega" => matches!(ask, Ask::Spin { .. }),
+            _ => false,
+        };
+        let asked = |a: &&Answer| {
+            let mut questions = self.scene.questions.iter();
+            questions.any(|q| q.name == a.question && fits(&q.ask))
+        };
+        let mut answers = self.told.answers.iter().filter(here).filter(asked);
+        answers.find(|a| a.formula() == Some(&step.value))
     }
 
     /// A motion: inertia, work and energy, from the beginning to the end.
     pub(super) fn motion(&mut self, stage: &Stage, told: &StageTold) {
-        // Where nothing moves there is nothing to tell.
-        if told.time.as_ref().is_some_and(Expr::is_zero) {
-            return;
-        }
         if !told.steps.is_empty() {
             return self.steps(told);
         }
@@ -85,11 +122,13 @@ impl Page<'_> {
         };
         let mut answers = self.told.answers.iter();
         let named = answers.any(|a| Self::is_end_energy(told, a));
+        let scene = self.scene;
         let chain = |head: Vec<Math>, raw: &Expr, value: &Expr| {
             let mut math = head;
             math.push(Math::Op("="));
-            if !alike(raw, value) {
-                math.extend([Math::Expr(raw.clone()), Math::Op("=")]);
+            let raw = neat(scene, raw);
+            if !alike(&raw, value) {
+                math.extend([Math::Expr(raw), Math::Op("=")]);
             }
             math.push(Math::Expr(value.clone()));
             math
@@ -104,7 +143,7 @@ impl Page<'_> {
             );
             lines.push(Line { math, step });
         }
-        let t = |mark| vec![name("T", "", mark, false)];
+        let t = |mark| vec![words::kinetic("", mark)];
         if let StageKind::Linkage(linkage) = &stage.kind {
             self.velocities(told, linkage);
         }
@@ -137,9 +176,10 @@ impl Page<'_> {
         }
         let after = start + &total;
         let mut math = t("+");
-        math.extend([Math::Op("="), name("T", "", "-", false)]);
-        if !told.work.is_empty() {
-            math.extend([Math::Op("+"), name("W", "", "", false)]);
+        math.extend([Math::Op("="), words::kinetic("", "-")]);
+        for (what, _) in &told.work {
+            let index = if told.work.len() == 1 { "" } else { what };
+            math.extend([Math::Op("+"), name("W", index, "", false)]);
         }
         if !named {
             math = chain(math, end, end);
@@ -151,13 +191,42 @@ impl Page<'_> {
             "work changes kinetic energy",
         );
         lines.push(Line { math, step });
+        lines.extend(self.speed(stage, told));
         if let (Some([inertia, _]), StageKind::Linkage(linkage)) = (&told.inertia, &stage.kind) {
             let square = self.rate(linkage).powi(2);
             let energy = Math::Expr(Expr::ratio(1, 2) * inertia * square);
-            let math = vec![energy, Math::Op("="), name("T", "", "+", false)];
+            let math = vec![energy, Math::Op("="), words::kinetic("", "+")];
             lines.push(Line { math, step: None });
         }
         self.solution.push(Part::Display(lines));
+    }
+
+    /// The speed with which a fall ends, from its energy, where the next stage takes it over and no question asks for it.
+    fn speed(&mut self, stage: &Stage, told: &StageTold) -> Option<Line> {
+        let StageKind::Fall(fall) = &stage.kind else {
+            return None;
+        };
+        let here = |a: &&Answer| {
+            let stage = a.told.map(|(i, _)| &self.told.stages[i]);
+            stage.is_some_and(|stage| std::ptr::eq(stage, told))
+        };
+        let asked = self.told.answers.iter().filter(here).count() > 0;
+        let spins = !told.after.spin[fall.body].is_zero();
+        if asked || spins || fall.bodies().len() > 1 {
+            return None;
+        }
+        let [_, end] = told.energy.as_ref()?;
+        let mass = &stage.scene.bodies[fall.body].mass;
+        let square = tidied(self.scene, &(Expr::from(2) * end / mass));
+        let speed = tidied(self.scene, &square.sqrt());
+        let math = vec![
+            name("v", "", "+", false),
+            Math::Op("="),
+            Math::Expr((Expr::from(2) * end / mass).sqrt()),
+            Math::Op("="),
+            Math::Expr(speed),
+        ];
+        Some(Line { math, step: None })
     }
 
     /// The rate of the coordinate of a linkage, as a symbol.
@@ -249,18 +318,18 @@ impl Page<'_> {
 
     /// A component of the motion by the name it has by now, as a told answer or its opposite; else as it is.
     pub(super) fn named(&self, e: &Expr) -> Expr {
-        let minus = -e;
-        let told = |a: &&Answer| {
-            let known = self.solution.meanings.contains_key(a.name.as_str());
-            known && a.formula().is_some_and(|f| f == e || *f == minus)
-        };
-        match self.told.answers.iter().find(told) {
-            Some(a) if !e.is_constant() => match a.formula() == Some(e) {
-                true => Expr::symbol(&a.name),
-                false => -Expr::symbol(&a.name),
-            },
-            _ => e.clone(),
+        if e.is_constant() {
+            return e.clone();
         }
+        let [plus, minus] = [e, &-e].map(|e| tidied(self.scene, e));
+        let known = |a: &&Answer| self.solution.meanings.contains_key(a.name.as_str());
+        let mut told = self.told.answers.iter().filter(known);
+        let named = told.find_map(|a| match a.formula()? {
+            f if f == e || *f == plus => Some(Expr::symbol(&a.name)),
+            f if *f == minus => Some(-Expr::symbol(&a.name)),
+            _ => None,
+        });
+        named.unwrap_or_else(|| e.clone())
     }
 
     /// How a point of a body moves at the end of a motion: v = ω × r from the fixed point of a rotation, else with the velocity
@@ -279,7 +348,6 @@ impl Page<'_> {
             return Vec::new();
         }
         let from_center = told.after.carried(self.scene, *body, point);
-        let called = &scene.bodies[*body].name;
         let (base, from, carrier) = match &told.placed.kind {
             StageKind::Turn(turn) => (turn.about_name.clone(), turn.about.clone(), None),
             _ => {
@@ -296,7 +364,7 @@ impl Page<'_> {
             math.extend([name("v", &base, "+", true), Math::Op("+")]);
         }
         math.extend([
-            name("omega", called, "+", true),
+            words::spin(self.scene, *body, "+"),
             Math::Op("×"),
             name("r", &format!("{point}/{base}"), "", true),
             Math::Op("="),
@@ -332,7 +400,9 @@ impl Page<'_> {
     ) -> Option<Line> {
         let [_, end] = told.energy.as_ref()?;
         let scene = &told.placed.scene;
-        if let StageKind::Linkage(_) = told.placed.kind {
+        // Where the motion is not told by its energy, T⁺ stands nowhere above.
+        let otherwise = !told.steps.is_empty() || self.kinematic(told).is_some();
+        if otherwise || matches!(told.placed.kind, StageKind::Linkage(_)) {
             return None;
         }
         let inertia = match (ask, &told.inertia) {
@@ -353,18 +423,8 @@ impl Page<'_> {
             return None;
         }
         let left = Math::Expr(energy(&Expr::symbol(symbol)));
-        let math = vec![left, Math::Op("="), name("T", "", "+", false)];
+        let math = vec![left, Math::Op("="), words::kinetic("", "+")];
         Some(Line { math, step: None })
-    }
-}
-
-/// An expression as a person would write it.
-pub(super) fn tidied(scene: &Scene, e: &Expr) -> Expr {
-    let mut field = crate::algebra::Field::new(&scene.domains);
-    field.prepare([e]);
-    match field.element(e) {
-        Ok(x) => field.expr(&x),
-        Err(_) => e.clone(),
     }
 }
 

@@ -1,0 +1,80 @@
+//! A formula as it comes from a law, tidied only as far as a hand would on the way: like factors as one power, no term that
+//! is zero, no quotient of two negative sums. What it is made of stays to be seen, which a normal form would hide.
+
+use crate::algebra::Field;
+use crate::expr::{Expr, Node};
+use crate::scene::Scene;
+
+/// The same formula, as a hand would write it before working it out.
+pub(super) fn neat(scene: &Scene, e: &Expr) -> Expr {
+    match e.node() {
+        Node::Sum(terms) => Expr::sum(terms.iter().map(|t| {
+            let made = neat(scene, t);
+            let short = tidied(scene, &made);
+            if short.size() <= made.size() {
+                short
+            } else {
+                made
+            }
+        })),
+        Node::Product(factors) => product(scene, factors),
+        Node::Power(base, exponent) => neat(scene, base).power(exponent.clone()),
+        _ => e.clone(),
+    }
+}
+
+fn product(scene: &Scene, factors: &[Expr]) -> Expr {
+    let mut sign = 1;
+    // What stands below the line is gathered by itself: a mass that cancels is to be seen.
+    let mut gathered: Vec<(Expr, i64)> = Vec::new();
+    let mut others = Vec::new();
+    for factor in factors {
+        let factor = neat(scene, factor);
+        if factor.is_zero() {
+            return factor;
+        }
+        let (mut base, exponent) = match factor.node() {
+            Node::Power(base, exponent) => match exponent.as_number().and_then(whole) {
+                Some(n) => (base.clone(), n),
+                None => {
+                    others.push(factor);
+                    continue;
+                }
+            },
+            Node::Number(_) => {
+                others.push(factor);
+                continue;
+            }
+            _ => (factor.clone(), 1),
+        };
+        if let Node::Sum(terms) = base.node()
+            && terms.iter().all(Expr::is_negative)
+        {
+            base = Expr::sum(terms.iter().map(|t| -t));
+            if exponent % 2 != 0 {
+                sign = -sign;
+            }
+        }
+        let like = |(b, n): &&mut (Expr, i64)| *b == base && (*n > 0) == (exponent > 0);
+        match gathered.iter_mut().find(like) {
+            Some((_, n)) => *n += exponent,
+            None => gathered.push((base, exponent)),
+        }
+    }
+    let powers = gathered.into_iter().map(|(base, n)| base.powi(n));
+    Expr::product([Expr::from(sign)].into_iter().chain(others).chain(powers))
+}
+
+fn whole(number: &crate::expr::Rational) -> Option<i64> {
+    number.is_integer().then(|| number.numer().as_i64())?
+}
+
+/// An expression in its shortest normal form; as it is where a limit of the algebra is met.
+pub(super) fn tidied(scene: &Scene, e: &Expr) -> Expr {
+    let mut field = Field::new(&scene.domains);
+    field.prepare([e]);
+    match field.element(e) {
+        Ok(x) => field.expr(&x),
+        Err(_) => e.clone(),
+    }
+}

@@ -1,0 +1,180 @@
+//! What stands below the title: the statement, what the symbols mean, what moves just before, how a rough contact behaves; and
+//! what the rest of the text shows to be needed there.
+
+use super::rough;
+use super::words::{self, say};
+use super::{Detail, Inline, Math, Part, Slot, Solution, Writer};
+use crate::expr::{Expr, Symbol};
+use crate::scene::Scene;
+
+/// How the sentence about the axes begins.
+pub(super) const AXES: &str = "Let x point right and y up; counterclockwise is positive";
+/// What leads to results in numbers.
+pub(super) const NUMBERS: &str = "In numbers: ";
+
+impl Solution {
+    /// Explains the letter of a center of mass where the text uses it, and the values that numbers were found with.
+    pub(super) fn explain(&mut self, scene: &Scene) {
+        let moving: Vec<usize> = (0..scene.bodies.len())
+            .filter(|b| !scene.bodies[*b].is_fixed())
+            .collect();
+        let uses = |math: &[Math]| uses_center(math);
+        let used = self
+            .sections
+            .iter()
+            .flat_map(|s| &s.parts)
+            .any(|p| match p {
+                Part::Display(lines) | Part::Result(lines) => lines.iter().any(|l| uses(&l.math)),
+                _ => false,
+            });
+        for part in self.sections.iter_mut().flat_map(|s| &mut s.parts) {
+            let Part::Text(text) = part else {
+                continue;
+            };
+            let is_axes = matches!(text.first(), Some(Inline::Text(t)) if t.starts_with(AXES));
+            if let ([b], true) = (moving.as_slice(), used && is_axes) {
+                let whose = words::body(scene, *b);
+                text.push(say(format!(" G is the center of mass of {whose}.")));
+            }
+        }
+        self.values(scene);
+    }
+
+    /// Where there are results in numbers, the values behind them stand with the meaning of each symbol.
+    fn values(&mut self, scene: &Scene) {
+        let mut texts = Vec::new();
+        for part in self.sections.iter_mut().flat_map(|s| &mut s.parts) {
+            if let Part::Text(text) = part {
+                texts.push(text);
+            }
+        }
+        let begins = |text: &[Inline], with: &str| matches!(text.first(), Some(Inline::Text(t)) if t.starts_with(with));
+        let numbers = texts.iter().position(|text| begins(text, NUMBERS));
+        let here = texts.iter().position(|text| begins(text, "Here "));
+        if let (Some(numbers), Some(here), Some(meant)) = (numbers, here, words::meant(scene, true))
+        {
+            *texts[here] = meant;
+            texts[numbers][0] = say("With the values in brackets, ");
+        }
+    }
+}
+
+/// Whether a formula names the center of mass G.
+fn uses_center(math: &[Math]) -> bool {
+    math.iter().any(|m| match m {
+        Math::Name(name) => name.index.split(['/', ',']).any(|part| part == "G"),
+        Math::Brackets(inner) => uses_center(inner),
+        _ => false,
+    })
+}
+
+impl Writer<'_> {
+    /// What stands below the title: the figure before, and what is meant by the symbols.
+    pub(super) fn opening(&mut self) {
+        self.section(Vec::new());
+        if !self.solution.statement.is_empty() {
+            let statement = words::with_symbols(self.scene, &self.solution.statement);
+            self.text(statement);
+        }
+        if self.detail() == Detail::Brief {
+            return;
+        }
+        if let Some(text) = words::meant(self.scene, false) {
+            self.text(text);
+        }
+        self.push(Part::Figure(Slot::Before));
+        self.push(Part::Figure(Slot::During));
+        let mut text = format!("{AXES}.");
+        let forces: Vec<String> = self.forces();
+        if !forces.is_empty() {
+            let one = forces.len() == 1 && !forces[0].starts_with("the weights ");
+            text.push_str(&format!(
+                " {} {} finite and {} no impulse during the short collision.",
+                words::capital(&words::list(&forces)),
+                if one { "is" } else { "are" },
+                if one { "has" } else { "have" },
+            ));
+        }
+        self.say(&text);
+        self.before();
+        if let Some(law) = rough::law(self.scene) {
+            self.text(law);
+        }
+        self.case();
+        for (unknown, value) in self.d.given.clone() {
+            let symbol = Expr::symbol(self.d.names.plain(unknown));
+            self.text(vec![
+                say("It is given that just after "),
+                words::equation(&symbol, &value),
+                say("."),
+            ]);
+        }
+    }
+
+    /// The motion just before, where the scene has symbols for it that it does not explain.
+    fn before(&mut self) {
+        let explained = |s: &Symbol| {
+            let mut all = self.scene.parameters.iter();
+            all.any(|p| p.name == *s && !p.meaning.is_empty())
+        };
+        let mut text = vec![say("Just before, ")];
+        for (b, body) in self.scene.bodies.iter().enumerate() {
+            let all = body.velocity.iter().chain([&body.spin]);
+            if body.is_fixed() || all.flat_map(Expr::symbols).all(|s| explained(&s)) {
+                continue;
+            }
+            if text.len() > 1 {
+                text.push(say("; "));
+            }
+            let c = words::center(self.scene, b);
+            text.push(Inline::Math(vec![
+                words::name("v", &c, "-", true),
+                Math::Op("="),
+                Math::Vector(body.velocity.clone()),
+            ]));
+            if !body.is_particle() && !body.spin.is_zero() {
+                text.push(say(" and "));
+                text.push(Inline::Math(vec![
+                    words::spin(self.scene, b, "-"),
+                    Math::Op("="),
+                    Math::Along(body.spin.clone()),
+                ]));
+            }
+        }
+        if text.len() > 1 {
+            text.push(say("."));
+            self.text(text);
+        }
+    }
+
+    /// The finite forces of the scene, those of one name together.
+    fn forces(&self) -> Vec<String> {
+        let mut by_name: Vec<(&str, Vec<usize>)> = Vec::new();
+        for force in &self.scene.forces {
+            match by_name.iter_mut().find(|(n, _)| *n == force.name) {
+                Some((_, bodies)) => bodies.push(force.body),
+                None => by_name.push((&force.name, vec![force.body])),
+            }
+        }
+        by_name
+            .into_iter()
+            .map(|(name, bodies)| {
+                let article = if name.to_lowercase().starts_with("the ") {
+                    ""
+                } else {
+                    "the "
+                };
+                // Whose weight it is needs to be said; other forces say it in their names.
+                match (name, bodies.len()) {
+                    ("weight", 1) => {
+                        format!("the weight of {}", words::body(self.scene, bodies[0]))
+                    }
+                    ("weight", _) => {
+                        format!("the weights of {}", words::bodies(self.scene, &bodies))
+                    }
+                    _ => format!("{article}{name}"),
+                }
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,153 @@
+//! A contact with friction in a worked solution: its law, what it does in the case that is told, and why each of its two
+//! conditions holds.
+
+use super::words::{self, say};
+use super::{Inline, Math, Writer};
+use crate::expr::Expr;
+use crate::scene::{ContactLaw, Decided, Hypothesis, Mode, Scene};
+
+/// Longest condition, in nodes, that stands in the sentence about its case.
+const LONG: usize = 60;
+
+/// The contact whose friction is decided.
+fn decided(scene: &Scene) -> Option<(&str, &Decided)> {
+    scene.contacts.iter().find_map(|c| match &c.law {
+        ContactLaw::Decided(decided) => Some((c.name.as_str(), &**decided)),
+        _ => None,
+    })
+}
+
+/// The law of the rough contact of a scene.
+pub(super) fn law(scene: &Scene) -> Option<Vec<Inline>> {
+    let (at, decided) = decided(scene)?;
+    let law = &decided.law;
+    let mut text = vec![
+        say(format!(
+            "The contact at {} is rough, with coefficient of friction ",
+            words::place(at, "contact")
+        )),
+        words::formula(&law.mu),
+        say(" and coefficient of restitution "),
+        words::formula(&law.restitution),
+    ];
+    if let Hypothesis::ChatterjeeRuina { tangential } = &law.hypothesis {
+        text.push(say(" along the normal, "));
+        text.push(words::formula(tangential));
+        text.push(say(" along the surface"));
+    }
+    let name = law.hypothesis.name();
+    text.push(say(format!(" ({name}’s hypothesis).")));
+    Some(text)
+}
+
+impl Writer<'_> {
+    /// What the rough contact does in the one case that is told, and when it does that.
+    pub(super) fn case(&mut self) {
+        let Some((_, decided)) = decided(self.scene) else {
+            return;
+        };
+        let does = match decided.mode {
+            Mode::InsideCone => "the impulse lies inside the friction cone",
+            Mode::OnCone => "the impulse lies on the friction cone",
+            Mode::GivenRatio => "the ratio of the impulses is given",
+            Mode::Slides => "it slides to the end",
+            Mode::Sticks => "it sticks",
+            Mode::SticksInCompression => "it stops sliding during compression, and sticks",
+            Mode::SticksInRestitution => "it stops sliding during restitution, and sticks",
+            Mode::ReversesInCompression => "it turns its slip round during compression",
+            Mode::ReversesInRestitution => "it turns its slip round during restitution",
+        };
+        let mut text = vec![say(format!("In the case worked out here {does}"))];
+        let is_short = |(left, _, right): &&(Expr, _, Expr)| left.size() + right.size() <= LONG;
+        if !decided.when.is_empty() && decided.when.iter().all(|c| is_short(&c)) {
+            text.push(say(", which is so where "));
+            for (i, (left, relation, right)) in decided.when.iter().enumerate() {
+                if i > 0 {
+                    text.push(say(" and "));
+                }
+                text.push(Inline::Math(vec![
+                    Math::Expr(left.clone()),
+                    Math::Op(relation.sign()),
+                    Math::Expr(right.clone()),
+                ]));
+            }
+        }
+        text.push(say("."));
+        self.text(text);
+    }
+
+    /// Why one of the two conditions of a rough contact holds: its index, as the laws count them.
+    pub(super) fn rubs(&mut self, contact: usize, index: usize) {
+        let c = &self.scene.contacts[contact];
+        let at = words::place(&c.name, "contact");
+        let ContactLaw::Decided(decided) = &c.law else {
+            return;
+        };
+        let (e, mode) = (&decided.law.restitution, decided.mode);
+        let words = decided.conditions[index].words;
+        let text = match words {
+            "no slip after" => vec![say(format!(
+                "{} does not slip just after:",
+                words::capital(&at)
+            ))],
+            "restitution" if e.is_zero() => {
+                vec![say(format!("{} does not rebound:", words::capital(&at)))]
+            }
+            "restitution" => vec![
+                say(format!("{} rebounds at ", words::capital(&at))),
+                words::formula(e),
+                say(" times its speed of approach:"),
+            ],
+            "friction of a sliding contact" => vec![say(format!(
+                "{} slides against friction all the while:",
+                words::capital(&at)
+            ))],
+            "friction before and after the reversal of slip" => vec![say(
+                "Friction acts against the slip, first one way and then the other:",
+            )],
+            "normal impulse, 1 + e times that of compression" => {
+                return self.compression(&at, e, mode);
+            }
+            "restitution by energy" => vec![
+                say("Restitution gives back "),
+                words::formula(&e.powi(2)),
+                say(format!(
+                    " times the work that the normal impulse took in compression, which leaves {at} the normal velocity"
+                )),
+            ],
+            "impulse ratio" => vec![say(
+                "The friction impulse bears a fixed ratio to the normal one:",
+            )],
+            "tangential impulse (Chatterjee and Ruina)" => vec![say(format!(
+                "Along the surface the impulse is one plus the tangential coefficient times the one that brings {at} to rest:"
+            ))],
+            "normal impulse (Chatterjee and Ruina)" => vec![say(
+                "Along the normal it is one plus the coefficient of restitution times the one that ends the approach without friction, and what the tangential part adds to it:",
+            )],
+            other => vec![say(format!("{} at {at}:", words::capital(other)))],
+        };
+        self.text(text);
+    }
+
+    /// Poisson: compression ends when the contact has no normal velocity left, and restitution adds e times its impulse.
+    fn compression(&mut self, at: &str, e: &Expr, mode: Mode) {
+        let state = match mode {
+            Mode::SticksInCompression => {
+                "it has stopped sliding by then, so the impulse until then is the one that brings it to rest"
+            }
+            Mode::SticksInRestitution | Mode::ReversesInRestitution => {
+                "it slides until then, so friction is the coefficient times the normal impulse"
+            }
+            _ => "by then it slides the other way, so friction has changed its sign on the way",
+        };
+        let lead = format!("Compression ends when {at} has no normal velocity left; {state}.");
+        if e.is_zero() {
+            return self.say(&format!("{lead} Without rebound that is all:"));
+        }
+        self.text(vec![
+            say(format!("{lead} Restitution adds ")),
+            words::formula(e),
+            say(" times as much:"),
+        ]);
+    }
+}

@@ -1,0 +1,160 @@
+//! How an impact changes the motion of bodies, in words.
+//!
+//! In: a stage and one outcome. Out: a clause for each body whose change can be told; where its sense depends on the values,
+//! the formulas say more than words.
+
+use super::{Case, StageTold};
+use crate::algebra::Sign;
+use crate::answer::calc::{Seen, essential, is_zero, sign};
+use crate::domain::Domains;
+use crate::expr::{Expr, minus};
+
+/// What becomes of every body that moves.
+pub(super) fn words(told: &StageTold, case: &Case) -> Vec<String> {
+    let scene = &told.placed.scene;
+    let given: Vec<&Expr> = case.conditions.iter().map(|(_, e)| e).collect();
+    let bodies = scene.bodies.iter().enumerate();
+    let moving = bodies.filter(|(_, body)| !body.is_fixed());
+    let each = moving.filter_map(|(b, body)| {
+        let change = Change {
+            told,
+            case,
+            b,
+            domains: &scene.domains,
+            given: &given,
+        };
+        change.words(&body.name, body.is_particle())
+    });
+    let all: Vec<String> = each.collect();
+    match all.is_empty() {
+        true => vec![String::from(
+            "which way the bodies move depends on the values",
+        )],
+        false => all,
+    }
+}
+
+/// The change of one body, where the conditions of its outcome hold.
+struct Change<'a> {
+    told: &'a StageTold,
+    case: &'a Case,
+    b: usize,
+    domains: &'a Domains,
+    given: &'a [&'a Expr],
+}
+
+impl Change<'_> {
+    fn words(&self, name: &str, is_particle: bool) -> Option<String> {
+        let (before, after) = (&self.told.before, &self.case.after);
+        let parts = [before, after].map(|s| s.velocity[self.b].iter().chain([&s.spin[self.b]]));
+        if let Some(why) = after.why_open(parts.into_iter().flatten()) {
+            return Some(format!("how `{name}` moves is not determined: {why}"));
+        }
+        let (v0, v1) = (&before.velocity[self.b], &after.velocity[self.b]);
+        let zero = |v: &[Expr; 2]| v.iter().all(|c| is_zero(c, self.domains) == Some(true));
+        let [keeps, rests] = [zero(&minus(v0, v1)), zero(v1)];
+        let moves = match (keeps, rests) {
+            (true, true) => Some(String::from("stays at rest")),
+            (true, false) => Some(String::from("keeps its velocity")),
+            (false, true) => Some(String::from("comes to rest")),
+            (false, false) => {
+                let heading = self.heading(v1);
+                (!heading.is_empty()).then(|| format!("moves {heading}"))
+            }
+        };
+        if is_particle {
+            return moves.map(|moves| format!("`{name}` {moves}"));
+        }
+        let (w0, w1) = (&before.spin[self.b], &after.spin[self.b]);
+        let [spins_on, still] =
+            [w0 - w1, w1.clone()].map(|w| is_zero(&w, self.domains) == Some(true));
+        let turns = self.turning(w0, w1);
+        // Of a body that a joint holds at its center only the spin is worth a word.
+        Some(match (keeps, rests, spins_on, still) {
+            (_, true, true, true) => format!("`{name}` {}", moves?),
+            (true, false, true, _) => format!("`{name}` moves on as before"),
+            (true, true, ..) => format!("`{name}` {}", turns?),
+            _ => match (moves, turns) {
+                (Some(moves), Some(turns)) => {
+                    format!("the center of mass of `{name}` {moves}, and `{name}` {turns}")
+                }
+                (Some(moves), None) => format!("the center of mass of `{name}` {moves}"),
+                (None, Some(turns)) => format!("`{name}` {turns}"),
+                (None, None) => return None,
+            },
+        })
+    }
+
+    /// Which way a velocity points, as far as its signs are known.
+    fn heading(&self, v: &[Expr; 2]) -> String {
+        let part = |e: &Expr, plus: &str, minus: &str| {
+            let stays = is_zero(e, self.domains) == Some(true);
+            let word = self.one_of(e, [plus, minus]);
+            word.filter(|_| !stays)
+        };
+        let x = part(&v[0], "to the right", "to the left");
+        let y = part(&v[1], "up", "down");
+        let parts: Vec<String> = [x, y].into_iter().flatten().collect();
+        parts.join(" and ")
+    }
+
+    /// The word for a value above zero, or below; nothing where its sign depends on the values.
+    fn one_of(&self, e: &Expr, [plus, minus]: [&str; 2]) -> Option<String> {
+        match (self.way(e), sign(e, self.domains)) {
+            (Some(true), _) => Some(plus.to_string()),
+            (Some(false), _) => Some(minus.to_string()),
+            (None, Seen::Proved(Sign::NotNegative)) => Some(format!("{plus} or not at all")),
+            (None, Seen::Proved(Sign::NotPositive)) => Some(format!("{minus} or not at all")),
+            (None, _) => None,
+        }
+    }
+
+    fn way(&self, e: &Expr) -> Option<bool> {
+        way(e, self.domains, self.given)
+    }
+
+    /// How the spin changes, as what the body does; nothing where its sense depends on the values.
+    fn turning(&self, before: &Expr, after: &Expr) -> Option<String> {
+        if is_zero(&(before - after), self.domains) == Some(true) {
+            return Some(String::from(match is_zero(after, self.domains) {
+                Some(true) => "does not turn",
+                _ => "goes on turning as before",
+            }));
+        }
+        if is_zero(after, self.domains) == Some(true) {
+            return Some(String::from("stops turning"));
+        }
+        let sense = self.one_of(after, ["counterclockwise", "clockwise"])?;
+        if is_zero(before, self.domains) == Some(true) {
+            return Some(format!("begins to turn {sense}"));
+        }
+        if let (Some(a), Some(b)) = (self.way(before), self.way(after))
+            && a != b
+        {
+            return Some(format!("turns the other way, {sense}"));
+        }
+        Some(match self.way(&(&after.powi(2) - &before.powi(2))) {
+            Some(true) => format!("turns {sense}, faster than before"),
+            Some(false) => format!("turns {sense}, more slowly than before"),
+            None => format!("turns {sense}, at another rate"),
+        })
+    }
+}
+
+/// Whether a value is above zero where some others are not negative; `None` where that is not known.
+pub(super) fn way(e: &Expr, domains: &Domains, given: &[&Expr]) -> Option<bool> {
+    let s = sign(e, domains);
+    if s.is_positive() || s.is_negative() {
+        return Some(s.is_positive());
+    }
+    let rest = essential(e, domains);
+    let is_given = |f: &Expr| {
+        let mut all = given.iter();
+        all.any(|g| is_zero(&(f - *g), domains) == Some(true))
+    };
+    match (is_given(&rest), is_given(&-&rest)) {
+        (true, _) => Some(true),
+        (_, true) => Some(false),
+        _ => None,
+    }
+}
