@@ -114,18 +114,21 @@ impl Push {
             Look::Plate(..) | Look::Blob(_) | Look::Round { .. }
         );
         let deep = stage.long(pose.reach(self.at, [-d[0], -d[1]]));
-        let at = match solid && self.presses {
+        // On the outline and away from the body it pulls, as a cord does.
+        let ahead = stage.long(pose.reach(self.at, d));
+        let presses = self.presses && !(deep > 1.0 && ahead < 1.0);
+        let at = match solid && presses {
             true => [at[0] - d[0] * deep, at[1] - d[1] * deep],
             false => at,
         };
-        let moved = solid && self.presses && (self.is_blow || deep > 1.0);
+        let moved = solid && presses && (self.is_blow || deep > 1.0);
         let pushing = moved || dot(d, inward) > 0.25 * size(inward) && size(inward) > 1.0;
         let free = if stage.scene.bodies[self.body].is_particle() {
             DOT + 2.0
         } else {
             2.0
         };
-        let (from, to) = if pushing || (size(inward) <= 1.0 && self.presses) {
+        let (from, to) = if pushing || (size(inward) <= 1.0 && presses) {
             (
                 [
                     at[0] - d[0] * (length + free),
