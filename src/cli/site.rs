@@ -106,22 +106,18 @@ fn page(args: &SiteArgs, path: &Path) -> Result<(site::Listed, bool), Failure> {
         Ok(settled) => {
             let worked = work_out(path, &settled)?;
             let solution = worked.solution(Detail::Normal);
-            let page = html::page_among(&solution, &pictures(path, &worked)?, &above, &file);
-            let chapters = worked.chapters();
-            let first = chapters
-                .first()
-                .map(|(name, all)| figure::chapter(name, all));
-            let first = first.and_then(|drawn| drawn.into_iter().next());
-            let svg = first.map_or_else(String::new, |(drawing, _)| drawing.svg);
-            (page, worked.holds(), svg)
+            let pictures = pictures(path, &worked)?;
+            let page = html::page_among(&solution, &pictures, &above, &file);
+            let first = pictures.first().map(|p| p.svg.clone());
+            (page, worked.holds(), first.unwrap_or_default())
         }
         // Friction leaves several cases: all of them, as they are derived.
         Err(_) => {
             let found =
                 command::derive(&scene, command::Format::Text).map_err(|why| refused(path, why))?;
             let page = site::printed(&scene.title, &found.text, &above, &file);
-            let svg = figure::draw(&scene, Which::Before).svg;
-            (page, found.status == 0, svg)
+            let before = figure::draw(&scene, Which::Before).svg;
+            (page, found.status == 0, before)
         }
     };
     save(&target, &text)?;

@@ -232,7 +232,8 @@ fn caption(pieces: &[Piece]) -> String {
     each.collect()
 }
 
-fn sentence(s: &Solution, pieces: &[Inline]) -> String {
+/// A sentence as markup, its words escaped.
+pub fn sentence(s: &Solution, pieces: &[Inline]) -> String {
     pieces
         .iter()
         .map(|piece| match piece {

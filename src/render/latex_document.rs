@@ -2,9 +2,9 @@
 
 use super::html::Picture;
 use super::markdown::{aligned, matrix};
-use super::math::{latex, rows};
+use super::math::{latex, rows, width};
 use crate::figure::{self, Piece};
-use crate::solution::{Inline, Part, Solution};
+use crate::solution::{Inline, Line, Part, Solution};
 
 /// A document that compiles on its own and holds its pictures.
 pub fn document(s: &Solution, pictures: &[Picture]) -> String {
@@ -17,7 +17,8 @@ pub fn document(s: &Solution, pictures: &[Picture]) -> String {
         "\\documentclass[11pt]{{article}}\n\
          \\usepackage[T1]{{fontenc}}\n\
          \\usepackage[a4paper,margin=25mm]{{geometry}}\n\
-         \\usepackage{{amsmath,amssymb}}\n\
+         \\usepackage{{amsmath,amssymb,graphicx}}\n\
+         {FITTED}\
          {}\
          \\allowdisplaybreaks\n\
          \\clubpenalty=10000 \\widowpenalty=10000\n\
@@ -34,6 +35,11 @@ pub fn document(s: &Solution, pictures: &[Picture]) -> String {
     )
 }
 
+/// Scales a formula that is wider than the line down to it.
+const FITTED: &str = "\\newcommand{\\fitted}[1]{\\sbox0{$\\displaystyle #1$}\\ifdim\\wd0>\\linewidth\\resizebox{\\linewidth}{!}{\\usebox0}\\else\\usebox0\\fi}\n";
+/// About as many characters as a line of the document holds; a formula that has more is made to fit.
+const LINE: usize = 80;
+
 /// The text alone, to be put into a document that loads amsmath and amssymb, and tikz where there are pictures.
 pub fn fragment(s: &Solution, pictures: &[Picture]) -> String {
     let title = if s.title.is_empty() {
@@ -41,7 +47,13 @@ pub fn fragment(s: &Solution, pictures: &[Picture]) -> String {
     } else {
         &s.title
     };
-    format!("\\section*{{{}}}\n{}", text(title), body(s, pictures))
+    let body = body(s, pictures);
+    // The document around it may say how a wide formula is made to fit.
+    let fitted = match body.contains("\\fitted") {
+        true => "\\providecommand{\\fitted}[1]{#1}\n",
+        false => "",
+    };
+    format!("{fitted}\\section*{{{}}}\n{body}", text(title))
 }
 
 fn body(s: &Solution, pictures: &[Picture]) -> String {
@@ -57,15 +69,25 @@ fn body(s: &Solution, pictures: &[Picture]) -> String {
                 sentence(s, &section.heading)
             ));
         }
-        for part in &section.parts {
+        for (p, part) in section.parts.iter().enumerate() {
+            let displays =
+                |part: &Part| matches!(part, Part::Display(_) | Part::Result(_) | Part::Matrix(_));
             match part {
-                Part::Text(words) => out.push_str(&format!("{}\n\n", sentence(s, words))),
+                Part::Text(words) => {
+                    // A formula belongs to the paragraph that leads to it.
+                    let goes_on = section.parts.get(p + 1).is_some_and(displays);
+                    let end = if goes_on { "\n" } else { "\n\n" };
+                    out.push_str(&format!("{}{end}", sentence(s, words)));
+                }
                 Part::List(items) => {
                     out.push_str("\\begin{itemize}\n");
                     for item in items {
                         out.push_str(&format!("\\item {}\n", sentence(s, item)));
                     }
                     out.push_str("\\end{itemize}\n\n");
+                }
+                Part::Display(lines) if is_wide(s, lines) => {
+                    out.push_str(&format!("\\[\n\\fitted{{{}}}\n\\]\n", aligned(s, lines)));
                 }
                 Part::Display(lines) => {
                     let rows: Vec<String> = rows(s, lines)
@@ -78,7 +100,11 @@ fn body(s: &Solution, pictures: &[Picture]) -> String {
                     ));
                 }
                 Part::Result(lines) => {
-                    out.push_str(&format!("\\[\n\\boxed{{{}}}\n\\]\n", aligned(s, lines)));
+                    let boxed = format!("\\boxed{{{}}}", aligned(s, lines));
+                    out.push_str(&match is_wide(s, lines) {
+                        true => format!("\\[\n\\fitted{{{boxed}}}\n\\]\n"),
+                        false => format!("\\[\n{boxed}\n\\]\n"),
+                    });
                 }
                 Part::Matrix(m) => {
                     out.push_str(&format!("\\[\n{}\n\\]\n", matrix(s, m)));
@@ -98,6 +124,12 @@ fn body(s: &Solution, pictures: &[Picture]) -> String {
     }
     // Older LaTeX knows no \lt outside MathJax.
     out.replace("\\lt", "<")
+}
+
+/// Whether a line of a display is wider than the page, as far as its characters tell.
+fn is_wide(s: &Solution, lines: &[Line]) -> bool {
+    let mut rows = rows(s, lines).into_iter();
+    rows.any(|[left, right]| width(s, &left) + width(s, &right) > LINE)
 }
 
 fn sentence(s: &Solution, pieces: &[Inline]) -> String {

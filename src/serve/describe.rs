@@ -12,7 +12,7 @@ use crate::formula::{self, Content, Symbols, latex_name};
 use crate::grade;
 use crate::render::{self, mathml};
 use crate::scene::{self, Parameter, Scene, StageKind};
-use crate::solution::{Detail, Math, Solution};
+use crate::solution::{self, Detail, Math, Solution};
 
 /// What is asked about a scene.
 #[derive(Clone, Debug, Default)]
@@ -49,11 +49,13 @@ pub fn describe(text: &str, asked: &Asked) -> Result<Value, Wrong> {
     let symbols = asked.symbols.iter();
     let outlines = figure::outlines(&scene).unwrap_or_default();
     let outlines = scene.bodies.iter().zip(outlines);
+    let names = written(&scene);
     Ok(json!({
         "title": scene.title,
         "source": scene.source,
         "statement": scene.statement,
-        "parameters": parameters.map(|p| parameter(&scene, p, &shown)).collect::<Vec<_>>(),
+        "statement_html": typeset(&scene, &names, &scene.statement),
+        "parameters": parameters.map(|p| parameter(&scene, &names, p, &shown)).collect::<Vec<_>>(),
         "directions": scene.domains.unit_vectors.iter().map(|pair| pair.each_ref().map(ToString::to_string)).collect::<Vec<_>>(),
         "stages": stages.map(|s| json!({"name": s.name, "is_impact": matches!(s.kind, StageKind::Impact { .. })})).collect::<Vec<_>>(),
         "plots": scene.plots.iter().map(|p| p.name.clone()).collect::<Vec<_>>(),
@@ -64,18 +66,35 @@ pub fn describe(text: &str, asked: &Asked) -> Result<Value, Wrong> {
     }))
 }
 
-fn parameter(scene: &Scene, p: &Parameter, shown: &Point<f64>) -> Value {
+/// Words of a scene with its symbols typeset, as markup.
+fn typeset(scene: &Scene, names: &Solution, text: &str) -> String {
+    render::html::sentence(names, &solution::with_symbols(scene, text))
+}
+
+fn parameter(scene: &Scene, names: &Solution, p: &Parameter, shown: &Point<f64>) -> Value {
     let scale = p.scale().evaluate(&Point::<f64>::default()).unwrap_or(1.0);
     let value = shown.values.get(&p.name).copied().unwrap_or(1.0) / scale;
     let domain = scene.domains.symbols.get(&p.name);
     let [min, max, step] = range(domain, value, scale, &p.unit);
     let latex = p.latex.clone().unwrap_or_else(|| latex_name(&p.name));
+    let domain = domain.filter(|d| **d != Domain::real());
+    let domain = domain.map(|d| d.words(&p.name));
+    let about = [
+        Some(p.meaning.clone()),
+        domain.as_ref().map(|d| d.replace("pi", "π")),
+    ];
+    let about: Vec<String> = about
+        .into_iter()
+        .flatten()
+        .filter(|w| !w.is_empty())
+        .collect();
     json!({
         "name": *p.name,
         "mathml": math(&mathml::from_latex(&latex)),
         "unit": p.unit,
         "meaning": p.meaning,
-        "domain": domain.filter(|d| **d != Domain::real()).map(|d| d.words(&p.name)),
+        "domain": domain,
+        "about_html": typeset(scene, names, &about.join("; ")),
         "is_given": p.value.is_some(),
         "value": value,
         "min": min,

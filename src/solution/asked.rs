@@ -1,11 +1,14 @@
 //! What is asked beyond the motion: thresholds, largest values, limits, identities, words. One function turns an answer into
 //! the section of a worked solution, whether the scene has stages or not.
 
+use super::heading::{because, further, goes_on, heading};
+use super::known::{known, number, worth_telling};
 use super::neat::tidied;
 use super::opening::NUMBERS;
+use super::sentence::{called, full_sentence, sentence};
 use super::words::{self, say};
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Solution};
-use crate::answer::{Answer, Check, Form};
+use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
 use crate::formula::{Piece, Sentence};
@@ -50,58 +53,6 @@ pub(super) fn beyond_motion(solution: &mut Solution, scene: &Scene, answers: &[A
     }
 }
 
-/// Why a coefficient of friction is the least or the largest with which something happens.
-fn because(meaning: &str) -> Option<&'static str> {
-    let (_, event) = meaning.split_once("coefficient of friction with which it ")?;
-    Some(match event {
-        "sticks" => {
-            "It sticks as long as the tangential impulse this takes is at most the coefficient times the normal one:"
-        }
-        "slides" => {
-            "It slides to the end as long as friction cannot end its slip before the normal impulse has done its work:"
-        }
-        _ => {
-            "It jams where the friction of its slip turns it so fast into the surface that a normal impulse no longer slows its approach:"
-        }
-    })
-}
-
-/// Whether a question needs no heading of its own after the one before: values one after the other, and one formula to
-/// several orders.
-fn goes_on(before: &Ask, ask: &Ask) -> bool {
-    let plain = |ask: &Ask| matches!(ask, Ask::Value { with, meaning, .. } if with.is_empty() && meaning.is_empty());
-    match (before, ask) {
-        (
-            Ask::Approximate {
-                of, parameter, to, ..
-            },
-            Ask::Approximate {
-                of: f,
-                parameter: p,
-                to: t,
-                ..
-            },
-        ) => (of, parameter, to) == (f, p, t),
-        _ => plain(before) && plain(ask),
-    }
-}
-
-/// What a further question adds to the heading, or says before its answer.
-fn further(solution: &mut Solution, ask: &Ask, answer: &Answer) {
-    if let Ask::Approximate { order, .. } = ask {
-        return solution.say(&format!("To order {order},"));
-    }
-    let Some(section) = solution.sections.last_mut() else {
-        return;
-    };
-    if let Some(Inline::Text(lead)) = section.heading.first_mut() {
-        *lead = lead.replace("Value of", "Values of");
-    }
-    section
-        .heading
-        .extend([say(", "), words::formula(&Expr::symbol(&answer.name))]);
-}
-
 /// Where a value is largest inside its range: its derivative vanishes there.
 fn slope(
     solution: &mut Solution,
@@ -137,206 +88,6 @@ fn answered(solution: &mut Solution, scene: &Scene, ask: &Ask, answers: &[Answer
         let checks = |a: &Answer| known(&a.checks);
         let told = i > 0 && checks(&answers[i - 1]) == checks(answer);
         body(solution, scene, ask, answer, told);
-    }
-}
-
-/// A sentence with its formulas set, what stands around a relation in one piece with it, and bodies called as in the rest of
-/// a solution.
-pub fn sentence(scene: &Scene, text: &Sentence) -> Vec<Inline> {
-    let mut out: Vec<Inline> = Vec::new();
-    let mut relation = None;
-    let mut pieces: Vec<Piece> = Vec::new();
-    for piece in &text.0 {
-        match (piece, pieces.last_mut()) {
-            (Piece::Words(more), Some(Piece::Words(words))) => words.push_str(more),
-            _ => pieces.push(piece.clone()),
-        }
-    }
-    for piece in &pieces {
-        match piece {
-            Piece::Words(words) => {
-                let words = called(scene, words);
-                relation = relation_in(&words);
-                match (relation, out.last_mut()) {
-                    (Some(op), Some(Inline::Math(math))) => math.push(Math::Op(op)),
-                    _ => {
-                        relation = None;
-                        out.push(say(words));
-                    }
-                }
-            }
-            Piece::Formula(e) => match (relation.take(), out.last_mut()) {
-                (Some(_), Some(Inline::Math(math))) => math.push(Math::Expr(e.clone())),
-                _ => out.push(words::formula(e)),
-            },
-        }
-    }
-    // A relation that words follow is words itself.
-    if let (Some(op), Some(Inline::Math(math))) = (relation, out.last_mut()) {
-        math.pop();
-        out.push(say(format!(" {op} ")));
-    }
-    out
-}
-
-/// The symbols of the formulas in a piece of a sentence.
-pub(super) fn symbols(piece: &Inline) -> impl Iterator<Item = crate::expr::Symbol> {
-    let math = match piece {
-        Inline::Math(math) => math.as_slice(),
-        Inline::Text(_) => &[],
-    };
-    let formulas = math.iter().filter_map(|m| match m {
-        Math::Expr(e) => Some(e.symbols()),
-        _ => None,
-    });
-    formulas.flatten().collect::<Vec<_>>().into_iter()
-}
-
-/// Names between backquotes: bodies get their article, stages their quotation marks, and points what a sentence needs.
-pub(super) fn called(scene: &Scene, words: &str) -> String {
-    let mut out = String::new();
-    for (i, part) in words.split('`').enumerate() {
-        if i % 2 == 0 {
-            out.push_str(part);
-        } else if let Some(b) = scene.bodies.iter().position(|b| b.name == part) {
-            out.push_str(&words::body(scene, b));
-        } else if scene.stages.iter().any(|s| s.name == part) {
-            out.push_str(&words::stage(part));
-        } else if scene.parameters.iter().any(|p| *p.name == *part) {
-            out.push_str(part);
-        } else {
-            out.push_str(&words::place(part, "contact"));
-        }
-    }
-    out
-}
-
-/// The relation that these words are, if they are one and nothing else.
-fn relation_in(words: &str) -> Option<&'static str> {
-    ["=", "≤", "≥", "<", ">", "≠"]
-        .into_iter()
-        .find(|op| words.trim() == *op)
-}
-
-/// A sentence that begins with a capital and ends with a full stop.
-pub fn full_sentence(scene: &Scene, text: &Sentence) -> Vec<Inline> {
-    let mut out = sentence(scene, text);
-    if let Some(Inline::Text(first)) = out.first_mut() {
-        *first = words::capital(first);
-    }
-    match out.last_mut() {
-        Some(Inline::Text(last)) if last.ends_with(['.', ':', '?', '!']) => {}
-        Some(Inline::Text(last)) => last.push('.'),
-        _ => out.push(say(".")),
-    }
-    out
-}
-
-/// What is asked, in a line.
-fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> {
-    let math = |e: &Expr| words::formula(e);
-    let related = |left: &Expr, relation: Relation, right: &Expr| {
-        Inline::Math(vec![
-            Math::Expr(left.clone()),
-            Math::Op(relation.sign()),
-            Math::Expr(right.clone()),
-        ])
-    };
-    match ask {
-        Ask::Value { meaning, .. } if !meaning.is_empty() => {
-            vec![say(words::capital(&called(scene, meaning)))]
-        }
-        Ask::Value { with, .. } if with.is_empty() => {
-            vec![say("Value of "), math(&Expr::symbol(&answer.name))]
-        }
-        Ask::Value { formula, with, .. } => {
-            let mut out = vec![math(formula)];
-            for (i, (name, value)) in with.iter().enumerate() {
-                out.push(say(match (i, with.len() - i) {
-                    (0, _) => " at ",
-                    (_, 1) => " and ",
-                    _ => ", ",
-                }));
-                out.push(words::equation(&Expr::symbol(name), value));
-            }
-            out
-        }
-        Ask::Condition {
-            parameter,
-            left,
-            relation: Relation::Equal,
-            right,
-            ..
-        } => vec![
-            say("For which "),
-            math(&Expr::symbol(parameter)),
-            say(" is "),
-            related(left, Relation::Equal, right),
-            say("?"),
-        ],
-        Ask::Condition {
-            parameter,
-            left,
-            relation,
-            right,
-            ..
-        } => vec![
-            say("For which "),
-            math(&Expr::symbol(parameter)),
-            say(" does "),
-            related(left, *relation, right),
-            say(" hold?"),
-        ],
-        Ask::Maximum { of, over } => {
-            let mut out = vec![say("Largest value of "), math(of), say(" over ")];
-            for (i, p) in over.iter().enumerate() {
-                if i > 0 {
-                    out.push(say(" and "));
-                }
-                out.push(math(&Expr::symbol(p)));
-            }
-            out
-        }
-        Ask::Limit { of, parameter, to } => {
-            let p = Math::Expr(Expr::symbol(parameter));
-            let end = match to {
-                Some(to) => Math::Expr(to.clone()),
-                None => Math::Op("∞"),
-            };
-            vec![
-                say("Limit of "),
-                math(of),
-                say(" as "),
-                Inline::Math(vec![p, Math::Op("→"), end]),
-            ]
-        }
-        Ask::Approximate {
-            of,
-            parameter,
-            to,
-            order,
-        } => {
-            let mut out = vec![math(of)];
-            if to.is_zero() {
-                out.extend([say(" for small "), math(&Expr::symbol(parameter))]);
-            } else {
-                let near = [Math::Expr(Expr::symbol(parameter)), Math::Op("≈")];
-                let near = near.into_iter().chain([Math::Expr(to.clone())]);
-                out.extend([say(" for "), Inline::Math(near.collect())]);
-            }
-            if *order > 0 {
-                out.push(say(format!(", to order {order}")));
-            }
-            out
-        }
-        Ask::Show {
-            left, right, claim, ..
-        } => match claim.as_str() {
-            "" => vec![say("To show: "), related(left, Relation::Equal, right)],
-            claim => vec![say("To show: "), say(claim)],
-        },
-        Ask::Unused(of) => vec![say("Data not needed for "), math(&Expr::symbol(of))],
-        _ => vec![say(words::capital(&called(scene, &answer.words)))],
     }
 }
 
@@ -658,54 +409,4 @@ fn stands_for(ask: &Ask, answer: &Answer) -> Option<(Expr, &'static str)> {
         Some(vector) if !axis.is_empty() => (Expr::symbol(&format!("{vector}{axis}")), op),
         _ => (of.clone(), op),
     })
-}
-
-/// ` = 1.2 m/s`, where the scene gives every value.
-pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
-    let formula = answer.formula()?;
-    if formula.symbols().iter().all(|s| s.as_ref() == "pi") {
-        return None;
-    }
-    let values = scene
-        .parameters
-        .iter()
-        .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
-        .collect();
-    let value = formula
-        .substitute(&values)
-        .evaluate(&crate::expr::Point::<f64>::default())?;
-    let number = answer.dimension.measured(&words::digits(value));
-    Some(format!(" = {number}"))
-}
-
-/// What is told of checks: that one holds is told once, at the end of a solution, and by itself only at full length.
-pub(super) fn worth_telling(checks: &[Check], detail: Detail) -> Option<String> {
-    let full = detail == Detail::Full;
-    let all = checks.iter().filter(|c| full || c.holds != Some(true));
-    known(&all.cloned().collect::<Vec<_>>())
-}
-
-/// How an answer is known: what was checked, what failed, what stayed open.
-pub fn known(checks: &[Check]) -> Option<String> {
-    let list = |holds: Option<bool>| {
-        let mut all: Vec<&str> = checks
-            .iter()
-            .filter(|c| c.holds == holds)
-            .map(|c| c.words.as_str())
-            .collect();
-        all.dedup();
-        all.join("; ")
-    };
-    let mut out = Vec::new();
-    for (holds, lead) in [
-        (Some(true), "Checked"),
-        (None, "Not proved"),
-        (Some(false), "A check failed, do not use this"),
-    ] {
-        let words = list(holds);
-        if !words.is_empty() {
-            out.push(format!("{lead}: {words}."));
-        }
-    }
-    (!out.is_empty()).then(|| out.join(" "))
 }

@@ -53,8 +53,12 @@ impl Writer<'_> {
                 ));
             }
             Law::Given(k) => self.given(*k),
-            Law::Condition(c, i) => self.rubs(*c, *i),
+            Law::Condition(c, i) => {
+                self.name_roots(std::slice::from_ref(&right), 1);
+                self.rubs(*c, *i);
+            }
         }
+        let right = self.with_roots(&right);
         let shown = matches!(self.last_line(), Some((l, r)) if l == left && r == right);
         if !shown {
             self.claim(left, right, &reason);

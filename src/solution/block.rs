@@ -245,6 +245,8 @@ impl Writer<'_> {
         }
         let shown: Vec<Expr> = pairs.iter().map(|(u, v)| self.short(*u, v)).collect();
         self.abbreviations(&shown);
+        let too_long = pairs.iter().any(|(u, v)| self.short(*u, v).size() > 150);
+        let lead = if too_long { "" } else { lead };
         let mut substeps = Vec::new();
         if self.detail() == Detail::Full && !lead.is_empty() {
             substeps = self.substeps(|writer| {
@@ -289,11 +291,8 @@ impl Writer<'_> {
             step.assumptions = conditions;
             step.substeps = substeps;
         }
-        let too_long = pairs.iter().any(|(u, v)| self.short(*u, v).size() > 150);
         if too_long {
-            self.say(
-                "Their closed forms are long; the results below give them with abbreviations.",
-            );
+            self.say("The solution of these equations is long; it stands below.");
         } else {
             let lines: Vec<(Unknown, Line)> = pairs
                 .iter()

@@ -11,20 +11,25 @@ mod balance;
 mod block;
 mod contact;
 mod eliminate;
+mod heading;
+mod known;
 mod neat;
 mod notice;
 mod opening;
 mod page;
 mod results;
+mod roots;
 mod rough;
+mod sentence;
 mod story;
 mod through;
 mod words;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-pub use asked::{full_sentence, known, sentence};
-pub use words::{assumptions, is_safe_latex};
+pub use known::known;
+pub use sentence::{full_sentence, sentence};
+pub use words::{assumptions, is_safe_latex, with_symbols};
 
 use crate::algebra::Field;
 use crate::answer::{Form, Near};
@@ -321,6 +326,8 @@ struct Writer<'a> {
     told: BTreeSet<Symbol>,
     /// Unknowns found to be zero: no later line carries them along.
     zero: BTreeSet<Unknown>,
+    /// Long roots with the letters they got.
+    roots: Vec<(Expr, Symbol)>,
 }
 
 impl<'a> Writer<'a> {
@@ -414,6 +421,7 @@ impl<'a> Writer<'a> {
             within: String::new(),
             told: BTreeSet::new(),
             zero: given_zero,
+            roots: Vec::new(),
         }
     }
 

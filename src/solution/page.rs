@@ -60,7 +60,8 @@ impl Solution {
             }
             let led_to = matches!(before.last(), Some(Part::Text(text))
                 if matches!(text.last(), Some(Inline::Text(words)) if words.ends_with(':')));
-            if !led_to {
+            // What a sentence leads to may stand in the box just as well, where that comes next.
+            if !led_to || p + 1 == section.parts.len() {
                 section.parts.remove(p);
             }
             return;

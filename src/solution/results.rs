@@ -28,6 +28,7 @@ impl Writer<'_> {
             self.section(vec![say("Results")]);
         }
         self.abbreviations(&shorts);
+        self.name_roots(&shorts, 2);
         let mut lines = Vec::new();
         let mut open = Vec::new();
         for answer in &self.d.answers {
@@ -52,6 +53,10 @@ impl Writer<'_> {
                     );
                     if self.told.contains(answer.name.as_str()) {
                         continue;
+                    }
+                    let rooted = self.with_roots(short);
+                    if rooted != *short {
+                        math[2] = Math::Expr(rooted);
                     }
                     lines.push(Line {
                         math,
@@ -122,7 +127,7 @@ impl Writer<'_> {
                 .meanings
                 .entry(definition.name.clone())
                 .or_insert(Meaning::Defined);
-            let words = words::named(self.scene, &definition.meaning);
+            let words = self.by_name(&words::named(self.scene, &definition.meaning));
             let claim = Claim {
                 left: symbol.clone(),
                 right: definition.value.clone(),
@@ -166,6 +171,16 @@ impl Writer<'_> {
             text.push(say("."));
             self.text(text);
         }
+    }
+
+    /// The words of a definition, with the bodies of the only contact called by their names.
+    fn by_name(&self, words: &str) -> String {
+        let [contact] = self.scene.contacts.as_slice() else {
+            return words.to_string();
+        };
+        let [first, second] = contact.bodies.map(|b| words::body(self.scene, b));
+        let words = words.replace("the second body", &second);
+        words.replace("relative to the first", &format!("relative to {first}"))
     }
 
     /// Answers written with abbreviations are claims of their own.
@@ -318,6 +333,7 @@ impl Writer<'_> {
                 all.push(condition);
             }
         }
+        all.sort_by_key(|c| matches!(c, Inline::Text(words) if words == words::FURTHER));
         all
     }
 }

@@ -250,13 +250,16 @@ pub fn condition(scene: &Scene, text: &str) -> Inline {
             && let (Some(left), Some(right)) = (read(left), read(right))
         {
             return match left.size() + right.size() > LONG_CONDITION {
-                true => say("the conditions of this case"),
+                true => say(FURTHER),
                 false => Inline::Math(vec![Math::Expr(left), Math::Op(op), Math::Expr(right)]),
             };
         }
     }
     say(text)
 }
+
+/// What stands for conditions that are too long for a sentence, behind those that are not.
+pub const FURTHER: &str = "the further conditions of this case";
 
 /// Longest condition, in nodes, that a sentence holds.
 const LONG_CONDITION: usize = 80;

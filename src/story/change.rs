@@ -25,13 +25,7 @@ pub(super) fn words(told: &StageTold, case: &Case) -> Vec<String> {
         };
         change.words(&body.name, body.is_particle())
     });
-    let all: Vec<String> = each.collect();
-    match all.is_empty() {
-        true => vec![String::from(
-            "which way the bodies move depends on the values",
-        )],
-        false => all,
-    }
+    each.collect()
 }
 
 /// The change of one body, where the conditions of its outcome hold.

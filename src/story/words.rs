@@ -89,6 +89,9 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                     all.push(acting(one_sided, case).into());
                 }
                 all.extend(change::words(told, case).into_iter().map(Sentence::from));
+                if all.is_empty() {
+                    all.push("which way the bodies move depends on the values".into());
+                }
                 // Of several, an outcome is one sentence, with the condition that it hangs on.
                 if several && !case.conditions.is_empty() && !all.is_empty() {
                     let does = Sentence::join(all, "; ");
@@ -464,19 +467,33 @@ pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence
         let why = " joints and guides hold the bodies all the way, pulling where need be, and are frictionless";
         out.push(sentence!["in ", listed(&linked), why]);
     }
+    // Rotations about one point are told together.
+    let mut turns: Vec<(String, Vec<String>)> = Vec::new();
     for told in stages {
-        let stage = &told.placed;
-        if let StageKind::Turn(turn) = &stage.kind {
-            out.push(sentence![
-                "in `",
-                &stage.name,
-                "` the body is rigid, and `",
-                &turn.about_name,
-                "` is frictionless and does not move"
-            ]);
+        let StageKind::Turn(turn) = &told.placed.kind else {
+            continue;
+        };
+        let body = &told.placed.scene.bodies[turn.body];
+        let about = &turn.about_name;
+        let holds = match body.is_particle() && turn.with.is_empty() {
+            true => format!(
+                " `{}` keeps its distance from `{about}`, which does not move",
+                body.name
+            ),
+            false => {
+                format!(" the body is rigid, and `{about}` is frictionless and does not move")
+            }
+        };
+        let name = format!("`{}`", told.placed.name);
+        match turns.iter_mut().find(|(h, _)| *h == holds) {
+            Some((_, names)) if names.contains(&name) => {}
+            Some((_, names)) => names.push(name),
+            None => turns.push((holds, vec![name])),
         }
-        out.extend(told.assumptions.iter().cloned());
     }
+    let turns = turns.into_iter();
+    out.extend(turns.map(|(holds, names)| sentence!["in ", listed(&names), holds]));
+    out.extend(stages.iter().flat_map(|told| told.assumptions.clone()));
     let mut seen: Vec<Sentence> = Vec::new();
     out.retain(|s| {
         !seen.contains(s) && {

@@ -1,6 +1,6 @@
 // The page: which scene, which values, which panel; all of it stands in the link.
 
-import { $, ask, get, quietly, say } from "/ask.js";
+import { $, ask, get, markup, quietly, say } from "/ask.js";
 import { showList } from "/list.js";
 import { showValues } from "/values.js";
 import { showFigure, redraw } from "/figure.js";
@@ -68,7 +68,7 @@ export async function load(text) {
   document.title = `${about.title || bench.name} – carom`;
   $("title").textContent = about.title || bench.name;
   $("source").textContent = about.source;
-  $("statement").textContent = about.statement;
+  $("statement").replaceChildren(markup(about.statement_html));
   showValues();
   showFigure();
   showFilm();

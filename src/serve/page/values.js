@@ -44,7 +44,6 @@ export function refuse(message) {
 
 function row(p) {
   const id = `value-${p.name}`;
-  const meaning = [p.meaning, p.domain].filter(Boolean).join("; ");
   const slider = make("input", { type: "range", min: p.min, max: p.max, step: p.step, id: `${id}-slider` });
   slider.setAttribute("aria-label", `${p.name}, slider`);
   const box = make("input", { type: "text", id, inputmode: "text", autocomplete: "off", spellcheck: "false", "aria-describedby": `${id}-meaning` });
@@ -70,7 +69,7 @@ function row(p) {
   const label = make("label", { for: id, class: "label" }, markup(p.mathml));
   const unit = p.unit === "1" ? "" : p.unit.replaceAll("^2", "²").replaceAll("^3", "³");
   return make("div", { class: "value" }, label, slider, box, make("span", { class: "unit" }, unit),
-    make("span", { class: "meaning", id: `${id}-meaning` }, meaning));
+    make("span", { class: "meaning", id: `${id}-meaning` }, markup(p.about_html)));
 }
 
 // Two components of a unit vector: one slider, in degrees. Fractions on the unit circle keep the length exactly 1.

@@ -6,7 +6,7 @@ use crate::solution::{Inline, Line, Math, Part, Section};
 /// Equations that a case tells, with the sentence that leads to them.
 pub(super) struct Shared {
     case: usize,
-    lead: String,
+    lead: Vec<Inline>,
     lines: Vec<Vec<Math>>,
 }
 
@@ -27,7 +27,10 @@ pub(super) fn share(known: &mut Vec<Shared>, case: usize, sections: &mut [Sectio
                 fresh.push(Shared { case, lead, lines });
                 continue;
             };
-            let first = lead.split(". ").next().unwrap_or(&lead);
+            let Some(Inline::Text(words)) = lead.first() else {
+                continue;
+            };
+            let first = words.split(". ").next().unwrap_or(words);
             let first = first.trim_end_matches(['.', ':', ',']);
             let text = format!("{first}, as in case {}.", earlier.case);
             section.parts[p - 1] = Part::Text(vec![say(text)]);
@@ -38,14 +41,17 @@ pub(super) fn share(known: &mut Vec<Shared>, case: usize, sections: &mut [Sectio
 }
 
 /// A law in words and the equations it gives; `None` for anything else, such as a solution of equations.
-fn equations(lead: &Part, lines: &Part) -> Option<(String, Vec<Vec<Math>>)> {
+fn equations(lead: &Part, lines: &Part) -> Option<(Vec<Inline>, Vec<Vec<Math>>)> {
     let (Part::Text(text), Part::Display(lines)) = (lead, lines) else {
         return None;
     };
-    let [Inline::Text(text)] = text.as_slice() else {
+    let Some(Inline::Text(first)) = text.first() else {
         return None;
     };
-    let is_result = text.starts_with("With") || text.starts_with("Solving");
+    // Where a formula cuts the first sentence, it cannot be told by its beginning.
+    let ends = |piece: &Inline| matches!(piece, Inline::Text(next) if next.starts_with(". "));
+    let is_whole = text.len() == 1 || first.contains(". ") || ends(&text[1]);
+    let is_result = first.starts_with("With") || first.starts_with("Solving");
     let math = |line: &Line| line.math.clone();
-    (!is_result).then(|| (text.clone(), lines.iter().map(math).collect()))
+    (is_whole && !is_result).then(|| (text.clone(), lines.iter().map(math).collect()))
 }

@@ -9,10 +9,12 @@ mod flight;
 mod motion;
 mod pivot;
 
-use super::asked::{self, full_sentence};
+use super::asked;
+use super::known;
 use super::neat::tidied;
 use super::opening::{AXES, NUMBERS};
 use super::rough;
+use super::sentence::{self, full_sentence};
 use super::words::{self, say};
 use super::{
     Before, Claim, Detail, Inline, Line, Math, Meaning, Part, Scope, Slot, Solution, Writer,
@@ -20,7 +22,7 @@ use super::{
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
-use crate::scene::{Scene, Stage};
+use crate::scene::{Ask, Scene, Stage};
 use crate::story::{Case, StageTold, Step, Told};
 
 /// Writes the solution of a scene with stages.
@@ -170,16 +172,16 @@ impl Page<'_> {
         }
         if !told.assumptions.is_empty() {
             let mut text = vec![say("Assumed: ")];
-            text.extend(asked::sentence(
+            text.extend(sentence::sentence(
                 self.scene,
                 &Sentence::join(told.assumptions.clone(), "; "),
             ));
             text.push(say("."));
             self.solution.text(text);
         }
-        if let Some(words) = asked::worth_telling(&told.checks, self.solution.detail) {
+        if let Some(words) = known::worth_telling(&told.checks, self.solution.detail) {
             self.solution
-                .text(vec![say(asked::called(self.scene, &words))]);
+                .text(vec![say(sentence::called(self.scene, &words))]);
         }
     }
 
@@ -229,7 +231,7 @@ impl Page<'_> {
         };
         if several {
             let mut heading = vec![say(format!("Case {}: ", k + 1))];
-            heading.extend(asked::sentence(
+            heading.extend(sentence::sentence(
                 self.scene,
                 &Sentence::join(
                     (case.conditions.iter()).map(|(_, e)| Sentence::not_negative(e)),
@@ -264,7 +266,7 @@ impl Page<'_> {
         }
         for condition in writer.conditions() {
             let known = |s: &Symbol| self.scene.parameters.iter().any(|p| p.name == *s);
-            let all_known = asked::symbols(&condition).all(|s| known(&s));
+            let all_known = sentence::symbols(&condition).all(|s| known(&s));
             if all_known && !self.valid.contains(&condition) {
                 self.valid.push(condition);
             }
@@ -397,7 +399,7 @@ impl Page<'_> {
                     let step = Some(id);
                     lines.push(Line { math, step });
                 }
-                if let Some(value) = asked::number(self.scene, answer) {
+                if let Some(value) = known::number(self.scene, answer) {
                     numbers.push(say(if numbers.is_empty() { NUMBERS } else { ", " }));
                     numbers.extend([words::formula(&Expr::symbol(&symbol)), say(value)]);
                 }
@@ -424,7 +426,9 @@ impl Page<'_> {
         for a in self.assumed() {
             items.push(full_sentence(self.scene, &a));
         }
-        if !self.told.unused.is_empty() {
+        let mut asks = self.scene.questions.iter().map(|q| &q.ask);
+        let is_told = asks.any(|ask| matches!(ask, Ask::Unused(_)));
+        if !self.told.unused.is_empty() && !is_told {
             let mut text = vec![say("Given, but needed for no answer: ")];
             for (i, p) in self.told.unused.iter().enumerate() {
                 if i > 0 {

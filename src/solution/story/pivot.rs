@@ -5,7 +5,7 @@ use super::motion::alike;
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol, Vector, cross, dot, minus};
 use crate::scene::{Ask, StageKind, Turn};
-use crate::solution::asked::number;
+use crate::solution::known::number;
 use crate::solution::neat::{neat, tidied};
 use crate::solution::opening::NUMBERS;
 use crate::solution::words::{self, name, say};

@@ -1,0 +1,56 @@
+//! What a solution says of an answer beside its formula: its number, and how it is known.
+
+use super::Detail;
+use super::words;
+use crate::answer::{Answer, Check};
+use crate::scene::Scene;
+
+/// ` = 1.2 m/s`, where the scene gives every value.
+pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
+    let formula = answer.formula()?;
+    if formula.symbols().iter().all(|s| s.as_ref() == "pi") {
+        return None;
+    }
+    let values = scene
+        .parameters
+        .iter()
+        .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
+        .collect();
+    let value = formula
+        .substitute(&values)
+        .evaluate(&crate::expr::Point::<f64>::default())?;
+    let number = answer.dimension.measured(&words::digits(value));
+    Some(format!(" = {number}"))
+}
+
+/// What is told of checks: that one holds is told once, at the end of a solution, and by itself only at full length.
+pub(super) fn worth_telling(checks: &[Check], detail: Detail) -> Option<String> {
+    let full = detail == Detail::Full;
+    let all = checks.iter().filter(|c| full || c.holds != Some(true));
+    known(&all.cloned().collect::<Vec<_>>())
+}
+
+/// How an answer is known: what was checked, what failed, what stayed open.
+pub fn known(checks: &[Check]) -> Option<String> {
+    let list = |holds: Option<bool>| {
+        let mut all: Vec<&str> = checks
+            .iter()
+            .filter(|c| c.holds == holds)
+            .map(|c| c.words.as_str())
+            .collect();
+        all.dedup();
+        all.join("; ")
+    };
+    let mut out = Vec::new();
+    for (holds, lead) in [
+        (Some(true), "Checked"),
+        (None, "Not proved"),
+        (Some(false), "A check failed, do not use this"),
+    ] {
+        let words = list(holds);
+        if !words.is_empty() {
+            out.push(format!("{lead}: {words}."));
+        }
+    }
+    (!out.is_empty()).then(|| out.join(" "))
+}

@@ -1,0 +1,95 @@
+//! Long roots that formulas share get a letter, told before its first use.
+
+use super::words::{self, say};
+use super::{Claim, Line, Math, Meaning, Part, Writer};
+use crate::expr::{Expr, Node, Symbol};
+
+/// Least size, in nodes, of a root that gets a letter.
+const LONG: usize = 25;
+
+impl Writer<'_> {
+    /// Gives letters to the long roots in formulas that stand there at least so often.
+    pub(super) fn name_roots(&mut self, formulas: &[Expr], least: usize) {
+        let mut found: Vec<(Expr, usize)> = Vec::new();
+        for formula in formulas {
+            formula.walk(&mut |part| {
+                if !is_long_root(part) {
+                    return;
+                }
+                match found.iter_mut().find(|(root, _)| root == part) {
+                    Some((_, count)) => *count += 1,
+                    None => found.push((part.clone(), 1)),
+                }
+            });
+        }
+        found.retain(|(root, count)| *count >= least && self.roots.iter().all(|(r, _)| r != root));
+        for (root, _) in found {
+            let name = self.free_letter();
+            let symbol = Expr::symbol(&name);
+            let claim = Claim {
+                left: symbol.clone(),
+                right: root.clone(),
+            };
+            self.step(Vec::new(), vec![claim], "a letter for a long root");
+            if let Some(step) = self.last_step() {
+                step.defines = Some(name.clone());
+            }
+            self.solution
+                .meanings
+                .insert(name.clone(), Meaning::Defined);
+            // Its square is a sum, and so breaks over lines.
+            let square = Claim {
+                left: symbol.powi(2),
+                right: radicand(&root),
+            };
+            let id = self.step(Vec::new(), vec![square.clone()], "the square of the root");
+            self.text(vec![
+                say("Let "),
+                words::formula(&symbol),
+                say(" be the positive root of"),
+            ]);
+            let math = vec![
+                Math::Expr(square.left),
+                Math::Op("="),
+                Math::Expr(square.right),
+            ];
+            let step = Some(id);
+            self.push(Part::Display(vec![Line { math, step }]));
+            self.roots.push((root, name));
+        }
+    }
+
+    /// A formula with the letters of its roots.
+    pub(super) fn with_roots(&self, e: &Expr) -> Expr {
+        match self.roots.iter().find(|(root, _)| root == e) {
+            Some((_, name)) => Expr::symbol(name),
+            None => e.map_parts(|part| self.with_roots(part)),
+        }
+    }
+
+    fn free_letter(&self) -> Symbol {
+        let taken = |name: &str| {
+            let mut parameters = self.scene.parameters.iter();
+            parameters.any(|p| &*p.name == name) || self.solution.meanings.contains_key(name)
+        };
+        let letters = ["s", "q", "z"].map(String::from).into_iter();
+        let mut all = letters.chain((1..).map(|i| format!("s_{i}")));
+        Symbol::from(all.find(|name| !taken(name)).unwrap_or_default())
+    }
+}
+
+fn is_long_root(e: &Expr) -> bool {
+    let is_half = |k: &Expr| {
+        k.as_number()
+            .is_some_and(|k| *k == crate::expr::ratio(1, 2))
+    };
+    matches!(e.node(), Node::Power(_, k) if is_half(k)) && e.size() > LONG
+}
+
+/// What stands under a root.
+fn radicand(e: &Expr) -> Expr {
+    match e.node() {
+        Node::Power(base, _) => base.clone(),
+        _ => e.powi(2),
+    }
+}

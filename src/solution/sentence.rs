@@ -1,0 +1,98 @@
+//! Sentences about a scene as pieces of a solution: formulas set, bodies called by their names.
+
+use super::words::{self, say};
+use super::{Inline, Math};
+use crate::formula::{Piece, Sentence};
+use crate::scene::Scene;
+
+/// A sentence with its formulas set, what stands around a relation in one piece with it, and bodies called as in the rest of
+/// a solution.
+pub fn sentence(scene: &Scene, text: &Sentence) -> Vec<Inline> {
+    let mut out: Vec<Inline> = Vec::new();
+    let mut relation = None;
+    let mut pieces: Vec<Piece> = Vec::new();
+    for piece in &text.0 {
+        match (piece, pieces.last_mut()) {
+            (Piece::Words(more), Some(Piece::Words(words))) => words.push_str(more),
+            _ => pieces.push(piece.clone()),
+        }
+    }
+    for piece in &pieces {
+        match piece {
+            Piece::Words(words) => {
+                let words = called(scene, words);
+                relation = relation_in(&words);
+                match (relation, out.last_mut()) {
+                    (Some(op), Some(Inline::Math(math))) => math.push(Math::Op(op)),
+                    _ => {
+                        relation = None;
+                        out.push(say(words));
+                    }
+                }
+            }
+            Piece::Formula(e) => match (relation.take(), out.last_mut()) {
+                (Some(_), Some(Inline::Math(math))) => math.push(Math::Expr(e.clone())),
+                _ => out.push(words::formula(e)),
+            },
+        }
+    }
+    // A relation that words follow is words itself.
+    if let (Some(op), Some(Inline::Math(math))) = (relation, out.last_mut()) {
+        math.pop();
+        out.push(say(format!(" {op} ")));
+    }
+    out
+}
+
+/// The symbols of the formulas in a piece of a sentence.
+pub(super) fn symbols(piece: &Inline) -> impl Iterator<Item = crate::expr::Symbol> {
+    let math = match piece {
+        Inline::Math(math) => math.as_slice(),
+        Inline::Text(_) => &[],
+    };
+    let formulas = math.iter().filter_map(|m| match m {
+        Math::Expr(e) => Some(e.symbols()),
+        _ => None,
+    });
+    formulas.flatten().collect::<Vec<_>>().into_iter()
+}
+
+/// Names between backquotes: bodies get their article, stages their quotation marks, and points what a sentence needs.
+pub(super) fn called(scene: &Scene, words: &str) -> String {
+    let mut out = String::new();
+    for (i, part) in words.split('`').enumerate() {
+        if i % 2 == 0 {
+            out.push_str(part);
+        } else if let Some(b) = scene.bodies.iter().position(|b| b.name == part) {
+            out.push_str(&words::body(scene, b));
+        } else if scene.stages.iter().any(|s| s.name == part) {
+            out.push_str(&words::stage(part));
+        } else if scene.parameters.iter().any(|p| *p.name == *part) {
+            out.push_str(part);
+        } else {
+            out.push_str(&words::place(part, "contact"));
+        }
+    }
+    out
+}
+
+/// The relation that these words are, if they are one and nothing else.
+fn relation_in(words: &str) -> Option<&'static str> {
+    ["=", "≤", "≥", "<", ">", "≠"]
+        .into_iter()
+        .find(|op| words.trim() == *op)
+}
+
+/// A sentence that begins with a capital and ends with a full stop.
+pub fn full_sentence(scene: &Scene, text: &Sentence) -> Vec<Inline> {
+    let mut out = sentence(scene, text);
+    if let Some(Inline::Text(first)) = out.first_mut() {
+        *first = words::capital(first);
+    }
+    match out.last_mut() {
+        Some(Inline::Text(last)) if last.ends_with(['.', ':', '?', '!']) => {}
+        Some(Inline::Text(last)) => last.push('.'),
+        _ => out.push(say(".")),
+    }
+    out
+}
