@@ -21,6 +21,8 @@ use crate::scene::{Ask, ContactLaw, FrictionEvent, Mode, Question, Scene};
 const POINTS: usize = 2;
 /// Points that are tried to find them, and points of which those are tried where what is told should happen.
 const TRIED: [usize; 2] = [40, 1000];
+/// Further points looked at before bodies are said to pass through each other wherever the motion comes about.
+const ELSEWHERE: usize = 24;
 /// Difference that counts as agreement, in parts of the largest quantity of its kind; the integrator works to 1e-12.
 const CLOSE: f64 = 1e-7;
 /// How far from a threshold its sides are looked at, in parts of it.
@@ -61,8 +63,7 @@ pub(super) fn look<'a>(scene: &'a Scene, worlds: &[World], stages: &[StageTold])
         points: Vec::new(),
         lost: Vec::new(),
     };
-    let mut names: BTreeSet<Symbol> = follow::symbols(scene);
-    names.extend(scene.parameters.iter().map(|p| p.name.clone()));
+    let names = names(scene);
     // The values of the scene show a case that few points of its domain have.
     let mut own = Point::default();
     for parameter in &scene.parameters {
@@ -103,6 +104,13 @@ pub(super) fn look<'a>(scene: &'a Scene, worlds: &[World], stages: &[StageTold])
         }
     }
     out
+}
+
+/// All that has to have a value for a scene to be followed.
+fn names(scene: &Scene) -> BTreeSet<Symbol> {
+    let mut names: BTreeSet<Symbol> = follow::symbols(scene);
+    names.extend(scene.parameters.iter().map(|p| p.name.clone()));
+    names
 }
 
 /// Whether all that a way through the cases needs is so at a point. What is followed there decides.
@@ -267,27 +275,36 @@ impl Second<'_> {
         }
     }
 
-    /// Bodies that pass through each other in a stage: a failed check where they do at every point followed.
+    /// Bodies that pass through each other in a stage: a failed check where they do at every point looked at.
     pub fn passage(&self, worlds: &[World], index: usize, told: &StageTold) -> Option<Check> {
         let here = |seen: &&Seen| worlds[seen.world].outcome.contains_key(&index);
-        let all = self.points.iter().filter(here);
-        let all = all.filter_map(|seen| passed(self.scene, &seen.followed, told));
-        let all: Vec<&Passed> = all.collect();
-        let [a, b] = *all.iter().find_map(|p| p.passing.first())?;
-        let often = all.iter().filter(|p| p.passing.contains(&[a, b])).count();
-        let [a, b] = [a, b].map(|b| &self.scene.bodies[b].name);
-        let is_certain = often == all.len();
-        let words = match is_certain {
-            true => format!("`{a}` and `{b}` pass through each other on the way"),
-            false => format!(
-                "`{a}` and `{b}` pass through each other on the way at {often} of {} points",
-                all.len()
-            ),
+        let seen = self.points.iter().filter(here);
+        let seen = seen.filter_map(|seen| passed(self.scene, &seen.followed, told));
+        let mut all: Vec<Vec<[usize; 2]>> = seen.map(|p| p.passing.clone()).collect();
+        let pair = *all.iter().find_map(|p| p.first())?;
+        let is_everywhere = |all: &[Vec<[usize; 2]>]| all.iter().all(|p| p.contains(&pair));
+        if is_everywhere(&all) {
+            // Two points are few to say that it cannot be.
+            let more = points_of(names(self.scene), &self.scene.domains, ELSEWHERE);
+            for point in more {
+                let followed = follow::follow(self.scene, &point);
+                let there = followed.as_ref().ok();
+                let there = there.and_then(|f| passed(self.scene, f, told));
+                all.extend(there.map(|p| p.passing.clone()));
+                if !is_everywhere(&all) {
+                    break;
+                }
+            }
+        }
+        let [a, b] = pair.map(|b| &self.scene.bodies[b].name);
+        let (words, holds) = match is_everywhere(&all) {
+            true => ("", Some(false)),
+            false => (" at some of the points looked at", None),
         };
         Some(Check {
             kind: POSSIBLE,
-            words,
-            holds: is_certain.then_some(false),
+            words: format!("`{a}` and `{b}` pass through each other on the way{words}"),
+            holds,
         })
     }
 
