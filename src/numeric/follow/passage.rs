@@ -9,8 +9,9 @@ use crate::expr::{Expr, Point};
 use crate::numeric::given::Undefined;
 use crate::scene::{Body, ContactLaw, Scene, Shape, Stage, StageKind};
 
-/// Places looked at between two samples.
+/// Most places looked at between two samples, and about how many in all.
 const BETWEEN: usize = 24;
+const PLACES: usize = 600;
 /// Bodies that are in each other by less than this share of what is at hand only touch.
 const TOUCH: f64 = 1e-4;
 
@@ -74,9 +75,10 @@ pub(super) fn passing(
         Some([0, 1, 2].map(|k| before[k] + share * (after[k] - before[k])))
     };
     let mut times: Vec<f64> = Vec::new();
+    let between = (PLACES / moved.samples.len()).clamp(1, BETWEEN);
     for pair in moved.samples.windows(2) {
-        let step = (pair[1].time - pair[0].time) / BETWEEN as f64;
-        times.extend((0..BETWEEN).map(|k| pair[0].time + step * k as f64));
+        let step = (pair[1].time - pair[0].time) / between as f64;
+        times.extend((0..between).map(|k| pair[0].time + step * k as f64));
     }
     times.push(last.time);
     let mut out = Vec::new();
