@@ -322,7 +322,9 @@ proptest! {
             .collect();
         let strange: Vec<String> = commands(&found.latex).difference(&allowed).cloned().collect();
         prop_assert!(strange.is_empty(), "{strange:?}\n{}", found.latex);
-        prop_assert!(is_balanced(&found.latex), "{}", found.latex);
+        // The document's own definition has an argument.
+        let body = found.latex.replace("\\displaystyle #1$", "$");
+        prop_assert!(is_balanced(&body), "{}", found.latex);
         let stripped = found.markdown.replace("\\<", "");
         prop_assert!(!stripped.contains('<'), "{}", found.markdown);
         prop_assert!(!stripped.contains("://") && !stripped.contains("```"), "{}", found.markdown);

@@ -55,8 +55,8 @@ impl Label {
     /// The symbol of a parameter or answer, from its LaTeX spelling or its name.
     pub fn symbol(name: &str, latex: Option<&str>) -> Label {
         match latex {
-            Some(latex) => Label::latex(latex),
-            None => Label::latex(&latex_name(name)),
+            Some(latex) if !latex.trim().is_empty() => Label::latex(latex),
+            _ => Label::latex(&latex_name(name)),
         }
     }
 

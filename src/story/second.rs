@@ -19,8 +19,10 @@ use crate::scene::{Ask, ContactLaw, FrictionEvent, Mode, Question, Scene};
 
 /// Points at which each way through the cases is followed.
 const POINTS: usize = 2;
-/// Points that are tried to find them, and points of which those are tried where what is told should happen.
-const TRIED: [usize; 2] = [40, 1000];
+/// Points that are tried to find them.
+const TRIED: usize = 40;
+/// Points beyond them of which those are tried where what is told should happen, and how many of these.
+const PROMISING: [usize; 2] = [1000, 20];
 /// Further points looked at before bodies are said to pass through each other wherever the motion comes about.
 const ELSEWHERE: usize = 24;
 /// Difference that counts as agreement, in parts of the largest quantity of its kind; the integrator works to 1e-12.
@@ -74,12 +76,19 @@ pub(super) fn look<'a>(scene: &'a Scene, worlds: &[World], stages: &[StageTold])
     }
     let is_whole = names.iter().all(|name| own.values.contains_key(name));
     let own = is_whole.then_some(own);
-    let random = points_of(names, &scene.domains, TRIED[1]);
+    let random = points_of(names, &scene.domains, PROMISING[0]);
+    let mut promising = 0;
     for (k, point) in own.into_iter().chain(random).enumerate() {
         let is_wanted = |w: usize| out.points.iter().filter(|s| s.world == w).count() < POINTS;
         let promises = |w: usize| is_wanted(w) && promises(&worlds[w], stages, &point);
-        if k > TRIED[0] && !(0..worlds.len()).any(promises) {
-            continue;
+        if k > TRIED {
+            if !(0..worlds.len()).any(promises) {
+                continue;
+            }
+            promising += 1;
+            if promising > PROMISING[1] {
+                break;
+            }
         }
         let Ok(followed) = follow::follow(scene, &point) else {
             continue;

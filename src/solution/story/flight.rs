@@ -197,12 +197,7 @@ impl Page<'_> {
 
     /// Whether something of a kind is answered at the end of a stage.
     fn asked(&self, told: &StageTold, is: fn(&Ask) -> bool) -> bool {
-        let at_its_end = |a: &&Answer| {
-            let stage = a.told.and_then(|(i, _)| self.told.stages.get(i));
-            stage.is_some_and(|stage| std::ptr::eq(stage, told))
-        };
-        let mut mine = self.told.answers.iter().filter(at_its_end);
-        mine.any(|a| {
+        self.answered(told).any(|a| {
             self.scene
                 .questions
                 .iter()

@@ -85,23 +85,29 @@ impl Page<'_> {
 
     /// The answer that is what a step of a motion finds.
     pub(super) fn answering(&self, told: &StageTold, step: &Step) -> Option<&Answer> {
-        let here = |a: &&Answer| {
-            let stage = a.told.map(|(i, _)| &self.told.stages[i]);
-            stage.is_some_and(|stage| std::ptr::eq(stage, told))
-        };
         let fits = |ask: &Ask| match step.letter {
             "t" => matches!(ask, Ask::Time),
             "s" => matches!(ask, Ask::Distance | Ask::Position { .. }),
             "v" => matches!(ask, Ask::Velocity { point: None, .. }),
             "omega" => matches!(ask, Ask::Spin { .. }),
+            "a" => matches!(ask, Ask::Acceleration { .. }),
+            "T" | "S" => matches!(ask, Ask::Tension { .. }),
             _ => false,
         };
         let asked = |a: &&Answer| {
             let mut questions = self.scene.questions.iter();
             questions.any(|q| q.name == a.question && fits(&q.ask))
         };
-        let mut answers = self.told.answers.iter().filter(here).filter(asked);
+        let mut answers = self.answered(told).filter(asked);
         answers.find(|a| a.formula() == Some(&step.value))
+    }
+
+    /// The answers at the end of a stage; one that is not reached has none.
+    pub(super) fn answered(&self, told: &StageTold) -> impl Iterator<Item = &Answer> {
+        self.told.answers.iter().filter(move |a| {
+            let stage = a.told.and_then(|(i, _)| self.told.stages.get(i));
+            stage.is_some_and(|stage| std::ptr::eq(stage, told))
+        })
     }
 
     /// A motion: inertia, work and energy, from the beginning to the end.
@@ -206,11 +212,7 @@ impl Page<'_> {
         let StageKind::Fall(fall) = &stage.kind else {
             return None;
         };
-        let here = |a: &&Answer| {
-            let stage = a.told.map(|(i, _)| &self.told.stages[i]);
-            stage.is_some_and(|stage| std::ptr::eq(stage, told))
-        };
-        let asked = self.told.answers.iter().filter(here).count() > 0;
+        let asked = self.answered(told).next().is_some();
         let spins = !told.after.spin[fall.body].is_zero();
         if asked || spins || fall.bodies().len() > 1 {
             return None;
