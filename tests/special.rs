@@ -201,7 +201,13 @@ fn solutions_keep_to_relations() {
     let outside = said(&asked_where(r#""d < l""#, question).expect("an answer"));
     assert!(outside.contains("d = 4*l/3, against d < l"), "{outside}");
     let open = said(&asked_where(r#""d < x""#, question).expect("an answer"));
-    assert!(open.contains("given 3*x > 4*l, by d < x"), "{open}");
+    assert!(open.contains("given 3*x > 4*l, so that d < x"), "{open}");
+    let question = r#""it": {"solve": "x", "holds": "x^2 = l*(d - l)"}"#;
+    let rooted = said(&asked_where(r#""x < 2 l""#, question).expect("an answer"));
+    assert!(
+        rooted.contains("given 5*l > d, so that x < 2*l"),
+        "{rooted}"
+    );
 }
 
 #[test]

@@ -9,7 +9,7 @@ use num_integer::Integer;
 
 use super::Check;
 use crate::algebra::{Element, Field, Powers, Sign, Stop};
-use crate::domain::{Domain, Domains, roles, samples};
+use crate::domain::{Domain, Domains, Relation, roles, samples};
 use crate::expr::{Expr, Function, Node, Point, Symbol};
 use crate::formula::{Sentence, sentence};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -185,10 +185,54 @@ pub fn at_least_zero(e: &Expr, domains: &Domains) -> Sentence {
 /// `e > 0` where zero is excluded, else `e ≥ 0`.
 fn beyond_zero(e: &Expr, domains: &Domains, open: bool) -> Sentence {
     let e = essential(e, domains);
+    let e = squared(&e, domains).unwrap_or(e);
     match open {
         true => Sentence::positive(&e),
         false => Sentence::not_negative(&e),
     }
+}
+
+/// What has the sign of `a − √(b + c)` without the root, where a is known not to be negative; likewise for `√(b + c) − a`.
+/// A condition such as u ≥ μ √(2 g h) reads better as it is.
+fn squared(e: &Expr, domains: &Domains) -> Option<Expr> {
+    let Node::Sum(terms) = e.node() else {
+        return None;
+    };
+    let roots = |e: &Expr, is: fn(&Expr) -> bool| {
+        let mut found = false;
+        e.walk(&mut |part| {
+            if let Node::Power(inside, k) = part.node() {
+                found |= *k == Expr::ratio(1, 2) && is(inside);
+            }
+        });
+        found
+    };
+    let has_root = |e: &&Expr| roots(e, |_| true);
+    let has_sum = |e: &Expr| {
+        roots(e, |inside| {
+            let mut found = false;
+            inside.walk(&mut |part| found |= matches!(part.node(), Node::Sum(_)));
+            found
+        })
+    };
+    let (rooted, plain): (Vec<&Expr>, Vec<&Expr>) = terms.iter().partition(has_root);
+    let ([root], plain) = (rooted.as_slice(), Expr::sum(plain.into_iter().cloned())) else {
+        return None;
+    };
+    if !has_sum(root) {
+        return None;
+    }
+    let proved = |e: &Expr| match sign(e, domains) {
+        Seen::Proved(sign) => Some(sign.is_not_negative()),
+        _ => None,
+    };
+    let difference = &plain.powi(2) - &root.powi(2);
+    let difference = match (proved(&plain)?, proved(root)?) {
+        (true, false) => difference,
+        (false, true) => -difference,
+        _ => return None,
+    };
+    Some(essential(&difference, domains)).filter(|e| !has_root(&e))
 }
 
 /// A value of a symbol at which an expression is zero.
@@ -251,17 +295,24 @@ pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unso
                     };
                     if !sure {
                         let holds = beyond_zero(&excess, domains, !relation.closed);
-                        root.given.push(sentence![holds, ", by ", &relation.words]);
+                        root.given
+                            .push(sentence![holds, ", so that ", stated(relation)]);
                     }
                     out.inside.push(root);
                     continue;
                 }
             }
-            let why = sentence![symbol, " = ", &root.value, ", against ", &relation.words];
+            let why = sentence![symbol, " = ", &root.value, ", against ", stated(relation)];
             out.discarded.push(why);
         }
     }
     Ok(out)
+}
+
+fn stated(relation: &Relation) -> Sentence {
+    let [small, large] = &relation.sides;
+    let than = if relation.closed { " ≤ " } else { " < " };
+    sentence![small, than, large]
 }
 
 fn within_interval(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unsolved> {

@@ -478,13 +478,13 @@ fn at_the_rim(mut out: Answer, slope: &Expr, words: &str, domains: &Domains) -> 
     };
     out.text.push(if s.is_positive() {
         sentence![
-            "there is no largest value inside: it grows with ",
+            "there is no largest value: it grows with ",
             words,
-            " without end (",
+            " throughout (",
             how,
-            "), so it is approached as ",
+            "), and the end, ",
             words,
-            " → ∞ and never reached"
+            " → ∞, is never reached"
         ]
     } else if s.is_negative() {
         sentence![

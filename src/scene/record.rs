@@ -341,6 +341,9 @@ fn meant(word: &str) -> Option<&'static str> {
             "a body flies in a `fall`, with `gravity` or without"
         }
         "stage" => "the stage a question asks about is `at`",
+        "left" | "right" | "lhs" | "rhs" | "equation" | "condition" | "for" => {
+            "a question names its unknown and says the equation as a whole: \"solve\": \"x\", \"holds\": \"u = 0\""
+        }
         "position" | "place" | "location" => "a body stands at its `center`",
         "momentum" => {
             "\"balance\": \"momentum\" gives an equation, `angular_momentum` with `about` a quantity"
