@@ -62,17 +62,22 @@ fn balance(
     };
     let reaches = sign(&end, &stage.scene.domains);
     if let Seen::Proved(Sign::Negative | Sign::NotPositive) = reaches {
-        return Err(Refused::new(
-            &stage.name,
-            format!(
-                "`{}` never gets there: its kinetic energy at the end would be {}, which is negative",
-                stage.scene.bodies[body].name,
-                crate::formula::write_plain(&end)
-            ),
-            "end the stage earlier, or give it more energy",
-        ));
+        return Err(never_arrives(stage, body, &end));
     }
     Ok((work, end, reaches))
+}
+
+/// Why a body does not get to the end of a motion at which its kinetic energy would be negative.
+fn never_arrives(stage: &Stage, body: usize, end: &Expr) -> Refused {
+    Refused::new(
+        &stage.name,
+        format!(
+            "`{}` never gets there: its kinetic energy at the end would be {}, which is negative",
+            stage.scene.bodies[body].name,
+            crate::formula::write_plain(end)
+        ),
+        "end the stage earlier, or give it more energy",
+    )
 }
 
 /// What must hold so that a body gets to the end of a motion with this kinetic energy; nothing where that is proved.

@@ -1,0 +1,116 @@
+//! What a body has to do at the beginning so that it can move along its line.
+
+use super::line::Line;
+use super::lumps;
+use crate::answer::calc::{Seen, at_least_zero, is_zero, sign};
+use crate::expr::{Expr, Vector, dot};
+use crate::formula::Sentence;
+use crate::scene::{Slide, Stage};
+use crate::story::{Refused, State};
+
+/// Refuses a body that does not begin to move along its line, or turns where nothing lets it.
+pub(super) fn fits(stage: &Stage, before: &State, slide: &Slide) -> Result<(), Refused> {
+    let speed = dot(&before.velocity[slide.body], &slide.along);
+    for (bodies, along) in lumps(slide) {
+        fits_line(stage, before, slide, &bodies, along, &speed)?;
+    }
+    for p in slide.pulleys() {
+        let zero = |e: &Expr| is_zero(e, &stage.scene.domains) != Some(false);
+        if !before.velocity[p].iter().all(zero) {
+            return Err(Refused::new(
+                &stage.name,
+                format!("the center of `{}` moves", stage.scene.bodies[p].name),
+                "a string runs over pulleys whose centers stay",
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn fits_line(
+    stage: &Stage,
+    before: &State,
+    slide: &Slide,
+    bodies: &[usize],
+    direction: &Vector,
+    speed: &Expr,
+) -> Result<(), Refused> {
+    let domains = &stage.scene.domains;
+    let across = [-&direction[1], direction[0].clone()];
+    let turns = slide.rolling || slide.friction.is_some();
+    for &b in bodies {
+        let body = &stage.scene.bodies[b];
+        let v = &before.velocity[b];
+        let is_alone = b == slide.body && slide.with.is_empty();
+        let may_turn = turns && is_alone && body.shape.radius().is_some();
+        let leaves = is_zero(&dot(v, &across), domains) == Some(false);
+        if leaves || !may_turn && is_zero(&before.spin[b], domains) == Some(false) {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "`{}` does not begin to move along this line without turning",
+                    body.name
+                ),
+                "an impact before it may stop what does not fit",
+            ));
+        }
+        let gap = &dot(v, direction) - speed;
+        if is_zero(&gap, domains) == Some(false) {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "`{}` does not begin to move like `{}`",
+                    body.name, stage.scene.bodies[slide.body].name
+                ),
+                "bodies move along together after an impact in which they stick",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a heavy pulley whose rim does not begin to move with the string.
+pub(super) fn rims(line: &Line<'_>, before: &State) -> Result<(), Refused> {
+    let scene = &line.stage.scene;
+    for (pulley, spin) in line.pulleys() {
+        let body = &scene.bodies[pulley];
+        let gap = &before.spin[pulley] - &(spin * &line.speed);
+        if !body.is_light_pulley() && is_zero(&gap, &scene.domains) == Some(false) {
+            return Err(Refused::new(
+                &line.stage.name,
+                format!(
+                    "the rim of `{}` does not begin to move with the string",
+                    body.name
+                ),
+                "put an impact before it in which the string pulls, or give it a spin that fits",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a speed or distance that is negative; one that may be is assumed not to be.
+pub(super) fn not_negative(
+    stage: &Stage,
+    slide: &Slide,
+    what: &str,
+    size: &Expr,
+    assumptions: &mut Vec<Sentence>,
+) -> Result<(), Refused> {
+    match sign(size, &stage.scene.domains) {
+        Seen::Proved(s) if s.is_not_negative() => {}
+        Seen::Proved(_) | Seen::Negative => {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "`{}` is to move along the line, and its {what} along it, {}, is negative",
+                    stage.scene.bodies[slide.body].name,
+                    crate::formula::write_plain(size)
+                ),
+                "turn the direction round",
+            ));
+        }
+        _ => assumptions.push(at_least_zero(size, &stage.scene.domains)),
+    }
+    Ok(())
+}

@@ -1,0 +1,221 @@
+//! The course of a motion with constant acceleration, from its beginning to its end.
+
+use super::super::{arrival, half, never_arrives};
+use super::line::{Line, proved};
+use crate::algebra::Sign;
+use crate::answer::calc::{Seen, at_least_zero, essential, is_zero, sign};
+use crate::expr::Expr;
+use crate::formula::{Sentence, sentence};
+use crate::scene::SlideEnd;
+use crate::story::{Refused, Step};
+
+/// The course from the beginning to the end.
+pub(super) struct Course {
+    pub time: Option<Expr>,
+    pub distance: Expr,
+    pub speed: Expr,
+    pub spin: Expr,
+}
+
+impl Line<'_> {
+    /// v = v₀ + a t.
+    fn speed_after(&self, t: &Expr) -> Expr {
+        &self.speed + &(&self.acceleration * t)
+    }
+
+    /// ω = ω₀ + α t.
+    fn spin_after(&self, t: &Expr) -> Expr {
+        &self.spin + &(&self.angular * t)
+    }
+
+    /// s = v₀ t + a t²/2.
+    fn way(&self, t: &Expr) -> Expr {
+        &(&self.speed * t) + &half(&(&self.acceleration * &t.powi(2)))
+    }
+
+    /// v² = v₀² + 2 a s.
+    fn square_after(&self, s: &Expr) -> Expr {
+        &self.speed.powi(2) + &(&(&Expr::from(2) * &self.acceleration) * s)
+    }
+
+    /// How the motion goes to its end.
+    pub fn course(
+        &self,
+        steps: &mut Vec<Step>,
+        assumptions: &mut Vec<Sentence>,
+        needs: &mut Vec<Expr>,
+    ) -> Result<Course, Refused> {
+        let (time, distance, speed) = match &self.slide.until {
+            SlideEnd::Distance(s) => {
+                let (time, speed) = self.over(s, assumptions)?;
+                (time, s.clone(), speed)
+            }
+            SlideEnd::Time(t) => {
+                let speed = self.tidied(&self.speed_after(t))?;
+                if self.rubs() && self.round.is_none() {
+                    // Friction stops the body and does not draw it back.
+                    needs.push(speed.clone());
+                }
+                (Some(t.clone()), self.tidied(&self.way(t))?, speed)
+            }
+            SlideEnd::Stops => {
+                let [time, distance] = self.to_rest(steps, assumptions)?;
+                (Some(time), distance, Expr::zero())
+            }
+            SlideEnd::Rolls => {
+                let time = self.to_rolling(steps, assumptions)?;
+                let distance = self.tidied(&self.way(&time))?;
+                let speed = self.tidied(&self.speed_after(&time))?;
+                (Some(time), distance, speed)
+            }
+        };
+        let spin = match (&self.round, &time) {
+            (Some(_), Some(t)) => self.tidied(&self.spin_after(t))?,
+            _ => self.spin.clone(),
+        };
+        if let Some(round) = self.round.as_ref().filter(|_| self.slips())
+            && !matches!(self.slide.until, SlideEnd::Rolls)
+        {
+            let end = &speed + &(&round.arm * &spin);
+            let way = proved(&round.slip, self.domains()).unwrap_or(1);
+            needs.push(self.tidied(&(&Expr::from(way) * &end))?);
+        }
+        Ok(Course {
+            time,
+            distance,
+            speed,
+            spin,
+        })
+    }
+
+    /// Time and velocity at the end of a distance; no time where it rests all along.
+    fn over(
+        &self,
+        s: &Expr,
+        assumptions: &mut Vec<Sentence>,
+    ) -> Result<(Option<Expr>, Expr), Refused> {
+        let a = &self.acceleration;
+        let still = is_zero(a, self.domains()) == Some(true);
+        let speed = match still {
+            true => self.speed.clone(),
+            false => self.arrival(s, assumptions)?,
+        };
+        let rests = still && is_zero(&speed, self.domains()) == Some(true);
+        if rests && is_zero(s, self.domains()) == Some(false) {
+            return Err(self.refused("it is at rest, and nothing moves it", ""));
+        }
+        let time = match still {
+            true => s / &speed,
+            false => &(&speed - &self.speed) / a,
+        };
+        let time = (!rests).then(|| self.tidied(&time)).transpose()?;
+        Ok((time, speed))
+    }
+
+    /// Time and distance until it stops.
+    fn to_rest(
+        &self,
+        steps: &mut Vec<Step>,
+        assumptions: &mut Vec<Sentence>,
+    ) -> Result<[Expr; 2], Refused> {
+        let slowing = -&self.acceleration;
+        match sign(&slowing, self.domains()) {
+            Seen::Proved(Sign::Positive) => {}
+            Seen::Proved(_) | Seen::Negative => {
+                return Err(self.refused("nothing slows it down", "add \"friction\": \"mu\""));
+            }
+            _ => assumptions.push(sentence![
+                Sentence::positive(&essential(&slowing, self.domains())),
+                ", so that `",
+                self.name(),
+                "` slows down"
+            ]),
+        }
+        let raw = &self.speed / &slowing;
+        let time = self.tidied(&raw)?;
+        let why = "the time until it stops";
+        steps.push(Step::new("t", &raw, &time, why));
+        let way = &self.speed.powi(2) / &(&Expr::from(2) * &slowing);
+        Ok([time, self.tidied(&way)?])
+    }
+
+    /// The time until it rolls.
+    fn to_rolling(
+        &self,
+        steps: &mut Vec<Step>,
+        assumptions: &mut Vec<Sentence>,
+    ) -> Result<Expr, Refused> {
+        let Some(round) = &self.round else {
+            return Err(self.refused("it does not roll", "a disk, ring or sphere does"));
+        };
+        let gain = &self.acceleration + &(&round.arm * &self.angular);
+        let raw = -(&round.slip / &gain);
+        let time = self.tidied(&raw)?;
+        match sign(&time, self.domains()) {
+            Seen::Proved(s) if s.is_not_negative() => {}
+            Seen::Proved(_) | Seen::Negative => {
+                return Err(self.refused(
+                    "its slip grows, so that it never rolls",
+                    "the surface is too steep or too smooth",
+                ));
+            }
+            _ => assumptions.push(sentence![
+                at_least_zero(&time, self.domains()),
+                ", so that `",
+                self.name(),
+                "` comes to roll"
+            ]),
+        }
+        let why = "the time until its lowest point no longer slips";
+        steps.push(Step::new("t", &raw, &time, why));
+        Ok(time)
+    }
+
+    /// Velocity along the line after a distance.
+    fn arrival(&self, s: &Expr, assumptions: &mut Vec<Sentence>) -> Result<Expr, Refused> {
+        let square = self.tidied(&self.square_after(s))?;
+        let seen = sign(&square, self.domains());
+        if let Seen::Proved(Sign::Negative | Sign::NotPositive) = seen {
+            let end = self.tidied(&half(&(&self.mass * &square)))?;
+            return Err(never_arrives(self.stage, self.slide.body, &end));
+        }
+        assumptions.extend(arrival(self.stage, self.slide.body, &square, seen));
+        self.tidied(&square.sqrt())
+    }
+
+    /// Time, distance, velocity and spin at the end.
+    pub fn told(&self, course: &Course, steps: &mut Vec<Step>) {
+        let Some(t) = &course.time else { return };
+        if !matches!(self.slide.until, SlideEnd::Distance(_)) {
+            let raw = match &self.slide.until {
+                SlideEnd::Stops => -(&self.speed.powi(2) / &(&Expr::from(2) * &self.acceleration)),
+                _ => self.way(t),
+            };
+            steps.push(Step::new(
+                "s",
+                &raw,
+                &course.distance,
+                "the distance covered",
+            ));
+        }
+        if !matches!(self.slide.until, SlideEnd::Stops) {
+            let raw = match &self.slide.until {
+                SlideEnd::Distance(s) => self.square_after(s).sqrt(),
+                _ => self.speed_after(t),
+            };
+            let why = "the velocity along the line at the end";
+            steps.push(Step::new("v", &raw, &course.speed, why));
+        }
+        if self.round.is_some() {
+            let raw = match &self.round {
+                // Rolling, the center is as fast as the rim.
+                Some(round) if !self.slips() || matches!(self.slide.until, SlideEnd::Rolls) => {
+                    -(&course.speed / &round.arm)
+                }
+                _ => self.spin_after(t),
+            };
+            let why = "the angular velocity at the end, counterclockwise";
+            steps.push(Step::new("omega", &raw, &course.spin, why));
+        }
+    }
+}

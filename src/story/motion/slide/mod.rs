@@ -1,0 +1,172 @@
+//! Motion of a body along a straight line under constant forces: on a smooth guide, on a rough surface, or rolling.
+//!
+//! The acceleration is constant, so that v² − v₀² = 2 a s and v − v₀ = a t. A round body on a rough surface slips by
+//! v + R ω at its lowest point, counted along a line to the right; friction acts against the slip until there is none.
+//!
+//! What the body has to do at the beginning is in `begins`, the forces and the acceleration in `line`, the way to the end in
+//! `course`.
+
+mod begins;
+mod course;
+mod line;
+
+use super::{half, meanwhile};
+use crate::algebra::Sign;
+use crate::answer::calc::{Seen, at_least_zero, sign};
+use crate::expr::{Expr, Vector};
+use crate::formula::{Sentence, sentence};
+use crate::scene::{Slide, SlideEnd, Stage};
+use crate::story::{Refused, StageTold, State};
+use course::Course;
+use line::Line;
+
+/// Motion along a line; `is_driven` where its acceleration or the pull of a string is asked.
+pub(in crate::story) fn slide(
+    stage: &Stage,
+    before: State,
+    slide: &Slide,
+    is_driven: bool,
+) -> Result<StageTold, Refused> {
+    let mut assumptions = Vec::new();
+    let mut needs = Vec::new();
+    begins::fits(stage, &before, slide)?;
+    let line = Line::of(stage, &before, slide, &mut needs)?;
+    begins::not_negative(stage, slide, "speed", &line.speed, &mut assumptions)?;
+    if let SlideEnd::Distance(distance) = &slide.until {
+        begins::not_negative(stage, slide, "distance", distance, &mut assumptions)?;
+    }
+    let mut steps = line.steps();
+    let course = line.course(&mut steps, &mut assumptions, &mut needs)?;
+    if !matches!(slide.until, SlideEnd::Distance(_)) || line.round.is_some() || is_driven {
+        line.told(&course, &mut steps);
+    } else {
+        steps.clear();
+    }
+    assumptions.extend(line.held(&needs)?);
+    begins::rims(&line, &before)?;
+    if let ([string], true) = (line.strings.as_slice(), is_driven) {
+        steps.extend(string.steps(stage, &line.acceleration)?);
+    }
+    let tensions = line.tensions(&mut needs, &mut assumptions)?;
+    let mut after = line.moved(&before, &course)?;
+    assumptions.extend(meanwhile::others(
+        stage,
+        &before,
+        &mut after,
+        course.time.as_ref(),
+    ));
+    let mut out = StageTold::new(stage, before, after);
+    out.kept = vec![line.energy_kept()];
+    out.energy = Some([
+        line.energy(&line.speed, &line.spin)?,
+        line.energy(&course.speed, &course.spin)?,
+    ]);
+    out.work = line.work(&course);
+    out.time = course.time;
+    out.way = Some(course.distance);
+    out.steps = steps;
+    out.acceleration = Some(line.acceleration.clone());
+    out.tensions = tensions;
+    out.assumptions = assumptions;
+    needs.push(line.speed.clone());
+    if let SlideEnd::Distance(_) = &slide.until {
+        needs.push(line.tidied(&course.speed.powi(2))?);
+    }
+    out.needs = needs;
+    Ok(out)
+}
+
+/// The bodies that move along one line each, with their directions.
+fn lumps(slide: &Slide) -> Vec<(Vec<usize>, &Vector)> {
+    let strung = slide.strings.iter().map(|s| (s.to.clone(), &s.along));
+    let own = (slide.company(), &slide.along);
+    std::iter::once(own).chain(strung).collect()
+}
+
+impl Line<'_> {
+    /// What is assumed so that the motion goes on as it begins; refused where that cannot be.
+    fn held(&self, needs: &[Expr]) -> Result<Vec<Sentence>, Refused> {
+        let domains = self.domains();
+        let mut assumed = Vec::new();
+        for need in needs {
+            let (name, rolls) = (self.name(), !self.slips());
+            match sign(need, domains) {
+                Seen::Proved(s) if s.is_not_negative() => {}
+                Seen::Proved(Sign::Negative) => {
+                    let (why, hint) = match (&self.round, rolls) {
+                        (Some(_), true) => ("it slips", "the surface is too smooth for it to roll"),
+                        (Some(_), false) => (
+                            "it rolls before the stage ends",
+                            "end the stage with \"until\": \"rolls\", and let it roll in the next one",
+                        ),
+                        (None, _) => (
+                            "it stops before the stage ends",
+                            "end the stage with \"until\": \"stops\"",
+                        ),
+                    };
+                    return Err(self.refused(why, hint));
+                }
+                _ => assumed.push(sentence![
+                    at_least_zero(need, domains),
+                    ", so that `",
+                    name,
+                    match (&self.round, rolls) {
+                        (Some(_), true) => "` does not slip",
+                        (Some(_), false) => "` slips to the end of the stage",
+                        (None, _) => "` does not stop before",
+                    }
+                ]),
+            }
+        }
+        Ok(assumed)
+    }
+
+    /// The pull of the strings on each body.
+    fn tensions(
+        &self,
+        needs: &mut Vec<Expr>,
+        assumptions: &mut Vec<Sentence>,
+    ) -> Result<Vec<(usize, Expr)>, Refused> {
+        let mut tensions = Vec::new();
+        for string in &self.strings {
+            let pulls = string.taut(self.stage, &self.acceleration, needs, assumptions)?;
+            let own = self.slide.company().into_iter().map(|b| (b, pulls.last()));
+            // Of several strings at one body none is meant more than another.
+            let own = own.filter(|_| self.strings.len() == 1);
+            let others = string.string.to.iter().map(|b| (*b, pulls.first()));
+            tensions.extend(
+                own.chain(others)
+                    .filter_map(|(b, pull)| Some((b, pull?.clone()))),
+            );
+        }
+        Ok(tensions)
+    }
+
+    /// Where all that moves is at the end, and how it moves.
+    fn moved(&self, before: &State, course: &Course) -> Result<State, Refused> {
+        let mut after = before.clone();
+        for (bodies, along) in lumps(self.slide) {
+            for (b, k) in bodies.iter().flat_map(|b| [(*b, 0), (*b, 1)]) {
+                after.center[b][k] = &after.center[b][k] + &(&along[k] * &course.distance);
+                after.velocity[b][k] = self.tidied(&(&course.speed * &along[k]))?;
+            }
+        }
+        for (pulley, spin) in self.pulleys() {
+            after.spin[pulley] = self.tidied(&(spin * &course.speed))?;
+            let turned = &before.angle[pulley] + &(spin * &course.distance);
+            after.angle[pulley] = self.tidied(&turned)?;
+        }
+        if self.round.is_some() {
+            let b = self.slide.body;
+            after.spin[b] = course.spin.clone();
+            after.angle[b] = match &course.time {
+                Some(t) => {
+                    let turned = half(&(&(&self.spin + &course.spin) * t));
+                    self.tidied(&(&before.angle[b] + &turned))?
+                }
+                None => before.angle[b].clone(),
+            };
+        }
+        Ok(after)
+    }
+}
