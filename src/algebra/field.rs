@@ -550,9 +550,7 @@ impl Field {
 
 /// Whether a function is called somewhere inside.
 fn has_call(e: &Expr) -> bool {
-    let mut found = false;
-    e.walk(&mut |part| found |= matches!(part.node(), Node::Call(..)));
-    found
+    e.parts().any(|part| matches!(part.node(), Node::Call(..)))
 }
 
 /// Symbols and angles met in expressions.

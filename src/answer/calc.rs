@@ -198,22 +198,17 @@ fn squared(e: &Expr, domains: &Domains) -> Option<Expr> {
     let Node::Sum(terms) = e.node() else {
         return None;
     };
-    let roots = |e: &Expr, is: fn(&Expr) -> bool| {
-        let mut found = false;
-        e.walk(&mut |part| {
-            if let Node::Power(inside, k) = part.node() {
-                found |= *k == Expr::ratio(1, 2) && is(inside);
-            }
-        });
-        found
-    };
-    let has_root = |e: &&Expr| roots(e, |_| true);
+    fn under_root(part: &Expr) -> Option<&Expr> {
+        match part.node() {
+            Node::Power(inside, k) if *k == Expr::ratio(1, 2) => Some(inside),
+            _ => None,
+        }
+    }
+    let is_sum = |e: &Expr| matches!(e.node(), Node::Sum(_));
+    let has_root = |e: &&Expr| e.parts().any(|part| under_root(part).is_some());
     let has_sum = |e: &Expr| {
-        roots(e, |inside| {
-            let mut found = false;
-            inside.walk(&mut |part| found |= matches!(part.node(), Node::Sum(_)));
-            found
-        })
+        let mut inside = e.parts().filter_map(under_root);
+        inside.any(|inside| inside.parts().any(is_sum))
     };
     let (rooted, plain): (Vec<&Expr>, Vec<&Expr>) = terms.iter().partition(has_root);
     let ([root], plain) = (rooted.as_slice(), Expr::sum(plain.into_iter().cloned())) else {
@@ -424,15 +419,17 @@ pub fn within(domain: &Domain, symbol: &Symbol) -> Sentence {
 /// proved.
 pub fn real(value: &Expr, domains: &Domains) -> Vec<Sentence> {
     let mut gaps = Vec::new();
-    value.walk(&mut |part| match part.node() {
-        Node::Power(base, k) if k.as_number().is_some_and(|k| !k.is_integer()) => {
-            gaps.push(base.clone());
+    for part in value.parts() {
+        match part.node() {
+            Node::Power(base, k) if k.as_number().is_some_and(|k| !k.is_integer()) => {
+                gaps.push(base.clone());
+            }
+            Node::Call(Function::Asin | Function::Acos, x) => {
+                gaps.extend([Expr::one() - x.clone(), Expr::one() + x.clone()]);
+            }
+            _ => {}
         }
-        Node::Call(Function::Asin | Function::Acos, x) => {
-            gaps.extend([Expr::one() - x.clone(), Expr::one() + x.clone()]);
-        }
-        _ => {}
-    });
+    }
     gaps.retain(|gap| !matches!(sign(gap, domains), Seen::Proved(s) if s.is_not_negative()));
     let mut out: Vec<Sentence> = Vec::new();
     for gap in gaps {
@@ -465,8 +462,7 @@ fn take(
     given.extend(real(&value, domains));
     for (limit, is_low) in [(&domain.low, true), (&domain.high, false)] {
         let Some(limit) = limit else { continue };
-        let end = Expr::from(limit.value.clone());
-        let end = if limit.of_pi { end * Expr::pi() } else { end };
+        let end = limit.expr();
         let gap = if is_low { &value - &end } else { &end - &value };
         let seen = sign(&gap, domains);
         let outside = match seen {

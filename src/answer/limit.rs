@@ -197,8 +197,8 @@ fn outside(to: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence>
         ]);
     }
     let domain = domains.symbols.get(parameter)?;
-    let below = domain.low.as_ref().map(|l| to - &end(l));
-    let above = domain.high.as_ref().map(|h| &end(h) - to);
+    let below = domain.low.as_ref().map(|l| to - &l.expr());
+    let above = domain.high.as_ref().map(|h| &h.expr() - to);
     let out = below
         .iter()
         .chain(&above)
@@ -240,15 +240,6 @@ fn bounded(parameter: &Symbol, domains: &Domains) -> Option<Sentence> {
     ])
 }
 
-fn end(limit: &crate::domain::Limit) -> Expr {
-    let value = Expr::from(limit.value.clone());
-    if limit.of_pi {
-        value * Expr::pi()
-    } else {
-        value
-    }
-}
-
 /// The sides within the domain.
 fn side(parameter: &Symbol, to: &Expr, domains: &Domains) -> Side {
     let domain = domains
@@ -259,7 +250,7 @@ fn side(parameter: &Symbol, to: &Expr, domains: &Domains) -> Side {
     let is_end = |limit: &Option<crate::domain::Limit>| {
         limit
             .as_ref()
-            .is_some_and(|l| is_zero(&(to - &end(l)), domains) == Some(true))
+            .is_some_and(|l| is_zero(&(to - &l.expr()), domains) == Some(true))
     };
     if is_end(&domain.low) {
         Side::Above

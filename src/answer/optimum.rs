@@ -295,7 +295,7 @@ impl Search<'_> {
 
     fn ends(&self) -> Vec<Expr> {
         let ends = [&self.domain.low, &self.domain.high];
-        ends.into_iter().flatten().map(value_of).collect()
+        ends.into_iter().flatten().map(Limit::expr).collect()
     }
 
     /// Where the derivative vanishes.
@@ -334,7 +334,7 @@ impl Search<'_> {
             &self.domain.low
         };
         let related = related_end(p, grows, self.domains).map_err(|why| self.refused(why))?;
-        let end = related.or_else(|| limit.as_ref().map(|end| (value_of(end), end.open)));
+        let end = related.or_else(|| limit.as_ref().map(|end| (end.expr(), end.open)));
         let Some((value, open)) = end else {
             return Ok(None);
         };
@@ -399,14 +399,6 @@ impl Search<'_> {
     }
 }
 
-fn value_of(end: &Limit) -> Expr {
-    let value = Expr::from(end.value.clone());
-    match end.of_pi {
-        true => value * Expr::pi(),
-        false => value,
-    }
-}
-
 /// The end that a relation sets to a parameter on the side to which a value grows, and whether it is excluded; an error where
 /// there are several or the relation does not give the parameter itself.
 fn related_end(p: &Symbol, grows: bool, domains: &Domains) -> Result<Option<(Expr, bool)>, String> {
@@ -441,23 +433,16 @@ fn related_end(p: &Symbol, grows: bool, domains: &Domains) -> Result<Option<(Exp
 
 /// A divisor with the parameter in it that is not known to keep one sign.
 fn pole(f: &Expr, p: &Symbol, domains: &Domains) -> Option<Expr> {
-    let mut found = None;
-    f.walk(&mut |part| {
-        if let Node::Power(base, k) = part.node()
-            && k.as_number().is_some_and(num_traits::Signed::is_negative)
-            && base.symbols().contains(p)
-        {
-            let s = sign(base, domains);
-            let keeps = matches!(
-                s,
-                Seen::Positive | Seen::Negative | Seen::Proved(Sign::Positive | Sign::Negative)
-            );
-            if !keeps {
-                found = Some(base.clone());
-            }
-        }
+    let negative = |k: &Expr| k.as_number().is_some_and(num_traits::Signed::is_negative);
+    let mut divisors = f.parts().filter_map(|part| match part.node() {
+        Node::Power(base, k) if negative(k) && base.symbols().contains(p) => Some(base),
+        _ => None,
     });
-    found
+    let changes = |base: &&Expr| {
+        let seen = sign(base, domains);
+        !seen.is_positive() && !seen.is_negative()
+    };
+    divisors.find(changes).cloned()
 }
 
 /// The exponent k for which the formula depends on p·qᵏ alone.

@@ -249,14 +249,7 @@ pub(super) fn beside(
     domains: &Domains,
 ) -> Seen {
     let mut domains = domains.clone();
-    let end = end.map(|end| {
-        let number = Expr::from(end.value.clone());
-        if end.of_pi {
-            number * Expr::pi()
-        } else {
-            number
-        }
-    });
+    let end = end.map(Limit::expr);
     // A relation counts where it leaves less than the domain.
     let stated = stated(parameter, way, &domains).filter(|stated| {
         let less =

@@ -2,7 +2,6 @@
 
 use crate::domain::{Domain, Limit};
 use crate::expr::Point;
-use crate::expr::number::to_f64;
 use crate::scene::Scene;
 
 /// Values in general position inside the domain; the golden ratio keeps them apart.
@@ -44,8 +43,12 @@ fn at_fractions(scene: &Scene, next: &mut impl FnMut() -> f64) -> Point<f64> {
 }
 
 fn within(domain: Option<&Domain>, fraction: f64) -> f64 {
-    let number = |l: &Limit| to_f64(&l.value) * if l.of_pi { std::f64::consts::PI } else { 1.0 };
-    match domain.map(|d| (d.low.as_ref().map(number), d.high.as_ref().map(number))) {
+    match domain.map(|d| {
+        (
+            d.low.as_ref().map(Limit::approximate),
+            d.high.as_ref().map(Limit::approximate),
+        )
+    }) {
         None => 0.6 + fraction,
         Some((Some(low), Some(high))) => low + fraction * (high - low),
         Some((Some(low), None)) => low + 0.6 + fraction,

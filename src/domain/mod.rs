@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 use num_traits::{Signed, Zero};
 
-use crate::expr::{Int, Rational, Symbol, ratio};
+use crate::expr::{Expr, Int, Rational, Symbol, ratio};
 
 pub use coordinate::Coordinate;
 pub use relation::Relation;
@@ -92,6 +92,16 @@ impl Limit {
             (Ordering::Less | Ordering::Equal, _) => Some(Ordering::Less),
             (_, Ordering::Greater | Ordering::Equal) => Some(Ordering::Greater),
             _ => None,
+        }
+    }
+
+    /// The end as an expression.
+    pub fn expr(&self) -> Expr {
+        let value = Expr::from(self.value.clone());
+        if self.of_pi {
+            value * Expr::pi()
+        } else {
+            value
         }
     }
 

@@ -26,12 +26,9 @@ pub(super) fn prove(a: &Expr, b: &Expr, domains: &Domains) -> Option<Proof> {
 }
 
 fn has_arc(e: &Expr) -> bool {
-    let mut found = false;
-    e.walk(&mut |part| {
-        let arcs = [Function::Asin, Function::Acos, Function::Atan];
-        found |= matches!(part.node(), Node::Call(f, _) if arcs.contains(f));
-    });
-    found
+    use Function::{Acos, Asin, Atan};
+    e.parts()
+        .any(|part| matches!(part.node(), Node::Call(Asin | Acos | Atan, _)))
 }
 
 /// Whether a difference is zero because it is a whole number of turns and less than one.

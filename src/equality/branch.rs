@@ -60,15 +60,13 @@ fn on_half(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles) -> Option<Expr>
 
 /// One |f| or √(f²) replaced by f or −f throughout.
 fn on_sign(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles) -> Option<Expr> {
-    let mut inner = Vec::new();
-    [a, b].iter().for_each(|e| {
-        e.walk(&mut |part| {
-            if let Some(f) = folded(part).filter(|f| !inner.contains(*f)) {
-                inner.push(f.clone());
-            }
-        })
-    });
-    for f in inner.iter().take(BRANCHES) {
+    let mut inner: Vec<&Expr> = Vec::new();
+    for f in [a, b].into_iter().flat_map(Expr::parts).filter_map(folded) {
+        if !inner.contains(&f) {
+            inner.push(f);
+        }
+    }
+    for f in inner.into_iter().take(BRANCHES) {
         for branch in [f.clone(), -f] {
             if proved(&unfold(a, f, &branch), &unfold(b, f, &branch), domains)
                 && occurs(&branch, domains, roles)

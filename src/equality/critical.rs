@@ -41,8 +41,8 @@ pub(super) fn arguments(formulas: &[&Expr]) -> Vec<(Expr, bool)> {
             out.push((e, needed));
         }
     };
-    for formula in formulas {
-        formula.walk(&mut |part| match part.node() {
+    for part in formulas.iter().flat_map(|f| f.parts()) {
+        match part.node() {
             Node::Call(Function::Abs, x) => note(x.clone(), false),
             Node::Call(Function::Ln, x) => note(x.clone(), true),
             Node::Call(Function::Asin | Function::Acos, x) => {
@@ -60,7 +60,7 @@ pub(super) fn arguments(formulas: &[&Expr]) -> Vec<(Expr, bool)> {
                 _ => note(base.clone(), true),
             },
             _ => {}
-        });
+        }
     }
     out
 }
@@ -223,12 +223,11 @@ pub(super) fn no_value(e: &Expr, domains: &Domains) -> bool {
         let x = field.element(x).ok()?;
         field.sign(&x)
     };
-    let mut never = false;
-    e.walk(&mut |part| {
-        if let Node::Call(Function::Ln, x) = part.node() {
-            never =
-                never || sign(x).is_some_and(|s| !matches!(s, Sign::Positive | Sign::NotNegative));
+    let never = e.parts().any(|part| match part.node() {
+        Node::Call(Function::Ln, x) => {
+            sign(x).is_some_and(|s| !matches!(s, Sign::Positive | Sign::NotNegative))
         }
+        _ => false,
     });
     let needed = arguments(&[e]).into_iter();
     let needed: Vec<Expr> = needed

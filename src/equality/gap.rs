@@ -91,13 +91,13 @@ fn poles(a: &Expr, b: &Expr, domains: &Domains) -> Vec<Expr> {
 /// What a formula divides by, positive symbols left out.
 fn divisors(e: &Expr, domains: &Domains) -> Vec<Expr> {
     let mut out: Vec<Expr> = Vec::new();
-    e.walk(&mut |part| {
+    for part in e.parts() {
         let base = match part.node() {
             Node::Power(base, k) if k.as_number().is_some_and(num_traits::Signed::is_negative) => {
                 base.clone()
             }
             Node::Call(Function::Tan, x) => x.cos(),
-            _ => return,
+            _ => continue,
         };
         let positive = base.as_symbol().is_some_and(|name| {
             let low = domains.symbols.get(name).and_then(|d| d.low.as_ref());
@@ -106,6 +106,6 @@ fn divisors(e: &Expr, domains: &Domains) -> Vec<Expr> {
         if !positive && base.as_number().is_none() && !out.contains(&base) {
             out.push(base);
         }
-    });
+    }
     out
 }

@@ -153,22 +153,14 @@ impl Expr {
 
     /// Whether the expression has a value at every real point of its symbols: no quotient, root, logarithm and the like.
     fn is_total(&self) -> bool {
-        let mut total = true;
-        self.walk(&mut |e| match e.node() {
-            Node::Power(_, exponent) => {
-                total &= exponent
-                    .as_number()
-                    .is_some_and(|k| k.is_integer() && k.is_positive());
-            }
-            Node::Call(f, _) => {
-                total &= !matches!(
-                    f,
-                    Function::Tan | Function::Asin | Function::Acos | Function::Ln
-                );
-            }
-            _ => {}
-        });
-        total
+        use Function::{Acos, Asin, Ln, Tan};
+        self.parts().all(|e| match e.node() {
+            Node::Power(_, exponent) => exponent
+                .as_number()
+                .is_some_and(|k| k.is_integer() && k.is_positive()),
+            Node::Call(f, _) => !matches!(f, Tan | Asin | Acos | Ln),
+            _ => true,
+        })
     }
 }
 

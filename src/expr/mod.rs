@@ -153,27 +153,35 @@ impl Expr {
 
     /// Whether a root occurs, or a power whose exponent is no number.
     pub fn has_root(&self) -> bool {
-        let mut found = false;
-        self.walk(&mut |part| {
-            if let Node::Power(_, exponent) = part.node() {
-                found |= exponent.as_number().is_none_or(|k| !k.is_integer());
-            }
-        });
-        found
+        self.parts().any(|part| match part.node() {
+            Node::Power(_, exponent) => exponent.as_number().is_none_or(|k| !k.is_integer()),
+            _ => false,
+        })
     }
 
-    /// Calls `visit` for this expression and everything inside it, outer before inner.
-    pub fn walk(&self, visit: &mut impl FnMut(&Expr)) {
-        visit(self);
-        match self.node() {
-            Node::Number(_) | Node::Symbol(_) => {}
-            Node::Sum(parts) | Node::Product(parts) => parts.iter().for_each(|p| p.walk(visit)),
-            Node::Power(base, exponent) => {
-                base.walk(visit);
-                exponent.walk(visit);
+    /// Whether a power occurs whose exponent is no number or beyond 64 either way: a tower of powers would be computed to the
+    /// last digit.
+    pub fn has_high_power(&self) -> bool {
+        let low = |k: &Rational| k.numer().as_i64().is_some_and(|k| k.abs() <= 64);
+        self.parts().any(|part| match part.node() {
+            Node::Power(_, k) => !k.as_number().is_some_and(low),
+            _ => false,
+        })
+    }
+
+    /// This expression and everything inside it, outer before inner, left before right.
+    pub fn parts(&self) -> impl Iterator<Item = &Expr> {
+        let (mut next, mut later) = (Some(self), Vec::new());
+        std::iter::from_fn(move || {
+            let part = next.take().or_else(|| later.pop())?;
+            match part.node() {
+                Node::Number(_) | Node::Symbol(_) => {}
+                Node::Sum(parts) | Node::Product(parts) => later.extend(parts.iter().rev()),
+                Node::Power(base, exponent) => later.extend([exponent, base]),
+                Node::Call(_, argument) => next = Some(argument),
             }
-            Node::Call(_, argument) => argument.walk(visit),
-        }
+            Some(part)
+        })
     }
 
     /// Rebuilds the expression with every direct part replaced by `f` of it.
@@ -205,14 +213,11 @@ impl Expr {
     /// The names of all symbols, `pi` not among them.
     pub fn symbols(&self) -> BTreeSet<Symbol> {
         let mut names = BTreeSet::new();
-        self.walk(&mut |e| {
-            if let Some(name) = e.as_symbol()
-                && &**name != "pi"
-                && !names.contains(name)
-            {
+        for name in self.parts().filter_map(Expr::as_symbol) {
+            if &**name != "pi" && !names.contains(name) {
                 names.insert(name.clone());
             }
-        });
+        }
         names
     }
 
@@ -229,9 +234,7 @@ impl Expr {
 
     /// Number of nodes; the measure of length that limits and tie-breaks use.
     pub fn size(&self) -> usize {
-        let mut count = 0;
-        self.walk(&mut |_| count += 1);
-        count
+        self.parts().count()
     }
 
     /// Replaces symbols by expressions, all at once.

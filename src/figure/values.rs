@@ -6,8 +6,7 @@
 use std::f64::consts::PI;
 
 use crate::dimension::{self, Dimension};
-use crate::domain::{Domain, Limit};
-use crate::expr::number::to_f64;
+use crate::domain::Domain;
 use crate::expr::{Expr, Point, Symbol, Vector};
 use crate::scene::{Body, Parameter, Scene, Shape};
 
@@ -196,21 +195,19 @@ fn choices(scene: &Scene, parameter: &Parameter, earlier: usize) -> Vec<f64> {
     }
 }
 
-fn end(limit: &Limit) -> f64 {
-    to_f64(&limit.value) * if limit.of_pi { PI } else { 1.0 }
-}
-
 /// Inside, and not so near an end that nothing could be seen.
 fn lies_in(value: f64, domain: &Domain) -> bool {
-    domain.low.as_ref().is_none_or(|l| value > end(l))
-        && domain.high.as_ref().is_none_or(|h| value < end(h))
+    domain.low.as_ref().is_none_or(|l| value > l.approximate())
+        && domain.high.as_ref().is_none_or(|h| value < h.approximate())
 }
 
 fn middle(domain: &Domain) -> f64 {
     match (&domain.low, &domain.high) {
-        (Some(low), Some(high)) => end(low) + 0.4 * (end(high) - end(low)),
-        (Some(low), None) => end(low) + 1.0,
-        (None, Some(high)) => end(high) - 1.0,
+        (Some(low), Some(high)) => {
+            low.approximate() + 0.4 * (high.approximate() - low.approximate())
+        }
+        (Some(low), None) => low.approximate() + 1.0,
+        (None, Some(high)) => high.approximate() - 1.0,
         (None, None) => 1.0,
     }
 }

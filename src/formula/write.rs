@@ -398,17 +398,13 @@ fn leading(e: &Expr) -> &Expr {
 
 /// Whether a bracket around it should grow: a fraction or a root stands inside.
 fn is_tall(e: &Expr) -> bool {
-    let mut tall = false;
-    e.walk(&mut |part| match part.node() {
-        Node::Number(value) => tall |= !value.is_integer(),
-        Node::Power(_, exponent) => {
-            tall |= exponent
-                .as_number()
-                .is_none_or(|k| !k.is_integer() || k.is_negative())
-        }
-        _ => {}
-    });
-    tall
+    e.parts().any(|part| match part.node() {
+        Node::Number(value) => !value.is_integer(),
+        Node::Power(_, exponent) => exponent
+            .as_number()
+            .is_none_or(|k| !k.is_integer() || k.is_negative()),
+        _ => false,
+    })
 }
 
 fn superscript(digits: &str) -> String {
@@ -422,9 +418,8 @@ fn superscript(digits: &str) -> String {
 
 /// Whether an absolute value stands inside.
 fn has_bars(e: &Expr) -> bool {
-    let mut found = false;
-    e.walk(&mut |part| found |= matches!(part.node(), Node::Call(Function::Abs, _)));
-    found
+    e.parts()
+        .any(|part| matches!(part.node(), Node::Call(Function::Abs, _)))
 }
 
 pub(super) fn latex_function(function: Function) -> &'static str {

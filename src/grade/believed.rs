@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use super::Diagnosis;
 use super::belief::{BELIEFS, Belief, Slip};
 use crate::algebra::Field;
-use crate::expr::{Expr, Node, Point, Rational, Symbol};
+use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::numeric;
 use crate::scene::{Ask, Scene};
 use others::other_quantities;
@@ -395,15 +395,7 @@ impl Trials {
 
 /// A value in fractions, where no power is so high that it would be long.
 fn bounded(e: &Expr, point: &Point<Rational>) -> Option<Rational> {
-    let mut tame = true;
-    e.walk(&mut |part| {
-        if let Node::Power(_, k) = part.node() {
-            tame &= k
-                .as_number()
-                .is_some_and(|k| k.numer().as_i64().is_some_and(|k| k.abs() <= 64));
-        }
-    });
-    tame.then(|| e.evaluate(point)).flatten()
+    (!e.has_high_power()).then(|| e.evaluate(point)).flatten()
 }
 
 /// Values of the parameters as expressions, for answers in numbers.

@@ -23,7 +23,7 @@ pub(super) fn power_of_function(content: &Content) -> Option<Content> {
         lifted(e).unwrap_or_else(|| e.map_parts(lift))
     }
     let mut occurs = false;
-    content.each(&mut |e| e.walk(&mut |part| occurs |= lifted(part).is_some()));
+    content.each(&mut |e| occurs |= e.parts().any(|part| lifted(part).is_some()));
     if !occurs {
         return None;
     }
@@ -87,9 +87,8 @@ pub(super) fn euler(
     }
     let mut logarithm = false;
     for content in [expected, answer] {
-        content.each(&mut |e| {
-            e.walk(&mut |part| logarithm |= matches!(part.node(), Node::Call(Function::Ln, _)));
-        });
+        let is_ln = |part: &Expr| matches!(part.node(), Node::Call(Function::Ln, _));
+        content.each(&mut |e| logarithm |= e.parts().any(is_ln));
     }
     let mut counts = occurs(expected);
     let mut note = |part: &Expr| {
@@ -100,7 +99,7 @@ pub(super) fn euler(
             counts &= is_count(k) && (!logarithm || k.symbols().iter().any(counter));
         }
     };
-    expected.each(&mut |e| e.walk(&mut note));
+    expected.each(&mut |e| e.parts().for_each(&mut note));
     if !counts {
         *finding = found;
         finding

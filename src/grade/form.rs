@@ -147,12 +147,10 @@ fn repeats(e: &Expr) -> bool {
             .enumerate()
             .any(|(i, p)| parts[..i].contains(p))
     };
-    let mut found = false;
-    e.walk(&mut |part| match part.node() {
-        Node::Sum(parts) | Node::Product(parts) => found |= twice(parts),
-        _ => {}
-    });
-    found
+    e.parts().any(|part| match part.node() {
+        Node::Sum(parts) | Node::Product(parts) => twice(parts),
+        _ => false,
+    })
 }
 
 /// Whether a fraction of two whole numbers can be reduced.

@@ -9,7 +9,7 @@ use super::fault::{Fault, Span};
 use super::record::{Formula, Pair, Text};
 use crate::dimension::{self, Dimension};
 use crate::expr::number::to_f64;
-use crate::expr::{Expr, Node, Symbol, Vector};
+use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::{self, Content, Relation};
 
 /// What a field holds: its name, dimension and a remark that helps when the dimension is wrong.
@@ -256,11 +256,6 @@ impl Symbols {
 
 /// Whether every number in the expression is within the range of doubles.
 fn is_finite(e: &Expr) -> bool {
-    let mut finite = true;
-    e.walk(&mut |part| {
-        if let Node::Number(value) = part.node() {
-            finite &= to_f64(value).is_finite();
-        }
-    });
-    finite
+    let mut numbers = e.parts().filter_map(Expr::as_number);
+    numbers.all(|value| to_f64(value).is_finite())
 }

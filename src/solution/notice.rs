@@ -334,12 +334,7 @@ impl Writer<'_> {
             return out;
         };
         for limit in [&domain.low, &domain.high].into_iter().flatten() {
-            let value = Expr::from(limit.value.clone());
-            let value = if limit.of_pi {
-                value * Expr::pi()
-            } else {
-                value
-            };
+            let value = limit.expr();
             if !limit.open {
                 out.push((value, To::Value));
             }

@@ -301,18 +301,14 @@ impl Writer<'_> {
             if in_pair || positive || (domain.low.is_none() && domain.high.is_none()) {
                 continue;
             }
-            let end = |l: &crate::domain::Limit| {
-                let value = Expr::from(l.value.clone());
-                if l.of_pi { value * Expr::pi() } else { value }
-            };
             let sign = |open: bool| if open { "<" } else { "≤" };
             let mut math = Vec::new();
             if let Some(low) = &domain.low {
-                math.extend([Math::Expr(end(low)), Math::Op(sign(low.open))]);
+                math.extend([Math::Expr(low.expr()), Math::Op(sign(low.open))]);
             }
             math.push(Math::Expr(Expr::symbol(name)));
             if let Some(high) = &domain.high {
-                math.extend([Math::Op(sign(high.open)), Math::Expr(end(high))]);
+                math.extend([Math::Op(sign(high.open)), Math::Expr(high.expr())]);
             }
             all.push(Inline::Math(math));
         }

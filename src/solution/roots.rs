@@ -11,16 +11,14 @@ impl Writer<'_> {
     /// Gives letters to the long roots in formulas that stand there at least so often.
     pub(super) fn name_roots(&mut self, formulas: &[Expr], least: usize) {
         let mut found: Vec<(Expr, usize)> = Vec::new();
-        for formula in formulas {
-            formula.walk(&mut |part| {
-                if !is_long_root(part) {
-                    return;
-                }
-                match found.iter_mut().find(|(root, _)| root == part) {
-                    Some((_, count)) => *count += 1,
-                    None => found.push((part.clone(), 1)),
-                }
-            });
+        for part in formulas.iter().flat_map(Expr::parts) {
+            if !is_long_root(part) {
+                continue;
+            }
+            match found.iter_mut().find(|(root, _)| root == part) {
+                Some((_, count)) => *count += 1,
+                None => found.push((part.clone(), 1)),
+            }
         }
         found.retain(|(root, count)| *count >= least && self.roots.iter().all(|(r, _)| r != root));
         for (root, _) in found {

@@ -2,7 +2,7 @@
 
 use num_traits::{Signed, Zero};
 
-use crate::expr::{Expr, Int, Node, Point, Rational, ratio};
+use crate::expr::{Expr, Int, Point, Rational, ratio};
 use crate::interval::{Big, Outcome, evaluate};
 
 /// The exact value of a constant, where it is a fraction that is no tower of powers.
@@ -10,18 +10,7 @@ pub fn fraction(e: &Expr) -> Option<Rational> {
     if let Some(value) = e.as_number() {
         return Some(value.clone());
     }
-    // A tower of powers would be computed to the last digit.
-    let mut nodes = 0;
-    let mut tame = true;
-    e.walk(&mut |part| {
-        nodes += 1;
-        if let Node::Power(_, k) = part.node() {
-            tame &= k
-                .as_number()
-                .is_some_and(|k| k.numer().as_i64().is_some_and(|k| k.abs() <= 64));
-        }
-    });
-    if tame && nodes <= 200 {
+    if !e.has_high_power() && e.size() <= 200 {
         e.evaluate(&Point::default())
     } else {
         None

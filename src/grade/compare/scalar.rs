@@ -201,17 +201,15 @@ fn apart(c: &equality::Counterexample) -> Apart {
 
 /// How the root of odd degree of a negative number is understood, where one occurs.
 fn odd_root(ctx: &Context, e: &Expr) -> Option<String> {
-    let mut found = None;
-    e.walk(&mut |part| {
-        if let Node::Power(base, k) = part.node()
-            && let (Some(base), Some(k)) = (base.as_number(), k.as_number())
-            && base.is_negative()
-            && !k.is_integer()
-        {
-            found.get_or_insert_with(|| format!("{} is the real root", ctx.say(part)));
+    let is_odd = |part: &&Expr| match part.node() {
+        Node::Power(base, k) => {
+            base.as_number().is_some_and(Signed::is_negative)
+                && k.as_number().is_some_and(|k| !k.is_integer())
         }
-    });
-    found
+        _ => false,
+    };
+    let root = e.parts().find(is_odd)?;
+    Some(format!("{} is the real root", ctx.say(root)))
 }
 
 /// Within a tolerance: numbers, or formulas whose quotient is a number.

@@ -64,13 +64,13 @@ impl<'a> Trial<'a> {
                 });
         let points: Vec<_> = points.iter().skip(2).map(|s| s.point(radians)).collect();
         let at = |e: &Expr| points.iter().map(|p| evaluate(e, p)).collect::<Vec<_>>();
-        let mut turns = false;
-        for e in [expected, answer] {
-            e.walk(&mut |part| {
+        let turns = [expected, answer]
+            .iter()
+            .flat_map(|e| e.parts())
+            .any(|part| {
                 use Function::{Cos, Sin, Tan};
-                turns |= matches!(part.node(), Node::Call(Sin | Cos | Tan, _));
+                matches!(part.node(), Node::Call(Sin | Cos | Tan, _))
             });
-        }
         Trial {
             expected,
             answer,
@@ -207,8 +207,7 @@ impl<'a> Trial<'a> {
             .iter()
             .map(|g| g.name.clone())
             .collect();
-        let mut calls = false;
-        shown.walk(&mut |e| calls |= matches!(e.node(), Node::Call(..)));
+        let calls = shown.parts().any(|e| matches!(e.node(), Node::Call(..)));
         if calls || !shown.symbols().is_subset(&known) || shown.size() > 12 {
             return None;
         }
@@ -227,15 +226,13 @@ impl<'a> Trial<'a> {
             return true;
         };
         let mut roots = Vec::new();
-        for e in [self.expected, self.answer] {
-            e.walk(&mut |part| {
-                if let Node::Power(base, k) = part.node()
-                    && matches!(base.node(), Node::Sum(_))
-                    && k.as_number().is_none_or(|k| !k.is_integer())
-                {
-                    roots.push(base.clone());
-                }
-            });
+        for part in self.expected.parts().chain(self.answer.parts()) {
+            if let Node::Power(base, k) = part.node()
+                && matches!(base.node(), Node::Sum(_))
+                && k.as_number().is_none_or(|k| !k.is_integer())
+            {
+                roots.push(base);
+            }
         }
         let free = |name: &Symbol| match self.domains.symbols.get(name) {
             Some(domain) => domain.high.is_none() && !domain.changes_sign(),
@@ -263,7 +260,7 @@ impl<'a> Trial<'a> {
             let (Some(a), Some(b)) = (bent(self.answer), bent(self.expected)) else {
                 return true;
             };
-            let halves = |root: &Expr| {
+            let halves = |root: &&Expr| {
                 let share = bent(root).map_or(0.0, |r| 2.0 * (a - b) / r);
                 (share - share.round()).abs() < 1e-6
             };

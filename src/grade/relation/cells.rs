@@ -53,16 +53,14 @@ pub(super) fn compare(first: &[Normal], second: &[Normal], domains: &Domains) ->
 /// What stands under square roots, where that is linear in the symbol and the same in all; `None` where it is not.
 fn radicand(all: &[&Expr], name: &Symbol) -> Option<Option<Expr>> {
     let mut found: Vec<Expr> = Vec::new();
-    all.iter().for_each(|e| {
-        e.walk(&mut |part| {
-            if let Node::Power(base, k) = part.node()
-                && k.as_number().is_some_and(|k| !k.is_integer())
-                && !found.contains(base)
-            {
-                found.push(base.clone());
-            }
-        });
-    });
+    for part in all.iter().flat_map(|e| e.parts()) {
+        if let Node::Power(base, k) = part.node()
+            && k.as_number().is_some_and(|k| !k.is_integer())
+            && !found.contains(base)
+        {
+            found.push(base.clone());
+        }
+    }
     found.retain(|base| base.symbols().contains(name));
     match found.as_slice() {
         [] => Some(None),
@@ -239,19 +237,16 @@ fn along(first: &[Normal], second: &[Normal], name: &Symbol, domains: &Domains) 
 
 /// What absolute values are taken of; `None` where these are too many or one stands inside another.
 fn folded(all: &[&Expr]) -> Option<Vec<Expr>> {
-    let arguments = |e: &Expr| {
-        let mut found = Vec::new();
-        e.walk(&mut |part| {
-            if let Node::Call(Function::Abs, x) = part.node() {
-                found.push(x.clone());
-            }
-        });
-        found
+    let argument = |part: &Expr| match part.node() {
+        Node::Call(Function::Abs, x) => Some(x.clone()),
+        _ => None,
     };
-    let mut out: Vec<Expr> = all.iter().flat_map(|e| arguments(e)).collect();
+    let all = all.iter().flat_map(|e| e.parts());
+    let mut out: Vec<Expr> = all.filter_map(argument).collect();
     out.sort();
     out.dedup();
-    let plain = out.len() <= MOST_FOLDED && out.iter().all(|x| arguments(x).is_empty());
+    let nested = |x: &Expr| x.parts().any(|part| argument(part).is_some());
+    let plain = out.len() <= MOST_FOLDED && !out.iter().any(nested);
     plain.then_some(out)
 }
 

@@ -70,14 +70,9 @@ pub(super) fn unrooted(n: &Normal, domains: &Domains) -> Option<Normal> {
         Node::Power(base, k) if k.as_number() == Some(&ratio(1, 2)) => Some(base.clone()),
         _ => None,
     };
-    let mut root = None;
-    n.difference.walk(&mut |part| {
-        if let Some(inside) = is_root(part) {
-            root.get_or_insert((part.clone(), inside));
-        }
-    });
-    let (root, inside) = root?;
-    let other = turned(&n.difference, &root);
+    let mut parts = n.difference.parts();
+    let (root, inside) = parts.find_map(|part| Some((part, is_root(part)?)))?;
+    let other = turned(&n.difference, root);
     let (domains, _) = domains.completed(&roles(&[&other]));
     let mut field = Field::new(&domains);
     field.prepare([&n.difference, &other]);
@@ -87,9 +82,9 @@ pub(super) fn unrooted(n: &Normal, domains: &Domains) -> Option<Normal> {
     };
     let is_term = |term: &Expr| match term.node() {
         Node::Product(factors) => {
-            matches!(factors.as_slice(), [k, r] if k.as_number().is_some() && *r == root)
+            matches!(factors.as_slice(), [k, r] if k.as_number().is_some() && r == root)
         }
-        _ => *term == root,
+        _ => term == root,
     };
     let square = match (n.relation, n.difference.node()) {
         (Relation::Equal, Node::Sum(terms)) => terms.iter().any(is_term),

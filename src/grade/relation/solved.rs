@@ -158,15 +158,13 @@ pub(super) fn same_angle(f: &Expr, g: &Expr, domains: &Domains) -> Option<bool> 
 /// The one value of an angle on its domain at which a difference may vanish.
 fn angle_of(f: &Expr, name: &Symbol, domain: &Domain, domains: &Domains) -> Option<Expr> {
     let turning = [Function::Sin, Function::Cos, Function::Tan];
-    let mut calls: Vec<(Function, Expr)> = Vec::new();
-    f.walk(&mut |part| {
-        if let Node::Call(function, x) = part.node()
-            && turning.contains(function)
-            && x.symbols().contains(name)
-        {
-            calls.push((*function, x.clone()));
+    let call = |part: &Expr| match part.node() {
+        Node::Call(function, x) if turning.contains(function) && x.symbols().contains(name) => {
+            Some((*function, x.clone()))
         }
-    });
+        _ => None,
+    };
+    let mut calls: Vec<(Function, Expr)> = f.parts().filter_map(call).collect();
     calls.dedup();
     let [(function, argument)] = calls.as_slice() else {
         return calls

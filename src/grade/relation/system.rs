@@ -187,12 +187,11 @@ fn with_distances(systems: [&[Normal]; 2], domains: &Domains) -> ([Vec<Normal>; 
     let mut systems = systems.map(<[Normal]>::to_vec);
     let mut domains = domains.clone();
     let mut bars: Vec<Expr> = Vec::new();
-    for n in systems.iter().flatten() {
-        n.difference.walk(&mut |part| {
-            if matches!(part.node(), Node::Call(Function::Abs, _)) && !bars.contains(part) {
-                bars.push(part.clone());
-            }
-        });
+    let differences = systems.iter().flatten().map(|n| &n.difference);
+    for part in differences.flat_map(Expr::parts) {
+        if matches!(part.node(), Node::Call(Function::Abs, _)) && !bars.contains(part) {
+            bars.push(part.clone());
+        }
     }
     for bar in &bars {
         let Node::Call(_, inside) = bar.node() else {

@@ -159,15 +159,13 @@ fn logarithms(n: &Normal, domains: &Domains) -> Option<Undone> {
 /// A call of one of these functions that a relation is linear in, with its argument: `k f(u) + W`, given as the call, the
 /// function, u, k and −W/k.
 fn called(n: &Normal, functions: &[Function]) -> Option<(Expr, Function, Expr, Rational, Expr)> {
-    let mut found = None;
-    n.difference.walk(&mut |part| {
-        if let Node::Call(function, inside) = part.node()
-            && functions.contains(function)
-        {
-            found.get_or_insert((part.clone(), *function, inside.clone()));
+    let call = |part: &Expr| match part.node() {
+        Node::Call(function, inside) if functions.contains(function) => {
+            Some((part.clone(), *function, inside.clone()))
         }
-    });
-    let (call, function, inside) = found?;
+        _ => None,
+    };
+    let (call, function, inside) = n.difference.parts().find_map(call)?;
     let letter: Symbol = write_plain(&call).into();
     let linear = replaced(&n.difference, &call, &Expr::symbol(&letter));
     let k = linear.derivative(&letter);
@@ -359,15 +357,12 @@ fn powers(n: &Normal, domains: &Domains) -> Option<Undone> {
 
 /// `a rel b` with exponentials in them as `ln a rel ln b`.
 fn exponents(n: &Normal, domains: &Domains) -> Option<Undone> {
-    let mut occurs = false;
-    n.difference.walk(&mut |part| {
-        occurs |= match part.node() {
-            Node::Power(_, k) => k.as_number().is_none(),
-            Node::Call(function, _) => *function == Function::Exp,
-            _ => false,
-        }
-    });
-    if !occurs {
+    let is_exponential = |part: &Expr| match part.node() {
+        Node::Power(_, k) => k.as_number().is_none(),
+        Node::Call(function, _) => *function == Function::Exp,
+        _ => false,
+    };
+    if !n.difference.parts().any(is_exponential) {
         return None;
     }
     let sides = two_sides(n, domains)?;

@@ -94,10 +94,8 @@ fn way(
     const POINTS: usize = 12;
     let [begin, end] = &linkage.ends;
     let grows = end - begin;
-    match sign(&grows, &stage.scene.domains) {
-        Seen::Proved(Sign::Positive | Sign::NotNegative) => return Ok(1),
-        Seen::Proved(Sign::Negative | Sign::NotPositive) => return Ok(-1),
-        _ => {}
+    if let Some(positive) = sign(&grows, &stage.scene.domains).side() {
+        return Ok(if positive { 1 } else { -1 });
     }
     let names = grows.symbols().into_iter().collect();
     let points = integrate::points_of(names, &stage.scene.domains, POINTS);

@@ -4,7 +4,6 @@
 //! |ω| = v/R. It pulls and never pushes.
 
 use super::tidied;
-use crate::algebra::Sign;
 use crate::answer::calc::{Seen, at_least_zero, is_zero, sign};
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::formula::{Sentence, sentence};
@@ -149,18 +148,17 @@ fn approaches(
     (center, along, body): (&Vector, &Vector, usize),
 ) -> Result<bool, Refused> {
     let ahead = dot(&minus(&before.center[pulley], center), along);
-    match sign(&ahead, &stage.scene.domains) {
-        Seen::Proved(Sign::Positive | Sign::NotNegative) => Ok(true),
-        Seen::Proved(Sign::Negative | Sign::NotPositive) => Ok(false),
-        _ => Err(Refused::new(
+    let side = sign(&ahead, &stage.scene.domains).side();
+    side.ok_or_else(|| {
+        Refused::new(
             &stage.name,
             format!(
                 "whether `{}` moves towards `{}` or away from it is not decided",
                 stage.scene.bodies[body].name, stage.scene.bodies[pulley].name
             ),
             "say it by `relations`",
-        )),
-    }
+        )
+    })
 }
 
 impl Pulled<'_> {

@@ -3,8 +3,7 @@
 use super::super::strings::{Pulled, pulled};
 use super::super::{half, kept, tidied};
 use super::course::Course;
-use crate::algebra::Sign;
-use crate::answer::calc::{Seen, is_zero, sign};
+use crate::answer::calc::{is_zero, sign};
 use crate::domain::Domains;
 use crate::expr::{Expr, dot};
 use crate::scene::{Slide, Stage};
@@ -51,11 +50,8 @@ pub(super) fn proved(e: &Expr, domains: &Domains) -> Option<i64> {
     if is_zero(e, domains) == Some(true) {
         return Some(0);
     }
-    match sign(e, domains) {
-        Seen::Proved(Sign::Positive | Sign::NotNegative) => Some(1),
-        Seen::Proved(Sign::Negative | Sign::NotPositive) => Some(-1),
-        _ => None,
-    }
+    let positive = sign(e, domains).side()?;
+    Some(if positive { 1 } else { -1 })
 }
 
 impl<'a> Line<'a> {
