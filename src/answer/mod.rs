@@ -95,7 +95,7 @@ pub enum Form {
     },
     /// A system in matrix form, entries as the equations give them.
     Matrix(Matrix),
-    /// Not determined by the laws; names of the unknowns it hangs on.
+    /// Not determined by the laws; names of the unknowns it depends on, none where the text says why.
     Open(Vec<String>),
     /// None of these: a range of a parameter, or words.
     #[default]

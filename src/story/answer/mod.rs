@@ -72,6 +72,7 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
 /// An answer that has no value, and why.
 fn unanswered(question: &Question, why: &Sentence) -> Answer {
     let mut out = Answer::blank(question, &question.name, "what is asked");
+    out.form = Form::Open(Vec::new());
     out.text.push(sentence!["not determined: ", why]);
     out
 }
@@ -85,7 +86,7 @@ fn needs_open(ask: &Ask, known: &Known, earlier: &[Answer]) -> Option<Sentence> 
         let open = earlier
             .iter()
             .filter(is_it)
-            .find(|a| a.formula().is_none() && a.told.is_some())?;
+            .find(|a| matches!(a.form, Form::Open(_)))?;
         let why = open.text.first().cloned().unwrap_or_default();
         Some(sentence!["it needs `", &open.name, "`, which is ", why])
     })
@@ -107,9 +108,7 @@ fn one(
     let stage = question.stage.map(|i| &scene.stages[i]);
     if stage.is_some_and(|stage| ways(stages, stage).is_empty()) {
         let why = Sentence::words("the laws contradict each other before");
-        let mut out = unanswered(question, &why);
-        out.told = Some((usize::MAX, 0));
-        return Ok(vec![out]);
+        return Ok(vec![unanswered(question, &why)]);
     }
     let mut out = match &question.ask {
         Ask::Reaction { along, at_end } => {
@@ -344,7 +343,7 @@ fn quantity(
                 None => &told.after,
             };
             if let Some(why) = state.why_open(answer.form.formulas()) {
-                answer.form = Form::Words;
+                answer.form = Form::Open(Vec::new());
                 answer.checks.clear();
                 answer.text = vec![sentence!["not determined: ", why]];
             }

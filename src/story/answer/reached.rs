@@ -155,7 +155,7 @@ fn leading(
         let Some(question) = chain.iter().find(|q| q.name == a.question) else {
             continue;
         };
-        let Some((mut stage, case)) = a.told.filter(|(i, _)| *i < stages.len()) else {
+        let Some((mut stage, case)) = a.told else {
             continue;
         };
         let happens = |w: &usize| worlds[*w].outcome.get(&stage) == Some(&case);
