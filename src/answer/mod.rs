@@ -25,6 +25,9 @@ use crate::expr::{Expr, Symbol};
 use crate::formula::{Relation, Sentence, latex_name, with_subscript};
 use crate::scene::Question;
 
+/// The symbol whose square stands for a parameter under a root.
+const ROOT: &str = "\u{1}root";
+
 /// What earlier answers stand for, by name, in parameters alone.
 pub type Known = BTreeMap<Symbol, Expr>;
 

@@ -6,9 +6,8 @@
 
 use std::collections::BTreeMap;
 
-use super::Check;
 use super::calc::{Seen, Unsolved, by_signs, essential, is_zero, sign, solve, tidy};
-use super::{Answer, Form, Refused};
+use super::{Answer, Check, Form, ROOT, Refused};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Node, Symbol};
@@ -16,8 +15,6 @@ use crate::formula::{Relation, write_plain};
 use crate::formula::{Sentence, sentence};
 use crate::scene::Scene;
 
-/// The symbol whose square stands for the parameter.
-const ROOT: &str = "\u{1}root";
 /// The combination of two parameters.
 const JOINT: &str = "\u{1}joint";
 /// What a refusal says of the way.

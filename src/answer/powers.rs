@@ -7,14 +7,12 @@ use std::collections::BTreeMap;
 
 use num_traits::{Signed, Zero};
 
+use super::ROOT;
 use super::calc::{Seen, essential, sign, tidy};
 use crate::algebra::{Element, Field, Sign};
 use crate::domain::{Domain, Domains};
 use crate::expr::{Expr, Node, Rational, Symbol};
 use crate::formula::{Sentence, sentence};
-
-/// The symbol whose square stands for the parameter.
-const ROOT: &str = "\u{1}root";
 
 /// What a formula tends to.
 pub(super) enum Tends {

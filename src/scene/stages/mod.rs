@@ -140,7 +140,7 @@ fn name_pivots(scene: &mut Scene) {
         hinges.chain(s.scene.contacts.iter().map(|c| (&c.name, &c.at)))
     });
     let points = scene.points.iter().map(|p| (&p.name, &p.at));
-    let known: Vec<(String, Vector)> = (joints.chain(points))
+    let mut known: Vec<(String, Vector)> = (joints.chain(points))
         .map(|(name, at)| (name.clone(), at.clone()))
         .collect();
     let bodies = scene.bodies.iter().map(|b| &b.name);
@@ -150,7 +150,6 @@ fn name_pivots(scene: &mut Scene) {
         .into_iter()
         .filter(|l| !taken.contains(&l))
         .collect();
-    let mut known = known.clone();
     for stage in &mut scene.stages {
         let StageKind::Turn(turn) = &mut stage.kind else {
             continue;
