@@ -130,6 +130,16 @@ fn is_parameter(scene: &Scene, name: &Symbol) -> bool {
     scene.parameters.iter().any(|p| p.name == *name)
 }
 
+/// A question about formulas on its way to an answer.
+struct Work<'a> {
+    scene: &'a Scene,
+    question: &'a Question,
+    /// Name of the answer.
+    name: &'a str,
+    /// What earlier answers stand for.
+    known: &'a Known,
+}
+
 /// One answer, of `of` in place of what the question names where a component is asked; a maximum also tells its place.
 fn one(
     scene: &Scene,
@@ -138,42 +148,18 @@ fn one(
     of: Option<&Expr>,
     known: &Known,
 ) -> Result<Vec<Answer>, Refused> {
-    let domains = &scene.domains;
-    let put = |e: &Expr, with: &[(Symbol, Expr)]| put(scene, &name, known, e, with);
+    let work = Work {
+        scene,
+        question,
+        name: &name,
+        known,
+    };
     let out = match &question.ask {
         Ask::Value {
             formula,
             with,
             meaning,
-        } => {
-            let formula = of.unwrap_or(formula);
-            let words = match meaning.as_str() {
-                "" => format!("value of {}", write_plain(formula)),
-                meaning => meaning.to_string(),
-            };
-            let mut out = Answer::blank(question, &name, words);
-            let value = put(formula, with)?;
-            put_in_fits(scene, known, with, &name)?;
-            out.dimension = match stated_dimension(scene, known, formula, &name)? {
-                Some(stated) => stated,
-                None if with.is_empty() => dimension_of(scene, &value, &name)?,
-                None => Dimension::none(),
-            };
-            let with_known: Known = with.iter().cloned().collect();
-            let raw = gathered(&formula.substitute(known).substitute(&with_known));
-            out.checks.push(Check {
-                kind: "identity",
-                words: String::from(
-                    "with the results substituted, the difference is zero in the normal form",
-                ),
-                holds: is_zero(&(&raw.substitute(known) - &value), &scene.domains),
-            });
-            out.put_in
-                .push((raw, value.clone(), "with the results substituted"));
-            out.form = Form::value(value);
-            out.text.extend(with_words(with));
-            out
-        }
+        } => work.value(of.unwrap_or(formula), with, meaning)?,
         Ask::Condition {
             parameter,
             left,
@@ -181,102 +167,169 @@ fn one(
             right,
             with,
         } => {
-            let sides = [put(left, with)?, put(right, with)?];
+            let sides = [work.put(left, with)?, work.put(right, with)?];
             let statement = statement(left, *relation, right);
             condition(
                 scene, question, &statement, parameter, *relation, sides, with,
             )?
         }
-        Ask::Maximum { of, over } => {
-            let value = put(of, &[])?;
-            let words = format!("largest value of {}", write_plain(of));
-            let mut open = Answer::blank(question, &name, words);
-            return Ok(
-                optimum::maximum(scene, open.clone(), &value, over).unwrap_or_else(|why| {
-                    // Not found is an answer too, and leaves the others alone.
-                    let why = match why.hint.as_str() {
-                        "" => why.reason,
-                        hint => format!("{}; {hint}", why.reason),
-                    };
-                    open.text.push(sentence!["not found: ", why]);
-                    open.checks.push(Check {
-                        kind: "maximum",
-                        words: String::from("not found"),
-                        holds: None,
-                    });
-                    vec![open]
-                }),
-            );
-        }
+        Ask::Maximum { of, over } => return work.maximum(of, over),
         Ask::Limit {
             of: whole,
             parameter,
             to,
-        } => {
-            let of = of.unwrap_or(whole);
-            let target = to.as_ref().map_or_else(|| String::from("∞"), write_plain);
-            let words = format!("limit of {} as {parameter} → {target}", write_plain(of));
-            let mut out = Answer::blank(question, &name, words);
-            let value = put(of, &[])?;
-            let to = to.as_ref().map(|t| put(t, &[])).transpose()?;
-            limit::fill(&mut out, &value, parameter, to.as_ref(), domains);
-            if let Some(formula) = out.formula() {
-                out.dimension = dimension_of(scene, formula, &name)?;
-            }
-            out
-        }
+        } => work.limit(of.unwrap_or(whole), parameter, to.as_ref())?,
         Ask::Approximate {
             of: whole,
             parameter,
             to,
             order,
-        } => {
-            let of = of.unwrap_or(whole);
-            let near = if to.is_zero() {
-                format!("small {parameter}")
-            } else {
-                format!("{parameter} near {}", write_plain(to))
-            };
-            let words = format!("{} for {near}, to order {order}", write_plain(of));
-            let mut out = Answer::blank(question, &name, words);
-            let value = put(of, &[])?;
-            out.dimension = dimension_of(scene, &value, &name)?;
-            let to = put(to, &[])?;
-            limit::approximate(&mut out, &value, parameter, &to, *order, domains);
-            out
-        }
+        } => work.approximate(of.unwrap_or(whole), parameter, to, *order)?,
         Ask::Show {
             left,
             right,
             with,
             unless,
             claim,
-        } => {
-            let sides = [put(left, with)?, put(right, with)?];
-            let mut out = show(scene, question, (left, right), claim, sides)?;
-            let with_known: Known = with.iter().cloned().collect();
-            for (asked, value) in [(left, 0), (right, 1)] {
-                let raw = gathered(&asked.substitute(known).substitute(&with_known));
-                if let Form::Equation { left, right } = &out.form {
-                    let value = if value == 0 { left } else { right };
-                    let shown = (raw, value.clone(), "with the results substituted");
-                    out.put_in.push(shown);
-                }
-            }
-            out.text.extend(with_words(with));
-            for name in unless {
-                let parts = components(name, known).map_or_else(|| vec![name.clone()], Vec::from);
-                let mut square = Expr::zero();
-                for part in parts {
-                    square = &square + &put(&Expr::symbol(&part), with)?.powi(2);
-                }
-                out.text.push(vanishing(name, &square, domains));
-            }
-            out
-        }
+        } => work.show([left, right], with, unless, claim)?,
         _ => return Ok(Vec::new()),
     };
     Ok(vec![out])
+}
+
+impl Work<'_> {
+    /// A formula in parameters alone, with some of them at given values.
+    fn put(&self, e: &Expr, with: &[(Symbol, Expr)]) -> Result<Expr, Refused> {
+        put(self.scene, self.name, self.known, e, with)
+    }
+
+    /// What is asked as it stands, with the results in it, and equal factors gathered.
+    fn raw(&self, asked: &Expr, with: &[(Symbol, Expr)]) -> Expr {
+        let with: Known = with.iter().cloned().collect();
+        gathered(&asked.substitute(self.known).substitute(&with))
+    }
+
+    fn blank(&self, words: impl Into<String>) -> Answer {
+        Answer::blank(self.question, self.name, words)
+    }
+
+    fn value(
+        &self,
+        formula: &Expr,
+        with: &[(Symbol, Expr)],
+        meaning: &str,
+    ) -> Result<Answer, Refused> {
+        let (scene, known, name) = (self.scene, self.known, self.name);
+        let mut out = self.blank(match meaning {
+            "" => format!("value of {}", write_plain(formula)),
+            meaning => meaning.to_string(),
+        });
+        let value = self.put(formula, with)?;
+        put_in_fits(scene, known, with, name)?;
+        out.dimension = match stated_dimension(scene, known, formula, name)? {
+            Some(stated) => stated,
+            None if with.is_empty() => dimension_of(scene, &value, name)?,
+            None => Dimension::none(),
+        };
+        let raw = self.raw(formula, with);
+        out.checks.push(Check {
+            kind: "identity",
+            words: String::from(
+                "with the results substituted, the difference is zero in the normal form",
+            ),
+            holds: is_zero(&(&raw.substitute(known) - &value), &scene.domains),
+        });
+        out.put_in
+            .push((raw, value.clone(), "with the results substituted"));
+        out.form = Form::value(value);
+        out.text.extend(with_words(with));
+        Ok(out)
+    }
+
+    fn maximum(&self, of: &Expr, over: &[Symbol]) -> Result<Vec<Answer>, Refused> {
+        let value = self.put(of, &[])?;
+        let mut open = self.blank(format!("largest value of {}", write_plain(of)));
+        let found = optimum::maximum(self.scene, open.clone(), &value, over);
+        Ok(found.unwrap_or_else(|why| {
+            // Not found is an answer too, and leaves the others alone.
+            let why = match why.hint.as_str() {
+                "" => why.reason,
+                hint => format!("{}; {hint}", why.reason),
+            };
+            open.text.push(sentence!["not found: ", why]);
+            open.checks.push(Check {
+                kind: "maximum",
+                words: String::from("not found"),
+                holds: None,
+            });
+            vec![open]
+        }))
+    }
+
+    fn limit(&self, of: &Expr, parameter: &Symbol, to: Option<&Expr>) -> Result<Answer, Refused> {
+        let target = to.map_or_else(|| String::from("∞"), write_plain);
+        let words = format!("limit of {} as {parameter} → {target}", write_plain(of));
+        let mut out = self.blank(words);
+        let value = self.put(of, &[])?;
+        let to = to.map(|t| self.put(t, &[])).transpose()?;
+        let domains = &self.scene.domains;
+        limit::fill(&mut out, &value, parameter, to.as_ref(), domains);
+        if let Some(formula) = out.formula() {
+            out.dimension = dimension_of(self.scene, formula, self.name)?;
+        }
+        Ok(out)
+    }
+
+    fn approximate(
+        &self,
+        of: &Expr,
+        parameter: &Symbol,
+        to: &Expr,
+        order: u32,
+    ) -> Result<Answer, Refused> {
+        let near = if to.is_zero() {
+            format!("small {parameter}")
+        } else {
+            format!("{parameter} near {}", write_plain(to))
+        };
+        let words = format!("{} for {near}, to order {order}", write_plain(of));
+        let mut out = self.blank(words);
+        let value = self.put(of, &[])?;
+        out.dimension = dimension_of(self.scene, &value, self.name)?;
+        let to = self.put(to, &[])?;
+        let domains = &self.scene.domains;
+        limit::approximate(&mut out, &value, parameter, &to, order, domains);
+        Ok(out)
+    }
+
+    fn show(
+        &self,
+        asked: [&Expr; 2],
+        with: &[(Symbol, Expr)],
+        unless: &[Symbol],
+        claim: &str,
+    ) -> Result<Answer, Refused> {
+        let [left, right] = asked;
+        let sides = [self.put(left, with)?, self.put(right, with)?];
+        let mut out = show(self.scene, self.question, (left, right), claim, sides)?;
+        if let Form::Equation { left, right } = &out.form {
+            for (asked, value) in asked.into_iter().zip([left, right]) {
+                let raw = self.raw(asked, with);
+                let shown = (raw, value.clone(), "with the results substituted");
+                out.put_in.push(shown);
+            }
+        }
+        out.text.extend(with_words(with));
+        for name in unless {
+            let parts = components(name, self.known).map_or_else(|| vec![name.clone()], Vec::from);
+            let mut square = Expr::zero();
+            for part in parts {
+                square = &square + &self.put(&Expr::symbol(&part), with)?.powi(2);
+            }
+            out.text.push(vanishing(name, &square, &self.scene.domains));
+        }
+        Ok(out)
+    }
 }
 
 /// The same with equal factors gathered into powers, and nothing else changed.

@@ -79,8 +79,7 @@ impl SolidReader<'_> {
         if matches!(part.shape, ShapeName::Fixed | ShapeName::Composite) {
             let fault = Fault::new(part.span, "a part is neither fixed nor composite")
                 .shown_at(first(part.span));
-            self.faults.push(fault.hint("list its own parts here"));
-            return None;
+            return fault.hint("list its own parts here").add_to(self.faults);
         }
         self.read(part)
     }
@@ -94,8 +93,9 @@ impl SolidReader<'_> {
         if mass.is_zero() {
             let fault =
                 Fault::new(body.span, "this composite has no mass").shown_at(first(body.span));
-            self.faults.push(fault.hint("give one of its parts a mass"));
-            return None;
+            return fault
+                .hint("give one of its parts a mass")
+                .add_to(self.faults);
         }
         let (mass, weights) = weights(&parts, mass);
         let center = [0, 1]
@@ -198,10 +198,8 @@ impl SolidReader<'_> {
                     article(body.shape)
                 ),
             );
-            self.faults.push(fault.hint(
-                "only a rod or a body may have mass \"0\", a massless link, and a disk, a light pulley",
-            ));
-            return None;
+            let hint = "only a rod or a body may have mass \"0\", a massless link, and a disk, a light pulley";
+            return fault.hint(hint).add_to(self.faults);
         }
         self.claim_size(formula, &mass, "mass", is_link);
         Some(mass)

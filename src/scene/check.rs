@@ -84,160 +84,156 @@ pub(super) fn at_values(scene: &Scene, span: Span) -> Option<Fault> {
         .find_map(|claimed| try_claim(scene, &claimed, &given).0)
 }
 
+/// What is found of a claim.
+enum Tried {
+    /// Nothing speaks against it.
+    Holds,
+    /// It is wrong: what is wrong, and what to do about it.
+    Refuted(String, String),
+    /// It could not be decided, in a sentence.
+    Undecided(String),
+}
+
 /// A fault if the claim is refuted, a remark if it stays open.
 fn try_claim(scene: &Scene, claimed: &Claimed, given: &Given) -> (Option<Fault>, Option<String>) {
-    let fault = |message: String| Fault::new(claimed.span, message);
-    match &claimed.claim {
-        Claim::Unit(vector) => {
-            if is_cosine_and_sine(vector) || is_declared_unit(vector, scene) {
-                return (None, None);
-            }
-            match zero(&(dot(vector, vector) - Expr::one()), &scene.domains) {
-                Zero::Yes => (None, None),
-                Zero::No(point) => {
-                    let message =
-                        format!("a direction has length 1, and this has not{}", at(&point));
-                    let hint = "divide by its length, give {\"angle\": …}, or declare its components under \"unit_vectors\"";
-                    (Some(fault(message).hint(hint)), None)
-                }
-                Zero::Unknown => (
-                    None,
-                    Some("whether a direction has length 1 could not be decided".to_owned()),
-                ),
-            }
+    let tried = match &claimed.claim {
+        Claim::Unit(vector) => unit(scene, vector),
+        Claim::Fraction(e) if e.as_symbol().is_some_and(|name| is_within_one(name, scene)) => {
+            Tried::Holds
         }
-        Claim::Fraction(e) => {
-            if e.as_symbol().is_some_and(|name| is_within_one(name, scene)) {
-                return (None, None);
-            }
-            let Some((value, point)) = violation(e, scene, given, |v| v.high < 0.0 || v.low > 1.0)
-            else {
-                return (None, None);
-            };
-            let message = format!(
-                "a restitution is from 0 to 1, and this is {}{}",
-                number_words(value),
-                at(&point)
-            );
-            let hint =
-                "0: no rebound, 1: no loss; for a symbol give \"domain\": {\"min\": 0, \"max\": 1}";
-            (Some(fault(message).hint(hint)), None)
-        }
-        Claim::Friction(mu) => {
-            let found = violation(mu, scene, given, |v| v.high < 0.0);
-            let Some((value, point)) = found else {
-                return (None, None);
-            };
-            let message = format!(
-                "a coefficient of friction is not negative, and this is {}{}",
-                number_words(value),
-                at(&point)
-            );
-            let hint = "friction opposes the slip by itself, whichever way it goes; change the value, or the `domain` of its parameters";
-            (Some(fault(message).hint(hint)), None)
-        }
-        Claim::Tangential(e) => {
-            let found = violation(e, scene, given, |v| v.high < -1.0 || v.low > 1.0);
-            let Some((value, point)) = found else {
-                return (None, None);
-            };
-            let message = format!(
-                "a tangential restitution is from -1 to 1, and this is {}{}",
-                number_words(value),
-                at(&point)
-            );
-            let hint = "-1: no friction, 0: no slip after, 1: the slip is turned round";
-            (Some(fault(message).hint(hint)), None)
-        }
+        Claim::Fraction(e) => bounded(
+            violation(e, scene, given, |v| v.high < 0.0 || v.low > 1.0),
+            "a restitution is from 0 to 1",
+            "0: no rebound, 1: no loss; for a symbol give \"domain\": {\"min\": 0, \"max\": 1}",
+        ),
+        Claim::Friction(mu) => bounded(
+            violation(mu, scene, given, |v| v.high < 0.0),
+            "a coefficient of friction is not negative",
+            "friction opposes the slip by itself, whichever way it goes; change the value, or the `domain` of its parameters",
+        ),
+        Claim::Tangential(e) => bounded(
+            violation(e, scene, given, |v| v.high < -1.0 || v.low > 1.0),
+            "a tangential restitution is from -1 to 1",
+            "-1: no friction, 0: no slip after, 1: the slip is turned round",
+        ),
+        Claim::Size {
+            size, may_vanish, ..
+        } if is_positive(size, scene) || *may_vanish && size.is_zero() => Tried::Holds,
         Claim::Size {
             size,
             what,
             may_vanish,
         } => {
-            if is_positive(size, scene) || *may_vanish && size.is_zero() {
-                return (None, None);
-            }
-            let is_wrong =
-                |v: &Interval| v.high < 0.0 || !may_vanish && v.low == 0.0 && v.high == 0.0;
-            let Some((value, point)) = violation(size, scene, given, is_wrong) else {
-                return (None, None);
-            };
+            let is_zero = |v: &Interval| v.low == 0.0 && v.high == 0.0;
+            let is_wrong = |v: &Interval| v.high < 0.0 || !may_vanish && is_zero(v);
             let bound = if *may_vanish {
                 "is not negative"
             } else {
                 "is positive"
             };
-            let message = format!(
-                "{what} {bound}, and this is {}{}",
-                number_words(value),
-                at(&point)
-            );
-            (
-                Some(fault(message).hint("change the value, or the `domain` of its parameters")),
-                None,
+            bounded(
+                violation(size, scene, given, is_wrong),
+                &format!("{what} {bound}"),
+                "change the value, or the `domain` of its parameters",
             )
         }
-        Claim::AtParticle {
-            offset,
-            at: place,
-            body,
-        } => {
-            let is_elsewhere = offset
-                .iter()
-                .any(|c| matches!(zero(c, &scene.domains), Zero::No(_)));
-            if !is_elsewhere {
-                return (None, None);
-            }
-            let name = scene.bodies.get(*body).map_or("", |b| &b.name);
-            let message = format!("`{place}` is not where the particle `{name}` is");
-            let hint = "leave the particle's `center` out, or put it there; a body with extension is a disk, a rod, …";
-            (Some(fault(message).hint(hint)), None)
+        Claim::AtParticle { offset, at, body } => at_particle(scene, offset, at, *body),
+        Claim::Rests(i) => rests(scene, *i),
+        Claim::Approach(i) => return (approach(scene, *i, given, claimed.span), None),
+        Claim::Touch(i) => match touch::misplaced_contact(scene, *i) {
+            Some(misplaced) => Tried::Refuted(misplaced.words, misplaced.hint),
+            None => Tried::Holds,
+        },
+        Claim::Hinge(i) => scene
+            .hinges
+            .get(*i)
+            .map_or(Tried::Holds, |hinge| hinged(scene, hinge)),
+    };
+    match tried {
+        Tried::Holds => (None, None),
+        Tried::Refuted(message, hint) => (Some(Fault::new(claimed.span, message).hint(hint)), None),
+        Tried::Undecided(remark) => (None, Some(remark)),
+    }
+}
+
+/// A number within its bounds, unless it is seen outside.
+fn bounded(violation: Option<(f64, String)>, bound: &str, hint: &str) -> Tried {
+    let Some((value, point)) = violation else {
+        return Tried::Holds;
+    };
+    let message = format!("{bound}, and this is {}{}", number_words(value), at(&point));
+    Tried::Refuted(message, hint.into())
+}
+
+/// Whether a direction has length 1.
+fn unit(scene: &Scene, vector: &Vector) -> Tried {
+    if is_cosine_and_sine(vector) || is_declared_unit(vector, scene) {
+        return Tried::Holds;
+    }
+    match zero(&(dot(vector, vector) - Expr::one()), &scene.domains) {
+        Zero::Yes => Tried::Holds,
+        Zero::No(point) => {
+            let message = format!("a direction has length 1, and this has not{}", at(&point));
+            let hint = "divide by its length, give {\"angle\": …}, or declare its components under \"unit_vectors\"";
+            Tried::Refuted(message, hint.into())
         }
-        Claim::Rests(i) => {
-            let strikes = |e: &Expr| !matches!(zero(e, &scene.domains), Zero::Yes);
-            let friction = scene.friction().map(|(f, _)| &scene.contacts[f].name);
-            let (Some(friction), true) = (friction, scene.strikes(*i).iter().any(strikes)) else {
-                return (None, None);
-            };
-            let message = beside_friction(&scene.contacts[*i].name, friction);
-            (Some(fault(message).hint(ALONE)), None)
-        }
-        Claim::Approach(i) => (approach(scene, *i, given, claimed.span), None),
-        Claim::Touch(i) => {
-            let misplaced = touch::misplaced_contact(scene, *i);
-            (misplaced.map(|m| fault(m.words).hint(m.hint)), None)
-        }
-        Claim::Hinge(i) => {
-            let Some(hinge) = scene.hinges.get(*i) else {
-                return (None, None);
-            };
-            for component in gap(scene, hinge) {
-                match zero(&component, &scene.domains) {
-                    Zero::Yes => {}
-                    Zero::No(point) => {
-                        let [a, b] = hinge.bodies.map(|b| &scene.bodies[b].name);
-                        let name = &hinge.name;
-                        let message = format!(
-                            "before the collision `{a}` and `{b}` move differently at the hinge `{name}`{}",
-                            at(&point)
-                        );
-                        let hint = format!(
-                            "a body that turns about it has \"velocity\": {{\"about\": \"{name}\"}} and a `spin`"
-                        );
-                        return (Some(fault(message).hint(hint)), None);
-                    }
-                    Zero::Unknown => {
-                        let remark = format!(
-                            "whether the bodies move alike at the hinge `{}` could not be decided",
-                            hinge.name
-                        );
-                        return (None, Some(remark));
-                    }
-                }
-            }
-            (None, None)
+        Zero::Unknown => {
+            Tried::Undecided("whether a direction has length 1 could not be decided".into())
         }
     }
+}
+
+/// Whether what touches a particle touches it where it is.
+fn at_particle(scene: &Scene, offset: &Vector, place: &str, body: usize) -> Tried {
+    let is_elsewhere = |c: &Expr| matches!(zero(c, &scene.domains), Zero::No(_));
+    if !offset.iter().any(is_elsewhere) {
+        return Tried::Holds;
+    }
+    let name = scene.bodies.get(body).map_or("", |b| &b.name);
+    let message = format!("`{place}` is not where the particle `{name}` is");
+    let hint = "leave the particle's `center` out, or put it there; a body with extension is a disk, a rod, …";
+    Tried::Refuted(message, hint.into())
+}
+
+/// Whether the bodies of a contact beside one with friction do not strike.
+fn rests(scene: &Scene, contact: usize) -> Tried {
+    let strikes = |e: &Expr| !matches!(zero(e, &scene.domains), Zero::Yes);
+    let friction = scene.friction().map(|(f, _)| &scene.contacts[f].name);
+    match friction {
+        Some(friction) if scene.strikes(contact).iter().any(strikes) => {
+            let message = beside_friction(&scene.contacts[contact].name, friction);
+            Tried::Refuted(message, ALONE.into())
+        }
+        _ => Tried::Holds,
+    }
+}
+
+/// Whether both bodies of a hinge move alike there.
+fn hinged(scene: &Scene, hinge: &Hinge) -> Tried {
+    let name = &hinge.name;
+    for component in gap(scene, hinge) {
+        match zero(&component, &scene.domains) {
+            Zero::Yes => {}
+            Zero::No(point) => {
+                let [a, b] = hinge.bodies.map(|b| &scene.bodies[b].name);
+                let message = format!(
+                    "before the collision `{a}` and `{b}` move differently at the hinge `{name}`{}",
+                    at(&point)
+                );
+                let hint = format!(
+                    "a body that turns about it has \"velocity\": {{\"about\": \"{name}\"}} and a `spin`"
+                );
+                return Tried::Refuted(message, hint);
+            }
+            Zero::Unknown => {
+                let remark = format!(
+                    "whether the bodies move alike at the hinge `{name}` could not be decided"
+                );
+                return Tried::Undecided(remark);
+            }
+        }
+    }
+    Tried::Holds
 }
 
 /// The point at which something was seen, as the end of a sentence.

@@ -278,12 +278,10 @@ impl Resolver<'_> {
                         "a known velocity needs the direction `along` which it is known",
                     );
                     let place = Span::new(known.span.start, known.span.start + 1);
-                    self.faults.push(
-                        fault
-                            .shown_at(place)
-                            .hint("add \"along\": [\"1\", \"0\"]; a vector takes two entries"),
-                    );
-                    return None;
+                    return fault
+                        .shown_at(place)
+                        .hint("add \"along\": [\"1\", \"0\"]; a vector takes two entries")
+                        .add_to(&mut self.faults);
                 };
                 let along = self.direction(along);
                 let at = match at {
@@ -313,11 +311,11 @@ impl Resolver<'_> {
                 }
                 let index = self.moving(body)?;
                 if self.is_particle(index) {
-                    self.faults.push(Fault::new(
+                    return Fault::new(
                         body.span,
                         format!("the particle `{}` has no spin", body.text),
-                    ));
-                    return None;
+                    )
+                    .add_to(&mut self.faults);
                 }
                 (index, KnownQuantity::Spin, Quantity::SPIN)
             }
@@ -326,8 +324,9 @@ impl Resolver<'_> {
                     known.span,
                     "something known after is either a `velocity` or a `spin`",
                 );
-                self.faults.push(fault.hint("its value is the body's name"));
-                return None;
+                return fault
+                    .hint("its value is the body's name")
+                    .add_to(&mut self.faults);
             }
         };
         let value = self.symbols.read(&known.is, what.2, &mut self.faults)?;
@@ -344,22 +343,21 @@ impl Resolver<'_> {
         let (a, b) = (self.body_named(&names[0]), self.body_named(&names[1]));
         let (a, b) = (a?, b?);
         if a == b {
-            self.faults.push(Fault::new(
+            return Fault::new(
                 span,
                 format!(
                     "a {what} is between two bodies, not `{}` and itself",
                     names[0].text
                 ),
-            ));
-            return None;
+            )
+            .add_to(&mut self.faults);
         }
         if self.shape(a) == Some(ShapeName::Fixed) && self.shape(b) == Some(ShapeName::Fixed) {
             let message = format!(
                 "`{}` and `{}` are both fixed: nothing can happen between them",
                 names[0].text, names[1].text
             );
-            self.faults.push(Fault::new(span, message));
-            return None;
+            return Fault::new(span, message).add_to(&mut self.faults);
         }
         Some([a, b])
     }

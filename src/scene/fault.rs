@@ -75,6 +75,12 @@ impl Fault {
         self.hint = Some(hint.into());
         self
     }
+
+    /// Adds it to those found. The answer is `None`, for what could not be read because of it.
+    pub(super) fn add_to<T>(self, faults: &mut Vec<Fault>) -> Option<T> {
+        faults.push(self);
+        None
+    }
 }
 
 /// Everything that is wrong with a scene, in the order of the text; never empty.

@@ -191,8 +191,7 @@ impl Symbols {
             Err(trouble) => {
                 let mut fault = Fault::new(text.span, &trouble.message);
                 fault.hint = trouble.hint.clone();
-                faults.push(fault);
-                return None;
+                return fault.add_to(faults);
             }
         };
         for name in reading.symbols() {
@@ -233,22 +232,16 @@ impl Symbols {
             }
         };
         let Content::Scalar(e) = reading.content else {
-            faults.push(Fault::new(
-                formula.span,
-                "a single expression is expected here",
-            ));
-            return None;
+            return Fault::new(formula.span, "a single expression is expected here").add_to(faults);
         };
         if reading.choices > 0 {
             let remark = format!("`{}` is read as {}", formula.text, formula::write_plain(&e));
             self.remarks.borrow_mut().push(remark);
         }
         if !is_finite(&e) {
-            faults.push(
-                Fault::new(formula.span, "a number here is too large")
-                    .hint("numbers go up to about 1e308"),
-            );
-            return None;
+            return Fault::new(formula.span, "a number here is too large")
+                .hint("numbers go up to about 1e308")
+                .add_to(faults);
         }
         Some(e)
     }

@@ -150,8 +150,7 @@ pub(super) fn value(formula: &Formula, unit: &Unit, faults: &mut Vec<Fault>) -> 
         .evaluate::<f64>(&Point::default())
         .is_some_and(f64::is_finite)
     {
-        faults.push(Fault::new(formula.span, "this has no finite value"));
-        return None;
+        return Fault::new(formula.span, "this has no finite value").add_to(faults);
     }
     Some(value)
 }
@@ -291,10 +290,9 @@ impl Bounded<'_> {
             };
             if order != Some(Ordering::Less) {
                 let fault = Fault::new(interval.span, "`min` is not below `max`");
-                faults.push(fault.hint(
-                    "a quantity with one possible value is a number: write it into the formulas",
-                ));
-                return None;
+                let hint =
+                    "a quantity with one possible value is a number: write it into the formulas";
+                return fault.hint(hint).add_to(faults);
             }
         }
         Some(Domain { low, high })
@@ -342,8 +340,7 @@ impl Bounded<'_> {
             .for_each(|name| self.symbols.mark_used(name));
         let own = Expr::symbol(&self.name.text);
         if let Some(message) = self.symbols.clash(&own, &e) {
-            faults.push(Fault::new(formula.span, message));
-            return None;
+            return Fault::new(formula.span, message).add_to(faults);
         }
         let sign = if open { "<" } else { "≤" };
         let (small, large) = if is_low { (&e, &own) } else { (&own, &e) };

@@ -142,8 +142,7 @@ impl<'f> Resolver<'f> {
     fn link<T>(&mut self, name: &Text, f: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
         if self.chain.len() >= CHAIN {
             let message = format!("positions refer to one another more than {CHAIN} deep");
-            self.faults.push(Fault::new(name.span, message));
-            return None;
+            return Fault::new(name.span, message).add_to(&mut self.faults);
         }
         self.chain.push(name.text.clone());
         let out = f(self);
@@ -186,9 +185,9 @@ impl<'f> Resolver<'f> {
                 let at = [&from[0] + &by[0], &from[1] + &by[1]];
                 if at.iter().any(|c| terms(c) > TERMS) {
                     let message = format!("a coordinate here is a sum of more than {TERMS} terms");
-                    self.faults
-                        .push(Fault::new(step.span, message).hint("measure from a nearer point"));
-                    return None;
+                    return Fault::new(step.span, message)
+                        .hint("measure from a nearer point")
+                        .add_to(&mut self.faults);
                 }
                 Some(at)
             }

@@ -52,10 +52,9 @@ fn plot(
                 name.span,
                 "`stands_for` and `varying` belong together: a new name for a formula, and the parameter of it that varies",
             );
-            base.faults.push(
-                fault.hint("\"against\": \"q\", \"stands_for\": \"l/d\", \"varying\": \"d\""),
-            );
-            return None;
+            return fault
+                .hint("\"against\": \"q\", \"stands_for\": \"l/d\", \"varying\": \"d\"")
+                .add_to(&mut base.faults);
         }
     };
     if stands_for.is_some()
@@ -63,10 +62,9 @@ fn plot(
             || names.contains(&file.against.text))
     {
         let message = format!("the name `{}` is taken", file.against.text);
-        base.faults.push(
-            Fault::new(file.against.span, message).hint("a name for a formula is a new name"),
-        );
-        return None;
+        return Fault::new(file.against.span, message)
+            .hint("a name for a formula is a new name")
+            .add_to(&mut base.faults);
     }
     let mut curves = Vec::new();
     for entry in file.curves.iter().flatten() {
@@ -74,8 +72,7 @@ fn plot(
     }
     if curves.len() > CURVES {
         let message = format!("{} curves; a plot has at most {CURVES}", curves.len());
-        base.faults.push(Fault::new(name.span, message));
-        return None;
+        return Fault::new(name.span, message).add_to(&mut base.faults);
     }
     if curves.is_empty() {
         curves.push(Vec::new());

@@ -149,10 +149,8 @@ fn one(entry: &PrintedFile, faults: &mut Vec<Fault>) -> Option<Printed> {
     };
     let Some(what) = what else {
         let fault = Fault::new(entry.span, "this printed entry is not complete");
-        faults.push(fault.hint(
-            "give one of: item with printed; number with of; equation; matrix with as many unknowns as columns and right sides as rows",
-        ));
-        return None;
+        let hint = "give one of: item with printed; number with of; equation; matrix with as many unknowns as columns and right sides as rows";
+        return fault.hint(hint).add_to(faults);
     };
     Some(Printed {
         place: text(&entry.place).unwrap_or_default(),

@@ -333,14 +333,14 @@ impl<'f> Resolver<'f> {
     pub fn moving(&mut self, name: &Text) -> Option<usize> {
         let body = self.body_named(name)?;
         if self.is_fixed(body) {
-            self.faults.push(Fault::new(
+            return Fault::new(
                 name.span,
                 format!(
                     "`{}` is fixed: the collision does not change its motion",
                     name.text
                 ),
-            ));
-            return None;
+            )
+            .add_to(&mut self.faults);
         }
         Some(body)
     }

@@ -24,128 +24,57 @@ pub(super) fn ask(
     name: &Text,
     q: &QuestionFile,
 ) -> Option<Ask> {
-    let read = |base: &mut Resolver<'_>, f: &Formula| formula(base, symbols, f);
     if let Some(f) = &q.value {
         return Some(Ask::Value {
-            formula: read(base, f)?,
+            formula: formula(base, symbols, f)?,
             with: with(base, symbols, q.with.as_ref())?,
             meaning: String::new(),
         });
     }
     if let Some(of) = &q.maximum {
-        let over = q
-            .over
-            .iter()
-            .flatten()
-            .filter_map(|t| parameter(base, t))
-            .collect::<Vec<_>>();
+        let over = q.over.iter().flatten();
+        let over: Vec<Symbol> = over.filter_map(|t| parameter(base, t)).collect();
         if over.is_empty() {
-            base.faults.push(Fault::new(
-                name.span,
-                "a maximum needs the parameters that may be chosen, `over`",
-            ));
-            return None;
+            let message = "a maximum needs the parameters that may be chosen, `over`";
+            return Fault::new(name.span, message).add_to(&mut base.faults);
         }
         return Some(Ask::Maximum {
-            of: read(base, of)?,
+            of: formula(base, symbols, of)?,
             over,
         });
     }
     if let Some(of) = &q.limit {
-        let (Some(tends), Some(to)) = (&q.tends, &q.to) else {
-            let fault = Fault::new(
-                name.span,
-                "a limit needs the parameter that `tends` and what it tends `to`",
-            );
-            base.faults
-                .push(fault.hint("\"tends\": \"phi\", \"to\": \"0\""));
-            return None;
-        };
-        let to = if matches!(to.text.trim(), "infinity" | "inf" | "oo" | "∞") {
-            None
-        } else {
-            Some(read(base, to)?)
-        };
-        return Some(Ask::Limit {
-            of: read(base, of)?,
-            parameter: parameter(base, tends)?,
-            to,
-        });
+        return limit(base, symbols, name, q, of);
     }
     if let Some(of) = &q.approximate {
         return approximate(base, symbols, name, q, of);
     }
     if let Some(equation) = &q.show {
-        let (left, relation, right) = relation(base, symbols, equation)?;
-        if relation != Relation::Equal {
-            base.faults.push(Fault::new(
-                equation.span,
-                "what is to be shown is an equation",
-            ));
-            return None;
-        }
-        let unless = q
-            .unless
-            .iter()
-            .flatten()
-            .filter_map(|t| answer_named(base, symbols, t))
-            .collect();
-        return Some(Ask::Show {
-            left,
-            right,
-            with: with(base, symbols, q.with.as_ref())?,
-            unless,
-            claim: q
-                .claim
-                .as_ref()
-                .map_or_else(String::new, |t| t.text.clone()),
-        });
+        return show(base, symbols, q, equation);
     }
     let of = q.threshold.as_ref().or(q.solve.as_ref())?;
     let Some(holds) = &q.holds else {
         let fault = Fault::new(name.span, "a threshold needs the relation that `holds`");
-        base.faults
-            .push(fault.hint("\"threshold\": \"v\", \"holds\": \"K_top <= 0\""));
-        return None;
+        let fault = fault.hint("\"threshold\": \"v\", \"holds\": \"K_top <= 0\"");
+        return fault.add_to(&mut base.faults);
     };
     if let (Some(parameter), Some(event)) = (&q.threshold, event(holds)) {
-        let places = places(base.file, q, event.0);
-        match places.as_slice() {
-            // A product of parameters with such a name.
-            [] if symbols
-                .names()
-                .declared()
-                .iter()
-                .any(|d| *d.name == *event.0) => {}
-            [] => {
-                let message = format!("no impact has a contact `{}`", event.0);
-                let fault = Fault::new(holds.span, message);
-                base.faults.push(
-                    fault.hint("a threshold of friction names its contact, such as \"C sticks\""),
-                );
-                return None;
-            }
-            [one] => return friction_threshold(base, parameter, one, event.1),
-            _ => {
-                let message = format!("several impacts have a contact `{}`", event.0);
-                let fault = Fault::new(holds.span, message);
-                base.faults.push(fault.hint("say which with `at`"));
-                return None;
-            }
+        let mut declared = symbols.names().declared().iter();
+        // A product of parameters may bear such a name.
+        if !places(base.file, q, event.0).is_empty() || !declared.any(|d| *d.name == *event.0) {
+            return sticking(base, q, parameter, holds, event);
         }
     }
     if let Some(at) = q.at.as_ref().filter(|_| base.file.stages.is_some()) {
         let message = "`at` belongs to a threshold of friction, such as \"C sticks\"";
-        let fault = Fault::new(at.span, message);
-        base.faults
-            .push(fault.hint("the answers in `holds` say at which stage they are asked"));
-        return None;
+        let fault = Fault::new(at.span, message)
+            .hint("the answers in `holds` say at which stage they are asked");
+        return fault.add_to(&mut base.faults);
     }
     let (left, relation, right) = relation(base, symbols, holds)?;
     if q.solve.is_some() != (relation == Relation::Equal) {
         let message = "a threshold holds an inequality, and what is to be solved an equation";
-        base.faults.push(Fault::new(holds.span, message));
-        return None;
+        return Fault::new(holds.span, message).add_to(&mut base.faults);
     }
     Some(Ask::Condition {
         parameter: parameter(base, of)?,
@@ -154,6 +83,77 @@ pub(super) fn ask(
         right,
         with: with(base, symbols, q.with.as_ref())?,
     })
+}
+
+fn limit(
+    base: &mut Resolver<'_>,
+    symbols: &Symbols,
+    name: &Text,
+    q: &QuestionFile,
+    of: &Formula,
+) -> Option<Ask> {
+    let (Some(tends), Some(to)) = (&q.tends, &q.to) else {
+        let message = "a limit needs the parameter that `tends` and what it tends `to`";
+        let fault = Fault::new(name.span, message).hint("\"tends\": \"phi\", \"to\": \"0\"");
+        return fault.add_to(&mut base.faults);
+    };
+    let to = match to.text.trim() {
+        "infinity" | "inf" | "oo" | "∞" => None,
+        _ => Some(formula(base, symbols, to)?),
+    };
+    Some(Ask::Limit {
+        of: formula(base, symbols, of)?,
+        parameter: parameter(base, tends)?,
+        to,
+    })
+}
+
+fn show(
+    base: &mut Resolver<'_>,
+    symbols: &Symbols,
+    q: &QuestionFile,
+    equation: &Text,
+) -> Option<Ask> {
+    let (left, relation, right) = relation(base, symbols, equation)?;
+    if relation != Relation::Equal {
+        let message = "what is to be shown is an equation";
+        return Fault::new(equation.span, message).add_to(&mut base.faults);
+    }
+    let unless = q.unless.iter().flatten();
+    let unless = unless.filter_map(|t| answer_named(base, symbols, t));
+    let unless = unless.collect();
+    let claim = q.claim.as_ref().map(|t| t.text.clone());
+    Some(Ask::Show {
+        left,
+        right,
+        with: with(base, symbols, q.with.as_ref())?,
+        unless,
+        claim: claim.unwrap_or_default(),
+    })
+}
+
+/// The threshold of friction at which a contact sticks, slides or jams.
+fn sticking(
+    base: &mut Resolver<'_>,
+    q: &QuestionFile,
+    parameter: &Text,
+    holds: &Text,
+    (contact, event): (&str, FrictionEvent),
+) -> Option<Ask> {
+    let places = places(base.file, q, contact);
+    let (message, hint) = match places.as_slice() {
+        [one] => return friction_threshold(base, parameter, one, event),
+        [] => (
+            format!("no impact has a contact `{contact}`"),
+            "a threshold of friction names its contact, such as \"C sticks\"",
+        ),
+        _ => (
+            format!("several impacts have a contact `{contact}`"),
+            "say which with `at`",
+        ),
+    };
+    let fault = Fault::new(holds.span, message).hint(hint);
+    fault.add_to(&mut base.faults)
 }
 
 /// The name and the event in words such as `C sticks`.
@@ -219,9 +219,9 @@ fn friction_threshold(
     else {
         let message = "only a contact with friction has a threshold of it";
         let fault = Fault::new(parameter.span, message);
-        base.faults
-            .push(fault.hint("give the contact \"law\": \"friction\" with `mu` and `restitution`"));
-        return None;
+        return fault
+            .hint("give the contact \"law\": \"friction\" with `mu` and `restitution`")
+            .add_to(&mut base.faults);
     };
     if mu.text.trim() != parameter.text {
         let message = format!(
@@ -230,12 +230,9 @@ fn friction_threshold(
             parameter.text
         );
         let fault = Fault::new(parameter.span, message);
-        base.faults.push(
-            fault.hint(
-                "let the `mu` of the contact be a parameter, and ask for the threshold of that",
-            ),
-        );
-        return None;
+        return fault
+            .hint("let the `mu` of the contact be a parameter, and ask for the threshold of that")
+            .add_to(&mut base.faults);
     }
     Some(Ask::Friction {
         contact: *contact,
@@ -255,9 +252,9 @@ fn approximate(
             name.span,
             "a form for a small parameter needs the parameter that `tends` and the `order`",
         );
-        base.faults
-            .push(fault.hint("\"tends\": \"theta\", \"to\": \"0\", \"order\": 1"));
-        return None;
+        return fault
+            .hint("\"tends\": \"theta\", \"to\": \"0\", \"order\": 1")
+            .add_to(&mut base.faults);
     };
     let power: Option<u32> = order.text.trim().parse().ok().filter(|n| *n <= ORDER);
     if power.is_none() {

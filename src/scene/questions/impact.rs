@@ -30,11 +30,11 @@ pub(super) fn ask(
     if let Some(body) = &question.spin {
         let index = resolver.moving(body)?;
         if resolver.is_particle(index) {
-            resolver.faults.push(Fault::new(
+            return Fault::new(
                 body.span,
                 format!("the particle `{}` has no spin", body.text),
-            ));
-            return None;
+            )
+            .add_to(&mut resolver.faults);
         }
         return Some(Ask::Spin {
             body: index,
@@ -68,10 +68,9 @@ pub(super) fn ask(
                 name.span,
                 "a balance needs its bodies, `system`, and its direction, `along`",
             );
-            resolver
-                .faults
-                .push(fault.hint("\"system\": [\"ball\"], \"along\": [\"1\", \"0\"]"));
-            return None;
+            return fault
+                .hint("\"system\": [\"ball\"], \"along\": [\"1\", \"0\"]")
+                .add_to(&mut resolver.faults);
         }
         let bodies: Vec<Option<usize>> = system.iter().map(|body| resolver.moving(body)).collect();
         let system_indices = bodies.into_iter().collect::<Option<Vec<_>>>()?;
@@ -79,10 +78,7 @@ pub(super) fn ask(
             (1..system.len()).find(|i| system[..*i].iter().any(|b| b.text == system[*i].text))
         {
             let message = format!("`{}` is in this system twice", system[twice].text);
-            resolver
-                .faults
-                .push(Fault::new(system[twice].span, message));
-            return None;
+            return Fault::new(system[twice].span, message).add_to(&mut resolver.faults);
         }
         return Some(Ask::Balance {
             system: system_indices,
@@ -129,10 +125,9 @@ pub(super) fn velocity(
                 "the other way round: \"velocity\": \"{}\", \"of\": \"{}\"",
                 of.text, what.text
             );
-            resolver
-                .faults
-                .push(Fault::new(what.span, message).hint(hint));
-            return None;
+            return Fault::new(what.span, message)
+                .hint(hint)
+                .add_to(&mut resolver.faults);
         }
         let what_is_sought = if of.is_some() {
             "point"
@@ -153,10 +148,9 @@ pub(super) fn velocity(
                         what.span,
                         format!("the point `{}` may belong to several bodies", what.text),
                     );
-                    resolver
-                        .faults
-                        .push(fault.hint("say which: \"of\": the body's name"));
-                    return None;
+                    return fault
+                        .hint("say which: \"of\": the body's name")
+                        .add_to(&mut resolver.faults);
                 }
             }
         }
@@ -212,8 +206,7 @@ fn impulse(
             let body = resolver.body_named(on)?;
             if !bodies.contains(&body) {
                 let message = format!("`{name}` does not touch `{}`", on.text);
-                resolver.faults.push(Fault::new(on.span, message));
-                return None;
+                return Fault::new(on.span, message).add_to(&mut resolver.faults);
             }
             body
         }

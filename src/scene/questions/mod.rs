@@ -142,8 +142,9 @@ fn kind(r: &mut Resolver<'_>, name: &Text, q: &QuestionFile) -> Option<&'static 
                 String::from("give each of them a question of its own"),
             )
         };
-        r.faults.push(Fault::new(name.span, message).hint(hint));
-        return None;
+        return Fault::new(name.span, message)
+            .hint(hint)
+            .add_to(&mut r.faults);
     };
     for (field, given) in fields(q) {
         if given && !one.fields.contains(&field) {

@@ -6,7 +6,7 @@ use crate::scene::formulas::{Quantity, Symbols};
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
 use crate::scene::resolve::Resolver;
-use crate::scene::stage_file::{EndName, SlideFile};
+use crate::scene::stage_file::{EndName, StageFile};
 use crate::scene::stages::{TIME, stage_named};
 use crate::scene::{Ask, Scene};
 
@@ -35,149 +35,190 @@ pub(super) fn ask(
         return Some((None, ask));
     }
     let stages = base.file.stages.as_deref()?;
-    let at_end = q.when != Some(EndName::Start);
-    if let Some(stage) = &q.reaction {
-        let i = stage_named(&mut base.faults, stages, Some(stage))?;
-        if stages[i].turn.is_none() {
-            base.faults.push(Fault::new(
-                stage.span,
-                "a reaction is asked of a stage in which a body turns about a point",
-            ));
-            return None;
-        }
-        let Some(along) = &q.along else {
-            base.faults.push(Fault::new(
-                name.span,
-                "a reaction needs the direction `along` which it is asked",
-            ));
-            return None;
+    let at_stage = if let Some(stage) = &q.reaction {
+        reaction(base, stages, name, q, stage)
+    } else if let Some(stage) = q.time.as_ref().or(q.distance.as_ref()) {
+        passed(base, stages, q, stage)
+    } else if let Some(body) = q.acceleration.as_ref().or(q.tension.as_ref()) {
+        driven(base, stages, q, body)
+    } else if let Some(body) = &q.position {
+        position(base, stages, q, body)
+    } else if let Some(body) = &q.angular_momentum {
+        angular_momentum(base, stages, name, q, body)
+    } else {
+        let in_words = [
+            (&q.impulsive, Ask::Impulsive),
+            (&q.describe, Ask::Describe),
+            (&q.missing, Ask::Missing),
+        ];
+        let Some((stage, ask)) = in_words.into_iter().find(|(stage, _)| stage.is_some()) else {
+            return Some((None, of_all(base, symbols, q)?));
         };
-        let along = base.direction(along)?;
-        return Some((Some(i), Ask::Reaction { along, at_end }));
+        let stage = stage_named(&mut base.faults, stages, stage.as_ref())?;
+        return Some((Some(stage), ask));
+    };
+    at_stage.map(|(stage, ask)| (Some(stage), ask))
+}
+
+/// Whether it is asked for the end of a stage.
+fn at_end(q: &QuestionFile) -> bool {
+    q.when != Some(EndName::Start)
+}
+
+fn reaction(
+    base: &mut Resolver<'_>,
+    stages: &[StageFile],
+    name: &Text,
+    q: &QuestionFile,
+    stage: &Text,
+) -> Option<(usize, Ask)> {
+    let i = stage_named(&mut base.faults, stages, Some(stage))?;
+    if stages[i].turn.is_none() {
+        let message = "a reaction is asked of a stage in which a body turns about a point";
+        return Fault::new(stage.span, message).add_to(&mut base.faults);
     }
-    if let Some(stage) = q.time.as_ref().or(q.distance.as_ref()) {
-        let i = stage_named(&mut base.faults, stages, Some(stage))?;
-        let (what, hint, fits) = match q.time {
-            Some(_) => ("time", "an impact takes none", stages[i].impact.is_none()),
-            None => (
-                "distance",
-                "a distance is that of a `slide`; elsewhere ask for the `position` of a body",
-                stages[i].slide.is_some(),
-            ),
-        };
-        if !fits {
-            let message = format!("no {what} can be asked of the stage `{}`", stage.text);
-            base.faults.push(Fault::new(stage.span, message).hint(hint));
-            return None;
-        }
-        let ask = q.time.as_ref().map_or(Ask::Distance, |_| Ask::Time);
-        return Some((Some(i), ask));
+    let Some(along) = &q.along else {
+        let message = "a reaction needs the direction `along` which it is asked";
+        return Fault::new(name.span, message).add_to(&mut base.faults);
+    };
+    let along = base.direction(along)?;
+    let at_end = at_end(q);
+    Some((i, Ask::Reaction { along, at_end }))
+}
+
+/// The time that a stage takes, or the distance that a body goes in it.
+fn passed(
+    base: &mut Resolver<'_>,
+    stages: &[StageFile],
+    q: &QuestionFile,
+    stage: &Text,
+) -> Option<(usize, Ask)> {
+    let i = stage_named(&mut base.faults, stages, Some(stage))?;
+    let (ask, what, hint, fits) = match q.time {
+        Some(_) => (
+            Ask::Time,
+            "time",
+            "an impact takes none",
+            stages[i].impact.is_none(),
+        ),
+        None => (
+            Ask::Distance,
+            "distance",
+            "a distance is that of a `slide`; elsewhere ask for the `position` of a body",
+            stages[i].slide.is_some(),
+        ),
+    };
+    if !fits {
+        let message = format!("no {what} can be asked of the stage `{}`", stage.text);
+        let fault = Fault::new(stage.span, message).hint(hint);
+        return fault.add_to(&mut base.faults);
     }
-    if let Some(name) = q.acceleration.as_ref().or(q.tension.as_ref()) {
-        let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
-        let body = base.moving(name)?;
-        let (what, hint) = match q.tension {
-            Some(_) => (
-                "tension",
-                "a tension is that of a body on one of the `strings` of a `slide`",
-            ),
-            None => (
-                "acceleration",
-                "an acceleration is that of a body which a `slide` moves",
-            ),
-        };
-        let ask = match q.tension {
-            Some(_) => Ask::Tension { body },
-            None => Ask::Acceleration { body },
-        };
-        let slide = stages[i].slide.as_ref();
-        let strung = |slide: &SlideFile| {
-            slide
-                .strings
-                .iter()
-                .flatten()
-                .flat_map(|s| &s.to)
-                .any(|b| b.text == name.text)
-        };
-        let own = |slide: &SlideFile| {
-            slide.body.text == name.text || slide.with.iter().flatten().any(|b| b.text == name.text)
-        };
-        let fits = slide.is_some_and(|slide| {
-            let has_strings = slide.strings.as_ref().is_some_and(|s| !s.is_empty());
-            strung(slide) || own(slide) && (q.tension.is_none() || has_strings)
-        });
-        if !fits {
-            let message = format!("no {what} of `{}` can be asked of this stage", name.text);
-            base.faults.push(Fault::new(name.span, message).hint(hint));
-            return None;
-        }
-        return Some((Some(i), ask));
+    Some((i, ask))
+}
+
+/// The acceleration of a body that slides, or the tension of its string.
+fn driven(
+    base: &mut Resolver<'_>,
+    stages: &[StageFile],
+    q: &QuestionFile,
+    name: &Text,
+) -> Option<(usize, Ask)> {
+    let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
+    let body = base.moving(name)?;
+    let is_it = |b: &Text| b.text == name.text;
+    let slide = stages[i].slide.as_ref();
+    let strings = slide.and_then(|slide| slide.strings.as_deref());
+    let strings = strings.unwrap_or_default();
+    let strung = strings.iter().flat_map(|s| &s.to).any(is_it);
+    let slides = slide.is_some_and(|slide| {
+        let with = slide.with.iter().flatten();
+        is_it(&slide.body) || with.into_iter().any(is_it)
+    });
+    let (ask, what, hint, fits) = match q.tension {
+        Some(_) => (
+            Ask::Tension { body },
+            "tension",
+            "a tension is that of a body on one of the `strings` of a `slide`",
+            strung || slides && !strings.is_empty(),
+        ),
+        None => (
+            Ask::Acceleration { body },
+            "acceleration",
+            "an acceleration is that of a body which a `slide` moves",
+            strung || slides,
+        ),
+    };
+    if !fits {
+        let message = format!("no {what} of `{}` can be asked of this stage", name.text);
+        let fault = Fault::new(name.span, message).hint(hint);
+        return fault.add_to(&mut base.faults);
     }
-    if let Some(body) = &q.position {
-        let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
-        let along = q.along.as_ref();
-        let ask = Ask::Position {
-            body: base.moving(body)?,
-            along: along
-                .map(|d| base.direction(d).ok_or(()))
-                .transpose()
-                .ok()?,
+    Some((i, ask))
+}
+
+fn position(
+    base: &mut Resolver<'_>,
+    stages: &[StageFile],
+    q: &QuestionFile,
+    body: &Text,
+) -> Option<(usize, Ask)> {
+    let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
+    let body = base.moving(body)?;
+    let along = match &q.along {
+        Some(along) => Some(base.direction(along)?),
+        None => None,
+    };
+    let at_end = at_end(q);
+    Some((
+        i,
+        Ask::Position {
+            body,
+            along,
             at_end,
-        };
-        return Some((Some(i), ask));
-    }
-    if let Some(body) = &q.angular_momentum {
-        let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
-        let Some(about) = &q.about else {
-            base.faults.push(Fault::new(
-                name.span,
-                "an angular momentum needs the point `about` which it is meant",
-            ));
-            return None;
-        };
-        let ask = Ask::AngularMomentum {
-            body: base.moving(body)?,
-            about: base.position(about)?,
-            at_end,
-        };
-        return Some((Some(i), ask));
-    }
+        },
+    ))
+}
+
+fn angular_momentum(
+    base: &mut Resolver<'_>,
+    stages: &[StageFile],
+    name: &Text,
+    q: &QuestionFile,
+    body: &Text,
+) -> Option<(usize, Ask)> {
+    let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
+    let Some(about) = &q.about else {
+        let message = "an angular momentum needs the point `about` which it is meant";
+        return Fault::new(name.span, message).add_to(&mut base.faults);
+    };
+    let ask = Ask::AngularMomentum {
+        body: base.moving(body)?,
+        about: base.position(about)?,
+        at_end: at_end(q),
+    };
+    Some((i, ask))
+}
+
+/// A question about the scene as a whole.
+fn of_all(base: &mut Resolver<'_>, symbols: &Symbols, q: &QuestionFile) -> Option<Ask> {
     if let Some(share) = &q.share {
-        let ask = Ask::Share {
+        return Some(Ask::Share {
             mass: symbols.read(&share.mass, Quantity::MASS, &mut base.faults)?,
             stiffness: symbols.read(&share.stiffness, STIFFNESS, &mut base.faults)?,
             during: symbols.read(&share.during, TIME, &mut base.faults)?,
-        };
-        return Some((None, ask));
+        });
     }
     if let Some(words) = &q.remark {
-        return Some((None, Ask::Remark(words.text.clone())));
+        return Some(Ask::Remark(words.text.clone()));
     }
-    let in_words = [
-        (&q.impulsive, Ask::Impulsive),
-        (&q.describe, Ask::Describe),
-        (&q.missing, Ask::Missing),
-    ];
-    if let Some((stage, ask)) = in_words.into_iter().find(|(stage, _)| stage.is_some()) {
-        let stage = stage_named(&mut base.faults, stages, stage.as_ref())?;
-        return Some((Some(stage), ask));
+    let Some(of) = &q.unused else {
+        return Some(Ask::Assumed);
+    };
+    let mut answers = symbols.names().declared().iter();
+    let parameters = answers::parameter_names(base.file);
+    if !answers.any(|d| *d.name == *of.text) || parameters.contains(&of.text.as_str()) {
+        let message = format!("no earlier answer is called `{}`", of.text);
+        return Fault::new(of.span, message).add_to(&mut base.faults);
     }
-    if let Some(of) = &q.unused {
-        let names = symbols
-            .names()
-            .declared()
-            .iter()
-            .map(|d| d.name.to_string());
-        if !names.clone().any(|n| n == of.text)
-            || answers::parameter_names(base.file).contains(&of.text.as_str())
-        {
-            base.faults.push(Fault::new(
-                of.span,
-                format!("no earlier answer is called `{}`", of.text),
-            ));
-            return None;
-        }
-        return Some((None, Ask::Unused(of.text.clone())));
-    }
-    Some((None, Ask::Assumed))
+    Some(Ask::Unused(of.text.clone()))
 }

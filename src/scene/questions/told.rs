@@ -81,8 +81,7 @@ pub(super) fn resolve(
             let b = resolver.moving(q.instantaneous_center.as_ref()?)?;
             if resolver.is_particle(b) {
                 let message = "a particle has no spin, and so no instantaneous center";
-                resolver.faults.push(Fault::new(name.span, message));
-                return None;
+                return Fault::new(name.span, message).add_to(&mut resolver.faults);
             }
             let (v, spin) = (velocity_after(scene, b), spin_after(scene, b));
             let [x, y] = scene.bodies[b].center.clone();
@@ -171,8 +170,7 @@ fn about(resolver: &mut Resolver<'_>, name: &Text, q: &QuestionFile) -> Option<V
             "an angular momentum"
         };
         let message = format!("{what} needs the point `about` which it is meant");
-        resolver.faults.push(Fault::new(name.span, message));
-        return None;
+        return Fault::new(name.span, message).add_to(&mut resolver.faults);
     };
     resolver.position(about)
 }

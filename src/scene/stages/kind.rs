@@ -48,9 +48,9 @@ pub(super) fn kind(
         );
         let hint =
             "one stage does one thing; what an impact changes is no motion with conserved energy";
-        r.faults
-            .push(Fault::new(stage.name.span, message).hint(hint));
-        return None;
+        return Fault::new(stage.name.span, message)
+            .hint(hint)
+            .add_to(&mut r.faults);
     }
     if let Some(impact) = &stage.impact {
         return impact_of(r, scene, impact, stage.name.span);
@@ -73,11 +73,11 @@ pub(super) fn kind(
     let to = r.symbols.read(&wind.to, Quantity::LENGTH, &mut r.faults);
     let body = body?;
     if !r.is_particle(body) {
-        r.faults.push(Fault::new(
+        return Fault::new(
             wind.body.span,
             "what hangs at the end of the rope is a particle here",
-        ));
-        return None;
+        )
+        .add_to(&mut r.faults);
     }
     Some(StageKind::Wind(Wind {
         body,
@@ -118,11 +118,8 @@ fn impact_of(
         });
     }
     if one_sided.len() > 6 {
-        r.faults.push(Fault::new(
-            span,
-            "more than 6 supports and strings in one impact",
-        ));
-        return None;
+        return Fault::new(span, "more than 6 supports and strings in one impact")
+            .add_to(&mut r.faults);
     }
     let supposed = impact.supposing.as_ref().map(|list| {
         for name in list {
@@ -138,9 +135,9 @@ fn impact_of(
     let touching = scene.contacts.len() + scene.hinges.len() + scene.blows.len() + one_sided.len();
     if touching == 0 && r.faults.is_empty() {
         let fault = Fault::new(span, "nothing collides in this impact");
-        r.faults
-            .push(fault.hint("give it contacts, hinges, supports, strings or blows"));
-        return None;
+        return fault
+            .hint("give it contacts, hinges, supports, strings or blows")
+            .add_to(&mut r.faults);
     }
     Some(StageKind::Impact {
         one_sided,
@@ -162,9 +159,9 @@ fn company(
     for (i, name) in names.iter().enumerate() {
         if all[..i].contains(&all[i]) {
             let message = format!("`{}` moves along with itself", name.text);
-            r.faults
-                .push(Fault::new(name.span, message).hint("name each body once"));
-            return None;
+            return Fault::new(name.span, message)
+                .hint("name each body once")
+                .add_to(&mut r.faults);
         }
     }
     let with = all.split_off(1);
@@ -178,9 +175,9 @@ fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) 
     if ends != 1 {
         let message =
             "a motion along a line ends after a `distance`, a time `for`, or where `until` says";
-        r.faults
-            .push(Fault::new(span, message).hint("give one of them"));
-        return None;
+        return Fault::new(span, message)
+            .hint("give one of them")
+            .add_to(&mut r.faults);
     }
     let all = company(r, &slide.body, slide.with.as_deref());
     let along = r.direction(&slide.along);
@@ -205,9 +202,9 @@ fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) 
     if let Some(twice) = all.windows(2).find(|pair| pair[0] == pair[1]) {
         let name = &scene.bodies[twice[0]].name;
         let message = format!("`{name}` moves along with itself");
-        r.faults
-            .push(Fault::new(span, message).hint("name each body once"));
-        return None;
+        return Fault::new(span, message)
+            .hint("name each body once")
+            .add_to(&mut r.faults);
     }
     let is_rough = friction.is_some() || strings.iter().any(|s| s.friction.is_some());
     let shape = &scene.bodies[body];
@@ -274,19 +271,20 @@ fn strung(r: &mut Resolver<'_>, scene: &Scene, string: &StrungFile) -> Option<St
     if to.is_empty() || !(1..=2).contains(&over.len()) {
         let message = "a string runs over one or two pulleys to one or more bodies";
         let fault = Fault::new(string.span, message);
-        r.faults
-            .push(fault.hint("a body that is pulled along the same line is named under `with`"));
-        return None;
+        return fault
+            .hint("a body that is pulled along the same line is named under `with`")
+            .add_to(&mut r.faults);
     }
     for (pulley, name) in over.iter().zip(&string.over) {
         let body = &scene.bodies[*pulley];
         if !matches!(body.shape, Shape::Disk { .. } | Shape::Ring { .. }) {
             let message = format!("`{}` is no pulley", body.name);
             let fault = Fault::new(name.span, message);
-            r.faults.push(fault.hint(
-                "a pulley is a disk or ring; where it is light or smooth, a disk of mass \"0\"",
-            ));
-            return None;
+            return fault
+                .hint(
+                    "a pulley is a disk or ring; where it is light or smooth, a disk of mass \"0\"",
+                )
+                .add_to(&mut r.faults);
         }
     }
     Some(Strung {
@@ -306,8 +304,7 @@ fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {
             span,
             "a fall ends after a `height`, a horizontal distance `range` or a time `for`",
         );
-        r.faults.push(fault.hint("give one of them"));
-        return None;
+        return fault.hint("give one of them").add_to(&mut r.faults);
     }
     let all = company(r, &fall.body, fall.with.as_deref());
     let gravity = optional(r, fall.gravity.as_ref(), ACCELERATION)?;
@@ -327,9 +324,9 @@ fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {
             span,
             "`rising` tells which of two times at the same height is meant",
         );
-        r.faults
-            .push(fault.hint("it goes with `height` and `gravity`"));
-        return None;
+        return fault
+            .hint("it goes with `height` and `gravity`")
+            .add_to(&mut r.faults);
     }
     let (body, with) = all?;
     Some(Fall {
@@ -361,9 +358,9 @@ fn linkage_of(
                 name.text
             );
             let fault = Fault::new(name.span, message);
-            r.faults
-                .push(fault.hint("the coordinate is a parameter by which `bodies` gives places"));
-            return None;
+            return fault
+                .hint("the coordinate is a parameter by which `bodies` gives places")
+                .add_to(&mut r.faults);
         }
     };
     let coordinate = parameter?.name.clone();
@@ -374,9 +371,9 @@ fn linkage_of(
     if moving.is_empty() {
         let message = format!("the place of no body depends on `{}`", name.text);
         let fault = Fault::new(name.span, message);
-        r.faults
-            .push(fault.hint("give `center` and `angle` of what moves by the coordinate"));
-        return None;
+        return fault
+            .hint("give `center` and `angle` of what moves by the coordinate")
+            .add_to(&mut r.faults);
     }
     let from = optional(r, linkage.from.as_ref(), quantity)?;
     let to = r.symbols.read(&linkage.to, quantity, &mut r.faults)?;
@@ -397,17 +394,16 @@ fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
             span,
             "a rotation ends after an angle `by`, at a place `until`, or after a time `for`",
         );
-        r.faults.push(fault.hint("give one of them"));
-        return None;
+        return fault.hint("give one of them").add_to(&mut r.faults);
     }
     if let (Some(time), true) = (&turn.time, turn.gravity.is_some()) {
         let fault = Fault::new(
             time.span,
             "a rotation under its weight ends at an angle, not after a time",
         );
-        r.faults
-            .push(fault.hint("where it is after a time has no closed form; give `by` or `until`"));
-        return None;
+        return fault
+            .hint("where it is after a time has no closed form; give `by` or `until`")
+            .add_to(&mut r.faults);
     }
     let all = company(r, &turn.body, turn.with.as_deref());
     let about = r.position(&turn.about);

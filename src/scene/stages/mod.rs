@@ -219,19 +219,18 @@ fn predecessor(base: &mut Resolver<'_>, stages: &[StageFile], i: usize) -> Optio
     let name = stage.name.text.trim();
     if name.is_empty() || name.chars().any(char::is_control) {
         let fault = Fault::new(stage.name.span, "a stage has a name that can be read");
-        base.faults
-            .push(fault.hint("such as \"fall\" or \"swing back\""));
-        return None;
+        return fault
+            .hint("such as \"fall\" or \"swing back\"")
+            .add_to(&mut base.faults);
     }
     if stages[..i].iter().any(|s| s.name.text == stage.name.text) || stage.name.text == "start" {
         let fault = Fault::new(
             stage.name.span,
             format!("the name `{}` is taken", stage.name.text),
         );
-        base.faults.push(
-            fault.hint("every stage has a name of its own, and `start` is where the story begins"),
-        );
-        return None;
+        return fault
+            .hint("every stage has a name of its own, and `start` is where the story begins")
+            .add_to(&mut base.faults);
     }
     match &stage.from {
         None => Some(i.checked_sub(1)),
