@@ -103,130 +103,124 @@ fn one(
     question: &Question,
     earlier: &[Answer],
 ) -> Result<Vec<Answer>, Refused> {
-    let domains = &scene.domains;
-    let name = question.name.as_str();
     let stage = question.stage.map(|i| &scene.stages[i]);
     if stage.is_some_and(|stage| ways(stages, stage).is_empty()) {
         let why = Sentence::words("the laws contradict each other before");
         return Ok(vec![unanswered(question, &why)]);
     }
-    let mut out = match &question.ask {
+    let each =
+        |answer: &dyn Fn(&StageTold) -> Result<Answer, Refused>| each_way(stages, stage, answer);
+    match &question.ask {
         Ask::Reaction { along, at_end } => {
-            return each_way(stages, stage, |told| {
-                motion::reaction(question, told, along, *at_end)
-            });
+            each(&|told| motion::reaction(question, told, along, *at_end))
         }
-        Ask::Time => return each_way(stages, stage, |told| Ok(motion::time(question, told))),
-        Ask::Distance => {
-            return each_way(stages, stage, |told| Ok(motion::distance(question, told)));
-        }
-        Ask::Acceleration { .. } => {
-            return each_way(stages, stage, |told| {
-                Ok(motion::acceleration(question, told))
-            });
-        }
-        Ask::Tension { body } => {
-            return each_way(stages, stage, |told| {
-                Ok(motion::tension(question, told, *body))
-            });
-        }
+        Ask::Time => each(&|told| Ok(motion::time(question, told))),
+        Ask::Distance => each(&|told| Ok(motion::distance(question, told))),
+        Ask::Acceleration { .. } => each(&|told| Ok(motion::acceleration(question, told))),
+        Ask::Tension { body } => each(&|told| Ok(motion::tension(question, told, *body))),
         Ask::Position {
             body,
             along,
             at_end,
         } => {
+            let axis = |k: usize| [0, 1].map(|i| Expr::from(i64::from(i == k)));
             let axes = match along {
-                Some(_) => vec![("", None)],
-                None => vec![("_x", Some(0)), ("_y", Some(1))],
+                Some(along) => vec![("", along.clone())],
+                None => vec![("_x", axis(0)), ("_y", axis(1))],
             };
             let mut out = Vec::new();
-            for (suffix, axis) in axes {
-                let along = match (along, axis) {
-                    (Some(along), _) => along.clone(),
-                    (_, axis) => [0, 1].map(|k| Expr::from(i64::from(axis == Some(k)))),
-                };
-                let all = each_way(stages, stage, |told| {
+            for (suffix, along) in axes {
+                out.extend(each(&|told| {
                     motion::position(question, suffix, told, *body, &along, *at_end)
-                });
-                out.extend(all?);
+                })?);
             }
-            return Ok(out);
+            Ok(out)
         }
         Ask::AngularMomentum {
             body,
             about,
             at_end,
-        } => {
-            return each_way(stages, stage, |told| {
-                motion::angular_momentum(scene, question, told, (*body, about), *at_end)
-            });
-        }
+        } => each(&|told| motion::angular_momentum(scene, question, told, (*body, about), *at_end)),
         Ask::Share {
             mass,
             stiffness,
             during,
         } => {
-            let out = Answer::blank(
-                question,
-                name,
-                "share of the blow that the spring takes while it lasts",
-            );
-            return Ok(spring::share(out, [mass, stiffness, during], domains));
+            let words = "share of the blow that the spring takes while it lasts";
+            let out = Answer::blank(question, &question.name, words);
+            Ok(spring::share(
+                out,
+                [mass, stiffness, during],
+                &scene.domains,
+            ))
         }
-        Ask::Impulsive | Ask::Describe | Ask::Missing => {
-            let Some(stage) = stage else {
-                return Ok(Vec::new());
-            };
-            let told = ways(stages, stage);
-            let name_of = |what: &str| format!("{what} `{}`", stage.name);
-            let (words, each): (String, fn(&StageTold) -> Vec<Sentence>) = match &question.ask {
-                Ask::Impulsive => (name_of("forces with an impulse in"), words::impulsive),
-                Ask::Describe => (name_of("what happens in"), |t| t.words.clone()),
-                _ => (format!("{} leaves open", name_of("what")), words::missing),
-            };
-            let mut out = Answer::blank(question, name, words);
-            out.text = told.into_iter().flat_map(|(_, t, _)| each(t)).collect();
-            out
+        Ask::Impulsive
+        | Ask::Describe
+        | Ask::Missing
+        | Ask::Remark(_)
+        | Ask::Assumed
+        | Ask::Unused(_) => {
+            let answer = in_words(scene, stages, question, stage, earlier);
+            Ok(answer.into_iter().collect())
         }
-        Ask::Remark(words) => {
-            let mut out = Answer::blank(question, name, "words of the scene's author, not derived");
-            out.text.push(words.into());
-            out
-        }
-        Ask::Assumed => {
-            let mut out = Answer::blank(question, name, "what is assumed");
-            out.text = words::assumed(&scene.readings, stages);
-            out
-        }
-        Ask::Unused(of) => {
-            let mut out = Answer::blank(question, name, format!("data not needed for `{of}`"));
-            let of = Symbol::from(of.as_str());
-            let asked: Vec<Answer> = earlier
-                .iter()
-                .filter(|a| *a.question == *of || *a.name == *of)
-                .cloned()
-                .collect();
-            let unused = unused(scene, &asked);
-            out.text.push(if unused.is_empty() {
-                sentence![&of, " needs all of the data"]
-            } else {
-                sentence![
-                    &of,
-                    " is found without ",
-                    Sentence::list(&unused.iter().map(Sentence::from).collect::<Vec<_>>())
-                ]
-            });
-            out
-        }
-        _ => match stage {
-            Some(stage) => return quantity(scene, stages, question, stage),
-            // Those about formulas have been answered before.
-            None => return Ok(Vec::new()),
-        },
+        // Those about formulas have been answered before.
+        _ => stage.map_or_else(
+            || Ok(Vec::new()),
+            |stage| quantity(scene, stages, question, stage),
+        ),
+    }
+}
+
+/// An answer in sentences; `None` where it needs a stage and names none.
+fn in_words(
+    scene: &Scene,
+    stages: &[StageTold],
+    question: &Question,
+    stage: Option<&Stage>,
+    earlier: &[Answer],
+) -> Option<Answer> {
+    let of_stage = |what: String, words: fn(&StageTold) -> Vec<Sentence>| {
+        let told = ways(stages, stage?).into_iter();
+        Some((what, told.flat_map(|(_, t, _)| words(t)).collect()))
     };
-    out.assumptions.sort();
-    out.assumptions.dedup();
-    Ok(vec![out])
+    let called = || stage.map_or("", |stage| stage.name.as_str());
+    let (what, text) = match &question.ask {
+        Ask::Impulsive => of_stage(
+            format!("forces with an impulse in `{}`", called()),
+            words::impulsive,
+        )?,
+        Ask::Describe => of_stage(format!("what happens in `{}`", called()), |t| {
+            t.words.clone()
+        })?,
+        Ask::Missing => of_stage(format!("what `{}` leaves open", called()), words::missing)?,
+        Ask::Remark(words) => (
+            String::from("words of the scene's author, not derived"),
+            vec![words.into()],
+        ),
+        Ask::Unused(of) => (
+            format!("data not needed for `{of}`"),
+            vec![without(scene, of, earlier)],
+        ),
+        _ => (
+            String::from("what is assumed"),
+            words::assumed(&scene.readings, stages),
+        ),
+    };
+    let mut out = Answer::blank(question, &question.name, what);
+    out.text = text;
+    Some(out)
+}
+
+/// Without which data an answer is found.
+fn without(scene: &Scene, of: &str, earlier: &[Answer]) -> Sentence {
+    let asked = earlier.iter().filter(|a| a.question == of || a.name == of);
+    let unused = unused(scene, &asked.cloned().collect::<Vec<_>>());
+    let of = Symbol::from(of);
+    if unused.is_empty() {
+        return sentence![&of, " needs all of the data"];
+    }
+    let unused: Vec<Sentence> = unused.iter().map(Sentence::from).collect();
+    sentence![&of, " is found without ", Sentence::list(&unused)]
 }
 
 /// Parameters that no answer so far depends on.
