@@ -62,7 +62,7 @@ pub(super) fn each(
     worlds: &mut [World],
     answer: impl Fn(&Known) -> Result<Vec<Answer>, Refused>,
 ) -> Result<Vec<Answer>, Refused> {
-    let mut found: Vec<(Vec<Answer>, Vec<Sentence>, Vec<usize>)> = Vec::new();
+    let mut found: Vec<(Vec<Answer>, Vec<usize>)> = Vec::new();
     for (w, world) in worlds.iter_mut().enumerate() {
         let answers = answer(&world.known)?;
         // The name of a parameter stands for the parameter.
@@ -81,13 +81,17 @@ pub(super) fn each(
                 .collect()
         };
         match found.iter_mut().find(|(f, ..)| says(f) == says(&answers)) {
-            Some((.., holds)) => holds.push(w),
-            None => found.push((answers, world.given.clone(), vec![w])),
+            Some((_, holds)) => holds.push(w),
+            None => found.push((answers, vec![w])),
         }
     }
     let several = found.len() > 1;
+    let each = found.into_iter().flat_map(|(answers, holds)| {
+        let told = alike(worlds, holds).into_iter();
+        told.map(move |(given, holds)| (answers.clone(), given, holds))
+    });
     let mut out = Vec::new();
-    for (k, (mut answers, given, holds)) in found.into_iter().enumerate() {
+    for (k, (mut answers, given, holds)) in each.enumerate() {
         for a in answers.iter_mut().filter(|_| several) {
             if k > 0 {
                 number_case(a, k + 1);
@@ -100,6 +104,33 @@ pub(super) fn each(
     Ok(out)
 }
 
+/// Ways put together as far as one set of conditions tells them from all others, each with these conditions.
+fn alike(worlds: &[World], ways: Vec<usize>) -> Vec<(Vec<Sentence>, Vec<usize>)> {
+    let first = &worlds[ways[0]];
+    let needed = |world: &World, given: &[Sentence]| given.iter().all(|g| world.given.contains(g));
+    let mut given = first.given.clone();
+    given.retain(|g| ways.iter().all(|w| worlds[*w].given.contains(g)));
+    let mut met = (0..worlds.len()).filter(|w| needed(&worlds[*w], &given));
+    if ways.len() == 1 || met.all(|w| ways.contains(&w)) {
+        return vec![(given, ways)];
+    }
+    let differs = |stage: &&usize| {
+        let outcome = first.outcome.get(stage);
+        ways.iter()
+            .any(|w| worlds[*w].outcome.get(stage) != outcome)
+    };
+    let split = first.outcome.keys().find(differs);
+    let (here, there): (Vec<usize>, Vec<usize>) = ways.iter().partition(|w| {
+        split.map_or(**w == ways[0], |stage| {
+            worlds[**w].outcome.get(stage) == first.outcome.get(stage)
+        })
+    });
+    [here, there]
+        .into_iter()
+        .flat_map(|ways| alike(worlds, ways))
+        .collect()
+}
+
 /// Later formulas may use the other answers by the name of their question, each where it holds, and by their own.
 pub(super) fn remember(worlds: &mut [World], answers: &[Answer]) {
     for a in answers {
@@ -107,10 +138,16 @@ pub(super) fn remember(worlds: &mut [World], answers: &[Answer]) {
         let numbered = a.name.rsplit_once("_case");
         let numbered = numbered.filter(|(_, k)| k.bytes().all(|c| c.is_ascii_digit()));
         let plain = numbered.map_or(a.name.as_str(), |(plain, _)| plain);
+        // Where bodies are at an impact is told once for all its outcomes.
+        let splits = |stage: usize, case: usize| {
+            let mut told = answers.iter().filter_map(|b| b.told);
+            case > 0 || told.any(|(s, c)| s == stage && c != case)
+        };
         for world in worlds.iter_mut() {
-            let holds = a
-                .told
-                .is_none_or(|(stage, case)| world.outcome.get(&stage) == Some(&case));
+            let holds = a.told.is_none_or(|(stage, case)| {
+                let outcome = world.outcome.get(&stage);
+                outcome.is_some_and(|k| *k == case || !splits(stage, case))
+            });
             if holds {
                 let name = Symbol::from(plain);
                 world.known.insert(name, formula.clone());

@@ -7,7 +7,7 @@ mod reached;
 
 use std::collections::BTreeSet;
 
-use super::{Case, StageTold, Told, second, spring, words, worlds};
+use super::{Case, StageTold, State, Told, second, spring, words, worlds};
 use crate::answer::{self, Answer, Check, Form, Known, Refused};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
@@ -140,7 +140,9 @@ fn one(
             body,
             about,
             at_end,
-        } => each(&|told| motion::angular_momentum(scene, question, told, (*body, about), *at_end)),
+        } => each_outcome(stages, stage, *at_end, |told, state| {
+            motion::angular_momentum(scene, question, (told, state), (*body, about), *at_end)
+        }),
         Ask::Share {
             mass,
             stiffness,
@@ -307,6 +309,49 @@ fn each_way(
     each.collect()
 }
 
+/// The answers to a question about the motion at one end of a stage, one for each way it may come about and, at the end of
+/// an impact, each outcome.
+fn each_outcome(
+    stages: &[StageTold],
+    stage: Option<&Stage>,
+    at_end: bool,
+    answer: impl Fn(&StageTold, &State) -> Result<Answer, Refused>,
+) -> Result<Vec<Answer>, Refused> {
+    if !at_end {
+        return each_way(stages, stage, |told| answer(told, &told.before));
+    }
+    let ways = stage.map_or_else(Vec::new, |stage| ways(stages, stage));
+    let cases: usize = ways.iter().map(|(_, t, _)| t.cases.len().max(1)).sum();
+    let mut out = Vec::new();
+    for (i, told, mut way) in ways {
+        let outcomes = told.cases.iter().map(Some);
+        let motion = told.cases.is_empty().then_some(None);
+        for (k, case) in outcomes.chain(motion).enumerate() {
+            let mut one = answer(told, case.map_or(&told.after, |case| &case.after))?;
+            if let Some(case) = case {
+                one.assumptions = rests_on(case);
+                if cases > 1 {
+                    one.words = format!("{}, {}", one.words, words::active(case));
+                }
+            }
+            way.number = (cases > 1).then_some(out.len());
+            way.put(&mut one);
+            one.told = Some((i, k));
+            out.push(one);
+        }
+    }
+    Ok(out)
+}
+
+/// What an outcome of an impact rests on, and what must hold for it.
+fn rests_on(case: &Case) -> Vec<Sentence> {
+    let conditions = case.conditions.iter();
+    let conditions =
+        conditions.map(|(why, e)| sentence![Sentence::not_negative(e), " (", why, ")"]);
+    let assumed = case.assumptions().map(Sentence::from);
+    assumed.chain(conditions).collect()
+}
+
 /// Velocities, spins, impulses and energies at the end of a stage.
 fn quantity(
     scene: &Scene,
@@ -411,11 +456,7 @@ fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
             a.text
                 .push(sentence!["not determined: it depends on ", names]);
         }
-        a.assumptions.extend(case.assumptions().map(Sentence::from));
-        for (why, e) in &case.conditions {
-            a.assumptions
-                .push(sentence![Sentence::not_negative(e), " (", why, ")"]);
-        }
+        a.assumptions.extend(rests_on(case));
         let identities = case.identities().map(|check| for_any(case, check));
         a.checks = identities.chain(checks.iter().cloned()).collect();
         out.push(a);

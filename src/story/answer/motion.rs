@@ -146,24 +146,25 @@ pub(super) fn position(
     }
     let value = tidy(&dot(&state.center[body], along), &scene.domains)
         .map_err(|stop| Refused::question(&question.name, format!("not calculated: {stop}"), ""))?;
-    let assumptions = if at_end {
-        told.assumptions.as_slice()
+    // An impact moves nothing, whatever its outcome.
+    let rests_on_way = at_end && told.cases.is_empty();
+    let assumptions = if rests_on_way {
+        &told.assumptions
     } else {
-        &[]
+        &Vec::new()
     };
     valued(&mut out, &value, assumptions);
     Ok(out)
 }
 
-/// The angular momentum of a body about a point at the beginning or end of a stage.
+/// The angular momentum of a body about a point, in the motion at the beginning or end of a stage.
 pub(super) fn angular_momentum(
     scene: &Scene,
     question: &Question,
-    told: &StageTold,
+    (told, state): (&StageTold, &State),
     (body, about): (usize, &Vector),
     at_end: bool,
 ) -> Result<Answer, Refused> {
-    let state = if at_end { &told.after } else { &told.before };
     let b = &scene.bodies[body];
     let arm = minus(&state.center[body], about);
     let h = &(&b.mass * &cross(&arm, &state.velocity[body])) + &(&b.inertia * &state.spin[body]);
@@ -188,7 +189,11 @@ pub(super) fn angular_momentum(
         ),
         holds: is_zero(&(&h - &value), &scene.domains),
     });
-    out.form = Form::value(value);
+    valued(
+        &mut out,
+        &value,
+        if at_end { &told.assumptions } else { &[] },
+    );
     Ok(out)
 }
 
