@@ -15,6 +15,7 @@ pub mod follow;
 pub mod friction;
 pub mod given;
 pub mod invariants;
+mod jet;
 pub mod number;
 pub mod path;
 pub mod points;

@@ -2,7 +2,7 @@
 //! virtual velocities, integrated in time.
 //!
 //! What joints and guides exert does no work on a possible motion, so that Σ r'·(F − m a) − φ' I α = 0, where r' and φ' are
-//! the changes of places and angles by the coordinate. These are central differences of the order 8 in the places alone.
+//! the changes of places and angles by the coordinate. These come with the places, which are evaluated as jets.
 
 use std::cell::Cell;
 use std::collections::BTreeSet;
@@ -13,26 +13,15 @@ use crate::numeric::follow::impact::first_open;
 use crate::numeric::follow::mechanism::{Goal, Mobile, Run};
 use crate::numeric::follow::{Course, Lost, Passed, State, What, Why};
 use crate::numeric::given::Freedom;
+use crate::numeric::jet::Jet;
 use crate::scene::Linkage;
-
-/// Steps of the differences, in parts of the whole way.
-const STEP: f64 = 0.02;
-/// First and second differences, by distance.
-const FIRST: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
-const SECOND: [f64; 5] = [
-    -205.0 / 72.0,
-    8.0 / 5.0,
-    -1.0 / 5.0,
-    8.0 / 315.0,
-    -1.0 / 560.0,
-];
 
 /// The linkage in numbers; the coordinate counts from 0 at the beginning to 1 at the end.
 struct Moving<'a> {
     course: &'a Course<'a>,
     linkage: &'a Linkage,
     /// What the places hold besides the coordinate.
-    values: Point<f64>,
+    values: Point<Jet>,
     ends: [f64; 2],
     gravity: f64,
     /// Unit of time \[s\].
@@ -41,6 +30,7 @@ struct Moving<'a> {
 }
 
 /// Places, and their first and second changes by the coordinate.
+#[derive(Default)]
 struct Shape {
     places: Vec<[f64; 3]>,
     first: Vec<[f64; 3]>,
@@ -48,46 +38,27 @@ struct Shape {
 }
 
 impl Moving<'_> {
-    fn places(&self, s: f64) -> Option<Vec<[f64; 3]>> {
-        let value = self.ends[0] + (self.ends[1] - self.ends[0]) * s;
+    fn shape(&self, s: f64) -> Option<Shape> {
+        let way = self.ends[1] - self.ends[0];
         let mut point = self.values.clone();
-        point.values.insert(self.linkage.coordinate.clone(), value);
-        let mut out = Vec::new();
+        let coordinate = Jet([self.ends[0] + way * s, way, 0.0]);
+        let name = self.linkage.coordinate.clone();
+        point.values.insert(name, coordinate);
+        let mut out = Shape::default();
         for (b, place) in &self.linkage.places {
-            let mut numbers = [0.0; 3];
+            let mut jets = [Jet::constant(0.0); 3];
             let is_particle = self.course.solids[*b].freedom == Freedom::Particle;
             let known = if is_particle { 2 } else { 3 };
-            for (number, e) in numbers.iter_mut().zip(place).take(known) {
-                *number = e.evaluate(&point).filter(|v| v.is_finite())?;
+            for (jet, e) in jets.iter_mut().zip(place).take(known) {
+                *jet = e.evaluate(&point)?;
             }
-            out.push(numbers);
+            let [places, first, second] = [0, 1, 2].map(|k| jets.map(|Jet(all)| all[k]));
+            let is_finite = places.iter().all(|v| v.is_finite());
+            is_finite.then(|| out.places.push(places))?;
+            out.first.push(first);
+            out.second.push(second);
         }
         Some(out)
-    }
-
-    fn shape(&self, s: f64) -> Option<Shape> {
-        let places = self.places(s)?;
-        let flat = |f: f64| places.iter().map(|p| p.map(|v| v * f)).collect::<Vec<_>>();
-        let (mut first, mut second) = (flat(0.0), flat(SECOND[0]));
-        for k in 0..4 {
-            let far = STEP * (k + 1) as f64;
-            let [ahead, behind] = [self.places(s + far)?, self.places(s - far)?];
-            for (b, (p, q)) in ahead.iter().zip(&behind).enumerate() {
-                for c in 0..3 {
-                    first[b][c] += FIRST[k] * (p[c] - q[c]);
-                    second[b][c] += SECOND[k + 1] * (p[c] + q[c]);
-                }
-            }
-        }
-        let by = |all: Vec<[f64; 3]>, step: f64| {
-            let each = all.into_iter().map(|p| p.map(|v| v / step));
-            each.collect::<Vec<_>>()
-        };
-        Some(Shape {
-            places,
-            first: by(first, STEP),
-            second: by(second, STEP * STEP),
-        })
     }
 
     fn masses(&self, i: usize) -> [f64; 3] {
@@ -153,11 +124,18 @@ pub(in crate::numeric::follow) fn linkage(
     // Places are looked at thousands of times.
     let places = linkage.places.iter().flat_map(|(_, place)| place);
     let held: BTreeSet<Symbol> = places.flat_map(Expr::symbols).collect();
-    let mut values = course.values.clone();
-    values.values.retain(|name, _| held.contains(name));
-    values
-        .directions
-        .retain(|name, _| held.contains(name) && *name != linkage.coordinate);
+    let mut values = Point::default();
+    for (name, value) in &course.values.values {
+        if held.contains(name) {
+            values.values.insert(name.clone(), Jet::constant(*value));
+        }
+    }
+    for (name, (divisor, unit)) in &course.values.directions {
+        if held.contains(name) && *name != linkage.coordinate {
+            let unit = unit.map(Jet::constant);
+            values.directions.insert(name.clone(), (*divisor, unit));
+        }
+    }
     let mut moving = Moving {
         course,
         linkage,
@@ -221,7 +199,7 @@ pub(in crate::numeric::follow) fn linkage(
     let sample = |(at, y): &(f64, Vec<f64>)| {
         Some(Sample {
             time: at * moving.time,
-            poses: moving.places(y[0])?,
+            poses: moving.shape(y[0])?.places,
         })
     };
     let samples = run
