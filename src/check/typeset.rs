@@ -55,7 +55,7 @@ pub(super) fn differs(claim: &Value, left: &Expr, right: &Expr, known: &Known) -
                 return Some(format!("{other} and {name} are both spelled {spelling}"));
             }
         }
-        symbols.declare_as(name, spelling.map(String::as_str), None);
+        symbols.declare_as(name.clone(), spelling.map(String::as_str), None);
     }
     // What carom would write itself is taken as it is: some spellings no reader takes apart.
     let write = |e: &Expr| formula::write_latex(e, &|n| known.spelled.get(n).cloned());

@@ -19,10 +19,10 @@ pub fn read(formula: &str, sheet: Option<&Sheet>, format: Format) -> Result<Outp
             let question = sheet.question();
             let mut symbols = reader::Symbols::strict();
             for g in &question.symbols {
-                symbols.declare_as(&g.name, g.latex.as_deref(), g.dimension.clone());
+                symbols.declare_as(g.name.clone(), g.latex.as_deref(), g.dimension.clone());
             }
             for q in sheet.answered() {
-                symbols.declare_as(&q.name, q.latex.as_deref(), None);
+                symbols.declare_as(q.name.as_str(), q.latex.as_deref(), None);
             }
             (symbols, question)
         }

@@ -49,9 +49,6 @@ impl Unit {
     }
 
     fn times(&self, other: &Unit, power: i64) -> Unit {
-        if *self == Unit::number() && power == 1 {
-            return other.clone();
-        }
         let k = ratio(power, 1);
         Unit {
             dimension: self.dimension.times(&other.dimension.power(&k)),
@@ -99,7 +96,7 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     fn product(&mut self, depth: u32) -> Result<Unit, UnitFault> {
-        let mut total = Unit::number();
+        let mut total: Option<Unit> = None;
         let mut over = false;
         let mut below = 0;
         let mut waiting = false;
@@ -140,13 +137,17 @@ impl<'a> Reader<'a> {
             let start = self.at;
             let atom = self.atom(depth)?;
             // `ms-2` has two letters, of which the exponent belongs to the second.
-            let several = total != Unit::number() || &self.text[start..self.at] == "ms";
+            let several = total.as_ref().is_some_and(|t| *t != Unit::number())
+                || &self.text[start..self.at] == "ms";
             let power = self.exponent(several)?;
             let signed = if over { -power } else { power };
             if over {
                 below += 1;
             }
-            total = total.times(&atom, signed);
+            total = Some(match total {
+                None if signed == 1 => atom,
+                before => before.unwrap_or_else(Unit::number).times(&atom, signed),
+            });
             if self.at == start {
                 return Err(fault("this is no unit".into(), start, self.text.len()));
             }
@@ -159,7 +160,7 @@ impl<'a> Reader<'a> {
                 self.text.len(),
             ));
         }
-        Ok(total)
+        Ok(total.unwrap_or_else(Unit::number))
     }
 
     /// Whether a hyphen here stands right between two units of which the first is no length or time: `2 m-s` may be 2m − s.

@@ -74,7 +74,10 @@ impl Limit {
 
     /// How a fraction lies to the end; `None` where 36 digits of π do not tell.
     fn compare(&self, x: &Rational) -> Option<Ordering> {
-        if !self.of_pi || self.value.is_zero() {
+        if self.value.is_zero() {
+            return Some(x.numer().cmp(&Int::from(0)));
+        }
+        if !self.of_pi {
             return Some(compare(x, &self.value));
         }
         let [near, end] = [crate::expr::number::to_f64(x), self.approximate()];
@@ -235,7 +238,7 @@ impl Domain {
         };
         let sign = |l: &Limit| if l.open { "<" } else { "≤" };
         match (&self.low, &self.high) {
-            _ if *self == Domain::positive() => [symbol, " > 0"].concat(),
+            (Some(l), None) if l.open && l.value.is_zero() => [symbol, " > 0"].concat(),
             (None, None) => format!("{symbol} is real"),
             (Some(l), None) => format!("{symbol} {} {}", if l.open { ">" } else { "≥" }, end(l)),
             (None, Some(h)) => format!("{symbol} {} {}", sign(h), end(h)),

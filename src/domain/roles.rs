@@ -1,12 +1,10 @@
 //! How symbols occur in formulas: as angles, as plain values, or both.
 
-use std::collections::BTreeMap;
-
 use num_integer::Integer;
 use num_traits::ToPrimitive;
 
 use crate::expr::angle::angle;
-use crate::expr::{Expr, Function, Node, Symbol, ratio};
+use crate::expr::{Expr, Function, Node, Symbol, Table, ratio};
 
 /// How a symbol occurs in formulas.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -23,7 +21,7 @@ pub struct Role {
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Roles {
     /// Role of each symbol.
-    pub symbols: BTreeMap<Symbol, Role>,
+    pub symbols: Table<Role>,
     /// Whether angles known by direction are also needed in radians: sin(θ + π/3), sin(θ + x) with x bare.
     pub radians: bool,
 }
@@ -91,7 +89,7 @@ fn note(e: &Expr, out: &mut Roles) {
 }
 
 fn role<'a>(out: &'a mut Roles, name: &Symbol) -> &'a mut Role {
-    out.symbols.entry(name.clone()).or_insert(Role {
+    out.symbols.get_or_insert(name, || Role {
         turns: false,
         bare: false,
         divisor: 1,

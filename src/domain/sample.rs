@@ -3,21 +3,19 @@
 //! An angle is given by a rational direction of the angle itself or of a part of it (φ/2 where cos(φ/2) occurs), so that
 //! every sine and cosine in sight is a fraction. A symbol that also stands outside sines gets a rational value instead.
 
-use std::collections::BTreeMap;
-
 use num_traits::{One, Zero};
 
 use super::coordinate::{Lcg, circle, directions, numbers, random_number};
 use super::roles::{Role, Roles, roles};
 use super::{Coordinate, Domain, Domains};
-use crate::expr::{Expr, Function, Point, Rational, Scalar, Symbol, ratio};
+use crate::expr::{Expr, Function, Point, Rational, Scalar, Symbol, Table, ratio};
 use crate::interval::{Certified, Outcome};
 
 /// An exact point of a domain.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Sample {
     /// Value of each symbol.
-    pub coordinates: BTreeMap<Symbol, Coordinate>,
+    pub coordinates: Table<Coordinate>,
 }
 
 /// The first `count` points; the first gives every symbol its simplest value, the second gives different symbols

@@ -1,13 +1,11 @@
 //! Evaluation over any number type: doubles, exact fractions, intervals.
 
-use std::collections::BTreeMap;
-
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
 use super::angle::{Angle, angle};
 use super::number::{self, Int};
-use super::{Expr, Function, Node, Rational, Symbol};
+use super::{Expr, Function, Node, Rational, Table};
 
 /// A number type expressions can be evaluated in. A partial operation returns `None` where it has no value *in this type*:
 /// √2 is no fraction, and an interval around 0 has no reciprocal.
@@ -38,17 +36,17 @@ pub trait Scalar: Clone {
 #[derive(Clone, Debug)]
 pub struct Point<T> {
     /// Value of each symbol, angles in radians among them.
-    pub values: BTreeMap<Symbol, T>,
+    pub values: Table<T>,
     /// For an angle φ known by a direction: a divisor N and (cos(φ/N), sin(φ/N)). With rational entries this makes sin and
     /// cos of every multiple of φ/N exact.
-    pub directions: BTreeMap<Symbol, (u32, [T; 2])>,
+    pub directions: Table<(u32, [T; 2])>,
 }
 
 impl<T> Default for Point<T> {
     fn default() -> Self {
         Point {
-            values: BTreeMap::new(),
-            directions: BTreeMap::new(),
+            values: Table::default(),
+            directions: Table::default(),
         }
     }
 }

@@ -10,6 +10,7 @@ mod derivative;
 pub mod eval;
 mod function;
 pub mod number;
+mod table;
 mod vector;
 
 use std::cmp::Ordering;
@@ -24,6 +25,7 @@ use rustc_hash::FxBuildHasher;
 pub use eval::{Point, Scalar};
 pub use function::Function;
 pub use number::{Int, Rational, ratio};
+pub use table::Table;
 pub use vector::{Vector, cross, dot, minus};
 
 /// The name of a symbol as the scene writes it, such as `m1`, `theta` or `v_G`.
@@ -212,13 +214,20 @@ impl Expr {
 
     /// The names of all symbols, `pi` not among them.
     pub fn symbols(&self) -> BTreeSet<Symbol> {
-        let mut names = BTreeSet::new();
+        let mut names: Vec<&Symbol> = Vec::new();
         for name in self.parts().filter_map(Expr::as_symbol) {
-            if &**name != "pi" && !names.contains(name) {
-                names.insert(name.clone());
+            // Nearly all occurrences of a name share it.
+            if &**name != "pi" && !names.iter().any(|known| Arc::ptr_eq(known, name)) {
+                names.push(name);
             }
         }
-        names
+        names.into_iter().cloned().collect()
+    }
+
+    /// Whether a symbol occurs.
+    pub fn mentions(&self, name: &str) -> bool {
+        let mut names = self.parts().filter_map(Expr::as_symbol);
+        names.any(|symbol| &**symbol == name)
     }
 
     /// Whether no symbol but `pi` occurs.

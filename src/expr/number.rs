@@ -45,6 +45,11 @@ pub fn product(a: &Rational, b: &Rational) -> Rational {
     )
 }
 
+/// Whether a fraction is n/d, which is in lowest terms. Comparing fractions in general costs divisions.
+pub fn is(x: &Rational, n: i64, d: i64) -> bool {
+    x.numer().as_i64() == Some(n) && x.denom().as_i64() == Some(d)
+}
+
 /// Numerator and denominator that fit a machine word.
 fn words(x: &Rational) -> Option<[i128; 2]> {
     Some([x.numer().as_i64()?.into(), x.denom().as_i64()?.into()])

@@ -4,7 +4,7 @@ use num_traits::{Signed, Zero};
 
 use super::fault::{Fault, Faulty};
 use super::written::{Link, Shape, Sign, Written, has_arrow};
-use crate::expr::{Expr, Function, Rational};
+use crate::expr::{Expr, Function, Rational, number};
 
 /// Largest exponent that is a plain number.
 const MAX_POWER: i64 = 10_000;
@@ -53,7 +53,7 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
                 && base.is_vector()
                 && exponent
                     .literal()
-                    .is_some_and(|k| k.value == crate::expr::ratio(2, 1)) =>
+                    .is_some_and(|k| number::is(&k.value, 2, 1)) =>
         {
             match value(base, mode)? {
                 Value::Vector(v) => scalar(dot(&v, &v)),
@@ -272,7 +272,7 @@ fn power(w: &Written, base: &Written, exponent: Expr, mode: Mode) -> Faulty<Expr
                 w.end,
             ));
         }
-        if *k == crate::expr::ratio(1, 2) {
+        if number::is(k, 1, 2) {
             return Ok(below.sqrt());
         }
         if k.is_zero() && below.as_number().is_some() {

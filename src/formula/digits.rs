@@ -57,6 +57,10 @@ impl Lexer<'_> {
     pub(super) fn number(&mut self) -> Faulty<Tok> {
         let start = self.pos;
         let bytes = self.text.as_bytes();
+        if let Some((literal, end)) = number::plain(&bytes[start..]) {
+            self.pos = start + end;
+            return Ok(Tok::Number(literal));
+        }
         let mut digits_end = start;
         let mut dot = false;
         while bytes

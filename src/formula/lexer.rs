@@ -212,7 +212,10 @@ impl<'a> Lexer<'a> {
             Tok::Close(')' | ']' | '>' | 'm') => self.open = self.open.saturating_sub(1),
             Tok::PlusMinus | Tok::MinusPlus => self.pairs = true,
             Tok::Comma => self.vectors = true,
-            Tok::Name(name) => self.vectors |= name.contains("_hat") || has_arrow(name),
+            // A letter and `_hat` at least.
+            Tok::Name(name) if name.len() > 4 => {
+                self.vectors |= name.contains("_hat") || has_arrow(name);
+            }
             _ => {}
         }
         self.before = match &tok {

@@ -213,13 +213,18 @@ impl Reading {
 /// Reads a formula. Of several `\boxed{}` the last counts, and what stands around it is passed over; so are words
 /// around a single formula in dollars.
 pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
-    if let Some(text) = box_beside_unit(text) {
+    let held = prose::Held::of(text);
+    if held.any("\\")
+        && let Some(text) = box_beside_unit(text)
+    {
         return read(&text, symbols);
     }
-    if let Some(pair) = two_values(text, symbols) {
+    if held.joins()
+        && let Some(pair) = two_values(text, symbols)
+    {
         return pair;
     }
-    let usual = read_as(text, symbols, 0);
+    let usual = read_as(text, symbols, 0, held);
     let worded = match &usual {
         Ok(reading) => reading.notes.iter().any(|n| n.remark == Remark::Letters),
         Err(_) => text.len() <= MAX_BYTES,
@@ -239,7 +244,8 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     // What no rule read as words is no product of their letters.
     let between = |word: &str| Some((text.find(word)?, word.len()));
     if usual.is_ok()
-        && text.contains(['o', 'a'])
+        && held.any(" ")
+        && held.joins()
         && !text.contains("\\boxed")
         && let Some((at, length)) = between(" or ").or_else(|| between(" and "))
     {
@@ -348,13 +354,14 @@ pub fn other_readings(text: &str, symbols: &Symbols, slashes: bool) -> Vec<Readi
     let Ok(usual) = read(text, symbols) else {
         return Vec::new();
     };
+    let held = prose::Held::of(text);
     let mut out: Vec<Reading> = Vec::new();
     let count = (usual.choices - u32::from(usual.slashes)).min(MAX_READINGS);
     let all = (count > 1).then_some(!(1u64 << lexer::SLASHES));
     let slashes = (slashes && usual.slashes).then_some(1u64 << lexer::SLASHES);
     let sites = (0..count).map(|site| 1u64 << site);
     for flips in slashes.into_iter().chain(sites).chain(all) {
-        if let Ok(reading) = read_as(text, symbols, flips) {
+        if let Ok(reading) = read_as(text, symbols, flips, held) {
             let known = reading.content == usual.content
                 || out.iter().any(|r| r.content == reading.content);
             if !known {
@@ -368,10 +375,10 @@ pub fn other_readings(text: &str, symbols: &Symbols, slashes: bool) -> Vec<Readi
 /// The reading in which every slash outside functions reaches as far as some people mean it: over the first factor where
 /// all of a tight product was taken, over all where a number or a space parted it.
 pub fn slashes_turned(text: &str, symbols: &Symbols) -> Option<Reading> {
-    read_as(text, symbols, 1u64 << lexer::SLASHES).ok()
+    read_as(text, symbols, 1u64 << lexer::SLASHES, prose::Held::of(text)).ok()
 }
 
-fn read_as(text: &str, symbols: &Symbols, flips: u64) -> Faulty<Reading> {
+fn read_as(text: &str, symbols: &Symbols, flips: u64, held: prose::Held) -> Faulty<Reading> {
     if text.len() > MAX_BYTES {
         let message = format!(
             "a formula has at most {MAX_BYTES} bytes, this one has {}",
@@ -381,7 +388,7 @@ fn read_as(text: &str, symbols: &Symbols, flips: u64) -> Faulty<Reading> {
     }
     let (mut start, end) = boxed(text)?;
     let inner = &text[..end];
-    if let Some(last) = prose::conclusion(&inner[start..]) {
+    if let Some(last) = prose::conclusion(&inner[start..], held) {
         start += last;
     }
     // `≈ 1.2 m/s` goes on from what was asked.

@@ -18,6 +18,29 @@ pub(crate) enum Exponent {
     Symbol,
 }
 
+/// A whole number of a few digits with nothing behind it that could belong to it, as most are; and how many bytes it has.
+pub(crate) fn plain(text: &[u8]) -> Option<(Literal, usize)> {
+    let digits = text.iter().take_while(|b| b.is_ascii_digit()).count();
+    let ends = match text.get(digits) {
+        None => true,
+        // Groups of digits may follow.
+        Some(b' ') => !text.get(digits + 1).is_some_and(u8::is_ascii_digit),
+        Some(next) => next.is_ascii() && !b".,{\\eE".contains(next),
+    };
+    if !ends || !(1..=18).contains(&digits) {
+        return None;
+    }
+    let zeros = text[..digits].iter().take_while(|b| **b == b'0').count();
+    let add = |value: i64, b: &u8| value * 10 + i64::from(b - b'0');
+    let literal = Literal {
+        value: Rational::from(Int::from(text[..digits].iter().fold(0, add))),
+        digits: (digits - zeros).max(1) as u32,
+        place: 0,
+        decimal: false,
+    };
+    Some((literal, digits))
+}
+
 /// Reads the number that starts at byte `at`; gives it and the byte after it. In a `list` a comma separates components.
 pub(crate) fn literal(
     text: &str,

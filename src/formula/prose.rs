@@ -3,6 +3,39 @@
 //! Deliberately timid: it finds nothing where two formulas stand in the sentence, or where what stands outside could
 //! belong to the formula.
 
+/// The ASCII characters of a text as bits; the first bit stands for all others. Nearly all texts are a formula and nothing
+/// else, which one look at each character tells.
+#[derive(Clone, Copy)]
+pub(super) struct Held(u128);
+
+impl Held {
+    pub(super) fn of(text: &str) -> Held {
+        let bit = |b: u8| 1u128 << if b.is_ascii() { b } else { 0 };
+        Held(text.bytes().fold(0, |bits, b| bits | bit(b)))
+    }
+
+    /// Whether one of these occurs; `\0` asks for anything beyond ASCII.
+    pub(super) fn any(self, characters: &str) -> bool {
+        self.0 & Held::of(characters).0 != 0
+    }
+
+    /// Whether all of these occur.
+    pub(super) fn all(self, characters: &str) -> bool {
+        let asked = Held::of(characters).0;
+        self.0 & asked == asked
+    }
+
+    /// Whether there could be a word that joins two values, or a comma.
+    pub(super) fn joins(self) -> bool {
+        self.any(",") || self.all("or") || self.all("and")
+    }
+
+    /// Whether there could be words or an arrow before the last statement.
+    fn leads_on(self) -> bool {
+        self.any("\\>,:=\0") || self.all("is ")
+    }
+}
+
 /// Where one of two values ends and the other begins: `x = 3 or x = -3`, `2, -2`. Nothing where more than two stand there.
 pub(super) fn alternatives(text: &str) -> Option<(usize, usize)> {
     const WORDS: [&str; 6] = [
@@ -13,10 +46,6 @@ pub(super) fn alternatives(text: &str) -> Option<(usize, usize)> {
         "\\text{ and }",
         " and ",
     ];
-    // Nearly all texts hold none of them.
-    if !text.contains(',') && !text.contains("or") && !text.contains("and") {
-        return None;
-    }
     let mut found = None;
     let mut depth = 0i32;
     let mut at = 0;
@@ -51,7 +80,7 @@ pub(super) fn alternatives(text: &str) -> Option<(usize, usize)> {
 
 /// Where the last of several statements starts that follow from each other: `mgh = ½mv² ⟹ v = √(2gh)`; also behind a word
 /// such as `Therefore,`.
-pub(super) fn conclusion(text: &str) -> Option<usize> {
+pub(super) fn conclusion(text: &str, held: Held) -> Option<usize> {
     const ARROWS: [&str; 11] = [
         "\\implies",
         "\\Longrightarrow",
@@ -82,7 +111,9 @@ pub(super) fn conclusion(text: &str) -> Option<usize> {
         "answer",
         "it follows that",
     ];
-    // Nearly all texts hold no arrow: its first byte would be there.
+    if !held.leads_on() {
+        return None;
+    }
     // Where nothing stands before it an arrow leads on from the question.
     if let Some(behind) = ["=>", "->", "→", "\\to", "\\rightarrow"]
         .iter()
@@ -91,7 +122,7 @@ pub(super) fn conclusion(text: &str) -> Option<usize> {
     {
         return Some(text.len() - behind.len());
     }
-    let arrow = match text.bytes().any(|b| matches!(b, b'\\' | 0xe2)) {
+    let arrow = match held.any("\\\0") {
         true => ARROWS
             .iter()
             .filter_map(|arrow| text.rfind(arrow).map(|at| at + arrow.len()))

@@ -102,12 +102,15 @@ impl Symbols {
     }
 
     /// Declares a name with its LaTeX spelling and dimension, where there are such.
-    pub fn declare_as(&mut self, name: &str, latex: Option<&str>, dimension: Option<Dimension>) {
+    pub fn declare_as(
+        &mut self,
+        name: impl Into<Symbol>,
+        latex: Option<&str>,
+        dimension: Option<Dimension>,
+    ) {
         let index = self.declared.len();
-        self.declared.push(Declared {
-            name: Symbol::from(name),
-            dimension,
-        });
+        let symbol = name.into();
+        let name = &*symbol;
         let typeset = latex.and_then(super::name::key_of_latex).map(Cow::Owned);
         for key in [key_of(name)].into_iter().chain(typeset) {
             let letters = key.bytes().take_while(u8::is_ascii_alphabetic).count();
@@ -133,6 +136,10 @@ impl Symbols {
         if name.len() > 1 && name.bytes().all(|b| b.is_ascii_alphabetic()) {
             self.add_base(name);
         }
+        self.declared.push(Declared {
+            name: symbol,
+            dimension,
+        });
     }
 
     fn add_base(&mut self, base: &str) {

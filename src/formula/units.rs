@@ -71,16 +71,16 @@ impl Lexer<'_> {
         if !marked {
             let side = self.rest_of_side()?;
             let free = |text| self.units_first || self.is_free(text);
-            let bare = side.contains('\\') || free(side);
+            // No unit has a plus sign.
+            if !self.units_first && side.contains('+') || !(side.contains('\\') || free(side)) {
+                return None;
+            }
             // `\frac{m}{s}` begins with no word.
             if !side.starts_with('\\') {
                 let word = first_word(side)?;
                 if !free(word) || dimension::unit(word).is_err() {
                     return None;
                 }
-            }
-            if !bare {
-                return None;
             }
         }
         let side = self.rest_of_side()?;

@@ -7,7 +7,7 @@ use num_traits::{One, Signed};
 
 use super::symbols::{greek_letter, greek_name, is_greek, parts_of};
 use super::visible::{in_math, visible};
-use crate::expr::{Expr, Function, Node, Rational, ratio};
+use crate::expr::{Expr, Function, Node, Rational, number};
 
 /// How a name is typeset where the caller says so.
 type Names<'a> = &'a dyn Fn(&str) -> Option<String>;
@@ -90,7 +90,7 @@ fn divide(factors: &[Expr], q: &mut Quotient) {
             }
             Node::Power(base, exponent) => match exponent.as_number() {
                 // A literal (1/2)^-1 would fold; only powers that stay powers are moved below.
-                Some(k) if *k == ratio(-1, 1) => {
+                Some(k) if number::is(k, -1, 1) => {
                     if let Node::Product(inner) = base.node() {
                         std::mem::swap(&mut q.above, &mut q.below);
                         divide(inner, q);
@@ -223,7 +223,7 @@ impl Writer<'_> {
     }
 
     fn power(&mut self, base: &Expr, exponent: &Expr) {
-        if exponent.as_number().is_some_and(|k| *k == ratio(1, 2)) {
+        if exponent.as_number().is_some_and(|k| number::is(k, 1, 2)) {
             match self.style {
                 Style::Plain => {
                     self.out.push_str("sqrt(");
@@ -259,7 +259,7 @@ impl Writer<'_> {
             Node::Symbol(name) => !self.has_mark(name),
             Node::Call(..) => self.style == Style::Plain,
             Node::Power(_, k) => {
-                self.style == Style::Plain && k.as_number().is_some_and(|k| *k == ratio(1, 2))
+                self.style == Style::Plain && k.as_number().is_some_and(|k| number::is(k, 1, 2))
             }
             _ => false,
         };
@@ -389,7 +389,9 @@ impl Writer<'_> {
 /// The factor a written product would start with.
 fn leading(e: &Expr) -> &Expr {
     match e.node() {
-        Node::Power(base, exponent) if exponent.as_number().is_none_or(|k| *k != ratio(1, 2)) => {
+        Node::Power(base, exponent)
+            if exponent.as_number().is_none_or(|k| !number::is(k, 1, 2)) =>
+        {
             leading(base)
         }
         _ => e,

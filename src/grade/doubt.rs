@@ -55,7 +55,7 @@ pub(super) fn euler(
     let (expected, answer) = (&key.reading.content, &reading.content);
     let occurs = |content: &Content| {
         let mut found = false;
-        content.each(&mut |e| found |= e.symbols().contains("e"));
+        content.each(&mut |e| found |= e.mentions("e"));
         found
     };
     if finding.verdict != Verdict::Different || occurs(expected) == occurs(answer) || key.declares_e

@@ -203,7 +203,11 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
 
 fn declare(symbols: &mut Symbols, question: &Question) {
     for given in question.symbols.iter().chain(&question.asked) {
-        symbols.declare_as(&given.name, given.latex.as_deref(), given.dimension.clone());
+        symbols.declare_as(
+            given.name.clone(),
+            given.latex.as_deref(),
+            given.dimension.clone(),
+        );
     }
 }
 

@@ -10,7 +10,7 @@ use num_traits::Signed;
 use super::compare::{Context, is_short, same_number};
 use super::{Diagnosis, fraction, number};
 use crate::dimension::{self, Clash, Dimension};
-use crate::domain::{Domains, roles};
+use crate::domain::Domains;
 use crate::equality::{self, Equality, How};
 use crate::expr::{Expr, Function, Node, Symbol, ratio};
 use trial::Trial;
@@ -199,10 +199,6 @@ fn slip(q: &crate::expr::Rational) -> bool {
 /// A fraction a slip of the pen would produce.
 fn simple(q: &crate::expr::Rational) -> bool {
     q.numer().bits() <= 7 && q.denom().bits() <= 7
-}
-
-fn angle(name: &Symbol, e: &Expr) -> bool {
-    roles(&[e]).symbols.get(name).is_some_and(|r| r.turns)
 }
 
 /// Sines and cosines exchanged everywhere.

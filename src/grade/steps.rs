@@ -248,11 +248,15 @@ impl<'a> Desk<'a> {
     fn symbols(&self) -> Symbols {
         let mut symbols = Symbols::strict();
         for p in &self.sheet.scene.parameters {
-            symbols.declare_as(&p.name, p.latex.as_deref(), Some(p.dimension.clone()));
+            symbols.declare_as(
+                p.name.clone(),
+                p.latex.as_deref(),
+                Some(p.dimension.clone()),
+            );
         }
         for q in &self.sheet.scene.questions {
             if self.closed.contains_key(q.name.as_str()) || self.components(&q.name).is_some() {
-                symbols.declare_as(&q.name, q.latex.as_deref(), None);
+                symbols.declare_as(q.name.as_str(), q.latex.as_deref(), None);
             }
         }
         self.closed
@@ -262,7 +266,7 @@ impl<'a> Desk<'a> {
         // `ω⁺` is what is asked of the moment just after, and a vector may wear its arrow.
         for name in self.closed.keys().filter(|name| !name.contains('^')) {
             let after = format!("{}^{{+}}", formula::latex_name(name));
-            symbols.declare_as(name, Some(&after), None);
+            symbols.declare_as(name.clone(), Some(&after), None);
         }
         let vectors = self.sheet.scene.questions.iter().map(|q| q.name.as_str());
         let vectors = vectors.filter(|name| self.components(name).is_some());

@@ -113,6 +113,11 @@ impl Certified for Interval {
         Interval::of(sum(self.low, other.low).0, sum(self.high, other.high).1)
     }
     fn times(&self, other: &Self) -> Outcome<Self> {
+        if self.low >= 0.0 && other.low >= 0.0 {
+            // Most factors are positive.
+            let (low, high) = (product(self.low, other.low), product(self.high, other.high));
+            return Interval::of(low.0, high.1);
+        }
         let ends = [
             product(self.low, other.low),
             product(self.low, other.high),

@@ -111,7 +111,7 @@ pub fn random_point(needed: &Needed, domains: &Domains, seed: u64) -> Point<Rati
 pub fn point_of_any_size(needed: &Needed, domains: &Domains, seed: u64) -> Point<Rational> {
     let point = random_point(needed, domains, seed);
     let mut scaled = point.clone();
-    for (name, value) in &mut scaled.values {
+    for (name, value) in scaled.values.iter_mut() {
         let domain = domains.symbols.get(name).cloned();
         let domain = domain.unwrap_or_else(Domain::positive);
         let factors = [(1, 100), (1, 10), (1, 1), (10, 1), (100, 1)].map(|(p, q)| ratio(p, q));
@@ -202,7 +202,7 @@ pub fn with_angles(point: &Point<f64>) -> Point<f64> {
     let mut out = point.clone();
     for (name, (divisor, [c, s])) in &point.directions {
         let whole = s.atan2(*c) * f64::from(*divisor);
-        out.values.entry(name.clone()).or_insert(whole);
+        out.values.get_or_insert(name, || whole);
     }
     out
 }

@@ -89,7 +89,7 @@ impl Symbols {
     pub fn new(dimensions: BTreeMap<Symbol, Option<Dimension>>) -> Symbols {
         let mut names = formula::Symbols::strict();
         for (name, dimension) in &dimensions {
-            names.declare_as(name, None, dimension.clone());
+            names.declare_as(name.clone(), None, dimension.clone());
         }
         Symbols {
             names,

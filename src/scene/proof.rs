@@ -7,7 +7,7 @@ use super::Scene;
 use crate::algebra::{Field, Sign};
 use crate::domain::{Domains, roles, samples};
 use crate::equality::{self, Equality, How};
-use crate::expr::{Expr, Point, Symbol};
+use crate::expr::{Expr, Point};
 use crate::interval::{Interval, Outcome, evaluate};
 
 /// Whether an expression is zero on the whole domain.
@@ -87,7 +87,7 @@ pub(super) fn given(scene: &Scene) -> Given {
         .iter()
         .filter_map(|p| Some((p.name.clone(), value(p.value.as_ref()?))));
     Point {
-        values: known.collect::<std::collections::BTreeMap<Symbol, _>>(),
+        values: known.collect(),
         ..Point::default()
     }
 }

@@ -142,10 +142,14 @@ fn reading(scene: &Scene, text: &str) -> Value {
     // Answers may name what a derivation defines, so names that are not declared are read as they stand.
     let mut symbols = Symbols::open();
     for p in &scene.parameters {
-        symbols.declare_as(&p.name, p.latex.as_deref(), Some(p.dimension.clone()));
+        symbols.declare_as(
+            p.name.clone(),
+            p.latex.as_deref(),
+            Some(p.dimension.clone()),
+        );
     }
     for q in &scene.questions {
-        symbols.declare_as(&q.name, q.latex.as_deref(), None);
+        symbols.declare_as(q.name.as_str(), q.latex.as_deref(), None);
     }
     let read = match formula::read(text, &symbols) {
         Ok(read) => read,

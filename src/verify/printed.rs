@@ -150,18 +150,22 @@ impl<'a> Desk<'a> {
     fn symbols(&self, printed: &Printed) -> Symbols {
         let mut symbols = Symbols::strict();
         for p in &self.scene.parameters {
-            symbols.declare_as(&p.name, p.latex.as_deref(), Some(p.dimension.clone()));
+            symbols.declare_as(
+                p.name.clone(),
+                p.latex.as_deref(),
+                Some(p.dimension.clone()),
+            );
         }
         for name in self.closed.keys() {
             let latex = name.contains('^').then(|| formula::latex_name(name));
             let dimension = self.dimensions.get(name).cloned();
-            symbols.declare_as(name, latex.as_deref(), dimension);
+            symbols.declare_as(name.clone(), latex.as_deref(), dimension);
         }
         for name in self.arrows.keys() {
             symbols.declare(name);
             let after = format!("{}^{{+}}", formula::latex_name(name));
             if !name.contains('^') {
-                symbols.declare_as(name, Some(&after), None);
+                symbols.declare_as(name.clone(), Some(&after), None);
             }
         }
         for [name, _] in &printed.short {

@@ -43,7 +43,7 @@ impl Drawn {
 fn spell(e: &Expr, out: &mut Vec<u8>) {
     let mut parts = |kind: u8, parts: &[Expr]| {
         out.push(kind);
-        out.extend((parts.len() as u64).to_le_bytes());
+        count(parts.len() as u64, out);
         parts.iter().for_each(|part| spell(part, out));
     };
     match e.node() {
@@ -51,9 +51,9 @@ fn spell(e: &Expr, out: &mut Vec<u8>) {
         Node::Product(factors) => parts(b'*', factors),
         Node::Number(value) => match (value.numer().as_i64(), value.denom().as_i64()) {
             (Some(above), Some(below)) => {
-                out.push(b'n');
-                out.extend(above.to_le_bytes());
-                out.extend(below.to_le_bytes());
+                out.push(if above < 0 { b'-' } else { b'n' });
+                count(above.unsigned_abs(), out);
+                count(below.unsigned_abs(), out);
             }
             _ => named(b'N', &value.to_string(), out),
         },
@@ -72,8 +72,17 @@ fn spell(e: &Expr, out: &mut Vec<u8>) {
 
 fn named(kind: u8, name: &str, out: &mut Vec<u8>) {
     out.push(kind);
-    out.extend((name.len() as u64).to_le_bytes());
+    count(name.len() as u64, out);
     out.extend(name.as_bytes());
+}
+
+/// A number in groups of seven bits, the last one marked: small ones, which nearly all are, take one byte.
+fn count(mut n: u64, out: &mut Vec<u8>) {
+    while n >= 0x80 {
+        out.push((n & 0x7f) as u8);
+        n >>= 7;
+    }
+    out.push(n as u8 | 0x80);
 }
 
 #[cfg(test)]

@@ -8,9 +8,9 @@ use num_traits::Signed;
 
 use super::super::compare::{Context, quotient};
 use super::super::{Diagnosis, fraction, number};
-use super::{GLANCES, angle, proved, simple, swap};
-use crate::domain::{Coordinate, Domains, Sample, roles, samples};
-use crate::expr::{Expr, Function, Node, Point, Scalar, Symbol, ratio};
+use super::{GLANCES, proved, simple, swap};
+use crate::domain::{Coordinate, Domains, Roles, Sample, roles, samples};
+use crate::expr::{Expr, Function, Node, Point, Scalar, Symbol, Table, ratio};
 use crate::formula::write_plain;
 use crate::interval::{Interval, Outcome, evaluate};
 
@@ -25,6 +25,8 @@ pub(super) struct Trial<'a> {
     domains: &'a Domains,
     /// Whether sines and cosines occur.
     turns: bool,
+    /// How symbols occur in the expected formula and in the answer.
+    uses: [Roles; 2],
     points: Vec<Place>,
     values: Vec<Weighed>,
     answers: Vec<Weighed>,
@@ -76,10 +78,17 @@ impl<'a> Trial<'a> {
             answer,
             domains,
             turns,
+            uses: [expected, answer].map(|e| roles(&[e])),
             values: at(expected),
             answers: at(answer),
             points,
         }
+    }
+
+    /// Whether a symbol is an angle in the expected formula, and in the answer.
+    fn turned(&self, name: &str) -> [bool; 2] {
+        let turns = |uses: &Roles| uses.symbols.get(name).is_some_and(|role| role.turns);
+        self.uses.each_ref().map(turns)
     }
 
     /// Whether two lists of values are of different expressions for certain.
@@ -320,19 +329,15 @@ impl<'a> Trial<'a> {
 
     /// One symbol's sines and cosines exchanged.
     fn one_swapped(&self) -> Option<Diagnosis> {
-        let angles: Vec<Symbol> = roles(&[self.answer])
-            .symbols
-            .into_iter()
-            .filter(|(_, r)| r.turns)
-            .map(|(n, _)| n)
-            .collect();
+        let uses = self.uses[1].symbols.iter();
+        let angles: Vec<&Symbol> = uses.filter(|(_, r)| r.turns).map(|(n, _)| n).collect();
         if angles.len() < 2 {
             return None;
         }
         let right = Expr::pi() * Expr::ratio(1, 2);
         angles.iter().find_map(|name| {
             let turned = self.answer.substitute(&BTreeMap::from([(
-                name.clone(),
+                Symbol::clone(name),
                 &right - &Expr::symbol(name),
             )]));
             self.mends(&turned).then(|| {
@@ -372,7 +377,7 @@ impl<'a> Trial<'a> {
         self.answer
             .symbols()
             .into_iter()
-            .filter(|n| !self.turns || !angle(n, self.answer))
+            .filter(|name| !self.turned(name)[1])
             .find_map(|name| {
                 for (n, d, code, words) in [(1, 2, "HALF", "half of"), (2, 1, "DOUBLE", "twice")] {
                     let factor = Weighed::from_rational(&ratio(n, d));
@@ -454,7 +459,7 @@ impl<'a> Trial<'a> {
             if mine.contains(&name) {
                 continue;
             }
-            let turning = self.turns && angle(&name, self.expected);
+            let [turning, _] = self.turned(&name);
             let cases: Vec<(Expr, String)> = if turning {
                 vec![
                     (Expr::zero(), format!("{name} = 0")),
@@ -517,11 +522,10 @@ impl<'a> Trial<'a> {
         if !self.turns {
             return None;
         }
-        let angles: BTreeSet<Symbol> = roles(&[self.expected, self.answer])
-            .symbols
-            .into_iter()
+        let both = self.uses.iter().flat_map(|uses| uses.symbols.iter());
+        let angles: BTreeSet<Symbol> = both
             .filter(|(_, r)| r.turns)
-            .map(|(n, _)| n)
+            .map(|(name, _)| name.clone())
             .collect();
         for name in angles {
             let at_zero = |e: &Expr| e.substitute(&BTreeMap::from([(name.clone(), Expr::zero())]));
@@ -576,7 +580,7 @@ impl<'a> Trial<'a> {
 }
 
 /// Exchanges what two names stand for.
-fn exchange<T>(values: &mut BTreeMap<Symbol, T>, a: &Symbol, b: &Symbol) {
+fn exchange<T>(values: &mut Table<T>, a: &Symbol, b: &Symbol) {
     let (first, second) = (values.remove(a), values.remove(b));
     values.extend(first.map(|value| (b.clone(), value)));
     values.extend(second.map(|value| (a.clone(), value)));

@@ -201,7 +201,11 @@ impl Desk<'_> {
     pub(super) fn new_name(&mut self, text: &str) -> Option<Status> {
         let mut open = Symbols::open();
         for p in &self.sheet.scene.parameters {
-            open.declare_as(&p.name, p.latex.as_deref(), Some(p.dimension.clone()));
+            open.declare_as(
+                p.name.clone(),
+                p.latex.as_deref(),
+                Some(p.dimension.clone()),
+            );
         }
         let known = self.closed.keys().chain(self.own.keys());
         known.for_each(|name| open.declare(name));
