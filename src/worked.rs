@@ -11,6 +11,9 @@ use crate::solution::{self, Detail, Solution};
 use crate::story::{self, StageTold, Told};
 use crate::verify::{self, Trust};
 
+/// The stage of a scene of one impact whose outcomes are told one after the other.
+pub const IMPACT: &str = "impact";
+
 /// A scene, worked out.
 #[derive(Clone, Debug)]
 pub struct Worked {
@@ -25,6 +28,15 @@ pub fn out(scene: &Scene) -> Result<Worked, String> {
     let scene = verify::friction::settled(scene)?;
     let told = story::tell(&scene).map_err(|reason| reason.to_string())?;
     Ok(Worked { scene, told })
+}
+
+/// The same, with every case that friction leaves: they are told as outcomes of one stage.
+pub fn in_cases(scene: &Scene) -> Result<Worked, String> {
+    let alone = !scene.has_stages() && scene.friction().is_some();
+    if !alone || verify::friction::outcomes(scene)?.len() < 2 {
+        return out(scene);
+    }
+    out(&scene.staged(IMPACT))
 }
 
 impl Worked {

@@ -11,7 +11,7 @@ use std::thread;
 
 use carom::solution::{Detail, Solution};
 use carom::worked::{self, Worked};
-use carom::{check, figure, render, scene, solution, verify};
+use carom::{check, figure, render, scene, solution};
 
 /// A scene, worked out once for all tests.
 struct Case {
@@ -25,7 +25,8 @@ impl Case {
     fn read(path: PathBuf) -> Case {
         let text = fs::read_to_string(&path).expect("a readable scene");
         let scene = scene::read(&text).unwrap_or_else(|f| panic!("{}", f.render("scene", &text)));
-        let worked = worked::out(&scene).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
+        let worked =
+            worked::in_cases(&scene).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
         Case {
             path,
             text,
@@ -39,18 +40,11 @@ impl Case {
     }
 }
 
-/// Where friction leaves several cases there is a table, and no one solution.
-fn has_one_case(path: &Path) -> bool {
-    let text = fs::read_to_string(path).expect("a readable scene");
-    scene::read(&text).is_ok_and(|scene| verify::friction::settled(&scene).is_ok())
-}
-
 /// Every shipped scene with a worked solution.
 fn cases() -> &'static [Case] {
     static CASES: OnceLock<Vec<Case>> = OnceLock::new();
     CASES.get_or_init(|| {
-        let mut files = shared::files("derivations", "json");
-        files.retain(|path| has_one_case(path));
+        let files = shared::files("derivations", "json");
         thread::scope(|scope| {
             let each: Vec<_> = files
                 .into_iter()

@@ -99,6 +99,10 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
         scene::set(&mut scene, name.trim(), value.trim()).map_err(|f| Unusable(f.message))?;
     }
     scene::values_fit(&scene).map_err(|f| Unusable(f.message))?;
+    // Outcomes of a scene's one impact are told as those of a stage.
+    if let (false, Some(stage)) = (scene.has_stages(), root["impacts"][0]["stage"].as_str()) {
+        scene = scene.staged(stage);
+    }
     let impacts = story::impacts(&scene, &root["impacts"])?;
     let meanings = meanings(&scene, &root["symbols"])?;
     let known = Known::of(&scene, &meanings, &root["spelled"]);

@@ -6,13 +6,12 @@ use clap::Args;
 use rayon::prelude::*;
 
 use super::solution::pictures;
-use super::{Failure, collect, complain, files, refused, work_out};
+use super::{Failure, collect, complain, files, refused};
 use carom::command;
-use carom::figure::{self, Which};
 use carom::render::{html, site};
 use carom::scene;
 use carom::solution::Detail;
-use carom::verify::friction::settled;
+use carom::worked;
 
 /// Arguments of `carom site`.
 #[derive(Args)]
@@ -102,24 +101,11 @@ fn page(args: &SiteArgs, path: &Path) -> Result<(site::Listed, bool), Failure> {
         .into_owned();
     let up = "../".repeat(below.components().count() - 1);
     let (above, file) = (site::above(&up), site::source(&name, &text));
-    let (html, sound, svg) = match settled(&scene) {
-        Ok(settled) => {
-            let worked = work_out(path, &settled)?;
-            let solution = worked.solution(Detail::Normal);
-            let pictures = pictures(path, &worked)?;
-            let page = html::page_among(&solution, &pictures, &above, &file);
-            let first = pictures.first().map(|p| p.svg.clone());
-            (page, worked.holds(), first.unwrap_or_default())
-        }
-        // Friction leaves several cases: all of them, as they are derived.
-        Err(_) => {
-            let found =
-                command::derive(&scene, command::Format::Text).map_err(|why| refused(path, why))?;
-            let page = site::printed(&scene.title, &found.text, &above, &file);
-            let before = figure::draw(&scene, Which::Before).svg;
-            (page, found.status == 0, before)
-        }
-    };
+    let worked = worked::in_cases(&scene).map_err(|why| refused(path, why))?;
+    let pictures = pictures(path, &worked)?;
+    let solution = worked.solution(Detail::Normal);
+    let html = html::page_among(&solution, &pictures, &above, &file);
+    let svg = pictures.first().map(|p| p.svg.clone()).unwrap_or_default();
     save(&target, &text)?;
     save(&target.with_extension("html"), &html)?;
     let folder = below
@@ -143,7 +129,7 @@ fn page(args: &SiteArgs, path: &Path) -> Result<(site::Listed, bool), Failure> {
         words: words.join(" "),
         svg,
     };
-    Ok((listed, sound))
+    Ok((listed, worked.holds()))
 }
 
 /// A path as an address; what ends a path there is escaped.

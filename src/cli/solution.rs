@@ -5,11 +5,11 @@ use std::process::Command;
 
 use clap::{Args, ValueEnum};
 
-use super::{Failure, files, pretty, print, read_scene_text, refused, work_out};
+use super::{Failure, files, pretty, print, read_scene_text, refused};
 use carom::figure::{self, Which};
 use carom::render::html::Picture;
 use carom::solution::{Detail, Slot};
-use carom::worked::Worked;
+use carom::worked::{self, Worked};
 use carom::{answer, check, render, scene::Scene};
 
 /// Arguments of `carom solution`.
@@ -71,7 +71,7 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         DetailArg::Normal => Detail::Normal,
         DetailArg::Full => Detail::Full,
     };
-    let worked = work_out(&args.scene, &scene)?;
+    let worked = worked::in_cases(&scene).map_err(|why| refused(&args.scene, why))?;
     let solution = &worked.solution(detail);
     let drawn = drawn(&args.scene, &worked)?;
     let holds = worked.holds();

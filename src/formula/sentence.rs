@@ -121,8 +121,25 @@ fn beyond_zero(e: &Expr, [sign, turned]: [&str; 2]) -> Sentence {
     match (kept.is_constant(), taken.is_constant()) {
         (true, false) => solved(&taken, turned, &kept),
         (false, true) => solved(&kept, sign, &taken),
-        _ => sentence![&kept, sign, &taken],
+        _ => sentence![&gathered(&kept), sign, &gathered(&taken)],
     }
+}
+
+/// A sum with the symbols that stand in each of its terms in front: `μ + 3 μ sin²θ` as `μ (1 + 3 sin²θ)`.
+fn gathered(side: &Expr) -> Expr {
+    let Node::Sum(terms) = side.node() else {
+        return side.clone();
+    };
+    let factors = |term: &Expr| match term.node() {
+        Node::Product(factors) => factors.clone(),
+        _ => vec![term.clone()],
+    };
+    let mut common = factors(&terms[0]);
+    common.retain(|f| f.as_symbol().is_some() && terms.iter().all(|t| factors(t).contains(f)));
+    let rest =
+        |term: &Expr| Expr::product(factors(term).into_iter().filter(|f| !common.contains(f)));
+    let rest = Expr::sum(terms.iter().map(rest));
+    Expr::product(common.iter().cloned().chain([rest]))
 }
 
 impl From<&str> for Sentence {

@@ -140,12 +140,6 @@ pub fn source(name: &str, text: &str) -> String {
     )
 }
 
-/// What a command printed.
-pub fn printed(title: &str, text: &str, above: &str, below: &str) -> String {
-    let body = format!("<pre>{}</pre>\n{below}", escape_lines(text));
-    shell(title, above, &body, None)
-}
-
 /// Text with its lines kept.
 fn escape_lines(text: &str) -> String {
     text.lines().map(|line| escape(line) + "\n").collect()

@@ -65,6 +65,23 @@ impl Stage {
 }
 
 impl Scene {
+    /// A scene of one impact as one of a single stage with this name, so that its outcomes can be told one after the other.
+    pub fn staged(&self, name: &str) -> Scene {
+        let mut out = self.clone();
+        for question in &mut out.questions {
+            let is_impact =
+                question.ask.is_motion() || matches!(question.ask, Ask::Friction { .. });
+            question.stage = is_impact.then_some(0);
+        }
+        let mut stage = Stage::alone(self);
+        stage.name = String::from(name);
+        let is_asked = |q: &Question| q.ask.is_motion() || matches!(q.ask, Ask::Friction { .. });
+        stage.scene.questions.retain(is_asked);
+        out.stages = vec![stage];
+        (out.hinges, out.contacts, out.blows, out.after) = Default::default();
+        out
+    }
+
     /// Every formula that may depend on where bodies are.
     fn geometry_mut(&mut self, put: &mut impl FnMut(&mut Expr)) {
         for point in &mut self.points {

@@ -159,3 +159,14 @@ pub(super) fn remember(worlds: &mut [World], answers: &[Answer]) {
         }
     }
 }
+
+/// The same of an answer that all ways share.
+pub(super) fn everywhere(worlds: &mut [World], answer: &Answer) {
+    let Some(formula) = answer.formula() else {
+        return;
+    };
+    for world in worlds {
+        let name = Symbol::from(answer.name.as_str());
+        world.known.insert(name, formula.clone());
+    }
+}

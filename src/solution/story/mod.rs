@@ -440,7 +440,11 @@ impl Page<'_> {
             items.push(text);
         }
         if !self.valid.is_empty() && self.solution.detail == Detail::Normal {
-            let mut text = vec![say("The impacts hold for ")];
+            let of = match self.told.stages.len() {
+                1 => "The results hold for ",
+                _ => "The impacts hold for ",
+            };
+            let mut text = vec![say(of)];
             let count = self.valid.len();
             for (i, condition) in std::mem::take(&mut self.valid).into_iter().enumerate() {
                 text.push(say(match (i, i + 1 == count) {
@@ -465,7 +469,7 @@ impl Page<'_> {
         let words = match self.told.holds() {
             false => "A check failed: do not use these results before the fault is found.",
             true if self.solution.detail != Detail::Normal => return,
-            true if is_followed => {
+            true if is_followed && self.told.stages.iter().any(|s| s.cases.is_empty()) => {
                 "Check: followed in time numerically, from the given data alone, the scene ends with the same values."
             }
             true if self.told.stages.iter().any(|s| !s.cases.is_empty()) => {
@@ -486,15 +490,17 @@ impl Page<'_> {
         let motions = self.told.stages.iter().filter(|s| s.cases.is_empty());
         let said: Vec<&Sentence> = motions.flat_map(|s| &s.assumptions).collect();
         // So are the conditions of the cases, each with what happens there.
-        let words = self.told.stages.iter().flat_map(|s| &s.words);
-        let words: Vec<String> = words.map(ToString::to_string).collect();
-        let in_a_case = |a: &Sentence| {
-            let text = a.to_string();
-            let condition = text.split(" (").next().unwrap_or_default();
-            words
-                .iter()
-                .any(|w| w.starts_with(&format!("where {condition}:")))
-        };
+        let listed = |s: &&StageTold| s.words.iter().any(|w| w.to_string().starts_with("where "));
+        let cases = self
+            .told
+            .stages
+            .iter()
+            .filter(listed)
+            .flat_map(|s| &s.cases);
+        let conditions = cases.flat_map(|case| &case.conditions);
+        let conditions: Vec<Sentence> =
+            conditions.map(|(_, e)| Sentence::not_negative(e)).collect();
+        let in_a_case = |a: &Sentence| conditions.iter().any(|c| a.0.starts_with(&c.0));
         let unread = all.into_iter().skip(self.told.readings.len());
         unread
             .filter(|a| !said.contains(&a) && !in_a_case(a))

@@ -38,6 +38,9 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
         } else {
             let new = one(scene, &stages, question, &answers)?;
             worlds::remember(&mut worlds, &new);
+            if let (Ask::Friction { .. }, [only]) = (&question.ask, new.as_slice()) {
+                worlds::everywhere(&mut worlds, only);
+            }
             new
         };
         answers.extend(new);
