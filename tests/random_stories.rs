@@ -32,6 +32,8 @@ fn course() -> impl Strategy<Value = Course> {
         r#""turn": {"by": "a", "torque": "T", MORE}"#,
         r#""turn": {"until": "below", "gravity": "g", MORE}"#,
         r#""turn": {"until": "above", "gravity": "g", MORE}"#,
+        r#""turn": {"until": "stops", "gravity": "g", MORE}"#,
+        r#""turn": {"until": "stops", "torque": "-T", MORE}"#,
         r#""fall": {"height": "h", "gravity": "g", MORE}"#,
         r#""slide": {"along": "x", "distance": "s", "force": "-F", MORE}"#,
         r#""impact": MORE"#,
@@ -45,6 +47,7 @@ fn course() -> impl Strategy<Value = Course> {
         r#""by": "a""#,
         r#""until": "above""#,
         r#""until": "below""#,
+        r#""until": "stops""#,
     ]);
     (
         select(vec!["rod", "disk", "rectangle"]),
@@ -110,7 +113,7 @@ impl Course {
         ];
         if turns {
             questions.push(String::from(
-                r#""R": {"reaction": "first", "along": "x", "when": "start"}"#,
+                r#""R": {"reaction": "first", "along": "x", "when": "start"}, "alpha": {"angle": "B", "at": "first"}"#,
             ));
         }
         if self.hit.is_some() && !opens {
@@ -120,7 +123,9 @@ impl Course {
             stages.push(format!(
                 r#"{{"name": "then", "turn": {{"body": "B", "about": "O", "gravity": "g", {end}{sense}}}}}"#
             ));
-            questions.push(String::from(r#""F_y": {"reaction": "then", "along": "y"}"#));
+            questions.push(String::from(
+                r#""F_y": {"reaction": "then", "along": "y"}, "beta": {"angle": "B", "at": "then", "clockwise": true}"#,
+            ));
         }
         format!(
             r#"{{

@@ -182,6 +182,11 @@ pub fn at_least_zero(e: &Expr, domains: &Domains) -> Sentence {
     beyond_zero(e, domains, false)
 }
 
+/// `e > 0` with what decides it alone.
+pub fn above_zero(e: &Expr, domains: &Domains) -> Sentence {
+    beyond_zero(e, domains, true)
+}
+
 /// `e > 0` where zero is excluded, else `e ≥ 0`.
 fn beyond_zero(e: &Expr, domains: &Domains, open: bool) -> Sentence {
     let e = essential(e, domains);

@@ -5,12 +5,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use num_traits::Signed;
+
 use super::Check;
-use super::calc::{Roots, Seen, Unsolved, by_signs, essential, sign, solve, tidy};
+use super::calc::{Roots, Seen, Unsolved, by_signs, essential, is_zero, sign, solve, tidy};
 use super::{Answer, Form, intervals, limit};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Function, Node, Symbol, ratio};
 use crate::formula::{Relation, write_plain};
 use crate::formula::{Sentence, sentence};
 use crate::interval::enclosure::decimal;
@@ -31,6 +33,7 @@ pub(super) fn fill(
     let domains = &scene.domains;
     let gap = left - right;
     let gap = tidy(&gap, domains).unwrap_or(gap);
+    let gap = argument(&gap, parameter, domains).unwrap_or(gap);
     let upward = matches!(relation, Relation::Greater | Relation::GreaterEqual);
     let under = radicand(&gap, domains).filter(|_| upward);
     let (gap, rooted) = (under.clone().unwrap_or(gap), under.is_some());
@@ -124,6 +127,53 @@ fn radicand(gap: &Expr, domains: &Domains) -> Option<Expr> {
         Node::Power(base, half) if *half == Expr::ratio(1, 2) => Some(base.clone()),
         _ => None,
     }
+}
+
+/// What has the sign of `k·asin(X) + c` without the arc: `± (X − sin(−c/k))`, where −c/k is a value that the arc takes;
+/// likewise for the other arcs.
+fn argument(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Expr> {
+    use Function::{Acos, Asin, Atan};
+    let arc = gap.parts().find_map(|part| match part.node() {
+        Node::Call(f @ (Asin | Acos | Atan), inside) if inside.mentions(parameter) => {
+            Some((part, *f, inside))
+        }
+        _ => None,
+    });
+    let (arc, function, inside) = arc?;
+    fn replaced(e: &Expr, part: &Expr, with: &Expr) -> Expr {
+        if e == part {
+            return with.clone();
+        }
+        e.map_parts(|inner| replaced(inner, part, with))
+    }
+    let at = |value: i64| tidy(&replaced(gap, arc, &Expr::from(value)), domains).ok();
+    let [rest, one, two] = [at(0)?, at(1)?, at(2)?];
+    let step = tidy(&(&one - &rest), domains).ok()?;
+    let linear = is_zero(&(two - &one - &step), domains) == Some(true);
+    let factor = step
+        .as_number()
+        .filter(|_| linear && !rest.mentions(parameter))?;
+    let target = tidy(&-(&rest / &step), domains).ok()?;
+    // The value as a share of half a turn tells whether the arc takes it.
+    let share = tidy(&(&target / &Expr::pi()), domains).ok()?;
+    let share = share.as_number()?.clone();
+    let half = ratio(1, 2);
+    let (value, grows, taken) = match function {
+        Acos => (
+            target.cos(),
+            false,
+            share >= ratio(0, 1) && share <= ratio(1, 1),
+        ),
+        Asin => (target.sin(), true, share >= -&half && share <= half),
+        _ => (
+            target.sin() / target.cos(),
+            true,
+            share > -&half && share < half,
+        ),
+    };
+    let difference = inside - &value;
+    let upward = grows == factor.is_positive();
+    taken.then(|| if upward { difference } else { -difference })
 }
 
 /// On which side of the root the inequality holds.

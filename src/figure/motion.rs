@@ -409,7 +409,7 @@ fn turned(values: &Values, turn: &Turn, center: Pair, about: Pair, clockwise: bo
     let phi = (center[1] - about[1]).atan2(center[0] - about[0]);
     let to = match &turn.until {
         Until::By(by) => return Some(way * values.of(by)?),
-        Until::For(_) => return Some(way * 1.2),
+        Until::For(_) | Until::Stops => return Some(way * 1.2),
         Until::Above => FRAC_PI_2,
         Until::Below => -FRAC_PI_2,
     };

@@ -102,6 +102,13 @@ pub enum Ask {
     Time,
     /// How far a motion along a line leads.
     Distance,
+    /// The angle through which a body turns in a motion.
+    Angle {
+        /// Index of the body.
+        body: usize,
+        /// Count clockwise as positive.
+        clockwise: bool,
+    },
     /// Where the center of mass of a body is, a vector, or its component.
     Position {
         /// Index of the body.
@@ -229,6 +236,7 @@ impl Ask {
                 | Ask::Distance
                 | Ask::Acceleration { .. }
                 | Ask::Tension { .. }
+                | Ask::Angle { .. }
                 | Ask::Position { .. }
         )
     }

@@ -38,7 +38,7 @@ record! {
         along: Option<DirectionFile>,
         /// Angular velocity just after of this body.
         spin: Option<Text>,
-        /// Counts a spin clockwise.
+        /// Counts a spin, or an angle, clockwise.
         clockwise: Option<bool>,
         /// Impulse at this contact, hinge or blow.
         impulse: Option<Text>,
@@ -77,6 +77,8 @@ record! {
         acceleration: Option<Text>,
         /// Pull of the string at this body in the stage `at`, a `slide` with `strings`.
         tension: Option<Text>,
+        /// Angle through which this body turns in the stage `at`, counterclockwise unless `clockwise`.
+        angle: Option<Text>,
         /// Where the center of mass of this body is at the end of the stage `at`: coordinates by `_x` and `_y`, or along `along`.
         position: Option<Text>,
         /// Angular momentum of this body about the point `about`.

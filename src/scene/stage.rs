@@ -339,6 +339,8 @@ pub enum Until {
     Above,
     /// When the center of mass is straight below the point.
     Below,
+    /// When it comes to rest.
+    Stops,
     /// After this time \[s\]; not under weight, which leaves no closed form.
     For(Expr),
 }

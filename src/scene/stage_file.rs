@@ -80,6 +80,8 @@ choice! {
         Above = "above",
         /// The center of mass straight below the point.
         Below = "below",
+        /// The body at rest, before it turns back or stays.
+        Stops = "stops",
     }
 }
 

@@ -7,6 +7,7 @@ use crate::expr::Expr;
 use crate::formula::{Sentence, sentence};
 use crate::scene::{
     BlowImpulse, ContactLaw, FallEnd, OneSided, Scene, Slide, SlideEnd, Stage, StageKind, Turn,
+    Until,
 };
 
 /// Which supports act in an outcome.
@@ -266,6 +267,8 @@ fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> Sentence {
         _ => ["turn as one body", ", and gain speed", ", and slow down"],
     };
     let rate = match change::way(&gain, domains, &[]) {
+        _ if matches!(turn.until, Until::Stops) && names.len() == 1 => ", and comes to rest",
+        _ if matches!(turn.until, Until::Stops) => ", and come to rest",
         _ if same => " at a steady rate",
         _ if from_rest => ", from rest",
         Some(true) => and_grows,

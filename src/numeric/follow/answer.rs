@@ -101,6 +101,11 @@ pub fn answer(
             }
             Ok(Answer::Scalar(far))
         }
+        Ask::Angle { body, clockwise } => {
+            let [from, to] = [before, &passed.after].map(|s| s.bodies[*body].angle.clone());
+            let by = to? - from?;
+            Ok(Answer::Scalar(if *clockwise { -by } else { by }))
+        }
         Ask::Position {
             body,
             along,

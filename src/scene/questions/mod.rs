@@ -85,6 +85,7 @@ static KINDS: &[Kind] = kinds! {
         distance(),
         acceleration(at),
         tension(at),
+        angle(clockwise at),
         position(along when at),
         reaction(along when),
         share(),

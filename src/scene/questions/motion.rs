@@ -41,6 +41,8 @@ pub(super) fn ask(
         passed(base, stages, q, stage)
     } else if let Some(body) = q.acceleration.as_ref().or(q.tension.as_ref()) {
         driven(base, stages, q, body)
+    } else if let Some(body) = &q.angle {
+        angle(base, stages, q, body)
     } else if let Some(body) = &q.position {
         position(base, stages, q, body)
     } else if let Some(body) = &q.angular_momentum {
@@ -154,6 +156,23 @@ fn driven(
         return fault.add_to(&mut base.faults);
     }
     Some((i, ask))
+}
+
+fn angle(
+    base: &mut Resolver<'_>,
+    stages: &[StageFile],
+    q: &QuestionFile,
+    body: &Text,
+) -> Option<(usize, Ask)> {
+    let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
+    if stages[i].impact.is_some() {
+        let fault = Fault::new(body.span, "a body keeps its angle in an impact");
+        let fault = fault.hint("name the motion in which it turns with `at`");
+        return fault.add_to(&mut base.faults);
+    }
+    let body = base.moving(body)?;
+    let clockwise = q.clockwise == Some(true);
+    Some((i, Ask::Angle { body, clockwise }))
 }
 
 fn position(

@@ -416,6 +416,7 @@ fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
         (Some(by), ..) => Until::By(r.symbols.read(by, Quantity::ANGLE, &mut r.faults)?),
         (_, Some(UntilName::Above), _) => Until::Above,
         (_, Some(UntilName::Below), _) => Until::Below,
+        (_, Some(UntilName::Stops), _) => Until::Stops,
         (_, _, Some(time)) => Until::For(r.symbols.read(time, TIME, &mut r.faults)?),
         _ => return None,
     };

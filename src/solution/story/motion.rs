@@ -3,11 +3,12 @@
 
 use super::Page;
 use crate::answer::Answer;
-use crate::expr::{Expr, Node, Symbol, dot};
-use crate::scene::{Ask, Linkage, Slide, Stage, StageKind};
+use crate::answer::calc::is_zero;
+use crate::expr::{Expr, Node, Symbol, dot, minus};
+use crate::scene::{Ask, Linkage, Slide, Stage, StageKind, Turn, Until};
 use crate::solution::neat::{neat, tidied};
 use crate::solution::words::{self, name, say};
-use crate::solution::{Claim, Detail, Inline, Line, Math, Part, Solution};
+use crate::solution::{Claim, Detail, Inline, Line, Math, Meaning, Part, Solution};
 use crate::story::{StageTold, Step};
 
 impl Page<'_> {
@@ -162,6 +163,13 @@ impl Page<'_> {
             "kinetic energy at the beginning",
         );
         lines.push(Line { math, step });
+        if let StageKind::Turn(turn) = &stage.kind
+            && matches!(turn.until, Until::Stops)
+            && let Some(g) = &turn.gravity
+        {
+            self.solution.push(Part::Display(lines));
+            return self.rise(stage, told, turn, g);
+        }
         let total = Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
         let gain = end - start;
         for (what, raw) in &told.work {
@@ -203,6 +211,73 @@ impl Page<'_> {
             let energy = Math::Expr(Expr::ratio(1, 2) * inertia * square);
             let math = vec![energy, Math::Op("="), words::kinetic("", "+")];
             lines.push(Line { math, step: None });
+        }
+        self.solution.push(Part::Display(lines));
+    }
+
+    /// How high a body swings until weight has brought it to rest, and through which angle.
+    fn rise(&mut self, stage: &Stage, told: &StageTold, turn: &Turn, g: &Expr) {
+        let Some([start, _]) = &told.energy else {
+            return;
+        };
+        let lump = turn.lump(&stage.scene);
+        let weight = &lump.mass * g;
+        let height = tidied(self.scene, &(start / &weight));
+        let is_free = |letter: &&str| {
+            let mut parameters = self.scene.parameters.iter();
+            let mut answers = self.told.answers.iter();
+            !parameters.any(|p| *p.name == **letter) && !answers.any(|a| a.name == **letter)
+        };
+        let letter = Symbol::from(["h", "h_G"].into_iter().find(is_free).unwrap_or("h_up"));
+        let h = Expr::symbol(&letter);
+        self.solution
+            .meanings
+            .insert(letter.clone(), Meaning::Defined);
+        self.solution.text(vec![
+            say("The rotation ends where weight has taken up the kinetic energy. The center of mass has then risen by "),
+            words::formula(&h),
+            say(":"),
+        ]);
+        let claim = Claim {
+            left: h.clone(),
+            right: height.clone(),
+        };
+        let step = self
+            .solution
+            .step(Vec::new(), vec![claim], "kinetic energy over weight");
+        if let Some(step) = self.solution.steps.last_mut() {
+            step.defines = Some(letter);
+        }
+        let balance = vec![
+            Math::Expr(&weight * &h),
+            Math::Op("="),
+            words::kinetic("", "-"),
+        ];
+        let risen = vec![Math::Expr(h.clone()), Math::Op("="), Math::Expr(height)];
+        let mut lines = vec![
+            Line {
+                math: balance,
+                step: None,
+            },
+            Line {
+                math: risen,
+                step: Some(step),
+            },
+        ];
+        let arm = minus(&lump.center, &turn.about).map(|e| tidied(self.scene, &e));
+        let length = tidied(self.scene, &dot(&arm, &arm).sqrt());
+        let from_below = is_zero(&(&arm[1] + &length), &self.scene.domains) == Some(true);
+        let angle = self.answered(told).find(|a| {
+            let mut questions = self.scene.questions.iter();
+            questions.any(|q| q.name == a.question && matches!(q.ask, Ask::Angle { .. }))
+        });
+        if let Some(angle) = angle.filter(|_| from_below) {
+            let name = Symbol::from(angle.name.as_str());
+            let swung = &length * (Expr::one() - Expr::symbol(&name).cos());
+            let math = vec![Math::Expr(h), Math::Op("="), Math::Expr(swung)];
+            lines.push(Line { math, step: None });
+            let meaning = Meaning::Answer(angle.question.clone(), None);
+            self.solution.meanings.insert(name, meaning);
         }
         self.solution.push(Part::Display(lines));
     }

@@ -121,6 +121,9 @@ fn one(
         Ask::Distance => each(&|told| Ok(motion::distance(question, told))),
         Ask::Acceleration { .. } => each(&|told| Ok(motion::acceleration(question, told))),
         Ask::Tension { body } => each(&|told| Ok(motion::tension(question, told, *body))),
+        Ask::Angle { body, clockwise } => {
+            each(&|told| motion::angle(question, told, *body, *clockwise))
+        }
         Ask::Position {
             body,
             along,

@@ -5,9 +5,9 @@ use crate::answer::{Answer, Check, Form, Refused};
 use crate::derive;
 use crate::dimension::Dimension;
 use crate::domain::Domains;
-use crate::expr::{Expr, Vector, cross, dot, minus};
+use crate::expr::{Expr, Function, Node, Vector, cross, dot, minus};
 use crate::formula::{Sentence, sentence};
-use crate::scene::{Ask, EnergyWhen, Question, Scene, SlideEnd, Stage, StageKind, Turn};
+use crate::scene::{Ask, EnergyWhen, Question, Scene, SlideEnd, Stage, StageKind, Turn, Until};
 use crate::story::motion as stage;
 use crate::story::{StageTold, State};
 
@@ -118,6 +118,65 @@ fn turns_back(told: &StageTold) -> bool {
         seen.is_positive() || matches!(seen, Seen::Proved(s) if s.is_not_negative())
     };
     matches!(slide.until, SlideEnd::Rolls) && !(forward(&told.before) && forward(&told.after))
+}
+
+/// The angle through which a body turns.
+pub(super) fn angle(
+    question: &Question,
+    told: &StageTold,
+    body: usize,
+    clockwise: bool,
+) -> Result<Answer, Refused> {
+    let scene = &told.placed.scene;
+    let sense = if clockwise {
+        "clockwise"
+    } else {
+        "counterclockwise"
+    };
+    let words = format!(
+        "angle through which `{}` turns in `{}`, {sense} positive",
+        scene.bodies[body].name, told.name
+    );
+    let mut out = Answer::blank(question, &question.name, words);
+    let ends = [&told.before.angle[body], &told.after.angle[body]];
+    if let Some(why) = told.after.why_open(ends) {
+        out.form = Form::Open(Vec::new());
+        out.text.push(sentence!["not determined: ", why]);
+        return Ok(out);
+    }
+    let refused = |what: String| Refused::question(&question.name, what, "");
+    let tidied = |e: &Expr| {
+        tidy(e, &scene.domains).map_err(|stop| refused(format!("not calculated: {stop}")))
+    };
+    // An arc reads best as the motion left it; what stands beside it cancels.
+    let is_arc = |part: &Expr| {
+        use Function::{Acos, Asin, Atan};
+        matches!(part.node(), Node::Call(Acos | Asin | Atan, _))
+    };
+    let whole = ends[1] - ends[0];
+    let terms = match whole.node() {
+        Node::Sum(terms) => terms.clone(),
+        _ => vec![whole.clone()],
+    };
+    let (arcs, plain): (Vec<Expr>, Vec<Expr>) =
+        terms.into_iter().partition(|t| t.parts().any(is_arc));
+    let mut by = Expr::sum(arcs) + tidied(&Expr::sum(plain))?;
+    if let StageKind::Turn(turn) = &told.placed.kind
+        && matches!(turn.until, Until::Above | Until::Below)
+        && turn.bodies().contains(&body)
+    {
+        // The end is known up to whole turns, and the sense of the rotation says which.
+        let (way, _) = stage::sense(&told.placed, &told.before.spin[turn.body], turn)?;
+        let way = Expr::from(way);
+        by = match sign(&(&way * &by), &scene.domains).side() {
+            Some(true) => by,
+            Some(false) => tidied(&(&by + &(way * Expr::from(2) * Expr::pi())))?,
+            None => return Err(refused(String::from("which way round is not decided"))),
+        };
+    }
+    let value = if clockwise { -by } else { by };
+    valued(&mut out, &value, &told.assumptions);
+    Ok(out)
 }
 
 /// Where the center of mass of a body is at the beginning or end of a stage, along a direction.

@@ -4,7 +4,7 @@ use super::bearing::bearing;
 use super::{arrival, balance, half, kept, meanwhile, tidied};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, is_zero, sign, tidy};
-use crate::expr::{Expr, Vector, cross, dot, minus};
+use crate::expr::{Expr, Function, Vector, cross, dot, minus};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Lump, Stage, Turn, Until, direction};
 use crate::story::{Refused, StageTold, State, integrate};
@@ -34,8 +34,7 @@ pub(in crate::story) fn turn(
             "say with `by` through which angle it turns, such as 2*pi",
         ));
     }
-    let square = tidied(stage, &dot(&r, &r))?;
-    let about = &tidied(stage, &lump.inertia)? + &(&lump.mass * &square);
+    let about = inertia_about(stage, turn);
     let inertia = tidied(stage, &about)?;
     if is_zero(&inertia, domains) == Some(true) {
         return Err(Refused::new(
@@ -48,10 +47,14 @@ pub(in crate::story) fn turn(
         ));
     }
     let start = tidied(stage, &half(&(&inertia * &spin.powi(2))))?;
+    let kept_below = stops(stage, turn, &spin, &start, &r)?;
     let parts = work(stage, turn, &lump, [&r, &r_end], way, &spin)?;
     let (work, end, reaches) = balance(stage, turn.body, &start, &parts)?;
     let (mut needs, mut assumptions) = (Vec::new(), Vec::new());
-    if let Some((need, words)) = hurdle(stage, turn, &r, &start, way)? {
+    for (need, words) in hurdle(stage, turn, &r, &start, way)?
+        .into_iter()
+        .chain(kept_below)
+    {
         needs.extend(need);
         assumptions.push(words);
     }
@@ -138,6 +141,7 @@ fn work(
             Until::For(_) => {
                 angle_turned(stage, turn, spin).map_or_else(Expr::zero, |by| &Expr::from(way) * &by)
             }
+            Until::Stops => -(&half(&(&inertia_about(stage, turn) * &spin.powi(2))) / torque),
             Until::Above | Until::Below => {
                 return Err(Refused::new(
                     &stage.name,
@@ -185,6 +189,8 @@ fn counts_forward(stage: &Stage, turn: &Turn, way: i64) -> Result<Option<Sentenc
 fn turned(stage: &Stage, turn: &Turn, spin: &Expr, r: &Vector) -> Option<Expr> {
     let to = match &turn.until {
         Until::By(_) | Until::For(_) => return angle_turned(stage, turn, spin),
+        Until::Stops if turn.gravity.is_none() => return angle_turned(stage, turn, spin),
+        Until::Stops => return swung(stage, turn, spin, r),
         Until::Above => Expr::ratio(1, 2),
         Until::Below => Expr::ratio(-1, 2),
     };
@@ -307,7 +313,12 @@ pub(in crate::story) fn arms(stage: &Stage, turn: &Turn, spin: &Expr) -> [Vector
     let end = match &turn.until {
         Until::Above => [Expr::zero(), length],
         Until::Below => [Expr::zero(), -&length],
-        Until::For(_) | Until::By(_) => {
+        Until::Stops if turn.gravity.is_some() => {
+            let [x, y] = highest(stage, turn, spin, &r).map(tidied);
+            let way = sense(stage, spin, turn).map_or(1, |(way, _)| way);
+            [Expr::from(way) * x, y]
+        }
+        Until::Stops | Until::For(_) | Until::By(_) => {
             let by = angle_turned(stage, turn, spin).unwrap_or_else(Expr::zero);
             rotated(&r, &[by.cos(), by.sin()])
         }
@@ -335,15 +346,116 @@ fn angle_turned(stage: &Stage, turn: &Turn, spin: &Expr) -> Option<Expr> {
             let gained = &half(&(torque * &time.powi(2))) / &inertia_about(stage, turn);
             Some(&steady + &(&Expr::from(way) * &gained))
         }
-        Until::Above | Until::Below => None,
+        Until::Stops if turn.gravity.is_none() => {
+            let (way, _) = sense(stage, spin, turn).ok()?;
+            let start = half(&(&inertia_about(stage, turn) * &spin.powi(2)));
+            Some(&(&Expr::from(-way) * &start) / turn.torque.as_ref()?)
+        }
+        Until::Above | Until::Below | Until::Stops => None,
     }
 }
 
-/// Moment of inertia about the fixed point.
-pub(in crate::story) fn inertia_about(stage: &Stage, turn: &Turn) -> Expr {
+/// Where the arm to the center of mass points when weight has brought the body to rest, as it would be for a rotation
+/// counterclockwise: to the right of the fixed point, on the way up.
+fn highest(stage: &Stage, turn: &Turn, spin: &Expr, r: &Vector) -> Vector {
     let lump = turn.lump(&stage.scene);
-    let r = minus(&lump.center, &turn.about);
-    &lump.inertia + &(&lump.mass * &dot(&r, &r))
+    let weight = &lump.mass * turn.gravity.as_ref().unwrap_or(&Expr::zero());
+    let climb = &half(&(&inertia_about(stage, turn) * &spin.powi(2))) / &weight;
+    let y = &r[1] + &climb;
+    let x = (&dot(r, r) - &y.powi(2)).sqrt();
+    [x, y]
+}
+
+/// The angle through which a body swings until weight has brought it to rest, counterclockwise; `None` where the direction of
+/// its arm at the beginning cannot be written.
+fn swung(stage: &Stage, turn: &Turn, spin: &Expr, r: &Vector) -> Option<Expr> {
+    let domains = &stage.scene.domains;
+    let (way, _) = sense(stage, spin, turn).ok()?;
+    let angle = &stage.scene.bodies[turn.body].angle;
+    let half_turn = Expr::pi();
+    // From straight below, in the sense of the rotation, within half a turn either way.
+    let begins = &Expr::from(way) * &(&bearing(r, angle, domains)? + &half(&half_turn));
+    let within = |e: &Expr| {
+        let gaps = [e + &half_turn, &half_turn - e];
+        gaps.iter()
+            .all(|gap| matches!(sign(gap, domains), Seen::Proved(s) if s.is_not_negative()))
+    };
+    let turns = [0, -2, 2].map(|k| &begins + &(Expr::from(k) * Expr::pi()));
+    let begins = turns.into_iter().find(within)?;
+    let [_, y] = highest(stage, turn, spin, r);
+    let length = dot(r, r).sqrt();
+    // The cosine less what it loses on the way up reads better than one fraction.
+    let [from, rise] = [&r[1] / &length, (&y - &r[1]) / &length].map(|e| tidy(&e, domains));
+    let ends = Expr::call(Function::Acos, -(from.ok()?) - rise.ok()?);
+    Some(Expr::from(way) * (ends - tidy(&begins, domains).ok()?))
+}
+
+/// What must hold so that a body comes to rest: for weight, that it does not get over the highest place; for a moment, that it
+/// works against the rotation.
+fn stops(
+    stage: &Stage,
+    turn: &Turn,
+    spin: &Expr,
+    start: &Expr,
+    r: &Vector,
+) -> Result<Option<(Option<Expr>, Sentence)>, Refused> {
+    if !matches!(turn.until, Until::Stops) {
+        return Ok(None);
+    }
+    let domains = &stage.scene.domains;
+    let name = &stage.scene.bodies[turn.body].name;
+    let refused =
+        |what: &str, hint: &str| Refused::new(&stage.name, format!("`{name}` {what}"), hint);
+    if is_zero(spin, domains) == Some(true) {
+        return Err(refused(
+            "is at rest at the beginning already",
+            "say with `by` through which angle it turns",
+        ));
+    }
+    let (left, why) = match (&turn.gravity, &turn.torque) {
+        (None, None) => {
+            return Err(refused(
+                "never comes to rest: nothing slows it down",
+                "add `gravity`, or a `torque` below zero",
+            ));
+        }
+        (Some(_), Some(_)) => {
+            return Err(refused(
+                "comes to rest under its weight and a moment at an angle that has no closed form",
+                "give the angle `by` as a parameter, and `solve` for it where the energy at the end is zero",
+            ));
+        }
+        (None, Some(torque)) => (-torque, "the moment slows the rotation down"),
+        (Some(g), None) => {
+            let lump = turn.lump(&stage.scene);
+            let climb = &dot(r, r).sqrt() - &r[1];
+            let left = &(&(&lump.mass * g) * &climb) - start;
+            (left, "it does not get over the highest place and round")
+        }
+    };
+    let left = tidied(stage, &left)?;
+    match sign(&left, domains) {
+        Seen::Proved(Sign::Positive) => Ok(None),
+        Seen::Proved(Sign::Negative | Sign::Zero | Sign::NotPositive) => Err(refused(
+            "never comes to rest: it has energy enough to get round, or is driven on",
+            "end the stage with `by`, or `until` it is above or below",
+        )),
+        _ => {
+            let least = crate::answer::calc::above_zero(&left, domains);
+            let words = sentence![least, ", so that ", why];
+            Ok(Some((Some(left), words)))
+        }
+    }
+}
+
+/// Moment of inertia about the fixed point: that of each body, and its mass at its distance.
+pub(in crate::story) fn inertia_about(stage: &Stage, turn: &Turn) -> Expr {
+    let tidied = |e: &Expr| tidy(e, &stage.scene.domains).unwrap_or_else(|_| e.clone());
+    Expr::sum(turn.bodies().into_iter().flat_map(|b| {
+        let body = &stage.scene.bodies[b];
+        let r = minus(&body.center, &turn.about);
+        [tidied(&body.inertia), &body.mass * tidied(&dot(&r, &r))]
+    }))
 }
 
 /// The sense of the rotation: 1 counterclockwise, −1 clockwise.
@@ -409,9 +521,9 @@ pub(in crate::story) fn sense(
                 (None, Some(_)) => sign(&-&r[0], domains),
                 (None, None) => Seen::Mixed,
             };
-            if pull.is_positive() {
+            if pull.is_positive() || pull.side() == Some(true) {
                 Ok((1, None))
-            } else if pull.is_negative() {
+            } else if pull.is_negative() || pull.side() == Some(false) {
                 Ok((-1, None))
             } else {
                 Err(Refused::new(
@@ -517,7 +629,7 @@ fn hurdle(
     let by = match &turn.until {
         Until::By(by) => by,
         Until::Below => &zero,
-        Until::Above | Until::For(_) => return Ok(None),
+        Until::Above | Until::For(_) | Until::Stops => return Ok(None),
     };
     if turn.torque.is_some() {
         let words = sentence![
@@ -528,20 +640,21 @@ fn hurdle(
         return Ok(Some((None, words)));
     }
     let names = [&r[0], &r[1], by].into_iter().flat_map(|e| e.symbols());
-    let passes = integrate::points_of(names.collect(), &stage.scene.domains, 12)
+    let points = integrate::points_of(names.collect(), &stage.scene.domains, 12);
+    // Where the stages before do not come to their ends there is nothing to see.
+    let seen: Vec<bool> = points
         .iter()
-        .any(|point| {
-            let values = [&r[0], &r[1], by].map(|e| e.evaluate(point));
-            let [Some(x), Some(y), Some(by)] = values else {
-                return true;
-            };
+        .filter_map(|point| {
+            let [x, y, by] = [&r[0], &r[1], by].map(|e| e.evaluate(point));
+            let (x, y, by) = (x?, y?, by?);
             let to_top = (way as f64 * x).atan2(y).rem_euclid(std::f64::consts::TAU);
-            match turn.until {
+            Some(match turn.until {
                 Until::Below => to_top < std::f64::consts::PI,
                 _ => by > to_top,
-            }
-        });
-    if !passes {
+            })
+        })
+        .collect();
+    if !seen.is_empty() && !seen.contains(&true) {
         return Ok(None);
     }
     let body = &stage.scene.bodies[turn.body];

@@ -219,6 +219,19 @@ impl Rotation {
         let way = self.way;
         let n = 3 * self.movers.bodies.len();
         let (ahead, behind) = match &turn.until {
+            Until::Stops if self.spin == 0.0 => {
+                return Err(course.contradiction("it is at rest at the beginning already"));
+            }
+            Until::Stops => {
+                let mut goal = Goal {
+                    left: &|y| -way * y[n + 2],
+                    rate: &|_| 1.0,
+                    // Under its weight alone a body that has gone round once goes round for ever.
+                    never: &mut |y, _| self.torque >= 0.0 && way * y[2] > TAU,
+                };
+                let never = |stop| super::stopped(course, stop, "it never comes to rest");
+                return mechanism.until(&start, &mut goal).map_err(never);
+            }
             Until::For(time) => {
                 let time = course.number(time, "time")?;
                 if time < 0.0 {
