@@ -26,7 +26,9 @@ pub(super) fn beyond_motion(solution: &mut Solution, scene: &Scene, answers: &[A
             question.ask,
             Ask::Assumed | Ask::Describe | Ask::Reaction { .. }
         );
-        if question.ask.is_motion() || in_stage {
+        // So does a speed by its components.
+        let stands = solution.meanings.contains_key(question.name.as_str());
+        if question.ask.is_motion() || in_stage || stands {
             continue;
         }
         let mine = answers.iter().filter(|a| a.question == question.name);
@@ -164,7 +166,13 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     };
     let stands = stands_for(ask, answer).is_some();
     if let Some(value) = number(scene, answer).filter(|_| !stands) {
-        let value = say(format!("{value}."));
+        let radians =
+            |p: &crate::scene::Parameter| Some(&p.name) == of.as_symbol() && p.unit == "rad";
+        let unit = match scene.parameters.iter().any(radians) {
+            true => " rad",
+            false => "",
+        };
+        let value = say(format!("{value}{unit}."));
         solution.text(vec![say(NUMBERS), words::formula(&of), value]);
     }
     said(solution, scene, ask, answer);

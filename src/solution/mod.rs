@@ -24,21 +24,20 @@ mod sentence;
 mod story;
 mod through;
 mod words;
+mod writer;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 pub use known::known;
 pub use sentence::{full_sentence, sentence};
 pub use words::{assumptions, is_safe_latex, with_symbols};
 
-use crate::algebra::Field;
-use crate::answer::{Form, Near};
-use crate::derive::{self, Derivation, Reduction};
+use writer::Writer;
+
+use crate::answer::Near;
 use crate::expr::{Expr, Symbol, Vector};
-use crate::laws::{self, Affine, Geometry, Kinematics, Unknown};
 use crate::scene::{ContactLaw, Mode, Scene};
 use crate::story::{Case, Told};
-use crate::verify::Proof;
 
 /// How much is shown.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -306,243 +305,6 @@ fn lone(scene: &Scene, told: &Told, impact: &Case, detail: Detail) -> Solution {
         writer.checked();
     }
     writer.solution
-}
-
-/// A solution under way.
-struct Writer<'a> {
-    scene: &'a Scene,
-    d: &'a Derivation,
-    proof: &'a Proof,
-    field: Field,
-    g: Geometry<Expr>,
-    reduction: Reduction,
-    reduced: Kinematics<Expr>,
-    solution: Solution,
-    /// Whether its sections are parts of a larger one.
-    nested: bool,
-    /// What the ids of its steps begin with: that of the step they are parts of, and a point.
-    within: String,
-    /// Answers and abbreviations that stand on the page already.
-    told: BTreeSet<Symbol>,
-    /// Unknowns found to be zero: no later line carries them along.
-    zero: BTreeSet<Unknown>,
-    /// Long roots with the letters they got.
-    roots: Vec<(Expr, Symbol)>,
-}
-
-impl<'a> Writer<'a> {
-    fn new(
-        scene: &'a Scene,
-        derivation: &'a Derivation,
-        proof: &'a Proof,
-        detail: Detail,
-    ) -> Writer<'a> {
-        let Ok(g) = Geometry::of(scene, |e| Ok::<_, std::convert::Infallible>(e.clone()));
-        let reduction = derive::reduction(scene);
-        let reduced = reduction.kinematics(scene, &g);
-        let mut names = BTreeMap::new();
-        let mut meanings = BTreeMap::new();
-        for p in &scene.parameters {
-            if let Some(latex) = p.latex.as_deref().filter(|l| words::is_safe_latex(l)) {
-                names.insert(p.name.clone(), latex.to_string());
-            }
-        }
-        for unknown in laws::unknowns(scene) {
-            let symbol = Symbol::from(derivation.names.plain(unknown));
-            let latex = derivation.names.latex(unknown);
-            if words::is_safe_latex(latex) {
-                names.insert(symbol.clone(), latex.to_string());
-            }
-            let reversed = derivation.names.is_reversed(unknown);
-            meanings.insert(symbol, words::meaning(scene, unknown, reversed));
-        }
-        for answer in &derivation.answers {
-            if matches!(answer.form, Form::Matrix(_) | Form::Equation { .. }) {
-                continue;
-            }
-            let symbol = Symbol::from(answer.name.as_str());
-            let axis = answer.axis();
-            if words::is_safe_latex(&answer.latex) {
-                names
-                    .entry(symbol.clone())
-                    .or_insert_with(|| answer.latex.clone());
-            }
-            meanings
-                .entry(symbol)
-                .or_insert_with(|| Meaning::Answer(answer.question.clone(), axis));
-        }
-        // A vector has a name of its own beside those of its components.
-        for question in scene.asked_of_impact() {
-            if let Some(latex) = question
-                .latex
-                .as_deref()
-                .filter(|l| words::is_safe_latex(l))
-            {
-                names
-                    .entry(Symbol::from(question.name.as_str()))
-                    .or_insert_with(|| latex.to_string());
-            }
-        }
-        let given_zero = derivation.given.iter();
-        let given_zero = given_zero.filter(|(_, value)| value.is_zero());
-        let given_zero = given_zero.map(|(u, _)| *u).collect();
-        let mut field = Field::new(&scene.domains);
-        let symbols: Vec<Expr> = meanings.keys().map(|s| Expr::symbol(s)).collect();
-        let mut all: Vec<&Expr> = derivation.motion.values().collect();
-        for body in &scene.bodies {
-            all.extend([&body.mass, &body.inertia, &body.spin]);
-            all.extend(body.center.iter().chain(&body.velocity));
-        }
-        all.extend(&symbols);
-        field.prepare(all);
-        let assumptions = words::assumptions(scene, derivation, proof);
-        Writer {
-            scene,
-            d: derivation,
-            proof,
-            field,
-            g,
-            reduction,
-            reduced,
-            solution: Solution {
-                title: scene.title.clone(),
-                source: source(scene),
-                statement: scene.statement.clone(),
-                detail,
-                names,
-                meanings,
-                sections: Vec::new(),
-                steps: Vec::new(),
-                scopes: Vec::new(),
-                assumptions,
-                mode: decided(scene),
-            },
-            nested: false,
-            within: String::new(),
-            told: BTreeSet::new(),
-            zero: given_zero,
-            roots: Vec::new(),
-        }
-    }
-
-    fn detail(&self) -> Detail {
-        self.solution.detail
-    }
-
-    fn section(&mut self, heading: Vec<Inline>) {
-        self.solution.section(usize::from(self.nested), heading);
-    }
-
-    fn push(&mut self, part: Part) {
-        self.solution.push(part);
-    }
-
-    fn text(&mut self, text: Vec<Inline>) {
-        self.solution.text(text);
-    }
-
-    fn say(&mut self, text: &str) {
-        self.solution.say(text);
-    }
-
-    /// Adds a line to the display that stands last, or opens one.
-    fn show(&mut self, math: Vec<Math>, step: Option<String>) {
-        let line = Line { math, step };
-        if let Some(Part::Display(lines)) = self
-            .solution
-            .sections
-            .last_mut()
-            .and_then(|s| s.parts.last_mut())
-        {
-            lines.push(line);
-        } else {
-            self.push(Part::Display(vec![line]));
-        }
-    }
-
-    /// Records a step and gives its id.
-    fn step(&mut self, before: Vec<Claim>, after: Vec<Claim>, reason: &str) -> String {
-        let id = format!("{}{}", self.within, self.solution.steps.len() + 1);
-        self.solution.record(id.clone(), before, after, reason);
-        id
-    }
-
-    /// Lets `tell` record the substeps of the step that comes next.
-    fn substeps(&mut self, tell: impl FnOnce(&mut Self)) -> Vec<Step> {
-        let steps = std::mem::take(&mut self.solution.steps);
-        let outer = format!("{}{}.", self.within, steps.len() + 1);
-        let within = std::mem::replace(&mut self.within, outer);
-        tell(self);
-        self.within = within;
-        std::mem::replace(&mut self.solution.steps, steps)
-    }
-
-    /// The last step, to add assumptions or substeps.
-    fn last_step(&mut self) -> Option<&mut Step> {
-        self.solution.steps.last_mut()
-    }
-
-    /// Records a single claim and shows it.
-    fn claim(&mut self, left: Expr, right: Expr, reason: &str) -> String {
-        let math = vec![
-            Math::Expr(left.clone()),
-            Math::Op("="),
-            Math::Expr(right.clone()),
-        ];
-        let id = self.step(Vec::new(), vec![Claim { left, right }], reason);
-        self.show(math, Some(id.clone()));
-        id
-    }
-
-    /// An expression as a person would write it; as it is where a limit of the algebra is met.
-    fn tidy(&mut self, e: &Expr) -> Expr {
-        match self.field.element(e) {
-            Ok(element) => self.field.expr(&element),
-            Err(_) => e.clone(),
-        }
-    }
-
-    fn tidy_vector(&mut self, v: &Vector) -> Vector {
-        [self.tidy(&v[0]), self.tidy(&v[1])]
-    }
-
-    /// Whether an expression is zero on the whole domain.
-    fn vanishes(&mut self, e: &Expr) -> bool {
-        e.is_zero() || self.field.element(e).is_ok_and(|x| self.field.is_zero(&x))
-    }
-
-    /// The symbol of an unknown with the sign that makes it the unknown; nothing where it has been found to be zero.
-    fn unknown(&self, u: Unknown) -> Expr {
-        if self.zero.contains(&u) {
-            return Expr::zero();
-        }
-        let symbol = Expr::symbol(self.d.names.plain(u));
-        if self.d.names.is_reversed(u) {
-            -symbol
-        } else {
-            symbol
-        }
-    }
-
-    /// An affine form in the symbols of its unknowns, untidied.
-    fn form(&self, form: &Affine<Expr>) -> Expr {
-        let terms = form.terms.iter().map(|(u, k)| k * &self.unknown(*u));
-        Expr::sum(terms.chain([form.constant.clone()]))
-    }
-
-    /// Velocity just after of a body's center of mass, in the symbols of what is left free.
-    fn velocity_after(&mut self, b: usize) -> Vector {
-        let v = self.reduced.velocity[b].clone();
-        [0, 1].map(|axis| {
-            let raw = self.form(&v[axis]);
-            self.tidy(&raw)
-        })
-    }
-
-    /// Spin just after in the symbol of the scene.
-    fn spin_after(&self, b: usize) -> Expr {
-        self.form(&self.reduced.spin[b])
-    }
 }
 
 /// Where a problem comes from, unless that is its title.

@@ -78,3 +78,14 @@ pub(super) fn tidied(scene: &Scene, e: &Expr) -> Expr {
         Err(_) => e.clone(),
     }
 }
+
+/// Whether two formulas read alike, whatever the order of terms and factors.
+pub(super) fn alike(a: &Expr, b: &Expr) -> bool {
+    match (a.node(), b.node()) {
+        (Node::Product(x), Node::Product(y)) | (Node::Sum(x), Node::Sum(y)) => {
+            x.len() == y.len() && x.iter().all(|f| y.iter().any(|g| alike(f, g)))
+        }
+        (Node::Power(x, j), Node::Power(y, k)) => alike(x, y) && alike(j, k),
+        _ => a == b,
+    }
+}

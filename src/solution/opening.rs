@@ -1,11 +1,12 @@
 //! What stands below the title: the statement, what the symbols mean, what moves just before, how a rough contact behaves; and
 //! what the rest of the text shows to be needed there.
 
+use super::neat::{alike, tidied};
 use super::rough;
 use super::words::{self, say};
-use super::{Detail, Inline, Math, Part, Slot, Solution, Writer};
-use crate::expr::{Expr, Symbol};
-use crate::scene::Scene;
+use super::{Claim, Detail, Inline, Line, Math, Part, Slot, Solution, Writer};
+use crate::expr::{Expr, Symbol, dot, minus};
+use crate::scene::{Body, Scene, Shape};
 
 /// How the sentence about the axes begins.
 pub(super) const AXES: &str = "Let x point right and y up; counterclockwise is positive";
@@ -59,6 +60,51 @@ impl Solution {
     }
 }
 
+/// Where the center of mass of a body of several parts lies, and what its parts make of its moment of inertia.
+pub(super) fn composites(solution: &mut Solution, scene: &Scene) {
+    let by_parts = |(_, body): &(usize, &Body)| !body.inertia_given;
+    for (b, body) in scene.bodies.iter().enumerate().filter(by_parts) {
+        let Shape::Composite { parts } = &body.shape else {
+            continue;
+        };
+        let c = words::center(scene, b);
+        let terms = parts.iter().flat_map(|part| {
+            let arm = minus(&part.center, &body.center);
+            let own = match part.is_particle() {
+                true => Expr::zero(),
+                false => part.inertia.clone(),
+            };
+            [own, &part.mass * dot(&arm, &arm)].map(|e| tidied(scene, &e))
+        });
+        let raw = Expr::sum(terms);
+        let whole = tidied(scene, &body.inertia);
+        let claim = Claim {
+            left: raw.clone(),
+            right: whole.clone(),
+        };
+        let why = "moment of inertia of the parts about the common center of mass: I + m d²";
+        let step = solution.step(Vec::new(), vec![claim], why);
+        let place = body.center.each_ref().map(|e| tidied(scene, e));
+        solution.text(vec![
+            say(format!(
+                "The parts of {} have their common center of mass at ",
+                words::body(scene, b)
+            )),
+            Inline::Math(vec![Math::Vector(place)]),
+            say("; each adds its own moment of inertia and its mass times the square of its distance from there:"),
+        ]);
+        let mut math = vec![words::name("I", &c, "", false), Math::Op("=")];
+        if !alike(&raw, &whole) {
+            math.extend([Math::Expr(raw), Math::Op("=")]);
+        }
+        math.push(Math::Expr(whole));
+        solution.push(Part::Display(vec![Line {
+            math,
+            step: Some(step),
+        }]));
+    }
+}
+
 /// Whether a formula names the center of mass G.
 fn uses_center(math: &[Math]) -> bool {
     math.iter().any(|m| match m {
@@ -96,6 +142,7 @@ impl Writer<'_> {
             ));
         }
         self.say(&text);
+        composites(&mut self.solution, self.scene);
         self.before();
         if let Some(law) = rough::law(self.scene) {
             self.text(law);

@@ -247,12 +247,12 @@ impl Writer<'_> {
         let mut text: Vec<Inline> = Vec::new();
         if identity.is_some_and(|c| c.holds == Some(true)) {
             let which = if self.d.counting.open.is_empty() {
-                "every equation"
+                ""
             } else {
-                "every equation that is determined"
+                " in which nothing stays open"
             };
             text.push(say(format!(
-                "Check: the results satisfy {which} of momentum, joints and contacts"
+                "Check: the results satisfy every equation of momentum, joints and contacts{which}"
             )));
             if points > 0 {
                 text.push(say(", and an independent numerical solution agrees"));
@@ -265,7 +265,16 @@ impl Writer<'_> {
             )];
         }
         if self.detail() != Detail::Brief {
-            let conditions = self.conditions();
+            let is_sentence =
+                |c: &Inline| matches!(c, Inline::Text(t) if t.starts_with(words::AT_ONCE));
+            let (sentences, conditions): (Vec<Inline>, Vec<Inline>) =
+                self.conditions().into_iter().partition(is_sentence);
+            for sentence in sentences {
+                if let Inline::Text(words) = sentence {
+                    let lead = if text.is_empty() { "" } else { " " };
+                    text.push(say(format!("{lead}{}.", words::capital(&words))));
+                }
+            }
             if !conditions.is_empty() {
                 text.push(say(if text.is_empty() {
                     "Valid for "

@@ -169,6 +169,10 @@ pub fn meant(scene: &Scene, values: bool) -> Option<Vec<Inline>> {
         if let Some(value) = p.value.as_ref().filter(|_| values) {
             text.push(say(" ("));
             text.push(match value.as_number().map(crate::expr::number::to_f64) {
+                // As the scene writes it: a moment is so many N m.
+                Some(number) if p.scale().is_one() && is_plain(&p.unit) => {
+                    say(format!("{} {}", digits(number), p.unit))
+                }
                 Some(number) => say(p.dimension.measured(&digits(number))),
                 None => formula(value),
             });
@@ -177,6 +181,11 @@ pub fn meant(scene: &Scene, values: bool) -> Option<Vec<Inline>> {
         text.push(say(end));
     }
     Some(text)
+}
+
+/// Whether a unit reads as it is typed.
+fn is_plain(unit: &str) -> bool {
+    unit.starts_with(char::is_alphabetic) && !unit.contains(['^', '*', '('])
 }
 
 /// Words of two letters that are no symbols in a sentence.
@@ -257,6 +266,9 @@ pub fn condition(scene: &Scene, text: &str) -> Inline {
     }
     say(text)
 }
+
+/// How the condition begins that is a sentence by itself.
+pub const AT_ONCE: &str = "all contacts act at the same instant";
 
 /// What stands for conditions that are too long for a sentence, behind those that are not.
 pub const FURTHER: &str = "the further conditions of this case";

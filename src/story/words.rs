@@ -176,8 +176,12 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                 false => sentence![lead, ": ", &coordinate, " goes from ", from, " to ", to],
             });
             let by_it = |e: &Expr| e.symbols().contains(&linkage.coordinate);
-            if scene.points.iter().any(|p| p.at.iter().any(by_it)) {
-                out.push(sentence!["points given by ", &coordinate, " go with it"]);
+            let points = scene.points.iter();
+            let carried = points.filter(|p| p.at.iter().any(by_it));
+            let carried: Vec<String> = carried.map(|p| format!("`{}`", p.name)).collect();
+            if !carried.is_empty() {
+                let verb = if carried.len() == 1 { "moves" } else { "move" };
+                out.push(format!("{} {verb} with it", listed(&carried)).into());
             }
         }
         StageKind::Wind(wind) => out.push(sentence![

@@ -32,7 +32,8 @@ pub(super) fn share(known: &mut Vec<Shared>, case: usize, sections: &mut [Sectio
             };
             let first = words.split(". ").next().unwrap_or(words);
             let first = first.trim_end_matches(['.', ':', ',']);
-            let text = format!("{first}, as in case {}.", earlier.case);
+            let comma = if first.ends_with(" are") { "" } else { "," };
+            let text = format!("{first}{comma} as in case {}.", earlier.case);
             section.parts[p - 1] = Part::Text(vec![say(text)]);
             section.parts.remove(p);
         }

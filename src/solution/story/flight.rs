@@ -2,11 +2,10 @@
 //! and the time follow from where it begins.
 
 use super::Page;
-use super::motion::alike;
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol, Vector, dot};
 use crate::scene::{Ask, Fall, FallEnd, StageKind};
-use crate::solution::neat::{neat, tidied};
+use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::words::{self, name, say};
 use crate::solution::{Claim, Line, Math, Part};
 use crate::story::StageTold;
@@ -196,7 +195,7 @@ impl Page<'_> {
     }
 
     /// Whether something of a kind is answered at the end of a stage.
-    fn asked(&self, told: &StageTold, is: fn(&Ask) -> bool) -> bool {
+    pub(super) fn asked(&self, told: &StageTold, is: fn(&Ask) -> bool) -> bool {
         self.answered(told).any(|a| {
             self.scene
                 .questions

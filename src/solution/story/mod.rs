@@ -5,6 +5,7 @@
 //! [`flight`].
 
 mod cases;
+mod ends;
 mod flight;
 mod motion;
 mod pivot;
@@ -12,18 +13,15 @@ mod pivot;
 use super::asked;
 use super::known;
 use super::neat::tidied;
-use super::opening::{AXES, NUMBERS};
+use super::opening::{self, AXES};
 use super::rough;
 use super::sentence::{self, full_sentence};
 use super::words::{self, say};
-use super::{
-    Before, Claim, Detail, Inline, Line, Math, Meaning, Part, Scope, Slot, Solution, Writer,
-};
-use crate::answer::Answer;
+use super::{Before, Detail, Inline, Part, Scope, Slot, Solution, Writer};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
 use crate::scene::{Ask, Scene, Stage};
-use crate::story::{Case, StageTold, Step, Told};
+use crate::story::{Case, StageTold, Told};
 
 /// Writes the solution of a scene with stages.
 pub(super) fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
@@ -108,6 +106,7 @@ impl Page<'_> {
             self.readings();
         }
         self.solution.say(&format!("{AXES} unless said otherwise."));
+        opening::composites(&mut self.solution, self.scene);
     }
 
     fn readings(&mut self) {
@@ -155,6 +154,7 @@ impl Page<'_> {
         if let (Some(first), true) = (told.cases.first(), together) {
             self.handed(first);
         }
+        let begins = self.solution.sections.len() - 1;
         let mut shared = Vec::new();
         for (k, case) in told.cases.iter().enumerate() {
             let from = self.solution.sections.len();
@@ -162,10 +162,10 @@ impl Page<'_> {
             if told.cases.len() > 1 {
                 cases::share(&mut shared, k + 1, &mut self.solution.sections[from..]);
             }
-            self.asked_of(i, k);
+            self.asked_of(i, k, begins);
         }
         if told.cases.is_empty() {
-            self.asked_of(i, 0);
+            self.asked_of(i, 0, begins);
         }
         if brief || !told.cases.is_empty() {
             return;
@@ -306,9 +306,13 @@ impl Page<'_> {
         if self.solution.detail == Detail::Brief {
             return;
         }
-        if !case.handed.is_empty() {
+        // What was asked for stands above by its name.
+        let stands = |name: &Symbol| self.solution.meanings.contains_key(name);
+        let all = case.handed.iter();
+        let mut fresh = all.filter(|(name, _)| !stands(name)).peekable();
+        if fresh.peek().is_some() {
             let mut text = vec![say("From the stage before, ")];
-            for (i, (name, value)) in case.handed.iter().enumerate() {
+            for (i, (name, value)) in fresh.enumerate() {
                 if i > 0 {
                     text.push(say(" and "));
                 }
@@ -322,101 +326,6 @@ impl Page<'_> {
         }
         if let Some(law) = rough::law(&case.scene) {
             self.solution.text(law);
-        }
-    }
-
-    /// Answers about the end of a stage, of an impact in one of its outcomes.
-    fn asked_of(&mut self, i: usize, outcome: usize) {
-        let mut lines: Vec<Line> = Vec::new();
-        let mut steps = Vec::new();
-        let mut numbers = Vec::new();
-        let several = self.told.stages[i].cases.len() > 1;
-        for question in self.scene.questions.iter() {
-            if !question.ask.is_motion() {
-                continue;
-            }
-            let all = self.told.answers.iter();
-            let mine: Vec<&Answer> = all
-                .filter(|a| a.told == Some((i, outcome)) && a.question == question.name)
-                .collect();
-            for answer in mine {
-                let Some(formula) = answer.formula() else {
-                    continue;
-                };
-                let symbol = Symbol::from(answer.name.as_str());
-                let axis = answer.axis();
-                let suffix = axis.map_or("", |axis| ["_x", "_y"][axis]);
-                let plain = format!("{}{suffix}", question.name);
-                // What belongs to a further case is no question's answer by its name.
-                let is_fresh = answer.name != plain;
-                let meaning = match is_fresh {
-                    false => Meaning::Answer(question.name.clone(), axis),
-                    true => Meaning::Defined,
-                };
-                let ask = self.told.stages[i].placed.asked(question).clone();
-                // What it comes from goes by the names that were told before.
-                let flown = self.flown(&self.told.stages[i], &ask, answer);
-                self.solution.meanings.insert(symbol.clone(), meaning);
-                for line in self.carried(&self.told.stages[i], &ask) {
-                    let known = steps.iter().any(|l: &Line| l.math == line.math);
-                    steps.extend((!known).then_some(line));
-                }
-                let claimed = flown.as_ref().map(|[_, claimed]| claimed);
-                let sides = [Some(&Expr::symbol(&symbol)), claimed];
-                let claims = sides.into_iter().flatten().map(|left| Claim {
-                    left: left.clone(),
-                    right: formula.clone(),
-                });
-                let id = self
-                    .solution
-                    .step(Vec::new(), claims.collect(), &answer.words);
-                if let Some(step) = self.solution.steps.last_mut() {
-                    step.defines = is_fresh.then(|| symbol.clone());
-                }
-                let mut math = vec![Math::Expr(Expr::symbol(&symbol)), Math::Op("=")];
-                if Self::is_end_energy(&self.told.stages[i], answer) {
-                    math.extend([words::kinetic("", "+"), Math::Op("=")]);
-                }
-                steps.extend(self.energy_in(&self.told.stages[i], &question.ask, &symbol, formula));
-                if let Some([shown, _]) = flown {
-                    math.extend([Math::Expr(shown), Math::Op("=")]);
-                }
-                let here = &self.told.stages[i];
-                let found = |s: &&Step| {
-                    let answering = self.answering(here, s);
-                    answering.is_some_and(|a| a.name == answer.name)
-                };
-                if let Some(step) = here.steps.iter().find(found) {
-                    math.extend(self.made_of(step));
-                }
-                math.push(Math::Expr(formula.clone()));
-                // Within a case the name needs no number; what is in given quantities already stands in its box.
-                if several {
-                    math[0] = Math::Expr(Expr::symbol(&plain));
-                }
-                let case = self.told.stages[i].cases.get(outcome);
-                if case.is_none_or(|case| changes(case, formula)) {
-                    let step = Some(id);
-                    lines.push(Line { math, step });
-                }
-                if let Some(value) = known::number(self.scene, answer) {
-                    numbers.push(say(if numbers.is_empty() { NUMBERS } else { ", " }));
-                    numbers.extend([words::formula(&Expr::symbol(&symbol)), say(value)]);
-                }
-            }
-        }
-        if !lines.is_empty() && !steps.is_empty() {
-            self.solution.push(Part::Display(steps));
-        }
-        if !lines.is_empty() {
-            if !self.told.stages[i].cases.is_empty() {
-                self.solution.say("In terms of the given quantities,");
-            }
-            self.solution.push(Part::Result(lines));
-        }
-        if !numbers.is_empty() {
-            numbers.push(say("."));
-            self.solution.text(numbers);
         }
     }
 
@@ -439,6 +348,13 @@ impl Page<'_> {
             text.push(say("."));
             items.push(text);
         }
+        self.valid.retain(|condition| match condition {
+            Inline::Text(words) if words.starts_with(words::AT_ONCE) => {
+                items.push(vec![say(words::capital(words) + ".")]);
+                false
+            }
+            _ => true,
+        });
         if !self.valid.is_empty() && self.solution.detail == Detail::Normal {
             let of = match self.told.stages.len() {
                 1 => "The results hold for ",
@@ -506,14 +422,4 @@ impl Page<'_> {
             .filter(|a| !said.contains(&a) && !in_a_case(a))
             .collect()
     }
-}
-
-/// Whether a result reads otherwise in given quantities than in those an earlier stage handed on to this case.
-fn changes(case: &Case, formula: &Expr) -> bool {
-    let (_, derivation) = case.asked();
-    !case.handed.is_empty()
-        && !derivation
-            .answers
-            .iter()
-            .any(|a| a.formula() == Some(formula))
 }

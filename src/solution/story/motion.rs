@@ -6,10 +6,13 @@ use crate::answer::Answer;
 use crate::answer::calc::is_zero;
 use crate::expr::{Expr, Node, Symbol, dot, minus};
 use crate::scene::{Ask, Linkage, Slide, Stage, StageKind, Turn, Until};
-use crate::solution::neat::{neat, tidied};
+use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::words::{self, name, say};
 use crate::solution::{Claim, Detail, Inline, Line, Math, Meaning, Part, Solution};
 use crate::story::{StageTold, Step};
+
+/// Smallest formula, in nodes, whose name is worth standing for it.
+const WORTH_A_NAME: usize = 6;
 
 impl Page<'_> {
     /// A motion by Newton's laws: what the letters stand for, then forces, accelerations, and what they come to.
@@ -76,7 +79,8 @@ impl Page<'_> {
 
     /// What a step comes from, with the sign that leads on to its value; nothing where it reads the same.
     pub(super) fn made_of(&self, step: &Step) -> Vec<Math> {
-        let raw = neat(self.scene, &step.raw);
+        let raw = self.by_names(&step.raw, &step.value);
+        let raw = neat(self.scene, &raw);
         let written = crate::formula::write_plain;
         match alike(&raw, &step.value) || written(&raw) == written(&step.value) {
             true => Vec::new(),
@@ -141,6 +145,10 @@ impl Page<'_> {
             math
         };
         if let (Some([raw, tidy]), StageKind::Turn(turn)) = (&told.inertia, &stage.kind) {
+            let raw = &match turn.with.is_empty() {
+                true => raw.clone(),
+                false => self.about(stage, told, turn),
+            };
             let math = chain(vec![name("I", &turn.about_name, "", false)], raw, tidy);
             let step = claim(
                 &mut self.solution,
@@ -282,28 +290,63 @@ impl Page<'_> {
         self.solution.push(Part::Display(lines));
     }
 
-    /// The speed with which a fall ends, from its energy, where the next stage takes it over and no question asks for it.
+    /// The speed with which a fall or a rotation ends, from its energy, where the next stage takes it over and no question asks
+    /// for it.
     fn speed(&mut self, stage: &Stage, told: &StageTold) -> Option<Line> {
-        let StageKind::Fall(fall) = &stage.kind else {
-            return None;
-        };
-        let asked = self.answered(told).next().is_some();
-        let spins = !told.after.spin[fall.body].is_zero();
-        if asked || spins || fall.bodies().len() > 1 {
-            return None;
-        }
         let [_, end] = told.energy.as_ref()?;
-        let mass = &stage.scene.bodies[fall.body].mass;
-        let square = tidied(self.scene, &(Expr::from(2) * end / mass));
-        let speed = tidied(self.scene, &square.sqrt());
+        let asks = |is: fn(&Ask) -> bool| self.asked(told, is);
+        let (head, inertia) = match &stage.kind {
+            StageKind::Fall(fall) => {
+                let spins = !told.after.spin[fall.body].is_zero();
+                if asks(|_| true) || spins || fall.bodies().len() > 1 {
+                    return None;
+                }
+                let mass = stage.scene.bodies[fall.body].mass.clone();
+                (name("v", "", "+", false), mass)
+            }
+            StageKind::Turn(turn) => {
+                let index = self.told.stages.iter().position(|s| std::ptr::eq(s, told));
+                let mut next = self.told.stages.iter();
+                let goes_on = next.any(|s| s.branch.map(|(parent, _)| parent) == index);
+                let is_given = *end == told.energy.as_ref()?[0];
+                let needed = goes_on || asks(|ask| matches!(ask, Ask::Velocity { .. }));
+                let asked =
+                    asks(|ask| matches!(ask, Ask::Spin { .. })) || self.speed_asked(told).is_some();
+                if asked || is_given || !needed {
+                    return None;
+                }
+                let body = &stage.scene.bodies[turn.body];
+                match (body.is_particle() && turn.with.is_empty(), &told.inertia) {
+                    (true, _) => (name("v", "", "+", false), body.mass.clone()),
+                    (false, Some([_, inertia])) => (name("omega", "", "+", false), inertia.clone()),
+                    (false, None) => return None,
+                }
+            }
+            _ => return None,
+        };
+        let square = Expr::from(2) * end / &inertia;
+        let speed = tidied(self.scene, &tidied(self.scene, &square).sqrt());
         let math = vec![
-            name("v", "", "+", false),
+            head,
             Math::Op("="),
-            Math::Expr((Expr::from(2) * end / mass).sqrt()),
+            Math::Expr(neat(self.scene, &square).sqrt()),
             Math::Op("="),
             Math::Expr(speed),
         ];
         Some(Line { math, step: None })
+    }
+
+    /// The moment of inertia of bodies that turn as one, each by I + m r² about the fixed point.
+    fn about(&self, stage: &Stage, told: &StageTold, turn: &Turn) -> Expr {
+        Expr::sum(turn.bodies().into_iter().flat_map(|b| {
+            let body = &stage.scene.bodies[b];
+            let arm = minus(&told.before.center[b], &turn.about);
+            let own = match body.is_particle() {
+                true => Expr::zero(),
+                false => tidied(self.scene, &body.inertia),
+            };
+            [own, tidied(self.scene, &(&body.mass * dot(&arm, &arm)))]
+        }))
     }
 
     /// The rate of the coordinate of a linkage, as a symbol.
@@ -340,8 +383,9 @@ impl Page<'_> {
                 lines.push(Line { math, step: None });
             }
             if !scene.bodies[*b].is_particle() && !angle.is_zero() {
+                let index = if called == "G" { "" } else { &called };
                 let math = vec![
-                    name("omega", &called, "", false),
+                    name("omega", index, "", false),
                     Math::Op("="),
                     Math::Expr(angle),
                 ];
@@ -351,7 +395,7 @@ impl Page<'_> {
         self.solution.text(vec![
             say("The places of all bodies follow from "),
             words::formula(&Expr::symbol(&linkage.coordinate)),
-            say(", and their velocities from its rate:"),
+            say(", and their velocities from its rate; with these, translation and rotation make up the kinetic energy:"),
         ]);
         self.solution.push(Part::Display(lines));
     }
@@ -407,6 +451,32 @@ impl Page<'_> {
             _ => None,
         });
         named.unwrap_or_else(|| e.clone())
+    }
+
+    /// What a value is made of, with answers that stand on the page by their names, where it holds all of one.
+    fn by_names(&self, e: &Expr, value: &Expr) -> Expr {
+        let known = |a: &&Answer| self.solution.meanings.contains_key(a.name.as_str());
+        let worth = |a: &&Answer| {
+            let formula = a.formula();
+            formula.is_some_and(|f| f.size() >= WORTH_A_NAME && f != value)
+        };
+        let told = self.told.answers.iter();
+        let mut told: Vec<&Answer> = told.filter(known).filter(worth).collect();
+        // The longest first: a shorter one may be a part of it.
+        told.sort_by_key(|a| std::cmp::Reverse(a.formula().map(Expr::size)));
+        let mut out = e.clone();
+        for a in told {
+            let Some(formula) = a.formula() else {
+                continue;
+            };
+            let symbol = Expr::symbol(&a.name);
+            out = replaced(&out, formula, &symbol);
+            out = replaced(&out, &tidied(self.scene, &-formula), &-&symbol);
+        }
+        match out.as_symbol() {
+            Some(_) => e.clone(),
+            None => out,
+        }
     }
 
     /// How a point of a body moves at the end of a motion: v = ω × r from the fixed point of a rotation, else with the velocity
@@ -467,6 +537,30 @@ impl Page<'_> {
             && asked.any(|q| q.name == answer.name && matches!(q.ask, Ask::Energy { .. }))
     }
 
+    /// The kinetic energy at the end of a lone particle's motion in terms of its speed, ½ m v² = T⁺, where that gives its value.
+    pub(super) fn energy_of_speed(
+        &self,
+        told: &StageTold,
+        symbol: &Symbol,
+        value: &Expr,
+    ) -> Option<Line> {
+        let moved = told.placed.kind.moved();
+        let ([only], Some([_, end]), true) =
+            (moved.as_slice(), &told.energy, told.steps.is_empty())
+        else {
+            return None;
+        };
+        let body = &told.placed.scene.bodies[*only];
+        let energy = |of: &Expr| &(&Expr::ratio(1, 2) * &body.mass) * &of.powi(2);
+        let gives = tidied(self.scene, &energy(value)) == tidied(self.scene, end);
+        if !body.is_particle() || !gives || self.kinematic(told).is_some() {
+            return None;
+        }
+        let left = Math::Expr(energy(&Expr::symbol(symbol)));
+        let math = vec![left, Math::Op("="), words::kinetic("", "+")];
+        Some(Line { math, step: None })
+    }
+
     /// The kinetic energy at the end in terms of the speed or spin that is asked for, ½ I ω² = T⁺, where that gives its value.
     pub(super) fn energy_in(
         &self,
@@ -517,13 +611,34 @@ fn pulley(stage: &Stage, body: usize) -> Option<(&Slide, Expr)> {
     Some((slide, &b.inertia / &radius.powi(2)))
 }
 
-/// Whether two formulas read alike, whatever the order of terms and factors.
-pub(super) fn alike(a: &Expr, b: &Expr) -> bool {
-    match (a.node(), b.node()) {
-        (Node::Product(x), Node::Product(y)) | (Node::Sum(x), Node::Sum(y)) => {
-            x.len() == y.len() && x.iter().all(|f| y.iter().any(|g| alike(f, g)))
+/// A formula with every occurrence of another one, also as some of its factors, by a symbol.
+fn replaced(e: &Expr, part: &Expr, by: &Expr) -> Expr {
+    if e == part {
+        return by.clone();
+    }
+    match e.node() {
+        Node::Sum(terms) => Expr::sum(terms.iter().map(|t| replaced(t, part, by))),
+        Node::Power(base, exponent) => replaced(base, part, by).power(exponent.clone()),
+        Node::Product(factors) => {
+            let (number, rest) = part.split_number();
+            let sought = match rest.node() {
+                Node::Product(sought) => sought.clone(),
+                _ => Vec::new(),
+            };
+            let mut left = factors.clone();
+            let found = !sought.is_empty()
+                && sought.iter().all(|f| {
+                    let at = left.iter().position(|l| l == f);
+                    at.map(|at| left.remove(at)).is_some()
+                });
+            match found {
+                true => Expr::product(
+                    left.into_iter()
+                        .chain([Expr::from(number.recip()), by.clone()]),
+                ),
+                false => Expr::product(factors.iter().map(|f| replaced(f, part, by))),
+            }
         }
-        (Node::Power(x, j), Node::Power(y, k)) => alike(x, y) && alike(j, k),
-        _ => a == b,
+        _ => e.clone(),
     }
 }

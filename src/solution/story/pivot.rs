@@ -1,12 +1,11 @@
 //! The force of the fixed point on a turning body: its center of mass moves on a circle, and Newton's second law gives the force.
 
 use super::Page;
-use super::motion::alike;
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol, Vector, cross, dot, minus};
 use crate::scene::{Ask, StageKind, Turn};
 use crate::solution::known::number;
-use crate::solution::neat::{neat, tidied};
+use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::opening::NUMBERS;
 use crate::solution::words::{self, name, say};
 use crate::solution::{Claim, Inline, Line, Math, Meaning, Part};

@@ -1,0 +1,240 @@
+//! What is asked about the end of a stage: a box with each answer by what it is made of, in the names that stand on the page.
+
+use super::Page;
+use crate::answer::Answer;
+use crate::expr::{Expr, Symbol};
+use crate::scene::{Ask, Question, Scene};
+use crate::solution::known;
+use crate::solution::neat::tidied;
+use crate::solution::opening::NUMBERS;
+use crate::solution::words::{self, say};
+use crate::solution::{Claim, Detail, Inline, Line, Math, Meaning, Part};
+use crate::story::{Case, StageTold, Step};
+
+/// What stands at the end of a stage.
+#[derive(Default)]
+struct End {
+    /// How the answers come about.
+    steps: Vec<Line>,
+    /// The answers.
+    boxed: Vec<Line>,
+    /// Their numbers.
+    numbers: Vec<Inline>,
+}
+
+impl End {
+    /// Adds the number of an answer, where the scene gives every value.
+    fn number(&mut self, scene: &Scene, symbol: &Symbol, answer: &Answer) {
+        let Some(value) = known::number(scene, answer) else {
+            return;
+        };
+        let lead = if self.numbers.is_empty() {
+            NUMBERS
+        } else {
+            ", "
+        };
+        let name = words::formula(&Expr::symbol(symbol));
+        self.numbers.extend([say(lead), name, say(value)]);
+    }
+}
+
+impl Page<'_> {
+    /// Answers about the end of a stage, of an impact in one of its outcomes; `from` is the first of its sections.
+    pub(super) fn asked_of(&mut self, i: usize, outcome: usize, from: usize) {
+        let mut end = End::default();
+        let (scene, told) = (self.scene, self.told);
+        for question in scene.questions.iter().filter(|q| q.ask.is_motion()) {
+            let mine = |a: &&Answer| a.told == Some((i, outcome)) && a.question == question.name;
+            for answer in told.answers.iter().filter(mine) {
+                if !self.is_in_speed(&told.stages[i], answer) {
+                    self.answer([i, outcome, from], question, answer, &mut end);
+                }
+            }
+        }
+        self.speed_at_end(&told.stages[i], &mut end);
+        let case = told.stages[i].cases.get(outcome);
+        if !end.boxed.is_empty() {
+            if !end.steps.is_empty() {
+                self.solution.push(Part::Display(end.steps));
+            }
+            if case.is_some_and(|case| !case.handed.is_empty()) {
+                self.solution.say("In terms of the given quantities,");
+            }
+            self.solution.push(Part::Result(end.boxed));
+        }
+        if !end.numbers.is_empty() {
+            end.numbers.push(say("."));
+            self.solution.text(end.numbers);
+        }
+    }
+
+    /// One answer about the end of a stage.
+    fn answer(
+        &mut self,
+        [i, outcome, from]: [usize; 3],
+        question: &Question,
+        answer: &Answer,
+        end: &mut End,
+    ) {
+        let Some(formula) = answer.formula() else {
+            return;
+        };
+        let told = self.told;
+        let here = &told.stages[i];
+        let symbol = Symbol::from(answer.name.as_str());
+        let axis = answer.axis();
+        let suffix = axis.map_or("", |axis| ["_x", "_y"][axis]);
+        let plain = format!("{}{suffix}", question.name);
+        // What belongs to a further case is no question's answer by its name.
+        let is_fresh = answer.name != plain;
+        let meaning = match is_fresh {
+            false => Meaning::Answer(question.name.clone(), axis),
+            true => Meaning::Defined,
+        };
+        let ask = here.placed.asked(question).clone();
+        // What it comes from goes by the names that were told before.
+        let flown = self.flown(here, &ask, answer);
+        let found = |s: &&Step| {
+            let answering = self.answering(here, s);
+            answering.is_some_and(|a| a.name == answer.name)
+        };
+        let made = here.steps.iter().find(found).map(|step| self.made_of(step));
+        self.solution.meanings.insert(symbol.clone(), meaning);
+        for line in self.carried(here, &ask) {
+            let known = end.steps.iter().any(|l: &Line| l.math == line.math);
+            end.steps.extend((!known).then_some(line));
+        }
+        let claimed = flown.as_ref().map(|[_, claimed]| claimed);
+        let sides = [Some(&Expr::symbol(&symbol)), claimed];
+        let claims = sides.into_iter().flatten().map(|left| Claim {
+            left: left.clone(),
+            right: formula.clone(),
+        });
+        let id = self
+            .solution
+            .step(Vec::new(), claims.collect(), &answer.words);
+        if let Some(step) = self.solution.steps.last_mut() {
+            step.defines = is_fresh.then(|| symbol.clone());
+        }
+        // Within a case the name needs no number.
+        let several = here.cases.len() > 1;
+        let name = if several { plain.as_str() } else { &symbol };
+        let mut math = vec![Math::Expr(Expr::symbol(name)), Math::Op("=")];
+        if Self::is_end_energy(here, answer) {
+            math.extend([words::kinetic("", "+"), Math::Op("=")]);
+        }
+        end.steps
+            .extend(self.energy_in(here, &question.ask, &symbol, formula));
+        if let Some([shown, _]) = flown {
+            math.extend([Math::Expr(shown), Math::Op("=")]);
+        }
+        math.extend(made.into_iter().flatten());
+        math.push(Math::Expr(formula.clone()));
+        // What is in given quantities already stands where it was found.
+        let stands = |case: &Case| match self.solution.detail {
+            Detail::Brief if case.handed.is_empty() => self.stands(from, formula),
+            _ => !changes(case, formula),
+        };
+        if !here.cases.get(outcome).is_some_and(stands) {
+            let step = Some(id);
+            end.boxed.push(Line { math, step });
+        }
+        end.number(self.scene, &symbol, answer);
+    }
+
+    /// The speed that is asked for at the end of a motion: its formula in the components of a velocity, and the answer.
+    pub(super) fn speed_asked(&self, told: &StageTold) -> Option<(&'_ Expr, &'_ Answer)> {
+        if !told.cases.is_empty() {
+            return None;
+        }
+        self.scene.questions.iter().find_map(|question| {
+            let Ask::Value {
+                formula, meaning, ..
+            } = &question.ask
+            else {
+                return None;
+            };
+            let all = self.told.answers.iter();
+            let mut mine = all.filter(|a| a.question == question.name);
+            let (answer, None) = (mine.next()?, mine.next()) else {
+                return None;
+            };
+            let is_here = |s: &Symbol| self.answered(told).any(|a| *a.name == **s);
+            let all_here = formula.symbols().iter().all(is_here);
+            (meaning.starts_with("speed of ") && all_here).then_some((formula, answer))
+        })
+    }
+
+    /// The speed that is asked for, by the components that stand above or by the energy.
+    fn speed_at_end(&mut self, told: &StageTold, end: &mut End) {
+        let Some((formula, answer)) = self.speed_asked(told) else {
+            return;
+        };
+        let Some(value) = answer.formula() else {
+            return;
+        };
+        let (formula, answer, value) = (formula.clone(), answer.clone(), value.clone());
+        let symbol = Symbol::from(answer.name.as_str());
+        let is_told = |s: &Symbol| self.solution.meanings.contains_key(s);
+        let by_parts = formula.symbols().iter().all(is_told);
+        let energy = self.energy_of_speed(told, &symbol, &value);
+        self.solution
+            .meanings
+            .insert(symbol.clone(), Meaning::Defined);
+        let sides = [
+            Some(Expr::symbol(&symbol)),
+            by_parts.then(|| formula.clone()),
+        ];
+        let claims = sides.into_iter().flatten().map(|left| Claim {
+            left,
+            right: value.clone(),
+        });
+        let claims = claims.collect();
+        let id = self.solution.step(Vec::new(), claims, &answer.words);
+        if let Some(step) = self.solution.steps.last_mut() {
+            step.defines = Some(symbol.clone());
+        }
+        end.steps.extend(energy);
+        let mut math = vec![Math::Expr(Expr::symbol(&symbol)), Math::Op("=")];
+        if by_parts {
+            math.extend([Math::Expr(formula), Math::Op("=")]);
+        }
+        math.push(Math::Expr(value));
+        let step = Some(id);
+        end.boxed.push(Line { math, step });
+        end.number(self.scene, &symbol, &answer);
+    }
+
+    /// Whether this is a component of a velocity that its speed says as well: it is zero, or all of it.
+    fn is_in_speed(&self, told: &StageTold, answer: &Answer) -> bool {
+        let Some((_, speed)) = self.speed_asked(told) else {
+            return false;
+        };
+        let (Some(part), Some(value)) = (answer.formula(), speed.formula()) else {
+            return false;
+        };
+        let opposite = tidied(self.scene, &-value);
+        answer.question == format!("{}_velocity", speed.question)
+            && (part.is_zero() || part == value || *part == opposite)
+    }
+
+    /// Whether a formula stands alone on one side of a line, from this section on.
+    fn stands(&self, from: usize, formula: &Expr) -> bool {
+        let parts = self.solution.sections[from..].iter().flat_map(|s| &s.parts);
+        let mut lines = parts.flat_map(|part| match part {
+            Part::Display(lines) | Part::Result(lines) => lines.as_slice(),
+            _ => &[],
+        });
+        lines.any(|line| matches!(line.math.last(), Some(Math::Expr(e)) if e == formula))
+    }
+}
+
+/// Whether a result reads otherwise in given quantities than in those an earlier stage handed on to this case.
+fn changes(case: &Case, formula: &Expr) -> bool {
+    let (_, derivation) = case.asked();
+    !case.handed.is_empty()
+        && !derivation
+            .answers
+            .iter()
+            .any(|a| a.formula() == Some(formula))
+}
