@@ -5,7 +5,7 @@ use num_traits::{One, Signed, Zero};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use super::element::Element;
+use super::element::{Den, Element};
 use super::field::{AngleOf, Field, Kind};
 use super::mono::{
     Mono, exponent, mono_add, mono_div, mono_divides, mono_is_one, mono_of, mono_variables, powers,
@@ -14,6 +14,8 @@ use super::parts::{Parts, letters, strike};
 use super::poly::Poly;
 use crate::expr::{Expr, Function, Int, Node, Rational, ratio};
 
+/// Longest sum above or below a line that is looked at for a term that stands better beside it.
+const MOST_PARTED: usize = 24;
 /// Longest sum whose terms are grouped.
 const MOST_GROUPED: usize = 300;
 /// Longest sum whose terms are joined.
@@ -101,7 +103,49 @@ impl Field {
         strike(&mut above, &mut below, &self.fuel);
         above.join_conjugates();
         below.join_conjugates();
-        self.assemble(&above, &below)
+        let quotient = self.assemble(&above, &below);
+        match self.parted(x) {
+            Some(parts) if parts.size() < quotient.size() => parts,
+            _ => quotient,
+        }
+    }
+
+    /// A quotient with what stands above with the whole denominator taken out: `(g (M + m) − F)/(M + m)` is `g − F/(M + m)`.
+    fn parted(&self, x: &Element) -> Option<Expr> {
+        let den = &x.den.factors;
+        if den.is_empty() || !(3..=MOST_PARTED).contains(&x.num.len()) {
+            return None;
+        }
+        let mut whole = Poly::one();
+        for (f, k) in den {
+            whole = whole.mul(&f.pow(*k).ok()?).ok()?;
+        }
+        let (lead, first) = (whole.mono(0), whole.coeff(0));
+        let (mut taken, mut rest) = (Poly::zero(), x.num.clone());
+        for (mono, coeff) in x.num.terms() {
+            if !mono_divides(lead, mono) || !coeff.is_multiple_of(first) {
+                continue;
+            }
+            let term = Poly::term(&mono_div(mono, lead), coeff / first);
+            let less = rest.sub(&whole.mul(&term).ok()?);
+            // Every term of the product stands above: no other is made by taking it away.
+            if less.len() + whole.len() == rest.len() {
+                (taken, rest) = (taken.add(&term), less);
+            }
+        }
+        if taken.is_zero() || rest.is_zero() {
+            return None;
+        }
+        let over = |num: Poly, factors: Vec<(Poly, u32)>| {
+            let (int, mono) = (x.den.int.clone(), x.den.mono.clone());
+            self.written(&Element {
+                num,
+                den: Den { int, mono, factors },
+            })
+        };
+        let mut both = [over(taken, Vec::new()), over(rest, den.clone())];
+        both.sort_by_key(Expr::is_negative);
+        Some(Expr::sum(both))
     }
 
     /// Numerator and factors of the denominator without what they have in common, where both hold a cosine: each of them may

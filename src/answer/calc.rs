@@ -151,9 +151,40 @@ fn seen(e: &Expr, domains: &Domains) -> Seen {
     }
 }
 
+/// A sum of quotients times those of their denominators that are known to be positive.
+fn without_denominators(e: Expr, domains: &Domains) -> Expr {
+    let Node::Sum(terms) = e.node() else {
+        return e;
+    };
+    let mut below: Vec<Expr> = Vec::new();
+    for term in terms {
+        let factors = match term.node() {
+            Node::Product(factors) => factors.as_slice(),
+            _ => std::slice::from_ref(term),
+        };
+        for factor in factors {
+            let Node::Power(base, k) = factor.node() else {
+                continue;
+            };
+            let is_below = k.is_negative() && matches!(base.node(), Node::Sum(_));
+            let power = base.power(-k);
+            if is_below && !below.contains(&power) {
+                below.push(power);
+            }
+        }
+    }
+    below.retain(|b| matches!(sign(b, domains), Seen::Proved(Sign::Positive)));
+    if below.is_empty() {
+        return e;
+    }
+    let whole = Expr::product(below.into_iter().chain([e.clone()]));
+    tidy(&whole, domains).unwrap_or(e)
+}
+
 /// What decides the sign of an expression: factors known to be positive are left away. Gives the rest, such as a − h.
 pub fn essential(e: &Expr, domains: &Domains) -> Expr {
     let tidied = tidy(e, domains).unwrap_or_else(|_| e.clone());
+    let tidied = without_denominators(tidied, domains);
     let factors: Vec<Expr> = match tidied.node() {
         Node::Product(factors) => factors.clone(),
         _ => vec![tidied.clone()],
