@@ -215,9 +215,17 @@ fn is_readable(scene: &Scene) -> bool {
 
 /// The pictures a scene has, in order.
 pub fn kinds(scene: &Scene) -> Vec<Which> {
-    let movable: Vec<usize> = (0..scene.bodies.len())
-        .filter(|i| !scene.bodies[*i].is_fixed())
-        .collect();
+    let movable = (0..scene.bodies.len()).filter(|i| !scene.bodies[*i].is_fixed());
+    let mut movable: Vec<usize> = movable.collect();
+    let touched = |i: &usize| {
+        let hinges = scene.hinges.iter().map(|h| &h.bodies);
+        let mut joints = hinges.chain(scene.contacts.iter().map(|c| &c.bodies));
+        joints.any(|bodies| bodies.contains(i)) || scene.blows.iter().any(|b| b.body == *i)
+    };
+    // What nothing acts on shows nothing.
+    if movable.iter().any(touched) {
+        movable.retain(touched);
+    }
     let mut out = vec![Which::Before];
     if movable.len() > 1 {
         out.push(Which::During(Subject::System));

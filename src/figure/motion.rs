@@ -89,9 +89,12 @@ pub fn motion(scene: &Scene, values: &Values, kind: &StageKind, clockwise: bool)
     let stage = spanning(scene, values, begin.clone(), &poses)?;
     stage.fixed(&mut sheet, &[]);
     if let StageKind::Slide(slide) = kind
-        && (slide.rolling || slide.friction.is_some())
+        && let along = values.pair(&slide.along)?
+        && (slide.rolling
+            || slide.friction.is_some()
+            || slide.gravity.is_some() && along[0].abs() > 1e-9)
     {
-        stage.surface(&mut sheet, from, &end, values.pair(&slide.along)?);
+        stage.surface(&mut sheet, from, &end, along);
     }
     // A string of a later impact is slack while its body falls.
     if let StageKind::Fall(_) = kind
@@ -450,15 +453,18 @@ fn angle(stage: &Stage, sheet: &mut Sheet, turn: &Turn, from: &Pose, end: &Pose,
     let start = a[1].atan2(a[0]);
     let way = if clockwise { -1.0 } else { 1.0 };
     let sweep = way * (way * (b[1].atan2(b[0]) - start)).rem_euclid(TAU);
-    sheet.wish(Wish {
-        label: Label::words(&turn.about_name),
-        size: SIZE,
-        spot: Spot::Point {
-            at,
-            toward: [0.0, 0.0],
-            reach: 6.0,
-        },
-    });
+    // A center of mass there has its name already.
+    if size(a) > 1.0 {
+        sheet.wish(Wish {
+            label: Label::symbol(&turn.about_name, None),
+            size: SIZE,
+            spot: Spot::Point {
+                at,
+                toward: [0.0, 0.0],
+                reach: 6.0,
+            },
+        });
+    }
     if size(a) < 8.0 || sweep.abs() < 0.03 {
         return;
     }

@@ -229,6 +229,7 @@ impl Pose {
                 // The parts are joined by light bars, each from its center to the next.
                 let bars = parts
                     .windows(2)
+                    .filter(|two| !two[0].meets(&two[1]))
                     .map(|two| vec![two[0].center, two[1].center]);
                 bars.chain(parts.iter().flat_map(Pose::lines)).collect()
             }
@@ -280,6 +281,28 @@ impl Pose {
                 .collect(),
             Look::Parts(parts) => parts.iter().flat_map(Pose::outline).collect(),
         }
+    }
+
+    /// Whether it is a rod, or has one, that lies through a point along a surface with this normal.
+    pub fn lies_along(&self, at: Pair, n: Pair) -> bool {
+        let level = |[a, b]: [Pair; 2]| {
+            let long = size([b[0] - a[0], b[1] - a[1]]);
+            let apart = |p: Pair| ((p[0] - a[0]) * n[0] + (p[1] - a[1]) * n[1]).abs();
+            apart(b) < 0.02 * long && apart(at) < 0.02 * long
+        };
+        match &self.look {
+            Look::Parts(parts) => parts.iter().any(|part| part.lies_along(at, n)),
+            _ => self.skin.is_empty() && self.ends().is_some_and(level),
+        }
+    }
+
+    /// Whether two rods have an end in common.
+    pub fn meets(&self, other: &Pose) -> bool {
+        let (Some(mine), Some(theirs)) = (self.ends(), other.ends()) else {
+            return false;
+        };
+        let close = |a: &Pair, b: &Pair| size([a[0] - b[0], a[1] - b[1]]) < 1e-9;
+        mine.iter().any(|a| theirs.iter().any(|b| close(a, b)))
     }
 
     /// Ends of a rod, in meters.

@@ -125,7 +125,7 @@ impl Stage<'_> {
             .contacts
             .iter()
             .find(|c| c.bodies.contains(&body) && self.scene.figure.string(&c.name).is_none());
-        let Some(contact) = contact.filter(|_| !self.hangs(body)) else {
+        let Some(contact) = contact.filter(|_| !self.is_held(body)) else {
             return nothing;
         };
         let other = if contact.bodies[0] == body {
@@ -162,7 +162,7 @@ impl Stage<'_> {
         let both_dots = self.scene.bodies[other].is_particle();
         let near = match self.poses[other].look {
             Look::Bar(_) => DOT + THICK + 1.0,
-            Look::Dot if self.hangs(other) => 2.0 * DOT,
+            Look::Dot if self.is_held(other) => 2.0 * DOT,
             Look::Dot => DOT,
             _ => DOT + 1.0,
         };
@@ -194,11 +194,13 @@ impl Stage<'_> {
         [back[0] * (near + gap), back[1] * (near + gap)]
     }
 
-    /// Whether a particle hangs on a string, which is drawn to where the particle is.
-    fn hangs(&self, body: usize) -> bool {
+    /// Whether a particle is at a hinge or on a string, which is drawn to where the particle is.
+    fn is_held(&self, body: usize) -> bool {
         let string = |name: &str| self.scene.figure.string(name).is_some();
         let mut contacts = self.scene.contacts.iter();
-        string(&self.scene.bodies[body].name)
+        let mut hinges = self.scene.hinges.iter();
+        hinges.any(|h| h.bodies.contains(&body))
+            || string(&self.scene.bodies[body].name)
             || contacts.any(|c| string(&c.name) && c.bodies.contains(&body))
     }
 
@@ -244,7 +246,7 @@ impl Stage<'_> {
             }
             Look::Plate(..) | Look::Blob(_) => sheet.path(outline, true, Line::solid(), 1.0),
             Look::Parts(parts) => {
-                for pair in parts.windows(2) {
+                for pair in parts.windows(2).filter(|two| !two[0].meets(&two[1])) {
                     let [a, b] = [put(pair[0].center), put(pair[1].center)];
                     sheet.segment(
                         a,

@@ -92,8 +92,24 @@ impl Stage<'_> {
             };
             support(sheet, self.px(at), away);
         }
+        self.axles(sheet);
         self.springs(sheet);
         self.ground(sheet);
+    }
+
+    /// The supports of pulleys whose axles no hinge here stands for.
+    fn axles(&self, sheet: &mut Sheet) {
+        for p in &self.scene.axles {
+            let mut hinges = self.scene.hinges.iter();
+            if hinges.any(|h| h.bodies.contains(p)) {
+                continue;
+            }
+            if let Some(pose) = self.poses.get(*p) {
+                let at = self.px(pose.center);
+                support(sheet, at, [0.0, -1.0]);
+                sheet.circle(at, 3.6, Line::of(Ink::Body));
+            }
+        }
     }
 
     /// The springs under bodies on which their force acts.
@@ -347,7 +363,12 @@ impl Stage<'_> {
 
     fn wall(&self, sheet: &mut Sheet, at: Pair, n: Pair, other: usize) {
         let along = [n[1], -n[0]];
-        let at = match self.poses[other].look {
+        let at = match &self.poses[other].look {
+            _ if self.poses[other].lies_along(at, n) => {
+                let [x, y] = self.px(at);
+                let far = THICK + 0.8;
+                [x - far * n[0], y - far * n[1]]
+            }
             Look::Bar(_) | Look::Dot | Look::Parts(_) => self.px(at),
             _ => self.touch(other, at, n),
         };
