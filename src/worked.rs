@@ -39,6 +39,13 @@ pub fn in_cases(scene: &Scene) -> Result<Worked, String> {
     out(&scene.staged(IMPACT))
 }
 
+/// Its stages alone, for pictures: nothing is answered, and nothing checked beyond what telling them takes.
+pub fn to_draw(scene: &Scene) -> Result<Worked, String> {
+    let scene = verify::friction::settled(scene)?;
+    let told = story::course(&scene).map_err(|reason| reason.to_string())?;
+    Ok(Worked { scene, told })
+}
+
 impl Worked {
     /// Whether no check failed, no laws contradict each other, and what is told can happen.
     pub fn holds(&self) -> bool {

@@ -9,6 +9,7 @@ use super::{Failure, files, of_stage, print, read_scene, refused, work_out};
 use carom::figure::{self, Chapter, Drawing, Subject, Which};
 use carom::scene::Scene;
 use carom::verify::friction::settled;
+use carom::worked;
 
 /// Arguments of `carom draw`.
 #[derive(Args)]
@@ -54,7 +55,10 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
         return write(args, &plotted(args, &mut scene, name)?);
     }
     let all = match scene.has_stages() {
-        true => work_out(&args.scene, &scene)?.chapters(),
+        true => {
+            let told = worked::to_draw(&scene).map_err(|why| refused(&args.scene, why))?;
+            told.chapters()
+        }
         false => vec![(String::new(), Chapter::Impact(scene.clone()))],
     };
     // One impact by itself has the pictures of a collision.

@@ -370,6 +370,16 @@ pub fn tell(scene: &Scene) -> Result<Told, Refused> {
     if !scene.has_stages() {
         return alone::tell(scene);
     }
+    let course = course(scene)?;
+    let told = answer::all(scene, course.stages)?;
+    Ok(Told {
+        ended: course.ended,
+        ..told
+    })
+}
+
+/// The stages of a scene as [`tell`] has them, without what is asked and without a second look at them: what a picture needs.
+pub fn course(scene: &Scene) -> Result<Told, Refused> {
     let mut stages: Vec<StageTold> = Vec::new();
     let mut told_as: Vec<Vec<usize>> = Vec::new();
     let mut ended = Vec::new();
@@ -412,9 +422,13 @@ pub fn tell(scene: &Scene) -> Result<Told, Refused> {
         }
         told_as.push(mine);
     }
-    let mut told = answer::all(scene, stages)?;
-    told.ended = ended;
-    Ok(told)
+    Ok(Told {
+        stages,
+        answers: Vec::new(),
+        readings: scene.readings.clone(),
+        unused: Vec::new(),
+        ended,
+    })
 }
 
 /// What a motion needs and the given values do not keep to.
