@@ -846,7 +846,7 @@ fn no_abbreviation_is_used_before_it_is_told() {
 
 #[test]
 fn no_phrase_that_an_editor_would_strike() {
-    const STRUCK: [&str; 23] = [
+    const STRUCK: [&str; 27] = [
         "the component along",
         "it is told that",
         "what is lost is lost",
@@ -870,6 +870,10 @@ fn no_phrase_that_an_editor_would_strike() {
         "as the values decide",
         "nothing is lost at the contact",
         "over the vanishing time",
+        "and all contacts act",
+        "are, as in case",
+        "that is determined of",
+        "points given by",
     ];
     for case in cases() {
         for detail in [Detail::Brief, Detail::Normal] {
@@ -1006,4 +1010,128 @@ fn results_in_numbers_name_the_values_they_rest_on() {
             case.path.display()
         );
     }
+}
+
+/// The words of a piece of text without its formulas.
+fn words(text: &[solution::Inline]) -> String {
+    let words = text.iter().map(|piece| match piece {
+        solution::Inline::Text(words) => words.as_str(),
+        solution::Inline::Math(_) => "…",
+    });
+    words.collect()
+}
+
+#[test]
+fn what_has_a_name_goes_by_it_and_is_not_told_again() {
+    use solution::{Inline, Math, Part};
+    for case in cases().iter().filter(|c| c.scene.has_stages()) {
+        let mut told: Vec<(carom::expr::Expr, carom::expr::Expr)> = Vec::new();
+        for section in &case.solution(Detail::Normal).sections {
+            for part in &section.parts {
+                if let Part::Text(text) = part
+                    && words(text).starts_with("From the stage before, ")
+                {
+                    for piece in text {
+                        let Inline::Math(math) = piece else { continue };
+                        let again = told
+                            .iter()
+                            .any(|(name, _)| math.first() == Some(&Math::Expr(name.clone())));
+                        assert!(!again, "{:?}: {math:?} is told again", case.path);
+                    }
+                }
+                let (Part::Display(lines) | Part::Result(lines)) = part else {
+                    continue;
+                };
+                for line in lines {
+                    let by_newton = matches!(
+                        line.math.as_slice(),
+                        [
+                            Math::Expr(_),
+                            Math::Op("="),
+                            Math::Expr(_),
+                            Math::Op("="),
+                            Math::Expr(_)
+                        ]
+                    );
+                    if let (true, Some(Math::Expr(made)), Part::Result(_)) =
+                        (by_newton, line.math.get(2), part)
+                    {
+                        made.walk(&mut |e| {
+                            let named = told.iter().find(|(_, value)| value == e && e.size() >= 6);
+                            assert!(named.is_none(), "{:?}: {made:?} holds {named:?}", case.path);
+                        });
+                    }
+                }
+                for line in lines {
+                    if let (Part::Result(_), Some(Math::Expr(name)), Some(Math::Expr(value))) =
+                        (part, line.math.first(), line.math.last())
+                    {
+                        told.push((name.clone(), value.clone()));
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_body_of_parts_has_its_center_and_its_inertia_told() {
+    let mut seen = 0;
+    for case in cases() {
+        let of_parts = |b: &&scene::Body| {
+            matches!(b.shape, scene::Shape::Composite { .. }) && !b.inertia_given
+        };
+        let count = case.scene.bodies.iter().filter(of_parts).count();
+        let text = render::plain::solution(&case.solution(Detail::Normal));
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(
+            text.matches("have their common center of mass at").count(),
+            count,
+            "{:?}",
+            case.path
+        );
+        seen += count;
+    }
+    assert!(seen > 0);
+}
+
+#[test]
+fn the_speed_at_the_end_of_a_motion_stands_with_the_motion() {
+    for case in cases().iter().filter(|c| c.scene.has_stages()) {
+        let solution = case.solution(Detail::Normal);
+        let late = solution
+            .sections
+            .iter()
+            .find(|s| words(&s.heading).starts_with("Speed of "));
+        let heading = late.map(|s| words(&s.heading));
+        let told = case.worked.told.stages.iter().any(|s| !s.cases.is_empty());
+        assert!(heading.is_none() || told, "{:?}: {heading:?}", case.path);
+    }
+}
+
+#[test]
+fn every_case_that_friction_leaves_is_told() {
+    let mut several = 0;
+    for path in shared::files("derivations", "json") {
+        let text = fs::read_to_string(&path).expect("a readable scene");
+        let scene = scene::read(&text).expect("a valid scene");
+        if scene.has_stages() || scene.friction().is_none() {
+            continue;
+        }
+        let outcomes = carom::verify::friction::outcomes(&scene)
+            .expect("outcomes")
+            .len();
+        let case = cases().iter().find(|c| c.path == path).expect("a solution");
+        let solution = case.solution(Detail::Normal);
+        let headings = solution.sections.iter().map(|s| words(&s.heading));
+        let told = headings.filter(|h| h.starts_with("Case ")).count();
+        assert_eq!(
+            told,
+            if outcomes > 1 { outcomes } else { 0 },
+            "{}",
+            path.display()
+        );
+        several += usize::from(outcomes > 1);
+    }
+    assert!(several > 0);
 }

@@ -8,15 +8,21 @@ use crate::scene::Scene;
 /// The same formula, as a hand would write it before working it out.
 pub(super) fn neat(scene: &Scene, e: &Expr) -> Expr {
     match e.node() {
-        Node::Sum(terms) => Expr::sum(terms.iter().map(|t| {
-            let made = neat(scene, t);
-            let short = tidied(scene, &made);
-            if short.size() <= made.size() {
-                short
-            } else {
-                made
-            }
-        })),
+        Node::Sum(terms) => {
+            let each = terms.iter().map(|t| {
+                let made = neat(scene, t);
+                let short = tidied(scene, &made);
+                if short.size() <= made.size() {
+                    short
+                } else {
+                    made
+                }
+            });
+            let mut each: Vec<Expr> = each.collect();
+            // What is taken away stands behind.
+            each.sort_by_key(Expr::is_negative);
+            Expr::sum(each)
+        }
         Node::Product(factors) => product(scene, factors),
         Node::Power(base, exponent) => neat(scene, base).power(exponent.clone()),
         _ => e.clone(),
