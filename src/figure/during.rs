@@ -148,34 +148,48 @@ impl Push {
     }
 }
 
+/// Where an impulse passes from one body to another.
+struct Joint<'s> {
+    from: ImpulseAt,
+    /// The bodies, the second one the impulse is counted on; `None` for what does not move or is outside.
+    bodies: [Option<usize>; 2],
+    at: &'s Vector,
+    /// The impulse, where the equations fix it.
+    known: Option<Pair>,
+    /// The direction it is known to have.
+    along: Option<Pair>,
+    /// Whether it presses on an outline.
+    presses: bool,
+    name: &'s str,
+}
+
+/// The impulses on a system of bodies, from outside of it.
 pub(super) fn impulses(stage: &Stage, system: &[usize], motion: Option<&Motion<f64>>) -> Vec<Push> {
-    let scene = stage.scene;
-    let mut out = Vec::new();
-    let mut add = |from: ImpulseAt,
-                   bodies: [Option<usize>; 2],
-                   at: &Vector,
-                   known: Option<Pair>,
-                   along: Option<Pair>,
-                   presses: bool,
-                   name: &str| {
-        let inside: Vec<(usize, f64)> = [(bodies[0], -1.0), (bodies[1], 1.0)]
-            .into_iter()
-            .filter_map(|(b, sign)| b.filter(|b| system.contains(b)).map(|b| (b, sign)))
-            .collect();
-        // Between two bodies of the system it cancels.
-        let [(body, sign)] = inside.as_slice() else {
-            return;
+    let joints = joints(stage, motion).into_iter();
+    joints
+        .flat_map(|joint| joint.pushes(stage, system))
+        .collect()
+}
+
+impl Joint<'_> {
+    /// What it does to a system: nothing where it lies within, one arrow where its direction is known, else its components.
+    fn pushes(&self, stage: &Stage, system: &[usize]) -> Vec<Push> {
+        let scene = stage.scene;
+        let [first, second] = self.bodies.map(|b| b.filter(|b| system.contains(b)));
+        let (body, sign) = match (first, second) {
+            (Some(body), None) => (body, -1.0),
+            (None, Some(body)) => (body, 1.0),
+            _ => return Vec::new(),
         };
         // A string pulls a particle where that is, not where its other end is.
-        let at = match scene.bodies[*body].is_particle() {
-            true => &scene.bodies[*body].center,
-            false => at,
+        let at = match scene.bodies[body].is_particle() {
+            true => &scene.bodies[body].center,
+            false => self.at,
         };
         let Some(at) = stage.values.pair(at) else {
-            return;
+            return Vec::new();
         };
-        let is_blow = matches!(from, ImpulseAt::Blow(_));
-        let given = match from {
+        let given = match self.from {
             // A given impulse carries its own symbol.
             ImpulseAt::Blow(i) => blow_label(stage, i),
             _ => None,
@@ -183,130 +197,88 @@ pub(super) fn impulses(stage: &Stage, system: &[usize], motion: Option<&Motion<f
         let base = match given {
             Some(label) => Named {
                 label,
-                on: *body,
+                on: body,
                 scalar: true,
             },
-            None => impulse_name(stage, from, name, along.is_some()),
+            None => impulse_name(stage, self.from, self.name, self.along.is_some()),
         };
-        match (known.filter(|p| size(*p) > 0.0), along) {
-            (Some(p), _) => {
-                let label = base.label(*body, *sign, along.is_some());
-                out.push(Push {
-                    at,
-                    vector: [p[0] * sign, p[1] * sign],
-                    label,
-                    body: *body,
-                    presses,
-                    is_blow,
-                });
-            }
-            (None, Some(n)) if known.is_none() => {
-                let label = base.label(*body, *sign, true);
-                out.push(Push {
-                    at,
-                    vector: [n[0] * sign, n[1] * sign],
-                    label,
-                    body: *body,
-                    presses,
-                    is_blow,
-                });
-            }
-            (None, _) if known.is_some() => {
-                let label = base.label(*body, *sign, along.is_some());
-                out.push(Push {
-                    at,
-                    vector: [0.0, 0.0],
-                    label,
-                    body: *body,
-                    presses,
-                    is_blow,
-                });
-            }
-            _ => {
-                for (axis, index) in [([1.0, 0.0], "x"), ([0.0, 1.0], "y")] {
-                    let mut label = base.plain();
-                    match label.runs.iter_mut().find(|r| r.level == Level::Sub) {
-                        Some(run) => run.text.push_str(index),
-                        None => label.push(index, true, Level::Sub),
-                    }
-                    let label = if *sign < 0.0 { label.negated() } else { label };
-                    out.push(Push {
-                        at,
-                        vector: axis,
-                        label,
-                        body: *body,
-                        presses: false,
-                        is_blow,
-                    });
-                }
-            }
+        let push = |vector: Pair, label: Label, presses: bool| Push {
+            at,
+            vector,
+            label,
+            body,
+            presses,
+            is_blow: matches!(self.from, ImpulseAt::Blow(_)),
+        };
+        if let Some(whole) = self.known.or(self.along) {
+            let label = base.label(body, sign, self.along.is_some());
+            return vec![push(whole.map(|c| c * sign), label, self.presses)];
         }
-    };
+        let component = |(axis, index): (Pair, &str)| {
+            let mut label = base.plain();
+            match label.runs.iter_mut().find(|r| r.level == Level::Sub) {
+                Some(run) => run.text.push_str(index),
+                None => label.push(index, true, Level::Sub),
+            }
+            let label = if sign < 0.0 { label.negated() } else { label };
+            push(axis, label, false)
+        };
+        [([1.0, 0.0], "x"), ([0.0, 1.0], "y")].map(component).into()
+    }
+}
+
+/// Where impulses pass: contacts, hinges, blows.
+fn joints<'s>(stage: &Stage<'s>, motion: Option<&Motion<f64>>) -> Vec<Joint<'s>> {
+    let scene = stage.scene;
+    let moving =
+        |bodies: [usize; 2]| bodies.map(|b| Some(b).filter(|b| !scene.bodies[*b].is_fixed()));
     let sure = |x: Unknown, y: Unknown, m: &Motion<f64>| m.determines(x) && m.determines(y);
+    let mut out = Vec::new();
     for (i, contact) in scene.contacts.iter().enumerate() {
-        let bodies = contact
-            .bodies
-            .map(|b| Some(b).filter(|b| !scene.bodies[*b].is_fixed()));
         let frictionless = matches!(contact.law, ContactLaw::Frictionless { .. });
-        let along = contact
-            .normal
-            .as_ref()
-            .filter(|_| frictionless)
-            .and_then(|n| stage.values.pair(n));
-        let known = motion.and_then(|m| {
-            let is_sure = match frictionless {
-                true => m.determines(Unknown::ContactNormal(i)),
-                false => sure(Unknown::ContactX(i), Unknown::ContactY(i), m),
-            };
-            is_sure.then(|| m.contact[i])
+        let normal = contact.normal.as_ref().filter(|_| frictionless);
+        let known = motion.filter(|m| match frictionless {
+            true => m.determines(Unknown::ContactNormal(i)),
+            false => sure(Unknown::ContactX(i), Unknown::ContactY(i), m),
         });
-        add(
-            ImpulseAt::Contact(i),
-            bodies,
-            &contact.at,
-            known,
-            along,
+        out.push(Joint {
+            from: ImpulseAt::Contact(i),
+            bodies: moving(contact.bodies),
+            at: &contact.at,
+            known: known.map(|m| m.contact[i]),
+            along: normal.and_then(|n| stage.values.pair(n)),
             // A string pulls.
-            scene.figure.string(&contact.name).is_none(),
-            &contact.name,
-        );
+            presses: scene.figure.string(&contact.name).is_none(),
+            name: &contact.name,
+        });
     }
     for (i, hinge) in scene.hinges.iter().enumerate() {
-        let bodies = hinge
-            .bodies
-            .map(|b| Some(b).filter(|b| !scene.bodies[*b].is_fixed()));
-        let known = motion
-            .filter(|m| sure(Unknown::HingeX(i), Unknown::HingeY(i), m))
-            .map(|m| m.hinge[i]);
-        add(
-            ImpulseAt::Hinge(i),
-            bodies,
-            &hinge.at,
-            known,
-            None,
-            false,
-            &hinge.name,
-        );
+        let known = motion.filter(|m| sure(Unknown::HingeX(i), Unknown::HingeY(i), m));
+        out.push(Joint {
+            from: ImpulseAt::Hinge(i),
+            bodies: moving(hinge.bodies),
+            at: &hinge.at,
+            known: known.map(|m| m.hinge[i]),
+            along: None,
+            presses: false,
+            name: &hinge.name,
+        });
     }
     for (i, blow) in scene.blows.iter().enumerate() {
+        let known = motion.filter(|m| m.determines(Unknown::Blow(i)));
         let (along, known) = match &blow.impulse {
             BlowImpulse::Given(v) => (None, stage.values.pair(v)),
-            BlowImpulse::Along(v) => (
-                stage.values.pair(v),
-                motion
-                    .filter(|m| m.determines(Unknown::Blow(i)))
-                    .map(|m| m.blow[i]),
-            ),
+            BlowImpulse::Along(v) => (stage.values.pair(v), known.map(|m| m.blow[i])),
         };
-        add(
-            ImpulseAt::Blow(i),
-            [None, Some(blow.body)],
-            &blow.at,
+        out.push(Joint {
+            from: ImpulseAt::Blow(i),
+            bodies: [None, Some(blow.body)],
+            at: &blow.at,
             known,
             along,
-            true,
-            &blow.name,
-        );
+            presses: true,
+            name: &blow.name,
+        });
     }
     out
 }

@@ -107,6 +107,8 @@ impl Stage<'_> {
             if let Some(pose) = self.poses.get(*p) {
                 let at = self.px(pose.center);
                 support(sheet, at, [0.0, -1.0]);
+                // Its bracket stands before the pulley; what else crosses it is no body.
+                sheet.grounds.pop();
                 sheet.circle(at, 3.6, Line::of(Ink::Body));
             }
         }

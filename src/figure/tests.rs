@@ -167,6 +167,52 @@ fn impacts() -> Vec<(String, Scene)> {
 }
 
 #[test]
+fn a_pulley_of_a_string_stands_on_a_support_where_no_hinge_tells_of_it() {
+    let mut seen = 0;
+    for (name, scene) in scenes() {
+        // As the file puts the bodies, at the beginning of the first stage.
+        let Some(first) = scene.stages.first() else {
+            continue;
+        };
+        let scene = &first.scene;
+        let values = values::representative(scene);
+        let stage = stage::stage(scene, &values).expect("a place on paper");
+        let mut sheet = Sheet::default();
+        stage.fixed(&mut sheet, &[]);
+        let hinged = |b: usize| scene.hinges.iter().any(|h| h.bodies.contains(&b));
+        for axle in scene.axles.iter().filter(|p| !hinged(**p)) {
+            let at = stage.px(stage.poses[*axle].center);
+            let near = |p: &values::Pair| values::size([p[0] - at[0], p[1] - at[1]]) < 1.0;
+            let stands = sheet.items.iter().any(|item| match item {
+                sheet::Item::Path { points, .. } => points.iter().any(near),
+                _ => false,
+            });
+            assert!(stands, "{name}: a pulley hangs in the air");
+            seen += 1;
+        }
+    }
+    assert!(seen > 3, "{seen} pulleys");
+}
+
+#[test]
+fn bodies_that_nothing_acts_on_get_no_diagram() {
+    for (name, scene) in impacts() {
+        for which in kinds(&scene) {
+            let Which::During(Subject::Body(b)) = which else {
+                continue;
+            };
+            let contacts = scene.contacts.iter().map(|c| c.bodies);
+            let mut joints = contacts.chain(scene.hinges.iter().map(|h| h.bodies));
+            let touched = joints.any(|bodies| bodies.contains(&b))
+                || scene.blows.iter().any(|blow| blow.body == b);
+            let any =
+                !(scene.contacts.is_empty() && scene.hinges.is_empty() && scene.blows.is_empty());
+            assert!(touched || !any, "{name}: {}", scene.bodies[b].name);
+        }
+    }
+}
+
+#[test]
 fn no_body_crosses_a_support() {
     let mut seen = 0;
     for (name, scene) in impacts() {

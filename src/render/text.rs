@@ -3,8 +3,7 @@
 use std::fmt::Write;
 
 use super::unicode;
-use crate::answer::Check;
-use crate::answer::{Form, Matrix};
+use crate::answer::{Answer, Check, Form, Matrix};
 use crate::derive::Derivation;
 use crate::laws;
 use crate::scene::Scene;
@@ -29,59 +28,7 @@ pub(super) fn impact(scene: &Scene, told: &Told, impact: &Case) -> String {
         line(&mut out, "\n", "answers:");
     }
     for answer in own {
-        match &answer.form {
-            Form::Value { closed, short } => {
-                let value = super::answer_value(scene, d, closed)
-                    .filter(|_| !closed.is_zero())
-                    .map_or(String::new(), |v| {
-                        let number = super::digits(v.approximate);
-                        format!(" = {}", answer.dimension.measured(&number))
-                    });
-                line(
-                    &mut out,
-                    "  ",
-                    &format!("{} = {}{}", answer.name, unicode(scene, short), value),
-                );
-                line(
-                    &mut out,
-                    "      ",
-                    &format!("{} [{}]", answer.words, answer.dimension.spoken()),
-                );
-            }
-            Form::Equation { left, right } => {
-                line(
-                    &mut out,
-                    "  ",
-                    &format!(
-                        "{}: {} = {}",
-                        answer.name,
-                        unicode(scene, left),
-                        unicode(scene, right)
-                    ),
-                );
-                line(&mut out, "      ", &answer.words);
-            }
-            Form::Matrix(m) => {
-                line(
-                    &mut out,
-                    "  ",
-                    &format!("{}: {}", answer.name, answer.words),
-                );
-                matrix_lines(&mut out, scene, m);
-            }
-            Form::Words => {}
-            Form::Open(names) => {
-                line(
-                    &mut out,
-                    "  ",
-                    &format!(
-                        "{}: not determined by the laws ({} open)",
-                        answer.name,
-                        names.join(", ")
-                    ),
-                );
-            }
-        }
+        self::answer(&mut out, scene, d, answer);
     }
     if !d.definitions.is_empty() {
         line(&mut out, "\n", "where:");
@@ -128,6 +75,59 @@ pub(super) fn impact(scene: &Scene, told: &Told, impact: &Case) -> String {
         out.push_str(&super::story::answers(scene, about));
     }
     out
+}
+
+/// An answer: its formula with its value, its equation, its matrix, or that it stays open.
+fn answer(out: &mut String, scene: &Scene, d: &Derivation, answer: &Answer) {
+    match &answer.form {
+        Form::Value { closed, short } => {
+            let value = super::answer_value(scene, d, closed)
+                .filter(|_| !closed.is_zero())
+                .map_or(String::new(), |v| {
+                    let number = super::digits(v.approximate);
+                    format!(" = {}", answer.dimension.measured(&number))
+                });
+            line(
+                out,
+                "  ",
+                &format!("{} = {}{}", answer.name, unicode(scene, short), value),
+            );
+            line(
+                out,
+                "      ",
+                &format!("{} [{}]", answer.words, answer.dimension.spoken()),
+            );
+        }
+        Form::Equation { left, right } => {
+            line(
+                out,
+                "  ",
+                &format!(
+                    "{}: {} = {}",
+                    answer.name,
+                    unicode(scene, left),
+                    unicode(scene, right)
+                ),
+            );
+            line(out, "      ", &answer.words);
+        }
+        Form::Matrix(m) => {
+            line(out, "  ", &format!("{}: {}", answer.name, answer.words));
+            matrix_lines(out, scene, m);
+        }
+        Form::Words => {}
+        Form::Open(names) => {
+            line(
+                out,
+                "  ",
+                &format!(
+                    "{}: not determined by the laws ({} open)",
+                    answer.name,
+                    names.join(", ")
+                ),
+            );
+        }
+    }
 }
 
 /// How many equations there are, and the blocks that answer the questions.
