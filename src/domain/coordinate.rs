@@ -1,5 +1,7 @@
 //! Values of one symbol inside its domain, from simple to complicated, in an order that never changes.
 
+use std::sync::LazyLock;
+
 use num_traits::{One, Signed, Zero};
 
 use super::{Domain, Limit};
@@ -238,7 +240,7 @@ const TANGENTS: [(i64, i64); 20] = [
 ];
 
 /// Rational points of the whole circle, simplest first: four per tangent, then the four ends of the axes.
-pub(super) fn circle() -> impl Iterator<Item = [Rational; 2]> {
+pub(super) static CIRCLE: LazyLock<Vec<[Rational; 2]>> = LazyLock::new(|| {
     let slanted = TANGENTS.into_iter().flat_map(|(n, d)| {
         let (c, s, h) = (d * d - n * n, 2 * n * d, d * d + n * n);
         [(c, s, h), (-c, s, h), (c, -s, h), (-c, -s, h)]
@@ -247,7 +249,8 @@ pub(super) fn circle() -> impl Iterator<Item = [Rational; 2]> {
     slanted
         .chain(axes)
         .map(|(c, s, h)| [ratio(c, h), ratio(s, h)])
-}
+        .collect()
+});
 
 /// Directions of φ/N that put φ inside the domain. Directions nearer than 10⁻⁹ to an end are left out, far more than
 /// floating-point arctangents err by.
@@ -263,14 +266,14 @@ pub(super) fn directions(domain: &Domain, divisor: u32, count: usize) -> Vec<Coo
         .map_or(f64::INFINITY, Limit::approximate);
     let n = f64::from(divisor);
     let mut out = Vec::new();
-    for unit in circle() {
+    for unit in CIRCLE.iter() {
         let psi = to_f64(&unit[1]).atan2(to_f64(&unit[0]));
         for turns in [0, 1, -1] {
             let phi = n * (psi + 2.0 * std::f64::consts::PI * f64::from(turns));
             if low + MARGIN < phi && phi < high - MARGIN {
                 out.push(Coordinate::Direction {
                     divisor,
-                    unit,
+                    unit: unit.clone(),
                     turns,
                 });
                 break;

@@ -5,7 +5,7 @@
 
 use num_traits::{One, Zero};
 
-use super::coordinate::{Lcg, circle, directions, numbers, random_number};
+use super::coordinate::{CIRCLE, Lcg, directions, numbers, random_number};
 use super::roles::{Role, Roles, roles};
 use super::{Coordinate, Domain, Domains};
 use crate::expr::{Expr, Function, Point, Rational, Scalar, Symbol, Table, ratio};
@@ -90,6 +90,7 @@ fn drawn(
         let only = Sample::default();
         return if takes(&only) { vec![only] } else { Vec::new() };
     }
+    let units = units(roles, domains);
     let mut out: Vec<Sample> = Vec::new();
     for k in 0..most {
         let mut random = Lcg(k as u64);
@@ -114,7 +115,7 @@ fn drawn(
                 }
             }
         }
-        if place_units(&mut point, domains, k) && !out.contains(&point) && takes(&point) {
+        if place_units(&mut point, &units, k) && !out.contains(&point) && takes(&point) {
             out.push(point);
             if out.len() == count {
                 break;
@@ -188,27 +189,33 @@ pub fn within(part: &Domain, domain: &Domain, role: &Role) -> Option<Coordinate>
     found.map(Coordinate::Number)
 }
 
-/// Moves the components of declared unit vectors to a rational point of the circle; `false` where none fits.
-fn place_units(point: &mut Sample, domains: &Domains, k: usize) -> bool {
-    for (i, pair) in domains.unit_vectors.iter().enumerate() {
-        if !pair.iter().any(|s| point.coordinates.contains_key(s)) {
-            continue;
-        }
-        let fits = |unit: &[Rational; 2]| {
-            pair.iter()
-                .zip(unit)
-                .all(|(s, v)| domains.symbols.get(s).is_none_or(|d| d.contains(v)))
+/// A unit vector: its place in the domains, its components, and the points of the circle that it may be.
+type Unit<'a> = (usize, &'a [Symbol; 2], Vec<&'static [Rational; 2]>);
+
+/// The unit vectors with a component among the symbols.
+fn units<'a>(roles: &Roles, domains: &'a Domains) -> Vec<Unit<'a>> {
+    let pairs = domains.unit_vectors.iter().enumerate();
+    let placed = pairs.filter(|(_, pair)| pair.iter().any(|s| roles.symbols.contains_key(s)));
+    let points = |(i, pair): (usize, &'a [Symbol; 2])| {
+        let fits = |unit: &&[Rational; 2]| {
+            let mut parts = pair.iter().zip(*unit);
+            parts.all(|(s, v)| domains.symbols.get(s).is_none_or(|d| d.contains(v)))
         };
-        let all: Vec<[Rational; 2]> = circle().filter(fits).collect();
+        (i, pair, CIRCLE.iter().filter(fits).collect())
+    };
+    placed.map(points).collect()
+}
+
+/// Moves the components of unit vectors to a rational point of the circle; `false` where none fits.
+fn place_units(point: &mut Sample, units: &[Unit<'_>], k: usize) -> bool {
+    for (i, pair, all) in units {
         if all.is_empty() {
             return false;
         }
-        let unit = &all[(k * (i + 1)) % all.len()];
+        let unit = all[(k * (i + 1)) % all.len()];
         for (symbol, value) in pair.iter().zip(unit) {
-            if point.coordinates.contains_key(symbol) {
-                point
-                    .coordinates
-                    .insert(symbol.clone(), Coordinate::Number(value.clone()));
+            if let Some(place) = point.coordinates.get_mut(symbol) {
+                *place = Coordinate::Number(value.clone());
             }
         }
     }
