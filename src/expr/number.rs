@@ -3,6 +3,7 @@
 //! Nearly every coefficient in mechanics fits a machine word, and a heap allocation per coefficient would cost more than
 //! the arithmetic; [`Int`] therefore grows only when it has to, and never wraps. Fractions come from `num-rational`.
 
+use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::fmt;
 use std::ops::{
@@ -19,7 +20,7 @@ pub type Rational = num_rational::Ratio<Int>;
 /// a + b, or a − b: as the operator gives it, by machine words where all four numbers are some.
 pub fn sum(a: &Rational, b: &Rational, minus: bool) -> Rational {
     let Some(([na, da], [nb, db])) = words(a).zip(words(b)) else {
-        return if minus { a - b } else { a + b };
+        return sum_of_any(a, b, minus);
     };
     let nb = if minus { -nb } else { nb };
     if da == 1 && db == 1 {
@@ -32,10 +33,27 @@ pub fn sum(a: &Rational, b: &Rational, minus: bool) -> Rational {
     Rational::new_raw(Int::from(n / shared), Int::from((da / g) * (db / shared)))
 }
 
+/// The same for numbers of any size.
+fn sum_of_any(a: &Rational, b: &Rational, minus: bool) -> Rational {
+    let ((na, da), (nb, db)) = ((a.numer(), a.denom()), (b.numer(), b.denom()));
+    let g = da.gcd(db);
+    let (left, right) = (na * &(db / &g), nb * &(da / &g));
+    let n = if minus { left - right } else { left + right };
+    if g.is_one() {
+        return Rational::new_raw(n, da * db);
+    }
+    let shared = n.gcd(&g);
+    Rational::new_raw(&n / &shared, (da / &g) * (db / &shared))
+}
+
 /// a·b, by machine words where all four numbers are some.
 pub fn product(a: &Rational, b: &Rational) -> Rational {
     let Some(([na, da], [nb, db])) = words(a).zip(words(b)) else {
-        return a * b;
+        let (g, h) = (a.numer().gcd(b.denom()), b.numer().gcd(a.denom()));
+        return Rational::new_raw(
+            (a.numer() / &g) * (b.numer() / &h),
+            (a.denom() / &h) * (b.denom() / &g),
+        );
     };
     let across = |n: i128, d: i128| if d == 1 { 1 } else { gcd(n, d) };
     let (g, h) = (across(na, db), across(nb, da));
@@ -91,9 +109,14 @@ impl Int {
 
     /// The integer in the representation of `num-bigint`.
     pub fn to_bigint(&self) -> BigInt {
+        self.big().into_owned()
+    }
+
+    /// The same, borrowed where it is large already.
+    fn big(&self) -> Cow<'_, BigInt> {
         match &self.0 {
-            Small(value) => BigInt::from(*value),
-            Big(value) => (**value).clone(),
+            Small(value) => Cow::Owned(BigInt::from(*value)),
+            Big(value) => Cow::Borrowed(value),
         }
     }
 
@@ -173,7 +196,7 @@ macro_rules! operator {
                         return Int(Small(result));
                     }
                 }
-                Int::from(self.to_bigint() $symbol other.to_bigint())
+                Int::from(&*self.big() $symbol &*other.big())
             }
         }
         impl $trait for Int {
@@ -313,19 +336,25 @@ impl Integer for Int {
         match (&self.0, &other.0) {
             // i64::MIN / -1 is the one small quotient that does not fit.
             (Small(a), Small(b)) if *b != -1 => Int(Small(a.div_floor(b))),
-            _ => Int::from(self.to_bigint().div_floor(&other.to_bigint())),
+            _ => Int::from(self.big().div_floor(&other.big())),
         }
     }
     fn mod_floor(&self, other: &Int) -> Int {
         match (&self.0, &other.0) {
             (Small(a), Small(b)) if *b != -1 => Int(Small(a.mod_floor(b))),
-            _ => Int::from(self.to_bigint().mod_floor(&other.to_bigint())),
+            _ => Int::from(self.big().mod_floor(&other.big())),
         }
     }
     fn gcd(&self, other: &Int) -> Int {
         match (&self.0, &other.0) {
             (Small(a), Small(b)) => Int::from(i128::from(a.unsigned_abs().gcd(&b.unsigned_abs()))),
-            _ => Int::from(self.to_bigint().gcd(&other.to_bigint())),
+            // One step of Euclid's brings the large one down to a word.
+            (Big(large), Small(word)) | (Small(word), Big(large)) if *word != 0 => {
+                let rest = &**large % word.unsigned_abs();
+                let rest = rest.magnitude().to_u64().unwrap_or(0);
+                Int::from(i128::from(rest.gcd(&word.unsigned_abs())))
+            }
+            _ => Int::from(self.big().gcd(&other.big())),
         }
     }
     fn lcm(&self, other: &Int) -> Int {
@@ -363,7 +392,7 @@ impl ToPrimitive for Int {
         self.as_i64()
     }
     fn to_u64(&self) -> Option<u64> {
-        self.to_bigint().to_u64()
+        self.big().to_u64()
     }
     fn to_f64(&self) -> Option<f64> {
         match &self.0 {

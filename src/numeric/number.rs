@@ -2,10 +2,11 @@
 //!
 //! Doubles, exact fractions, and enclosures of any precision for values that are no fractions.
 
-use num_traits::{One, Zero};
+use num_integer::Integer;
+use num_traits::{One, ToPrimitive, Zero};
 
 use crate::expr::number::sum;
-use crate::expr::{Rational, Scalar};
+use crate::expr::{Int, Rational, Scalar};
 use crate::interval::dyadic::Round;
 use crate::interval::{Big, Enclosure, Outcome};
 
@@ -76,10 +77,20 @@ impl Number for Rational {
         -self
     }
     fn halved(&self) -> Rational {
-        self * crate::expr::ratio(1, 2)
+        // Where the numerator is even, the denominator is odd: lowest terms either way.
+        let two = Int::from(2);
+        match self.numer().is_even() {
+            true => Rational::new_raw(self.numer() / &two, self.denom().clone()),
+            false => Rational::new_raw(self.numer().clone(), self.denom() * &two),
+        }
     }
     fn size(&self) -> f64 {
-        crate::expr::number::to_f64(self).abs()
+        let rough = self.numer().to_f64().zip(self.denom().to_f64());
+        let rough = rough.map_or(f64::NAN, |(n, d)| (n / d).abs());
+        match rough.is_finite() {
+            true => rough,
+            false => crate::expr::number::to_f64(self).abs(),
+        }
     }
 }
 
