@@ -10,7 +10,6 @@ mod compact;
 mod conditions;
 mod count;
 pub mod friction;
-mod generic;
 mod left_out;
 mod names;
 mod offered;

@@ -8,8 +8,8 @@ use std::ops::RangeInclusive;
 
 use rustc_hash::FxHashSet;
 
-use super::generic::generic_point;
 use super::offered;
+use crate::domain::generic_point;
 use crate::expr::{Expr, Vector};
 use crate::laws::{self, Direction, Geometry, Kinematics, Law, Place, Unknown};
 use crate::scene::{ContactLaw, Scene};
@@ -150,19 +150,22 @@ struct Candidate {
 pub struct Planner {
     unknowns: Vec<Unknown>,
     candidates: Vec<Candidate>,
+    /// The candidates that hold each unknown.
+    holding: Vec<Vec<usize>>,
     attached: Vec<Attachment>,
 }
 
 impl Planner {
     /// Lists the candidates; `None` where the scene is too large for a search or has no value at the planning point.
     pub fn new(scene: &Scene, reduction: &Reduction) -> Option<Planner> {
-        let point = generic_point(scene);
+        let point = generic_point(scene.symbols(), &scene.domains);
         let value = |e: &Expr| e.evaluate(&point).ok_or(());
         let g = Geometry::<f64>::of(scene, value).ok()?;
         let motion = reduction.kinematics(scene, &g);
         let mut planner = Planner {
             unknowns: Vec::new(),
             candidates: Vec::new(),
+            holding: Vec::new(),
             attached: reduction.tree.clone(),
         };
         for (law, cost) in offered::candidate_laws(scene, reduction, &g) {
@@ -179,6 +182,9 @@ impl Planner {
             }
             if !row.is_empty() {
                 let mask = row.iter().fold(0, |m, (i, _)| m | 1 << i);
+                for (i, _) in &row {
+                    planner.holding[*i].push(planner.candidates.len());
+                }
                 planner.candidates.push(Candidate {
                     law,
                     row,
@@ -196,6 +202,7 @@ impl Planner {
             .position(|u| *u == unknown)
             .unwrap_or_else(|| {
                 self.unknowns.push(unknown);
+                self.holding.push(Vec::new());
                 self.unknowns.len() - 1
             })
     }
@@ -445,22 +452,26 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn extend(&mut self, chosen: &mut Vec<usize>, union: u128, matched: u128, cost: usize) {
-        self.steps += 1;
-        let too_dear = self.best.as_ref().is_some_and(|(best, ..)| *best <= cost);
-        if union.count_ones() as usize > self.limit || self.steps > STEPS || too_dear {
-            return;
-        }
         let open = union & !matched;
         if open == 0 {
             return self.record(chosen, union, cost);
         }
-        let unknown = open & open.wrapping_neg();
-        for c in 0..self.planner.candidates.len() {
-            let mask = self.planner.candidates[c].mask;
-            if mask & unknown != 0 && !chosen.contains(&c) {
+        let planner = self.planner;
+        let unknown = open.trailing_zeros() as usize;
+        for &c in &planner.holding[unknown] {
+            if chosen.contains(&c) {
+                continue;
+            }
+            self.steps += 1;
+            if self.steps > STEPS {
+                return;
+            }
+            let union = union | (planner.candidates[c].mask & !self.known);
+            let cost = cost + self.cost(c);
+            let too_dear = self.best.as_ref().is_some_and(|(best, ..)| *best <= cost);
+            if union.count_ones() as usize <= self.limit && !too_dear {
                 chosen.push(c);
-                let union = union | (mask & !self.known);
-                self.extend(chosen, union, matched | unknown, cost + self.cost(c));
+                self.extend(chosen, union, matched | 1 << unknown, cost);
                 chosen.pop();
             }
         }

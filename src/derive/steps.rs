@@ -4,9 +4,9 @@
 //! definition is in parameters and earlier definitions, the unknowns come last, in terms of each other. What is found
 //! here is held against the independent solution at exact points; it is not proved as an identity, and says so.
 
-use super::generic::generic_point;
 use super::{Definition, Stop, Work};
 use crate::algebra::Row;
+use crate::domain::generic_point;
 use crate::expr::{Expr, Point};
 use crate::formula::write_plain;
 use crate::laws::Unknown;
@@ -28,7 +28,7 @@ struct Entry {
 /// Solves the rows for the unknowns, adding the definitions of all steps to `work`. False where the system is singular or
 /// has no value in general position.
 pub(super) fn solve(work: &mut Work<'_>, rows: &[Row], unknowns: &[Unknown]) -> Result<bool, Stop> {
-    let mut point = generic_point(work.scene);
+    let mut point = generic_point(work.scene.symbols(), &work.scene.domains);
     for definition in &work.definitions {
         let Some(value) = definition.value.evaluate(&point) else {
             return Ok(false);

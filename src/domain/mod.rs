@@ -4,6 +4,7 @@
 //! defaults, and a fixed sequence of sample points from simple to complicated. It knows nothing of equality.
 
 mod coordinate;
+mod generic;
 mod relation;
 mod roles;
 mod sample;
@@ -16,6 +17,7 @@ use num_traits::{Signed, Zero};
 use crate::expr::{Expr, Int, Rational, Symbol, ratio};
 
 pub use coordinate::Coordinate;
+pub use generic::generic_point;
 pub use relation::Relation;
 pub use roles::{Role, Roles, roles};
 pub use sample::{Sample, at_ends, samples, within};

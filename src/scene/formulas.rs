@@ -100,10 +100,24 @@ impl Symbols {
     }
 
     /// The same symbols and some more, of unknown dimension; what they use is counted apart.
-    pub fn extended<'n>(&self, names: impl Iterator<Item = &'n str>) -> Symbols {
-        let mut dimensions = self.dimensions.clone();
-        dimensions.extend(names.map(|name| (Symbol::from(name), None)));
-        Symbols::new(dimensions)
+    pub fn extended(&self, names: &[String]) -> Symbols {
+        let mut out = Symbols {
+            names: self.names.clone(),
+            dimensions: self.dimensions.clone(),
+            used: RefCell::default(),
+            remarks: RefCell::default(),
+        };
+        names.iter().for_each(|name| out.add(name, &[""]));
+        out
+    }
+
+    /// Takes in a name with each of these endings, of unknown dimension.
+    pub fn add(&mut self, name: &str, endings: &[&str]) {
+        for ending in endings {
+            let name = format!("{name}{ending}");
+            self.names.declare(&name);
+            self.dimensions.insert(Symbol::from(name), None);
+        }
     }
 
     /// The symbols used so far.

@@ -213,6 +213,11 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Names of its parameters.
+    pub fn symbols(&self) -> impl Iterator<Item = &Symbol> + Clone {
+        self.parameters.iter().map(|p| &p.name)
+    }
+
     /// Whether it goes through stages, and is not one impact.
     pub fn has_stages(&self) -> bool {
         !self.stages.is_empty()

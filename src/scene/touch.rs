@@ -12,7 +12,7 @@ use super::parameters::number_words;
 use super::proof::{middle, sign};
 use super::{Body, Contact, ContactLaw, Scene, Shape};
 use crate::algebra::Sign;
-use crate::domain::{Domains, roles, samples};
+use crate::domain::{Domains, generic_point, roles, samples};
 use crate::expr::{Expr, Point, Symbol, Vector};
 use crate::interval::{Interval, Outcome};
 
@@ -66,6 +66,9 @@ fn off(scene: &Scene, contact: &Contact, body: &Body) -> Option<String> {
         return (distance > 0.0).then(|| away(distance, &body.name));
     }
     let spots: Vec<Spot> = spots(body, at, inside);
+    if spots.iter().any(|spot| is_met(spot, scene)) {
+        return None;
+    }
     let given: BTreeMap<Symbol, Expr> = given(scene);
     let nowhere = |spot: &Spot| {
         let mut needs = spot.needs.iter();
@@ -96,6 +99,23 @@ fn away(distance: f64, body: &str) -> String {
     let distance = number_words(distance);
     format!("is {distance} m from the nearest point of `{body}`")
 }
+
+/// Whether a spot fits at one point of the domain, as far as doubles tell: then it is not off whatever the parameters are.
+fn is_met(spot: &Spot, scene: &Scene) -> bool {
+    let mut point = generic_point(scene.symbols(), &scene.domains);
+    point.values.extend(values(scene).values);
+    let value = |e: &Expr| e.evaluate(&point).unwrap_or(f64::NAN);
+    let mut relations = scene.domains.relations.iter();
+    let is_inside = relations.all(|r| value(&r.excess) > 0.0);
+    is_inside
+        && spot.needs.iter().all(|need| match need {
+            Need::Zero(e) => value(e).abs() < ROUNDING,
+            Need::NotNegative(e) => value(e) > -ROUNDING,
+        })
+}
+
+/// What roundings leave of zero where values are of ordinary size.
+const ROUNDING: f64 = 1e-13;
 
 /// Whether what must hold fails on the whole domain.
 fn is_refuted(need: &Need, given: &BTreeMap<Symbol, Expr>, domains: &Domains) -> bool {

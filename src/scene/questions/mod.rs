@@ -193,10 +193,9 @@ pub(super) fn of_impact(r: &mut Resolver<'_>, scene: &mut Scene) {
 
 /// Reads what is asked about the answers of one impact.
 pub(super) fn of_answers(r: &mut Resolver<'_>, scene: &mut Scene) {
-    let mut names: Vec<String> = Vec::new();
-    for q in &scene.questions {
-        names.extend(names_of(&q.name, &q.ask));
-    }
+    let names = scene.questions.iter();
+    let names: Vec<String> = names.flat_map(|q| names_of(&q.name, &q.ask)).collect();
+    let mut symbols = None;
     for (name, q) in entries(r.file.questions.as_ref()) {
         if let Some(at) = &q.at {
             let message = "`at` names a stage, and this scene has none";
@@ -205,12 +204,14 @@ pub(super) fn of_answers(r: &mut Resolver<'_>, scene: &mut Scene) {
         if !asks(q, About::Answers) {
             continue;
         }
-        let ask = with_names(r, &names, |r, symbols| answers::ask(r, symbols, name, q));
+        // Most scenes ask nothing of this sort, and need no table of these names.
+        let symbols = symbols.get_or_insert_with(|| r.symbols.extended(&names));
+        let ask = with_names(r, symbols, |r| answers::ask(r, symbols, name, q));
         if let Some(ask) = ask {
             scene.questions.push(question(name, q, ask));
         }
         if !is_own(name, q) {
-            names.extend(["", "_x", "_y", "_at"].map(|suffix| format!("{}{suffix}", name.text)));
+            symbols.add(&name.text, &["", "_x", "_y", "_at"]);
         }
     }
 }
@@ -219,7 +220,7 @@ pub(super) fn of_answers(r: &mut Resolver<'_>, scene: &mut Scene) {
 /// index of question.
 pub(super) fn of_stages(r: &mut Resolver<'_>, scene: &mut Scene, homes: &HashMap<usize, usize>) {
     let file = r.file;
-    let mut names: Vec<String> = Vec::new();
+    let mut symbols = r.symbols.extended(&[]);
     for (k, (name, entry)) in file.questions.iter().flat_map(|m| &m.0).enumerate() {
         let Some(q) = entry else { continue };
         name_is_free(r, name, q);
@@ -232,12 +233,12 @@ pub(super) fn of_stages(r: &mut Resolver<'_>, scene: &mut Scene, homes: &HashMap
                 let found = own.find(|s| s.name == name.text);
                 found.map(|q| (Some(*stage), q.ask.clone()))
             }
-            None => with_names(r, &names, |r, symbols| match kind.about {
+            None => with_names(r, &symbols, |r| match kind.about {
                 About::Answers => {
-                    let ask = answers::ask(r, symbols, name, q)?;
+                    let ask = answers::ask(r, &symbols, name, q)?;
                     Some((answers::stage_of(r.file, q, &ask), ask))
                 }
-                _ => motion::ask(r, symbols, scene, name, q),
+                _ => motion::ask(r, &symbols, scene, name, q),
             }),
         };
         if let Some((stage, ask)) = found {
@@ -252,7 +253,7 @@ pub(super) fn of_stages(r: &mut Resolver<'_>, scene: &mut Scene, homes: &HashMap
             });
         }
         if !is_own(name, q) {
-            names.extend(["", "_x", "_y"].map(|suffix| format!("{}{suffix}", name.text)));
+            symbols.add(&name.text, &["", "_x", "_y"]);
         }
     }
 }
@@ -410,15 +411,14 @@ fn is_own(name: &Text, q: &QuestionFile) -> bool {
     sought.is_some_and(|sought| sought.text == name.text)
 }
 
-/// Reads a question with the names of earlier answers beside the parameters.
+/// Reads a question with symbols for earlier answers beside the parameters.
 fn with_names<T>(
     r: &mut Resolver<'_>,
-    names: &[String],
-    read: impl FnOnce(&mut Resolver<'_>, &Symbols) -> Option<T>,
+    symbols: &Symbols,
+    read: impl FnOnce(&mut Resolver<'_>) -> Option<T>,
 ) -> Option<T> {
     let earlier = r.faults.len();
-    let symbols = r.symbols.extended(names.iter().map(String::as_str));
-    let found = read(r, &symbols);
+    let found = read(r);
     for used in symbols.used() {
         r.symbols.mark_used(&used);
     }
