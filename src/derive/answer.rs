@@ -229,12 +229,11 @@ impl Work<'_> {
             }
             Ask::Spin { body, clockwise } => {
                 let spin = &motion.spin[*body];
-                let sign = if *clockwise {
-                    Expr::from(-1)
-                } else {
-                    Expr::one()
+                let counted = match clockwise {
+                    true => spin.negated(),
+                    false => spin.clone(),
                 };
-                Asked::Linear(vec![("", spin.times(&sign))])
+                Asked::Linear(vec![("", counted)])
             }
             Ask::Impulse { from, on, along } => {
                 let (place, second) = match from {
@@ -244,12 +243,11 @@ impl Work<'_> {
                     ImpulseAt::Hinge(h) => (Place::Hinge(*h), self.scene.hinges[*h].bodies[1]),
                     ImpulseAt::Blow(b) => (Place::Blow(*b), self.scene.blows[*b].body),
                 };
-                let sign = if *on == second {
-                    Expr::one()
-                } else {
-                    Expr::from(-1)
+                let impulse = laws::impulse_at(self.scene, &self.g, place);
+                let impulse = match *on == second {
+                    true => impulse,
+                    false => impulse.map(|p| p.negated()),
                 };
-                let impulse = laws::impulse_at(self.scene, &self.g, place).map(|p| p.times(&sign));
                 Asked::Linear(components(impulse, along.as_ref()))
             }
             Ask::Energy { when, of } => Asked::Energy(*when, *of),

@@ -111,13 +111,7 @@ pub fn table(scene: &Scene) -> Result<Option<Table>, Stop> {
     let tangent = [normal[1].clone(), -&normal[0]];
     let raw = contact_space(scene, contact, [&tangent, &normal])?;
     let mut forms = Forms::new(scene, &law, &raw);
-    let ContactSpace {
-        a,
-        b,
-        c,
-        tangential,
-        normal: u_n,
-    } = &raw;
+    let [a, b, c, tangential, u_n] = raw.parts();
     let space = ContactSpace {
         a: forms.tidy(a)?,
         b: forms.tidy(b)?,
@@ -200,14 +194,7 @@ impl Forms {
         let mut field = Field::new(&scene.domains);
         let mut all = super::work::formulas(scene);
         all.extend(law.numbers().into_iter().cloned());
-        let ContactSpace {
-            a,
-            b,
-            c,
-            tangential,
-            normal,
-        } = space;
-        all.extend([a, b, c, tangential, normal].map(Clone::clone));
+        all.extend(space.parts().map(Clone::clone));
         field.prepare(all.iter());
         Forms { field }
     }
@@ -433,13 +420,7 @@ impl Forms {
 
     /// f b u_t⁻/(ac − b²), with f = 1 + e (Poisson), 1 (Newton), 1 + e √(−k₁/(k₂ − k₁)) (Stronge).
     fn jump(&mut self, space: &ContactSpace, law: &Friction, s: i64) -> Result<Option<Expr>, Stop> {
-        let ContactSpace {
-            a,
-            b,
-            c,
-            tangential,
-            ..
-        } = space;
+        let [a, b, c, tangential, _] = space.parts();
         if self.has_one_way(space)? {
             return Ok(None);
         }
@@ -640,12 +621,8 @@ fn eliminated(scene: &Scene, contact: usize, [t, n]: [&Vector; 2]) -> Result<[Ex
         let [one, two] = probe.contacts[contact]
             .bodies
             .map(|b| work.reduced.velocity_of(&work.g, b, at));
-        let minus_one = Expr::from(-1);
         for along in seen {
-            let relative = [0, 1].map(|axis| {
-                let apart = two[axis].plus(&one[axis].times(&minus_one));
-                apart.times(&along[axis])
-            });
+            let relative = [0, 1].map(|axis| two[axis].minus(&one[axis]).times(&along[axis]));
             let form = relative[0].plus(&relative[1]);
             found.push(value(&mut work, &form)?);
         }

@@ -63,13 +63,7 @@ pub struct Side {
 
 /// What decides the direction of friction: the slip before, or for laws without a path the impulse that would end it.
 pub fn side(space: &ContactSpace, law: &Friction) -> Side {
-    let ContactSpace {
-        a: _,
-        b,
-        c,
-        tangential: u_t,
-        normal: u_n,
-    } = space;
+    let [_, b, c, u_t, u_n] = space.parts();
     let stopping = |factor: Expr| Side {
         of: factor * b * u_n - c * u_t,
         tie: Expr::zero(),
@@ -101,13 +95,7 @@ pub fn modes(space: &ContactSpace, law: &Friction, s: i64) -> Vec<ModeLaw> {
 /// The impulse that stops the contact, −W⁻¹ u⁻, needs at least this |P_t|/P_n, as numerator and denominator; the sign is that
 /// of −P_t. Of a body on one hinge or track W is singular, and an impulse along the normal alone may do.
 pub fn stopping_ratio(space: &ContactSpace) -> [Expr; 2] {
-    let ContactSpace {
-        a,
-        b,
-        c,
-        tangential: u_t,
-        normal: u_n,
-    } = space;
+    let [a, b, c, u_t, u_n] = space.parts();
     [c * u_t - b * u_n, b * u_t - a * u_n]
 }
 
@@ -180,9 +168,7 @@ impl Forms<'_> {
     }
 
     fn routh(&self) -> Vec<ModeLaw> {
-        let ContactSpace {
-            a, b, normal: u_n, ..
-        } = self.space;
+        let [a, b, _, _, u_n] = self.space.parts();
         let (mu, s) = (&self.law.mu, &self.s);
         let to_the_end = self.outlasts(self.bounce());
         let through_compression = self.outlasts(Expr::one());
@@ -219,13 +205,7 @@ impl Forms<'_> {
 
     /// A mode in which slip ends.
     fn ended(&self, then: Then, compression: bool, when: Vec<When>) -> ModeLaw {
-        let ContactSpace {
-            a,
-            b,
-            c,
-            tangential: u_t,
-            normal: u_n,
-        } = self.space;
+        let [a, b, c, u_t, u_n] = self.space.parts();
         let mode = match (then, compression) {
             (Then::Sticks, true) => Mode::SticksInCompression,
             (Then::Sticks, false) => Mode::SticksInRestitution,
@@ -293,13 +273,7 @@ impl Forms<'_> {
     }
 
     fn chatterjee_ruina(&self, tangential: &Expr) -> Vec<ModeLaw> {
-        let ContactSpace {
-            a,
-            b,
-            c,
-            tangential: u_t,
-            normal: u_n,
-        } = self.space;
+        let [a, b, c, u_t, u_n] = self.space.parts();
         let (mu, s) = (&self.law.mu, &self.s);
         let first = -u_n / c;
         let determinant = a * c - b * b;
@@ -332,13 +306,7 @@ impl Forms<'_> {
     }
 
     fn brach(&self, ratio: Option<&Expr>) -> Vec<ModeLaw> {
-        let ContactSpace {
-            a,
-            b,
-            c,
-            tangential: u_t,
-            normal: u_n,
-        } = self.space;
+        let [a, b, c, u_t, u_n] = self.space.parts();
         let (mu, s) = (&self.law.mu, &self.s);
         let bounce = self.bounce() * u_n;
         let along = |r: Expr, mode: Mode, when: Vec<When>| {

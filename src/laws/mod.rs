@@ -244,7 +244,7 @@ impl<T: Quantity> Kinematics<T> {
     pub fn velocity_of(&self, g: &Geometry<T>, b: usize, at: &[T; 2]) -> [Affine<T>; 2] {
         let r = minus(at, &g.center[b]);
         [
-            self.velocity[b][0].plus(&self.spin[b].times(&r[1].neg())),
+            self.velocity[b][0].minus(&self.spin[b].times(&r[1])),
             self.velocity[b][1].plus(&self.spin[b].times(&r[0])),
         ]
     }
@@ -261,7 +261,7 @@ impl<T: Quantity> Kinematics<T> {
         let spin = own_spin(scene, g, b);
         let r = minus(&g.center[b], at);
         let [x, y] = carrier;
-        self.velocity[b] = [x.plus(&spin.times(&r[1].neg())), y.plus(&spin.times(&r[0]))];
+        self.velocity[b] = [x.minus(&spin.times(&r[1])), y.plus(&spin.times(&r[0]))];
         self.spin[b] = spin;
     }
 }
@@ -370,17 +370,21 @@ pub fn equation<T: Quantity, E>(
     Ok(match law {
         Law::LinearMomentum { system, along } => {
             let d = match along {
-                Direction::X => [T::one(), T::zero()],
-                Direction::Y => [T::zero(), T::one()],
-                Direction::Named(_, v) => direction(v)?,
+                Direction::X => Err(0),
+                Direction::Y => Err(1),
+                Direction::Named(_, v) => Ok(direction(v)?),
+            };
+            let component = |v: &[Affine<T>; 2]| match &d {
+                Ok(d) => along_direction(v, d),
+                Err(axis) => v[*axis].clone(),
             };
             let mut total = Affine::constant(T::zero());
             for &b in system {
                 let change = change(&motion.velocity[b], &g.velocity[b]);
-                total = total.plus(&along_direction(&change, &d).times(&g.mass[b]));
+                total = total.plus(&component(&change).times(&g.mass[b]));
             }
             for (_, impulse) in external(scene, g, system) {
-                total = total.plus(&along_direction(&impulse, &d).times(&T::one().neg()));
+                total = total.minus(&component(&impulse));
             }
             total.equals_zero()
         }
@@ -396,7 +400,7 @@ pub fn equation<T: Quantity, E>(
                 total = total.plus(&moment(&minus(&g.center[b], o), &change).times(&g.mass[b]));
             }
             for (at, impulse) in external(scene, g, system) {
-                total = total.plus(&moment(&minus(&at, o), &impulse).times(&T::one().neg()));
+                total = total.minus(&moment(&minus(&at, o), &impulse));
             }
             total.equals_zero()
         }
@@ -477,8 +481,11 @@ fn external<T: Quantity>(
         let inside = bodies.map(|b| system.contains(&b));
         if inside[0] != inside[1] {
             let on_second = impulse_at(scene, g, place);
-            let sign = if inside[1] { T::one() } else { T::one().neg() };
-            all.push((g.place(place).clone(), on_second.map(|p| p.times(&sign))));
+            let on_system = match inside[1] {
+                true => on_second,
+                false => on_second.map(|p| p.negated()),
+            };
+            all.push((g.place(place).clone(), on_system));
         }
     };
     scene
@@ -508,7 +515,7 @@ fn change<T: Quantity>(after: &[Affine<T>; 2], before: &[T; 2]) -> [Affine<T>; 2
 }
 
 fn relative<T: Quantity>(one: &[Affine<T>; 2], two: &[Affine<T>; 2]) -> [Affine<T>; 2] {
-    [0, 1].map(|axis| two[axis].plus(&one[axis].times(&T::one().neg())))
+    [0, 1].map(|axis| two[axis].minus(&one[axis]))
 }
 
 fn along_direction<T: Quantity>(v: &[Affine<T>; 2], d: &[T; 2]) -> Affine<T> {
@@ -517,7 +524,7 @@ fn along_direction<T: Quantity>(v: &[Affine<T>; 2], d: &[T; 2]) -> Affine<T> {
 
 /// z-component of r × v.
 fn moment<T: Quantity>(r: &[T; 2], v: &[Affine<T>; 2]) -> Affine<T> {
-    v[1].times(&r[0]).plus(&v[0].times(&r[1].neg()))
+    v[1].times(&r[0]).minus(&v[0].times(&r[1]))
 }
 
 /// What `f` makes of each item, or the first failure.

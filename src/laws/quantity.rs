@@ -97,27 +97,45 @@ impl<T: Quantity> Affine<T> {
 
     /// Sum of two forms.
     pub fn plus(&self, other: &Affine<T>) -> Affine<T> {
+        self.joined(other, T::add, T::clone)
+    }
+
+    /// Difference of two forms.
+    pub fn minus(&self, other: &Affine<T>) -> Affine<T> {
+        self.joined(other, T::sub, T::neg)
+    }
+
+    /// Two forms joined: `both` for coefficients that both have, `alone` for those that only the other one has.
+    fn joined(
+        &self,
+        other: &Affine<T>,
+        both: impl Fn(&T, &T) -> T,
+        alone: impl Fn(&T) -> T,
+    ) -> Affine<T> {
         let mut terms = Vec::with_capacity(self.terms.len() + other.terms.len());
-        let (mut left, mut right) = (self.terms.iter().peekable(), other.terms.iter().peekable());
-        while let (Some(a), Some(b)) = (left.peek(), right.peek()) {
-            match a.0.cmp(&b.0) {
-                std::cmp::Ordering::Less => terms.extend(left.next().cloned()),
-                std::cmp::Ordering::Greater => terms.extend(right.next().cloned()),
-                std::cmp::Ordering::Equal => {
-                    let sum = a.1.add(&b.1);
-                    if !sum.vanishes() {
-                        terms.push((a.0, sum));
-                    }
-                    left.next();
-                    right.next();
-                }
+        let mut right = other.terms.iter().peekable();
+        for (unknown, a) in &self.terms {
+            while let Some((before, b)) = right.next_if(|(u, _)| u < unknown) {
+                terms.push((*before, alone(b)));
             }
+            let value = match right.next_if(|(u, _)| u == unknown) {
+                Some((_, b)) => Some(both(a, b)).filter(|sum| !sum.vanishes()),
+                None => Some(a.clone()),
+            };
+            terms.extend(value.map(|value| (*unknown, value)));
         }
-        terms.extend(left.cloned());
-        terms.extend(right.cloned());
+        terms.extend(right.map(|(unknown, b)| (*unknown, alone(b))));
         Affine {
             terms,
-            constant: self.constant.add(&other.constant),
+            constant: both(&self.constant, &other.constant),
+        }
+    }
+
+    /// The opposite form.
+    pub fn negated(&self) -> Affine<T> {
+        Affine {
+            terms: self.terms.iter().map(|(u, c)| (*u, c.neg())).collect(),
+            constant: self.constant.neg(),
         }
     }
 

@@ -346,13 +346,7 @@ fn at_once<T: Number + PartialOrd>(
     law: &Friction<T>,
     impulse: [T; 2],
 ) -> Path<T> {
-    let ContactSpace {
-        a,
-        b,
-        c,
-        tangential,
-        normal,
-    } = space;
+    let [a, b, c, tangential, normal] = space.parts();
     let zero = T::zero();
     let [t, n] = &impulse;
     let after = [
@@ -384,13 +378,7 @@ fn chatterjee_ruina<T: Number + PartialOrd>(
     law: &Friction<T>,
     tangential: &T,
 ) -> Result<[T; 2], NoPath> {
-    let ContactSpace {
-        a,
-        b,
-        c,
-        tangential: u_t,
-        normal: u_n,
-    } = space;
+    let [a, b, c, u_t, u_n] = space.parts();
     // P_I ends the approach without friction; P_II stops the contact.
     let first = quotient(&u_n.negated(), c)?;
     let product = a.times(c);
@@ -415,13 +403,7 @@ fn brach<T: Number + PartialOrd>(
     law: &Friction<T>,
     ratio: Option<&T>,
 ) -> Result<[T; 2], NoPath> {
-    let ContactSpace {
-        a,
-        b,
-        c,
-        tangential: u_t,
-        normal: u_n,
-    } = space;
+    let [a, b, c, u_t, u_n] = space.parts();
     let zero = T::zero();
     let bounce = T::one().plus(&law.restitution).times(u_n);
     let limited = || {

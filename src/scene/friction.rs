@@ -209,6 +209,13 @@ pub struct ContactSpace<T = Expr> {
     pub normal: T,
 }
 
+impl<T> ContactSpace<T> {
+    /// a, b, c, u_t⁻, u_n⁻.
+    pub fn parts(&self) -> [&T; 5] {
+        [&self.a, &self.b, &self.c, &self.tangential, &self.normal]
+    }
+}
+
 /// What a threshold of the coefficient of friction may be asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrictionEvent {
