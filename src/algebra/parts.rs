@@ -5,9 +5,12 @@ use num_traits::{One, Signed};
 use super::factor::factor;
 use super::field::{Field, Kind};
 use super::gcd::{Fuel, gcd};
-use super::mono::{exponent, mono_variables, powers};
+use super::mono::powers;
 use super::poly::Poly;
 use crate::expr::Int;
+
+/// Terms of a polynomial that is not factored without a prospect.
+const LONG: usize = 16;
 
 /// content · ∏ factorᵏ; single generators are factors of one term.
 #[derive(Clone, Debug)]
@@ -18,21 +21,19 @@ pub(crate) struct Parts {
 
 impl Parts {
     pub fn one() -> Parts {
+        Parts::monomial(Int::one(), &[])
+    }
+
+    pub fn monomial(content: Int, mono: &[u64]) -> Parts {
         Parts {
-            content: Int::one(),
-            factors: Vec::new(),
+            content,
+            factors: powers(mono).map(|(v, k)| (Poly::var(v), k)).collect(),
         }
     }
 
     pub fn of(p: &Poly, fuel: &Fuel) -> Parts {
         let found = factor(p, fuel);
-        let mut out = Parts {
-            content: found.content,
-            factors: Vec::new(),
-        };
-        for v in mono_variables(&found.mono) {
-            out.note(Poly::var(v), exponent(&found.mono, v));
-        }
+        let mut out = Parts::monomial(found.content, &found.mono);
         for (f, k) in found.factors {
             out.note(f, k);
         }
@@ -84,6 +85,10 @@ impl Field {
             let Some(other) = exchange(&form, c, s) else {
                 continue;
             };
+            // Of long forms, one that grows is hardly ever the shorter one in factors.
+            if other.len() > LONG && 2 * other.len() > 3 * form.len() {
+                continue;
+            }
             let candidate = Parts::of(&other, &self.fuel);
             let length = self.length(&candidate);
             if length < *least.get_or_insert_with(|| self.length(&best)) {

@@ -7,9 +7,7 @@ use smallvec::SmallVec;
 
 use super::element::{Den, Element};
 use super::field::{AngleOf, Field, Kind};
-use super::mono::{
-    Mono, exponent, mono_add, mono_div, mono_divides, mono_is_one, mono_of, mono_variables, powers,
-};
+use super::mono::{Mono, exponent, mono_add, mono_div, mono_divides, mono_is_one, mono_of, powers};
 use super::parts::{Parts, letters, strike};
 use super::poly::Poly;
 use crate::expr::{Expr, Function, Int, Node, Rational, ratio};
@@ -81,18 +79,17 @@ impl Field {
         if x.num.is_zero() {
             return Expr::zero();
         }
+        if x.is_monomial() {
+            // Nothing to factor and, in lowest terms, nothing to strike.
+            let above = Parts::monomial(x.num.coeff(0).clone(), x.num.mono(0));
+            return self.assemble(&above, &Parts::monomial(x.den.int.clone(), &x.den.mono));
+        }
         let struck = self.struck(x);
         let (num, factors) = struck
             .as_ref()
             .map_or((&x.num, &x.den.factors), |(num, den)| (num, den));
         let mut above = self.taken_apart(num);
-        let mut below = Parts {
-            content: x.den.int.clone(),
-            factors: Vec::new(),
-        };
-        for v in mono_variables(&x.den.mono) {
-            below.note(Poly::var(v), exponent(&x.den.mono, v));
-        }
+        let mut below = Parts::monomial(x.den.int.clone(), &x.den.mono);
         for (f, k) in factors {
             let parts = self.taken_apart(f);
             below.content *= parts.content.pow(*k);
@@ -372,13 +369,7 @@ impl Field {
             at += 1;
         }
         for term in terms {
-            let parts = Parts {
-                content: term.coeff.clone(),
-                factors: mono_variables(&term.mono)
-                    .into_iter()
-                    .map(|v| (Poly::var(v), exponent(&term.mono, v)))
-                    .collect(),
-            };
+            let parts = Parts::monomial(term.coeff.clone(), &term.mono);
             let plain = self.assemble(&parts, &Parts::one());
             let degree = term.degree();
             out.push((
@@ -431,28 +422,15 @@ impl Field {
                 };
                 let plus = || self.angle(i) + self.angle(j);
                 let minus = || self.angle(i) - self.angle(j);
-                join(
-                    &mut terms,
-                    &pair(a.cos, b.cos),
-                    &pair(a.sin, b.sin),
-                    |same| {
-                        Some((
-                            Mono::new(),
-                            Some(if same { minus().cos() } else { plus().cos() }),
-                        ))
-                    },
-                );
-                join(
-                    &mut terms,
-                    &pair(a.sin, b.cos),
-                    &pair(a.cos, b.sin),
-                    |same| {
-                        Some((
-                            Mono::new(),
-                            Some(if same { plus().sin() } else { minus().sin() }),
-                        ))
-                    },
-                );
+                let gathered = |e: Expr| Some((Mono::new(), Some(e)));
+                let [cosines, sines] = [pair(a.cos, b.cos), pair(a.sin, b.sin)];
+                join(&mut terms, &cosines, &sines, |same| {
+                    gathered(if same { minus() } else { plus() }.cos())
+                });
+                let [first, second] = [pair(a.sin, b.cos), pair(a.cos, b.sin)];
+                join(&mut terms, &first, &second, |same| {
+                    gathered(if same { plus() } else { minus() }.sin())
+                });
             }
         }
         terms

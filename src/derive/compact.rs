@@ -420,10 +420,18 @@ impl Parts {
         Ok(())
     }
 
-    /// Elsewhere: every unknown whose closed form is long stands for itself, or for what impulses make of a free body.
+    /// Elsewhere: every unknown asked for whose closed form is long stands for itself, or for what impulses make of a free
+    /// body.
     fn solved(&mut self, work: &mut Work<'_>) -> Result<(), Stop> {
-        let mut solved: Vec<(Unknown, Element)> =
-            work.values.iter().map(|(u, v)| (*u, v.clone())).collect();
+        let asked = work.scene.asked_of_impact();
+        let forms = asked.filter_map(|q| work.linear_forms(&q.ask, &self.motion));
+        let forms: Vec<Affine<Expr>> = forms.flatten().map(|(_, form)| form).collect();
+        let is_used = |u: &Unknown| {
+            let mut terms = forms.iter().flat_map(|form| &form.terms);
+            matches!(u, Unknown::Normal(_)) || terms.any(|(v, _)| u == v)
+        };
+        let all = work.values.iter().filter(|(u, _)| is_used(u));
+        let mut solved: Vec<(Unknown, Element)> = all.map(|(u, v)| (*u, v.clone())).collect();
         solved.sort_by_key(|(unknown, _)| !unknown.is_impulse());
         for (unknown, value) in solved {
             let closed = work.field.expr(&value);
