@@ -77,27 +77,27 @@ impl Field {
         if p.len() > super::substitution::MOST_TERMS {
             return None;
         }
+        self.sign_of_factors(p, 3)
+    }
+
+    /// The sign of a polynomial by those of its factors.
+    fn sign_of_factors(&self, p: &Poly, depth: u32) -> Option<Sign> {
         let parts = factor(p, &self.fuel);
         let mut sign = if parts.content.is_negative() {
             Sign::Negative
         } else {
             Sign::Positive
         };
-        for v in mono_variables(&parts.mono) {
-            sign = sign.times(self.power_sign(&Poly::var(v), exponent(&parts.mono, v))?);
-        }
-        for (f, k) in &parts.factors {
-            sign = sign.times(self.power_sign(f, *k)?);
+        let variables = mono_variables(&parts.mono).into_iter();
+        let variables = variables.map(|v| (Poly::var(v), exponent(&parts.mono, v)));
+        for (f, k) in variables.chain(parts.factors) {
+            sign = sign.times(match (self.sign_irreducible(&f, depth), k % 2) {
+                (Some(Sign::Positive | Sign::Negative), 0) => Sign::Positive,
+                (_, 0) => Sign::NotNegative,
+                (sign, _) => sign?,
+            });
         }
         Some(sign)
-    }
-
-    fn power_sign(&self, p: &Poly, k: u32) -> Option<Sign> {
-        match (self.sign_irreducible(p, 3), k % 2) {
-            (Some(Sign::Positive | Sign::Negative), 0) => Some(Sign::Positive),
-            (_, 0) => Some(Sign::NotNegative),
-            (sign, _) => sign,
-        }
     }
 
     fn sign_irreducible(&self, p: &Poly, depth: u32) -> Option<Sign> {
@@ -111,21 +111,12 @@ impl Field {
         if found == Found::Mixed {
             return None;
         }
+        if depth == 0 {
+            return proved(found);
+        }
         proved(found)
-            .or_else(|| {
-                if depth == 0 {
-                    None
-                } else {
-                    self.by_conjugate(p, depth)
-                }
-            })
-            .or_else(|| {
-                if depth == 0 {
-                    None
-                } else {
-                    self.by_discriminant(p, depth)
-                }
-            })
+            .or_else(|| self.by_conjugate(p, depth))
+            .or_else(|| self.by_discriminant(p, depth))
     }
 
     /// A + B√P with A and B of opposite signs has the sign of A² − B²P on A's side.
@@ -175,26 +166,10 @@ impl Field {
     }
 
     fn sign_sub(&self, p: &Poly, depth: u32) -> Option<Sign> {
-        if p.is_zero() {
-            return Some(Sign::Zero);
+        match p.is_zero() {
+            true => Some(Sign::Zero),
+            false => self.sign_of_factors(p, depth - 1),
         }
-        let parts = factor(p, &self.fuel);
-        let mut sign = if parts.content.is_negative() {
-            Sign::Negative
-        } else {
-            Sign::Positive
-        };
-        for v in mono_variables(&parts.mono) {
-            sign = sign.times(self.power_sign(&Poly::var(v), exponent(&parts.mono, v))?);
-        }
-        for (f, k) in &parts.factors {
-            sign = sign.times(match (self.sign_irreducible(f, depth - 1), k % 2) {
-                (Some(Sign::Positive | Sign::Negative), 0) => Sign::Positive,
-                (_, 0) => Sign::NotNegative,
-                (sign, _) => sign?,
-            });
-        }
-        Some(sign)
     }
 
     /// A quadratic without two real zeros has the sign of its leading coefficient, or is zero.

@@ -91,7 +91,8 @@ fn systems(scene: &Scene, reduction: &Reduction) -> Vec<Vec<usize>> {
                 .filter(|i| subset >> i & 1 == 1)
                 .map(|i| free[i])
                 .collect();
-            if bodies.len() > 1 && is_connected(&bodies, &edges) {
+            let whole = connected(bodies[0], &bodies, &edges);
+            if bodies.len() > 1 && whole.len() == bodies.len() {
                 systems.push(bodies);
             }
         }
@@ -111,19 +112,7 @@ fn systems(scene: &Scene, reduction: &Reduction) -> Vec<Vec<usize>> {
         }
     }
     for &root in &free {
-        let mut whole = vec![root];
-        let mut at = 0;
-        while at < whole.len() {
-            for edge in &edges {
-                if let Some(side) = edge.iter().position(|b| *b == whole[at]) {
-                    let other = edge[1 - side];
-                    if free.contains(&other) && !whole.contains(&other) {
-                        whole.push(other);
-                    }
-                }
-            }
-            at += 1;
-        }
+        let mut whole = connected(root, &free, &edges);
         whole.sort_unstable();
         if whole[0] == root && whole.len() > 1 && !systems.contains(&whole) {
             systems.push(whole);
@@ -132,21 +121,22 @@ fn systems(scene: &Scene, reduction: &Reduction) -> Vec<Vec<usize>> {
     systems
 }
 
-fn is_connected(bodies: &[usize], edges: &[[usize; 2]]) -> bool {
-    let mut reached = vec![bodies[0]];
+/// The bodies that joints within these link to one of them, itself first.
+fn connected(to: usize, within: &[usize], edges: &[[usize; 2]]) -> Vec<usize> {
+    let mut reached = vec![to];
     let mut at = 0;
     while at < reached.len() {
         for edge in edges {
             if let Some(side) = edge.iter().position(|b| *b == reached[at]) {
                 let other = edge[1 - side];
-                if bodies.contains(&other) && !reached.contains(&other) {
+                if within.contains(&other) && !reached.contains(&other) {
                     reached.push(other);
                 }
             }
         }
         at += 1;
     }
-    reached.len() == bodies.len()
+    reached
 }
 
 /// Points about which moments of a system are worth taking: where impulses act on it, then the center of a single body.
