@@ -322,10 +322,8 @@ impl Work<'_> {
         system: &[usize],
         along: &Vector,
     ) -> Result<(Vec<(String, Expr)>, Expr), Stop> {
-        let law = Law::LinearMomentum {
-            system: system.to_vec(),
-            along: Direction::Named(String::from("the given direction"), along.clone()),
-        };
+        let along = Direction::Named(String::from("the given direction"), along.clone());
+        let law = Law::linear(system, along);
         self.in_components(names, &law)
     }
 

@@ -11,8 +11,9 @@ use super::{Stop, Work};
 use crate::algebra;
 
 use crate::domain::{Coordinate, roles, samples};
+use crate::expr::rows::reduce;
 use crate::expr::{Expr, Point, Rational, Vector, number, ratio};
-use crate::laws::{self, Geometry, Kinematics, Law, Linear, Place, Quantity, Unknown};
+use crate::laws::{self, Direction, Geometry, Kinematics, Law, Linear, Place, Quantity, Unknown};
 use crate::scene::{ContactLaw, Scene};
 
 /// What counting says about the full system.
@@ -152,21 +153,10 @@ fn system_balances(scene: &Scene) -> Vec<Law> {
     if system.len() < 2 {
         return Vec::new();
     }
-    let mut laws = vec![
-        Law::LinearMomentum {
-            system: system.clone(),
-            along: laws::Direction::X,
-        },
-        Law::LinearMomentum {
-            system: system.clone(),
-            along: laws::Direction::Y,
-        },
-    ];
+    let along = [Direction::X, Direction::Y];
+    let mut laws = along.map(|d| Law::linear(&system, d)).to_vec();
     if !scene.contacts.is_empty() {
-        laws.push(Law::AngularMomentum {
-            system,
-            about: Place::Contact(0),
-        });
+        laws.push(Law::angular(&system, Place::Contact(0)));
     }
     laws
 }
@@ -287,33 +277,7 @@ struct Echelon {
 
 /// Gauss-Jordan elimination; an unknown is determined when its row holds no other unknown.
 fn eliminate(mut rows: Vec<Vec<Rational>>, n: usize) -> Echelon {
-    let mut pivots: Vec<usize> = Vec::new();
-    for column in 0..n {
-        let top = pivots.len();
-        let Some(found) = (top..rows.len()).find(|&r| !rows[r][column].is_zero()) else {
-            continue;
-        };
-        rows.swap(top, found);
-        let scale = rows[top][column].recip();
-        let pivot_row: Vec<(usize, Rational)> = rows[top]
-            .iter()
-            .enumerate()
-            .filter(|(_, k)| !k.is_zero())
-            .map(|(j, k)| (j, k * &scale))
-            .collect();
-        for (r, row) in rows.iter_mut().enumerate() {
-            if r != top && !row[column].is_zero() {
-                let factor = row[column].clone();
-                for (j, k) in &pivot_row {
-                    row[*j] = number::sum(&row[*j], &number::product(&factor, k), true);
-                }
-            }
-        }
-        for (j, k) in pivot_row {
-            rows[top][j] = k;
-        }
-        pivots.push(column);
-    }
+    let pivots = reduce(&mut rows, n);
     let free: Vec<usize> = (0..n).filter(|c| !pivots.contains(c)).collect();
     let mut open = free.clone();
     for (r, &column) in pivots.iter().enumerate() {

@@ -15,15 +15,8 @@ pub(super) fn candidate_laws(
     let mut laws: Vec<(Law, usize)> = Vec::new();
     for system in systems(scene, reduction) {
         let size = system.len();
-        for along in [Direction::X, Direction::Y] {
-            laws.push((
-                Law::LinearMomentum {
-                    system: system.clone(),
-                    along,
-                },
-                2 * (size - 1),
-            ));
-        }
+        let axes = [Direction::X, Direction::Y];
+        laws.extend(axes.map(|along| (Law::linear(&system, along), 2 * (size - 1))));
         for (c, contact) in scene.contacts.iter().enumerate() {
             let touches = contact.bodies.iter().filter(|b| system.contains(b)).count() == 1;
             if let (Some([nx, ny]), true) = (&contact.normal, touches) {
@@ -33,13 +26,7 @@ pub(super) fn candidate_laws(
                         format!("the tangent at {}", contact.name),
                         [-ny, nx.clone()],
                     );
-                    laws.push((
-                        Law::LinearMomentum {
-                            system: system.clone(),
-                            along,
-                        },
-                        2 * (size - 1) + 1,
-                    ));
+                    laws.push((Law::linear(&system, along), 2 * (size - 1) + 1));
                 }
             }
         }
@@ -53,13 +40,8 @@ pub(super) fn candidate_laws(
                 Place::Center(_) => 1,
                 _ => 0,
             };
-            laws.push((
-                Law::AngularMomentum {
-                    system: system.clone(),
-                    about,
-                },
-                2 * (size - 1) + 3 + center,
-            ));
+            let cost = 2 * (size - 1) + 3 + center;
+            laws.push((Law::angular(&system, about), cost));
         }
     }
     for (c, contact) in scene.contacts.iter().enumerate() {

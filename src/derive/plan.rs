@@ -375,48 +375,22 @@ impl Planner {
 
     /// The law a teacher writes for the sake of this unknown.
     fn own_law(&self, unknown: Unknown) -> Option<&Candidate> {
-        self.candidates.iter().find(|c| match (&c.law, unknown) {
-            (
-                Law::LinearMomentum {
-                    system,
-                    along: Direction::X,
-                },
-                Unknown::Velocity(b, 0),
-            )
-            | (
-                Law::LinearMomentum {
-                    system,
-                    along: Direction::Y,
-                },
-                Unknown::Velocity(b, 1),
-            ) => *system == [b],
-            (
-                Law::LinearMomentum {
-                    system,
-                    along: Direction::X,
-                },
-                Unknown::Contact(k, 0),
-            )
-            | (
-                Law::LinearMomentum {
-                    system,
-                    along: Direction::Y,
-                },
-                Unknown::Contact(k, 1),
-            ) => self
-                .attached
-                .iter()
-                .any(|link| link.at == Place::Contact(k) && *system == [link.body]),
-            (
-                Law::AngularMomentum {
-                    system,
-                    about: Place::Center(g),
-                },
-                Unknown::Spin(b),
-            ) => *system == [b] && *g == b,
-            (Law::Restitution(k), Unknown::Normal(c)) => *k == c,
-            _ => false,
-        })
+        let linear = |body: usize, axis: usize| {
+            let axes = [Direction::X, Direction::Y];
+            Law::linear(&[body], axes[axis].clone())
+        };
+        let law = match unknown {
+            Unknown::Velocity(b, axis) => linear(b, axis),
+            Unknown::Contact(k, axis) => {
+                let mut links = self.attached.iter();
+                let link = links.find(|link| link.at == Place::Contact(k))?;
+                linear(link.body, axis)
+            }
+            Unknown::Spin(b) => Law::angular(&[b], Place::Center(b)),
+            Unknown::Normal(c) => Law::Restitution(c),
+            Unknown::Hinge(..) | Unknown::Blow(_) => return None,
+        };
+        self.candidates.iter().find(|c| c.law == law)
     }
 
     fn mask(&self, unknowns: impl Iterator<Item = Unknown>) -> u128 {

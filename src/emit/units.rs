@@ -5,10 +5,11 @@
 //! and the largest length are brought near one, say, and the value back. In: dimensions. Out: the exponents, and the few
 //! helpers in each language.
 
-use num_traits::{One, Signed, Zero};
+use num_traits::{Signed, Zero};
 
 use super::dialect::Language;
 use crate::dimension::Dimension;
+use crate::expr::rows::reduce;
 use crate::expr::{Rational, ratio};
 
 /// How arguments become near one.
@@ -83,20 +84,10 @@ fn powers(base: &[[Rational; 3]], target: &[Rational; 3]) -> Option<Vec<Rational
             row.chain([target[r].clone()]).collect()
         })
         .collect();
-    for column in 0..n {
-        let pivot = (column..3).find(|r| !rows[*r][column].is_zero())?;
-        rows.swap(column, pivot);
-        let inverse = Rational::one() / &rows[column][column];
-        rows[column].iter_mut().for_each(|v| *v *= &inverse);
-        let line = rows[column].clone();
-        for (_, row) in rows.iter_mut().enumerate().filter(|(r, _)| *r != column) {
-            let factor = row[column].clone();
-            for (cell, entry) in row.iter_mut().zip(&line) {
-                *cell -= &factor * entry;
-            }
-        }
+    if reduce(&mut rows, n).len() < n {
+        return None;
     }
-    let rest = rows[n.min(3)..].iter().all(|row| row[n].is_zero());
+    let rest = rows[n..].iter().all(|row| row[n].is_zero());
     rest.then(|| rows[..n].iter().map(|row| row[n].clone()).collect())
 }
 

@@ -10,6 +10,7 @@ mod derivative;
 pub mod eval;
 mod function;
 pub mod number;
+pub mod rows;
 mod table;
 mod vector;
 

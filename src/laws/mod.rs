@@ -74,6 +74,24 @@ pub enum Law {
     Given(usize),
 }
 
+impl Law {
+    /// Balance of linear momentum of some bodies.
+    pub fn linear(system: &[usize], along: Direction) -> Law {
+        Law::LinearMomentum {
+            system: system.to_vec(),
+            along,
+        }
+    }
+
+    /// Balance of angular momentum of some bodies.
+    pub fn angular(system: &[usize], about: Place) -> Law {
+        Law::AngularMomentum {
+            system: system.to_vec(),
+            about,
+        }
+    }
+}
+
 /// A direction with a name.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Direction {
@@ -323,19 +341,9 @@ pub fn of(scene: &Scene) -> Vec<Law> {
     let mut laws = Vec::new();
     for (b, body) in scene.bodies.iter().enumerate() {
         if !body.is_fixed() {
-            laws.push(Law::LinearMomentum {
-                system: vec![b],
-                along: Direction::X,
-            });
-            laws.push(Law::LinearMomentum {
-                system: vec![b],
-                along: Direction::Y,
-            });
+            laws.extend([Direction::X, Direction::Y].map(|d| Law::linear(&[b], d)));
             if !body.is_particle() {
-                laws.push(Law::AngularMomentum {
-                    system: vec![b],
-                    about: Place::Center(b),
-                });
+                laws.push(Law::angular(&[b], Place::Center(b)));
             }
         }
     }

@@ -6,6 +6,7 @@
 
 use num_traits::Zero;
 
+use crate::expr::rows::reduce;
 use crate::expr::{Expr, Function, Node, Point, Rational};
 use crate::numeric::{self, Given, Law, System, Unknown};
 use crate::scene::{Ask, ImpulseAt, Scene};
@@ -249,28 +250,9 @@ fn within(mut rows: Vec<Vec<Rational>>, row: Vec<Rational>) -> bool {
     rank(rows) == before
 }
 
-/// Rank by elimination in fractions.
 fn rank(mut rows: Vec<Vec<Rational>>) -> usize {
     let width = rows.first().map_or(0, Vec::len);
-    let mut done = 0;
-    for column in 0..width {
-        let Some(pivot) = (done..rows.len()).find(|i| !rows[*i][column].is_zero()) else {
-            continue;
-        };
-        rows.swap(done, pivot);
-        let head = rows[done].clone();
-        for row in rows.iter_mut().skip(done + 1) {
-            if row[column].is_zero() {
-                continue;
-            }
-            let k = &row[column] / &head[column];
-            for (cell, h) in row.iter_mut().zip(&head) {
-                *cell -= &k * h;
-            }
-        }
-        done += 1;
-    }
-    done
+    reduce(&mut rows, width).len()
 }
 
 /// What a named unknown is, over the unknowns of the equations, and its constant part.
