@@ -1,7 +1,10 @@
 //! What a scene did not need, and why: finite forces, impulses without a moment, motion that cannot change, equations.
 
+use std::collections::BTreeSet;
+
 use super::Work;
 use super::count::Counting;
+use crate::expr::{Expr, Symbol};
 use crate::laws::{self, Law, Unknown};
 use crate::scene::{Ask, ContactLaw, ImpulseAt, Scene};
 
@@ -69,8 +72,9 @@ pub(super) fn list(work: &Work<'_>, counting: &Counting, asked: usize) -> Vec<Le
             String::from("what is asked does not depend on them"),
         );
     }
+    let symbols = symbols(scene);
     for parameter in &scene.parameters {
-        if !uses(scene, &parameter.name) {
+        if !symbols.contains(&parameter.name) {
             add(
                 format!("parameter {}", parameter.name),
                 String::from("it stands in no equation of the impact"),
@@ -150,21 +154,18 @@ fn impulses(scene: &Scene) -> Vec<(String, Vec<Unknown>)> {
     all
 }
 
-fn uses(scene: &Scene, name: &str) -> bool {
-    let mut found = super::work::formulas(scene)
-        .iter()
-        .any(|e| e.symbols().contains(name));
-    let decided = scene.contacts.iter().filter_map(|c| match &c.law {
-        ContactLaw::Decided(decided) => Some(decided),
-        _ => None,
-    });
-    found |= decided
-        .flat_map(|d| &d.when)
-        .any(|(left, _, right)| [left, right].iter().any(|e| e.symbols().contains(name)));
-    found |= scene
-        .domains
-        .unit_vectors
-        .iter()
-        .any(|pair| pair.iter().any(|s| **s == *name));
-    found
+/// The symbols in the formulas of the impact, in the conditions of a mode of friction and in unit vectors.
+fn symbols(scene: &Scene) -> BTreeSet<Symbol> {
+    let mut all = super::work::formulas(scene);
+    for contact in &scene.contacts {
+        if let ContactLaw::Decided(decided) = &contact.law {
+            let sides = decided
+                .when
+                .iter()
+                .flat_map(|(left, _, right)| [left, right]);
+            all.extend(sides.cloned());
+        }
+    }
+    let units = scene.domains.unit_vectors.iter().flatten().cloned();
+    all.iter().flat_map(Expr::symbols).chain(units).collect()
 }
