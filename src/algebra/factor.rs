@@ -5,46 +5,29 @@
 use num_traits::{One, Zero};
 
 use super::gcd::{Fuel, content_in, gcd};
-use super::mono::{Mono, exponent, mono_is_one, mono_variables};
+use super::mono::{exponent, mono_is_one, mono_variables};
+use super::parts::Parts;
 use super::poly::Poly;
 use crate::expr::Int;
 
-/// A polynomial taken apart: content · mono · ∏ factorᵏ.
-#[derive(Clone, Debug)]
-pub(crate) struct Factored {
-    pub content: Int,
-    pub mono: Mono,
-    /// Pairwise different, primitive, positive leading coefficients, sorted.
-    pub factors: Vec<(Poly, u32)>,
-}
-
-/// Contents with respect to every variable, squarefree parts, and quadratics split by their discriminant.
+/// Contents with respect to every variable, squarefree parts, and quadratics split by their discriminant: the variables of a
+/// common monomial first, then pairwise different, primitive factors with positive leading coefficients, sorted.
 /// Where a limit is met, a factor stays whole.
-pub(crate) fn factor(p: &Poly, fuel: &Fuel) -> Factored {
+pub(crate) fn factor(p: &Poly, fuel: &Fuel) -> Parts {
     let (content, mono, rest) = p.split();
-    let mut factors = Vec::new();
-    if !rest.is_constant() {
-        fuel.portion(|fuel| split_into(rest, 1, &mut factors, fuel));
-    }
-    factors.sort();
-    Factored {
-        content,
-        mono,
-        factors,
-    }
+    let mut found = Parts::one();
+    fuel.portion(|fuel| split_into(rest, 1, &mut found, fuel));
+    found.factors.sort();
+    let mut parts = Parts::monomial(content, &mono);
+    let factors = found.factors.into_iter();
+    factors.for_each(|(f, k)| parts.note(f, k));
+    parts
 }
 
-fn note(p: Poly, times: u32, out: &mut Vec<(Poly, u32)>) {
-    match out.iter_mut().find(|(f, _)| *f == p) {
-        Some((_, k)) => *k += times,
-        None => out.push((p, times)),
-    }
-}
-
-fn split_into(p: Poly, times: u32, out: &mut Vec<(Poly, u32)>, fuel: &Fuel) {
+fn split_into(p: Poly, times: u32, out: &mut Parts, fuel: &Fuel) {
     let (_, mono, p) = p.split();
     for v in mono_variables(&mono) {
-        note(Poly::var(v), times * exponent(&mono, v), out);
+        out.note(Poly::var(v), times * exponent(&mono, v));
     }
     if p.is_constant() {
         return;
@@ -54,7 +37,7 @@ fn split_into(p: Poly, times: u32, out: &mut Vec<(Poly, u32)>, fuel: &Fuel) {
             split_into(d, times, out, fuel);
             split_into(q, times, out, fuel);
         }
-        None => note(p, times, out),
+        None => out.note(p, times),
     }
 }
 

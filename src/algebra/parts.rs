@@ -2,6 +2,7 @@
 
 use num_traits::{One, Signed};
 
+use super::element::Den;
 use super::factor::factor;
 use super::field::{Field, Kind};
 use super::gcd::{Fuel, gcd};
@@ -31,12 +32,10 @@ impl Parts {
         }
     }
 
-    pub fn of(p: &Poly, fuel: &Fuel) -> Parts {
-        let found = factor(p, fuel);
-        let mut out = Parts::monomial(found.content, &found.mono);
-        for (f, k) in found.factors {
-            out.note(f, k);
-        }
+    /// Of a denominator.
+    pub fn below(den: &Den) -> Parts {
+        let mut out = Parts::monomial(den.int.clone(), &den.mono);
+        out.factors.extend(den.factors.iter().cloned());
         out
     }
 
@@ -75,7 +74,7 @@ impl Parts {
 impl Field {
     /// Factors of the shorter of the forms without sin² and without cos².
     pub(crate) fn taken_apart(&self, p: &Poly) -> Parts {
-        let mut best = Parts::of(p, &self.fuel);
+        let mut best = factor(p, &self.fuel);
         let mut least = None;
         let mut form = p.clone();
         for (c, s) in self.circles() {
@@ -89,7 +88,7 @@ impl Field {
             if other.len() > LONG && 2 * other.len() > 3 * form.len() {
                 continue;
             }
-            let candidate = Parts::of(&other, &self.fuel);
+            let candidate = factor(&other, &self.fuel);
             let length = self.length(&candidate);
             if length < *least.get_or_insert_with(|| self.length(&best)) {
                 least = Some(length);

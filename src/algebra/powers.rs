@@ -4,7 +4,6 @@ use super::Stop;
 use super::element::Element;
 use super::factor::factor;
 use super::field::{Field, Kind};
-use super::mono::exponent;
 use super::poly::Poly;
 
 /// The numerator of an element as a product of polynomials in one symbol.
@@ -51,8 +50,7 @@ impl Field {
             factors: factors
                 .map(|(f, _)| f.by_power(v).into_iter().map(Element::from_poly).collect())
                 .collect(),
-            has_zero: exponent(&parts.mono, v) > 0
-                || parts.factors.iter().any(|(f, _)| *f == Poly::var(v)),
+            has_zero: parts.factors.iter().any(|(f, _)| *f == Poly::var(v)),
             squared,
         }))
     }

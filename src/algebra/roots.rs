@@ -9,7 +9,7 @@ use num_traits::{One, Signed};
 use super::element::Element;
 use super::factor::{factor, primes_with_powers, square_part};
 use super::field::{Field, Generator, Kind};
-use super::mono::{exponent, mono_variables};
+use super::parts::Parts;
 use super::poly::{MOST_UNDER_ROOT, Poly};
 use super::substitution::Found;
 use super::{Sign, Stop};
@@ -27,7 +27,7 @@ impl Field {
         // √(n/d) = √(n·d)/|d|, part by part of d, where even powers come out whole.
         let mut radicand = x.num.scale(&x.den.int);
         let mut outside = Element::from_poly(Poly::constant(x.den.int.clone()));
-        for (f, k) in powers_of(&x.den.mono, &x.den.factors) {
+        for (f, k) in Parts::below(&x.den).factors {
             if k % 2 == 1 {
                 radicand = self.mul_poly(&radicand, &f)?;
             }
@@ -53,7 +53,7 @@ impl Field {
         let (root, mut rest) = square_part(&parts.content);
         let mut outside = Element::from_poly(Poly::constant(root));
         let mut odd = Vec::new();
-        for (f, k) in powers_of(&parts.mono, &parts.factors) {
+        for (f, k) in parts.factors {
             if k >= 2 {
                 let half = self.abs_power(&f, k / 2)?;
                 outside = self.mul(&outside, &half)?;
@@ -337,12 +337,12 @@ impl Field {
         }
         let parts = factor(&x.num, &self.fuel);
         let mut total = Element::from_poly(Poly::constant(parts.content.abs()));
-        for (f, k) in powers_of(&parts.mono, &parts.factors) {
+        for (f, k) in parts.factors {
             let part = self.abs_power(&f, k)?;
             total = self.mul(&total, &part)?;
         }
         let mut below = Element::from_poly(Poly::constant(x.den.int.clone()));
-        for (f, k) in powers_of(&x.den.mono, &x.den.factors) {
+        for (f, k) in Parts::below(&x.den).factors {
             let part = self.abs_power(&f, k)?;
             below = self.mul(&below, &part)?;
         }
@@ -452,19 +452,15 @@ impl Field {
     /// An element as a sign and a product of irreducible parts with their powers, primes and variables among them.
     pub(super) fn powers_of_parts(&self, x: &Element) -> (bool, Vec<(Poly, i64)>) {
         let num = factor(&x.num, &self.fuel);
-        let mut parts: Vec<(Poly, i64)> = Vec::new();
-        for (value, mono, factors, sign) in [
-            (&num.content, &num.mono, &num.factors, 1),
-            (&x.den.int, &x.den.mono, &x.den.factors, -1),
-        ] {
-            let primes = primes_with_powers(&value.abs());
+        let negative = num.content.is_negative();
+        let mut all: Vec<(Poly, i64)> = Vec::new();
+        for (parts, sign) in [(num, 1), (Parts::below(&x.den), -1)] {
+            let primes = primes_with_powers(&parts.content.abs());
             let primes = primes.into_iter().map(|(p, k)| (Poly::constant(p), k));
-            let variables = mono_variables(mono).into_iter();
-            let variables = variables.map(|v| (Poly::var(v), exponent(mono, v)));
-            let all = primes.chain(variables).chain(factors.iter().cloned());
-            parts.extend(all.map(|(f, k)| (f, i64::from(k) * sign)));
+            let parts = primes.chain(parts.factors);
+            all.extend(parts.map(|(f, k)| (f, i64::from(k) * sign)));
         }
-        (num.content.is_negative(), parts)
+        (negative, all)
     }
 
     fn odd_root_generator(&mut self, f: &Poly, n: u32) -> Element {
@@ -517,11 +513,4 @@ fn primes(value: &Int) -> Vec<Int> {
         .into_iter()
         .flat_map(|(p, k)| std::iter::repeat_n(p, k as usize))
         .collect()
-}
-
-/// The variables of a monomial and other factors, with their exponents.
-fn powers_of(mono: &[u64], factors: &[(Poly, u32)]) -> Vec<(Poly, u32)> {
-    let variables = mono_variables(mono).into_iter();
-    let powers = variables.map(|v| (Poly::var(v), exponent(mono, v)));
-    powers.chain(factors.iter().cloned()).collect()
 }

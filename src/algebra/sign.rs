@@ -88,9 +88,7 @@ impl Field {
         } else {
             Sign::Positive
         };
-        let variables = mono_variables(&parts.mono).into_iter();
-        let variables = variables.map(|v| (Poly::var(v), exponent(&parts.mono, v)));
-        for (f, k) in variables.chain(parts.factors) {
+        for (f, k) in parts.factors {
             sign = sign.times(match (self.sign_irreducible(&f, depth), k % 2) {
                 (Some(Sign::Positive | Sign::Negative), 0) => Sign::Positive,
                 (_, 0) => Sign::NotNegative,

@@ -6,6 +6,7 @@ use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::element::{Den, Element};
+use super::factor::factor;
 use super::field::{AngleOf, Field, Kind};
 use super::mono::{Mono, exponent, mono_add, mono_div, mono_divides, mono_is_one, mono_of, powers};
 use super::parts::{Parts, letters, strike};
@@ -82,7 +83,7 @@ impl Field {
         if x.is_monomial() {
             // Nothing to factor and, in lowest terms, nothing to strike.
             let above = Parts::monomial(x.num.coeff(0).clone(), x.num.mono(0));
-            return self.assemble(&above, &Parts::monomial(x.den.int.clone(), &x.den.mono));
+            return self.assemble(&above, &Parts::below(&x.den));
         }
         let struck = self.struck(x);
         let (num, factors) = struck
@@ -153,10 +154,10 @@ impl Field {
         if x.num.len() > MOST_GROUPED || !self.circles().into_iter().any(|(c, _)| both(c)) {
             return None;
         }
-        let mut above = Parts::of(&x.num, &self.fuel);
+        let mut above = factor(&x.num, &self.fuel);
         let mut below = Parts::one();
         for (f, k) in den {
-            let parts = Parts::of(f, &self.fuel);
+            let parts = factor(f, &self.fuel);
             // A factor of the denominator has no number in front.
             if !parts.content.is_one() {
                 return None;
@@ -247,49 +248,7 @@ impl Field {
         }
         factors.retain(|f| !f.power.is_zero());
         factors.sort_by(|a, b| (a.rank, &a.base).cmp(&(b.rank, &b.base)));
-        let mut out = vec![Expr::from(number)];
-        // √a·√b/√c is written √(ab/c) where each of them is known to be real; if all but one are, so is that one.
-        let half = |f: &Factor| f.under_root.is_some() && *f.power.denom() == Int::from(2);
-        let unsure = |f: &Factor| half(f) && f.under_root == Some(false);
-        let apart = factors.iter().filter(|f| unsure(f)).count() > 1;
-        let (rooted, rest): (Vec<Factor>, Vec<Factor>) = factors
-            .into_iter()
-            .partition(|f| half(f) && !(apart && unsure(f)));
-        // 1/√2 is written √2/2, and numbers stand in front.
-        let numeric = rooted.iter().all(|f| f.rank == Rank::Number);
-        let all_below = !numeric && rooted.iter().all(|f| f.power.is_negative());
-        let mut rest = rest;
-        let mut inside = Vec::new();
-        for f in rooted {
-            let below = f.power.is_negative() && !numeric;
-            let half = ratio(if below { -1 } else { 1 }, 2);
-            if f.power != half {
-                rest.push(Factor {
-                    rank: f.rank,
-                    base: f.base.clone(),
-                    power: &f.power - &half,
-                    under_root: None,
-                });
-            }
-            inside.push(if below && !all_below {
-                f.base.powi(-1)
-            } else {
-                f.base
-            });
-        }
-        let root = (!inside.is_empty()).then(|| {
-            // Nothing above: 1/√(ab).
-            Expr::product(inside).power(Expr::ratio(if all_below { -1 } else { 1 }, 2))
-        });
-        rest.sort_by(|a, b| (a.rank, &a.base).cmp(&(b.rank, &b.base)));
-        if numeric {
-            out.extend(root);
-            out.extend(rest.into_iter().map(Factor::written));
-        } else {
-            out.extend(rest.into_iter().map(Factor::written));
-            out.extend(root);
-        }
-        Expr::product(out)
+        with_one_root(number, factors)
     }
 
     /// A generator as base and exponent.
@@ -571,6 +530,52 @@ enum Rank {
     Symbol,
     Other,
     Sum,
+}
+
+/// The product of a number and factors in their order: √a·√b/√c is written √(ab/c) where each of them is known to be real; if
+/// all but one are, so is that one.
+fn with_one_root(number: Rational, factors: Vec<Factor>) -> Expr {
+    let mut out = vec![Expr::from(number)];
+    let half = |f: &Factor| f.under_root.is_some() && *f.power.denom() == Int::from(2);
+    let unsure = |f: &Factor| half(f) && f.under_root == Some(false);
+    let apart = factors.iter().filter(|f| unsure(f)).count() > 1;
+    let (rooted, mut rest): (Vec<Factor>, Vec<Factor>) = factors
+        .into_iter()
+        .partition(|f| half(f) && !(apart && unsure(f)));
+    // 1/√2 is written √2/2, and numbers stand in front.
+    let numeric = rooted.iter().all(|f| f.rank == Rank::Number);
+    let all_below = !numeric && rooted.iter().all(|f| f.power.is_negative());
+    let mut inside = Vec::new();
+    for f in rooted {
+        let below = f.power.is_negative() && !numeric;
+        let half = ratio(if below { -1 } else { 1 }, 2);
+        if f.power != half {
+            rest.push(Factor {
+                rank: f.rank,
+                base: f.base.clone(),
+                power: &f.power - &half,
+                under_root: None,
+            });
+        }
+        inside.push(if below && !all_below {
+            f.base.powi(-1)
+        } else {
+            f.base
+        });
+    }
+    let root = (!inside.is_empty()).then(|| {
+        // Nothing above: 1/√(ab).
+        Expr::product(inside).power(Expr::ratio(if all_below { -1 } else { 1 }, 2))
+    });
+    rest.sort_by(|a, b| (a.rank, &a.base).cmp(&(b.rank, &b.base)));
+    if numeric {
+        out.extend(root);
+        out.extend(rest.into_iter().map(Factor::written));
+    } else {
+        out.extend(rest.into_iter().map(Factor::written));
+        out.extend(root);
+    }
+    Expr::product(out)
 }
 
 /// The negative of a sum, its positive terms in front again.

@@ -12,7 +12,7 @@ use super::element::Element;
 use super::factor::factor;
 use super::field::{Field, Kind};
 use super::gcd::gcd;
-use super::mono::{exponent, mono_variables};
+use super::parts::Parts;
 use super::poly::Poly;
 use crate::expr::{Int, Rational, Symbol, ratio};
 
@@ -82,11 +82,8 @@ impl Field {
 
     /// The different parts of a polynomial.
     fn parts(&self, p: &Poly) -> Vec<Poly> {
-        let parts = factor(p, &self.fuel);
-        let variables = mono_variables(&parts.mono).into_iter().map(Poly::var);
-        variables
-            .chain(parts.factors.into_iter().map(|(f, _)| f))
-            .collect()
+        let parts = factor(p, &self.fuel).factors;
+        parts.into_iter().map(|(f, _)| f).collect()
     }
 
     /// An element without its last square root: its product with the one of the other sign, which vanishes wherever the
@@ -127,22 +124,7 @@ impl Field {
                 all.push((x, Vec::new()));
                 continue;
             }
-            let mut parts: Vec<(Poly, i64)> = Vec::new();
-            let above = factor(&x.num, &self.fuel);
-            let variables = mono_variables(&above.mono);
-            for w in variables {
-                parts.push((Poly::var(w), i64::from(exponent(&above.mono, w))));
-            }
-            parts.extend(above.factors.into_iter().map(|(f, k)| (f, i64::from(k))));
-            for w in mono_variables(&x.den.mono) {
-                parts.push((Poly::var(w), -i64::from(exponent(&x.den.mono, w))));
-            }
-            parts.extend(
-                x.den
-                    .factors
-                    .iter()
-                    .map(|(f, k)| (f.clone(), -i64::from(*k))),
-            );
+            let parts = self.whole_parts(x);
             if !parts.iter().all(|(p, _)| only(p)) {
                 return None;
             }
@@ -218,6 +200,16 @@ impl Field {
         }
         cells.extend(gap(before.as_ref(), end));
         Some(cells)
+    }
+
+    /// Factors above and, with negative powers, below the line.
+    fn whole_parts(&self, x: &Element) -> Vec<(Poly, i64)> {
+        let above = factor(&x.num, &self.fuel).factors.into_iter();
+        let below = Parts::below(&x.den).factors.into_iter();
+        let above = above.map(|(f, k)| (f, i64::from(k)));
+        above
+            .chain(below.map(|(f, k)| (f, -i64::from(k))))
+            .collect()
     }
 
     /// The product of different squarefree parts.

@@ -138,7 +138,7 @@ proptest! {
         let p = a.mul(&b).and_then(|p| p.mul(&b)).expect("small");
         prop_assume!(!p.is_zero());
         let parts = factor(&p, &Fuel::new());
-        let mut whole = Poly::term(&parts.mono, parts.content.clone());
+        let mut whole = Poly::constant(parts.content.clone());
         for (f, k) in &parts.factors {
             whole = whole.mul(&f.pow(*k).expect("small")).expect("small");
         }
