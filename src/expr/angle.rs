@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use num_traits::Zero;
 
-use super::{Expr, Node, Rational, Symbol, ratio};
+use super::{Expr, Node, Rational, Symbol, number, ratio};
 
 /// A rational combination of angle symbols plus a rational multiple of π.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -37,20 +37,20 @@ fn add_term(term: &Expr, factor: Rational, out: &mut Angle) -> Option<()> {
     match term.node() {
         Node::Number(value) if value.is_zero() => Some(()),
         Node::Symbol(name) if &**name == "pi" => {
-            out.pi += factor;
+            out.pi = number::sum(&out.pi, &factor, false);
             Some(())
         }
         Node::Symbol(name) => {
-            *out.symbols
-                .entry(name.clone())
-                .or_insert_with(Rational::zero) += factor;
+            let share = out.symbols.entry(name.clone());
+            let share = share.or_insert_with(Rational::zero);
+            *share = number::sum(share, &factor, false);
             Some(())
         }
         Node::Sum(terms) => terms
             .iter()
             .try_for_each(|t| add_term(t, factor.clone(), out)),
         Node::Product(factors) => match factors.as_slice() {
-            [number, rest] => add_term(rest, factor * number.as_number()?, out),
+            [share, rest] => add_term(rest, number::product(&factor, share.as_number()?), out),
             _ => None,
         },
         _ => None,

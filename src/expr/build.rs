@@ -15,7 +15,7 @@ impl Expr {
         let mut number: Option<(usize, Rational)> = None;
         let mut add = |term: Expr, out: &mut Vec<Expr>| match term.as_number() {
             Some(value) => match &mut number {
-                Some((_, total)) => *total += value,
+                Some((_, total)) => *total = number::sum(total, value, false),
                 None => number = Some((out.len(), value.clone())),
             },
             None => out.push(term),
@@ -47,7 +47,7 @@ impl Expr {
         let mut multiply = |factor: Expr, out: &mut Vec<Expr>| match factor.as_number() {
             // Most products hold one number.
             Some(value) if number.is_one() => number = value.clone(),
-            Some(value) => number *= value,
+            Some(value) => number = number::product(&number, value),
             None => out.push(factor),
         };
         for factor in factors {
@@ -86,14 +86,15 @@ impl Expr {
                 // 64 bits per unit of exponent at most: a number a person could have written.
                 if k.unsigned_abs() <= 64 && !(base.is_zero() && k <= 0) {
                     let k32 = k.unsigned_abs() as u32;
-                    let raised = Rational::new(base.numer().pow(k32), base.denom().pow(k32));
+                    // Powers of numbers without a common factor have none.
+                    let raised = Rational::new_raw(base.numer().pow(k32), base.denom().pow(k32));
                     return Expr::from(if k < 0 { raised.recip() } else { raised });
                 }
             }
             if let (Node::Power(inner, by), true) = (self.node(), power.is_integer()) {
                 // (x^a)^n = x^(a n) for every integer n, unless the even root that forbids a negative x is lost.
                 if let Some(a) = by.as_number() {
-                    let total = a * power;
+                    let total = number::product(a, power);
                     let lost = a.denom().is_even()
                         && total.denom().is_odd()
                         && inner.as_number().is_none_or(Signed::is_negative);

@@ -150,7 +150,7 @@ fn direction<T: Scalar>(angle: &Angle, at: &Point<T>) -> Option<[T; 2]> {
     };
     for (name, factor) in &angle.symbols {
         let (divisor, unit) = at.directions.get(name)?;
-        let turns = factor * Rational::from(Int::from(i64::from(*divisor)));
+        let turns = number::product(factor, &number::ratio(i64::from(*divisor), 1));
         if !turns.is_integer() {
             return None;
         }
@@ -169,7 +169,7 @@ fn direction<T: Scalar>(angle: &Angle, at: &Point<T>) -> Option<[T; 2]> {
 
 /// (cos, sin) of a multiple of π, for multiples of π/2.
 fn quarter_turns<T: Scalar>(pi: &Rational) -> Option<[T; 2]> {
-    let quarters = pi * Rational::from(Int::from(2));
+    let quarters = number::product(pi, &number::ratio(2, 1));
     if !quarters.is_integer() {
         return None;
     }

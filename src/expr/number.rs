@@ -419,11 +419,15 @@ impl fmt::Debug for Int {
 
 /// The fraction `numerator / denominator`; `denominator` must not be zero.
 pub fn ratio(numerator: i64, denominator: i64) -> Rational {
-    match denominator {
-        // In lowest terms as it is: no common divisor is looked for.
-        1 => Rational::from(Int::from(numerator)),
-        _ => Rational::new(Int::from(numerator), Int::from(denominator)),
-    }
+    let shared = match denominator {
+        1 => 1,
+        d if d > 0 => gcd(numerator.into(), d.into()) as i64,
+        _ => return Rational::new(Int::from(numerator), Int::from(denominator)),
+    };
+    Rational::new_raw(
+        Int::from(numerator / shared),
+        Int::from(denominator / shared),
+    )
 }
 
 /// The exact square root of a fraction, when it is a fraction too.

@@ -30,9 +30,13 @@ impl<T> Table<T> {
     fn place(&self, name: &str) -> Result<usize, usize> {
         let is_it = |(known, _): &(Symbol, T)| std::ptr::eq::<str>(&**known, name);
         let first = self.entries.iter().take(FEW).position(is_it);
-        let by_letters = || {
-            self.entries
-                .binary_search_by(|(known, _)| (**known).cmp(name))
+        let by_letters = || match self.entries.last() {
+            Some((last, _)) if **last >= *name => {
+                let order = |(known, _): &(Symbol, T)| (**known).cmp(name);
+                self.entries.binary_search_by(order)
+            }
+            // Most tables are filled in order.
+            _ => Err(self.entries.len()),
         };
         first.map_or_else(by_letters, Ok)
     }

@@ -113,22 +113,27 @@ impl Certified for Interval {
         Interval::of(sum(self.low, other.low).0, sum(self.high, other.high).1)
     }
     fn times(&self, other: &Self) -> Outcome<Self> {
-        if self.low >= 0.0 && other.low >= 0.0 {
-            // Most factors are positive.
-            let (low, high) = (product(self.low, other.low), product(self.high, other.high));
-            return Interval::of(low.0, high.1);
-        }
-        let ends = [
-            product(self.low, other.low),
-            product(self.low, other.high),
-            product(self.high, other.low),
-            product(self.high, other.high),
-        ];
-        let low = ends.iter().fold(f64::INFINITY, |low, end| low.min(end.0));
-        let high = ends
-            .iter()
-            .fold(f64::NEG_INFINITY, |high, end| high.max(end.1));
-        Interval::of(low, high)
+        let (Interval { low: a, high: b }, Interval { low: c, high: d }) = (*self, *other);
+        // Which ends make the least and the greatest product is told by the signs, unless both intervals hold 0.
+        let [least, greatest] = match (a >= 0.0, b <= 0.0, c >= 0.0, d <= 0.0) {
+            (true, _, true, _) => [(a, c), (b, d)],
+            (true, _, _, true) => [(b, c), (a, d)],
+            (true, ..) => [(b, c), (b, d)],
+            (_, true, true, _) => [(a, d), (b, c)],
+            (_, true, _, true) => [(b, d), (a, c)],
+            (_, true, ..) => [(a, d), (a, c)],
+            (_, _, true, _) => [(a, d), (b, d)],
+            (.., true) => [(b, c), (a, c)],
+            _ => {
+                let low = product(a, d).0.min(product(b, c).0);
+                let high = product(a, c).1.max(product(b, d).1);
+                return Interval::of(low, high);
+            }
+        };
+        Interval::of(
+            product(least.0, least.1).0,
+            product(greatest.0, greatest.1).1,
+        )
     }
     fn recip(&self) -> Outcome<Self> {
         if self.low > 0.0 || self.high < 0.0 {
