@@ -49,6 +49,9 @@ impl Lexer<'_> {
                 self.pos += run;
                 return Ok(Tok::Degree);
             }
+            if word == "percent" && self.symbols.find(word).is_none() {
+                return self.percent(start, run);
+            }
             if let Some(tok) = self.unit(false) {
                 return Ok(tok);
             }

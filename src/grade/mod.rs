@@ -21,10 +21,12 @@ pub mod steps;
 mod unit;
 mod verdict;
 
+use num_traits::Signed;
+
 use crate::dimension::Dimension;
 use crate::domain::{Domain, Domains};
-use crate::expr::Symbol;
-use crate::formula::{self, Content, Fault, Reading, Symbols};
+use crate::expr::{Expr, Function, Node, Symbol};
+use crate::formula::{self, Content, Fault, Reading, Relation, Symbols};
 pub(crate) use crate::verify::rounding::fraction;
 
 pub use form::Form;
@@ -178,6 +180,16 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
                 .insert(name.clone(), Domain::real());
         }
     }
+    // `-2 < x < 2` and `|x| < 3` say themselves that x has either sign.
+    if question.symbols.is_empty()
+        && names.len() == 1
+        && signed(&reading.content)
+        && let Some(name) = names.first()
+        && matches!(&**name, "x" | "y" | "z")
+    {
+        let domains = &mut question.domains.symbols;
+        domains.entry(name.clone()).or_insert_with(Domain::real);
+    }
     let unknown = names.into_iter().map(|name| Given {
         name,
         latex: None,
@@ -199,6 +211,19 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
         told: None,
         unclear: None,
     }
+}
+
+/// Whether a relation would say nothing of what is positive: an inequality with zero or a negative number for a side, or bars.
+fn signed(content: &Content) -> bool {
+    let Content::Relations(sides, signs) = content else {
+        return false;
+    };
+    let number = |side: &Content| side.expr().and_then(Expr::as_number).cloned();
+    let low = |side: &Content| number(side).is_some_and(|k| !k.is_positive());
+    let mut bars = false;
+    let is_bar = |part: &Expr| matches!(part.node(), Node::Call(Function::Abs, _));
+    content.each(&mut |e| e.walk(&mut |part| bars |= is_bar(part)));
+    bars || signs.iter().any(|s| *s != Relation::Equal) && sides.iter().any(low)
 }
 
 fn declare(symbols: &mut Symbols, question: &Question) {

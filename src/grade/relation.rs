@@ -15,13 +15,14 @@ mod solved;
 mod system;
 mod undone;
 
+use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
 use super::compare::{Context, Finding};
 use super::{Apart, Diagnosis, Proof, Verdict};
 use crate::algebra::{Field, Sign};
-use crate::domain::{Domain, Domains, roles, samples};
-use crate::expr::{Expr, Node, Symbol};
+use crate::domain::{Coordinate, Domain, Domains, Sample, roles, samples};
+use crate::expr::{Expr, Node, Point, Rational, Symbol, ratio};
 use crate::formula::{Content, Relation, write_plain};
 use crate::interval::{Interval, Outcome, evaluate};
 use cells::holds;
@@ -442,6 +443,45 @@ fn sought_in(ctx: &Context, f: &Expr, g: &Expr) -> BTreeSet<Symbol> {
     if asked.is_empty() { all } else { asked }
 }
 
+/// Points of which others are made that lie on boundaries.
+const NEAR: usize = 6;
+
+/// The point with one symbol moved to where the two sides of a relation are equal: there `<` and `≤` part.
+fn on_boundaries(sample: &Sample, differences: &[&Expr], domains: &Domains) -> Vec<Sample> {
+    let moved = |f: &Expr, name: &Symbol| {
+        let root = solve_for(f, name, domains)?.evaluate(&fractions(sample))?;
+        let domain = domains.symbols.get(name)?;
+        let mut moved = sample.clone();
+        let number = Coordinate::Number(root.clone());
+        let was = moved.coordinates.insert(name.clone(), number)?;
+        (matches!(was, Coordinate::Number(_)) && domain.contains(&root)).then_some(moved)
+    };
+    let all = differences.iter().flat_map(|f| {
+        let names = unknowns(f, f).into_iter();
+        names
+            .filter_map(move |name| moved(f, &name))
+            .collect::<Vec<_>>()
+    });
+    all.filter(|moved| domains.admits(moved)).collect()
+}
+
+/// A point in fractions alone.
+fn fractions(sample: &Sample) -> Point<Rational> {
+    let mut point = Point::default();
+    for (name, coordinate) in &sample.coordinates {
+        match coordinate.clone() {
+            Coordinate::Number(value) => {
+                point.values.insert(name.clone(), value);
+            }
+            Coordinate::Direction { divisor, unit, .. } => {
+                point.directions.insert(name.clone(), (divisor, unit));
+            }
+            Coordinate::Pi(_) => {}
+        }
+    }
+    point
+}
+
 /// A point at which one system of relations holds and the other does not.
 fn apart_at_points(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Option<Finding> {
     let all: Vec<&Expr> = expected
@@ -451,20 +491,24 @@ fn apart_at_points(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Opt
         .collect();
     let uses = roles(&all);
     let (domains, assumed) = ctx.key.question.domains.completed(&uses);
-    for sample in samples(&uses, &domains, 48) {
+    let inside = samples(&uses, &domains, 48);
+    let near = inside.iter().take(NEAR);
+    let ends = near.flat_map(|sample| on_boundaries(sample, &all, &domains));
+    for sample in inside.iter().cloned().chain(ends) {
         // Whether all relations hold: nothing where one is too near to its boundary.
         let point = sample.point::<Interval>(true);
         let truth = |system: &[Normal]| {
             let mut all = true;
             for link in system {
                 let sign = match evaluate::<Interval>(&link.difference, &point) {
-                    Outcome::Value(v) if v.high < 0.0 => Some(std::cmp::Ordering::Less),
-                    Outcome::Value(v) if v.low > 0.0 => Some(std::cmp::Ordering::Greater),
-                    Outcome::Value(v) if v.low == 0.0 && v.high == 0.0 => {
-                        Some(std::cmp::Ordering::Equal)
-                    }
+                    Outcome::Value(v) if v.high < 0.0 => Some(Ordering::Less),
+                    Outcome::Value(v) if v.low > 0.0 => Some(Ordering::Greater),
                     Outcome::Undefined => None,
-                    _ => return None,
+                    _ => Some(
+                        link.difference
+                            .evaluate(&fractions(&sample))?
+                            .cmp(&ratio(0, 1)),
+                    ),
                 };
                 all &= holds(link.relation, sign);
             }
