@@ -2,6 +2,7 @@
 
 use crate::answer::Answer;
 use crate::derive::friction::table;
+use crate::grade::believed::Story;
 use crate::grade::sheet::{Bound, Sheet};
 use crate::scene::Scene;
 use crate::{story, verify, worked};
@@ -24,14 +25,21 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
     notes.extend(worked.refusals());
     let bounds = bounds(worked.answers());
     let impacts = story::impacts(&worked.scene, &worked.told);
+    let told = worked.scene.has_stages().then(|| worked.scene.clone());
     let (scene, derivation) = worked.sheet()?;
     let sheet = Sheet {
         scene,
         derivation,
         bounds,
         impacts: impacts.into_iter().map(|(_, impact)| impact).collect(),
+        story: told.map(|scene| Story::new(scene, answers)),
     };
     Ok((sheet, notes))
+}
+
+/// The answers of a scene that may not be possible.
+fn answers(scene: &Scene) -> Vec<Answer> {
+    story::tell(scene).map_or_else(|_| Vec::new(), |told| told.answers)
 }
 
 /// The quantity that is meant where none is named: the one question of a scene that has no more.

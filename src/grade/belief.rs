@@ -4,16 +4,19 @@
 //! A row gives every way in which its belief can show in a scene, so it works for scenes nobody has seen. What comes out
 //! under a belief is computed by [`super::believed`]; this file holds no formula of any answer.
 
+mod motions;
 mod slips;
 
 use crate::expr::{Expr, Vector, minus};
 use crate::scene::{ContactLaw, Scene, Shape};
+pub(super) use motions::in_stages;
 use slips::{
     all_places, changed, frictionless, inertia, lengths, movable, other_shapes, places,
     restitution, rigid, shifted, slip, spins, velocities,
 };
 
 /// A belief.
+#[derive(Debug)]
 pub struct Belief {
     /// Stable code.
     pub code: &'static str,

@@ -6,6 +6,7 @@
 mod formula;
 mod others;
 mod outcome;
+mod story;
 
 use std::collections::BTreeMap;
 
@@ -18,6 +19,7 @@ use crate::scene::{Ask, Scene};
 use others::other_quantities;
 pub(super) use outcome::doubles;
 use outcome::fractions;
+pub use story::Story;
 
 /// Points at which every belief is tried.
 const POINTS: u64 = 4;

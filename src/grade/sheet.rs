@@ -1,6 +1,6 @@
 //! A scene as an answer sheet: its derived answers are the keys, its parameters and domains the declarations.
 
-use super::believed::{self, Believed, Written};
+use super::believed::{self, Believed, Story, Written};
 use super::{
     Diagnosis, Given, Grade, Key, Options, Question, Strength, Tolerance, Verdict, judge_against,
     key_of,
@@ -23,6 +23,8 @@ pub struct Sheet {
     pub bounds: Vec<Bound>,
     /// The impacts of a scene with stages, each with the motion that comes in and with its own questions.
     pub impacts: Vec<Scene>,
+    /// Its story, where it has stages.
+    pub story: Option<Story>,
 }
 
 /// An answer such as d ≤ 4ℓ/3.
@@ -61,6 +63,7 @@ pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
         derivation,
         bounds: Vec::new(),
         impacts: Vec::new(),
+        story: None,
     })
 }
 
@@ -271,7 +274,14 @@ impl Sheet {
         } else {
             1
         };
-        let (found, mut others) = believed::explain(&written, written.values.len() == expected);
+        let (mut found, mut others) = believed::explain(&written, written.values.len() == expected);
+        if let (true, Some(story)) = (found.is_empty(), &self.story) {
+            let answers = self.derivation.answers.iter();
+            let mine = |a: &&Answer| a.name == entry.name || a.question == entry.name;
+            let names: Vec<String> = answers.filter(mine).map(|a| a.name.clone()).collect();
+            let asked = (entry.question.name.as_str(), names.as_slice());
+            found = story.explain(&entry.key, asked, &written.values, rounding);
+        }
         // Which direction counts as positive is asked before any belief that only turns the sign.
         let turned = grade.diagnosis.iter().position(|d| d.code == "SIGN");
         let sign = turned.map(|at| grade.diagnosis.remove(at));

@@ -1,0 +1,165 @@
+//! What students believe of the motions between impacts: each belief alters the stages of a scene.
+//!
+//! In: a scene with stages. Out: the same scene as believed; the story is told again from there.
+
+use super::slips::slip;
+use super::{BELIEFS, Belief, Slip};
+use crate::expr::{Expr, dot, minus};
+use crate::scene::{Scene, Stage, StageKind, Turn};
+
+/// The beliefs about motions.
+const MOTIONS: &[Belief] = &[
+    Belief {
+        code: "WEIGHT_FORGOTTEN",
+        belief: "the weight is left out of the motion",
+        hint: "which forces do work on the way?",
+        slips: |s| {
+            motions(s, &|stage| {
+                let rubs = matches!(&stage.kind, StageKind::Slide(s) if s.friction.is_some());
+                gravity(&mut stage.kind)
+                    .filter(|_| !rubs)
+                    .and_then(Option::take)
+                    .is_some()
+            })
+        },
+    },
+    Belief {
+        code: "HEIGHT_SIGN",
+        belief: "the work of the weight has the wrong sign",
+        hint: "does the center of mass rise or fall on the way?",
+        slips: |s| motions(s, &|stage| scaled(stage, -1)),
+    },
+    Belief {
+        code: "HEIGHT_OF_END",
+        belief: "the height of the end stands for that of the center of mass",
+        hint: "whose height counts for the work of the weight?",
+        slips: |s| {
+            motions(s, &|stage| {
+                matches!(stage.kind, StageKind::Turn(_)) && scaled(stage, 2)
+            })
+        },
+    },
+    Belief {
+        code: "FRICTION_FORGOTTEN",
+        belief: "friction is left out of the motion",
+        hint: "which forces do work on the way?",
+        slips: |s| {
+            motions(s, &|stage| match &mut stage.kind {
+                StageKind::Slide(slide) => slide.friction.take().is_some(),
+                _ => false,
+            })
+        },
+    },
+    Belief {
+        code: "PARALLEL_AXIS_DROPPED",
+        belief: "the moment of inertia about the center is used for a rotation about another point",
+        hint: "is the moment of inertia you use the one about the point that stays where it is?",
+        slips: |s| motions(s, &|stage| about_another(stage, -1)),
+    },
+    Belief {
+        code: "INERTIA_ABOUT_POINT",
+        belief: "the moment of inertia about the fixed point stands where the one about the center of mass belongs",
+        hint: "about which point is your moment of inertia?",
+        slips: |s| motions(s, &|stage| about_another(stage, 1)),
+    },
+    Belief {
+        code: "POINT_MASS",
+        belief: "the body is treated as if all its mass sat at its center",
+        hint: "does the body resist being turned?",
+        slips: |s| {
+            motions(s, &|stage| {
+                turned(stage)
+                    .is_some_and(|(_, inertia)| !std::mem::replace(inertia, Expr::zero()).is_zero())
+            })
+        },
+    },
+];
+
+/// What is believed of impacts that shows in what comes after them.
+const ON_THE_WAY: [&str; 7] = [
+    "ELASTIC",
+    "PLASTIC",
+    "RESTITUTION_SIGN",
+    "RESTITUTION_ENERGY",
+    "PARALLEL_AXIS_DROPPED",
+    "POINT_MASS",
+    "RECOIL_IGNORED",
+];
+
+/// Every way in which a belief can show in a scene with stages: in its motions, and in its impacts, whose outcome goes on.
+pub(in crate::grade) fn in_stages(s: &Scene) -> Vec<(&'static Belief, Slip)> {
+    let mut found: Vec<(&Belief, Slip)> = Vec::new();
+    for belief in MOTIONS {
+        found.extend((belief.slips)(s).into_iter().map(|slip| (belief, slip)));
+    }
+    let impacts = s.stages.iter().enumerate();
+    for (k, stage) in impacts.filter(|(_, s)| matches!(s.kind, StageKind::Impact { .. })) {
+        for belief in BELIEFS.iter().filter(|b| ON_THE_WAY.contains(&b.code)) {
+            // What changes equations and not the scene cannot be handed to the story.
+            let slips = (belief.slips)(&stage.scene).into_iter();
+            found.extend(slips.filter(|slip| slip.changes.is_empty()).map(|one| {
+                let mut scene = s.clone();
+                scene.stages[k].scene = one.scene;
+                let place = [one.place.as_str(), "in", &stage.name].join(" ");
+                (belief, slip(scene, place.trim_start()))
+            }));
+        }
+    }
+    found
+}
+
+/// The scene with one motion changed, for each that `change` changes.
+fn motions(s: &Scene, change: &dyn Fn(&mut Stage) -> bool) -> Vec<Slip> {
+    let changed = |k: usize| {
+        let mut scene = s.clone();
+        let place = format!("in {}", s.stages[k].name);
+        change(&mut scene.stages[k]).then(|| slip(scene, &place))
+    };
+    (0..s.stages.len()).filter_map(changed).collect()
+}
+
+/// Where a motion has its gravity.
+fn gravity(kind: &mut StageKind) -> Option<&mut Option<Expr>> {
+    match kind {
+        StageKind::Turn(turn) => Some(&mut turn.gravity),
+        StageKind::Slide(slide) => Some(&mut slide.gravity),
+        StageKind::Fall(fall) => Some(&mut fall.gravity),
+        StageKind::Linkage(linkage) => Some(&mut linkage.gravity),
+        StageKind::Impact { .. } | StageKind::Wind(_) => None,
+    }
+}
+
+/// The weight of a motion times a number; not where it presses a body on rough ground.
+fn scaled(stage: &mut Stage, by: i64) -> bool {
+    let rubs = matches!(&stage.kind, StageKind::Slide(slide) if slide.friction.is_some());
+    let weight = gravity(&mut stage.kind).filter(|_| !rubs);
+    match weight.and_then(Option::as_mut) {
+        Some(g) => {
+            *g = &Expr::from(by) * &*g;
+            true
+        }
+        None => false,
+    }
+}
+
+/// The rotation that a stage is, of one body, and that body's moment of inertia about its center.
+fn turned(stage: &mut Stage) -> Option<(Turn, &mut Expr)> {
+    let StageKind::Turn(turn) = &stage.kind else {
+        return None;
+    };
+    let turn = turn.clone();
+    let body = stage.scene.bodies.get_mut(turn.body)?;
+    turn.with.is_empty().then_some((turn, &mut body.inertia))
+}
+
+/// The moment of inertia of a body that turns, with the parallel-axis term of its fixed point added or taken away.
+fn about_another(stage: &mut Stage, sign: i64) -> bool {
+    let Some((turn, inertia)) = turned(stage) else {
+        return false;
+    };
+    let inertia = inertia.clone();
+    let body = &mut stage.scene.bodies[turn.body];
+    let r = minus(&turn.about, &body.center);
+    body.inertia = inertia + Expr::from(sign) * &body.mass * dot(&r, &r);
+    true
+}
