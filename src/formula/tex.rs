@@ -121,6 +121,9 @@ impl<'a> Lexer<'a> {
             "SI" | "qty" | "num" | "SIrange" if rest[length..].trim_start().starts_with('{') => {
                 return self.measured_number(start, word != "num");
             }
+            "unit" | "si" if rest[length..].trim_start().starts_with('{') => {
+                return self.spelled_unit(start);
+            }
             "operatorname" => return self.operator(start),
             "begin" | "end" => return self.environment(start, word == "begin"),
             "mathrm" | "text" | "textrm" | "mathsf" | "mathbf" | "mathit" | "textbf" | "textit"
@@ -293,14 +296,19 @@ impl<'a> Lexer<'a> {
             false => Tok::Number(literal),
         };
         if unit {
-            let (inside, stop) = self.group(start)?;
-            let spelled = super::units::spelled(inside);
-            let read = crate::dimension::unit(&spelled)
-                .map_err(|fault| Fault::new(fault.message, end, stop))?;
-            self.pos = stop;
-            self.pending = Some(Tok::Unit(Box::new(read)));
+            self.pending = Some(self.spelled_unit(start)?);
         }
         Ok(tok)
+    }
+
+    /// The unit in the braces of `\unit{m/s}`, and in the second ones of `\qty{5}{m/s}`.
+    fn spelled_unit(&mut self, start: usize) -> Faulty<Tok> {
+        let at = self.pos;
+        let (inside, stop) = self.group(start)?;
+        let read = crate::dimension::unit(&super::units::spelled(inside))
+            .map_err(|fault| Fault::new(fault.message, at, stop))?;
+        self.pos = stop;
+        Ok(Tok::Unit(Box::new(read)))
     }
 
     /// The text of the brace group that starts at the current place, and the byte after it.

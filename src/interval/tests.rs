@@ -235,3 +235,23 @@ fn sums_and_products_of_short_numbers_are_exact_in_doubles() {
     };
     assert!(square.low == 0.0 && square.high > 0.0, "{square:?}");
 }
+
+#[test]
+fn the_ends_of_a_product_are_among_the_products_of_the_ends() {
+    let ends = [-3.0, -1.0, 0.0, 2.0, 5.0];
+    let all = ends.iter().flat_map(|a| ends.iter().map(|b| (*a, *b)));
+    let all: Vec<(f64, f64)> = all.filter(|(a, b)| a <= b).collect();
+    for (a, b) in &all {
+        for (c, d) in &all {
+            let products = [a * c, a * d, b * c, b * d];
+            let low = products.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = products.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let [x, y] = [(a, b), (c, d)].map(|(low, high)| Interval {
+                low: *low,
+                high: *high,
+            });
+            let found = x.times(&y);
+            assert_eq!(found, Outcome::Value(Interval { low, high }), "{x:?} {y:?}");
+        }
+    }
+}
