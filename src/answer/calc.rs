@@ -107,8 +107,14 @@ pub fn is_zero(e: &Expr, domains: &Domains) -> Option<bool> {
     apart.then_some(false)
 }
 
+/// Expressions up to this size, in nodes, have their sign proved at once.
+const SHORT: usize = 8;
+
 /// The sign on the domain.
 pub fn sign(e: &Expr, domains: &Domains) -> Seen {
+    if e.size() > SHORT && has_both_signs(e, domains) {
+        return Seen::Mixed;
+    }
     let mut field = Field::new(domains);
     field.prepare([e]);
     if let Ok(x) = field.element(e)
@@ -134,6 +140,20 @@ pub fn constant(e: &Expr) -> Option<Sign> {
 
 /// The sign at points of the domain, by enclosures.
 fn seen(e: &Expr, domains: &Domains) -> Seen {
+    match met(e, domains) {
+        (3.., 0) => Seen::Positive,
+        (0, 3..) => Seen::Negative,
+        _ => Seen::Mixed,
+    }
+}
+
+/// Whether values above and below zero are found in the domain: then there is no sign to be proved, which takes longer to try.
+pub fn has_both_signs(e: &Expr, domains: &Domains) -> bool {
+    matches!(met(e, domains), (1.., 1..))
+}
+
+/// At how many points of the domain a value is above zero and below, by enclosures, until both are met.
+fn met(e: &Expr, domains: &Domains) -> (usize, usize) {
     let roles = roles(&[e]);
     let (domains, _) = domains.completed(&roles);
     let (mut above, mut below) = (0, 0);
@@ -143,12 +163,11 @@ fn seen(e: &Expr, domains: &Domains) -> Seen {
             Outcome::Value(v) if v.high < 0.0 => below += 1,
             _ => {}
         }
+        if above > 0 && below > 0 {
+            break;
+        }
     }
-    match (above, below) {
-        (3.., 0) => Seen::Positive,
-        (0, 3..) => Seen::Negative,
-        _ => Seen::Mixed,
-    }
+    (above, below)
 }
 
 /// A sum of quotients times those of their denominators that are known to be positive.

@@ -374,23 +374,38 @@ impl Parts {
             let y = self.named(work, &format!("r{}_y", side + 1), y, &words);
             if !body.is_particle() {
                 let inertia = work.tidy(&body.inertia)?;
-                a.push(&y.powi(2) / &inertia);
-                b.push(-(&x * &y / &inertia));
-                c.push(&x.powi(2) / &inertia);
+                for (sum, moment) in [(&mut a, y.powi(2)), (&mut c, x.powi(2))] {
+                    let (inverse, share) = (sum.pop(), work.tidy(&(&moment / &inertia))?);
+                    let apart = inverse.unwrap_or_else(Expr::zero) + share;
+                    let joined = work.tidy(&apart)?;
+                    sum.push(if joined.size() < apart.size() {
+                        joined
+                    } else {
+                        apart
+                    });
+                }
+                let share = work.tidy(&(&x * &y / &inertia))?;
+                if !share.is_zero() {
+                    b.push(-share);
+                }
             }
             arms.push([x, y]);
         }
         let words = "entry of the inverse effective mass at the contact";
         let a = self.named(work, "a_W", Expr::sum(a), words);
-        let b = self.named(work, "b_W", Expr::sum(b), words);
         let c = self.named(work, "c_W", Expr::sum(c), words);
-        let det = self.named(
-            work,
-            "D_W",
-            &a * &c - b.powi(2),
-            "determinant of the inverse effective mass",
-        );
-        let sizes = [(&b * &uy - &c * &ux) / &det, (&b * &ux - &a * &uy) / &det];
+        let sizes = if b.is_empty() {
+            [-(&ux / &a), -(&uy / &c)]
+        } else {
+            let b = self.named(work, "b_W", Expr::sum(b), words);
+            let det = self.named(
+                work,
+                "D_W",
+                &a * &c - b.powi(2),
+                "determinant of the inverse effective mass",
+            );
+            [(&b * &uy - &c * &ux) / &det, (&b * &ux - &a * &uy) / &det]
+        };
         let impulse = [0, 1].map(|axis| {
             let words = format!("impulse at the contact along {}", ["x", "y"][axis]);
             self.define_unknown(work, Unknown::Contact(0, axis), sizes[axis].clone(), &words)
@@ -412,8 +427,14 @@ impl Parts {
             }
             if !body.is_particle() {
                 let before = work.tidy(&body.spin)?;
-                let moment = &arms[side][0] * &impulse[1] - &arms[side][1] * &impulse[0];
-                let after = before + &sign * moment / work.tidy(&body.inertia)?;
+                let moment = [(0, 1, sign.clone()), (1, 0, -sign)];
+                let mut after = before;
+                for (axis, other, sign) in moment {
+                    let gain = work.tidy(&(sign * &arms[side][axis] / &body.inertia))?;
+                    if !gain.is_zero() {
+                        after = after + gain * &impulse[other];
+                    }
+                }
                 self.values.insert(Unknown::Spin(i), after);
             }
         }

@@ -7,7 +7,7 @@ use num_traits::Signed;
 
 use super::{Condition, Verdict};
 use crate::algebra::{Field, Sign};
-use crate::answer::calc::constant;
+use crate::answer::calc::{constant, has_both_signs};
 use crate::derive::Derivation;
 use crate::domain::{Domains, roles, samples};
 use crate::expr::{Expr, Node, Point, Rational, Scalar, Symbol};
@@ -52,7 +52,7 @@ pub(super) fn sign(e: &Expr, domains: &Domains) -> Option<Sign> {
             () => Sign::Zero,
         });
     }
-    if e.size() > LARGEST {
+    if e.size() > LARGEST || has_both_signs(e, domains) {
         return None;
     }
     let mut field = Field::new(domains);
@@ -66,21 +66,19 @@ pub(super) fn sign(e: &Expr, domains: &Domains) -> Option<Sign> {
 /// Where an expression is not negative.
 pub(super) fn decide(e: &Expr, domains: &Domains) -> Decided {
     match sign(e, domains) {
-        Some(s) if s.is_not_negative() => return plain(Verdict::Everywhere),
-        Some(Sign::Negative) => return plain(Verdict::Nowhere),
-        _ => {}
+        Some(s) if s.is_not_negative() => plain(Verdict::Everywhere),
+        Some(Sign::Negative) => plain(Verdict::Nowhere),
+        Some(Sign::NotPositive) => where_it_is(e, domains),
+        _ if e.size() <= LARGEST && has_both_signs(e, domains) => where_it_is(e, domains),
+        _ => UNDECIDED,
     }
-    if e.size() > LARGEST {
-        return UNDECIDED;
+}
+
+fn where_it_is(e: &Expr, domains: &Domains) -> Decided {
+    Decided {
+        verdict: Verdict::Where,
+        essential: Some(essential(e, domains)),
     }
-    let [above, below] = seen(e, domains);
-    if above && below || sign(e, domains) == Some(Sign::NotPositive) {
-        return Decided {
-            verdict: Verdict::Where,
-            essential: Some(essential(e, domains)),
-        };
-    }
-    UNDECIDED
 }
 
 /// The same for something that must hold.
@@ -90,26 +88,9 @@ pub(super) fn need(need: &Need, domains: &Domains) -> Decided {
         Need::Zero(e) => match sign(e, domains) {
             Some(Sign::Zero) => plain(Verdict::Everywhere),
             Some(Sign::Positive | Sign::Negative) => plain(Verdict::Nowhere),
-            _ => Decided {
-                verdict: Verdict::Where,
-                essential: Some(essential(e, domains)),
-            },
+            _ => where_it_is(e, domains),
         },
     }
-}
-
-/// Whether values above and below zero are found in the domain.
-fn seen(e: &Expr, domains: &Domains) -> [bool; 2] {
-    let roles = roles(&[e]);
-    let (domains, _) = domains.completed(&roles);
-    let (mut above, mut below) = (false, false);
-    for sample in samples(&roles, &domains, POINTS) {
-        if let Outcome::Value(v) = evaluate::<Interval>(e, &sample.point(roles.radians)) {
-            above |= v.low > 0.0;
-            below |= v.high < 0.0;
-        }
-    }
-    [above, below]
 }
 
 /// Whether one expression is nowhere below zero where the other is above it, and the reverse, at the points tried.
