@@ -1056,10 +1056,10 @@ fn what_has_a_name_goes_by_it_and_is_not_told_again() {
                     if let (true, Some(Math::Expr(made)), Part::Result(_)) =
                         (by_newton, line.math.get(2), part)
                     {
-                        made.walk(&mut |e| {
+                        for e in made.parts() {
                             let named = told.iter().find(|(_, value)| value == e && e.size() >= 6);
                             assert!(named.is_none(), "{:?}: {made:?} holds {named:?}", case.path);
-                        });
+                        }
                     }
                 }
                 for line in lines {

@@ -549,6 +549,7 @@ pub fn dimension(ask: &Ask) -> Dimension {
         Ask::Energy { .. } => (one, two.clone(), minus(&two)),
         Ask::Reaction { .. } | Ask::Tension { .. } => (one.clone(), one, minus(&two)),
         Ask::Acceleration { .. } => (zero, one, minus(&two)),
+        Ask::AngularAcceleration { .. } => (zero.clone(), zero, minus(&two)),
         Ask::Time => (zero.clone(), zero, one),
         Ask::Distance | Ask::Position { .. } => (zero.clone(), one, zero),
         Ask::AngularMomentum { .. } => (one.clone(), two, minus(&one)),

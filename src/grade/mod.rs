@@ -222,7 +222,7 @@ fn signed(content: &Content) -> bool {
     let low = |side: &Content| number(side).is_some_and(|k| !k.is_positive());
     let mut bars = false;
     let is_bar = |part: &Expr| matches!(part.node(), Node::Call(Function::Abs, _));
-    content.each(&mut |e| e.walk(&mut |part| bars |= is_bar(part)));
+    content.each(&mut |e| bars |= e.parts().any(is_bar));
     bars || signs.iter().any(|s| *s != Relation::Equal) && sides.iter().any(low)
 }
 

@@ -98,6 +98,15 @@ pub enum Ask {
         /// At the end of the stage; else at its beginning.
         at_end: bool,
     },
+    /// Angular acceleration of a body in a rotation or a linkage.
+    AngularAcceleration {
+        /// Index of the body.
+        body: usize,
+        /// Counted clockwise.
+        clockwise: bool,
+        /// At the end of the stage; else at its beginning.
+        at_end: bool,
+    },
     /// How long a motion lasts.
     Time,
     /// How far a motion along a line leads.
@@ -235,6 +244,7 @@ impl Ask {
                 | Ask::Time
                 | Ask::Distance
                 | Ask::Acceleration { .. }
+                | Ask::AngularAcceleration { .. }
                 | Ask::Tension { .. }
                 | Ask::Angle { .. }
                 | Ask::Position { .. }
@@ -268,6 +278,7 @@ impl Ask {
         match self {
             Ask::Reaction { at_end, .. }
             | Ask::Position { at_end, .. }
+            | Ask::AngularAcceleration { at_end, .. }
             | Ask::AngularMomentum { at_end, .. } => *at_end,
             _ => true,
         }

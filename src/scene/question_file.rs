@@ -38,7 +38,7 @@ record! {
         along: Option<DirectionFile>,
         /// Angular velocity just after of this body.
         spin: Option<Text>,
-        /// Counts a spin, or an angle, clockwise.
+        /// Counts a spin, an angle or an angular acceleration clockwise.
         clockwise: Option<bool>,
         /// Impulse at this contact, hinge or blow.
         impulse: Option<Text>,
@@ -75,6 +75,9 @@ record! {
         distance: Option<Text>,
         /// Acceleration of this body along its own way in the stage `at`, a `slide`: negative where it slows down.
         acceleration: Option<Text>,
+        /// Angular acceleration of this body at the end of the stage `at`, a `turn` or a `linkage`, or `when` it starts:
+        /// counterclockwise positive.
+        angular_acceleration: Option<Text>,
         /// Pull of the string at this body in the stage `at`, a `slide` with `strings`.
         tension: Option<Text>,
         /// Angle through which this body turns in the stage `at`, counterclockwise unless `clockwise`.

@@ -76,6 +76,19 @@ pub fn answer(
             let reaction = moved.reaction.as_ref().ok_or(Unanswered::NotANumber)?;
             component(&course, reaction[usize::from(*at_end)].clone(), Some(along))
         }
+        Ask::AngularAcceleration {
+            body,
+            clockwise,
+            at_end,
+        } => {
+            let What::Motion(moved) = &passed.what else {
+                return Err(Unanswered::NotANumber);
+            };
+            let found = moved.whirled.iter().find(|(b, _)| b == body);
+            let (_, angular) = found.ok_or(Unanswered::NotANumber)?;
+            let value = angular[usize::from(*at_end)];
+            Ok(Answer::Scalar(if *clockwise { -value } else { value }))
+        }
         Ask::Time => Ok(Answer::Scalar(passed.time.clone()?)),
         Ask::Acceleration { body } | Ask::Tension { body } => {
             let What::Motion(moved) = &passed.what else {

@@ -43,6 +43,7 @@ pub(super) fn wind(course: &Course<'_>, before: State, wind: &Wind) -> Result<Pa
         bodies: vec![wind.body],
         clockwise: None,
         reaction: None,
+        whirled: Vec::new(),
         driven: Vec::new(),
         samples: Vec::new(),
     };

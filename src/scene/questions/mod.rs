@@ -84,6 +84,7 @@ static KINDS: &[Kind] = kinds! {
         time(),
         distance(),
         acceleration(at),
+        angular_acceleration(clockwise when at),
         tension(at),
         angle(clockwise at),
         position(along when at),

@@ -6,7 +6,7 @@ use crate::scene::formulas::{Quantity, Symbols};
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
 use crate::scene::resolve::Resolver;
-use crate::scene::stage_file::{EndName, StageFile};
+use crate::scene::stage_file::{EndName, StageFile, TurnFile};
 use crate::scene::stages::{TIME, stage_named};
 use crate::scene::{Ask, Scene};
 
@@ -41,6 +41,8 @@ pub(super) fn ask(
         passed(base, stages, q, stage)
     } else if let Some(body) = q.acceleration.as_ref().or(q.tension.as_ref()) {
         driven(base, stages, q, body)
+    } else if let Some(body) = &q.angular_acceleration {
+        angular_acceleration(base, stages, q, body)
     } else if let Some(body) = &q.angle {
         angle(base, stages, q, body)
     } else if let Some(body) = &q.position {
@@ -155,6 +157,34 @@ fn driven(
         let fault = Fault::new(name.span, message).hint(hint);
         return fault.add_to(&mut base.faults);
     }
+    Some((i, ask))
+}
+
+fn angular_acceleration(
+    base: &mut Resolver<'_>,
+    stages: &[StageFile],
+    q: &QuestionFile,
+    name: &Text,
+) -> Option<(usize, Ask)> {
+    let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
+    let body = base.moving(name)?;
+    let is_it = |b: &Text| b.text == name.text;
+    let turns = |turn: &TurnFile| is_it(&turn.body) || turn.with.iter().flatten().any(is_it);
+    let fits = stages[i].turn.as_ref().is_some_and(turns) || stages[i].linkage.is_some();
+    if !fits || base.is_particle(body) {
+        let message = format!(
+            "no angular acceleration of `{}` can be asked of this stage",
+            name.text
+        );
+        let hint = "an angular acceleration is that of a body with a spin which a `turn` or a `linkage` moves";
+        let fault = Fault::new(name.span, message).hint(hint);
+        return fault.add_to(&mut base.faults);
+    }
+    let ask = Ask::AngularAcceleration {
+        body,
+        clockwise: q.clockwise == Some(true),
+        at_end: at_end(q),
+    };
     Some((i, ask))
 }
 

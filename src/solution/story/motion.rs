@@ -221,6 +221,27 @@ impl Page<'_> {
             lines.push(Line { math, step: None });
         }
         self.solution.push(Part::Display(lines));
+        self.whirled(stage);
+    }
+
+    /// Where an angular acceleration comes from, if one is asked of this stage.
+    fn whirled(&mut self, stage: &Stage) {
+        let is_it = |q: &crate::scene::Question| {
+            let at = q.stage.map(|i| &self.scene.stages[i].name);
+            matches!(q.ask, Ask::AngularAcceleration { .. }) && at == Some(&stage.name)
+        };
+        if !self.scene.questions.iter().any(is_it) {
+            return;
+        }
+        self.solution.say(&match &stage.kind {
+            StageKind::Turn(turn) => format!(
+                "The moments about {} over the moment of inertia give the angular acceleration.",
+                turn.about_name
+            ),
+            _ => String::from(
+                "The balance of energy from the beginning to any place, differentiated by the time, gives the angular acceleration.",
+            ),
+        });
     }
 
     /// How high a body swings until weight has brought it to rest, and through which angle.

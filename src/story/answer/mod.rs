@@ -120,6 +120,9 @@ fn one(
         Ask::Time => each(&|told| Ok(motion::time(question, told))),
         Ask::Distance => each(&|told| Ok(motion::distance(question, told))),
         Ask::Acceleration { .. } => each(&|told| Ok(motion::acceleration(question, told))),
+        Ask::AngularAcceleration { at_end, .. } => {
+            each(&|told| motion::angular_acceleration(question, told, *at_end))
+        }
         Ask::Tension { body } => each(&|told| Ok(motion::tension(question, told, *body))),
         Ask::Angle { body, clockwise } => {
             each(&|told| motion::angle(question, told, *body, *clockwise))

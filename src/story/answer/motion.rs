@@ -40,6 +40,50 @@ pub(super) fn reaction(
     Ok(out)
 }
 
+/// How the spin of a body grows in a rotation or a linkage.
+pub(super) fn angular_acceleration(
+    question: &Question,
+    told: &StageTold,
+    at_end: bool,
+) -> Result<Answer, Refused> {
+    let when = if at_end { "end" } else { "beginning" };
+    let words = format!("angular acceleration at the {when} of `{}`", told.name);
+    let mut out = Answer::blank(question, &question.name, words);
+    out.dimension = derive::dimension(&question.ask);
+    let Ask::AngularAcceleration {
+        body, clockwise, ..
+    } = question.ask
+    else {
+        return Ok(out);
+    };
+    let state = if at_end { &told.after } else { &told.before };
+    if let Some(why) = state.why_open([&state.spin[body]]) {
+        out.text.push(sentence!["not determined: ", why]);
+        return Ok(out);
+    }
+    let value = match (&told.placed.kind, &told.energy) {
+        (StageKind::Turn(turn), _) => {
+            let (way, _) = stage::sense(&told.placed, &told.before.spin[turn.body], turn)?;
+            angular(&told.placed, told, turn, way, at_end)
+        }
+        (StageKind::Linkage(linkage), Some(energy)) => {
+            let end = usize::from(at_end);
+            let there = (&energy[end], &linkage.ends[end]);
+            stage::angular_acceleration(&told.placed, linkage, body, there)?
+        }
+        _ => return Ok(out),
+    };
+    let value = if clockwise { -value } else { value };
+    let value = tidy(&value, &told.placed.scene.domains)
+        .map_err(|stop| Refused::question(&question.name, format!("not calculated: {stop}"), ""))?;
+    valued(
+        &mut out,
+        &value,
+        if at_end { &told.assumptions } else { &[] },
+    );
+    Ok(out)
+}
+
 /// Gives an answer its value, and what that takes for granted.
 fn valued(answer: &mut Answer, value: &Expr, assumptions: &[Sentence]) {
     answer.form = Form::value(value.clone());
@@ -425,16 +469,25 @@ fn bearing(
         Some([start, end]) => &(&Expr::from(2) * if at_end { end } else { start }) / &inertia,
         None => Expr::zero(),
     };
-    let zero = Expr::zero();
-    let g = turn.gravity.as_ref().unwrap_or(&zero);
-    // The moment counts in the sense of the rotation.
-    let applied = Expr::from(way) * turn.torque.clone().unwrap_or_else(Expr::zero);
-    let weight = &body.mass * g;
-    let angular = &(&applied - &(&weight * &r[0])) / &inertia;
+    let weight = &body.mass * &turn.gravity.clone().unwrap_or_else(Expr::zero);
+    let angular = angular(stage, told, turn, way, at_end);
     let a = [
         -(&(&angular * &r[1])) - &square * &r[0],
         &angular * &r[0] - &square * &r[1],
     ];
     let force = [&body.mass * &a[0], &body.mass * &a[1] + &weight];
     tidy(&dot(&force, along), &stage.scene.domains)
+}
+
+/// Angular acceleration of a turning body, counterclockwise: the moments about the fixed point over the moment of inertia.
+fn angular(stage: &Stage, told: &StageTold, turn: &Turn, way: i64, at_end: bool) -> Expr {
+    let arms = stage::arms(stage, turn, &told.before.spin[turn.body]);
+    let weight = match &turn.gravity {
+        Some(g) => &turn.lump(&stage.scene).mass * g,
+        None => Expr::zero(),
+    };
+    // The moment counts in the sense of the rotation.
+    let applied = Expr::from(way) * turn.torque.clone().unwrap_or_else(Expr::zero);
+    let moments = &applied - &(&weight * &arms[usize::from(at_end)][0]);
+    &moments / &stage::inertia_about(stage, turn)
 }

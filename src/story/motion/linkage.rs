@@ -84,6 +84,38 @@ pub(in crate::story) fn linkage(
     Ok(out)
 }
 
+/// Angular acceleration of a body of a linkage with this kinetic energy where the coordinate has this value, by the equation
+/// of Lagrange M q̈ + ½ M' q̇² + V' = 0.
+pub(in crate::story) fn angular_acceleration(
+    stage: &Stage,
+    linkage: &Linkage,
+    body: usize,
+    (energy, value): (&Expr, &Expr),
+) -> Result<Expr, Refused> {
+    let q = &linkage.coordinate;
+    let (mut inertia, mut lifted, mut angle) = (Vec::new(), Vec::new(), Expr::zero());
+    for (b, place) in &linkage.places {
+        let moved = &stage.scene.bodies[*b];
+        let [u, v, w] = place.each_ref().map(|e| e.derivative(q));
+        inertia.push(&moved.mass * &(&u.powi(2) + &v.powi(2)));
+        inertia.push(&moved.inertia * &w.powi(2));
+        lifted.push(&moved.mass * &v);
+        if *b == body {
+            angle = w;
+        }
+    }
+    let inertia = Expr::sum(inertia);
+    let zero = Expr::zero();
+    let g = linkage.gravity.as_ref().unwrap_or(&zero);
+    let at = |e: &Expr| tidied(stage, &linkage.at(e, value));
+    let [mass, grows] = [at(&inertia)?, at(&inertia.derivative(q))?];
+    let drawn = g * &at(&Expr::sum(lifted))?;
+    let square = tidied(stage, &(&(&Expr::from(2) * energy) / &mass))?;
+    let second = -(&(&half(&(&grows * &square)) + &drawn) / &mass);
+    let [turns, bends] = [at(&angle)?, at(&angle.derivative(q))?];
+    tidied(stage, &(&(&bends * &square) + &(&turns * &second)))
+}
+
 /// 1 where the coordinate grows, −1 where it falls; what is not proved is seen at points of the domain and taken for granted.
 fn way(
     stage: &Stage,

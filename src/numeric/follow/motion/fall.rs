@@ -84,6 +84,7 @@ pub(in crate::numeric::follow) fn fall(
         bodies,
         clockwise: None,
         reaction: None,
+        whirled: Vec::new(),
         driven: Vec::new(),
         samples: if is_known { samples } else { Vec::new() },
     };

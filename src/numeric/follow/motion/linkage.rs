@@ -93,6 +93,22 @@ impl Moving<'_> {
     }
 }
 
+impl Moving<'_> {
+    /// Angular accelerations of all bodies in two states.
+    fn whirled(&self, states: [[f64; 2]; 2]) -> Option<Vec<(usize, [f64; 2])>> {
+        let bodies = self.linkage.places.iter().map(|(b, _)| *b);
+        let mut out: Vec<_> = bodies.map(|b| (b, [0.0; 2])).collect();
+        for (k, [s, rate]) in states.into_iter().enumerate() {
+            let (shape, second) = (self.shape(s)?, self.acceleration(s, rate)?);
+            for (i, (_, angular)) in out.iter_mut().enumerate() {
+                let grown = shape.second[i][2] * rate * rate + shape.first[i][2] * second;
+                angular[k] = grown / (self.time * self.time);
+            }
+        }
+        Some(out)
+    }
+}
+
 impl Mobile for Moving<'_> {
     fn accelerations_of(&self, y: &[f64]) -> Option<Vec<f64>> {
         Some(vec![self.acceleration(y[0], y[1])?])
@@ -195,6 +211,8 @@ pub(in crate::numeric::follow) fn linkage(
             (body.angle, body.spin) = (angle, Ok(0.0));
         }
     }
+    let whirled = moving.whirled([[0.0, start[1]], [1.0, run.end[1]]]);
+    let whirled = whirled.ok_or_else(lost)?;
     let stride = run.samples.len().div_ceil(SAMPLES);
     let sample = |(at, y): &(f64, Vec<f64>)| {
         Some(Sample {
@@ -213,6 +231,7 @@ pub(in crate::numeric::follow) fn linkage(
         bodies,
         clockwise: None,
         reaction: None,
+        whirled,
         driven: Vec::new(),
         samples,
     };

@@ -37,6 +37,8 @@ pub struct Moved {
     pub clockwise: Option<bool>,
     /// Force of the fixed point of a rotation on the bodies, at the beginning and at the end \[N\].
     pub reaction: Option<[[Component; 2]; 2]>,
+    /// Index of each body of a rotation or a linkage, with its angular acceleration at the beginning and at the end [rad/s²].
+    pub whirled: Vec<(usize, [f64; 2])>,
     /// What drives each body of a motion along a line; empty for other motions.
     pub driven: Vec<Driven>,
     /// Places on the way, for pictures; empty where something is open.
@@ -221,6 +223,7 @@ fn all_open(
         bodies: bodies.to_vec(),
         clockwise: None,
         reaction: None,
+        whirled: Vec::new(),
         driven: Vec::new(),
         samples: Vec::new(),
     };

@@ -230,6 +230,7 @@ pub(in crate::numeric::follow) fn slide(
         bodies: bodies.to_vec(),
         clockwise: None,
         reaction: None,
+        whirled: Vec::new(),
         driven,
         samples,
     };

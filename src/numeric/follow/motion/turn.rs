@@ -348,6 +348,13 @@ pub(in crate::numeric::follow) fn turn(
         force.map(|f| f.map(Ok)).ok_or_else(lost)
     };
     let reaction = [force(&begin)?, force(&run.end)?];
+    let angular = |y: &[f64]| {
+        let found = rotation.accelerations(rotation.way, y);
+        let lost = || course.out_of_reach("the angular acceleration has no value");
+        let square = units.time * units.time;
+        found.map(|a| a / square).ok_or_else(lost)
+    };
+    let angular = [angular(&begin)?, angular(&run.end)?];
     let is_pushed = rotation.is_balanced && run.time > 0.0 && !matches!(turn.until, Until::For(_));
     let (mut after, samples) = rotation.movers.ended(course, units, &run, &before);
     let time = match is_pushed {
@@ -356,9 +363,10 @@ pub(in crate::numeric::follow) fn turn(
     };
     others(course, &before, &mut after, &bodies, &time, has_forces);
     let moved = Moved {
-        bodies,
         clockwise: Some(rotation.way < 0.0),
         reaction: Some(reaction),
+        whirled: bodies.iter().map(|b| (*b, angular)).collect(),
+        bodies,
         driven: Vec::new(),
         samples,
     };
