@@ -393,18 +393,15 @@ impl Parts {
         }
         let words = "entry of the inverse effective mass at the contact";
         let a = self.named(work, "a_W", Expr::sum(a), words);
+        let b = (!b.is_empty()).then(|| self.named(work, "b_W", Expr::sum(b), words));
         let c = self.named(work, "c_W", Expr::sum(c), words);
-        let sizes = if b.is_empty() {
-            [-(&ux / &a), -(&uy / &c)]
-        } else {
-            let b = self.named(work, "b_W", Expr::sum(b), words);
-            let det = self.named(
-                work,
-                "D_W",
-                &a * &c - b.powi(2),
-                "determinant of the inverse effective mass",
-            );
-            [(&b * &uy - &c * &ux) / &det, (&b * &ux - &a * &uy) / &det]
+        let sizes = match b {
+            None => [-(&ux / &a), -(&uy / &c)],
+            Some(b) => {
+                let words = "determinant of the inverse effective mass";
+                let det = self.named(work, "D_W", &a * &c - b.powi(2), words);
+                [(&b * &uy - &c * &ux) / &det, (&b * &ux - &a * &uy) / &det]
+            }
         };
         let impulse = [0, 1].map(|axis| {
             let words = format!("impulse at the contact along {}", ["x", "y"][axis]);
@@ -427,14 +424,20 @@ impl Parts {
             }
             if !body.is_particle() {
                 let before = work.tidy(&body.spin)?;
-                let moment = [(0, 1, sign.clone()), (1, 0, -sign)];
-                let mut after = before;
-                for (axis, other, sign) in moment {
-                    let gain = work.tidy(&(sign * &arms[side][axis] / &body.inertia))?;
-                    if !gain.is_zero() {
-                        after = after + gain * &impulse[other];
-                    }
-                }
+                let [x, y] = &arms[side];
+                let inertia = work.tidy(&body.inertia)?;
+                let [px, py] = &impulse;
+                let gain = match (x.is_zero(), y.is_zero()) {
+                    (_, true) => work.tidy(&(x / &inertia))? * py,
+                    (true, false) => -(work.tidy(&(y / &inertia))? * px),
+                    (false, false) => (x * py - y * px) / inertia,
+                };
+                let is_turned = !(x.is_zero() && y.is_zero());
+                let after = if is_turned {
+                    before + sign * gain
+                } else {
+                    before
+                };
                 self.values.insert(Unknown::Spin(i), after);
             }
         }
