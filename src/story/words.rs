@@ -1,7 +1,10 @@
 //! Sentences about stages, made from what was found of them: what happens, which forces have impulses, what is open.
 
+use std::collections::BTreeMap;
+
 use super::{Case, StageTold, change};
-use crate::answer::calc::is_zero;
+use crate::algebra::Sign;
+use crate::answer::calc::{Seen, is_zero, sign, tidy};
 use crate::derive;
 use crate::expr::Expr;
 use crate::formula::{Sentence, sentence};
@@ -67,13 +70,35 @@ pub(super) fn leading(stages: &[StageTold], parent: usize, case: usize) -> Strin
     parts.join("; ")
 }
 
-/// `a − h ≥ 0 and b ≥ 0`.
-fn conditions(case: &Case) -> Sentence {
-    let each = case
-        .conditions
-        .iter()
-        .map(|(_, e)| Sentence::not_negative(e));
-    Sentence::join(each, " and ")
+impl Case {
+    /// What must hold for it: `a ≥ h and b ≥ 0`, of a coefficient of friction as a bound on it.
+    pub fn holds_where(&self) -> Sentence {
+        let each = self.conditions.iter().map(|(_, e)| self.states(e));
+        Sentence::join(each, " and ")
+    }
+
+    /// `e ≥ 0` as a bound on the coefficient of friction, where it is one on the whole domain.
+    fn states(&self, e: &Expr) -> Sentence {
+        let mut contacts = self.scene.contacts.iter();
+        let coefficient = contacts.find_map(|c| match &c.law {
+            ContactLaw::Decided(decided) => decided.law.mu.as_symbol().cloned(),
+            _ => None,
+        });
+        let bound = coefficient.and_then(|mu| {
+            let slope = tidy(&e.derivative(&mu), &self.scene.domains).ok()?;
+            let at_zero = BTreeMap::from([(mu.clone(), Expr::zero())]);
+            let relation = match sign(&slope, &self.scene.domains) {
+                Seen::Proved(Sign::Positive) => " ≥ ",
+                Seen::Proved(Sign::Negative) => " ≤ ",
+                _ => return None,
+            };
+            let right = -(e.substitute(&at_zero) / &slope);
+            let right = tidy(&right, &self.scene.domains).ok()?;
+            let free = !slope.symbols().contains(&mu) && !right.symbols().contains(&mu);
+            free.then(|| sentence![&mu, relation, &right])
+        });
+        bound.unwrap_or_else(|| Sentence::not_negative(e))
+    }
 }
 
 /// What happens in a stage.
@@ -96,7 +121,7 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                 // Of several, an outcome is one sentence, with the condition that it hangs on.
                 if several && !case.conditions.is_empty() && !all.is_empty() {
                     let does = Sentence::join(all, "; ");
-                    out.push(sentence!["where ", conditions(case), ": ", does]);
+                    out.push(sentence!["where ", case.holds_where(), ": ", does]);
                 } else {
                     out.extend(all);
                 }
@@ -329,7 +354,7 @@ pub(super) fn impulsive(told: &StageTold) -> Vec<Sentence> {
             cases.push(if case.conditions.is_empty() {
                 size
             } else {
-                sentence![size, " where ", conditions(case)]
+                sentence![size, " where ", case.holds_where()]
             });
         }
         out.push(sentence![

@@ -179,7 +179,12 @@ impl Page<'_> {
             text.push(say("."));
             self.solution.text(text);
         }
-        if let Some(words) = known::worth_telling(&told.checks, self.solution.detail) {
+        // Why it cannot happen stands at the head of the solution.
+        let refusals = self.told.refusals();
+        let told_first = |words: &String| refusals.iter().any(|r| r.ends_with(words.as_str()));
+        let checks = told.checks.iter().filter(|c| !told_first(&c.words));
+        let checks: Vec<_> = checks.cloned().collect();
+        if let Some(words) = known::worth_telling(&checks, self.solution.detail) {
             self.solution
                 .text(vec![say(sentence::called(self.scene, &words))]);
         }
@@ -231,13 +236,7 @@ impl Page<'_> {
         };
         if several {
             let mut heading = vec![say(format!("Case {}: ", k + 1))];
-            heading.extend(sentence::sentence(
-                self.scene,
-                &Sentence::join(
-                    (case.conditions.iter()).map(|(_, e)| Sentence::not_negative(e)),
-                    " and ",
-                ),
-            ));
+            heading.extend(sentence::sentence(self.scene, &case.holds_where()));
             self.solution.section(1, heading);
         }
         let (scene, derivation) = case.asked();
