@@ -40,7 +40,7 @@ fn plot(
     name: &Text,
     file: &PlotFile,
 ) -> Option<PlotAsk> {
-    let symbols = base.symbols.extended(&names);
+    let symbols = base.symbols.extended(names);
     let stands_for = match (&file.stands_for, &file.varying) {
         (Some(f), Some(varying)) => Some((formula(base, &symbols, f)?, parameter(base, varying)?)),
         (None, None) => {
