@@ -15,6 +15,7 @@ mod extremes;
 mod flags;
 mod vanishing;
 
+pub use extremes::RANGES;
 pub use flags::{approach, flags};
 
 /// Points that share one extreme.

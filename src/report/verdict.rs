@@ -4,9 +4,13 @@
 
 use super::errors::digits_lost;
 use super::measure::Report;
+use super::routes::Route;
+use super::sample::RANGES;
 
-/// An error up to which a route counts as accurate \[ulp\]: sixteen units leave fifteen digits.
+/// An error up to which a route counts as accurate at usual values \[ulp\]: sixteen units leave fifteen digits.
 const ACCURATE: f64 = 16.0;
+/// The same for its stability anywhere: it loses no more than a change of the data's last digits by as much would.
+const STABLE: f64 = 16.0;
 
 /// Fills in dominance and verdict.
 pub fn judge(report: &mut Report) {
@@ -36,39 +40,61 @@ fn verdict(report: &Report) -> String {
     let Some(quick) = fastest(&|_| true) else {
         return "no route has an answer".into();
     };
-    let safe = fastest(&|r| r.worst <= ACCURATE);
-    match safe {
-        Some(best) if best.route == quick.route => format!(
-            "Use {}: it is the fastest route here ({}) and stays within {} ulp on everything measured.",
-            advised(best.words),
-            nanoseconds(best.seconds[1]),
-            short(best.worst)
+    // What no route could keep from rounded data is no fault of a route: near a zero of the answer every one loses digits.
+    let sound = fastest(&|r| r.usual_max <= ACCURATE && stability(report, r.route) <= STABLE);
+    let best = sound.unwrap_or_else(|| {
+        let calmest = report.routes.iter();
+        calmest
+            .min_by(|a, b| a.stability.total_cmp(&b.stability))
+            .unwrap_or(quick)
+    });
+    let mut out = format!(
+        "Use {}: {}, within {} ulp at usual values",
+        advised(best.words),
+        nanoseconds(best.seconds[1]),
+        short(best.usual_max)
+    );
+    out.push_str(&match best.worst {
+        worst if worst <= ACCURATE => format!(" and {} ulp on everything measured.", short(worst)),
+        worst if worst.is_infinite() => format!(
+            " and at most {} times what rounding the data by half a unit loses, while nothing leaves the range of doubles ({}).",
+            short(stability(report, best.route)),
+            best.worst_family
         ),
-        Some(best) => format!(
-            "Use {}: {} and within {} ulp on everything measured; {} takes {} but loses up to {:.0} digits ({}).",
-            advised(best.words),
-            nanoseconds(best.seconds[1]),
-            short(best.worst),
-            advised(quick.words),
+        _ => format!(
+            "; at the extremes ({}) it loses {:.0} digits, {} times what rounding the data by half a unit loses there.",
+            best.worst_family,
+            digits_lost(best.worst),
+            short(best.stability)
+        ),
+    });
+    if best.route != quick.route {
+        out.push_str(&format!(
+            " {} takes {}, with {} ulp at usual values and up to {} times the loss by rounded data.",
+            capital(&advised(quick.words)),
             nanoseconds(quick.seconds[1]),
-            digits_lost(quick.worst),
-            quick.worst_family
-        ),
-        None => {
-            let calm = report
-                .routes
-                .iter()
-                .min_by(|a, b| a.worst.total_cmp(&b.worst))
-                .unwrap_or(quick);
-            format!(
-                "No route stays within {ACCURATE} ulp everywhere: {} is closest with {} ulp ({}), at {}.",
-                advised(calm.words),
-                short(calm.worst),
-                calm.worst_family,
-                nanoseconds(calm.seconds[1])
-            )
-        }
+            short(quick.usual_max),
+            short(stability(report, quick.route))
+        ));
     }
+    out
+}
+
+/// The largest stability factor of a route where nothing leaves the range of doubles.
+fn stability(report: &Report, route: Route) -> f64 {
+    let families = report.families.iter();
+    let families = families.filter(|f| !RANGES.contains(&f.name.as_str()));
+    let rows = families.flat_map(|f| &f.rows);
+    let cells = rows.flat_map(|row| &row.cells).filter(|c| c.route == route);
+    cells.map(|c| c.stability).fold(0.0, f64::max)
+}
+
+/// Words at the beginning of a sentence.
+fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or(String::new(), |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
 }
 
 /// A route as a sentence speaks of it.

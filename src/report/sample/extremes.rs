@@ -4,6 +4,9 @@ use super::{Draft, Family, Sampler, put, scale, steps};
 use crate::expr::{Expr, Symbol};
 use crate::scene::{ContactLaw, Shape};
 
+/// Families in which products leave the range of doubles.
+pub const RANGES: [&str; 2] = ["overflow", "underflow"];
+
 impl Sampler<'_> {
     /// A family in which some parameters are multiplied by 10^(power·k), k from `from` to `to`.
     fn multiplied(
@@ -134,7 +137,7 @@ impl Sampler<'_> {
             all
         };
         list.push(self.family(
-            "overflow",
+            RANGES[0],
             "all masses and speeds × 2^k: m v² up to 10^405".into(),
             "k".into(),
             &steps(0.0, 450.0, 90.0),
@@ -145,7 +148,7 @@ impl Sampler<'_> {
             },
         ));
         list.push(self.family(
-            "underflow",
+            RANGES[1],
             "all masses and lengths × 2^−k, speeds kept: m l² down to 10^−325".into(),
             "k".into(),
             &steps(0.0, 360.0, 90.0),
