@@ -105,6 +105,9 @@ impl Field {
         if let Some(sign) = self.by_relations(p) {
             return Some(sign);
         }
+        if let Some(sign) = self.by_ends(p, depth) {
+            return Some(sign);
+        }
         let found = self.by_substitution(p);
         if found == Found::Mixed {
             return None;
@@ -115,6 +118,41 @@ impl Field {
         proved(found)
             .or_else(|| self.by_conjugate(p, depth))
             .or_else(|| self.by_discriminant(p, depth))
+    }
+
+    /// What is of the first degree in an angle lies between its values at the ends of the angle's interval, which are
+    /// multiples of π and taken as they stand.
+    fn by_ends(&self, p: &Poly, depth: u32) -> Option<Sign> {
+        let name = |v: usize| match &self.gens[v].kind {
+            Kind::Symbol(name) => Some(name),
+            _ => None,
+        };
+        let variables = p.variables();
+        let mut all = variables.iter().copied();
+        let pi = all.find(|v| name(*v).is_some_and(|n| &**n == "pi"))?;
+        if depth == 0 {
+            return None;
+        }
+        let mut angles = variables
+            .into_iter()
+            .filter(|v| *v != pi && p.degree(*v) == 1);
+        angles.find_map(|v| {
+            let domain = self.domains.symbols.get(name(v)?)?;
+            let ends = [domain.low.as_ref()?, domain.high.as_ref()?];
+            let parts = p.by_power(v);
+            let [rest, slope] = parts.as_slice() else {
+                return None;
+            };
+            let turned = self.mul_poly(slope, &Poly::var(pi)).ok()?;
+            let at = |end: &Limit| {
+                let slope = if end.of_pi { &turned } else { slope };
+                let part = slope.scale(end.value.numer());
+                rest.scale(end.value.denom()).add(&part)
+            };
+            let [low, high] = ends.map(at);
+            let [low, high] = [self.sign_sub(&low, depth)?, self.sign_sub(&high, depth)?];
+            between([(low, ends[0].open), (high, ends[1].open)])
+        })
     }
 
     /// A + B√P with A and B of opposite signs has the sign of A² − B²P on A's side.
@@ -350,6 +388,23 @@ impl Field {
         };
         let (low, high) = (end(&domain.low, false), end(&domain.high, true));
         (low.is_some() && high.is_some()).then_some(Interval { low, high })
+    }
+}
+
+/// The sign of what lies between two values, each excluded or not.
+fn between(ends: [(Sign, bool); 2]) -> Option<Sign> {
+    let all = |f: fn(&Sign) -> bool| ends.iter().all(|(sign, _)| f(sign));
+    let any = |of: Sign| ends.iter().any(|(sign, _)| *sign == of);
+    // Strictly between a value of zero and one that is not, none is zero.
+    let no_zero = ends.iter().all(|(sign, open)| *sign != Sign::Zero || *open);
+    let weak = any(Sign::NotNegative) || any(Sign::NotPositive);
+    match () {
+        () if all(|s| *s == Sign::Zero) => Some(Sign::Zero),
+        () if all(|s| s.is_not_negative()) && !weak && no_zero => Some(Sign::Positive),
+        () if all(|s| s.is_not_negative()) => Some(Sign::NotNegative),
+        () if all(|s| s.flip().is_not_negative()) && !weak && no_zero => Some(Sign::Negative),
+        () if all(|s| s.flip().is_not_negative()) => Some(Sign::NotPositive),
+        () => None,
     }
 }
 

@@ -215,7 +215,12 @@ pub(super) fn angle(
         by = match sign(&(&way * &by), &scene.domains).side() {
             Some(true) => by,
             Some(false) => tidied(&(&by + &(way * Expr::from(2) * Expr::pi())))?,
-            None => return Err(refused(String::from("which way round is not decided"))),
+            None => {
+                out.form = Form::Open(Vec::new());
+                let words = "not determined: the sign of the angle between its ends is not decided";
+                out.text.push(Sentence::words(words));
+                return Ok(out);
+            }
         };
     }
     let value = if clockwise { -by } else { by };
