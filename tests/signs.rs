@@ -176,3 +176,66 @@ fn a_proved_sign_holds_at_every_exact_point_with_ends_and_corners() {
     );
     assert!(missed * 4 < cases(), "{missed} signs not decided");
 }
+
+#[test]
+fn a_proved_sign_of_what_is_linear_in_an_angle_holds_with_its_ends() {
+    let (mut strict, mut weak) = (0, 0);
+    for case in 0..cases() {
+        let mut rng = Rng::new(case);
+        let a = interval(&mut rng);
+        let from = rng.below(8) as i64 - 4;
+        let to = from + 1 + rng.below(6) as i64;
+        let open = [rng.below(2) == 0, rng.below(2) == 0];
+        let mut domains = Domains::default();
+        let [low, high] = [(from, open[0]), (to, open[1])];
+        let domain = Domain {
+            low: Some(Limit::pi(ratio(low.0, 4), low.1)),
+            high: Some(Limit::pi(ratio(high.0, 4), high.1)),
+        };
+        domains.symbols.insert("a".into(), a.0.clone());
+        domains.symbols.insert("t".into(), domain);
+        let number = |rng: &mut Rng| Expr::ratio(rng.below(9) as i64 - 4, 4);
+        let [mut c, mut d, f, k] = [(); 4].map(|()| number(&mut rng));
+        if rng.below(2) == 0 {
+            // It vanishes at the lower end.
+            [c, d] = [&f, &k].map(|slope| slope * &Expr::ratio(-from, 4));
+        }
+        // The same in units of π, where its values are fractions.
+        let linear = |pi: &Expr| {
+            let (a, t) = (Expr::symbol("a"), Expr::symbol("t"));
+            (&c + &(&d * &a)) * pi + (&f + &(&k * &a)) * t
+        };
+        let (e, in_turns) = (linear(&Expr::pi()), linear(&Expr::one()));
+        let mut field = Field::new(&domains);
+        field.prepare([&e]);
+        let Some(sign) = field.element(&e).ok().and_then(|x| field.sign(&x)) else {
+            continue;
+        };
+        match sign {
+            Sign::Positive | Sign::Negative => strict += 1,
+            _ => weak += 1,
+        }
+        let step = ratio(to - from, 24);
+        let first = i64::from(open[0]);
+        for part in first..=24 - i64::from(open[1]) {
+            for x in &a.1 {
+                let mut at = Point::<Rational>::default();
+                at.values.insert("a".into(), x.clone());
+                at.values.insert(
+                    "t".into(),
+                    ratio(from, 4) + &step / ratio(4, 1) * ratio(part, 1),
+                );
+                let value = in_turns.evaluate(&at).expect("no quotient");
+                assert!(
+                    holds(sign, &value),
+                    "case {case}: {e:?} is {value} pi, not {sign:?}, at {at:?} of {domains:?}"
+                );
+            }
+        }
+    }
+    println!("{strict} strict signs and {weak} others");
+    assert!(
+        strict > cases() / 20 && weak > cases() / 50,
+        "{strict} {weak}"
+    );
+}
