@@ -4,6 +4,10 @@ use super::{Moved, Movers, REST, Units, all_open, others, stopped};
 use crate::numeric::follow::mechanism::{Asked, Goal, Mechanism, Mobile, Run};
 use crate::numeric::follow::{BodyState, Component, Course, Lost, Open, Passed, State, What, Why};
 use crate::scene::{Fall, FallEnd};
+
+/// Said of a height that is not on the way.
+const NEVER: &str = "it does not get to this height";
+
 /// How a flight ends.
 enum End {
     Time(f64),
@@ -115,6 +119,29 @@ fn flight(
     (end, is_rising): (&End, bool),
 ) -> Result<(Units, Run), Lost> {
     let [.., u, v, _] = movers.states[0];
+    let units = units_of(movers, gravity, end);
+    let mechanism = free(movers, gravity, &units);
+    let start = movers.start(&units);
+    let run = match end {
+        End::Time(time) => mechanism
+            .lasting(&start, time / units.time)
+            .map_err(|stop| stopped(course, stop, NEVER))?,
+        End::Range(range) => to_range(course, &mechanism, &start, (range / units.length, u))?,
+        End::Height(height) => {
+            let height = height / units.length;
+            match (gravity > 0.0, is_rising) {
+                (false, _) => straight(course, &mechanism, &start, (height, v, gravity))?,
+                (true, true) => upward(course, &mechanism, &start, (height, v))?,
+                (true, false) => over_the_top(course, &mechanism, &start, height)?,
+            }
+        }
+    };
+    Ok((units, run))
+}
+
+/// Units of the order of the flight.
+fn units_of(movers: &Movers, gravity: f64, end: &End) -> Units {
+    let [.., u, v, _] = movers.states[0];
     let time = match end {
         End::Time(time) => *time,
         End::Height(h) if gravity > 0.0 => {
@@ -136,13 +163,17 @@ fn flight(
     };
     let length = size.max(u.hypot(v) * time).max(gravity.abs() * time * time);
     let mass = movers.inertias.iter().fold(0.0, |a: f64, i| a.max(i[0]));
-    let units = Units {
+    Units {
         length: if length > 0.0 { length } else { 1.0 },
         time: time / 8.0,
         mass: if mass > 0.0 { mass } else { 1.0 },
-    };
+    }
+}
+
+/// Bodies that nothing but weight acts on.
+fn free(movers: &Movers, gravity: f64, units: &Units) -> Mechanism {
     let weight = |m: f64| [0.0, -m * gravity / units.force(), 0.0];
-    let mut inertias = movers.scaled(&units);
+    let mut inertias = movers.scaled(units);
     // Without forces and moments on it, inertia does not matter; none would leave the equations open.
     for (inertia, _) in inertias.iter_mut().zip(&movers.bodies) {
         inertia[1] = inertia[1].max(1.0);
@@ -152,75 +183,94 @@ fn flight(
         .iter()
         .map(|[m, _]| weight(m * units.mass))
         .collect();
-    let mechanism = Mechanism {
+    Mechanism {
         inertias,
         constraints: Vec::new(),
         forces,
         asked: Asked::default(),
-    };
-    let start = movers.start(&units);
-    let n = start.len() / 2;
-    let stopped = |stop| stopped(course, stop, "it does not get to this height");
-    let height = match end {
-        End::Time(time) => {
-            let run = mechanism
-                .lasting(&start, time / units.time)
-                .map_err(stopped)?;
-            return Ok((units, run));
-        }
-        End::Height(height) => height / units.length,
-        End::Range(range) => {
-            let (far, way) = (range / units.length, if *range < 0.0 { -1.0 } else { 1.0 });
-            let sideways = |y: &[f64]| y[n];
-            let mut goal = Goal {
-                left: &|y| way * (y[0] - far),
-                rate: &|_| 1.0,
-                never: &mut |y, _| way * sideways(y) <= 0.0,
-            };
-            let never = || course.never("it does not move that way");
-            if *range != 0.0 && way * u <= 0.0 {
-                return Err(never());
-            }
-            let run = mechanism.until(&start, &mut goal).map_err(stopped)?;
-            return Ok((units, run));
-        }
-    };
-    let never = || course.never("it does not get to this height");
-    let rising = |y: &[f64]| y[n + 1];
-    if gravity <= 0.0 {
-        let way = if height < 0.0 { -1.0 } else { 1.0 };
-        if height != 0.0 && way * -v <= 0.0 && gravity * way <= 0.0 {
-            return Err(never());
-        }
-        let mut goal = Goal {
-            left: &|y| way * (-y[1] - height),
-            rate: &rising,
-            never: &mut |y, _| way * -rising(y) <= 0.0,
-        };
-        let run = mechanism.until(&start, &mut goal).map_err(stopped)?;
-        return Ok((units, run));
     }
-    if is_rising {
-        if height > 0.0 || v < 0.0 {
-            return Err(never());
-        }
-        let mut goal = Goal {
-            left: &|y| y[1] + height,
-            rate: &rising,
-            never: &mut |y, _| rising(y) <= 0.0,
-        };
-        let run = mechanism.until(&start, &mut goal).map_err(stopped)?;
-        return Ok((units, run));
+}
+
+/// Velocity upward of the body that decides the end.
+fn rising(y: &[f64]) -> f64 {
+    y[y.len() / 2 + 1]
+}
+
+/// A flight sideways over a range.
+fn to_range(
+    course: &Course<'_>,
+    mechanism: &Mechanism,
+    start: &[f64],
+    (far, u): (f64, f64),
+) -> Result<Run, Lost> {
+    let way = if far < 0.0 { -1.0 } else { 1.0 };
+    if far != 0.0 && way * u <= 0.0 {
+        return Err(course.never("it does not move that way"));
     }
-    // Up to the highest place first: the stage ends on the way down.
+    let mut goal = Goal {
+        left: &|y| way * (y[0] - far),
+        rate: &|_| 1.0,
+        never: &mut |y, _| way * y[y.len() / 2] <= 0.0,
+    };
+    let run = mechanism.until(start, &mut goal);
+    run.map_err(|stop| stopped(course, stop, NEVER))
+}
+
+/// A flight without weight, or against one that pulls upward, down through a height.
+fn straight(
+    course: &Course<'_>,
+    mechanism: &Mechanism,
+    start: &[f64],
+    (height, v, gravity): (f64, f64, f64),
+) -> Result<Run, Lost> {
+    let way = if height < 0.0 { -1.0 } else { 1.0 };
+    if height != 0.0 && way * -v <= 0.0 && gravity * way <= 0.0 {
+        return Err(course.never(NEVER));
+    }
+    let mut goal = Goal {
+        left: &|y| way * (-y[1] - height),
+        rate: &rising,
+        never: &mut |y, _| way * -rising(y) <= 0.0,
+    };
+    let run = mechanism.until(start, &mut goal);
+    run.map_err(|stop| stopped(course, stop, NEVER))
+}
+
+/// A flight that ends at a height on the way up.
+fn upward(
+    course: &Course<'_>,
+    mechanism: &Mechanism,
+    start: &[f64],
+    (height, v): (f64, f64),
+) -> Result<Run, Lost> {
+    if height > 0.0 || v < 0.0 {
+        return Err(course.never(NEVER));
+    }
+    let mut goal = Goal {
+        left: &|y| y[1] + height,
+        rate: &rising,
+        never: &mut |y, _| rising(y) <= 0.0,
+    };
+    let run = mechanism.until(start, &mut goal);
+    run.map_err(|stop| stopped(course, stop, NEVER))
+}
+
+/// A flight that ends at a height on the way down: up to the highest place first.
+fn over_the_top(
+    course: &Course<'_>,
+    mechanism: &Mechanism,
+    start: &[f64],
+    height: f64,
+) -> Result<Run, Lost> {
+    let stopped = |stop| stopped(course, stop, NEVER);
     let mut top = Goal {
         left: &|y| -rising(y),
         rate: &|_| 1.0,
         never: &mut |_, _| false,
     };
-    let up = mechanism.until(&start, &mut top).map_err(stopped)?;
+    let up = mechanism.until(start, &mut top).map_err(stopped)?;
     if -up.end[1] - height > REST {
-        return Err(never());
+        return Err(course.never(NEVER));
     }
     let mut down = Goal {
         left: &|y| -y[1] - height,
@@ -231,5 +281,5 @@ fn flight(
     let later = run.samples.drain(..).map(|(time, y)| (up.time + time, y));
     run.samples = up.samples.into_iter().chain(later.skip(1)).collect();
     run.time += up.time;
-    Ok((units, run))
+    Ok(run)
 }

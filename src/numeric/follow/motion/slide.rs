@@ -105,21 +105,7 @@ pub(in crate::numeric::follow) fn slide(
     let [pull, rubs] = [pull, rubs].map(|force| force / mass);
     let size = sizes(course, slide, &movers, &acting, [speed, pull, rubs])?;
     let turns = acting.contact.is_some();
-    let off = cross(&acting.along, &[u, v]).abs();
-    let turning = if turns { 0.0 } else { spin.abs() * size.length };
-    if off.max(turning) > ROUNDING * size.speed {
-        return Err(
-            course.contradiction("it does not begin to move along the line without turning")
-        );
-    }
-    if speed < -ROUNDING * size.speed {
-        return Err(course.contradiction("it begins to move against the direction of the line"));
-    }
-    for [.., a, b, _] in &movers.states[1..company] {
-        if (a - u).abs().max((b - v).abs()) > ROUNDING * size.speed {
-            return Err(course.contradiction("the bodies do not begin to move together"));
-        }
-    }
+    fits(course, &movers.states[..company], &acting, &size)?;
     ropes.fits(course, &movers, speed, size.speed)?;
     let units = Units {
         length: size.length,
@@ -131,17 +117,7 @@ pub(in crate::numeric::follow) fn slide(
     if slide.rolling && slip.abs() > ROUNDING * size.speed {
         return Err(course.contradiction("it slips when it is to begin to roll"));
     }
-    let mut guides = vec![across(0, acting.along)];
-    match (turns, slips) {
-        (false, _) => guides.push(fixed(2)),
-        (true, true) => {}
-        (true, false) => {
-            // The point of contact stays at rest along the line.
-            let [x, y] = acting.along;
-            let row = vec![(0, x), (1, y), (2, acting.arm() / units.length)];
-            guides.push(Constraint::Sum(row));
-        }
-    }
+    let guides = guides(&acting, slips, &units);
     let first = guides.len();
     let mut mechanism = on_line(&movers, &units, &acting, company, guides, &ropes);
     let mut start = movers.start(&units);
@@ -215,14 +191,12 @@ pub(in crate::numeric::follow) fn slide(
     let rates = mechanism.accelerations(&start).map(|(rates, _)| rates);
     let rates =
         rates.ok_or_else(|| course.out_of_reach("the equations of motion have no solution"))?;
-    let driven = directions
-        .iter()
-        .enumerate()
-        .filter(|(_, along)| **along != [0.0; 2]);
+    let acceleration = units.length / (units.time * units.time);
+    let driven = directions.iter().enumerate();
+    let driven = driven.filter(|(_, along)| **along != [0.0; 2]);
     let driven = driven.map(|(i, along)| Driven {
         body: bodies[i],
-        acceleration: dot(&[rates[3 * i], rates[3 * i + 1]], along) * units.length
-            / (units.time * units.time),
+        acceleration: dot(&[rates[3 * i], rates[3 * i + 1]], along) * acceleration,
         tension: ropes.pull(i, company, tensions).map(|t| t * units.force()),
     });
     let driven = driven.collect();
@@ -235,6 +209,51 @@ pub(in crate::numeric::follow) fn slide(
         samples,
     };
     Ok(course.passed(time, before, after, What::Motion(moved)))
+}
+
+/// The bodies begin to move together along the line, and turn only where they may.
+fn fits(
+    course: &Course<'_>,
+    states: &[[f64; 6]],
+    acting: &Acting,
+    size: &Sizes,
+) -> Result<(), Lost> {
+    let [.., u, v, spin] = states[0];
+    let off = cross(&acting.along, &[u, v]).abs();
+    let turning = match acting.contact {
+        Some(_) => 0.0,
+        None => spin.abs() * size.length,
+    };
+    if off.max(turning) > ROUNDING * size.speed {
+        return Err(
+            course.contradiction("it does not begin to move along the line without turning")
+        );
+    }
+    if dot(&[u, v], &acting.along) < -ROUNDING * size.speed {
+        return Err(course.contradiction("it begins to move against the direction of the line"));
+    }
+    for [.., a, b, _] in &states[1..] {
+        if (a - u).abs().max((b - v).abs()) > ROUNDING * size.speed {
+            return Err(course.contradiction("the bodies do not begin to move together"));
+        }
+    }
+    Ok(())
+}
+
+/// What keeps the body on its line: nothing across it, and no turning or no slip.
+fn guides(acting: &Acting, slips: bool, units: &Units) -> Vec<Constraint> {
+    let mut guides = vec![across(0, acting.along)];
+    match (acting.contact.is_some(), slips) {
+        (false, _) => guides.push(fixed(2)),
+        (true, true) => {}
+        (true, false) => {
+            // The point of contact stays at rest along the line.
+            let [x, y] = acting.along;
+            let row = vec![(0, x), (1, y), (2, acting.arm() / units.length)];
+            guides.push(Constraint::Sum(row));
+        }
+    }
+    guides
 }
 
 /// A length, a time and a speed of the order of the motion's.
