@@ -6,16 +6,20 @@ use std::collections::BTreeMap;
 use super::words::{self, say};
 use super::{Claim, Inline, Math, Part, Writer};
 use crate::algebra::{Field, Sign};
+use crate::answer::calc::{real, solve};
 use crate::answer::{Answer, Form};
+use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
 use crate::laws::Unknown;
-use crate::scene::{Ask, EnergyWhen};
+use crate::scene::{Ask, EnergyWhen, ImpulseAt, Parameter};
 
 /// Largest value, in nodes of its formula, that is worth a remark.
 const NOTICED: usize = 30;
 
 /// Remarks about limits that a reader is glad to have; more would bury them.
 const LIMITS: usize = 2;
+/// Largest value, in nodes, at which something vanishes that is worth a remark.
+const SHORT: usize = 8;
 /// Largest loss of energy, in nodes, that is worked out for a remark alone.
 const LONGEST: usize = 1_000;
 
@@ -26,6 +30,7 @@ impl Writer<'_> {
         items.extend(self.energy_remark());
         items.extend(self.signs());
         items.extend(self.independent());
+        items.extend(self.zeros());
         items.extend(self.limits());
         if items.is_empty() {
             return;
@@ -248,6 +253,91 @@ impl Writer<'_> {
             text
         };
         said.into_iter().map(depends).collect()
+    }
+
+    /// The one length or mass for which an impulse or a component of the motion vanishes: a hinge that feels nothing, a ball
+    /// that stops dead.
+    fn zeros(&mut self) -> Vec<Vec<Inline>> {
+        let lone = [Dimension::new(0, 1, 0), Dimension::new(1, 0, 0)];
+        let mut said: Vec<(Vec<Symbol>, Inline, bool)> = Vec::new();
+        for (answer, closed) in self.closed() {
+            let mut questions = self.scene.asked_of_impact();
+            let ask = questions
+                .find(|q| q.name == answer.question)
+                .map(|q| &q.ask);
+            let at_hinge = matches!(
+                ask,
+                Some(Ask::Impulse {
+                    from: ImpulseAt::Hinge(_),
+                    ..
+                })
+            );
+            let asked = matches!(
+                ask,
+                Some(Ask::Impulse { .. } | Ask::Velocity { .. } | Ask::Spin { .. })
+            );
+            if !asked || closed.is_zero() || closed.size() > 2 * NOTICED {
+                continue;
+            }
+            // Where a body is hit is chosen more freely than how long it is.
+            let is_size = |p: &&Parameter| {
+                let mut bodies = self.scene.bodies.iter();
+                bodies.any(|b| b.inertia.mentions(&p.name))
+            };
+            let parameters = self.scene.parameters.iter();
+            let (sizes, places): (Vec<_>, Vec<_>) = parameters.partition(is_size);
+            let zero = places
+                .into_iter()
+                .chain(sizes)
+                .filter(|p| lone.contains(&p.dimension) && closed.mentions(&p.name))
+                .find_map(|p| {
+                    let roots = solve(&closed, &p.name, &self.scene.domains).ok()?;
+                    let [root] = roots.inside.as_slice() else {
+                        return None;
+                    };
+                    let tells = root.proved && root.given.is_empty() && !root.value.is_zero();
+                    let tells = tells && self.fits(&p.name, &root.value);
+                    (tells && root.value.size() <= SHORT).then(|| {
+                        (
+                            p.dimension == lone[0],
+                            words::equation(&Expr::symbol(&p.name), &root.value),
+                        )
+                    })
+                });
+            if let Some((is_length, at)) = zero {
+                let name = Symbol::from(answer.name.as_str());
+                match said.iter_mut().find(|(_, where_, _)| *where_ == at) {
+                    Some((names, ..)) => names.push(name),
+                    None => said.push((vec![name], at, at_hinge && is_length)),
+                }
+            }
+        }
+        said.truncate(LIMITS);
+        let each = said.into_iter().map(|(names, at, percussion)| {
+            let verb = if names.len() == 1 {
+                " vanishes for "
+            } else {
+                " vanish for "
+            };
+            let mut text = words::symbols(&names, " and ");
+            text.extend([say(verb), at]);
+            text.push(say(match percussion {
+                true => ", where the center of percussion is hit.",
+                false => ".",
+            }));
+            text
+        });
+        each.collect()
+    }
+
+    /// Whether every place of the scene is real with a value for a parameter.
+    fn fits(&self, name: &Symbol, value: &Expr) -> bool {
+        let put = BTreeMap::from([(name.clone(), value.clone())]);
+        let contacts = self.scene.contacts.iter();
+        let places = contacts.flat_map(|c| c.at.iter().chain(c.normal.iter().flatten()));
+        let centers = self.scene.bodies.iter().flat_map(|b| &b.center);
+        let mut places = places.chain(centers).filter(|e| e.mentions(name));
+        places.all(|e| real(&e.substitute(&put), &self.scene.domains).is_empty())
     }
 
     /// Ends of domains and one mass much larger than the others, where an answer becomes zero or much shorter.
