@@ -115,8 +115,15 @@ pub fn answer(
             Ok(Answer::Scalar(far))
         }
         Ask::Angle { body, clockwise } => {
+            let turned = match &passed.what {
+                What::Motion(moved) if moved.bodies.contains(body) => moved.turned,
+                _ => None,
+            };
             let [from, to] = [before, &passed.after].map(|s| s.bodies[*body].angle.clone());
-            let by = to? - from?;
+            let by = match turned {
+                Some(by) => by,
+                None => to? - from?,
+            };
             Ok(Answer::Scalar(if *clockwise { -by } else { by }))
         }
         Ask::Position {

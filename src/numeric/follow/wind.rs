@@ -41,11 +41,7 @@ pub(super) fn wind(course: &Course<'_>, before: State, wind: &Wind) -> Result<Pa
     others(course, &before, &mut after, &[wind.body], &time, false);
     let moved = Moved {
         bodies: vec![wind.body],
-        clockwise: None,
-        reaction: None,
-        whirled: Vec::new(),
-        driven: Vec::new(),
-        samples: Vec::new(),
+        ..Moved::default()
     };
     Ok(course.passed(time, before, after, What::Motion(moved)))
 }

@@ -192,19 +192,22 @@ pub(super) fn angle(
     let tidied = |e: &Expr| {
         tidy(e, &scene.domains).map_err(|stop| refused(format!("not calculated: {stop}")))
     };
-    // An arc reads best as the motion left it; what stands beside it cancels.
-    let is_arc = |part: &Expr| {
-        use Function::{Acos, Asin, Atan};
-        matches!(part.node(), Node::Call(Acos | Asin | Atan, _))
-    };
-    let whole = ends[1] - ends[0];
-    let terms = match whole.node() {
+    // An arc cosine reads best as the motion left it; what both ends have in common cancels.
+    let terms = |e: &Expr| match e.node() {
         Node::Sum(terms) => terms.clone(),
-        _ => vec![whole.clone()],
+        _ => vec![e.clone()],
     };
-    let (arcs, plain): (Vec<Expr>, Vec<Expr>) =
-        terms.into_iter().partition(|t| t.parts().any(is_arc));
-    let mut by = Expr::sum(arcs) + tidied(&Expr::sum(plain))?;
+    let (mut from, mut to) = (terms(ends[0]), terms(ends[1]));
+    to.retain(|term| match from.iter().position(|t| t == term) {
+        Some(i) => {
+            from.remove(i);
+            false
+        }
+        None => true,
+    });
+    let is_arc = |part: &Expr| matches!(part.node(), Node::Call(Function::Acos, _));
+    let (arcs, plain): (Vec<Expr>, Vec<Expr>) = to.into_iter().partition(|t| t.parts().any(is_arc));
+    let mut by = Expr::sum(arcs) + tidied(&(Expr::sum(plain) - Expr::sum(from)))?;
     if let StageKind::Turn(turn) = &told.placed.kind
         && matches!(turn.until, Until::Above | Until::Below)
         && turn.bodies().contains(&body)

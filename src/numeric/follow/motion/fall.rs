@@ -86,11 +86,8 @@ pub(in crate::numeric::follow) fn fall(
     );
     let moved = Moved {
         bodies,
-        clockwise: None,
-        reaction: None,
-        whirled: Vec::new(),
-        driven: Vec::new(),
         samples: if is_known { samples } else { Vec::new() },
+        ..Moved::default()
     };
     Ok(course.passed(time, before, after, What::Motion(moved)))
 }

@@ -229,11 +229,9 @@ pub(in crate::numeric::follow) fn linkage(
     others(course, &before, &mut after, &bodies, &time, has_forces);
     let moved = Moved {
         bodies,
-        clockwise: None,
-        reaction: None,
         whirled,
-        driven: Vec::new(),
         samples,
+        ..Moved::default()
     };
     Ok(course.passed(time, before, after, What::Motion(moved)))
 }

@@ -29,12 +29,14 @@ const NUDGE: f64 = 1e-6;
 const SAMPLES: usize = 400;
 
 /// What bodies did during a motion.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Moved {
     /// Indices of the bodies that the stage moves.
     pub bodies: Vec<usize>,
     /// Sense of a rotation.
     pub clockwise: Option<bool>,
+    /// Angle of a rotation about a point, counterclockwise \[rad\]: of a particle too, which has none of its own.
+    pub turned: Option<f64>,
     /// Force of the fixed point of a rotation on the bodies, at the beginning and at the end \[N\].
     pub reaction: Option<[[Component; 2]; 2]>,
     /// Index of each body of a rotation or a linkage, with its angular acceleration at the beginning and at the end [rad/s²].
@@ -221,11 +223,7 @@ fn all_open(
     others(course, &before, &mut after, bodies, &time, has_forces);
     let moved = Moved {
         bodies: bodies.to_vec(),
-        clockwise: None,
-        reaction: None,
-        whirled: Vec::new(),
-        driven: Vec::new(),
-        samples: Vec::new(),
+        ..Moved::default()
     };
     course.passed(time, before, after, What::Motion(moved))
 }

@@ -202,11 +202,9 @@ pub(in crate::numeric::follow) fn slide(
     let driven = driven.collect();
     let moved = Moved {
         bodies: bodies.to_vec(),
-        clockwise: None,
-        reaction: None,
-        whirled: Vec::new(),
         driven,
         samples,
+        ..Moved::default()
     };
     Ok(course.passed(time, before, after, What::Motion(moved)))
 }

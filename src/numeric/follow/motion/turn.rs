@@ -364,11 +364,12 @@ pub(in crate::numeric::follow) fn turn(
     others(course, &before, &mut after, &bodies, &time, has_forces);
     let moved = Moved {
         clockwise: Some(rotation.way < 0.0),
+        turned: Some(run.end[2] - begin[2]),
         reaction: Some(reaction),
         whirled: bodies.iter().map(|b| (*b, angular)).collect(),
         bodies,
-        driven: Vec::new(),
         samples,
+        ..Moved::default()
     };
     Ok(course.passed(time, before, after, What::Motion(moved)))
 }
