@@ -121,9 +121,9 @@ pub(super) fn put(
         .collect();
     let e = e.substitute(known).substitute(&with);
     if e.size() > LONGEST {
-        return Err(refused(String::from("not calculated: too long"), ""));
+        return Err(Refused::uncalculated(name, "too long"));
     }
-    tidy(&e, &scene.domains).map_err(|stop| refused(format!("not calculated: {stop}"), ""))
+    tidy(&e, &scene.domains).map_err(|stop| Refused::uncalculated(name, stop))
 }
 
 fn is_parameter(scene: &Scene, name: &Symbol) -> bool {

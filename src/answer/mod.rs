@@ -248,6 +248,10 @@ impl fmt::Display for Refused {
 
 impl std::error::Error for Refused {}
 
+/// What to do where formulas get too long.
+pub const TOO_LONG: &str =
+    "give some parameters numbers by `value`, or let `carom solve` follow the scene in numbers";
+
 impl Refused {
     /// Refuses what stands at a place.
     pub fn at(at: String, reason: impl Into<String>, hint: impl Into<String>) -> Refused {
@@ -262,5 +266,10 @@ impl Refused {
     /// Refuses a question.
     pub fn question(name: &str, reason: impl Into<String>, hint: impl Into<String>) -> Refused {
         Refused::at(format!("question `{name}`"), reason, hint)
+    }
+
+    /// Refuses a question whose answer the algebra did not work out.
+    pub fn uncalculated(name: &str, stop: impl fmt::Display) -> Refused {
+        Refused::question(name, format!("not calculated: {stop}"), TOO_LONG)
     }
 }

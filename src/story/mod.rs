@@ -22,7 +22,7 @@ pub use sheet::{beginning, impact, impacts, is_clockwise, sheet};
 
 use crate::algebra::Sign;
 use crate::answer::calc::{at_least_zero, constant};
-use crate::answer::{Answer, Check, Refused};
+use crate::answer::{Answer, Check, Refused, TOO_LONG};
 use crate::derive::{Derivation, Stop};
 use crate::domain::Domain;
 use crate::expr::{Expr, Symbol, Vector, minus};
@@ -358,7 +358,12 @@ impl Refused {
     }
 
     fn stop(stage: &str, stop: impl Into<Stop>) -> Refused {
-        Refused::new(stage, stop.into().to_string(), "")
+        let stop = stop.into();
+        let hint = match stop {
+            Stop::Limit(_) => TOO_LONG,
+            _ => "",
+        };
+        Refused::new(stage, stop.to_string(), hint)
     }
 }
 

@@ -32,7 +32,7 @@ pub(super) fn reaction(
     }
     let (way, _) = stage::sense(&told.placed, &told.before.spin[turn.body], turn)?;
     let value = bearing(&told.placed, told, turn, way, along, at_end)
-        .map_err(|stop| Refused::question(&question.name, format!("not calculated: {stop}"), ""))?;
+        .map_err(|stop| Refused::uncalculated(&question.name, stop))?;
     if at_end {
         out.assumptions = told.assumptions.clone();
     }
@@ -75,7 +75,7 @@ pub(super) fn angular_acceleration(
     };
     let value = if clockwise { -value } else { value };
     let value = tidy(&value, &told.placed.scene.domains)
-        .map_err(|stop| Refused::question(&question.name, format!("not calculated: {stop}"), ""))?;
+        .map_err(|stop| Refused::uncalculated(&question.name, stop))?;
     valued(
         &mut out,
         &value,
@@ -188,9 +188,8 @@ pub(super) fn angle(
         out.text.push(sentence!["not determined: ", why]);
         return Ok(out);
     }
-    let refused = |what: String| Refused::question(&question.name, what, "");
     let tidied = |e: &Expr| {
-        tidy(e, &scene.domains).map_err(|stop| refused(format!("not calculated: {stop}")))
+        tidy(e, &scene.domains).map_err(|stop| Refused::uncalculated(&question.name, stop))
     };
     // An arc cosine reads best as the motion left it; what both ends have in common cancels.
     let terms = |e: &Expr| match e.node() {
@@ -256,7 +255,7 @@ pub(super) fn position(
         return Ok(out);
     }
     let value = tidy(&dot(&state.center[body], along), &scene.domains)
-        .map_err(|stop| Refused::question(&question.name, format!("not calculated: {stop}"), ""))?;
+        .map_err(|stop| Refused::uncalculated(&question.name, stop))?;
     // An impact moves nothing, whatever its outcome.
     let rests_on_way = at_end && told.cases.is_empty();
     let assumptions = if rests_on_way {
@@ -290,8 +289,8 @@ pub(super) fn angular_momentum(
         out.text.push(sentence!["not determined: ", why]);
         return Ok(out);
     }
-    let value = tidy(&h, &scene.domains)
-        .map_err(|stop| Refused::question(&question.name, format!("not calculated: {stop}"), ""))?;
+    let value =
+        tidy(&h, &scene.domains).map_err(|stop| Refused::uncalculated(&question.name, stop))?;
     out.checks.push(Check {
         kind: "identity",
         words: format!(
