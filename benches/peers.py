@@ -182,7 +182,7 @@ def with_flint(matrix, right):
 def with_pari(matrix, right):
     """`matsolve` over rational functions."""
     pari = importlib.import_module("cypari").pari
-    pari.allocatemem(10 ** 9)
+    pari.allocatemem(10 ** 9, silent=True)
     text = lambda e: str(e).replace("**", "^")
     names = {str(s): f"{str(s)}_" for row in [*matrix, right] for e in row for s in e.free_symbols}
     own = lambda t: re.sub(r"[a-zA-Z_]\w*", lambda m: names[m[0]], t)
