@@ -6,7 +6,7 @@
 
 `pip install sympy python-flint cypari symengine pymunk` brings all but giac; a tool that is missing is told as missing.
 """
-import importlib, json, re, shutil, statistics, subprocess, sys, time
+import importlib, json, multiprocessing, re, shutil, statistics, subprocess, sys, time
 import sympy
 from sympy.parsing.sympy_parser import parse_expr
 
@@ -219,6 +219,10 @@ def median_of(solve, seconds=2.0):
     return statistics.median(times) * 1e6
 
 
+def solved(tool, scene):
+    return median_of(tool(*system(scene)))
+
+
 def derive():
     subprocess.run(["cargo", "build", "--release", "--quiet"], check=True)
     carom = medians("derive", "deriving", "proving", "chain")
@@ -233,7 +237,9 @@ def derive():
         row = f"{name:30} {derived:9.0f} {proved or float('nan'):9.0f}"
         for tool in tools.values():
             try:
-                theirs = median_of(tool(*system(scene)))
+                # In a process of its own, which a minute ends.
+                with multiprocessing.Pool(1) as pool:
+                    theirs = pool.apply_async(solved, (tool, scene)).get(60)
                 row += f"{theirs:13.0f} {theirs / derived:7.1f}x"
             except ImportError:
                 row += f"{'not installed':>22}"
