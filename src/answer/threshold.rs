@@ -140,13 +140,7 @@ fn argument(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Expr> {
         _ => None,
     });
     let (arc, function, inside) = arc?;
-    fn replaced(e: &Expr, part: &Expr, with: &Expr) -> Expr {
-        if e == part {
-            return with.clone();
-        }
-        e.map_parts(|inner| replaced(inner, part, with))
-    }
-    let at = |value: i64| tidy(&replaced(gap, arc, &Expr::from(value)), domains).ok();
+    let at = |value: i64| tidy(&gap.replace(arc, &Expr::from(value)), domains).ok();
     let [rest, one, two] = [at(0)?, at(1)?, at(2)?];
     let step = tidy(&(&one - &rest), domains).ok()?;
     let linear = is_zero(&(two - &one - &step), domains) == Some(true);

@@ -254,6 +254,14 @@ impl Expr {
             _ => self.map_parts(|part| part.substitute(values)),
         }
     }
+
+    /// Replaces one part throughout.
+    pub fn replace(&self, old: &Expr, new: &Expr) -> Expr {
+        match self == old {
+            true => new.clone(),
+            false => self.map_parts(|part| part.replace(old, new)),
+        }
+    }
 }
 
 impl PartialEq for Expr {

@@ -335,27 +335,17 @@ impl Trials {
                 outcomes.extend(at(&other, &plain));
             }
         }
-        let mut distinct: Vec<f64> = Vec::new();
-        let mut note = |value: f64| {
-            let known = |d: &f64| (d - value).abs() <= 1e-6 * value.abs();
-            if !distinct.iter().any(known) {
-                distinct.push(value);
+        Some(match self.rounding {
+            Some(room) => {
+                let size = self.targets[0].iter().fold(0.0f64, |m, v| m.max(v.abs()));
+                let values = outcomes.iter().flatten().filter_map(|v| v.first());
+                in_decade(size, values.map(|v| v.abs()), room)
             }
-        };
-        let Some(room) = self.rounding else {
-            let ratios = outcomes.iter().filter_map(|values| ratio(values));
-            ratios.for_each(|r| note(r.abs()));
-            return Some(distinct.len() as f64 / FACTORS);
-        };
-        // Numbers of as many digits in the same decade.
-        let size = self.targets[0].iter().fold(0.0f64, |m, v| m.max(v.abs()));
-        let decade = 10f64.powf(size.log10().floor());
-        let values = outcomes.iter().flatten().filter_map(|v| v.first());
-        let values = values.map(|v| v.abs());
-        values
-            .filter(|v| (decade..10.0 * decade).contains(v))
-            .for_each(note);
-        Some(distinct.len() as f64 * 2.0 * room / (9.0 * decade))
+            None => {
+                let ratios = outcomes.iter().filter_map(|values| ratio(values));
+                distinct(ratios.map(f64::abs)) as f64 / FACTORS
+            }
+        })
     }
 
     fn fits(&self, written: &Written, slip: &Slip) -> bool {
@@ -393,6 +383,25 @@ impl Trials {
             .unwrap_or(1e-9 * a.abs().max(b.abs()).max(1e-12));
         (a - b).abs() <= room
     }
+}
+
+/// How many numbers differ by more than rounding.
+fn distinct(values: impl Iterator<Item = f64>) -> usize {
+    let mut found: Vec<f64> = Vec::new();
+    for value in values {
+        let known = |d: &f64| (d - value).abs() <= 1e-6 * value.abs();
+        if !found.iter().any(known) {
+            found.push(value);
+        }
+    }
+    found.len()
+}
+
+/// The chance that a number of as many digits in the same decade meets one of some values within half a unit of its last digit.
+fn in_decade(size: f64, values: impl Iterator<Item = f64>, room: f64) -> f64 {
+    let decade = 10f64.powf(size.log10().floor());
+    let same = values.filter(|v| (decade..10.0 * decade).contains(v));
+    distinct(same) as f64 * 2.0 * room / (9.0 * decade)
 }
 
 /// A value in fractions, where no power is so high that it would be long.

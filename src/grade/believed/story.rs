@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::super::belief::{self, Belief, Slip};
 use super::super::compare::{Context, quotient};
 use super::super::{Diagnosis, Key, Options, partial};
-use super::{COINCIDENCE, FACTORS, NAMED, words};
+use super::{COINCIDENCE, FACTORS, NAMED, in_decade, words};
 use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Point};
 use crate::scene::Scene;
@@ -158,14 +158,9 @@ impl Story {
     ) -> f64 {
         let size = |e: &Expr| self.number(e).map(f64::abs);
         if let Some(room) = rounding {
-            // Numbers of as many digits in the same decade.
             let mine = written.first().and_then(size).unwrap_or(0.0);
-            let decade = 10f64.powf(mine.log10().floor());
             let values = outcomes.iter().filter_map(|o| size(o.first()?));
-            let same = values
-                .filter(|v| (decade..10.0 * decade).contains(v))
-                .count();
-            return same as f64 * 2.0 * room / (9.0 * decade);
+            return in_decade(mine, values, room);
         }
         // A multiple of the right answer is met by others more easily than anything else.
         let ctx = Context {

@@ -9,7 +9,6 @@ use std::collections::BTreeMap;
 use num_traits::{Signed, Zero};
 
 use super::Normal;
-use super::solved::replaced;
 use crate::algebra::{Cell, Field};
 use crate::domain::{Domain, Domains, Limit, roles};
 use crate::expr::number::sqrt_exact;
@@ -255,7 +254,7 @@ fn unfolded(e: &Expr, folded: &[Expr], signs: usize) -> Expr {
     let arguments = folded.iter().enumerate();
     arguments.fold(e.clone(), |e, (k, x)| {
         let branch = if signs >> k & 1 == 1 { -x } else { x.clone() };
-        replaced(&e, &Expr::call(Function::Abs, x.clone()), &branch)
+        e.replace(&Expr::call(Function::Abs, x.clone()), &branch)
     })
 }
 

@@ -60,19 +60,13 @@ pub(super) fn factor(f: &Expr, g: &Expr, domains: &Domains) -> Option<Factor> {
 /// sign on the domain, as v + √a has in (v − √a)(v + √a) > 0. What stands under the root must not be negative where the
 /// other relation holds: it is not on the domain, or it is a square where the equation holds.
 pub(super) fn unrooted(n: &Normal, domains: &Domains) -> Option<Normal> {
-    fn turned(e: &Expr, root: &Expr) -> Expr {
-        match e == root {
-            true => -e,
-            false => e.map_parts(|part| turned(part, root)),
-        }
-    }
     let is_root = |e: &Expr| match e.node() {
         Node::Power(base, k) if k.as_number() == Some(&ratio(1, 2)) => Some(base.clone()),
         _ => None,
     };
     let mut parts = n.difference.parts();
     let (root, inside) = parts.find_map(|part| Some((part, is_root(part)?)))?;
-    let other = turned(&n.difference, root);
+    let other = n.difference.replace(root, &-root);
     let (domains, _) = domains.completed(&roles(&[&other]));
     let mut field = Field::new(&domains);
     field.prepare([&n.difference, &other]);

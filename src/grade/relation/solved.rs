@@ -189,7 +189,7 @@ fn angle_of(f: &Expr, name: &Symbol, domain: &Domain, domains: &Domains) -> Opti
     }
     let value: Symbol = "value of the function".into();
     let call = Expr::call(*function, argument.clone());
-    let plain = replaced(f, &call, &Expr::symbol(&value));
+    let plain = f.replace(&call, &Expr::symbol(&value));
     if plain.symbols().contains(name) {
         return None;
     }
@@ -201,14 +201,6 @@ fn angle_of(f: &Expr, name: &Symbol, domain: &Domain, domains: &Domains) -> Opti
     };
     let turned = Expr::call(inverse, value) - Expr::pi() * Expr::from(shift.clone());
     Some(turned * Expr::from(factor.recip()))
-}
-
-/// A formula with one part replaced throughout.
-pub(super) fn replaced(e: &Expr, old: &Expr, new: &Expr) -> Expr {
-    match e == old {
-        true => new.clone(),
-        false => e.map_parts(|part| replaced(part, old, new)),
-    }
 }
 
 /// Whether the value at a point lies inside a domain for certain.

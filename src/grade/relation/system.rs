@@ -3,7 +3,7 @@
 use super::super::compare::{Context, Finding};
 use super::super::{Apart, Diagnosis, Verdict};
 use super::cells::{self, Along};
-use super::solved::{replaced, rounded, solve_for, unknowns};
+use super::solved::{rounded, solve_for, unknowns};
 use super::{
     Normal, REALS, apart_at_points, link, over_reals, same_solutions, says_nothing, undecided,
 };
@@ -199,7 +199,7 @@ fn with_distances(systems: [&[Normal]; 2], domains: &Domains) -> ([Vec<Normal>; 
         };
         let letter: Symbol = write_plain(bar).into();
         let put = |n: &Normal| Normal {
-            difference: replaced(&n.difference, bar, &Expr::symbol(&letter)),
+            difference: n.difference.replace(bar, &Expr::symbol(&letter)),
             relation: n.relation,
         };
         let without = systems

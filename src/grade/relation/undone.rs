@@ -9,7 +9,6 @@ use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
 use super::Normal;
-use super::solved::replaced;
 use crate::algebra::{Field, Sign};
 use crate::domain::{Domains, Limit, roles};
 use crate::expr::angle::angle as combination;
@@ -167,7 +166,7 @@ fn called(n: &Normal, functions: &[Function]) -> Option<(Expr, Function, Expr, R
     };
     let (call, function, inside) = n.difference.parts().find_map(call)?;
     let letter: Symbol = write_plain(&call).into();
-    let linear = replaced(&n.difference, &call, &Expr::symbol(&letter));
+    let linear = n.difference.replace(&call, &Expr::symbol(&letter));
     let k = linear.derivative(&letter);
     let k = k.as_number().filter(|k| !k.is_zero())?.clone();
     let rest = linear.substitute(&BTreeMap::from([(letter, Expr::zero())]));
