@@ -84,7 +84,7 @@ pub fn answer(
             let What::Motion(moved) = &passed.what else {
                 return Err(Unanswered::NotANumber);
             };
-            let found = moved.whirled.iter().find(|(b, _)| b == body);
+            let found = moved.angular_accelerations.iter().find(|(b, _)| b == body);
             let (_, angular) = found.ok_or(Unanswered::NotANumber)?;
             let value = angular[usize::from(*at_end)];
             Ok(Answer::Scalar(if *clockwise { -value } else { value }))

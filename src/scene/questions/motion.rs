@@ -35,217 +35,200 @@ pub(super) fn ask(
         return Some((None, ask));
     }
     let stages = base.file.stages.as_deref()?;
-    let at_stage = if let Some(stage) = &q.reaction {
-        reaction(base, stages, name, q, stage)
-    } else if let Some(stage) = q.time.as_ref().or(q.distance.as_ref()) {
-        passed(base, stages, q, stage)
-    } else if let Some(body) = q.acceleration.as_ref().or(q.tension.as_ref()) {
-        driven(base, stages, q, body)
-    } else if let Some(body) = &q.angular_acceleration {
-        angular_acceleration(base, stages, q, body)
-    } else if let Some(body) = &q.angle {
-        angle(base, stages, q, body)
-    } else if let Some(body) = &q.position {
-        position(base, stages, q, body)
-    } else if let Some(body) = &q.angular_momentum {
-        angular_momentum(base, stages, name, q, body)
+    let named = [&q.reaction, &q.time, &q.distance]
+        .into_iter()
+        .chain([&q.impulsive, &q.describe, &q.missing])
+        .find_map(Option::as_ref);
+    let of_body = [
+        &q.acceleration,
+        &q.tension,
+        &q.angular_acceleration,
+        &q.angle,
+    ]
+    .into_iter()
+    .chain([&q.position, &q.angular_momentum])
+    .find_map(Option::as_ref);
+    let Some(subject) = named.or(of_body) else {
+        return Some((None, of_all(base, symbols, q)?));
+    };
+    let stage = if of_body.is_some() {
+        q.at.as_ref()
     } else {
-        let in_words = [
-            (&q.impulsive, Ask::Impulsive),
-            (&q.describe, Ask::Describe),
-            (&q.missing, Ask::Missing),
-        ];
-        let Some((stage, ask)) = in_words.into_iter().find(|(stage, _)| stage.is_some()) else {
-            return Some((None, of_all(base, symbols, q)?));
+        named
+    };
+    let i = stage_named(&mut base.faults, stages, stage)?;
+    let mut asked = Asked {
+        base,
+        stage: &stages[i],
+        name,
+        subject,
+        q,
+    };
+    let ask = match q {
+        _ if q.reaction.is_some() => asked.reaction(),
+        _ if q.time.is_some() || q.distance.is_some() => asked.passed(),
+        _ if q.acceleration.is_some() || q.tension.is_some() => asked.driven(),
+        _ if q.angular_acceleration.is_some() => asked.angular_acceleration(),
+        _ if q.angle.is_some() => asked.angle(),
+        _ if q.position.is_some() => asked.position(),
+        _ if q.angular_momentum.is_some() => asked.angular_momentum(),
+        _ if q.impulsive.is_some() => Some(Ask::Impulsive),
+        _ if q.describe.is_some() => Some(Ask::Describe),
+        _ => Some(Ask::Missing),
+    };
+    Some((Some(i), ask?))
+}
+
+/// A question about one stage.
+struct Asked<'a, 'f> {
+    base: &'a mut Resolver<'f>,
+    stage: &'a StageFile,
+    name: &'a Text,
+    /// The body or the stage that it names first.
+    subject: &'a Text,
+    q: &'a QuestionFile,
+}
+
+impl Asked<'_, '_> {
+    /// Whether it is asked for the end of the stage.
+    fn at_end(&self) -> bool {
+        self.q.when != Some(EndName::Start)
+    }
+
+    fn clockwise(&self) -> bool {
+        self.q.clockwise == Some(true)
+    }
+
+    fn lacks(&mut self, message: &str) -> Option<Ask> {
+        Fault::new(self.name.span, message).add_to(&mut self.base.faults)
+    }
+
+    /// The stage is not of the kind of which this can be asked.
+    fn unfit(&mut self, message: &str, hint: &str) -> Option<Ask> {
+        let fault = Fault::new(self.subject.span, message).hint(hint);
+        fault.add_to(&mut self.base.faults)
+    }
+
+    fn reaction(&mut self) -> Option<Ask> {
+        if self.stage.turn.is_none() {
+            let message = "a reaction is asked of a stage in which a body turns about a point";
+            return Fault::new(self.subject.span, message).add_to(&mut self.base.faults);
+        }
+        let Some(along) = &self.q.along else {
+            return self.lacks("a reaction needs the direction `along` which it is asked");
         };
-        let stage = stage_named(&mut base.faults, stages, stage.as_ref())?;
-        return Some((Some(stage), ask));
-    };
-    at_stage.map(|(stage, ask)| (Some(stage), ask))
-}
-
-/// Whether it is asked for the end of a stage.
-fn at_end(q: &QuestionFile) -> bool {
-    q.when != Some(EndName::Start)
-}
-
-fn reaction(
-    base: &mut Resolver<'_>,
-    stages: &[StageFile],
-    name: &Text,
-    q: &QuestionFile,
-    stage: &Text,
-) -> Option<(usize, Ask)> {
-    let i = stage_named(&mut base.faults, stages, Some(stage))?;
-    if stages[i].turn.is_none() {
-        let message = "a reaction is asked of a stage in which a body turns about a point";
-        return Fault::new(stage.span, message).add_to(&mut base.faults);
+        let along = self.base.direction(along)?;
+        let at_end = self.at_end();
+        Some(Ask::Reaction { along, at_end })
     }
-    let Some(along) = &q.along else {
-        let message = "a reaction needs the direction `along` which it is asked";
-        return Fault::new(name.span, message).add_to(&mut base.faults);
-    };
-    let along = base.direction(along)?;
-    let at_end = at_end(q);
-    Some((i, Ask::Reaction { along, at_end }))
-}
 
-/// The time that a stage takes, or the distance that a body goes in it.
-fn passed(
-    base: &mut Resolver<'_>,
-    stages: &[StageFile],
-    q: &QuestionFile,
-    stage: &Text,
-) -> Option<(usize, Ask)> {
-    let i = stage_named(&mut base.faults, stages, Some(stage))?;
-    let (ask, what, hint, fits) = match q.time {
-        Some(_) => (
-            Ask::Time,
-            "time",
-            "an impact takes none",
-            stages[i].impact.is_none(),
-        ),
-        None => (
-            Ask::Distance,
-            "distance",
-            "a distance is that of a `slide`; elsewhere ask for the `position` of a body",
-            stages[i].slide.is_some(),
-        ),
-    };
-    if !fits {
-        let message = format!("no {what} can be asked of the stage `{}`", stage.text);
-        let fault = Fault::new(stage.span, message).hint(hint);
-        return fault.add_to(&mut base.faults);
+    /// The time that a stage takes, or the distance that a body goes in it.
+    fn passed(&mut self) -> Option<Ask> {
+        let (ask, what, hint, fits) = match self.q.time {
+            Some(_) => (
+                Ask::Time,
+                "time",
+                "an impact takes none",
+                self.stage.impact.is_none(),
+            ),
+            None => (
+                Ask::Distance,
+                "distance",
+                "a distance is that of a `slide`; elsewhere ask for the `position` of a body",
+                self.stage.slide.is_some(),
+            ),
+        };
+        if !fits {
+            let stage = &self.subject.text;
+            let message = format!("no {what} can be asked of the stage `{stage}`");
+            return self.unfit(&message, hint);
+        }
+        Some(ask)
     }
-    Some((i, ask))
-}
 
-/// The acceleration of a body that slides, or the tension of its string.
-fn driven(
-    base: &mut Resolver<'_>,
-    stages: &[StageFile],
-    q: &QuestionFile,
-    name: &Text,
-) -> Option<(usize, Ask)> {
-    let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
-    let body = base.moving(name)?;
-    let is_it = |b: &Text| b.text == name.text;
-    let slide = stages[i].slide.as_ref();
-    let strings = slide.and_then(|slide| slide.strings.as_deref());
-    let strings = strings.unwrap_or_default();
-    let strung = strings.iter().flat_map(|s| &s.to).any(is_it);
-    let slides = slide.is_some_and(|slide| {
-        let with = slide.with.iter().flatten();
-        is_it(&slide.body) || with.into_iter().any(is_it)
-    });
-    let (ask, what, hint, fits) = match q.tension {
-        Some(_) => (
-            Ask::Tension { body },
-            "tension",
-            "a tension is that of a body on one of the `strings` of a `slide`",
-            strung || slides && !strings.is_empty(),
-        ),
-        None => (
-            Ask::Acceleration { body },
-            "acceleration",
-            "an acceleration is that of a body which a `slide` moves",
-            strung || slides,
-        ),
-    };
-    if !fits {
-        let message = format!("no {what} of `{}` can be asked of this stage", name.text);
-        let fault = Fault::new(name.span, message).hint(hint);
-        return fault.add_to(&mut base.faults);
+    /// The acceleration of a body that slides, or the tension of its string.
+    fn driven(&mut self) -> Option<Ask> {
+        let name = &self.subject.text;
+        let body = self.base.moving(self.subject)?;
+        let is_it = |b: &Text| b.text == *name;
+        let slide = self.stage.slide.as_ref();
+        let strings = slide.and_then(|slide| slide.strings.as_deref());
+        let strings = strings.unwrap_or_default();
+        let strung = strings.iter().flat_map(|s| &s.to).any(is_it);
+        let slides = slide.is_some_and(|slide| {
+            let with = slide.with.iter().flatten();
+            is_it(&slide.body) || with.into_iter().any(is_it)
+        });
+        let (ask, what, hint, fits) = match self.q.tension {
+            Some(_) => (
+                Ask::Tension { body },
+                "tension",
+                "a tension is that of a body on one of the `strings` of a `slide`",
+                strung || slides && !strings.is_empty(),
+            ),
+            None => (
+                Ask::Acceleration { body },
+                "acceleration",
+                "an acceleration is that of a body which a `slide` moves",
+                strung || slides,
+            ),
+        };
+        if !fits {
+            let message = format!("no {what} of `{name}` can be asked of this stage");
+            return self.unfit(&message, hint);
+        }
+        Some(ask)
     }
-    Some((i, ask))
-}
 
-fn angular_acceleration(
-    base: &mut Resolver<'_>,
-    stages: &[StageFile],
-    q: &QuestionFile,
-    name: &Text,
-) -> Option<(usize, Ask)> {
-    let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
-    let body = base.moving(name)?;
-    let is_it = |b: &Text| b.text == name.text;
-    let turns = |turn: &TurnFile| is_it(&turn.body) || turn.with.iter().flatten().any(is_it);
-    let fits = stages[i].turn.as_ref().is_some_and(turns) || stages[i].linkage.is_some();
-    if !fits || base.is_particle(body) {
-        let message = format!(
-            "no angular acceleration of `{}` can be asked of this stage",
-            name.text
-        );
-        let hint = "an angular acceleration is that of a body with a spin which a `turn` or a `linkage` moves";
-        let fault = Fault::new(name.span, message).hint(hint);
-        return fault.add_to(&mut base.faults);
-    }
-    let ask = Ask::AngularAcceleration {
-        body,
-        clockwise: q.clockwise == Some(true),
-        at_end: at_end(q),
-    };
-    Some((i, ask))
-}
-
-fn angle(
-    base: &mut Resolver<'_>,
-    stages: &[StageFile],
-    q: &QuestionFile,
-    body: &Text,
-) -> Option<(usize, Ask)> {
-    let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
-    if stages[i].impact.is_some() {
-        let fault = Fault::new(body.span, "a body keeps its angle in an impact");
-        let fault = fault.hint("name the motion in which it turns with `at`");
-        return fault.add_to(&mut base.faults);
-    }
-    let body = base.moving(body)?;
-    let clockwise = q.clockwise == Some(true);
-    Some((i, Ask::Angle { body, clockwise }))
-}
-
-fn position(
-    base: &mut Resolver<'_>,
-    stages: &[StageFile],
-    q: &QuestionFile,
-    body: &Text,
-) -> Option<(usize, Ask)> {
-    let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
-    let body = base.moving(body)?;
-    let along = match &q.along {
-        Some(along) => Some(base.direction(along)?),
-        None => None,
-    };
-    let at_end = at_end(q);
-    Some((
-        i,
-        Ask::Position {
+    fn angular_acceleration(&mut self) -> Option<Ask> {
+        let name = &self.subject.text;
+        let body = self.base.moving(self.subject)?;
+        let is_it = |b: &Text| b.text == *name;
+        let turns = |turn: &TurnFile| is_it(&turn.body) || turn.with.iter().flatten().any(is_it);
+        let fits = self.stage.turn.as_ref().is_some_and(turns) || self.stage.linkage.is_some();
+        if !fits || self.base.is_particle(body) {
+            let message = format!("no angular acceleration of `{name}` can be asked of this stage");
+            let hint = "an angular acceleration is that of a body with a spin which a `turn` or a `linkage` moves";
+            return self.unfit(&message, hint);
+        }
+        Some(Ask::AngularAcceleration {
             body,
-            along,
-            at_end,
-        },
-    ))
-}
+            clockwise: self.clockwise(),
+            at_end: self.at_end(),
+        })
+    }
 
-fn angular_momentum(
-    base: &mut Resolver<'_>,
-    stages: &[StageFile],
-    name: &Text,
-    q: &QuestionFile,
-    body: &Text,
-) -> Option<(usize, Ask)> {
-    let i = stage_named(&mut base.faults, stages, q.at.as_ref())?;
-    let Some(about) = &q.about else {
-        let message = "an angular momentum needs the point `about` which it is meant";
-        return Fault::new(name.span, message).add_to(&mut base.faults);
-    };
-    let ask = Ask::AngularMomentum {
-        body: base.moving(body)?,
-        about: base.position(about)?,
-        at_end: at_end(q),
-    };
-    Some((i, ask))
+    fn angle(&mut self) -> Option<Ask> {
+        if self.stage.impact.is_some() {
+            let hint = "name the motion in which it turns with `at`";
+            return self.unfit("a body keeps its angle in an impact", hint);
+        }
+        let body = self.base.moving(self.subject)?;
+        let clockwise = self.clockwise();
+        Some(Ask::Angle { body, clockwise })
+    }
+
+    fn position(&mut self) -> Option<Ask> {
+        Some(Ask::Position {
+            body: self.base.moving(self.subject)?,
+            along: match &self.q.along {
+                Some(along) => Some(self.base.direction(along)?),
+                None => None,
+            },
+            at_end: self.at_end(),
+        })
+    }
+
+    fn angular_momentum(&mut self) -> Option<Ask> {
+        let Some(about) = &self.q.about else {
+            return self.lacks("an angular momentum needs the point `about` which it is meant");
+        };
+        Some(Ask::AngularMomentum {
+            body: self.base.moving(self.subject)?,
+            about: self.base.position(about)?,
+            at_end: self.at_end(),
+        })
+    }
 }
 
 /// A question about the scene as a whole.

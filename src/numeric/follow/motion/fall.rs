@@ -117,19 +117,23 @@ fn flight(
 ) -> Result<(Units, Run), Lost> {
     let [.., u, v, _] = movers.states[0];
     let units = units_of(movers, gravity, end);
-    let mechanism = free(movers, gravity, &units);
-    let start = movers.start(&units);
+    let flight = Flight {
+        course,
+        mechanism: free(movers, gravity, &units),
+        start: movers.start(&units),
+    };
     let run = match end {
-        End::Time(time) => mechanism
-            .lasting(&start, time / units.time)
-            .map_err(|stop| stopped(course, stop, NEVER))?,
-        End::Range(range) => to_range(course, &mechanism, &start, (range / units.length, u))?,
+        End::Time(time) => {
+            let run = flight.mechanism.lasting(&flight.start, time / units.time);
+            run.map_err(|stop| stopped(course, stop, NEVER))?
+        }
+        End::Range(range) => flight.to_range(range / units.length, u)?,
         End::Height(height) => {
             let height = height / units.length;
             match (gravity > 0.0, is_rising) {
-                (false, _) => straight(course, &mechanism, &start, (height, v, gravity))?,
-                (true, true) => upward(course, &mechanism, &start, (height, v))?,
-                (true, false) => over_the_top(course, &mechanism, &start, height)?,
+                (false, _) => flight.straight(height, v, gravity)?,
+                (true, true) => flight.upward(height, v)?,
+                (true, false) => flight.over_the_top(height)?,
             }
         }
     };
@@ -193,90 +197,80 @@ fn rising(y: &[f64]) -> f64 {
     y[y.len() / 2 + 1]
 }
 
-/// A flight sideways over a range.
-fn to_range(
-    course: &Course<'_>,
-    mechanism: &Mechanism,
-    start: &[f64],
-    (far, u): (f64, f64),
-) -> Result<Run, Lost> {
-    let way = if far < 0.0 { -1.0 } else { 1.0 };
-    if far != 0.0 && way * u <= 0.0 {
-        return Err(course.never("it does not move that way"));
-    }
-    let mut goal = Goal {
-        left: &|y| way * (y[0] - far),
-        rate: &|_| 1.0,
-        never: &mut |y, _| way * y[y.len() / 2] <= 0.0,
-    };
-    let run = mechanism.until(start, &mut goal);
-    run.map_err(|stop| stopped(course, stop, NEVER))
+/// Bodies in flight, in units of their own.
+struct Flight<'a> {
+    course: &'a Course<'a>,
+    mechanism: Mechanism,
+    start: Vec<f64>,
 }
 
-/// A flight without weight, or against one that pulls upward, down through a height.
-fn straight(
-    course: &Course<'_>,
-    mechanism: &Mechanism,
-    start: &[f64],
-    (height, v, gravity): (f64, f64, f64),
-) -> Result<Run, Lost> {
-    let way = if height < 0.0 { -1.0 } else { 1.0 };
-    if height != 0.0 && way * -v <= 0.0 && gravity * way <= 0.0 {
-        return Err(course.never(NEVER));
+impl Flight<'_> {
+    fn until(&self, start: &[f64], mut goal: Goal<'_>) -> Result<Run, Lost> {
+        let run = self.mechanism.until(start, &mut goal);
+        run.map_err(|stop| stopped(self.course, stop, NEVER))
     }
-    let mut goal = Goal {
-        left: &|y| way * (-y[1] - height),
-        rate: &rising,
-        never: &mut |y, _| way * -rising(y) <= 0.0,
-    };
-    let run = mechanism.until(start, &mut goal);
-    run.map_err(|stop| stopped(course, stop, NEVER))
-}
 
-/// A flight that ends at a height on the way up.
-fn upward(
-    course: &Course<'_>,
-    mechanism: &Mechanism,
-    start: &[f64],
-    (height, v): (f64, f64),
-) -> Result<Run, Lost> {
-    if height > 0.0 || v < 0.0 {
-        return Err(course.never(NEVER));
+    /// Sideways over a range.
+    fn to_range(&self, far: f64, u: f64) -> Result<Run, Lost> {
+        let way = if far < 0.0 { -1.0 } else { 1.0 };
+        if far != 0.0 && way * u <= 0.0 {
+            return Err(self.course.never("it does not move that way"));
+        }
+        let goal = Goal {
+            left: &|y| way * (y[0] - far),
+            rate: &|_| 1.0,
+            never: &mut |y, _| way * y[y.len() / 2] <= 0.0,
+        };
+        self.until(&self.start, goal)
     }
-    let mut goal = Goal {
-        left: &|y| y[1] + height,
-        rate: &rising,
-        never: &mut |y, _| rising(y) <= 0.0,
-    };
-    let run = mechanism.until(start, &mut goal);
-    run.map_err(|stop| stopped(course, stop, NEVER))
-}
 
-/// A flight that ends at a height on the way down: up to the highest place first.
-fn over_the_top(
-    course: &Course<'_>,
-    mechanism: &Mechanism,
-    start: &[f64],
-    height: f64,
-) -> Result<Run, Lost> {
-    let stopped = |stop| stopped(course, stop, NEVER);
-    let mut top = Goal {
-        left: &|y| -rising(y),
-        rate: &|_| 1.0,
-        never: &mut |_, _| false,
-    };
-    let up = mechanism.until(start, &mut top).map_err(stopped)?;
-    if -up.end[1] - height > REST {
-        return Err(course.never(NEVER));
+    /// Without weight, or with one that pulls upward, down through a height.
+    fn straight(&self, height: f64, v: f64, gravity: f64) -> Result<Run, Lost> {
+        let way = if height < 0.0 { -1.0 } else { 1.0 };
+        if height != 0.0 && way * -v <= 0.0 && gravity * way <= 0.0 {
+            return Err(self.course.never(NEVER));
+        }
+        let goal = Goal {
+            left: &|y| way * (-y[1] - height),
+            rate: &rising,
+            never: &mut |y, _| way * -rising(y) <= 0.0,
+        };
+        self.until(&self.start, goal)
     }
-    let mut down = Goal {
-        left: &|y| -y[1] - height,
-        rate: &|_| 1.0,
-        never: &mut |_, _| false,
-    };
-    let mut run = mechanism.until(&up.end, &mut down).map_err(stopped)?;
-    let later = run.samples.drain(..).map(|(time, y)| (up.time + time, y));
-    run.samples = up.samples.into_iter().chain(later.skip(1)).collect();
-    run.time += up.time;
-    Ok(run)
+
+    /// To a height on the way up.
+    fn upward(&self, height: f64, v: f64) -> Result<Run, Lost> {
+        if height > 0.0 || v < 0.0 {
+            return Err(self.course.never(NEVER));
+        }
+        let goal = Goal {
+            left: &|y| y[1] + height,
+            rate: &rising,
+            never: &mut |y, _| rising(y) <= 0.0,
+        };
+        self.until(&self.start, goal)
+    }
+
+    /// To a height on the way down: up to the highest place first.
+    fn over_the_top(&self, height: f64) -> Result<Run, Lost> {
+        let top = Goal {
+            left: &|y| -rising(y),
+            rate: &|_| 1.0,
+            never: &mut |_, _| false,
+        };
+        let up = self.until(&self.start, top)?;
+        if -up.end[1] - height > REST {
+            return Err(self.course.never(NEVER));
+        }
+        let down = Goal {
+            left: &|y| -y[1] - height,
+            rate: &|_| 1.0,
+            never: &mut |_, _| false,
+        };
+        let mut run = self.until(&up.end, down)?;
+        let later = run.samples.drain(..).map(|(time, y)| (up.time + time, y));
+        run.samples = up.samples.into_iter().chain(later.skip(1)).collect();
+        run.time += up.time;
+        Ok(run)
+    }
 }

@@ -95,7 +95,7 @@ impl Moving<'_> {
 
 impl Moving<'_> {
     /// Angular accelerations of all bodies in two states.
-    fn whirled(&self, states: [[f64; 2]; 2]) -> Option<Vec<(usize, [f64; 2])>> {
+    fn angular_accelerations(&self, states: [[f64; 2]; 2]) -> Option<Vec<(usize, [f64; 2])>> {
         let bodies = self.linkage.places.iter().map(|(b, _)| *b);
         let mut out: Vec<_> = bodies.map(|b| (b, [0.0; 2])).collect();
         for (k, [s, rate]) in states.into_iter().enumerate() {
@@ -211,8 +211,8 @@ pub(in crate::numeric::follow) fn linkage(
             (body.angle, body.spin) = (angle, Ok(0.0));
         }
     }
-    let whirled = moving.whirled([[0.0, start[1]], [1.0, run.end[1]]]);
-    let whirled = whirled.ok_or_else(lost)?;
+    let angular = moving.angular_accelerations([[0.0, start[1]], [1.0, run.end[1]]]);
+    let angular = angular.ok_or_else(lost)?;
     let stride = run.samples.len().div_ceil(SAMPLES);
     let sample = |(at, y): &(f64, Vec<f64>)| {
         Some(Sample {
@@ -229,7 +229,7 @@ pub(in crate::numeric::follow) fn linkage(
     others(course, &before, &mut after, &bodies, &time, has_forces);
     let moved = Moved {
         bodies,
-        whirled,
+        angular_accelerations: angular,
         samples,
         ..Moved::default()
     };

@@ -366,7 +366,7 @@ pub(in crate::numeric::follow) fn turn(
         clockwise: Some(rotation.way < 0.0),
         turned: Some(run.end[2] - begin[2]),
         reaction: Some(reaction),
-        whirled: bodies.iter().map(|b| (*b, angular)).collect(),
+        angular_accelerations: bodies.iter().map(|b| (*b, angular)).collect(),
         bodies,
         samples,
         ..Moved::default()
