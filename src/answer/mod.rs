@@ -22,7 +22,7 @@ pub use graph::{Curve, Graph, graphs};
 
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
-use crate::formula::{Relation, Sentence, latex_name, with_subscript};
+use crate::formula::{Relation, Sentence, latex_name, sentence, with_subscript};
 use crate::scene::Question;
 
 /// The symbol whose square stands for a parameter under a root.
@@ -201,6 +201,14 @@ impl Answer {
             near: Vec::new(),
             checks: Vec::new(),
         }
+    }
+
+    /// Leaves the answer open, with the reason; what was said and checked of a value goes.
+    pub fn leave_open(mut self, why: impl Into<Sentence>) -> Answer {
+        self.form = Form::Open(Vec::new());
+        self.text = vec![sentence!["not determined: ", why.into()]];
+        self.checks.clear();
+        self
     }
 
     /// The value in parameters, where the answer is one.

@@ -226,6 +226,8 @@ pub struct StageTold {
     pub cases: Vec<Case>,
     /// Distance along the line of a motion along one \[m\].
     pub way: Option<Expr>,
+    /// Angle through which a rotation leads, counterclockwise \[rad\]; `None` where it is not decided.
+    pub turned: Option<Expr>,
     /// Acceleration along the line of a motion along one \[m/s²\].
     pub acceleration: Option<Expr>,
     /// Pulls of the strings at bodies, by index of body \[N\].
@@ -259,6 +261,7 @@ impl StageTold {
             needs: Vec::new(),
             time: None,
             way: None,
+            turned: None,
             acceleration: None,
             tensions: Vec::new(),
             steps: Vec::new(),

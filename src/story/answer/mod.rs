@@ -74,10 +74,7 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
 
 /// An answer that has no value, and why.
 fn unanswered(question: &Question, why: &Sentence) -> Answer {
-    let mut out = Answer::blank(question, &question.name, "what is asked");
-    out.form = Form::Open(Vec::new());
-    out.text.push(sentence!["not determined: ", why]);
-    out
+    Answer::blank(question, &question.name, "what is asked").leave_open(why)
 }
 
 /// What a question about formulas needs that has no value.
@@ -391,9 +388,7 @@ fn quantity(
                 None => &told.after,
             };
             if let Some(why) = state.why_open(answer.form.formulas()) {
-                answer.form = Form::Open(Vec::new());
-                answer.checks.clear();
-                answer.text = vec![sentence!["not determined: ", why]];
+                *answer = answer.clone().leave_open(why);
             }
             if matches!(answer.form, Form::Open(_) | Form::Words) {
                 answer.checks.clear();

@@ -5,9 +5,9 @@ use crate::answer::{Answer, Check, Form, Refused};
 use crate::derive;
 use crate::dimension::Dimension;
 use crate::domain::Domains;
-use crate::expr::{Expr, Function, Node, Vector, cross, dot, minus};
-use crate::formula::{Sentence, sentence};
-use crate::scene::{Ask, EnergyWhen, Question, Scene, SlideEnd, Stage, StageKind, Turn, Until};
+use crate::expr::{Expr, Vector, cross, dot, minus};
+use crate::formula::Sentence;
+use crate::scene::{Ask, EnergyWhen, Question, Scene, SlideEnd, Stage, StageKind, Turn};
 use crate::story::motion as stage;
 use crate::story::{StageTold, State};
 
@@ -27,8 +27,7 @@ pub(super) fn reaction(
     };
     let state = if at_end { &told.after } else { &told.before };
     if let Some(why) = state.why_open(state.spin.iter().take(turn.body + 1).skip(turn.body)) {
-        out.text.push(sentence!["not determined: ", why]);
-        return Ok(out);
+        return Ok(out.leave_open(why));
     }
     let (way, _) = stage::sense(&told.placed, &told.before.spin[turn.body], turn)?;
     let value = bearing(&told.placed, told, turn, way, along, at_end)
@@ -58,8 +57,7 @@ pub(super) fn angular_acceleration(
     };
     let state = if at_end { &told.after } else { &told.before };
     if let Some(why) = state.why_open([&state.spin[body]]) {
-        out.text.push(sentence!["not determined: ", why]);
-        return Ok(out);
+        return Ok(out.leave_open(why));
     }
     let value = match (&told.placed.kind, &told.energy) {
         (StageKind::Turn(turn), _) => {
@@ -102,9 +100,7 @@ fn measured(
     out.dimension = dimension;
     match value {
         Some(value) => valued(&mut out, value, &told.assumptions),
-        None => out
-            .text
-            .push(Sentence::words(format!("not determined: {why}"))),
+        None => out = out.leave_open(why),
     }
     out
 }
@@ -184,47 +180,18 @@ pub(super) fn angle(
     let mut out = Answer::blank(question, &question.name, words);
     let ends = [&told.before.angle[body], &told.after.angle[body]];
     if let Some(why) = told.after.why_open(ends) {
-        out.form = Form::Open(Vec::new());
-        out.text.push(sentence!["not determined: ", why]);
-        return Ok(out);
+        return Ok(out.leave_open(why));
     }
-    let tidied = |e: &Expr| {
-        tidy(e, &scene.domains).map_err(|stop| Refused::uncalculated(&question.name, stop))
-    };
-    // An arc cosine reads best as the motion left it; what both ends have in common cancels.
-    let terms = |e: &Expr| match e.node() {
-        Node::Sum(terms) => terms.clone(),
-        _ => vec![e.clone()],
-    };
-    let (mut from, mut to) = (terms(ends[0]), terms(ends[1]));
-    to.retain(|term| match from.iter().position(|t| t == term) {
-        Some(i) => {
-            from.remove(i);
-            false
-        }
-        None => true,
-    });
-    let is_arc = |part: &Expr| matches!(part.node(), Node::Call(Function::Acos, _));
-    let (arcs, plain): (Vec<Expr>, Vec<Expr>) = to.into_iter().partition(|t| t.parts().any(is_arc));
-    let mut by = Expr::sum(arcs) + tidied(&(Expr::sum(plain) - Expr::sum(from)))?;
-    if let StageKind::Turn(turn) = &told.placed.kind
-        && matches!(turn.until, Until::Above | Until::Below)
-        && turn.bodies().contains(&body)
-    {
-        // The end is known up to whole turns, and the sense of the rotation says which.
-        let (way, _) = stage::sense(&told.placed, &told.before.spin[turn.body], turn)?;
-        let way = Expr::from(way);
-        by = match sign(&(&way * &by), &scene.domains).side() {
-            Some(true) => by,
-            Some(false) => tidied(&(&by + &(way * Expr::from(2) * Expr::pi())))?,
+    let by = match &told.placed.kind {
+        StageKind::Turn(turn) if turn.bodies().contains(&body) => match &told.turned {
+            Some(by) => by.clone(),
             None => {
-                out.form = Form::Open(Vec::new());
-                let words = "not determined: the sign of the angle between its ends is not decided";
-                out.text.push(Sentence::words(words));
-                return Ok(out);
+                return Ok(out.leave_open("the sign of the angle between its ends is not decided"));
             }
-        };
-    }
+        },
+        _ => tidy(&(ends[1] - ends[0]), &scene.domains)
+            .map_err(|stop| Refused::uncalculated(&question.name, stop))?,
+    };
     let value = if clockwise { -by } else { by };
     valued(&mut out, &value, &told.assumptions);
     Ok(out)
@@ -251,8 +218,7 @@ pub(super) fn position(
     let mut out = Answer::blank(question, &format!("{}{suffix}", question.name), words);
     out.dimension = Dimension::new(0, 1, 0);
     if let Some(why) = state.why_open(&state.center[body]) {
-        out.text.push(sentence!["not determined: ", why]);
-        return Ok(out);
+        return Ok(out.leave_open(why));
     }
     let value = tidy(&dot(&state.center[body], along), &scene.domains)
         .map_err(|stop| Refused::uncalculated(&question.name, stop))?;
@@ -286,8 +252,7 @@ pub(super) fn angular_momentum(
     let mut out = Answer::blank(question, &question.name, words);
     out.dimension = Dimension::new(1, 2, -1);
     if let Some(why) = state.why_open([&h]) {
-        out.text.push(sentence!["not determined: ", why]);
-        return Ok(out);
+        return Ok(out.leave_open(why));
     }
     let value =
         tidy(&h, &scene.domains).map_err(|stop| Refused::uncalculated(&question.name, stop))?;

@@ -48,7 +48,9 @@ pub(in crate::story) fn turn(
     }
     let start = tidied(stage, &half(&(&inertia * &spin.powi(2))))?;
     let kept_below = stops(stage, turn, &spin, &start, &r)?;
-    let parts = work(stage, turn, &lump, [&r, &r_end], way, &spin)?;
+    let turned = turned(stage, turn, &spin, &r);
+    let through = through(stage, turn, turned.as_ref(), way)?;
+    let parts = work(stage, turn, &lump, [&r, &r_end], through.as_ref())?;
     let (work, end, reaches) = balance(stage, turn.body, &start, &parts)?;
     let (mut needs, mut assumptions) = (Vec::new(), Vec::new());
     for (need, words) in hurdle(stage, turn, &r, &start, way)?
@@ -76,15 +78,14 @@ pub(in crate::story) fn turn(
         let size = (&(&Expr::from(2) * &end) / &inertia).sqrt();
         tidied(stage, &(&Expr::from(way) * &size))?
     };
-    let turned = turned(stage, turn, &spin, &r);
-    let time = time(
-        stage,
-        turn,
-        &[&spin, &spin_end],
-        way,
-        turned.as_ref(),
-        &inertia,
-    )?;
+    let gained = &Expr::from(way) * &(&spin_end - &spin);
+    let time = match (&turn.until, &turn.torque) {
+        (Until::For(time), _) => Some(time.clone()),
+        _ if turn.gravity.is_some() => None,
+        (_, Some(torque)) => Some(&(&gained * &inertia) / torque),
+        (_, None) => through.as_ref().map(|by| by / &(&Expr::from(way) * &spin)),
+    };
+    let time = time.map(|t| tidied(stage, &t)).transpose()?;
     let mut after = before.clone();
     carry(
         stage,
@@ -110,6 +111,7 @@ pub(in crate::story) fn turn(
     out.kinetic = Some(half(&(&inertia * &out.after.spin[turn.body].powi(2))));
     out.energy = Some([start, end.clone()]);
     out.time = time;
+    out.turned = through.map(|by| Expr::from(way) * by);
     if !work.is_zero()
         && let Some(words) = arrival(stage, turn.body, &end, reaches)
     {
@@ -127,8 +129,7 @@ fn work(
     turn: &Turn,
     lump: &Lump,
     [r, r_end]: [&Vector; 2],
-    way: i64,
-    spin: &Expr,
+    through: Option<&Expr>,
 ) -> Result<Vec<(&'static str, Expr)>, Refused> {
     let mut work = Vec::new();
     if let Some(g) = &turn.gravity {
@@ -136,21 +137,14 @@ fn work(
         work.push(("weight", &(&lump.mass * g) * &height));
     }
     if let Some(torque) = &turn.torque {
-        let by = match &turn.until {
-            Until::By(by) => by.clone(),
-            Until::For(_) => {
-                angle_turned(stage, turn, spin).map_or_else(Expr::zero, |by| &Expr::from(way) * &by)
-            }
-            Until::Stops => -(&half(&(&inertia_about(stage, turn) * &spin.powi(2))) / torque),
-            Until::Above | Until::Below => {
-                return Err(Refused::new(
-                    &stage.name,
-                    "the work of a constant moment needs the angle it turns through",
-                    "end the stage with `by`",
-                ));
-            }
-        };
-        work.push(("the applied moment", torque * &by));
+        let by = through.ok_or_else(|| {
+            Refused::new(
+                &stage.name,
+                "the work of a constant moment needs the angle it turns through, and this is not decided",
+                "end the stage with `by`",
+            )
+        })?;
+        work.push(("the applied moment", torque * by));
     }
     Ok(work)
 }
@@ -199,38 +193,28 @@ fn turned(stage: &Stage, turn: &Turn, spin: &Expr, r: &Vector) -> Option<Expr> {
     tidy(&(&(&to * &Expr::pi()) - &from), &stage.scene.domains).ok()
 }
 
-/// The time a rotation takes, where it has a closed form: without weight.
-fn time(
+/// The angle turned through in the sense of the rotation; `None` where it has no closed form here, or its sign is not decided.
+fn through(
     stage: &Stage,
     turn: &Turn,
-    [spin, spin_end]: &[&Expr; 2],
-    way: i64,
     turned: Option<&Expr>,
-    inertia: &Expr,
+    way: i64,
 ) -> Result<Option<Expr>, Refused> {
-    if let Until::For(time) = &turn.until {
-        return Ok(Some(time.clone()));
-    }
-    let weightless = turn.gravity.is_none();
-    let time = match (&turn.torque, &turn.until) {
-        (Some(torque), _) if weightless => {
-            let gain = &Expr::from(way) * &(*spin_end - *spin);
-            Some(&(&gain * inertia) / torque)
-        }
-        (None, Until::By(by)) if weightless => Some(by / &(&Expr::from(way) * *spin)),
-        (None, _) if weightless => turned.and_then(|turned| {
-            let forward = &Expr::from(way) * turned;
-            let whole = Expr::from(2) * Expr::pi();
-            match sign(&forward, &stage.scene.domains) {
-                Seen::Proved(s) if s.is_not_negative() => Some(forward),
-                Seen::Proved(Sign::Negative) => Some(&forward + &whole),
-                _ => None,
-            }
-            .map(|angle| &angle / &(&Expr::from(way) * *spin))
-        }),
-        _ => None,
+    let Some(forward) = turned.map(|by| Expr::from(way) * by) else {
+        return Ok(None);
     };
-    time.map(|t| tidied(stage, &t)).transpose()
+    let forward = match turn.until {
+        // The arc cosine of a swing reads best as it is.
+        Until::Stops if turn.gravity.is_some() => return Ok(Some(forward)),
+        Until::Stops | Until::By(_) | Until::For(_) => forward,
+        // A place is reached up to whole turns, and the sense of the rotation says which.
+        Until::Above | Until::Below => match sign(&forward, &stage.scene.domains).side() {
+            Some(true) => forward,
+            Some(false) => forward + Expr::from(2) * Expr::pi(),
+            None => return Ok(None),
+        },
+    };
+    tidied(stage, &forward).map(Some)
 }
 
 /// Leads the bodies round: their places and angles at the end.
@@ -628,8 +612,8 @@ fn hurdle(
     let zero = Expr::zero();
     let by = match &turn.until {
         Until::By(by) => by,
-        Until::Below => &zero,
-        Until::Above | Until::For(_) | Until::Stops => return Ok(None),
+        Until::Above | Until::Below => &zero,
+        Until::For(_) | Until::Stops => return Ok(None),
     };
     if turn.torque.is_some() {
         let words = sentence![
@@ -638,6 +622,9 @@ fn hurdle(
             "`"
         ];
         return Ok(Some((None, words)));
+    }
+    if matches!(turn.until, Until::Above) {
+        return Ok(None);
     }
     let names = [&r[0], &r[1], by].into_iter().flat_map(|e| e.symbols());
     let points = integrate::points_of(names.collect(), &stage.scene.domains, 12);
