@@ -114,10 +114,15 @@ fn the_answers_are_those_of_the_table() {
         let Some((_, scene, told)) = &last else {
             continue;
         };
-        if *formula == "open" {
-            let open = told.answers.iter().find(|a| a.name == *answer);
-            if !open.is_some_and(|a| matches!(a.form, Form::Open(_)) && a.checks.is_empty()) {
-                wrong.push(format!("{name} {answer}: not open"));
+        // An answer is open where its value is not determined, and there is none where no value does.
+        if matches!(*formula, "open" | "none") {
+            let found = told.answers.iter().find(|a| a.name == *answer);
+            let fits = |form: &Form| match *formula {
+                "open" => matches!(form, Form::Open(_)),
+                _ => matches!(form, Form::Words),
+            };
+            if !found.is_some_and(|a| fits(&a.form) && a.checks.is_empty()) {
+                wrong.push(format!("{name} {answer}: not {formula}"));
             }
             continue;
         }
