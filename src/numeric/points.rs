@@ -224,7 +224,9 @@ fn direction(domain: Option<&Domain>, divisor: u32, rng: &mut Rng) -> [Rational;
     let part = (low + (high - low) * share) / f64::from(divisor);
     let half = part / 2.0;
     let spread = (high - low) / f64::from(divisor) / 2.0;
-    for denominator in [3i64, 8, 21, 64, 1024, 1 << 20] {
+    // Thirds alone would give the first quadrant two directions only.
+    let coarsest = rng.below(2);
+    for denominator in [3i64, 8, 21, 64, 1024, 1 << 20].into_iter().skip(coarsest) {
         let numerator = (half.tan() * denominator as f64).round();
         let found = (numerator / denominator as f64).atan();
         let turned = (half / PI).round() * PI;

@@ -1,56 +1,26 @@
-//! Slips of the pen: one change to a formula, after which it gives a wrong number that was printed.
+//! Slips of the pen: one change to a formula, after which it gives what was printed.
 //!
-//! Knows no formula of its own; it changes the one it is given, a place at a time, and weighs the result in doubles.
+//! Knows no formula of its own; it changes the one it is given, a place at a time, and asks its caller whether the result fits.
 
-use crate::expr::{Expr, Function, Node, Point, Symbol, ratio};
+use crate::expr::{Expr, Function, Node, Symbol, ratio};
 
-/// What a changed formula has to give: a value at a point, and how far it may be off.
-pub struct Target {
-    /// The point.
-    pub at: Point<f64>,
-    /// The value.
-    pub wanted: f64,
-    /// How far off it may be.
-    pub room: f64,
-}
-
-/// Explanations told at most; when there are more, none is worth much.
-const TOLD: usize = 3;
-
-/// Words for the slips that take the formula's value to every target; `only` says which names may be exchanged.
-pub fn explains(
+/// Words for the slips that lead from a formula to one that `fits`; `kin` says which of the names may be exchanged.
+pub fn that_fit(
     e: &Expr,
-    targets: &[Target],
+    names: &[Symbol],
+    fits: &dyn Fn(&Expr) -> bool,
     kin: &dyn Fn(&Symbol, &Symbol) -> bool,
     say: &dyn Fn(&Expr) -> String,
-) -> Option<String> {
-    let names: Vec<Symbol> = targets.first()?.at.values.keys().cloned().collect();
+) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     sites(e, &|whole| whole, &mut |part, put_back| {
-        for (changed, words) in changes(part, &names, kin, say) {
-            let whole = put_back(changed);
-            let fits = |t: &Target| {
-                let value = whole.evaluate(&t.at);
-                value.is_some_and(|v| (v - t.wanted).abs() <= t.room)
-            };
-            if targets.iter().all(fits) && !found.contains(&words) {
+        for (changed, words) in changes(part, names, kin, say) {
+            if !found.contains(&words) && fits(&put_back(changed)) {
                 found.push(words);
             }
         }
     });
-    // At several points a slip is known by the formula it makes: whatever else was found makes the same one.
-    if targets.len() > 1 {
-        found.truncate(1);
-    }
-    match found.len() {
-        0 => None,
-        n if n <= TOLD => Some(format!("comes out when {}", found.join("; or when "))),
-        n => Some(format!(
-            "comes out when {}; or by one of {} other slips, too many to tell which",
-            found[0],
-            n - 1
-        )),
-    }
+    found
 }
 
 /// Takes a part of an expression, and a function that puts another part in its place.

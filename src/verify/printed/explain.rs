@@ -14,7 +14,10 @@ use crate::formula::Content;
 use crate::numeric;
 use crate::scene::{Print, Printed};
 use crate::verify::rounding::ten_to;
-use crate::verify::slip::{self, Target};
+use crate::verify::slip;
+
+/// Explanations of a number told at most; when there are more, none is worth much.
+const TOLD: usize = 3;
 
 impl Desk<'_> {
     /// A velocity or spin before the collision, printed as the one after.
@@ -131,23 +134,31 @@ impl Desk<'_> {
         (31..34).map(point).collect()
     }
 
-    /// The slips of the pen that turn a formula into what gives the wanted values.
+    /// The slip of the pen that turns a formula into the wanted one: seen at points in doubles, then proved.
     fn slip_of(&self, formula: &Expr, wanted: &Expr) -> Option<String> {
-        let targets: Option<Vec<Target>> = self
-            .points(&[formula, wanted])
-            .into_iter()
-            .map(|at| {
-                let value = wanted.evaluate(&at).filter(|v| v.is_finite())?;
-                let room = 1e-9 * value.abs().max(1e-12);
-                Some(Target {
-                    at,
-                    wanted: value,
-                    room,
-                })
-            })
-            .collect();
+        let points = self.points(&[formula, wanted]);
+        let names: Vec<Symbol> = points.first()?.values.keys().cloned().collect();
+        let values: Option<Vec<f64>> = points.iter().map(|at| wanted.evaluate(at)).collect();
+        let values = values.filter(|all| all.iter().all(|v| v.is_finite()))?;
+        let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs().max(1e-12);
+        let whole = wanted.substitute(&self.closed);
+        let fits = |changed: &Expr| {
+            let mut pairs = points.iter().zip(&values);
+            let seen = pairs.all(|(at, wanted)| {
+                let value = changed.evaluate(at);
+                value.is_some_and(|value| near(value, *wanted))
+            });
+            let proof = || {
+                let changed = changed.substitute(&self.closed);
+                equality::decide(&changed, &whole, &self.scene.domains).equality
+            };
+            seen && matches!(proof(), Equality::Same { .. })
+        };
         let kin = |a: &Symbol, b: &Symbol| self.kin(a, b);
-        slip::explains(formula, &targets?, &kin, &|e| self.say(e))
+        let found = slip::that_fit(formula, &names, &fits, &kin, &|e| self.say(e));
+        // Whatever else was found makes the same formula.
+        let first = found.into_iter().next()?;
+        Some(format!("comes out when {first}"))
     }
 
     /// One slip that makes the printed formula out of the derived one.
@@ -260,15 +271,22 @@ impl Desk<'_> {
             let words = format!("follows from the formula printed at [{place}]");
             return Some(format!("{words}; no misprint of its own"));
         }
-        let target = Target {
-            at: values,
-            wanted,
-            room,
+        let names: Vec<Symbol> = values.values.keys().cloned().collect();
+        let fits = |changed: &Expr| {
+            let value = changed.evaluate(&values);
+            value.is_some_and(|value| (value - wanted).abs() <= room)
         };
-        let targets = [target];
-        formulas
-            .iter()
-            .find_map(|e| slip::explains(e, &targets, &kin, &|e| self.say(e)))
+        let each = formulas.iter();
+        let each = each.map(|e| slip::that_fit(e, &names, &fits, &kin, &|e| self.say(e)));
+        let found = each.into_iter().find(|found| !found.is_empty())?;
+        Some(match found.len() {
+            n if n <= TOLD => format!("comes out when {}", found.join("; or when ")),
+            n => format!(
+                "comes out when {}; or by one of {} other slips, too many to tell which",
+                found[0],
+                n - 1
+            ),
+        })
     }
 
     /// Wrong numbers that follow from wrong numbers before them.
