@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use carom::command;
 use carom::grade::sheet;
 use carom::scene;
 use carom::verify::printed::{self, Finding};
@@ -142,7 +143,7 @@ fn answers_in_a_file_beside_the_scene_are_held_against_it() {
         };
         if !known.iter().any(|(n, _)| n == name) {
             let scene = scene::read(&text(&format!("{name}.json"))).expect("a sound scene");
-            let mut sheet = sheet::sheet(scene).expect("a derivation");
+            let (mut sheet, _) = command::sheet(scene).expect("a derivation");
             let answers = text(&format!("{name}.answers.json"));
             sheet.scene.printed = scene::read_printed(&answers).expect("a sound list");
             let mut found = printed::check(&sheet.scene, &sheet.derivation);

@@ -35,7 +35,7 @@ pub(super) fn fill(
         return;
     };
     let signs = between(parameter, gap, &zeros, domains);
-    let negative = matches!(relation, Relation::Less | Relation::LessEqual);
+    let negative = relation.is_below();
     let strict = matches!(relation, Relation::Less | Relation::Greater);
     let holds: Option<Vec<bool>> = signs
         .iter()

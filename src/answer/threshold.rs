@@ -204,7 +204,7 @@ fn sides(
     let domain = domain.unwrap_or_else(Domain::positive);
     let below = beside(gap, parameter, value, domain.low.as_ref(), -1, domains);
     let above = beside(gap, parameter, value, domain.high.as_ref(), 1, domains);
-    let wants_negative = matches!(relation, Relation::Less | Relation::LessEqual);
+    let wants_negative = relation.is_below();
     let strict = matches!(relation, Relation::Less | Relation::Greater);
     let holds = |s: Seen| {
         if wants_negative {

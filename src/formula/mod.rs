@@ -67,8 +67,18 @@ pub enum Relation {
 }
 
 impl Relation {
+    /// Whether it says which side is the smaller one.
+    pub fn is_order(self) -> bool {
+        self.is_below() || self.turned().is_below()
+    }
+
+    /// Whether the left side is the smaller one, or both may be the same.
+    pub fn is_below(self) -> bool {
+        matches!(self, Relation::Less | Relation::LessEqual)
+    }
+
     /// The same read from right to left.
-    fn turned(self) -> Relation {
+    pub fn turned(self) -> Relation {
         match self {
             Relation::Less => Relation::Greater,
             Relation::LessEqual => Relation::GreaterEqual,

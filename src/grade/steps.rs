@@ -117,6 +117,7 @@ pub const MAX_LINES: usize = 400;
 pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
     let mut desk = Desk::new(sheet);
     desk.ahead = names::definitions(text);
+    desk.solved_for = names::solved_for(text);
     let mut before = String::new();
     let lines = text
         .lines()
@@ -159,6 +160,8 @@ struct Desk<'a> {
     slipped: Vec<(usize, Symbol, Expr)>,
     /// All definitions in the solution, as text.
     ahead: Vec<(Symbol, String)>,
+    /// Names that some line solves for.
+    solved_for: BTreeSet<Symbol>,
     /// Own names that were used before the line that says what they are.
     early: BTreeSet<Symbol>,
     /// Spins as vectors: the name with an arrow, the spin, and whether it counts clockwise.
@@ -219,6 +222,7 @@ impl<'a> Desk<'a> {
             own: BTreeMap::new(),
             slipped: Vec::new(),
             ahead: Vec::new(),
+            solved_for: BTreeSet::new(),
             early: BTreeSet::new(),
             spins: spins(&sheet.scene),
             supposed: Vec::new(),

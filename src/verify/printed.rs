@@ -5,6 +5,7 @@
 //! the value it should have, a slip that explains it where one is found, and the cheap check that would have caught it.
 
 mod explain;
+mod inequality;
 mod matrix;
 mod number;
 mod remainder;
@@ -14,11 +15,9 @@ use std::collections::BTreeMap;
 use crate::answer::Form;
 use crate::derive::Derivation;
 use crate::dimension::Dimension;
-use crate::domain::{roles, samples};
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol, dot};
 use crate::formula::{self, Content, Reading, Relation, Symbols, write_unicode};
-use crate::interval::{Interval, Outcome, evaluate};
 use crate::laws;
 use crate::scene::{Ask, Print, Printed, Scene};
 
@@ -66,6 +65,8 @@ struct Desk<'a> {
     scene: &'a Scene,
     /// Closed forms by name.
     closed: BTreeMap<Symbol, Expr>,
+    /// Of a quantity with a bound: what is bounded, and how it stands to its closed form.
+    bounds: BTreeMap<Symbol, (Expr, Relation)>,
     /// Components of vectors by name.
     vectors: BTreeMap<Symbol, [Expr; 2]>,
     /// The same by their names with an arrow, with those just before.
@@ -108,7 +109,12 @@ impl<'a> Desk<'a> {
             }
         }
         let mut vectors: BTreeMap<Symbol, [Expr; 2]> = BTreeMap::new();
+        let mut bounds = BTreeMap::new();
         for answer in &derivation.answers {
+            if let [(of, relation, _)] = answer.range.as_slice() {
+                let name = Symbol::from(answer.name.as_str());
+                bounds.insert(name, (of.clone(), *relation));
+            }
             if let Form::Value { closed: value, .. } = &answer.form {
                 let name = Symbol::from(answer.name.as_str());
                 dimensions.insert(name.clone(), answer.dimension.clone());
@@ -141,6 +147,7 @@ impl<'a> Desk<'a> {
         Desk {
             scene,
             closed,
+            bounds,
             vectors,
             arrows,
             dimensions,
@@ -244,6 +251,10 @@ impl<'a> Desk<'a> {
         {
             return Err("a vector stands where a number belongs".into());
         }
+        // A special value may be one that the scene answers with.
+        for value in special.values_mut() {
+            *value = value.substitute(&self.closed);
+        }
         Ok(out.substitute(&special))
     }
 
@@ -259,6 +270,9 @@ impl<'a> Desk<'a> {
 
     fn check(&self, printed: &Printed) -> Finding {
         let (kind, text) = match &printed.what {
+            Print::Formula { item, text } if text.contains(['=', '<', '>', '≤', '≥']) => {
+                ("formula", format!("{item}: {text}"))
+            }
             Print::Formula { item, text } => ("formula", format!("{item} = {text}")),
             Print::Number { text, of, .. } => ("number", format!("{of} = {text}")),
             Print::Equation {
@@ -308,6 +322,7 @@ impl<'a> Desk<'a> {
     ) -> Result<(), String> {
         let reading = self.read(text, printed)?;
         let name = Symbol::from(item);
+        let bound = self.bound(&name, &reading.content);
         let pairs: Vec<(Expr, Expr)> = match (
             self.vectors.get(&name),
             self.closed.get(&name),
@@ -315,6 +330,7 @@ impl<'a> Desk<'a> {
         ) {
             (_, Some(closed), content) => {
                 let value = match content {
+                    _ if let Some((_, value)) = &bound => value.clone(),
                     Content::Vector([x, y, z]) if x.is_zero() && y.is_zero() => z.clone(),
                     other => other
                         .expr()
@@ -348,10 +364,14 @@ impl<'a> Desk<'a> {
             format!("[{}]", shown.join(", "))
         };
         self.identities(&all, printed, finding);
-        if finding.holds == Some(false) {
+        if let Some((sign, _)) = bound {
+            self.sense(&name, sign, finding);
+        }
+        if finding.holds == Some(false) && finding.explained.is_none() {
             self.caught(&all, finding);
             finding.explained = self
                 .before(item, &all)
+                .or_else(|| self.sought(&all))
                 .or_else(|| self.factor(&all))
                 .or_else(|| self.exchanged(&all))
                 .or_else(|| self.slip(&all))
@@ -401,6 +421,7 @@ impl<'a> Desk<'a> {
                     .turned(sides, printed)
                     .or_else(|| self.factor(&pairs))
                     .or_else(|| self.exchanged(&pairs))
+                    .or_else(|| self.sought(&pairs))
                     .or_else(|| self.slip_in_equation(sides, printed))
                     .or_else(|| self.lacking(&pairs))
                     .or_else(|| self.short_factor(&pairs))
@@ -412,64 +433,8 @@ impl<'a> Desk<'a> {
             return Err("an inequality compares numbers, and a side is a vector".into());
         }
         let values: Vec<Expr> = values.into_iter().flatten().collect();
-        // An inequality claimed on the whole domain: the sign of each difference.
-        let mut holds = Some(true);
-        for (pair, sign) in values.windows(2).zip(signs) {
-            let one = self.inequality(&pair[0], &pair[1], *sign, finding);
-            holds = match (holds, one) {
-                (_, Some(false)) => Some(false),
-                (Some(false), _) => Some(false),
-                (_, None) => None,
-                (h, Some(true)) => h,
-            };
-        }
-        finding.holds = holds;
-        match holds {
-            Some(false) => self.loose(&values, signs, finding),
-            None => self.at_points(&values, signs, finding),
-            Some(true) => {}
-        }
+        self.claimed(&values, signs, finding);
         Ok(())
-    }
-
-    /// An inequality whose sign is not known: it does not hold where a point shows that it fails, and is told where it does.
-    fn at_points(&self, values: &[Expr], signs: &[Relation], finding: &mut Finding) {
-        let all: Vec<&Expr> = values.iter().collect();
-        let uses = roles(&all);
-        let (domains, _) = self.scene.domains.completed(&uses);
-        let mut seen = [None, None];
-        for sample in samples(&uses, &domains, 24) {
-            let point = sample.point::<Interval>(true);
-            let links = values.windows(2).zip(signs).map(|(pair, sign)| {
-                let Outcome::Value(gap) = evaluate::<Interval>(&(&pair[1] - &pair[0]), &point)
-                else {
-                    return None;
-                };
-                let (less, more) = (gap.low > 0.0, gap.high < 0.0);
-                match sign {
-                    Relation::Less | Relation::LessEqual => (less || more).then_some(less),
-                    Relation::Greater | Relation::GreaterEqual => (less || more).then_some(more),
-                    _ => None,
-                }
-            });
-            let links: Option<Vec<bool>> = links.collect();
-            if let Some(links) = links {
-                let holds = links.iter().all(|l| *l);
-                seen[usize::from(holds)].get_or_insert_with(|| sample.words());
-            }
-        }
-        match seen {
-            [Some(fails), holds] => {
-                finding.holds = Some(false);
-                finding.because = format!("it fails at {fails}");
-                finding.explained = Some(match holds {
-                    Some(at) => format!("it holds at {at}: it is not true everywhere"),
-                    None => "it holds at no point tried".into(),
-                });
-                finding.caught_by = Some("putting simple numbers in".into());
-            }
-            _ => finding.because = "the sign is not decided, and it fails at no point tried".into(),
-        }
     }
 
     fn tidy(&self, e: &Expr) -> String {
@@ -479,32 +444,6 @@ impl<'a> Desk<'a> {
             Ok(x) => self.say(&field.expr(&x)),
             Err(_) => self.say(e),
         }
-    }
-
-    fn inequality(
-        &self,
-        a: &Expr,
-        b: &Expr,
-        sign: Relation,
-        finding: &mut Finding,
-    ) -> Option<bool> {
-        use crate::algebra::Sign;
-        let mut field = crate::algebra::Field::new(&self.scene.domains);
-        let difference = b - a;
-        field.prepare([&difference]);
-        let element = field.element(&difference).ok()?;
-        let known = field.sign(&element)?;
-        let known = if matches!(sign, Relation::Greater | Relation::GreaterEqual) {
-            known.flip()
-        } else {
-            known
-        };
-        finding.because = "sign of the difference on the domain".into();
-        Some(match sign {
-            Relation::Less | Relation::Greater => known == Sign::Positive,
-            Relation::LessEqual | Relation::GreaterEqual => known.is_not_negative(),
-            _ => return None,
-        })
     }
 
     fn identities(&self, pairs: &[(Expr, Expr)], printed: &Printed, finding: &mut Finding) {

@@ -37,7 +37,7 @@ impl Desk<'_> {
             };
             let one = self.with_own(one);
             let domains = &self.sheet.scene.domains;
-            let moves = |e: &Expr| e.symbols().iter().any(|n| self.closed.contains_key(n));
+            let moves = |e: &Expr| e.symbols().iter().any(|n| self.is_found(n));
             let said = self.wrong.iter().rev().take(8);
             // What is said of given quantities alone follows from nothing but itself.
             if !moves(&one) {
@@ -81,7 +81,7 @@ impl Desk<'_> {
                 let line = reduced(line, &rules);
                 // What says nothing new, or contradicts those before, gives no rule.
                 let symbols = line.symbols();
-                let mut names = symbols.iter().filter(|n| self.closed.contains_key(*n));
+                let mut names = symbols.iter().filter(|n| self.is_found(n));
                 let rule = names.find_map(|name| {
                     let root = solve_for(&line, name, domains)?;
                     Some(BTreeMap::from([(name.clone(), root)]))

@@ -173,6 +173,12 @@ impl Desk<'_> {
         })
     }
 
+    /// Whether something is said about a name: the scene answers it, or the solution solves for it where a condition holds.
+    pub(super) fn is_found(&self, name: &Symbol) -> bool {
+        let sought = || self.conditions().any(|(_, p, _)| p == name);
+        self.closed.contains_key(name) || (self.solved_for.contains(name) && sought())
+    }
+
     /// Whether a line states the condition of a question, as the scene does or in what the answers stand for: it is supposed
     /// from here on.
     pub(super) fn is_condition(&mut self, links: &[Link]) -> bool {
@@ -186,10 +192,11 @@ impl Desk<'_> {
             .map(|(.., c)| c)
             .find(|c| *c == one || *c == -&one)
             .or_else(|| {
-                // An equation for what is sought may come without the names of the scene: ½ m u² = μ m g d for s = d.
-                let mut sought = self
-                    .conditions()
-                    .filter(|(q, p, c)| self.brings_in(&one, (q, p, c)));
+                // An equation for what is sought may come without the names of the scene: ½ m u² = μ m g d for s = d, or
+                // ½ M u² = M g h where a body gets as high as h, in a solution that goes on to v = ….
+                let mut sought = self.conditions().filter(|(q, p, c)| {
+                    self.solved_for.contains(*p) || self.brings_in(&one, (q, p, c))
+                });
                 let found = sought.find(|(question, parameter, c)| {
                     self.holds_where(link, (*question, *parameter, c))
                 });
@@ -279,7 +286,11 @@ impl Desk<'_> {
         let grade = self.sheet.judge(&entry, text, options);
         let status = match grade.verdict {
             Verdict::Equivalent => Status::Holds,
-            Verdict::Different => Status::Wrong,
+            Verdict::Different => {
+                let link = self.link(sides.first()?, sides.last()?);
+                let cause = link.and_then(|link| self.cause(text, &link));
+                cause.map_or(Status::Wrong, Status::Carried)
+            }
             Verdict::Invalid | Verdict::Undecided => return None,
         };
         self.finals

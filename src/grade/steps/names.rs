@@ -1,5 +1,7 @@
 //! Names the student introduces: what they stand for, said before or further down, and with which slip.
 
+use std::collections::BTreeSet;
+
 use super::super::relation::solve_for;
 use super::link::Weighed;
 use super::{Desk, Diagnosis, Options, Status};
@@ -31,6 +33,20 @@ pub(super) fn definitions(text: &str) -> Vec<(Symbol, String)> {
     let parts = lines.flat_map(super::text::equations);
     let named = parts.filter_map(named);
     named.map(|(n, right)| (n, right.to_string())).collect()
+}
+
+/// The names for which a worked solution says something at the end of its way: `v = …`, `v ≥ …`.
+pub(super) fn solved_for(text: &str) -> BTreeSet<Symbol> {
+    let lines = text.lines().take(super::MAX_LINES);
+    let parts = lines.flat_map(super::text::equations);
+    let alone = parts.filter_map(|part| {
+        let reading = formula::read(part, &Symbols::open()).ok()?;
+        let Content::Relations(sides, _) = reading.content else {
+            return None;
+        };
+        sides.first()?.expr()?.as_symbol().cloned()
+    });
+    alone.collect()
 }
 
 impl Desk<'_> {

@@ -1,6 +1,8 @@
 //! What stands between a printed thing and the right one, where no slip of the pen does: a factor, a term, a component, a
 //! condition, one digit.
 
+use std::collections::BTreeMap;
+
 use num_traits::{Signed, Zero};
 
 use super::{Desk, Finding};
@@ -61,6 +63,22 @@ impl Desk<'_> {
             !value.is_zero() && (self.same(value, &difference) || self.same(value, &-&difference))
         })?;
         Some(format!("it would hold with {name} added to one side"))
+    }
+
+    /// What holds at a value of a parameter that the scene asks for.
+    pub(super) fn sought(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
+        self.bounds.iter().find_map(|(item, (of, _))| {
+            let at = BTreeMap::from([(of.as_symbol()?.clone(), self.closed.get(item)?.clone())]);
+            let holds = pairs.iter().all(|(a, b)| {
+                let [a, b] = [a, b].map(|e| e.substitute(&at));
+                let decided = equality::decide(&a, &b, &self.scene.domains).equality;
+                matches!(decided, Equality::Same { .. })
+            });
+            let of = self.say(of);
+            holds.then(|| {
+                format!("it holds for {of} = {item}, which the scene asks for; \"at\": {{\"{of}\": \"{item}\"}} says so")
+            })
+        })
     }
 
     /// A claim for a special value of a parameter that holds for another one.
