@@ -21,7 +21,7 @@ use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{self, Fault, Reading, Symbols};
 use crate::laws;
 use crate::scene::{Ask, ContactLaw, Question, Scene};
-use link::{Link, Weighed};
+use link::{Link, Sought, Weighed};
 
 /// What is found of one line.
 #[derive(Clone, PartialEq, Debug)]
@@ -166,8 +166,10 @@ struct Desk<'a> {
     early: BTreeSet<Symbol>,
     /// Spins as vectors: the name with an arrow, the spin, and whether it counts clockwise.
     spins: BTreeMap<Symbol, (Symbol, bool)>,
-    /// Conditions of questions that were stated, as left minus right.
-    supposed: Vec<Expr>,
+    /// Parameters whose values the scene asks for.
+    sought: Vec<Sought>,
+    /// Those of them of which it was stated what is supposed.
+    supposed: Vec<usize>,
     /// What is said last of each quantity.
     finals: BTreeMap<String, Final>,
 }
@@ -225,6 +227,7 @@ impl<'a> Desk<'a> {
             solved_for: BTreeSet::new(),
             early: BTreeSet::new(),
             spins: spins(&sheet.scene),
+            sought: link::sought(sheet),
             supposed: Vec::new(),
             finals: BTreeMap::new(),
         }
@@ -367,12 +370,13 @@ impl<'a> Desk<'a> {
             return (self.inequality(reading), Vec::new());
         };
         let weighed = self.weigh(text, &links);
+        let fails = matches!(weighed, Weighed::Slip(_) | Weighed::Carried(_));
+        if fails && self.is_condition(&links, &weighed) {
+            let words = "a condition the scene asks about, not a fact";
+            let found = Diagnosis::new(CONDITION, words, words);
+            return (Status::Holds, vec![found]);
+        }
         if let Weighed::Slip(_) = weighed {
-            if self.is_condition(&links) {
-                let words = "a condition the scene asks about, not a fact";
-                let found = Diagnosis::new(CONDITION, words, words);
-                return (Status::Holds, vec![found]);
-            }
             // The student may have meant the other reading of a slash.
             let others = formula::other_readings(text, &self.symbols(), true);
             for other in others.into_iter().take(4) {

@@ -65,8 +65,8 @@ struct Desk<'a> {
     scene: &'a Scene,
     /// Closed forms by name.
     closed: BTreeMap<Symbol, Expr>,
-    /// Of a quantity with a bound: what is bounded, and how it stands to its closed form.
-    bounds: BTreeMap<Symbol, (Expr, Relation)>,
+    /// What an answer says of a parameter, a bound or the place of a maximum: of what, how it stands to what.
+    bounds: BTreeMap<Symbol, (Expr, Relation, Expr)>,
     /// Components of vectors by name.
     vectors: BTreeMap<Symbol, [Expr; 2]>,
     /// The same by their names with an arrow, with those just before.
@@ -111,9 +111,8 @@ impl<'a> Desk<'a> {
         let mut vectors: BTreeMap<Symbol, [Expr; 2]> = BTreeMap::new();
         let mut bounds = BTreeMap::new();
         for answer in &derivation.answers {
-            if let [(of, relation, _)] = answer.range.as_slice() {
-                let name = Symbol::from(answer.name.as_str());
-                bounds.insert(name, (of.clone(), *relation));
+            if let [bound] = answer.range.as_slice() {
+                bounds.insert(Symbol::from(answer.name.as_str()), bound.clone());
             }
             if let Form::Value { closed: value, .. } = &answer.form {
                 let name = Symbol::from(answer.name.as_str());

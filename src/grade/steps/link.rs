@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use num_traits::Signed;
 
 use super::super::relation::solve_for;
-use super::super::sheet::Entry;
+use super::super::sheet::{Entry, Sheet};
 use super::super::{Diagnosis, Options, Tolerance, Verdict, number};
 use super::{Desk, Final, Status};
 use crate::algebra::{Field, Sign};
-use crate::answer::Form;
+use crate::answer::Answer;
 use crate::expr::{Expr, Function, Rational, Symbol};
 use crate::formula::{Content, Reading, Relation};
 use crate::scene::Ask;
@@ -20,6 +20,50 @@ pub(super) struct Link {
     pub sides: [Content; 2],
     /// Left minus right, components of vectors one by one.
     pub differences: Vec<Expr>,
+}
+
+/// A parameter whose value is sought.
+pub(super) struct Sought {
+    /// Name of the question.
+    question: String,
+    /// The parameter.
+    parameter: Symbol,
+    /// What is to be zero with it; `None` where something is to be as large as can be.
+    condition: Option<Expr>,
+    /// The value, where the scene's answer gives it.
+    value: Option<Expr>,
+}
+
+/// The parameters whose values a scene asks for.
+pub(super) fn sought(sheet: &Sheet) -> Vec<Sought> {
+    let questions = sheet.scene.questions.iter();
+    let each = questions.filter_map(|q| {
+        let mut answers = sheet.derivation.answers.iter();
+        let answer = answers.find(|a| *a.name == q.name);
+        let (parameter, condition, value) = match &q.ask {
+            Ask::Condition {
+                parameter,
+                left,
+                right,
+                ..
+            } => {
+                let value = answer.and_then(Answer::formula);
+                (parameter.clone(), Some(left - right), value)
+            }
+            Ask::Maximum { .. } => match answer?.range.as_slice() {
+                [(of, _, place)] => (of.as_symbol()?.clone(), None, Some(place)),
+                _ => return None,
+            },
+            _ => return None,
+        };
+        Some(Sought {
+            question: q.name.clone(),
+            parameter,
+            condition,
+            value: value.cloned(),
+        })
+    });
+    each.collect()
 }
 
 /// What is found of the links of a line.
@@ -159,103 +203,94 @@ impl Desk<'_> {
         share.is_constant().then_some(share)
     }
 
-    /// What is asked with a condition, with its question and the difference of its sides.
-    fn conditions(&self) -> impl Iterator<Item = (&str, &Symbol, Expr)> {
-        let scene = &self.sheet.scene;
-        scene.questions.iter().filter_map(|q| match &q.ask {
-            Ask::Condition {
-                parameter,
-                left,
-                right,
-                ..
-            } => Some((q.name.as_str(), parameter, left - right)),
-            _ => None,
-        })
-    }
-
     /// Whether something is said about a name: the scene answers it, or the solution solves for it where a condition holds.
     pub(super) fn is_found(&self, name: &Symbol) -> bool {
-        let sought = || self.conditions().any(|(_, p, _)| p == name);
+        let sought = || self.sought.iter().any(|s| s.parameter == *name);
         self.closed.contains_key(name) || (self.solved_for.contains(name) && sought())
     }
 
-    /// Whether a line states the condition of a question, as the scene does or in what the answers stand for: it is supposed
-    /// from here on.
-    pub(super) fn is_condition(&mut self, links: &[Link]) -> bool {
+    /// Whether a line states what is supposed of a parameter that is sought, as the scene does or, where it would be a slip
+    /// otherwise, in other words: it is supposed from here on.
+    pub(super) fn is_condition(&mut self, links: &[Link], weighed: &Weighed) -> bool {
         let [link] = links else { return false };
         let [one] = link.differences.as_slice() else {
             return false;
         };
         let one = self.with_own(one);
-        let stated = self
-            .conditions()
-            .map(|(.., c)| c)
-            .find(|c| *c == one || *c == -&one)
-            .or_else(|| {
-                // An equation for what is sought may come without the names of the scene: ½ m u² = μ m g d for s = d, or
-                // ½ M u² = M g h where a body gets as high as h, in a solution that goes on to v = ….
-                let mut sought = self.conditions().filter(|(q, p, c)| {
-                    self.solved_for.contains(*p) || self.brings_in(&one, (q, p, c))
-                });
-                let found = sought.find(|(question, parameter, c)| {
-                    self.holds_where(link, (*question, *parameter, c))
-                });
-                found.map(|(.., c)| c)
-            });
-        let found = stated.is_some();
-        self.supposed.extend(stated);
-        found
+        let is = |c: &Expr| *c == one || *c == -&one;
+        let mut all = self.sought.iter();
+        let stated = all.position(|s| s.condition.as_ref().is_some_and(is));
+        // ½ m u² = μ m g d for s = d; ½ M u² = M g h where a body gets as high as h, in a solution that goes on to v = ….
+        let found = stated.or_else(|| {
+            if !matches!(weighed, Weighed::Slip(_)) {
+                return None;
+            }
+            let in_words = |s: &Sought| {
+                self.brings_in(&one, s)
+                    || (self.solved_for.contains(&s.parameter) && !self.vanishes(&one, s))
+            };
+            let mut all = self.sought.iter();
+            all.position(|s| in_words(s) && self.holds_where(link, s))
+        });
+        self.supposed.extend(found);
+        found.is_some()
     }
 
-    /// Whether an equality holds where a condition that was stated does: at the value it gives its parameter.
+    /// Whether an equality holds where what was supposed does: at the value it gives its parameter.
     fn follows_condition(&self, link: &Link) -> bool {
-        let mut conditions = self.conditions();
-        conditions.any(|(question, parameter, c)| {
-            self.supposed.contains(&c) && self.holds_where(link, (question, parameter, &c))
-        })
+        let mut supposed = self.supposed.iter().filter_map(|i| self.sought.get(*i));
+        supposed.any(|s| self.holds_where(link, s))
     }
 
-    /// Whether an equality holds at the value that a condition gives its parameter.
-    fn holds_where(
-        &self,
-        link: &Link,
-        (question, parameter, condition): (&str, &Symbol, &Expr),
-    ) -> bool {
+    /// The value of the parameter that is sought.
+    fn value_of(&self, sought: &Sought) -> Option<Expr> {
+        let solved = || {
+            let condition = self.put_in(sought.condition.as_ref()?, &BTreeMap::new());
+            solve_for(&condition, &sought.parameter, &self.sheet.scene.domains)
+        };
+        sought.value.clone().or_else(solved)
+    }
+
+    /// Whether an equality holds at the value that is sought.
+    fn holds_where(&self, link: &Link, sought: &Sought) -> bool {
         let none = BTreeMap::new();
-        let domains = &self.sheet.scene.domains;
-        let answers = self.sheet.derivation.answers.iter();
-        let answered = answers
-            .filter(|a| *a.name == *question)
-            .find_map(|a| match &a.form {
-                Form::Value { closed, .. } => Some(closed.clone()),
-                _ => None,
-            });
-        let found =
-            answered.or_else(|| solve_for(&self.put_in(condition, &none), parameter, domains));
-        let Some(root) = found else {
+        let Some(root) = self.value_of(sought) else {
             return false;
         };
-        let root = BTreeMap::from([(parameter.clone(), root)]);
+        let root = BTreeMap::from([(sought.parameter.clone(), root)]);
         let there = link.differences.iter();
         let there = there.map(|d| self.put_in(d, &none).substitute(&root));
         self.all_zero(&there.collect::<Vec<_>>(), &none) == Some(true)
     }
 
+    /// Whether an equation speaks of a quantity that is zero at the value sought: any slip in its factor is lost there.
+    fn vanishes(&self, line: &Expr, sought: &Sought) -> bool {
+        let Some(root) = self.value_of(sought) else {
+            return true;
+        };
+        let root = BTreeMap::from([(sought.parameter.clone(), root)]);
+        let symbols = line.symbols();
+        let mut found = symbols.iter().filter_map(|name| self.closed.get(name));
+        found.any(|value| {
+            let there = [value.substitute(&root)];
+            self.all_zero(&there, &BTreeMap::new()) != Some(false)
+        })
+    }
+
     /// Whether a line speaks of data that come in by the condition alone, such as a given distance that an answer is to equal.
-    fn brings_in(
-        &self,
-        line: &Expr,
-        (question, parameter, condition): (&str, &Symbol, &Expr),
-    ) -> bool {
+    fn brings_in(&self, line: &Expr, sought: &Sought) -> bool {
+        let Some(condition) = &sought.condition else {
+            return false;
+        };
         let elsewhere = |name: &Symbol| {
             let mut others = self
                 .closed
                 .iter()
-                .filter(|(answer, _)| &***answer != question);
+                .filter(|(answer, _)| ***answer != *sought.question);
             others.any(|(_, value)| value.symbols().contains(name))
         };
         let own = condition.symbols();
-        let mut own = own.iter().filter(|name| *name != parameter);
+        let mut own = own.iter().filter(|name| **name != sought.parameter);
         own.any(|name| {
             let is_answer = self.closed.contains_key(name);
             !is_answer && line.symbols().contains(name) && !elsewhere(name)
@@ -274,9 +309,18 @@ impl Desk<'_> {
             return None;
         };
         let name = sides.first()?.expr()?.as_symbol()?;
-        let asked = self.conditions().find(|(_, p, _)| *p == name);
-        let question = match asked {
-            Some((question, ..)) => question.to_string(),
+        let mut sought = self.sought.iter().filter(|s| s.parameter == *name);
+        // Where a quantity is largest is no answer of its own.
+        let links = self.links(reading);
+        let is_place = |s: &Sought| {
+            let link = links.as_deref().and_then(<[Link]>::first);
+            s.condition.is_none() && link.is_some_and(|link| self.holds_where(link, s))
+        };
+        if sought.clone().any(is_place) {
+            return Some((Status::Holds, Vec::new()));
+        }
+        let question = match sought.find(|s| s.condition.is_some()) {
+            Some(sought) => sought.question.clone(),
             None => {
                 let mut bounds = self.sheet.bounds.iter();
                 bounds.find(|b| b.parameter == *name)?.name.clone()
@@ -311,8 +355,8 @@ impl Desk<'_> {
                 return Status::Undecided;
             };
             let plain = self.with_own(&(a - b));
-            let mut supposed = self.conditions().map(|(.., c)| c);
-            if supposed.any(|c| c == plain || c == -&plain) {
+            let mut supposed = self.sought.iter().filter_map(|s| s.condition.as_ref());
+            if supposed.any(|c| *c == plain || *c == -&plain) {
                 continue;
             }
             let difference = self.put_in(&plain, &none);

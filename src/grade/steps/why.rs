@@ -97,7 +97,9 @@ impl Desk<'_> {
                 let belief = |code| code == "TWO_BELIEFS" || BELIEFS.iter().any(|b| b.code == code);
                 found.retain(|d| !belief(d.code));
             }
-            return found;
+            if !found.is_empty() {
+                return found;
+            }
         }
         // A law with a slip.
         let [left, right] = sides.as_slice() else {

@@ -10,14 +10,14 @@ impl Desk<'_> {
     /// A bound as it is printed, `v > …` or `… < v`, of what the scene has a bound for: how what is bounded stands to it, and
     /// the bound.
     pub(super) fn bound(&self, item: &Symbol, content: &Content) -> Option<(Relation, Expr)> {
-        let (of, _) = self.bounds.get(item)?;
+        let (of, derived, _) = self.bounds.get(item)?;
         let Content::Relations(sides, signs) = content else {
             return None;
         };
         let ([left, right], [sign]) = (sides.as_slice(), signs.as_slice()) else {
             return None;
         };
-        if !sign.is_order() {
+        if !sign.is_order() || !derived.is_order() {
             return None;
         }
         let (left, right) = (left.expr()?, right.expr()?);
@@ -31,7 +31,7 @@ impl Desk<'_> {
 
     /// Whether a right bound is printed on the right side of what it bounds.
     pub(super) fn sense(&self, item: &Symbol, printed: Relation, finding: &mut Finding) {
-        let Some((of, derived)) = self.bounds.get(item) else {
+        let Some((of, derived, _)) = self.bounds.get(item) else {
             return;
         };
         finding.carom = format!("{} {} {}", self.say(of), derived.sign(), finding.carom);

@@ -67,16 +67,16 @@ impl Desk<'_> {
 
     /// What holds at a value of a parameter that the scene asks for.
     pub(super) fn sought(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
-        self.bounds.iter().find_map(|(item, (of, _))| {
-            let at = BTreeMap::from([(of.as_symbol()?.clone(), self.closed.get(item)?.clone())]);
+        self.bounds.iter().find_map(|(item, (of, _, value))| {
+            let at = BTreeMap::from([(of.as_symbol()?.clone(), value.clone())]);
             let holds = pairs.iter().all(|(a, b)| {
                 let [a, b] = [a, b].map(|e| e.substitute(&at));
                 let decided = equality::decide(&a, &b, &self.scene.domains).equality;
                 matches!(decided, Equality::Same { .. })
             });
-            let of = self.say(of);
+            let (of, value) = (self.say(of), self.say(value));
             holds.then(|| {
-                format!("it holds for {of} = {item}, which the scene asks for; \"at\": {{\"{of}\": \"{item}\"}} says so")
+                format!("it holds for {of} = {value}, which `{item}` asks for; `at` can say so")
             })
         })
     }
