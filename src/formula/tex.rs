@@ -47,122 +47,103 @@ impl<'a> Lexer<'a> {
             }
             self.pos = end;
         }
-        let tok = match word {
-            "frac" | "dfrac" | "tfrac" | "cfrac" => Tok::Fraction,
-            "sqrt" | "surd" => Tok::Root(2),
-            "cdot" | "ast" | "bullet" => Tok::Times,
-            "times" => Tok::Cross,
-            "div" => Tok::Slash,
-            "pm" => Tok::PlusMinus,
-            "mp" => Tok::MinusPlus,
-            "le" | "leq" | "leqslant" | "leqq" => Tok::Relation(Relation::LessEqual),
-            "ge" | "geq" | "geqslant" | "geqq" => Tok::Relation(Relation::GreaterEqual),
-            "lt" => Tok::Relation(Relation::Less),
-            "gt" => Tok::Relation(Relation::Greater),
-            "ne" | "neq" => Tok::Relation(Relation::NotEqual),
-            "approx" | "simeq" | "cong" => Tok::Relation(Relation::Approximately),
-            "equiv" => Tok::Relation(Relation::Equal),
-            "vert" | "mid" | "Vert" => Tok::Bar,
-            "lvert" | "lVert" => Tok::OpenBar,
-            "rvert" | "rVert" => Tok::CloseBar,
-            "lg" => Tok::Logarithm(10),
-            "over" => Tok::Over,
-            "exponentialE" => Tok::Exponential,
-            "langle" => Tok::Open('<'),
-            "rangle" => Tok::Close('>'),
-            "lbrace" => Tok::Open('{'),
-            "rbrace" => Tok::Close('}'),
-            "lbrack" => Tok::Open('['),
-            "rbrack" => Tok::Close(']'),
-            "pi" => Tok::Name("pi".into()),
-            "degree" => Tok::Degree,
-            "" => match rest.chars().next() {
-                // A set: its members are no decimal number.
-                Some('{')
-                    if rest[1..]
-                        .split('}')
-                        .next()
-                        .is_some_and(|inside| inside.contains(',')) =>
-                {
-                    let fault = Fault::new("a set is not read", start, end + 1);
-                    return Err(fault.hint("write x = 1 or x = 2, or 1, 2"));
-                }
-                Some('{') => {
-                    self.pos += 1;
-                    Tok::Open('{')
-                }
-                Some('}') => {
-                    self.pos += 1;
-                    Tok::Close('}')
-                }
-                Some('%') => return self.percent(start, 2),
-                Some('|') => {
-                    self.pos += 1;
-                    Tok::Bar
-                }
-                Some('\\') if self.matrix != Matrix::Outside => {
-                    self.pos = start;
-                    return self.component(Matrix::Column, 2);
-                }
-                Some(c) => {
-                    let shown = if is_invisible(c) || c.is_control() {
-                        '\u{fffd}'
-                    } else {
-                        c
-                    };
-                    return Err(Fault::new(
-                        format!("`\\{shown}` is no command I read"),
-                        start,
-                        end + c.len_utf8(),
-                    ));
-                }
-                None => return Err(Fault::new("a lone backslash", start, end)),
-            },
+        if let Some(tok) = plain(word) {
+            return Ok(tok);
+        }
+        match word {
+            "" => self.sign_command(start),
             "SI" | "qty" | "num" | "SIrange" if rest[length..].trim_start().starts_with('{') => {
-                return self.measured_number(start, word != "num");
+                self.measured_number(start, word != "num")
             }
             "unit" | "si" if rest[length..].trim_start().starts_with('{') => {
-                return self.spelled_unit(start);
+                self.spelled_unit(start)
             }
-            "operatorname" => return self.operator(start),
-            "begin" | "end" => return self.environment(start, word == "begin"),
+            "operatorname" => self.operator(start),
+            "begin" | "end" => self.environment(start, word == "begin"),
             "mathrm" | "text" | "textrm" | "mathsf" | "mathbf" | "mathit" | "textbf" | "textit"
-            | "boldsymbol" | "bm" | "mathcal" => {
-                return self.font(start, word);
-            }
+            | "boldsymbol" | "bm" | "mathcal" => self.font(start, word),
             "atop" | "choose" => {
-                return Err(Fault::new(format!("`\\{word}` is not read"), start, end)
-                    .hint("write \\frac{…}{…}"));
+                let fault = Fault::new(format!("`\\{word}` is not read"), start, end);
+                Err(fault.hint("write \\frac{…}{…}"))
             }
-            "infty" => {
+            "infty" => Err(Fault::new(
+                "infinity is no value of a formula here",
+                start,
+                end,
+            )),
+            word => {
+                let lower = word.chars().all(|c| c.is_ascii_lowercase());
+                match function(word).filter(|_| lower) {
+                    Some(tok) => Ok(self.based(word, tok, start)),
+                    None => self.named_command(word, start, single),
+                }
+            }
+        }
+    }
+
+    /// A command of one character that is no letter.
+    fn sign_command(&mut self, start: usize) -> Faulty<Tok> {
+        let (rest, end) = (&self.text[start + 1..], start + 1);
+        Ok(match rest.chars().next() {
+            // A set: its members are no decimal number.
+            Some('{')
+                if rest[1..]
+                    .split('}')
+                    .next()
+                    .is_some_and(|inside| inside.contains(',')) =>
+            {
+                let fault = Fault::new("a set is not read", start, end + 1);
+                return Err(fault.hint("write x = 1 or x = 2, or 1, 2"));
+            }
+            Some('{') => {
+                self.pos += 1;
+                Tok::Open('{')
+            }
+            Some('}') => {
+                self.pos += 1;
+                Tok::Close('}')
+            }
+            Some('%') => return self.percent(start, 2),
+            Some('|') => {
+                self.pos += 1;
+                Tok::Bar
+            }
+            Some('\\') if self.matrix != Matrix::Outside => {
+                self.pos = start;
+                return self.component(Matrix::Column, 2);
+            }
+            Some(c) => {
+                let shown = if is_invisible(c) || c.is_control() {
+                    '\u{fffd}'
+                } else {
+                    c
+                };
                 return Err(Fault::new(
-                    "infinity is no value of a formula here",
+                    format!("`\\{shown}` is no command I read"),
                     start,
-                    end,
+                    end + c.len_utf8(),
                 ));
             }
-            word => match function(word).filter(|_| word.chars().all(|c| c.is_ascii_lowercase())) {
-                Some(tok) => self.based(word, tok, start),
-                None => {
-                    let mut parts = Parts::default();
-                    let Some(at) = name::base(self.text, start, &mut parts, 0) else {
-                        let shown: String = word.chars().take(24).collect();
-                        let fault =
-                            Fault::new(format!("`\\{shown}` is no command I read"), start, end);
-                        return Err(match function(word).or_else(|| nearest_command(word)) {
-                            Some(_) => fault.hint("commands are written in lower case and in full, as in \\sin"),
-                            None => fault.hint("known are \\frac, \\sqrt, \\sin and the like, \\cdot, Greek letters, accents and \\mathrm"),
-                        });
-                    };
-                    return if single {
-                        self.resolve(start, at, parts)
-                    } else {
-                        self.finish(start, at, parts)
-                    };
-                }
-            },
+            None => return Err(Fault::new("a lone backslash", start, end)),
+        })
+    }
+
+    /// A command that is the letter of a name, or begins one.
+    fn named_command(&mut self, word: &str, start: usize, single: bool) -> Faulty<Tok> {
+        let end = start + 1 + word.len();
+        let mut parts = Parts::default();
+        let Some(at) = name::base(self.text, start, &mut parts, 0) else {
+            let shown: String = word.chars().take(24).collect();
+            let fault = Fault::new(format!("`\\{shown}` is no command I read"), start, end);
+            return Err(match function(word).or_else(|| nearest_command(word)) {
+                Some(_) => fault.hint("commands are written in lower case and in full, as in \\sin"),
+                None => fault.hint("known are \\frac, \\sqrt, \\sin and the like, \\cdot, Greek letters, accents and \\mathrm"),
+            });
         };
-        Ok(tok)
+        match single {
+            true => self.resolve(start, at, parts),
+            false => self.finish(start, at, parts),
+        }
     }
 
     /// A column or row of components; of other environments nothing is read.
@@ -328,6 +309,41 @@ impl<'a> Lexer<'a> {
             _ => Err(Fault::new("a group in braces is expected here", start, at)),
         }
     }
+}
+
+/// Commands that are one sign each.
+fn plain(word: &str) -> Option<Tok> {
+    Some(match word {
+        "frac" | "dfrac" | "tfrac" | "cfrac" => Tok::Fraction,
+        "sqrt" | "surd" => Tok::Root(2),
+        "cdot" | "ast" | "bullet" => Tok::Times,
+        "times" => Tok::Cross,
+        "div" => Tok::Slash,
+        "pm" => Tok::PlusMinus,
+        "mp" => Tok::MinusPlus,
+        "le" | "leq" | "leqslant" | "leqq" => Tok::Relation(Relation::LessEqual),
+        "ge" | "geq" | "geqslant" | "geqq" => Tok::Relation(Relation::GreaterEqual),
+        "lt" => Tok::Relation(Relation::Less),
+        "gt" => Tok::Relation(Relation::Greater),
+        "ne" | "neq" => Tok::Relation(Relation::NotEqual),
+        "approx" | "simeq" | "cong" => Tok::Relation(Relation::Approximately),
+        "equiv" => Tok::Relation(Relation::Equal),
+        "vert" | "mid" | "Vert" => Tok::Bar,
+        "lvert" | "lVert" => Tok::OpenBar,
+        "rvert" | "rVert" => Tok::CloseBar,
+        "lg" => Tok::Logarithm(10),
+        "over" => Tok::Over,
+        "exponentialE" => Tok::Exponential,
+        "langle" => Tok::Open('<'),
+        "rangle" => Tok::Close('>'),
+        "lbrace" => Tok::Open('{'),
+        "rbrace" => Tok::Close('}'),
+        "lbrack" => Tok::Open('['),
+        "rbrack" => Tok::Close(']'),
+        "pi" => Tok::Name("pi".into()),
+        "degree" => Tok::Degree,
+        _ => return None,
+    })
 }
 
 fn nearest_command(word: &str) -> Option<Tok> {

@@ -5,7 +5,8 @@
 use super::super::belief::{Change, Slip};
 use super::Written;
 use crate::expr::{Expr, Point, Rational, Symbol};
-use crate::numeric::{self, Answer, Given, Motion, Number, Solution, System, Unknown};
+use crate::numeric::given::{Freedom, GivenLaw};
+use crate::numeric::{self, Answer, Given, Law, Motion, Number, Solution, System, Unknown};
 use crate::scene::{Ask, EnergyWhen, ImpulseAt};
 
 /// What is asked, in the motion a slip leads to.
@@ -165,145 +166,149 @@ fn alter<T: Number>(
     given: &Given<T>,
     system: &mut System<T>,
 ) -> Option<()> {
-    use numeric::Law;
-    let n = system.unknowns.len();
-    let row_of = |system: &System<T>, law: Law| system.laws.iter().position(|l| *l == law);
-    let set =
-        |system: &mut System<T>, row: usize, entries: &[(Unknown, T)], right: T| -> Option<()> {
-            for column in 0..n {
-                system.matrix[row * n + column] = T::zero();
-            }
-            for (unknown, value) in entries {
-                let column = system.column(*unknown)?;
-                let cell = &mut system.matrix[row * n + column];
-                *cell = cell.plus(value);
-            }
-            system.right[row] = right;
-            Some(())
-        };
+    let mut none = |unknown: Unknown, instead: usize| {
+        let law = Law::AngularMomentum(instead);
+        put(system, law, &[(unknown, T::one())], T::zero())
+    };
     match change {
-        Change::MomentsIgnored {
-            bodies,
-            about,
-            instead,
-        } => {
-            let o = [about[0].evaluate(point)?, about[1].evaluate(point)?];
-            let row = row_of(system, Law::AngularMomentum(*instead))?;
-            let mut entries = Vec::new();
-            let mut right = T::zero();
-            for &b in bodies {
-                let body = &given.bodies[b];
-                let r = [body.center[0].minus(&o[0]), body.center[1].minus(&o[1])];
-                let m = &body.mass;
-                entries.push((Unknown::VelocityX(b), m.times(&r[1]).negated()));
-                entries.push((Unknown::VelocityY(b), m.times(&r[0])));
-                right = right.plus(
-                    &m.times(
-                        &r[0]
-                            .times(&body.velocity[1])
-                            .minus(&r[1].times(&body.velocity[0])),
-                    ),
-                );
-                if body.freedom == numeric::given::Freedom::Rigid {
-                    entries.push((Unknown::Spin(b), body.inertia.clone()));
-                    right = right.plus(&body.inertia.times(&body.spin));
-                }
-            }
-            set(system, row, &entries, right)
-        }
         Change::NoHingeImpulse {
             hinge,
             axis,
             instead,
-        } => {
-            let unknown = [Unknown::HingeX, Unknown::HingeY][*axis](*hinge);
-            let row = row_of(system, Law::AngularMomentum(*instead))?;
-            set(system, row, &[(unknown, T::one())], T::zero())
-        }
+        } => none([Unknown::HingeX, Unknown::HingeY][*axis](*hinge), *instead),
         Change::NoContactImpulse {
             contact,
             axis,
             instead,
         } => {
             let unknown = [Unknown::ContactX, Unknown::ContactY][*axis](*contact);
-            let row = row_of(system, Law::AngularMomentum(*instead))?;
-            set(system, row, &[(unknown, T::one())], T::zero())
+            none(unknown, *instead)
         }
-        Change::CentersBounce(c) => {
-            let contact = &given.contacts[*c];
-            let normal = contact.normal.clone()?;
-            let numeric::given::GivenLaw::Frictionless(e) = &contact.law else {
-                return None;
-            };
-            let row = row_of(system, Law::Restitution(*c))?;
-            let mut entries = Vec::new();
-            let mut right = T::zero();
-            for (sign, b) in [
-                (T::one().negated(), contact.joint.bodies[0]),
-                (T::one(), contact.joint.bodies[1]),
-            ] {
-                let body = &given.bodies[b];
-                let before = numeric::number::dot(&body.velocity, &normal).times(&sign);
-                right = right.minus(&e.times(&before));
-                if body.freedom == numeric::given::Freedom::Fixed {
-                    right = right.minus(&before);
-                } else {
-                    entries.push((Unknown::VelocityX(b), normal[0].times(&sign)));
-                    entries.push((Unknown::VelocityY(b), normal[1].times(&sign)));
-                }
-            }
-            set(system, row, &entries, right)
+        Change::MomentsIgnored {
+            bodies,
+            about,
+            instead,
+        } => {
+            let o = [about[0].evaluate(point)?, about[1].evaluate(point)?];
+            moments_ignored(bodies, &o, *instead, given, system)
         }
-        Change::WholeBounce { contact, body } => {
-            let numeric::given::GivenLaw::Frictionless(e) = &given.contacts[*contact].law else {
-                return None;
-            };
-            let velocity = given.bodies[*body].velocity.clone();
-            let [x, y] = velocity.map(|v| v.times(e).negated());
-            // The impulse follows from the momentum along the normal; the balances of the body give way.
-            let normal = given.contacts[*contact].normal.clone()?;
-            let m = given.bodies[*body].mass.clone();
-            let first = given.contacts[*contact].joint.bodies[0] == *body;
-            let change = numeric::number::dot(
-                &[
-                    x.minus(&given.bodies[*body].velocity[0]),
-                    y.minus(&given.bodies[*body].velocity[1]),
-                ],
-                &normal,
-            );
-            let impulse = if first {
-                m.times(&change).negated()
-            } else {
-                m.times(&change)
-            };
-            let rows = [
-                Law::MomentumX(*body),
-                Law::MomentumY(*body),
-                Law::Restitution(*contact),
-            ]
-            .map(|law| row_of(system, law));
-            set(
-                system,
-                rows[0]?,
-                &[(Unknown::VelocityX(*body), T::one())],
-                x,
-            )?;
-            set(
-                system,
-                rows[1]?,
-                &[(Unknown::VelocityY(*body), T::one())],
-                y,
-            )?;
-            set(
-                system,
-                rows[2]?,
-                &[(Unknown::ContactNormal(*contact), T::one())],
-                impulse,
-            )
-        }
+        Change::CentersBounce(contact) => centers_bounce(*contact, given, system),
+        Change::WholeBounce { contact, body } => whole_bounce(*contact, *body, given, system),
         Change::EnergyKept => None,
         Change::NoRotationEnergy | Change::NoTranslationEnergy | Change::PointIsCenter => Some(()),
     }
+}
+
+/// Puts an equation in the place of a law; `None` where there is no such law or unknown.
+fn put<T: Number>(
+    system: &mut System<T>,
+    law: Law,
+    entries: &[(Unknown, T)],
+    right: T,
+) -> Option<()> {
+    let n = system.unknowns.len();
+    let row = system.laws.iter().position(|l| *l == law)?;
+    for column in 0..n {
+        system.matrix[row * n + column] = T::zero();
+    }
+    for (unknown, value) in entries {
+        let column = system.column(*unknown)?;
+        let cell = &mut system.matrix[row * n + column];
+        *cell = cell.plus(value);
+    }
+    system.right[row] = right;
+    Some(())
+}
+
+/// The angular momentum of bodies about a point is kept, whatever impulses have a moment about it.
+fn moments_ignored<T: Number>(
+    bodies: &[usize],
+    o: &[T; 2],
+    instead: usize,
+    given: &Given<T>,
+    system: &mut System<T>,
+) -> Option<()> {
+    let mut entries = Vec::new();
+    let mut right = T::zero();
+    for &b in bodies {
+        let body = &given.bodies[b];
+        let r = [body.center[0].minus(&o[0]), body.center[1].minus(&o[1])];
+        let m = &body.mass;
+        entries.push((Unknown::VelocityX(b), m.times(&r[1]).negated()));
+        entries.push((Unknown::VelocityY(b), m.times(&r[0])));
+        let [vx, vy] = &body.velocity;
+        right = right.plus(&m.times(&r[0].times(vy).minus(&r[1].times(vx))));
+        if body.freedom == Freedom::Rigid {
+            entries.push((Unknown::Spin(b), body.inertia.clone()));
+            right = right.plus(&body.inertia.times(&body.spin));
+        }
+    }
+    put(system, Law::AngularMomentum(instead), &entries, right)
+}
+
+/// Restitution relates the velocities of the centers in place of those of the touching points.
+fn centers_bounce<T: Number>(
+    contact: usize,
+    given: &Given<T>,
+    system: &mut System<T>,
+) -> Option<()> {
+    let touch = &given.contacts[contact];
+    let normal = touch.normal.clone()?;
+    let GivenLaw::Frictionless(e) = &touch.law else {
+        return None;
+    };
+    let mut entries = Vec::new();
+    let mut right = T::zero();
+    for (sign, b) in [T::one().negated(), T::one()]
+        .into_iter()
+        .zip(touch.joint.bodies)
+    {
+        let body = &given.bodies[b];
+        let before = numeric::number::dot(&body.velocity, &normal).times(&sign);
+        right = right.minus(&e.times(&before));
+        if body.freedom == Freedom::Fixed {
+            right = right.minus(&before);
+        } else {
+            entries.push((Unknown::VelocityX(b), normal[0].times(&sign)));
+            entries.push((Unknown::VelocityY(b), normal[1].times(&sign)));
+        }
+    }
+    put(system, Law::Restitution(contact), &entries, right)
+}
+
+/// The whole velocity of a body turns back, e times as large. The impulse follows from the momentum along the normal; the
+/// balances of the body give way.
+fn whole_bounce<T: Number>(
+    contact: usize,
+    body: usize,
+    given: &Given<T>,
+    system: &mut System<T>,
+) -> Option<()> {
+    let touch = &given.contacts[contact];
+    let GivenLaw::Frictionless(e) = &touch.law else {
+        return None;
+    };
+    let normal = touch.normal.clone()?;
+    let before = &given.bodies[body].velocity;
+    let [x, y] = before.clone().map(|v| v.times(e).negated());
+    let change = [x.minus(&before[0]), y.minus(&before[1])];
+    let gained = (given.bodies[body].mass).times(&numeric::number::dot(&change, &normal));
+    let impulse = match touch.joint.bodies[0] == body {
+        true => gained.negated(),
+        false => gained,
+    };
+    for (law, unknown, value) in [
+        (Law::MomentumX(body), Unknown::VelocityX(body), x),
+        (Law::MomentumY(body), Unknown::VelocityY(body), y),
+        (
+            Law::Restitution(contact),
+            Unknown::ContactNormal(contact),
+            impulse,
+        ),
+    ] {
+        put(system, law, &[(unknown, T::one())], value)?;
+    }
+    Some(())
 }
 
 /// The motion with the joints' one freedom and the energy before.

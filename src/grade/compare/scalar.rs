@@ -6,7 +6,9 @@ use super::super::number::{self, Tolerance};
 use super::super::{Apart, Diagnosis, Proof, Strength, Verdict, fraction, partial};
 use super::{Context, Finding};
 use crate::algebra::Field;
-use crate::equality::{self, Assumption, AtPoints, Condition, Equality, How, Reason, Side, Value};
+use crate::equality::{
+    self, Assumption, AtPoints, Condition, Equality, Evidence, Ground, How, Reason, Side, Value,
+};
 use crate::expr::{Expr, Node};
 use crate::formula::write_plain;
 
@@ -63,68 +65,21 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
                 ground,
                 assumptions,
             },
-        } => {
-            let proof = Proof::of("identity", ground.words());
-            let sign = |a: &Assumption| matches!(a, Assumption::NotNegative(_));
-            let note = match assumptions.iter().any(sign) {
-                true => "EQUIV_ASSUMED",
-                false if assumptions.is_empty() => "EQUIV_IDENTITY",
-                false => "EQUIV_WHERE_DEFINED",
-            };
-            let mut finding = Finding::new(Verdict::Equivalent, note, proof);
-            finding.assumed = assumptions
-                .iter()
-                .map(|a| match a {
-                    Assumption::NotNegative(e) | Assumption::HasRoot(e) => {
-                        format!("{} ≥ 0", write_plain(e))
-                    }
-                    Assumption::NotAt(sample) => format!("not at {}", sample.words()),
-                    Assumption::NotZero(e) => format!("{} ≠ 0", write_plain(e)),
-                })
-                .collect();
-            finding
-        }
-        // Where only one of them has a value, nothing is compared; that is told.
+        } => identical(ground, assumptions),
         Equality::Same {
             how:
                 How::OnBranch {
                     condition: Condition::BothDefined,
                     elsewhere,
                 },
-        } => {
-            let words = "equal wherever both formulas have a value";
-            let proof = Proof::of("identity", words);
-            let mut finding = Finding::new(Verdict::Equivalent, "EQUIV_WHERE_DEFINED", proof);
-            let lacking = match elsewhere.left == Value::None {
-                true => "the expected formula",
-                false => "the answer",
-            };
-            let at = elsewhere.at.words();
-            finding.assumed = vec![format!("both have a value: {lacking} has none at {at}")];
-            finding
-        }
+        } => where_defined(&elsewhere),
         Equality::Same {
-            how: How::OnBranch {
-                condition,
-                elsewhere,
-            },
-        } => {
-            let where_equal = match condition {
-                Condition::NotNegative(e) => format!("where {} ≥ 0", ctx.say(&e)),
-                Condition::BothDefined => "where both have a value".into(),
-            };
-            let mut finding = Finding::different(
-                "DIFF_BRANCH",
-                "branch",
-                format!("equal {where_equal}, different elsewhere"),
-            );
-            finding.counterexample = Some(apart(&elsewhere));
-            finding.with(Diagnosis::new(
-                "BRANCH",
-                format!("right {where_equal}; elsewhere it differs"),
-                "your formula is right on a part of the domain only: think of signs",
-            ))
-        }
+            how:
+                How::OnBranch {
+                    condition: Condition::NotNegative(e),
+                    elsewhere,
+                },
+        } => on_branch(&ctx.say(&e), &elsewhere),
         Equality::Different(at) => {
             let mut finding = Finding::different(
                 "DIFF",
@@ -154,40 +109,96 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
                 Proof::of("none", words),
             )
         }
-        Equality::Undecided { reason, evidence } => {
-            let (note, words) = match reason {
-                Reason::TooLarge => (
-                    "UNDECIDED_SIZE",
-                    "the formulas are larger than the limit".to_string(),
-                ),
-                Reason::NoPoint => (
-                    "UNDECIDED_POINT",
-                    "no point of the domain at which both have a value was found".into(),
-                ),
-                Reason::NoPointApart => (
-                    "UNDECIDED_POINT",
-                    "no identity, yet no point was found at which they differ".into(),
-                ),
-                Reason::UnknownLaws => (
-                    "UNDECIDED_FUNCTION",
-                    "a function occurs whose laws are not known".into(),
-                ),
-                Reason::Limit(what) => ("UNDECIDED_LIMIT", what),
-            };
-            let seen = match (evidence.exact_points, evidence.enclosed_points) {
-                (0, 0) => String::new(),
-                (n, m) => format!(
-                    "; equal at {n} exact points, to {} digits at {m} more",
-                    evidence.digits
-                ),
-            };
-            Finding::new(
-                Verdict::Undecided,
-                note,
-                Proof::of("none", format!("{words}{seen}")),
-            )
-        }
+        Equality::Undecided { reason, evidence } => open(reason, &evidence),
     }
+}
+
+/// Equal on the whole domain, with what the proof took for granted.
+fn identical(ground: Ground, assumptions: Vec<Assumption>) -> Finding {
+    let proof = Proof::of("identity", ground.words());
+    let sign = |a: &Assumption| matches!(a, Assumption::NotNegative(_));
+    let note = match assumptions.iter().any(sign) {
+        true => "EQUIV_ASSUMED",
+        false if assumptions.is_empty() => "EQUIV_IDENTITY",
+        false => "EQUIV_WHERE_DEFINED",
+    };
+    let mut finding = Finding::new(Verdict::Equivalent, note, proof);
+    finding.assumed = assumptions
+        .iter()
+        .map(|a| match a {
+            Assumption::NotNegative(e) | Assumption::HasRoot(e) => {
+                format!("{} ≥ 0", write_plain(e))
+            }
+            Assumption::NotAt(sample) => format!("not at {}", sample.words()),
+            Assumption::NotZero(e) => format!("{} ≠ 0", write_plain(e)),
+        })
+        .collect();
+    finding
+}
+
+/// Equal wherever both have a value. Where only one of them has, nothing is compared; that is told.
+fn where_defined(elsewhere: &equality::Counterexample) -> Finding {
+    let words = "equal wherever both formulas have a value";
+    let proof = Proof::of("identity", words);
+    let mut finding = Finding::new(Verdict::Equivalent, "EQUIV_WHERE_DEFINED", proof);
+    let lacking = match elsewhere.left == Value::None {
+        true => "the expected formula",
+        false => "the answer",
+    };
+    let at = elsewhere.at.words();
+    finding.assumed = vec![format!("both have a value: {lacking} has none at {at}")];
+    finding
+}
+
+/// Equal where an expression is not negative, and different elsewhere.
+fn on_branch(condition: &str, elsewhere: &equality::Counterexample) -> Finding {
+    let where_equal = format!("where {condition} ≥ 0");
+    let mut finding = Finding::different(
+        "DIFF_BRANCH",
+        "branch",
+        format!("equal {where_equal}, different elsewhere"),
+    );
+    finding.counterexample = Some(apart(elsewhere));
+    finding.with(Diagnosis::new(
+        "BRANCH",
+        format!("right {where_equal}; elsewhere it differs"),
+        "your formula is right on a part of the domain only: think of signs",
+    ))
+}
+
+/// Undecided, with the reason and what was seen.
+fn open(reason: Reason, evidence: &Evidence) -> Finding {
+    let (note, words) = match reason {
+        Reason::TooLarge => (
+            "UNDECIDED_SIZE",
+            "the formulas are larger than the limit".to_string(),
+        ),
+        Reason::NoPoint => (
+            "UNDECIDED_POINT",
+            "no point of the domain at which both have a value was found".into(),
+        ),
+        Reason::NoPointApart => (
+            "UNDECIDED_POINT",
+            "no identity, yet no point was found at which they differ".into(),
+        ),
+        Reason::UnknownLaws => (
+            "UNDECIDED_FUNCTION",
+            "a function occurs whose laws are not known".into(),
+        ),
+        Reason::Limit(what) => ("UNDECIDED_LIMIT", what),
+    };
+    let seen = match (evidence.exact_points, evidence.enclosed_points) {
+        (0, 0) => String::new(),
+        (n, m) => format!(
+            "; equal at {n} exact points, to {} digits at {m} more",
+            evidence.digits
+        ),
+    };
+    Finding::new(
+        Verdict::Undecided,
+        note,
+        Proof::of("none", format!("{words}{seen}")),
+    )
 }
 
 fn apart(c: &equality::Counterexample) -> Apart {
