@@ -81,7 +81,7 @@ fn every_row_of_the_tables_gets_its_verdict() {
         let symbols = cells.get(4).map_or("", String::as_str);
         let grade = judge(expected, answer, &question(symbols), &Options::default());
         if grade.verdict.word() != verdict {
-            let read = grade.read_as.unwrap_or_default();
+            let read = grade.read_as().unwrap_or_default();
             let _ = writeln!(
                 wrong,
                 "{file}:{line} {expected} | {answer} [{reason}] is {} ({}; read {read}), not {verdict}",

@@ -42,8 +42,8 @@ pub use note::{Note, Remark};
 use parser::{Parser, Side};
 pub(crate) use sentence::sentence;
 pub use sentence::{Piece, Sentence, sides};
-pub(crate) use symbols::is_greek;
 pub use symbols::{Declared, Symbols};
+pub(crate) use symbols::{is_angle_name, is_greek};
 pub(crate) use units::plain_unit;
 pub use visible::{is_hidden, visible};
 pub use write::{latex_name, unicode_name, write_latex, write_plain, write_unicode};
@@ -174,6 +174,13 @@ impl Content {
         }
     }
 
+    /// The names that occur.
+    pub fn symbols(&self) -> BTreeSet<Symbol> {
+        let mut names = BTreeSet::new();
+        self.each(&mut |e| names.append(&mut e.symbols()));
+        names
+    }
+
     /// Calls `visit` for every expression inside.
     pub fn each(&self, visit: &mut dyn FnMut(&Expr)) {
         match self {
@@ -214,9 +221,7 @@ impl Reading {
 
     /// The names that occur.
     pub fn symbols(&self) -> BTreeSet<Symbol> {
-        let mut names = BTreeSet::new();
-        self.content.each(&mut |e| names.append(&mut e.symbols()));
-        names
+        self.content.symbols()
     }
 }
 

@@ -143,10 +143,10 @@ pub(crate) fn bare_index(
     Some(index(run, false))
 }
 
-/// Whether the text behind a raised sign makes it the sign of an exponent: `x^-2`, `x^-(a+b)`, `x^-n`.
+/// Whether the text behind a raised sign makes it the sign of an exponent: `x^-2`, `x^-½`, `x^-(a+b)`, `x^-n`.
 fn starts_exponent(rest: &str) -> bool {
-    rest.starts_with(|c: char| c.is_ascii_alphanumeric() || matches!(c, '(' | '{' | '[' | '.'))
-        || rest.starts_with("\\frac")
+    let begins = |c: char| c.is_ascii_alphabetic() || c.is_numeric() || "({[.".contains(c);
+    rest.starts_with(begins) || rest.starts_with("\\frac")
 }
 
 /// Reads index and marks behind a base that ends at byte `at`; gives the byte after them.
@@ -358,7 +358,7 @@ fn raised(text: &str, at: usize, parts: &Parts, symbols: &Symbols) -> Option<(St
         marks: format!("{}{mark}", parts.marks),
         ..parts.clone()
     };
-    let digit = behind.starts_with(|c: char| c.is_ascii_digit() || c == '(' || c == '{');
+    let digit = behind.starts_with(|c: char| c.is_numeric() || c == '(' || c == '{');
     if starts_exponent(behind) && (digit || find(&marked, symbols).is_none()) {
         return None;
     }

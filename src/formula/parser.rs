@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! statement = side { relation side } [ "," ]
-//! side      = sum [ unit ]
+//! side      = sum [ "\over" sum ] [ unit ]
 //! sum       = [ sign ] term { sign [ "+" | "-" ] term }          sign = "+" | "-" | "±" | "∓"
 //! term      = group { ( "*" | "×" | "/" ) [ "+" | "-" ] group }  below "/" only what product.rs tells
 //! group     = factor { factor }                                  side by side: a product
@@ -105,7 +105,11 @@ impl<'a> Parser<'a> {
 
     fn side(&mut self) -> Faulty<Side> {
         self.units = 0;
-        let written = self.sum()?;
+        let mut written = self.sum()?;
+        if self.peek()?.tok == Tok::Over {
+            self.next()?;
+            written = self.over(written)?;
+        }
         if let Tok::Unit(_) = self.peek()?.tok {
             let token = self.next()?;
             if let Tok::Unit(unit) = token.tok {

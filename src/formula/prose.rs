@@ -131,6 +131,7 @@ pub(super) fn conclusion(text: &str, held: Held) -> Option<usize> {
         false => None,
     };
     let arrow = arrow.or_else(|| said_between(text));
+    let arrow = arrow.or_else(|| last_line(text));
     if arrow.is_none() && !text.contains([',', ':', '=']) && !text.contains(" is ") {
         return None;
     }
@@ -139,10 +140,10 @@ pub(super) fn conclusion(text: &str, held: Held) -> Option<usize> {
     let bold = text[from..].trim_start().starts_with("**");
     let rest = text[from..].trim_start_matches(|c: char| c.is_whitespace() || bold && c == '*');
     let start = text.len() - rest.len();
-    // `\text{so } t = …`
+    // `\text{so } t = …`, `\text{The velocity is } …`
     if let Some((said, behind)) = rest.strip_prefix("\\text{").and_then(|r| r.split_once('}')) {
         let said = said.trim().trim_end_matches([',', ':']);
-        if WORDS.iter().any(|word| word.eq_ignore_ascii_case(said)) {
+        if said.ends_with(" is") || WORDS.iter().any(|word| word.eq_ignore_ascii_case(said)) {
             return Some(text.len() - behind.len());
         }
     }
@@ -168,9 +169,9 @@ pub(super) fn conclusion(text: &str, held: Held) -> Option<usize> {
     }
 }
 
-/// Where an equation starts that a word ties to the one before it: `½mv² = mgh so v = √(2gh)`.
+/// Where a relation starts that a word or an arrow ties to the one before it: `½mv² = mgh so v = √(2gh)`.
 fn said_between(text: &str) -> Option<usize> {
-    const WORDS: [&str; 7] = [
+    const WORDS: [&str; 9] = [
         " so ",
         " hence ",
         " thus ",
@@ -178,15 +179,30 @@ fn said_between(text: &str) -> Option<usize> {
         " gives ",
         " yields ",
         " and so ",
+        "=>",
+        "->",
     ];
-    if text.matches('=').count() < 2 {
+    if text.matches(RELATIONS).count() < 2 {
         return None;
     }
     let found = WORDS
         .iter()
         .filter_map(|word| text.rfind(word).map(|at| (at, at + word.len())));
     let (start, end) = found.max_by_key(|(_, end)| *end)?;
-    (text[..start].contains('=') && text[end..].contains('=')).then_some(end)
+    (text[..start].contains(RELATIONS) && text[end..].contains(RELATIONS)).then_some(end)
+}
+
+/// Signs between two sides.
+const RELATIONS: [char; 5] = ['=', '<', '>', '≤', '≥'];
+
+/// Where the last of several lines starts, when it says what a name is that stands in the line before as well.
+fn last_line(text: &str) -> Option<usize> {
+    let (before, last) = text.trim_end().rsplit_once('\n')?;
+    let line = before.trim_end().rsplit('\n').next()?;
+    let name = last.split('=').next().map(str::trim)?;
+    let named = !name.is_empty() && !name.contains(|c: char| " +-*/()^".contains(c));
+    (named && last.contains('=') && line.contains('=') && line.contains(name))
+        .then_some(before.len() + 1)
 }
 
 /// Start and end of the only formula in a sentence; nothing where there are none or several, or no words around it.

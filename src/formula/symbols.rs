@@ -26,7 +26,7 @@ pub struct Declared {
 #[derive(Clone, Debug, Default)]
 pub struct Symbols {
     declared: Vec<Declared>,
-    keys: FxHashMap<String, usize>,
+    keys: FxHashMap<Symbol, usize>,
     bases: FxHashSet<String>,
     /// Names with an index of one letter, without the mark between: `vy` for v_y.
     joined: FxHashSet<String>,
@@ -116,10 +116,10 @@ impl Symbols {
             let letters = key.bytes().take_while(u8::is_ascii_alphabetic).count();
             self.add_base(&key[..letters]);
             if key != name {
-                self.keys.entry(key.into_owned()).or_insert(index);
+                self.keys.entry(key.into()).or_insert(index);
             }
         }
-        self.keys.insert(name.to_string(), index);
+        self.keys.insert(symbol.clone(), index);
         if let [base, b'_', letter] = name.as_bytes()
             && base.is_ascii_alphabetic()
             && letter.is_ascii_alphabetic()
@@ -128,7 +128,7 @@ impl Symbols {
             let function = super::words::function(&joined).is_some() || joined == "pi";
             let unit = crate::dimension::unit(&joined).is_ok();
             if !function && !unit && !is_greek(&joined) {
-                self.keys.entry(joined.clone()).or_insert(index);
+                self.keys.entry(joined.as_str().into()).or_insert(index);
                 self.add_base(&joined);
                 self.joined.insert(joined);
             }

@@ -159,6 +159,14 @@ impl Parser<'_> {
         }
     }
 
+    /// What stands above `\over`, with what follows as its divisor.
+    pub(super) fn over(&mut self, above: Written) -> Faulty<Written> {
+        let below = self.sum()?;
+        let (start, end) = (above.start, below.end);
+        let shape = Shape::Fraction(Box::new(above), Box::new(below));
+        Ok(Written::new(shape, start, end))
+    }
+
     fn bracket(&mut self, open: char, start: usize, opened: usize) -> Faulty<Written> {
         let outer = std::mem::replace(&mut self.bars, 0);
         let lists = open == '[' || open == '<' || open == '(' && self.lexer.lists();
@@ -169,10 +177,7 @@ impl Parser<'_> {
             && open == '{'
             && let Some(above) = parts.pop()
         {
-            let below = self.sum()?;
-            let (from, to) = (above.start, below.end);
-            let shape = Shape::Fraction(Box::new(above), Box::new(below));
-            parts.push(Written::new(shape, from, to));
+            parts.push(self.over(above)?);
             token = self.next()?;
         }
         while token.tok == Tok::Comma && open != '{' {

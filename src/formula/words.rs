@@ -369,22 +369,23 @@ impl Lexer<'_> {
         self.resolve(start, stop, whole)
     }
 
-    /// `v^2_0` and `v^{\prime\,2}`: an exponent before the rest of the name, which is read behind it.
+    /// `v^2_0`, `v²₀` and `v^{\prime\,2}`: an exponent before the rest of the name, which is read behind it.
     fn raised_first(&mut self, at: usize, parts: &mut Parts) -> usize {
-        let Some(rest) = self.text[at..].strip_prefix('^') else {
-            return at;
-        };
-        let (inside, behind) = match rest.strip_prefix('{') {
-            Some(inside) => match inside.split_once('}') {
+        let rest = &self.text[at..];
+        let (inside, behind) = match (rest.strip_prefix('^'), rest.strip_prefix("^{")) {
+            (_, Some(inside)) => match inside.split_once('}') {
                 Some(pair) => pair,
                 None => return at,
             },
-            None => rest.split_at(
-                rest.bytes()
-                    .next()
-                    .is_some_and(|b| b.is_ascii_digit())
-                    .into(),
-            ),
+            (Some(rest), None) => {
+                let digit = rest.starts_with(|c: char| c.is_ascii_digit());
+                rest.split_at(digit.into())
+            }
+            (None, None) => match (rest.strip_prefix('²'), rest.strip_prefix('³')) {
+                (Some(behind), _) => ("2", behind),
+                (_, Some(behind)) => ("3", behind),
+                _ => return at,
+            },
         };
         let prime = inside.trim_start().strip_prefix("\\prime");
         let digits: String = prime
@@ -396,7 +397,8 @@ impl Lexer<'_> {
             return at;
         };
         let mut end = self.text.len() - behind.len();
-        let indexed = behind.trim_start_matches(' ').starts_with('_') && parts.index.is_empty();
+        let index = |c: char| c == '_' || name::lowered(c).is_some();
+        let indexed = behind.trim_start_matches(' ').starts_with(index) && parts.index.is_empty();
         if prime.is_none() && !indexed {
             return at;
         }

@@ -62,12 +62,7 @@ pub(crate) struct Context<'a> {
 impl Context<'_> {
     /// Dimension of a symbol, where the question declares it.
     pub fn dimension_of(&self, name: &str) -> Option<Dimension> {
-        let question = &self.key.question;
-        let found = question
-            .symbols
-            .iter()
-            .chain(&question.asked)
-            .find(|g| *g.name == *name);
+        let found = self.key.question.given().find(|g| *g.name == *name);
         found.and_then(|g| g.dimension.clone())
     }
 
@@ -292,13 +287,20 @@ fn nameless(
     (right && signs.iter().zip(others).all(follows)).then_some(finding)
 }
 
-/// Whether letters side by side, none of them of the question, are a name such as `KE`.
+/// Whether letters side by side, none of them of the question, are a name such as `KE`; so are the letters of a velocity
+/// with an index, `vf` and `vx`.
 fn is_word(ctx: &Context, e: &Expr) -> bool {
-    let letter = |e: &Expr| {
-        e.as_symbol()
-            .is_some_and(|name| !declared_symbol(ctx, name))
+    let Node::Product(parts) = e.node() else {
+        return false;
     };
-    matches!(e.node(), Node::Product(letters) if letters.iter().all(letter))
+    let letters: Option<Vec<&Symbol>> = parts.iter().map(Expr::as_symbol).collect();
+    let free = |name: &Symbol| !declared_symbol(ctx, name);
+    let index = |name: &Symbol| free(name) && matches!(&**name, "f" | "i" | "x" | "y");
+    let velocity = |name: &Symbol| matches!(&**name, "v" | "u" | "V");
+    letters.is_some_and(|letters| {
+        letters.iter().all(|name| free(name))
+            || matches!(letters.as_slice(), [a, b] if velocity(a) && index(b) || velocity(b) && index(a))
+    })
 }
 
 /// The sides of an equation between vectors, names with an arrow and sums of them in their components.

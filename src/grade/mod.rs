@@ -21,12 +21,10 @@ pub mod steps;
 mod unit;
 mod verdict;
 
-use num_traits::Signed;
-
 use crate::dimension::Dimension;
 use crate::domain::{Domain, Domains};
-use crate::expr::{Expr, Function, Node, Symbol};
-use crate::formula::{self, Content, Fault, Reading, Relation, Symbols};
+use crate::expr::Symbol;
+use crate::formula::{self, Content, Fault, Reading, Symbols};
 pub(crate) use crate::verify::rounding::fraction;
 
 pub use form::Form;
@@ -46,6 +44,13 @@ pub struct Question {
     pub asked: Vec<Given>,
     /// Dimension of what is asked for, where known.
     pub dimension: Option<Dimension>,
+}
+
+impl Question {
+    /// What is declared, and what is asked for.
+    pub(crate) fn given(&self) -> impl Iterator<Item = &Given> {
+        self.symbols.iter().chain(&self.asked)
+    }
 }
 
 /// A declared symbol.
@@ -168,7 +173,7 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
         reading.content = content;
         names = reading.symbols();
     }
-    for given in question.symbols.iter().chain(&question.asked) {
+    for given in question.given() {
         names.remove(&given.name);
     }
     // A component of a vector has either sign.
@@ -180,15 +185,11 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
                 .insert(name.clone(), Domain::real());
         }
     }
-    // `-2 < x < 2` and `|x| < 3` say themselves that x has either sign.
-    if question.symbols.is_empty()
-        && names.len() == 1
-        && signed(&reading.content)
-        && let Some(name) = names.first()
-        && matches!(&**name, "x" | "y" | "z")
-    {
-        let domains = &mut question.domains.symbols;
-        domains.entry(name.clone()).or_insert_with(Domain::real);
+    for name in relation::unsigned(&reading.content) {
+        if names.contains(&name) {
+            let domains = &mut question.domains.symbols;
+            domains.entry(name).or_insert_with(Domain::real);
+        }
     }
     let unknown = names.into_iter().map(|name| Given {
         name,
@@ -213,21 +214,8 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
     }
 }
 
-/// Whether a relation would say nothing of what is positive: an inequality with zero or a negative number for a side, or bars.
-fn signed(content: &Content) -> bool {
-    let Content::Relations(sides, signs) = content else {
-        return false;
-    };
-    let number = |side: &Content| side.expr().and_then(Expr::as_number).cloned();
-    let low = |side: &Content| number(side).is_some_and(|k| !k.is_positive());
-    let mut bars = false;
-    let is_bar = |part: &Expr| matches!(part.node(), Node::Call(Function::Abs, _));
-    content.each(&mut |e| bars |= e.parts().any(is_bar));
-    bars || signs.iter().any(|s| *s != Relation::Equal) && sides.iter().any(low)
-}
-
 fn declare(symbols: &mut Symbols, question: &Question) {
-    for given in question.symbols.iter().chain(&question.asked) {
+    for given in question.given() {
         symbols.declare_as(
             given.name.clone(),
             given.latex.as_deref(),
@@ -254,8 +242,7 @@ pub fn unreadable_key(fault: Fault) -> Grade {
         counterexample: None,
         error: Some(fault),
         diagnosis: Vec::new(),
-        read_as: None,
-        symbols: Vec::new(),
+        content: None,
     }
 }
 
@@ -342,8 +329,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         counterexample: finding.counterexample,
         error: None,
         diagnosis: finding.diagnosis,
-        read_as: Some(show(&reading.content)),
-        symbols: reading.symbols().into_iter().collect(),
+        content: Some(reading.content),
     }
 }
 

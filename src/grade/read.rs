@@ -62,7 +62,10 @@ pub(super) fn is_stable(reading: &Reading) -> bool {
     scalar
         && reading.choices == 0
         && reading.notes.is_empty()
-        && reading.symbols().iter().all(plain)
+        && reading.content.expr().is_some_and(|e| {
+            let mut names = e.parts().filter_map(Expr::as_symbol);
+            names.all(plain)
+        })
 }
 
 /// Reads an answer.
@@ -240,11 +243,26 @@ pub(super) fn quantity(text: &str, question: &Question) -> Option<Reading> {
             .or_else(|| along_axes(text, &symbols))
             .filter(vector)
     };
-    let reading = formula::read(text, &symbols).ok().or_else(list);
-    reading.filter(|reading| {
+    let direct = || match begins_unnamed(text, question) {
+        true => None,
+        false => formula::read(text, &symbols).ok(),
+    };
+    direct().or_else(list).filter(|reading| {
         let plain = matches!(reading.content.answer(), Content::Quantity(_));
         plain || reading.unit.is_some() && reading.symbols().is_empty()
     })
+}
+
+/// Whether a formula, with nothing before it that would be passed over, begins with a letter that is no declared name.
+fn begins_unnamed(text: &str, question: &Question) -> bool {
+    let plain = |b: u8| b.is_ascii() && !b"\\$>=:,".contains(&b);
+    let mut letters = text.chars().take_while(char::is_ascii_alphabetic);
+    match (letters.next(), letters.next()) {
+        (Some(letter), None) if letter != 'e' && text.bytes().all(plain) => {
+            !question.given().any(|g| g.name.starts_with(letter))
+        }
+        _ => false,
+    }
 }
 
 /// Whether an answer to a key that is a quantity is one too, or a bare number.
@@ -260,8 +278,7 @@ pub(super) fn is_quantity(key: &Key, text: &str) -> bool {
 }
 
 fn declared(key: &Key, name: &Symbol) -> bool {
-    let known = key.question.symbols.iter().chain(&key.question.asked);
-    known.into_iter().any(|g| g.name == *name)
+    key.question.given().any(|g| g.name == *name)
 }
 
 fn vector(reading: &Reading) -> bool {

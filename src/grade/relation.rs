@@ -22,8 +22,8 @@ use super::compare::{Context, Finding};
 use super::{Apart, Diagnosis, Proof, Verdict};
 use crate::algebra::{Field, Sign};
 use crate::domain::{Coordinate, Domain, Domains, Sample, roles, samples};
-use crate::expr::{Expr, Node, Point, Rational, Symbol, ratio};
-use crate::formula::{Content, Relation, write_plain};
+use crate::expr::{Expr, Function, Node, Point, Rational, Symbol, ratio};
+use crate::formula::{Content, Relation, is_angle_name, write_plain};
 use crate::interval::{Interval, Outcome, evaluate};
 use cells::holds;
 use factor::{turned_term, unrooted};
@@ -57,9 +57,52 @@ pub(crate) fn compare(
     if let Some(found) = system::in_one_symbol(ctx, &expected, &answer, domains) {
         return found;
     }
-    match (expected.as_slice(), answer.as_slice()) {
+    let found = match (expected.as_slice(), answer.as_slice()) {
         ([e], [a]) => link(ctx, e, a),
         _ => system::compare(ctx, &expected, &answer, domains),
+    };
+    match found.verdict {
+        Verdict::Undecided => system::scaled(ctx, &expected, &answer, domains).unwrap_or(found),
+        _ => found,
+    }
+}
+
+/// The symbols that a relation is about, which no habit makes positive: the only one of it, unless that is an angle or has a
+/// logarithm, or one that stands alone beside zero or something negative, as in `0 < x < b`, or alone between bars.
+pub(super) fn unsigned(content: &Content) -> Vec<Symbol> {
+    let Content::Relations(sides, signs) = content else {
+        return Vec::new();
+    };
+    let mut all = Vec::new();
+    content.each(&mut |e| all.push(e.clone()));
+    let uses = roles(&all.iter().collect::<Vec<_>>()).symbols;
+    let mut uses = uses.iter();
+    if let (Some((name, role)), None) = (uses.next(), uses.next()) {
+        let logarithm = |part: &Expr| matches!(part.node(), Node::Call(Function::Ln, x) if x.as_symbol() == Some(name));
+        let positive = all.iter().any(|e| e.parts().any(logarithm));
+        let either = !(role.turns || is_angle_name(name) || positive);
+        return Vec::from_iter(either.then(|| name.clone()));
+    }
+    let low = |side: &Content| side.expr().is_some_and(|e| e.is_zero() || e.is_negative());
+    let alone = |side: &Content| side.expr()?.as_symbol().cloned();
+    let bounds = sides
+        .windows(2)
+        .zip(signs)
+        .filter(|(_, s)| **s != Relation::Equal);
+    let beside = bounds.filter_map(|(pair, _)| match pair {
+        [a, b] if low(a) => alone(b),
+        [a, b] if low(b) => alone(a),
+        [a, b] => between_bars(a).or_else(|| between_bars(b)),
+        _ => None,
+    });
+    beside.collect()
+}
+
+/// The symbol of `|x|`.
+fn between_bars(side: &Content) -> Option<Symbol> {
+    match side.expr()?.node() {
+        Node::Call(Function::Abs, inside) => inside.as_symbol().cloned(),
+        _ => None,
     }
 }
 

@@ -94,7 +94,7 @@ fn asked(key: &Key) -> Option<Dimension> {
         return Some(dimension.clone());
     }
     let known = |name: &str| {
-        let all = key.question.symbols.iter().chain(&key.question.asked);
+        let all = key.question.given();
         let mut all = all.into_iter();
         all.find(|g| *g.name == *name)?.dimension.clone()
     };

@@ -1,7 +1,9 @@
 //! What a judgement says: the verdict, how it is known, the point that shows a difference, what is wrong.
 
+use std::collections::BTreeSet;
+
 use crate::expr::Symbol;
-use crate::formula::Fault;
+use crate::formula::{Content, Fault};
 
 /// The verdict on an answer with everything it rests on.
 #[derive(Clone, Debug)]
@@ -20,10 +22,23 @@ pub struct Grade {
     pub error: Option<Fault>,
     /// What is wrong, and how much is right.
     pub diagnosis: Vec<Diagnosis>,
+    /// How the answer was read.
+    pub content: Option<Content>,
+}
+
+impl Grade {
     /// How the answer was read, in plain notation.
-    pub read_as: Option<String>,
+    pub fn read_as(&self) -> Option<String> {
+        self.content.as_ref().map(super::show)
+    }
+
     /// The names in the answer.
-    pub symbols: Vec<Symbol>,
+    pub fn symbols(&self) -> BTreeSet<Symbol> {
+        self.content
+            .as_ref()
+            .map(Content::symbols)
+            .unwrap_or_default()
+    }
 }
 
 /// The four verdicts.

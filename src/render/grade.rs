@@ -40,10 +40,10 @@ pub fn json(id: Option<&Value>, grade: &Grade, text: &str) -> Value {
             grade.diagnosis.iter().map(diagnosis).collect(),
         );
     }
-    out.insert("read_as".into(), json!(grade.read_as));
+    out.insert("read_as".into(), json!(grade.read_as()));
     out.insert(
         "symbols".into(),
-        grade.symbols.iter().map(|s| s.to_string()).collect(),
+        grade.symbols().iter().map(|s| s.to_string()).collect(),
     );
     Value::Object(out)
 }
@@ -98,12 +98,12 @@ pub fn line(out: &mut String, id: &Value, number: u64, grade: &Grade, text: &str
         out.push_str(&Value::Array(grade.diagnosis.iter().map(diagnosis).collect()).to_string());
     }
     out.push_str(",\"read_as\":");
-    match &grade.read_as {
+    match &grade.read_as() {
         Some(read) => quoted(out, read),
         None => out.push_str("null"),
     }
     out.push_str(",\"symbols\":");
-    list(out, &mut grade.symbols.iter().map(|s| &**s));
+    list(out, &mut grade.symbols().iter().map(|s| &**s));
     out.push_str("}\n");
 }
 
@@ -161,7 +161,7 @@ pub fn text(grade: &Grade, answer: &str) -> String {
     let mut line = |label: &str, words: &str| {
         out.push_str(&format!("{label:<10}{words}\n"));
     };
-    if let Some(read) = &grade.read_as {
+    if let Some(read) = &grade.read_as() {
         line("read as", read);
     }
     if let Some(fault) = &grade.error {

@@ -65,6 +65,61 @@ pub(super) fn in_one_symbol(
     Some(finding)
 }
 
+/// The verdict on relations in two symbols, one of them positive, that hold of all multiples of what they hold of: that one
+/// is 1.
+pub(super) fn scaled(
+    ctx: &Context,
+    expected: &[Normal],
+    answer: &[Normal],
+    domains: &Domains,
+) -> Option<Finding> {
+    let all: Vec<&Expr> = expected
+        .iter()
+        .chain(answer)
+        .map(|n| &n.difference)
+        .collect();
+    let uses = roles(&all);
+    let (domains, _) = domains.completed(&uses);
+    let ends = |d: &Domain| [&d.low, &d.high].into_iter().flatten().cloned().collect();
+    let whole = |name: &Symbol| {
+        let limits: Vec<Limit> = domains.symbols.get(name).map(ends).unwrap_or_default();
+        limits.iter().all(|l| l.value.is_zero())
+    };
+    let bare = uses.symbols.values().all(|role| !role.turns);
+    let free = bare && domains.relations.is_empty();
+    if uses.symbols.len() != 2 || !free || !uses.symbols.keys().all(whole) {
+        return None;
+    }
+    let positive = |name: &&Symbol| domains.symbols.get(*name) == Some(&Domain::positive());
+    let unit = uses.symbols.keys().find(positive)?;
+    let other = uses.symbols.keys().find(|name| *name != unit)?;
+    let scale = Expr::symbol(unit);
+    let multiple = BTreeMap::from([(other.clone(), &scale * &Expr::symbol(other))]);
+    let one = BTreeMap::from([(unit.clone(), Expr::one())]);
+    let fixed = |n: &Normal| {
+        let difference = n.difference.substitute(&one);
+        let there = n.difference.substitute(&multiple);
+        let power = |k: i64| {
+            let same = equality::decide(&there, &(&difference * &scale.powi(k)), &domains);
+            matches!(same.equality, Equality::Same { how: How::Identity { assumptions, .. } }
+                if assumptions.is_empty())
+        };
+        (-2..=4).any(power).then_some(Normal {
+            difference,
+            relation: n.relation,
+        })
+    };
+    let systems = [expected, answer].map(|s| s.iter().map(fixed).collect::<Option<Vec<_>>>());
+    let [Some(expected), Some(answer)] = systems else {
+        return None;
+    };
+    let mut finding = in_one_symbol(ctx, &expected, &answer, &domains)?;
+    if let Some(apart) = &mut finding.counterexample {
+        apart.at = format!("{unit} = 1, {}", apart.at);
+    }
+    Some(finding)
+}
+
 /// The finding for relations in one symbol that part at a number.
 fn apart(ctx: &Context, expected: &[Normal], answer: &[Normal], along: &Along) -> Finding {
     let equation = |n: &Normal| n.relation == Relation::Equal;
