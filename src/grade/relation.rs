@@ -264,11 +264,22 @@ const REALS: &str = "compared over the reals";
 
 /// Whether `g = 0` says the same as `f = 0`, or follows from it: up to a factor without zeros, or solved for a symbol.
 pub(crate) fn follows(f: &Expr, g: &Expr, domains: &Domains) -> bool {
-    let [f_normal, g_normal] = [f, g].map(|e| Normal {
+    let [f_normal, g_normal] = [f, g].map(equation);
+    same_sign(&f_normal, &g_normal, domains).is_some() || solved_in(g, f, domains)
+}
+
+/// Whether `f` and `g` are zero at the same points: the quotient of neither with the other vanishes.
+pub(crate) fn proportional(f: &Expr, g: &Expr, domains: &Domains) -> bool {
+    let [f, g] = [f, g].map(equation);
+    same_sign(&f, &g, domains).is_some() && same_sign(&g, &f, domains).is_some()
+}
+
+/// `e = 0`.
+fn equation(e: &Expr) -> Normal {
+    Normal {
         difference: e.clone(),
         relation: Relation::Equal,
-    });
-    same_sign(&f_normal, &g_normal, domains).is_some() || solved_in(g, f, domains)
+    }
 }
 
 /// Whether the quotient of the differences is positive (true) or negative (false) on the whole domain.

@@ -235,7 +235,10 @@ impl Sheet {
         if grade.verdict != Verdict::Different || options.strength == Strength::Fast {
             return grade;
         }
-        let given = |s: &Symbol| self.scene.parameters.iter().any(|p| p.name == *s);
+        let given = |s: &Symbol| {
+            let answered = self.derivation.answers.iter().any(|a| *a.name == **s);
+            answered || self.scene.parameters.iter().any(|p| p.name == *s)
+        };
         let finite = |s: &&Symbol| matches!(&***s, "g" | "t" | "dt") && !given(s);
         if reading.symbols().iter().any(|s| finite(&s)) {
             grade.note = "DIFF_BELIEF";

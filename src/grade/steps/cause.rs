@@ -64,6 +64,16 @@ impl Desk<'_> {
     /// the wrong line and what hangs on it, and put in.
     fn eliminated(&self, one: &Expr) -> Option<usize> {
         let domains = &self.sheet.scene.domains;
+        // What a question asks of a parameter is that parameter where the lines above hold.
+        let used = one.symbols();
+        let mut sought = self.sought.iter();
+        let one = &match sought.find(|s| used.contains(s.question.as_str())) {
+            Some(s) => one.replace(
+                &Expr::symbol(s.question.as_str()),
+                &Expr::symbol(&s.parameter),
+            ),
+            None => one.clone(),
+        };
         let is_zero = |e: &Expr| {
             let decided = equality::decide(e, &Expr::zero(), domains).equality;
             matches!(decided, Equality::Same { .. })

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use num_traits::Signed;
 
-use super::super::relation::solve_for;
+use super::super::relation::{proportional, solve_for};
 use super::super::sheet::{Entry, Sheet};
 use super::super::{Diagnosis, Options, Tolerance, Verdict, number};
 use super::{Desk, Final, Status};
@@ -25,9 +25,9 @@ pub(super) struct Link {
 /// A parameter whose value is sought.
 pub(super) struct Sought {
     /// Name of the question.
-    question: String,
+    pub question: String,
     /// The parameter.
-    parameter: Symbol,
+    pub parameter: Symbol,
     /// What is to be zero with it; `None` where something is to be as large as can be.
     condition: Option<Expr>,
     /// The value, where the scene's answer gives it.
@@ -195,7 +195,7 @@ impl Desk<'_> {
     }
 
     /// The constant factor between two formulas.
-    fn share(&self, a: &Expr, b: &Expr) -> Option<Expr> {
+    pub(super) fn share(&self, a: &Expr, b: &Expr) -> Option<Expr> {
         let mut field = Field::new(&self.sheet.scene.domains);
         field.prepare([a, b]);
         let (a, b) = (field.element(a).ok()?, field.element(b).ok()?);
@@ -205,8 +205,14 @@ impl Desk<'_> {
 
     /// Whether something is said about a name: the scene answers it, or the solution solves for it where a condition holds.
     pub(super) fn is_found(&self, name: &Symbol) -> bool {
-        let sought = || self.sought.iter().any(|s| s.parameter == *name);
-        self.closed.contains_key(name) || (self.solved_for.contains(name) && sought())
+        let mut sought = self.sought.iter().filter(|s| s.parameter == *name);
+        self.closed.contains_key(name) || sought.any(|s| self.is_solved_for(s))
+    }
+
+    /// Whether some line says what the parameter is, by its name or that of the question.
+    fn is_solved_for(&self, sought: &Sought) -> bool {
+        self.solved_for.contains(&sought.parameter)
+            || self.solved_for.contains(sought.question.as_str())
     }
 
     /// Whether a line states what is supposed of a parameter that is sought, as the scene does or, where it would be a slip
@@ -227,13 +233,32 @@ impl Desk<'_> {
             }
             let in_words = |s: &Sought| {
                 self.brings_in(&one, s)
-                    || (self.solved_for.contains(&s.parameter) && !self.vanishes(&one, s))
+                    || self.is_balance(link, &one, s)
+                    || (self.is_solved_for(s) && !self.vanishes(&one, s))
             };
             let mut all = self.sought.iter();
             all.position(|s| in_words(s) && self.holds_where(link, s))
         });
         self.supposed.extend(found);
         found.is_some()
+    }
+
+    /// Whether a line is a balance of energies for an energy that is to be zero: what is proportional to an energy is about
+    /// nothing else.
+    fn is_balance(&self, link: &Link, line: &Expr, sought: &Sought) -> bool {
+        let is_energy = |name: &Symbol| {
+            let mut questions = self.sheet.scene.questions.iter();
+            questions.any(|q| *q.name == **name && matches!(q.ask, Ask::Energy { .. }))
+        };
+        let Some(energy) = sought.condition.as_ref().and_then(Expr::as_symbol) else {
+            return false;
+        };
+        let named = |side: &Content| side.expr().is_some_and(|e| e.as_symbol().is_some());
+        let [here, there] = [line, &Expr::symbol(energy)].map(|e| self.put_in(e, &BTreeMap::new()));
+        is_energy(energy)
+            && !line.symbols().contains(energy)
+            && !link.sides.iter().any(named)
+            && proportional(&there, &here, &self.sheet.scene.domains)
     }
 
     /// Whether an equality holds where what was supposed does: at the value it gives its parameter.

@@ -164,11 +164,14 @@ fn equation(text: &str) -> &str {
     moment.unwrap_or(rest).trim_end()
 }
 
-/// Whether a refused name of several letters looks like a slip of the pen for a declared one, which begins alike.
+/// Whether a refused name of several letters looks like a slip of the pen for a declared one, which begins alike and has an
+/// index as well.
 pub(super) fn is_near(fault: &Fault, text: &str) -> bool {
     let offered = fault.hint.as_ref().and_then(|h| h.strip_prefix("did you"));
     let first = |text: &str| text.chars().find(|c| c.is_alphabetic());
     let meant = offered.and_then(|words| words.split_whitespace().last());
     let own = text.get(fault.start..fault.end).unwrap_or_default();
-    own.len() > 1 && meant.is_some_and(|meant| first(meant) == first(own))
+    let indexed = |name: &str| name.contains('_');
+    let alike = |meant: &str| first(meant) == first(own) && (indexed(meant) || !indexed(own));
+    own.len() > 1 && meant.is_some_and(alike)
 }

@@ -10,7 +10,7 @@ use super::{Desk, MOST_TERMS};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{self, Content, Reading};
 use crate::laws;
-use crate::scene::Ask;
+use crate::scene::{Ask, Scene};
 
 impl Desk<'_> {
     /// Notes what a wrong line implies: each of its names in turn is what it would have to be.
@@ -88,7 +88,7 @@ impl Desk<'_> {
         if let Some(entry) = name.and_then(|n| self.sheet.entry(n).ok()) {
             // The side behind the first wrong sign, with the student's own names put in.
             let side = sides.get(at + 1).and_then(Content::expr);
-            let own = side.map(|side| (side, self.with_own(side)));
+            let own = side.map(|side| (side, self.put_in_others(side, name)));
             let own = own.filter(|(side, own)| *side != own || sides.len() > 2);
             let text = own.map_or(text.to_string(), |(_, own)| formula::write_plain(&own));
             let mut found = self.sheet.judge(&entry, &text, options).diagnosis;
@@ -108,15 +108,55 @@ impl Desk<'_> {
         let (Some(left), Some(right)) = (left.expr(), right.expr()) else {
             return Vec::new();
         };
+        let turned = self.turned(left, right);
+        let mut found: Vec<Diagnosis> = turned
+            .or_else(|| self.own_value(left, right))
+            .into_iter()
+            .collect();
         let (left, right) = (self.with_own(left), self.with_own(right));
         let used: BTreeSet<Symbol> = left.symbols().union(&right.symbols()).cloned().collect();
         let names = used.into_iter().filter(|n| self.closed.contains_key(n));
-        let named: Option<Vec<_>> = names.map(|n| self.named(n)).collect();
-        let mut found: Vec<Diagnosis> = self.turned(&left, &right).into_iter().collect();
-        if let Some(named @ [_, ..]) = named.as_deref() {
-            found.extend(behind(&self.sheet.scene, [&left, &right], named));
+        let names: Vec<Symbol> = names.collect();
+        let scenes = std::iter::once(&self.sheet.scene).chain(&self.sheet.impacts);
+        let mut asked = scenes.filter_map(|scene| {
+            let named: Option<Vec<_>> = names.iter().map(|n| self.named(n, scene)).collect();
+            Some((scene, named?))
+        });
+        if let Some((scene, named)) = asked.next().filter(|(_, named)| !named.is_empty()) {
+            found.extend(behind(scene, [&left, &right], &named));
         }
         found
+    }
+
+    /// A side with the student's own names and what is asked put in, where it stands on such; `name` is what it gives.
+    fn put_in_others(&self, side: &Expr, name: Option<&Symbol>) -> Expr {
+        let own = self.with_own(side);
+        let mut others = self.closed.clone();
+        others.retain(|n, _| Some(n) != name);
+        own.substitute(&others)
+    }
+
+    /// One of the student's own names whose value is off by a number where the equation is right, or the other way round.
+    fn own_value(&self, left: &Expr, right: &Expr) -> Option<Diagnosis> {
+        let domains = &self.sheet.scene.domains;
+        let gap = left - right;
+        let used = gap.symbols();
+        let own = self.own.keys().filter(|name| used.contains(*name));
+        own.into_iter().find_map(|name| {
+            let mut others = self.own.clone();
+            let value = self.with_own(&others.remove(name)?);
+            let rest = gap.substitute(&others).substitute(&self.closed);
+            let needed = solve_for(&rest, name, domains)?;
+            let share = self.share(&value.substitute(&self.closed), &needed)?;
+            let [value, needed] = [&value, &needed].map(formula::write_plain);
+            (!share.is_one()).then(|| {
+                Diagnosis::new(
+                    "OWN_VALUE",
+                    format!("this line holds with {name} = {needed}, where you have {value}"),
+                    "either that value or this line is off by a factor: check both",
+                )
+            })
+        })
     }
 
     /// The term with whose other sign an equation holds.
@@ -147,16 +187,19 @@ impl Desk<'_> {
     }
 
     /// What a name stands for in the motion.
-    pub(super) fn named(&self, name: Symbol) -> Option<Named> {
-        let (scene, d) = (&self.sheet.scene, &self.sheet.derivation);
-        if let Some(answer) = d.answers.iter().find(|a| *a.name == *name) {
+    pub(super) fn named(&self, name: &Symbol, scene: &Scene) -> Option<Named> {
+        let d = &self.sheet.derivation;
+        if let Some(answer) = d.answers.iter().find(|a| *a.name == **name) {
             let mut asked = scene.asked_of_impact();
             let question = asked.find(|q| q.name == answer.question)?;
-            return Some((name, question.ask.clone(), answer.axis()));
+            return Some((name.clone(), question.ask.clone(), answer.axis()));
+        }
+        if !std::ptr::eq(scene, &self.sheet.scene) {
+            return None;
         }
         let unknown = laws::unknowns(scene)
             .into_iter()
-            .find(|u| d.names.plain(*u) == &*name)?;
+            .find(|u| d.names.plain(*u) == &**name)?;
         let (ask, component) = match unknown {
             laws::Unknown::Velocity(body, axis) => {
                 let (point, along) = (None, None);
@@ -168,6 +211,6 @@ impl Desk<'_> {
             }
             _ => return None,
         };
-        Some((name, ask, component))
+        Some((name.clone(), ask, component))
     }
 }
