@@ -96,6 +96,17 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
             return worded(key, text, reading);
         }
     }
+    // `2000 g` for `m = 2 kg`: where a quantity is asked, a letter behind a number is a unit if it can be one.
+    if quantitative(&key.reading) && !key.question.closed && !usual.as_ref().is_ok_and(quantitative)
+    {
+        let mut strict = Symbols::strict();
+        declare(&mut strict, &key.question);
+        if let Ok(reading) = formula::read(text, &strict)
+            && quantitative(&reading)
+        {
+            return worded(key, text, reading);
+        }
+    }
     let fault = match usual {
         Ok(reading) => return worded(key, text, reading),
         Err(fault) => fault,
@@ -103,7 +114,7 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     if !key.question.closed {
         return Err(fault);
     }
-    let measured = matches!(key.reading.content.answer(), Content::Quantity(_));
+    let measured = quantitative(&key.reading);
     if measured && let Some(reading) = unit_apart(key, text) {
         return Ok(reading);
     }
@@ -168,7 +179,7 @@ fn unit_apart(key: &Key, text: &str) -> Option<Reading> {
             text.truncate(text.trim_end().len() - 1);
         }
         let reading = formula::read(&text, &key.readable).ok()?;
-        let plain = matches!(reading.content.answer(), Content::Quantity(_));
+        let plain = quantitative(&reading);
         (plain && reading.symbols().is_empty()).then_some(reading)
     };
     let signs = ["s-1", "*", "·", "\\cdot", "\\times"];
@@ -248,8 +259,7 @@ pub(super) fn quantity(text: &str, question: &Question) -> Option<Reading> {
         false => formula::read(text, &symbols).ok(),
     };
     direct().or_else(list).filter(|reading| {
-        let plain = matches!(reading.content.answer(), Content::Quantity(_));
-        plain || reading.unit.is_some() && reading.symbols().is_empty()
+        quantitative(reading) || reading.unit.is_some() && reading.symbols().is_empty()
     })
 }
 
@@ -279,6 +289,10 @@ pub(super) fn is_quantity(key: &Key, text: &str) -> bool {
 
 fn declared(key: &Key, name: &Symbol) -> bool {
     key.question.given().any(|g| g.name == *name)
+}
+
+fn quantitative(reading: &Reading) -> bool {
+    matches!(reading.content.answer(), Content::Quantity(_))
 }
 
 fn vector(reading: &Reading) -> bool {

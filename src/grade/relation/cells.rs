@@ -226,8 +226,10 @@ fn along(first: &[Normal], second: &[Normal], name: &Symbol, domains: &Domains) 
             *count = count.filter(|_| cell.single).map(|n| n + 1);
         }
         match truth {
-            [true, false] => out.lost = out.lost.take().or_else(|| Some(words(cell, name))),
-            [false, true] => out.gained = out.gained.take().or_else(|| Some(words(cell, name))),
+            [true, false] => out.lost = out.lost.take().or_else(|| Some(words(cell, name, &all))),
+            [false, true] => {
+                out.gained = out.gained.take().or_else(|| Some(words(cell, name, &all)))
+            }
             _ => {}
         }
     }
@@ -273,7 +275,15 @@ pub(super) fn holds(relation: Relation, sign: Option<Ordering>) -> bool {
     }
 }
 
-fn words(cell: &Cell, name: &Symbol) -> String {
+/// A number of the cell: the root itself where that is a whole number of twelfths.
+fn words(cell: &Cell, name: &Symbol, all: &[&Expr]) -> String {
+    let twelve = ratio(12, 1);
+    let root = (&cell.around[1] * &twelve).floor() / twelve;
+    let there = BTreeMap::from([(name.clone(), Expr::from(root.clone()))]);
+    let vanishes = |e: &&Expr| e.substitute(&there).is_zero();
+    if cell.single && root >= cell.around[0] && all.iter().any(vanishes) {
+        return format!("{name} = {root}");
+    }
     let [low, high] = &cell.around;
     let short = |x: &Rational| x.denom().bits() < 20;
     let value = match low == high && short(low) {
