@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use super::Answer;
 use super::calc::{Root, Seen, by_signs, essential, sign};
 use super::threshold::beside;
+use crate::algebra::Sign;
 use crate::domain::{Domain, Domains};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
@@ -37,15 +38,22 @@ pub(super) fn fill(
     let signs = between(parameter, gap, &zeros, domains);
     let negative = relation.is_below();
     let strict = matches!(relation, Relation::Less | Relation::Greater);
-    let holds: Option<Vec<bool>> = signs
-        .iter()
-        .map(|s| match (s.is_negative(), s.is_positive()) {
-            (true, _) => Some(negative),
-            (_, true) => Some(!negative),
-            _ => None,
+    let holds = |s: &Seen| match (s.is_negative(), s.is_positive()) {
+        (true, _) => Some(negative),
+        (_, true) => Some(!negative),
+        _ => None,
+    };
+    let all: Option<Vec<bool>> = (0..signs.len())
+        .map(|i| {
+            let beside = if i == 0 { 1 } else { i - 1 };
+            match signs[i] {
+                // The zero is the end of the domain, and beyond it there is nothing.
+                Seen::Proved(Sign::Zero) => Some(!strict && holds(signs.get(beside)?)?),
+                _ => holds(&signs[i]),
+            }
         })
         .collect();
-    let Some(holds) = holds else {
+    let Some(holds) = all else {
         let why = "; which of them is larger in between could not be told";
         out.text.push(meet(&zeros, why));
         return;
