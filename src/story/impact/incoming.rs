@@ -58,6 +58,7 @@ pub(super) fn touches(
             }
         }
     }
+    pulls(stage, scene, one_sided)?;
     let Some(off) = touch::misplaced(scene).into_iter().next() else {
         return Ok(());
     };
@@ -71,6 +72,28 @@ pub(super) fn touches(
         ),
         off.hint,
     ))
+}
+
+/// A string between two particles pulls the second to the first.
+fn pulls(stage: &Stage, scene: &Scene, one_sided: &[OneSided]) -> Result<(), Refused> {
+    for string in one_sided.iter().filter(|o| o.is_string) {
+        let [first, second] = string.bodies.map(|b| &scene.bodies[b]);
+        if !first.is_particle() || !second.is_particle() {
+            continue;
+        }
+        let toward = dot(&string.normal, &minus(&first.center, &second.center));
+        if sign(&toward, &scene.domains).is_negative() {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "the string `{}` is said to pull `{}` away from `{}`, at its other end",
+                    string.name, second.name, first.name
+                ),
+                "turn `normal` round: it points from the second body along the string",
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Where a body is by then, to be read.
