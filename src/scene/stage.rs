@@ -64,6 +64,21 @@ impl Stage {
     }
 }
 
+impl Body {
+    /// Every formula of where the body is.
+    pub(super) fn place_mut(&mut self, put: &mut impl FnMut(&mut Expr)) {
+        let parts = match &mut self.shape {
+            Shape::Composite { parts } => parts.as_mut_slice(),
+            _ => &mut [],
+        };
+        for Body { center, angle, .. } in parts {
+            center.iter_mut().chain([angle]).for_each(&mut *put);
+        }
+        self.center.iter_mut().for_each(&mut *put);
+        put(&mut self.angle);
+    }
+}
+
 impl Scene {
     /// A scene of one impact as one of a single stage with this name, so that its outcomes can be told one after the other.
     pub fn staged(&self, name: &str) -> Scene {
@@ -88,15 +103,7 @@ impl Scene {
             point.at.iter_mut().for_each(&mut *put);
         }
         for body in &mut self.bodies {
-            let parts = match &mut body.shape {
-                Shape::Composite { parts } => parts.as_mut_slice(),
-                _ => &mut [],
-            };
-            for Body { center, angle, .. } in parts {
-                center.iter_mut().chain([angle]).for_each(&mut *put);
-            }
-            body.center.iter_mut().for_each(&mut *put);
-            put(&mut body.angle);
+            body.place_mut(put);
         }
         for hinge in &mut self.hinges {
             hinge.at.iter_mut().for_each(&mut *put);

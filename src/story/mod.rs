@@ -439,11 +439,16 @@ pub fn course(scene: &Scene) -> Result<Told, Refused> {
     })
 }
 
+/// The values that the scene gives.
+fn given(scene: &Scene) -> BTreeMap<Symbol, Expr> {
+    let values = scene.parameters.iter();
+    let values = values.filter_map(|p| Some((p.name.clone(), p.value.clone()?)));
+    values.collect()
+}
+
 /// What a motion needs and the given values do not keep to.
 fn at_values(scene: &Scene, told: &StageTold) -> Option<Check> {
-    let given = scene.parameters.iter();
-    let given = given.filter_map(|p| Some((p.name.clone(), p.value.clone()?)));
-    let given: BTreeMap<Symbol, Expr> = given.collect();
+    let given = given(scene);
     let fails = |e: &&Expr| constant(&e.substitute(&given)) == Some(Sign::Negative);
     let broken = told.needs.iter().find(fails)?;
     let need = at_least_zero(broken, &scene.domains).written(write_plain);

@@ -127,8 +127,29 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     }
     scene.axles = axles;
     name_pivots(scene);
+    begin(scene);
     if base.faults.is_empty() {
         questions::of_stages(base, scene, &homes);
+    }
+}
+
+/// A story that begins with a linkage begins with the bodies where the first value of its coordinate puts them.
+fn begin(scene: &mut Scene) {
+    let Some(Stage {
+        kind: StageKind::Linkage(linkage),
+        ..
+    }) = scene.stages.first()
+    else {
+        return;
+    };
+    let linkage = linkage.clone();
+    let mut put = |e: &mut Expr| *e = linkage.at(e, &linkage.ends[0]);
+    let starts = scene.stages.iter_mut().filter(|s| s.from.is_none());
+    let starts = starts.flat_map(|s| &mut s.scene.bodies);
+    for body in scene.bodies.iter_mut().chain(starts) {
+        body.place_mut(&mut put);
+        body.velocity.iter_mut().for_each(&mut put);
+        put(&mut body.spin);
     }
 }
 

@@ -221,27 +221,31 @@ impl Page<'_> {
             lines.push(Line { math, step: None });
         }
         self.solution.push(Part::Display(lines));
-        self.whirled(stage);
+        self.whirled(stage, told);
     }
 
-    /// Where an angular acceleration comes from, if one is asked of this stage.
-    fn whirled(&mut self, stage: &Stage) {
-        let is_it = |q: &crate::scene::Question| {
-            let at = q.stage.map(|i| &self.scene.stages[i].name);
-            matches!(q.ask, Ask::AngularAcceleration { .. }) && at == Some(&stage.name)
-        };
-        if !self.scene.questions.iter().any(is_it) {
-            return;
+    /// Where an angular acceleration, or the time of a linkage, comes from, if it is asked of this stage.
+    fn whirled(&mut self, stage: &Stage, told: &StageTold) {
+        let asks = |is: fn(&Ask) -> bool| self.asked(told, is);
+        let whirls = asks(|ask| matches!(ask, Ask::AngularAcceleration { .. }));
+        let takes = asks(|ask| matches!(ask, Ask::Time));
+        let is_linkage = matches!(stage.kind, StageKind::Linkage(_));
+        if whirls {
+            self.solution.say(&match &stage.kind {
+                StageKind::Turn(turn) => format!(
+                    "The moments about {} over the moment of inertia give the angular acceleration.",
+                    turn.about_name
+                ),
+                _ => String::from(
+                    "The balance of energy from the beginning to any place, differentiated by the time, gives the angular acceleration.",
+                ),
+            });
         }
-        self.solution.say(&match &stage.kind {
-            StageKind::Turn(turn) => format!(
-                "The moments about {} over the moment of inertia give the angular acceleration.",
-                turn.about_name
-            ),
-            _ => String::from(
-                "The balance of energy from the beginning to any place, differentiated by the time, gives the angular acceleration.",
-            ),
-        });
+        if takes && is_linkage {
+            self.solution.say(
+                "The acceleration is the same all the way, and the time is the change of the velocity over it.",
+            );
+        }
     }
 
     /// How high a body swings until weight has brought it to rest, and through which angle.

@@ -12,7 +12,7 @@ use crate::answer::{self, Answer, Check, Form, Known, Refused};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, sentence};
-use crate::scene::{Ask, Question, Scene, Stage};
+use crate::scene::{Ask, Question, Scene, Stage, StageKind};
 
 /// Answers all questions.
 pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Refused> {
@@ -245,12 +245,13 @@ fn unused(scene: &Scene, answers: &[Answer]) -> Vec<Symbol> {
                 .flat_map(|(s, _, e)| s.symbols().into_iter().chain(e.symbols())),
         );
     }
-    scene
-        .parameters
-        .iter()
-        .filter(|p| !used.contains(&p.name))
-        .map(|p| p.name.clone())
-        .collect()
+    // A coordinate takes every value on the way.
+    used.extend(scene.stages.iter().filter_map(|s| match &s.kind {
+        StageKind::Linkage(linkage) => Some(linkage.coordinate.clone()),
+        _ => None,
+    }));
+    let names = scene.parameters.iter().map(|p| p.name.clone());
+    names.filter(|name| !used.contains(name)).collect()
 }
 
 /// One of the ways a stage may come about, where there are several.

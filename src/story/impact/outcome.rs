@@ -12,7 +12,7 @@ use crate::formula::Sentence;
 use crate::scene::{
     Ask, Contact, ContactLaw, EnergyWhen, Hypothesis, ImpulseAt, OneSided, Question, Scene, Stage,
 };
-use crate::story::{Case, Part, Refused, State};
+use crate::story::{Case, Part, Refused, State, given};
 use crate::verify::possible::Rule;
 use crate::verify::{self, friction};
 
@@ -122,7 +122,7 @@ pub(super) fn case(
     };
     let proof = verify::prove(&scene, &derivation);
     let mut possible = verify::possible::judge(&scene, &derivation);
-    possible.put(handed, &values(&scene), &scene.domains);
+    possible.put(handed, &given(&scene), &scene.domains);
     Ok(Some(Case {
         possible,
         active: set.iter().map(|i| one_sided[*i].name.clone()).collect(),
@@ -335,14 +335,6 @@ pub(super) fn put_to_act(
     wanted
 }
 
-/// The values that the scene gives.
-fn values(scene: &Scene) -> BTreeMap<Symbol, Expr> {
-    let given = scene.parameters.iter();
-    given
-        .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
-        .collect()
-}
-
 /// What is to be said of the energy under a law of friction that may gain some.
 pub(super) fn gain(scene: &Scene, case: &Case) -> Option<Sentence> {
     let mut laws = case.scene.contacts.iter().filter_map(|c| match &c.law {
@@ -350,7 +342,7 @@ pub(super) fn gain(scene: &Scene, case: &Case) -> Option<Sentence> {
         _ => None,
     });
     let law = laws.find(|h| matches!(h, Hypothesis::Newton | Hypothesis::Brach { .. }))?;
-    let at_values = case.value(ENERGY)?.substitute(&values(scene));
+    let at_values = case.value(ENERGY)?.substitute(&given(scene));
     let name = law.name();
     match sign(&at_values, &scene.domains) {
         Seen::Proved(s) if s.is_not_negative() => None,
@@ -365,7 +357,7 @@ pub(super) fn gain(scene: &Scene, case: &Case) -> Option<Sentence> {
 
 /// Whether the values that the scene gives rule a case out.
 pub(super) fn is_refuted(scene: &Scene, case: &Case, handed: &BTreeMap<Symbol, Expr>) -> bool {
-    let given = values(scene);
+    let given = given(scene);
     case.conditions.iter().any(|(_, e)| {
         let there = e.substitute(handed).substitute(&given);
         there != *e && matches!(sign(&there, &scene.domains), Seen::Proved(Sign::Negative))

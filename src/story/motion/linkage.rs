@@ -1,6 +1,6 @@
 //! Bodies with one freedom: T = ½ M(q) q̇², with the velocities of all bodies per unit of q̇ from their places.
 
-use super::{arrival, balance, half, kept, meanwhile, tidied};
+use super::{arrival, balance, half, kept, meanwhile, pushed, tidied};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, is_zero, sign};
 use crate::expr::{Expr, Point};
@@ -68,8 +68,10 @@ pub(in crate::story) fn linkage(
             after.spin[*b] = w?;
         }
     }
-    assumptions.extend(meanwhile::others(stage, &before, &mut after, None));
+    let time = time(stage, linkage, [&rate, &speed])?;
+    assumptions.extend(meanwhile::others(stage, &before, &mut after, time.as_ref()));
     let mut out = StageTold::new(stage, before, after);
+    out.time = time;
     let why = match linkage.gravity {
         Some(_) => "joints and guides do no work, and weight has a potential",
         None => "joints and guides do no work",
@@ -84,8 +86,42 @@ pub(in crate::story) fn linkage(
     Ok(out)
 }
 
-/// Angular acceleration of a body of a linkage with this kinetic energy where the coordinate has this value, by the equation
-/// of Lagrange M q̈ + ½ M' q̇² + V' = 0.
+/// M = Σ m v² + I ω² at the rate 1, and V' = g Σ m y', both by the coordinate: with them M q̈ + ½ M' q̇² + V' = 0, the
+/// equation of Lagrange.
+fn by_coordinate(stage: &Stage, linkage: &Linkage) -> [Expr; 2] {
+    let (mut inertia, mut lifted) = (Vec::new(), Vec::new());
+    for (b, place) in &linkage.places {
+        let moved = &stage.scene.bodies[*b];
+        let [u, v, w] = place.each_ref().map(|e| e.derivative(&linkage.coordinate));
+        inertia.push(&moved.mass * &(&u.powi(2) + &v.powi(2)));
+        inertia.push(&moved.inertia * &w.powi(2));
+        lifted.push(&moved.mass * &v);
+    }
+    let g = linkage.gravity.clone().unwrap_or_else(Expr::zero);
+    [Expr::sum(inertia), g * Expr::sum(lifted)]
+}
+
+/// How long it takes from one rate of the coordinate to another, where its acceleration is the same all the way.
+fn time(
+    stage: &Stage,
+    linkage: &Linkage,
+    [rate, speed]: [&Expr; 2],
+) -> Result<Option<Expr>, Refused> {
+    let [mass, drawn] = by_coordinate(stage, linkage);
+    let (mass, drawn) = (tidied(stage, &mass)?, tidied(stage, &drawn)?);
+    let changes = |e: &Expr| e.symbols().contains(&linkage.coordinate);
+    if changes(&mass) || changes(&drawn) {
+        return Ok(None);
+    }
+    let [begin, end] = &linkage.ends;
+    let time = match drawn.is_zero() {
+        true => &(end - begin) / rate,
+        false => -(&(&(speed - rate) * &mass) / &drawn),
+    };
+    tidied(stage, &time).map(Some)
+}
+
+/// Angular acceleration of a body of a linkage with this kinetic energy where the coordinate has this value.
 pub(in crate::story) fn angular_acceleration(
     stage: &Stage,
     linkage: &Linkage,
@@ -93,23 +129,11 @@ pub(in crate::story) fn angular_acceleration(
     (energy, value): (&Expr, &Expr),
 ) -> Result<Expr, Refused> {
     let q = &linkage.coordinate;
-    let (mut inertia, mut lifted, mut angle) = (Vec::new(), Vec::new(), Expr::zero());
-    for (b, place) in &linkage.places {
-        let moved = &stage.scene.bodies[*b];
-        let [u, v, w] = place.each_ref().map(|e| e.derivative(q));
-        inertia.push(&moved.mass * &(&u.powi(2) + &v.powi(2)));
-        inertia.push(&moved.inertia * &w.powi(2));
-        lifted.push(&moved.mass * &v);
-        if *b == body {
-            angle = w;
-        }
-    }
-    let inertia = Expr::sum(inertia);
-    let zero = Expr::zero();
-    let g = linkage.gravity.as_ref().unwrap_or(&zero);
+    let place = linkage.places.iter().find(|(b, _)| *b == body);
+    let angle = place.map_or_else(Expr::zero, |(_, [_, _, angle])| angle.derivative(q));
+    let [inertia, drawn] = by_coordinate(stage, linkage);
     let at = |e: &Expr| tidied(stage, &linkage.at(e, value));
-    let [mass, grows] = [at(&inertia)?, at(&inertia.derivative(q))?];
-    let drawn = g * &at(&Expr::sum(lifted))?;
+    let [mass, grows, drawn] = [at(&inertia)?, at(&inertia.derivative(q))?, at(&drawn)?];
     let square = tidied(stage, &(&(&Expr::from(2) * energy) / &mass))?;
     let second = -(&(&half(&(&grows * &square)) + &drawn) / &mass);
     let [turns, bends] = [at(&angle)?, at(&angle.derivative(q))?];
@@ -306,6 +330,10 @@ fn sets_out(
         let begins = tidied(stage, &linkage.at(&drawn, &linkage.ends[0]))?;
         match sign(&begins, domains) {
             Seen::Proved(Sign::Positive | Sign::NotNegative) => {}
+            Seen::Proved(Sign::Zero) if is_zero(&drawn, domains) != Some(true) => {
+                let lead = &stage.scene.bodies[linkage.places[0].0];
+                assumptions.push(pushed(&lead.name));
+            }
             Seen::Proved(_) => {
                 return Err(Refused::new(
                     &stage.name,

@@ -95,6 +95,15 @@ fn arrival(stage: &Stage, body: usize, end: &Expr, seen: Seen) -> Option<Sentenc
     })
 }
 
+/// What is granted of a body that is at rest and in balance when its motion begins.
+fn pushed(body: &str) -> Sentence {
+    sentence![
+        "a small push sets `",
+        body,
+        "` going: at rest and in balance it could stay"
+    ]
+}
+
 /// A motion that begins with something that is not determined: where it leads is open as well.
 pub(super) fn open(stage: &Stage, before: State) -> Option<StageTold> {
     let moved = stage.kind.moved();

@@ -1,13 +1,13 @@
 //! Rotation of a rigid body, and of what is fixed to it, about a point that does not move.
 
 use super::bearing::bearing;
-use super::{arrival, balance, half, kept, meanwhile, tidied};
+use super::{arrival, balance, half, kept, meanwhile, pushed, tidied};
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, is_zero, sign, tidy};
+use crate::answer::calc::{Seen, constant, is_zero, sign, tidy};
 use crate::expr::{Expr, Function, Vector, cross, dot, minus};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Lump, Stage, Turn, Until, direction};
-use crate::story::{Refused, StageTold, State, integrate};
+use crate::story::{Refused, StageTold, State, given, integrate};
 
 /// Rotation about a fixed point.
 pub(in crate::story) fn turn(
@@ -60,15 +60,12 @@ pub(in crate::story) fn turn(
         needs.extend(need);
         assumptions.push(words);
     }
-    if assumed.is_some() {
-        needs.push(&Expr::from(way) * &spin);
-    }
+    let assumed = assumed.map(|(need, words)| {
+        needs.push(need);
+        words
+    });
     if is_balanced(stage, turn, &spin, &r) {
-        assumptions.push(sentence![
-            "a small push sets `",
-            &body.name,
-            "` going: at rest and in balance it could stay"
-        ]);
+        assumptions.push(pushed(&body.name));
     }
     assumptions.extend(counts_forward(stage, turn, way)?);
     let spin_end = if work.is_zero() {
@@ -442,12 +439,12 @@ pub(in crate::story) fn inertia_about(stage: &Stage, turn: &Turn) -> Expr {
     }))
 }
 
-/// The sense of the rotation: 1 counterclockwise, −1 clockwise.
+/// The sense of the rotation, 1 counterclockwise and −1 clockwise, and what must be ≥ 0 for it where that is taken for granted.
 pub(in crate::story) fn sense(
     stage: &Stage,
     spin: &Expr,
     turn: &Turn,
-) -> Result<(i64, Option<Sentence>), Refused> {
+) -> Result<(i64, Option<(Expr, Sentence)>), Refused> {
     let domains = &stage.scene.domains;
     let body = &stage.scene.bodies[turn.body].name;
     let begins = sign(spin, domains);
@@ -498,28 +495,56 @@ pub(in crate::story) fn sense(
         }
         (Some(d), _) => Ok((d, None)),
         (None, Some(s)) => Ok((s, None)),
-        (None, None) if matches!(begins, Seen::Proved(Sign::Zero)) => {
-            let r = minus(&turn.lump(&stage.scene).center, &turn.about);
-            let pull = match (&turn.torque, &turn.gravity) {
-                (Some(_), _) => Seen::Positive,
-                (None, Some(_)) => sign(&-&r[0], domains),
-                (None, None) => Seen::Mixed,
+        (None, None) if begins == Seen::Proved(Sign::Zero) => from_rest(stage, turn),
+        // A spin of either sign keeps it: the end is told for a positive one, where values do not say otherwise.
+        (None, None) => {
+            let way = match constant(&spin.substitute(&given(&stage.scene))) {
+                Some(Sign::Negative) => -1,
+                _ => 1,
             };
-            if pull.is_positive() || pull.side() == Some(true) {
-                Ok((1, None))
-            } else if pull.is_negative() || pull.side() == Some(false) {
-                Ok((-1, None))
-            } else {
-                Err(Refused::new(
-                    &stage.name,
-                    format!("`{body}` is at rest, and nothing says which way it begins to turn"),
-                    "add \"clockwise\": true or false, a moment, or the domain of the angle at which it begins",
-                ))
-            }
+            let words = sentence!["`", body, "` turns ", sense_words(way)];
+            Ok((way, Some((&Expr::from(way) * spin, words))))
         }
-        // A spin of either sign keeps it: the end is told for a positive one.
-        (None, None) => Ok((1, Some(sentence!["`", body, "` turns counterclockwise"]))),
     }
+}
+
+/// Which way a body at rest begins to turn, by its moments; values that are given decide where the domains leave it open.
+fn from_rest(stage: &Stage, turn: &Turn) -> Result<(i64, Option<(Expr, Sentence)>), Refused> {
+    let body = &stage.scene.bodies[turn.body].name;
+    if turn.torque.is_some() {
+        return Ok((1, None));
+    }
+    let moment = match turn.gravity {
+        Some(_) => -&minus(&turn.lump(&stage.scene).center, &turn.about)[0],
+        None => Expr::zero(),
+    };
+    let told = match sign(&moment, &stage.scene.domains) {
+        Seen::Proved(Sign::NotNegative) => Some(true),
+        Seen::Proved(Sign::NotPositive) => Some(false),
+        seen => seen.side(),
+    };
+    if let Some(left) = told {
+        return Ok((if left { 1 } else { -1 }, None));
+    }
+    let way = match constant(&moment.substitute(&given(&stage.scene))) {
+        Some(Sign::Positive) => 1,
+        Some(Sign::Negative) => -1,
+        _ => {
+            return Err(Refused::new(
+                &stage.name,
+                format!("`{body}` is at rest, and nothing says which way it begins to turn"),
+                "add \"clockwise\": true or false, a moment, or the domain or value of the angle at which it begins",
+            ));
+        }
+    };
+    let need = tidied(stage, &(&Expr::from(way) * &moment))?;
+    let words = sentence![
+        crate::answer::calc::at_least_zero(&need, &stage.scene.domains),
+        ", so that `",
+        body,
+        "` begins to turn as it does at the values given"
+    ];
+    Ok((way, Some((need, words))))
 }
 
 /// A particle that goes round a point has no spin of its own, but an angular velocity about the point.
@@ -612,6 +637,10 @@ fn hurdle(
     let zero = Expr::zero();
     let by = match &turn.until {
         Until::By(by) => by,
+        // From rest its weight draws it down, not over the top.
+        Until::Below if start.is_zero() && turn.torque.is_none() && turn.clockwise.is_none() => {
+            return Ok(None);
+        }
         Until::Above | Until::Below => &zero,
         Until::For(_) | Until::Stops => return Ok(None),
     };
