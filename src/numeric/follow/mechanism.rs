@@ -11,7 +11,6 @@
 use std::cell::{Cell, RefCell};
 
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
-use nalgebra::{DMatrix, DVector};
 
 /// Pieces into which a motion may be cut.
 const PIECES: usize = 20_000;
@@ -156,26 +155,50 @@ impl Mechanism {
             }
         }
         let all = n + rows.len();
-        let mut matrix = DMatrix::zeros(all, all);
-        let mut right = DVector::zeros(all);
+        let mut system = vec![vec![0.0; all + 1]; all];
         for (b, [mass, inertia]) in self.inertias.iter().enumerate() {
             for (k, m) in [mass, mass, inertia].into_iter().enumerate() {
-                matrix[(3 * b + k, 3 * b + k)] = *m;
-                right[3 * b + k] = self.forces[b][k];
+                system[3 * b + k][3 * b + k] = *m;
+                system[3 * b + k][all] = self.forces[b][k];
             }
         }
         for (i, (terms, value)) in rows.into_iter().enumerate() {
             for (k, factor) in terms {
-                matrix[(n + i, k)] = factor;
-                matrix[(k, n + i)] = -factor;
+                system[n + i][k] = factor;
+                system[k][n + i] = -factor;
             }
-            right[n + i] = value;
+            system[n + i][all] = value;
         }
-        let found = matrix.lu().solve(&right)?;
-        let found: Vec<f64> = found.iter().copied().collect();
+        let found = unknowns(system);
         let is_sound = found.iter().all(|v| v.is_finite());
         is_sound.then(|| (found[..n].to_vec(), found[n..].to_vec()))
     }
+}
+
+/// The unknowns of equations with their right sides behind, by elimination with partial pivoting; not finite where there is no
+/// single solution. (Golub & Van Loan, Matrix Computations, 3.4.)
+fn unknowns(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
+    let n = rows.len();
+    for k in 0..n {
+        let size = |i: &usize| rows[*i][k].abs();
+        let largest = (k..n).max_by(|i, j| size(i).total_cmp(&size(j)));
+        rows.swap(k, largest.unwrap_or(k));
+        let (above, below) = rows.split_at_mut(k + 1);
+        let pivot = &above[k][k..];
+        // Most entries are zero.
+        for row in below.iter_mut().filter(|row| row[k] != 0.0) {
+            let factor = row[k] / pivot[0];
+            let both = row[k..].iter_mut().zip(pivot);
+            both.for_each(|(entry, p)| *entry -= factor * p);
+        }
+    }
+    let mut out = vec![0.0; n];
+    for k in (0..n).rev() {
+        let known = rows[k][k + 1..n].iter().zip(&out[k + 1..]);
+        let known: f64 = known.map(|(factor, x)| factor * x).sum();
+        out[k] = (rows[k][n] - known) / rows[k][k];
+    }
+    out
 }
 
 impl Mobile for Mechanism {
