@@ -19,6 +19,8 @@ pub(super) enum Claim {
     Fraction(Expr),
     /// A coefficient of friction: 0 or greater.
     Friction(Expr),
+    /// The size of gravity: 0 or greater.
+    Gravity(Expr),
     /// A tangential restitution: from -1 to 1.
     Tangential(Expr),
     /// A mass, length or inertia is positive.
@@ -110,6 +112,11 @@ fn try_claim(scene: &Scene, claimed: &Claimed, given: &Given) -> (Option<Fault>,
             violation(mu, scene, given, |v| v.high < 0.0),
             "a coefficient of friction is not negative",
             "friction opposes the slip by itself, whichever way it goes; change the value, or the `domain` of its parameters",
+        ),
+        Claim::Gravity(g) => bounded(
+            violation(g, scene, given, |v| v.high < 0.0),
+            "gravity is told by its size, which is not negative",
+            "it draws down, along -y, by itself: leave out the minus sign",
         ),
         Claim::Tangential(e) => bounded(
             violation(e, scene, given, |v| v.high < -1.0 || v.low > 1.0),

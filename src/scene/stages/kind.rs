@@ -181,7 +181,7 @@ fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) 
     }
     let all = company(r, &slide.body, slide.with.as_deref());
     let along = r.direction(&slide.along);
-    let gravity = optional(r, slide.gravity.as_ref(), ACCELERATION)?;
+    let gravity = weight(r, slide.gravity.as_ref())?;
     let force = optional(r, slide.force.as_ref(), FORCE)?;
     let friction = coefficient(r, slide.friction.as_ref())?;
     let strings = slide.strings.iter().flatten();
@@ -249,14 +249,29 @@ fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) 
 
 /// A coefficient of friction, which is not negative.
 fn coefficient(r: &mut Resolver<'_>, formula: Option<&Formula>) -> Option<Option<Expr>> {
-    let friction = optional(r, formula, Quantity::NUMBER)?;
-    if let (Some(mu), Some(f)) = (&friction, formula) {
+    bounded(r, formula, Quantity::NUMBER, Claim::Friction)
+}
+
+/// Gravity, told by its size.
+fn weight(r: &mut Resolver<'_>, formula: Option<&Formula>) -> Option<Option<Expr>> {
+    bounded(r, formula, ACCELERATION, Claim::Gravity)
+}
+
+/// A quantity that may be missing, with what is claimed of it.
+fn bounded(
+    r: &mut Resolver<'_>,
+    formula: Option<&Formula>,
+    quantity: Quantity,
+    claim: fn(Expr) -> Claim,
+) -> Option<Option<Expr>> {
+    let read = optional(r, formula, quantity)?;
+    if let (Some(e), Some(f)) = (&read, formula) {
         r.claims.push(Claimed {
             span: f.span,
-            claim: Claim::Friction(mu.clone()),
+            claim: claim(e.clone()),
         });
     }
-    Some(friction)
+    Some(read)
 }
 
 /// A string over pulleys with what moves at its other end.
@@ -307,7 +322,7 @@ fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {
         return fault.hint("give one of them").add_to(&mut r.faults);
     }
     let all = company(r, &fall.body, fall.with.as_deref());
-    let gravity = optional(r, fall.gravity.as_ref(), ACCELERATION)?;
+    let gravity = weight(r, fall.gravity.as_ref())?;
     let until = match (&fall.height, &fall.range, &fall.time) {
         (Some(height), ..) => {
             FallEnd::Drop(r.symbols.read(height, Quantity::LENGTH, &mut r.faults)?)
@@ -381,7 +396,7 @@ fn linkage_of(
         ends: [from.unwrap_or_else(|| Expr::symbol(&coordinate)), to],
         coordinate,
         places: moving,
-        gravity: optional(r, linkage.gravity.as_ref(), ACCELERATION)?,
+        gravity: weight(r, linkage.gravity.as_ref())?,
     })
 }
 
@@ -428,7 +443,7 @@ fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
         about_name,
         until,
         clockwise: turn.clockwise,
-        gravity: optional(r, turn.gravity.as_ref(), ACCELERATION)?,
+        gravity: weight(r, turn.gravity.as_ref())?,
         torque: optional(r, turn.torque.as_ref(), MOMENT)?,
     })
 }

@@ -100,7 +100,13 @@ fn measured(
     out.dimension = dimension;
     match value {
         Some(value) => valued(&mut out, value, &told.assumptions),
-        None => out = out.leave_open(why),
+        None => {
+            let [places, motions] = [&told.before.center, &told.before.velocity];
+            let moved = told.placed.kind.moved().into_iter();
+            let parts = moved.flat_map(|b| places[b].iter().chain(&motions[b]));
+            let before = told.before.why_open(parts);
+            out = out.leave_open(before.unwrap_or_else(|| String::from(why)));
+        }
     }
     out
 }

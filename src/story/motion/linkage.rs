@@ -27,6 +27,16 @@ pub(in crate::story) fn linkage(
     let [begin, end] = &linkage.ends;
     let [first, last] = [pose(stage, linkage, begin)?, pose(stage, linkage, end)?];
     stands(stage, &before, linkage, &first)?;
+    if is_zero(&first.inertia, domains) == Some(true) {
+        return Err(Refused::new(
+            &stage.name,
+            format!(
+                "nothing that has a mass moves with `{}` as it begins",
+                linkage.coordinate
+            ),
+            "give one of the bodies a mass, or begin a little later",
+        ));
+    }
     let (mut needs, mut assumptions) = (Vec::new(), Vec::new());
     let way = way(stage, linkage, &mut needs, &mut assumptions)?;
     let rate = rate(stage, &before, linkage, &first)?;
@@ -150,6 +160,13 @@ fn way(
     const POINTS: usize = 12;
     let [begin, end] = &linkage.ends;
     let grows = end - begin;
+    if is_zero(&grows, &stage.scene.domains) == Some(true) {
+        return Err(Refused::new(
+            &stage.name,
+            format!("`{}` ends where it begins", linkage.coordinate),
+            "`from` and `to` are two values; without `from` the parameter itself is where it begins",
+        ));
+    }
     if let Some(positive) = sign(&grows, &stage.scene.domains).side() {
         return Ok(if positive { 1 } else { -1 });
     }
