@@ -5,8 +5,8 @@
 
 use crate::answer::{self, Answer, Graph, Known, Refused};
 use crate::derive::Derivation;
-use crate::figure::Chapter;
-use crate::scene::Scene;
+use crate::figure::{Chapter, Course};
+use crate::scene::{Question, Scene};
 use crate::solution::{self, Detail, Solution};
 use crate::story::{self, StageTold, Told};
 use crate::verify::{self, Trust};
@@ -124,14 +124,25 @@ impl Worked {
         let chapter = |t: &StageTold| {
             let chapter = match story::impact(&self.scene, &self.told, Some(&t.placed.name)) {
                 Some(impact) => Chapter::Impact(impact),
-                None => {
-                    let clockwise = story::is_clockwise(t);
-                    Chapter::Motion(story::beginning(t), t.placed.kind.clone(), clockwise)
-                }
+                None => Chapter::Motion(Course {
+                    begin: story::beginning(t),
+                    end: t.after.center.clone(),
+                    kind: t.placed.kind.clone(),
+                    clockwise: story::is_clockwise(t),
+                    asked: self.asked_of(&t.placed.name),
+                }),
             };
             (t.name.clone(), chapter)
         };
         self.told.stages.iter().map(chapter).collect()
+    }
+
+    /// The questions about a stage.
+    fn asked_of(&self, name: &str) -> Vec<Question> {
+        let index = self.scene.stages.iter().position(|s| s.name == name);
+        let asked = self.scene.questions.iter();
+        let asked = asked.filter(|q| q.stage.is_some() && q.stage == index && !q.hidden);
+        asked.cloned().collect()
     }
 
     /// All answers as those of one scene with one derivation.

@@ -36,6 +36,15 @@ pub struct DescribeArgs {
     /// Typeset this symbol, given in LaTeX; may be repeated
     #[arg(long, allow_hyphen_values = true)]
     symbol: Vec<String>,
+    /// Tell how the bodies come to the first impact, and how they go on after the last
+    #[arg(long)]
+    film: bool,
+    /// With --film: show an answer to this question beside the right motion
+    #[arg(long, requires = "film", requires = "answer")]
+    quantity: Option<String>,
+    /// With --film: the answer
+    #[arg(long, requires = "quantity", allow_hyphen_values = true)]
+    answer: Option<String>,
 }
 
 /// Serves until it is interrupted.
@@ -71,6 +80,12 @@ pub fn describe(args: &DescribeArgs) -> Result<u8, Failure> {
         set: each.collect(),
         formulas: args.formula.clone(),
         symbols: args.symbol.clone(),
+        film: args.film.then(|| {
+            let claim = args.quantity.clone().zip(args.answer.clone());
+            serve::Filmed {
+                claim: claim.map(|(name, answer)| [name, answer]),
+            }
+        }),
     };
     match serve::describe(&text, &asked) {
         Ok(description) => print(&pretty(&description)).map(|()| 0),

@@ -5,6 +5,7 @@
 //! anything about mechanics: the motion after comes from [`crate::numeric`] at the values the scene is drawn at.
 
 mod during;
+mod film;
 mod fixture;
 mod inline;
 mod label;
@@ -25,8 +26,10 @@ mod support;
 mod svg;
 mod tikz;
 mod values;
+mod way;
 mod words;
 
+pub use film::{Film, Moment, film};
 pub use label::Label;
 pub use latex::letter;
 pub(crate) use panel::framed;
@@ -34,8 +37,10 @@ pub use tikz::{COLORS, escaped, node};
 
 use std::collections::BTreeSet;
 
-use crate::expr::{Expr, Point, Symbol};
-use crate::scene::{BlowImpulse, ContactLaw, KnownQuantity, Scene, Shape, StageKind};
+use crate::expr::{Expr, Point, Symbol, Vector};
+use crate::scene::{
+    Ask, BlowImpulse, ContactLaw, KnownQuantity, Question, Scene, Shape, StageKind,
+};
 pub(crate) use label::visible;
 use panel::{Panel, finish, motion_panel, nothing, panel};
 pub(crate) use place::{Room, Spot, Wish};
@@ -145,8 +150,32 @@ pub fn draw(scene: &Scene, which: Which) -> Drawing {
 pub enum Chapter {
     /// An impact, with the motion handed on put in.
     Impact(Scene),
-    /// A motion: the bodies at its beginning, what happens, and whether a rotation is clockwise.
-    Motion(Scene, StageKind, bool),
+    /// A motion.
+    Motion(Course),
+}
+
+/// A motion, to be drawn.
+#[derive(Clone, Debug)]
+pub struct Course {
+    /// The bodies at its beginning.
+    pub begin: Scene,
+    /// Centers of mass at its end, by index of body; what is open there has no value.
+    pub end: Vec<Vector>,
+    /// What happens.
+    pub kind: StageKind,
+    /// Whether a rotation, or a rope that winds up, goes clockwise.
+    pub clockwise: bool,
+    /// What is asked about it.
+    pub asked: Vec<Question>,
+}
+
+impl Course {
+    /// The symbol of something that is asked about it.
+    fn symbol(&self, is: impl Fn(&Ask) -> bool) -> Option<Label> {
+        let mut asked = self.asked.iter().filter(|q| is(&q.ask));
+        let first = asked.next()?;
+        Some(Label::symbol(&first.name, first.latex.as_deref()))
+    }
 }
 
 /// The pictures of a stage, those of an impact each with what it shows.
@@ -156,9 +185,9 @@ pub fn chapter(name: &str, chapter: &Chapter) -> Vec<(Drawing, Option<Which>)> {
             .into_iter()
             .map(|which| (draw(scene, which), Some(which)))
             .collect(),
-        Chapter::Motion(scene, kind, clockwise) => {
-            let panel = motion_panel(name, scene, kind, *clockwise);
-            vec![(finish(scene, vec![panel]), None)]
+        Chapter::Motion(course) => {
+            let panel = motion_panel(name, course);
+            vec![(finish(&course.begin, vec![panel]), None)]
         }
     }
 }
@@ -191,9 +220,7 @@ pub fn chapters(scene: &Scene, all: &[(String, Chapter)]) -> Drawing {
                     panels.push(one);
                 }
             }
-            Chapter::Motion(scene, kind, clockwise) => {
-                panels.push(motion_panel(name, scene, kind, *clockwise));
-            }
+            Chapter::Motion(course) => panels.push(motion_panel(name, course)),
         }
     }
     if panels.is_empty() {

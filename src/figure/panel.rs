@@ -4,11 +4,11 @@ use super::label::advance;
 use super::sheet::{Item, SMALL, Sheet};
 use super::stage::Stage;
 use super::{
-    Drawing, Label, Piece, Room, Subject, Which, during, geometry, is_readable, label, motion,
-    picture, svg, tikz, values, words,
+    Course, Drawing, Label, Piece, Room, Subject, Which, during, geometry, is_readable, label,
+    motion, picture, svg, tikz, values, words,
 };
 use crate::numeric::Motion;
-use crate::scene::{Scene, StageKind};
+use crate::scene::Scene;
 
 /// Least width of a picture, in pixels.
 const COLUMN: f64 = 340.0;
@@ -119,11 +119,11 @@ pub(super) fn panel(stage: &Stage, motion: Option<&Motion<f64>>, which: Which) -
     }
 }
 
-pub(super) fn motion_panel(name: &str, scene: &Scene, kind: &StageKind, clockwise: bool) -> Panel {
-    let scene = motion::stand_in(scene, kind);
+pub(super) fn motion_panel(name: &str, course: &Course) -> Panel {
+    let scene = motion::stand_in(&course.begin, &course.kind);
     let values = values::representative(&scene);
     let sheet = is_readable(&scene)
-        .then(|| motion::motion(&scene, &values, kind, clockwise))
+        .then(|| motion::motion(&scene, &values, course))
         .flatten();
     let mut notes = Vec::new();
     if sheet.is_none() {

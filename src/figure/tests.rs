@@ -47,8 +47,8 @@ fn sheets(scene: &Scene) -> Vec<Sheet> {
         .map(|which| panel(&stage, motion.as_ref(), which).sheet)
         .collect();
     for chapter in motions(scene) {
-        if let Chapter::Motion(scene, kind, clockwise) = chapter {
-            sheets.push(motion_panel("way", &scene, &kind, clockwise).sheet);
+        if let Chapter::Motion(course) = chapter {
+            sheets.push(motion_panel("way", &course).sheet);
         }
     }
     sheets
@@ -60,7 +60,15 @@ fn motions(scene: &Scene) -> Vec<Chapter> {
     stages
         .filter(|s| !matches!(s.kind, StageKind::Impact { .. }))
         .flat_map(|s| {
-            [true, false].map(|sense| Chapter::Motion(s.scene.clone(), s.kind.clone(), sense))
+            [true, false].map(|clockwise| {
+                Chapter::Motion(Course {
+                    begin: s.scene.clone(),
+                    end: Vec::new(),
+                    kind: s.kind.clone(),
+                    clockwise,
+                    asked: Vec::new(),
+                })
+            })
         })
         .collect()
 }

@@ -250,6 +250,21 @@ pub(super) const COMMANDS: &[Command] = &[
                 kind: Kind::Texts("--symbol"),
                 what: "symbols in LaTeX, given back as MathML",
             },
+            Field {
+                name: "film",
+                kind: Kind::Flag("--film"),
+                what: "how the bodies come to the first impact and go on after the last, as places at moments",
+            },
+            Field {
+                name: "quantity",
+                kind: Kind::Text("--quantity"),
+                what: "with a film: a question whose answer is shown beside the right motion",
+            },
+            Field {
+                name: "answer",
+                kind: Kind::Text("--answer"),
+                what: "with a film: that answer",
+            },
         ],
         always: &[],
         gives: Gives::Json,

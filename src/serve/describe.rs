@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use serde_json::{Map, Value, json};
 
 use crate::domain::{Domain, Limit};
-use crate::expr::{Point, Symbol};
+use crate::expr::{Expr, Point, Symbol};
 use crate::figure;
 use crate::formula::{self, Content, Symbols, latex_name};
 use crate::grade;
@@ -23,6 +23,15 @@ pub struct Asked {
     pub formulas: Vec<String>,
     /// Symbols in LaTeX, to be typeset.
     pub symbols: Vec<String>,
+    /// The film of the scene, where it is wanted.
+    pub film: Option<Filmed>,
+}
+
+/// What a film is to show beside the right motion.
+#[derive(Clone, Debug, Default)]
+pub struct Filmed {
+    /// Name of a question, and somebody's answer to it.
+    pub claim: Option<[String; 2]>,
 }
 
 /// Why a scene is not described.
@@ -50,6 +59,7 @@ pub fn describe(text: &str, asked: &Asked) -> Result<Value, Wrong> {
     let outlines = figure::outlines(&scene).unwrap_or_default();
     let outlines = scene.bodies.iter().zip(outlines);
     let names = written(&scene);
+    let film = asked.film.as_ref().map(|f| film(&scene, &shown, f));
     Ok(json!({
         "title": scene.title,
         "source": scene.source,
@@ -63,7 +73,35 @@ pub fn describe(text: &str, asked: &Asked) -> Result<Value, Wrong> {
         "readings": readings.collect::<Vec<_>>(),
         "symbols": symbols.map(|s| math(&mathml::from_latex(s))).collect::<Vec<_>>(),
         "outlines": outlines.map(|(b, lines)| json!({"body": b.name, "lines": lines})).collect::<Vec<_>>(),
+        "film": film,
     }))
+}
+
+/// How the bodies come to the first impact and go on after the last, with the right motion and with what somebody claims.
+fn film(scene: &Scene, shown: &Point<f64>, filmed: &Filmed) -> Value {
+    let value = |[name, answer]: &[String; 2]| {
+        let read = formula::read(answer, &names_of(scene)).ok()?;
+        let of = |e: &Expr| e.evaluate(shown).filter(|v| v.is_finite());
+        let value = match read.content.answer() {
+            Content::Vector([x, y, _]) => [of(x)?, of(y)?],
+            content => [of(content.expr()?)?, 0.0],
+        };
+        Some((name.clone(), value))
+    };
+    let claim = filmed.claim.as_ref().and_then(value);
+    let claim = claim.as_ref().map(|(name, value)| (name.as_str(), *value));
+    let film = figure::film(scene, claim);
+    let part = |moments: &[figure::Moment]| {
+        let each = moments.iter();
+        each.map(|(time, poses)| json!({"time": time, "poses": poses}))
+            .collect::<Vec<_>>()
+    };
+    json!({
+        "bodies": scene.bodies.iter().map(|b| &b.name).collect::<Vec<_>>(),
+        "before": part(&film.before),
+        "after": part(&film.after),
+        "claimed": part(&film.claimed),
+    })
 }
 
 /// Words of a scene with its symbols typeset, as markup.
@@ -137,9 +175,9 @@ fn range(domain: Option<&Domain>, value: f64, scale: f64, unit: &str) -> [f64; 3
     [first * step, last * step, step]
 }
 
-/// How a formula is understood.
-fn reading(scene: &Scene, text: &str) -> Value {
-    // Answers may name what a derivation defines, so names that are not declared are read as they stand.
+/// The names a formula about a scene may hold. Answers may name what a derivation defines, so names that are not declared are
+/// read as they stand.
+fn names_of(scene: &Scene) -> Symbols {
     let mut symbols = Symbols::open();
     for p in &scene.parameters {
         symbols.declare_as(
@@ -151,6 +189,12 @@ fn reading(scene: &Scene, text: &str) -> Value {
     for q in &scene.questions {
         symbols.declare_as(q.name.as_str(), q.latex.as_deref(), None);
     }
+    symbols
+}
+
+/// How a formula is understood.
+fn reading(scene: &Scene, text: &str) -> Value {
+    let symbols = names_of(scene);
     let read = match formula::read(text, &symbols) {
         Ok(read) => read,
         Err(fault) => return json!({"error": render::grade::error(&fault, text)}),
@@ -172,7 +216,7 @@ fn math(inner: &str) -> String {
 
 /// What was read, as MathML.
 fn content(names: &Solution, content: &Content) -> String {
-    let one = |e: &crate::expr::Expr| mathml::expr(names, e);
+    let one = |e: &Expr| mathml::expr(names, e);
     match content {
         Content::Scalar(e) => one(e),
         Content::Either([a, b]) => format!("{}<mtext> or </mtext>{}", one(a), one(b)),

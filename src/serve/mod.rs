@@ -27,7 +27,7 @@ use tokio::signal;
 use tokio::sync::Semaphore;
 use tokio::time;
 
-pub use describe::{Asked, Wrong, describe};
+pub use describe::{Asked, Filmed, Wrong, describe};
 use folder::Folder;
 use work::Workshop;
 

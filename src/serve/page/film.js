@@ -1,4 +1,5 @@
-// The stages of a scene in time, as the numbers follow them: played, paused, or moved by hand.
+// The motion of a scene in time, as the numbers follow it: up to the first impact, through the stages, and on from the last
+// impact; beside it the motion that somebody's answer would give. Played, paused, or moved by hand.
 
 import { $, ask, digits, latest, told } from "/ask.js";
 import { bench, scene, set } from "/main.js";
@@ -11,26 +12,41 @@ const SPACE = "http://www.w3.org/2000/svg";
 const filmed = latest();
 let film = null;
 let running = null;
+// The question and somebody's answer to it that is played beside the right motion.
+let claim = null;
 
-// Makes the film at the values of the sliders; without stages there is none.
+// Whether the next film begins at once.
+let atOnce = false;
+
+// From the next film on a wrong answer is played beside the right motion; `null` leaves the right motion alone.
+export function beside(other) {
+  const had = claim !== null;
+  claim = other;
+  atOnce = Boolean(other);
+  if (had && !other) showFilm();
+}
+
+// Makes the film at the values of the sliders; where nothing moves there is none.
 export async function showFilm() {
   pause();
   film = null;
-  $("film").hidden = true;
-  if (!bench.about.stages.length) return;
   try {
+    const request = { ...scene(), set: set() };
     const found = await filmed((signal) => Promise.all([
-      ask("solve", { ...scene(), set: set() }, signal),
-      ask("describe", { ...scene(), set: set() }, signal),
+      ask("describe", { ...request, film: true, ...claim }, signal),
+      bench.about.stages.length ? ask("solve", request, signal) : { stages: [] },
     ]));
     if (!found) return;
     film = made(...found);
-    $("film").hidden = false;
+    $("film").hidden = !film.parts.length && !film.note;
     $("film-note").textContent = film.note;
     $("film-time").max = film.length;
     $("film-time").step = film.length / 400 || 0.01;
     $("film-play").disabled = $("film-time").disabled = !film.length;
+    $("film-picture").replaceChildren();
     at(0);
+    if (atOnce && film.length) play();
+    atOnce = false;
   } catch (error) {
     $("film").hidden = false;
     $("film-note").textContent = told(error);
@@ -38,21 +54,28 @@ export async function showFilm() {
   }
 }
 
-// Scenes of the film: where every body is from one time of the film to another.
-function made(solved, about) {
-  const [first] = solved.stages;
-  const bodies = about.outlines.map((o) => ({ ...o, from: pose(first.bodies?.find((b) => b.name === o.body)?.before) }));
+// Parts of the film: where every body is from one time to another.
+function made(about, solved) {
+  const { before, after, claimed, bodies: names } = about.film;
+  const free = (name, samples, other) => ({ name, poses: new Map(), moving: names, samples, other, time: samples.at(-1).time });
   const parts = [];
   let note = "";
-  let real = 0;
+  if (before.length) parts.push(free("before the impact", before));
   for (const stage of solved.stages) {
     if (stage.lost) { note = `${stage.name}: ${stage.reason}`; break; }
     const poses = new Map(stage.bodies.map((b) => [b.name, pose(b.before)]));
     const moves = (stage.samples?.length ?? 0) > 1;
     if (stage.kind !== "impact" && !moves) { note = `${stage.name}: its course in time is not known`; break; }
     parts.push({ name: stage.name, poses, moving: stage.moving ?? [], samples: stage.samples ?? [], time: moves ? stage.samples.at(-1).time : 0 });
-    real += parts.at(-1).time;
   }
+  if (!note && after.length) {
+    if (!solved.stages.length) parts.push({ ...free("impact", [after[0]]), time: 0 });
+    parts.push(free("after the impact", after, claimed.length ? claimed : null));
+    if (claim) note = claimed.length
+      ? `After the impact: full lines, the right motion; broken lines, that of ${claim.quantity} = ${claim.answer}.`
+      : `${claim.quantity} is not a velocity or a spin just after the last impact, so your answer has no motion of its own; the right one is shown.`;
+  }
+  const real = parts.reduce((sum, part) => sum + part.time, 0);
   const slow = real ? Math.max(1, LONGEST / 2 / real) : 1;
   const speed = real > LONGEST ? real / LONGEST : 1 / slow;
   let length = 0;
@@ -61,16 +84,22 @@ function made(solved, about) {
     part.speed = speed;
     length = part.end = length + (part.time ? part.time / speed : IMPACT);
   }
+  const [first] = solved.stages;
+  const from = (name) => {
+    const k = names.indexOf(name);
+    return first ? pose(first.bodies?.find((b) => b.name === name)?.before) : (before.at(-1) ?? after[0])?.poses[k];
+  };
+  const bodies = about.outlines.map((o) => ({ ...o, from: from(o.body) }));
   return { bodies, parts, length, note };
 }
 
 const pose = (b) => (b && [b.x, b.y, b.angle].every(Number.isFinite) ? [b.x, b.y, b.angle] : null);
 
 // Where a body is within a part: between two samples by the cubic that keeps the slopes of the course.
-function place(part, body, time) {
+function place(part, body, time, s = part.samples) {
   const k = part.moving.indexOf(body);
   if (k < 0) return part.poses.get(body);
-  const s = part.samples;
+  if (s.length < 2) return s[0]?.poses[k];
   let i = s.findIndex((one) => one.time >= time);
   if (i < 0) i = s.length - 1;
   i = Math.max(1, i);
@@ -110,7 +139,8 @@ function at(moment) {
   const thick = film.box[2] / 150;
   const begin = film.bodies.map((body) => [body.lines, "begin"]);
   const now = film.bodies.map((body) => [moved(body, place(part, body.body, time)), "now"]);
-  for (const [lines, when] of [...begin, ...now]) {
+  const other = part.other ? film.bodies.map((body) => [moved(body, place(part, body.body, time, part.other)), "claimed"]) : [];
+  for (const [lines, when] of [...begin, ...now, ...other]) {
     for (const line of lines) {
       const shape = document.createElementNS(SPACE, line.length === 1 ? "circle" : "polygon");
       if (line.length === 1) {
@@ -129,8 +159,9 @@ function at(moment) {
 
 // Room for all that is shown in the film.
 function box() {
-  const all = film.parts.flatMap((part) => [0, 0.25, 0.5, 0.75, 1].flatMap((u) =>
-    film.bodies.flatMap((body) => moved(body, place(part, body.body, u * part.time)).flat())));
+  const courses = film.parts.flatMap((part) => [part.samples, part.other].filter(Boolean).map((samples) => [part, samples]));
+  const all = courses.flatMap(([part, samples]) => [0, 0.25, 0.5, 0.75, 1].flatMap((u) =>
+    film.bodies.flatMap((body) => moved(body, place(part, body.body, u * part.time, samples)).flat())));
   const [xs, ys] = [all.map((p) => p[0]), all.map((p) => -p[1])];
   const [left, top] = [Math.min(...xs), Math.min(...ys)];
   const [wide, high] = [Math.max(...xs) - left, Math.max(...ys) - top];
@@ -144,8 +175,7 @@ function pause() {
   $("film-play").textContent = "Play";
 }
 
-$("film-play").addEventListener("click", () => {
-  if (running !== null) return pause();
+function play() {
   $("film-play").textContent = "Pause";
   const from = Number($("film-time").value);
   const begin = performance.now() - 1000 * (from < film.length - 1e-6 ? from : 0);
@@ -156,10 +186,14 @@ $("film-play").addEventListener("click", () => {
     if (running === null) pause();
   };
   running = requestAnimationFrame(frame);
-});
+}
 
+$("film-play").addEventListener("click", () => (running === null ? play() : pause()));
 $("film-time").addEventListener("input", () => {
   pause();
   at(Number($("film-time").value));
 });
-addEventListener("hashchange", pause);
+addEventListener("hashchange", () => {
+  pause();
+  claim = null;
+});

@@ -4,6 +4,7 @@
 import { $, ask, latest, make, markup, quietly, told } from "/ask.js";
 import { bench, scene } from "/main.js";
 import { cases, derived, typeset } from "/answers.js";
+import { beside } from "/film.js";
 import { putValues } from "/values.js";
 
 const WORDS = { equivalent: ["✓ Right", "held"], different: ["✗ Not right", "failed"], invalid: ["? Not readable", "unsure"], undecided: ["? Not decided", "unsure"] };
@@ -49,9 +50,10 @@ function question(about, set) {
     event.preventDefault();
     if (!box.value.trim()) return;
     verdict.replaceChildren(make("p", { class: "note" }, "Judging …"));
+    beside(null);
     try {
       const grade = await judging((signal) => ask("grade", { ...scene(), quantity: about.name, answer: box.value }, signal));
-      if (grade) verdict.replaceChildren(shown(grade));
+      if (grade) verdict.replaceChildren(shown(grade, about.name, box.value));
     } catch (error) {
       verdict.replaceChildren(make("p", { class: "wrong" }, told(error)));
     }
@@ -67,7 +69,7 @@ function understood(reading) {
   return ["reads ", markup(reading.mathml), unknown, ...reading.notes.map((n) => make("div", {}, n))];
 }
 
-function shown(grade) {
+function shown(grade, quantity, answer) {
   const [words, kind] = WORDS[grade.verdict] ?? [grade.verdict, "unsure"];
   const parts = [make("strong", {}, words), make("p", { class: "note" }, grade.proof.words)];
   if (grade.error) parts.push(make("p", {}, grade.error.message), grade.error.hint ? make("p", {}, grade.error.hint) : null);
@@ -81,7 +83,12 @@ function shown(grade) {
     parts.push(make("p", {}, `${at} ${c.yours}, expected ${c.expected}.`));
     const values = point(c.at);
     const known = Object.keys(values).some((name) => bench.about.parameters.some((p) => p.name === name));
-    if (known) parts.push(make("button", { type: "button", onclick: () => putValues(values) }, "Show this motion in the figure"));
+    const play = () => {
+      beside({ quantity, answer });
+      putValues(values);
+      $("film").scrollIntoView({ block: "nearest", behavior: "smooth" });
+    };
+    if (known) parts.push(make("button", { type: "button", onclick: play }, "Play both motions at these values"));
   }
   if (grade.assumed?.length) parts.push(make("p", { class: "note" }, `Taken for granted: ${grade.assumed.join(", ")}.`));
   for (const doubt of grade.doubts ?? []) parts.push(make("p", { class: "unsure" }, doubt));

@@ -1,0 +1,384 @@
+//! What a film shows beside the stages of a scene: how the bodies come to the first impact, and how they go on after the last.
+//!
+//! In: a scene, and what somebody takes for right. Out: places of the bodies at moments. No forces are known there, so every
+//! body keeps its velocity and spin; what turns about a resting point of a support goes on about it, and what moves as one
+//! stays together. The motion itself is that of [`crate::numeric::follow`].
+
+use super::pose::{Pose, posed};
+use super::values::{Pair, Values, representative, size};
+use crate::numeric::follow::{self, Followed, Passed, Solid, State, What};
+use crate::numeric::given::Freedom;
+use crate::scene::{Ask, Scene, Stage};
+
+/// Moments of a part, its beginning aside.
+const STEPS: u32 = 12;
+/// How far a body goes in a part at most, against the size of the picture, and how far it turns \[rad\].
+const FAR: [f64; 2] = [0.6, 0.9];
+/// Relative difference that rounding may make.
+const ROUNDING: f64 = 1e-9;
+
+/// Time in a part \[s\] and, for every body of the scene, x and y of its center \[m\] and its angle \[rad\].
+pub type Moment = (f64, Vec<[f64; 3]>);
+
+/// The parts of a film that no stage tells; each is empty where it is not known or nothing moves.
+#[derive(Clone, Debug, Default)]
+pub struct Film {
+    /// Up to the first impact.
+    pub before: Vec<Moment>,
+    /// From the last impact on.
+    pub after: Vec<Moment>,
+    /// The same, with a quantity as somebody takes it to be.
+    pub claimed: Vec<Moment>,
+}
+
+/// The film of a scene at the values it is drawn at. `claim` is the name of a question about the last impact, and the value of
+/// its answer in SI units as somebody has it.
+pub fn film(scene: &Scene, claim: Option<(&str, [f64; 2])>) -> Film {
+    let values = representative(scene);
+    let Ok(followed) = follow::follow(scene, &values.point) else {
+        return Film::default();
+    };
+    let course = scene.course();
+    let told: Option<Vec<&Passed>> = followed.stages.iter().map(|s| s.as_ref().ok()).collect();
+    let (Some(told), Some(poses)) = (told, posed(scene, &values)) else {
+        return Film::default();
+    };
+    let impact = |k: usize| match told.get(k) {
+        Some(passed) if matches!(passed.what, What::Impact(_)) => Some((*passed, &course[k])),
+        _ => None,
+    };
+    let (first, last) = (impact(0), impact(told.len().wrapping_sub(1)));
+    let before = first.and_then(|(passed, stage)| {
+        Going::new(
+            &followed,
+            &passed.before,
+            supports(stage, &values, &passed.before),
+        )
+    });
+    let after = last.and_then(|(passed, stage)| {
+        Going::new(
+            &followed,
+            &passed.after,
+            supports(stage, &values, &passed.after),
+        )
+    });
+    let claimed = after
+        .as_ref()
+        .zip(claim)
+        .and_then(|(after, (name, value))| {
+            let asked = scene.questions.iter().find(|q| q.name == name)?;
+            let of_last = asked
+                .stage
+                .is_none_or(|stage| stage + 1 == scene.stages.len());
+            of_last
+                .then(|| after.claimed(&asked.ask, value, &values))
+                .flatten()
+        });
+    let all: Vec<&Going> = [&before, &after, &claimed].into_iter().flatten().collect();
+    let time = seconds(&all, &poses);
+    let shown = |going: &Option<Going>, from: f64| {
+        let going = going.as_ref().filter(|g| g.fastest() != [0.0, 0.0]);
+        going.map_or_else(Vec::new, |g| g.moments(from, time))
+    };
+    Film {
+        before: shown(&before, -time),
+        after: shown(&after, 0.0),
+        claimed: shown(&claimed, 0.0),
+    }
+}
+
+/// Bodies that keep their velocities and spins.
+#[derive(Clone)]
+struct Going<'f> {
+    solids: &'f [Solid],
+    /// Place, angle, velocity and spin, by body.
+    bodies: Vec<[f64; 6]>,
+    joined: Vec<[usize; 2]>,
+    /// Points where something is held by what does not move.
+    supports: Vec<Pair>,
+}
+
+/// Where bodies are joined to fixed ones, as far as that has a place.
+fn supports(stage: &Stage, values: &Values, state: &State) -> Vec<Pair> {
+    let mut values = values.clone();
+    for (names, body) in stage.places.iter().zip(&state.bodies) {
+        let place = body.components().into_iter().take(3);
+        for (name, value) in names.iter().zip(place) {
+            if let Ok(value) = value {
+                values.point.values.insert(name.clone(), *value);
+            }
+        }
+    }
+    let scene = &stage.scene;
+    let hinges = scene.hinges.iter().map(|h| (h.bodies, &h.at));
+    let contacts = scene.contacts.iter().map(|c| (c.bodies, &c.at));
+    let held = hinges.chain(contacts);
+    let held = held.filter(|(bodies, _)| bodies.iter().any(|b| scene.bodies[*b].is_fixed()));
+    held.filter_map(|(_, at)| values.pair(at)).collect()
+}
+
+/// How long a part lasts, so that it stays about where the bodies are.
+fn seconds(all: &[&Going], poses: &[Pose]) -> f64 {
+    let points: Vec<Pair> = poses.iter().flat_map(Pose::outline).collect();
+    let span = |k: usize| {
+        let each = || points.iter().map(|p| p[k]);
+        each().fold(f64::MIN, f64::max) - each().fold(f64::MAX, f64::min)
+    };
+    let wide = match points.is_empty() {
+        true => 0.0,
+        false => size([span(0), span(1)]),
+    };
+    // Particles that meet have no size of their own.
+    let wide = if wide > 1e-6 { wide } else { 1.0 };
+    let mut time = f64::MAX;
+    for going in all {
+        let [speed, spin] = going.fastest();
+        for (rate, far) in [(speed, FAR[0] * wide), (spin, FAR[1])] {
+            if rate > 0.0 {
+                time = time.min(far / rate);
+            }
+        }
+    }
+    time
+}
+
+impl<'f> Going<'f> {
+    fn new(followed: &'f Followed, state: &State, supports: Vec<Pair>) -> Option<Going<'f>> {
+        let known = |b: &follow::BodyState| {
+            let mut out = [0.0; 6];
+            for (out, component) in out.iter_mut().zip(b.components()) {
+                *out = *component.as_ref().ok()?;
+            }
+            Some(out)
+        };
+        Some(Going {
+            solids: &followed.solids,
+            bodies: state.bodies.iter().map(known).collect::<Option<_>>()?,
+            joined: state.joined.clone(),
+            supports,
+        })
+    }
+
+    /// Largest speed and largest spin.
+    fn fastest(&self) -> [f64; 2] {
+        let free = self.solids.iter().zip(&self.bodies);
+        let free = free.filter(|(solid, _)| solid.freedom != Freedom::Fixed);
+        free.fold([0.0, 0.0], |[speed, spin], (_, b)| {
+            [
+                f64::max(speed, size([b[3], b[4]])),
+                f64::max(spin, b[5].abs()),
+            ]
+        })
+    }
+
+    /// Velocity of the point of a body that is somewhere now.
+    fn velocity(&self, body: usize, at: Pair) -> Pair {
+        let [x, y, _, u, v, spin] = self.bodies[body];
+        [u - spin * (at[1] - y), v + spin * (at[0] - x)]
+    }
+
+    fn is_nothing(&self, v: Pair) -> bool {
+        let [speed, _] = self.fastest();
+        size(v) <= ROUNDING * speed
+    }
+
+    /// The point of a support about which a body turns.
+    fn pivot(&self, body: usize) -> Option<Pair> {
+        let turns = self.bodies[body][5] != 0.0;
+        let mut supports = self.supports.iter().filter(|_| turns);
+        supports
+            .find(|at| self.is_nothing(self.velocity(body, **at)))
+            .copied()
+    }
+
+    /// For every body the one whose motion it shares; itself where it goes alone.
+    fn leaders(&self) -> Vec<usize> {
+        let mut leader: Vec<usize> = (0..self.bodies.len()).collect();
+        let is_rigid = |b: usize| self.solids[b].freedom == Freedom::Rigid;
+        for pair in &self.joined {
+            let [a, b] = if is_rigid(pair[0]) {
+                *pair
+            } else {
+                [pair[1], pair[0]]
+            };
+            let [x, y, _, u, v, spin] = self.bodies[b];
+            let [own_u, own_v] = self.velocity(a, [x, y]);
+            let same_spin =
+                !is_rigid(b) || (spin - self.bodies[a][5]).abs() <= ROUNDING * spin.abs();
+            if same_spin && self.is_nothing([u - own_u, v - own_v]) {
+                let (of_a, of_b) = (leader[a], leader[b]);
+                for l in leader.iter_mut().filter(|l| **l == of_b) {
+                    *l = of_a;
+                }
+            }
+        }
+        leader
+    }
+
+    /// The bodies in time, from a moment on.
+    fn moments(&self, from: f64, long: f64) -> Vec<Moment> {
+        let leaders = self.leaders();
+        let each = (0..=STEPS).map(|k| {
+            let elapsed = long * f64::from(k) / f64::from(STEPS);
+            let place = |b| self.place(b, &leaders, from + elapsed);
+            (elapsed, (0..self.bodies.len()).map(place).collect())
+        });
+        each.collect()
+    }
+
+    /// Where a body is after a time.
+    fn place(&self, body: usize, leaders: &[usize], time: f64) -> [f64; 3] {
+        let [x, y, angle, ..] = self.bodies[body];
+        if self.solids[body].freedom == Freedom::Fixed {
+            return [x, y, angle];
+        }
+        let leader = leaders[body];
+        let by = self.bodies[leader][5] * time;
+        let (about, shift) = match self.pivot(leader) {
+            Some(pivot) => (pivot, [0.0, 0.0]),
+            None => {
+                let group = (0..leaders.len()).filter(|b| leaders[*b] == leader);
+                let mut sums = [0.0; 5];
+                for b in group {
+                    let mass = self.solids[b].mass;
+                    let [x, y, _, u, v, _] = self.bodies[b];
+                    for (sum, c) in sums.iter_mut().zip([1.0, x, y, u, v]) {
+                        *sum += mass * c;
+                    }
+                }
+                let [mass, rest @ ..] = sums;
+                let [x, y, _, u, v, _] = self.bodies[leader];
+                let [x, y, u, v] = match mass > 0.0 {
+                    true => rest.map(|sum| sum / mass),
+                    false => [x, y, u, v],
+                };
+                ([x, y], [u * time, v * time])
+            }
+        };
+        let (s, c) = by.sin_cos();
+        let arm = [x - about[0], y - about[1]];
+        [
+            about[0] + c * arm[0] - s * arm[1] + shift[0],
+            about[1] + s * arm[0] + c * arm[1] + shift[1],
+            angle + by,
+        ]
+    }
+
+    /// The same with a velocity or spin as somebody has it. What turns about a support still does; else the rest of the
+    /// motion stays as it is. `None` where the question is about something else.
+    fn claimed(&self, ask: &Ask, value: [f64; 2], values: &Values) -> Option<Going<'f>> {
+        let mut out = self.clone();
+        let (Ask::Spin { body, .. } | Ask::Velocity { body, .. }) = ask else {
+            return None;
+        };
+        let pivot = self.pivot(*body);
+        let [x, y, _, u, v, spin] = self.bodies[*body];
+        let own = &mut out.bodies[*body];
+        match ask {
+            Ask::Spin { clockwise, .. } => own[5] = if *clockwise { -value[0] } else { value[0] },
+            Ask::Velocity { point, along, .. } => {
+                let at = match point {
+                    Some((_, at)) => values.pair(at)?,
+                    None => [x, y],
+                };
+                let now = self.velocity(*body, at);
+                let more = match along {
+                    Some(along) => {
+                        let along = values.pair(along)?;
+                        let now = now[0] * along[0] + now[1] * along[1];
+                        along.map(|c| c * (value[0] - now))
+                    }
+                    None => [value[0] - now[0], value[1] - now[1]],
+                };
+                match pivot {
+                    // Only the part across the arm is left to it.
+                    Some(p) => {
+                        let arm = [at[0] - p[0], at[1] - p[1]];
+                        let across = arm[0] * more[1] - arm[1] * more[0];
+                        own[5] = spin + across / (arm[0] * arm[0] + arm[1] * arm[1]);
+                    }
+                    None => [own[3], own[4]] = [u + more[0], v + more[1]],
+                }
+            }
+            _ => return None,
+        }
+        if let Some(p) = pivot {
+            [own[3], own[4]] = [-own[5] * (y - p[1]), own[5] * (x - p[0])];
+        }
+        own.iter().all(|c| c.is_finite()).then_some(out)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shipped(name: &str) -> Scene {
+        let path = format!("{}/derivations/{name}.json", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).expect("a shipped scene");
+        crate::scene::read(&text).expect("a scene")
+    }
+
+    /// Where the lower end C of the falling stick is, from the place of the bar.
+    fn foot(place: [f64; 3], length: f64) -> Pair {
+        let [x, y, angle] = place;
+        [
+            x - angle.cos() * length / 2.0,
+            y - angle.sin() * length / 2.0,
+        ]
+    }
+
+    #[test]
+    fn a_stick_comes_straight_down_and_then_turns_about_the_end_that_sticks() {
+        let scene = shipped("book/falling-stick");
+        let at = |name: &str| representative(&scene).point.values[name];
+        let length = at("l");
+        let film = film(&scene, Some(("omega", [at("v") / length, 0.0])));
+        let bar = |part: &[Moment]| part.iter().map(|(_, all)| all[1]).collect::<Vec<_>>();
+        let before = bar(&film.before);
+        assert!(
+            before
+                .windows(2)
+                .all(|two| two[0][2] == two[1][2] && two[0][1] > two[1][1])
+        );
+        for part in [&film.after, &film.claimed] {
+            assert!(
+                bar(part)
+                    .iter()
+                    .all(|place| size(foot(*place, length)) < 1e-12)
+            );
+        }
+        let turned = |part: &[Moment]| part[part.len() - 1].1[1][2] - part[0].1[1][2];
+        let spin = -turned(&film.claimed) / film.claimed[film.claimed.len() - 1].0;
+        assert!(
+            (spin - at("v") / length).abs() < 1e-12,
+            "clockwise, as it is asked"
+        );
+        let right = 1.5 * at("v") * at("theta").cos() / length;
+        assert!(
+            (turned(&film.after) / turned(&film.claimed) - right * length / at("v")).abs() < 1e-12
+        );
+    }
+
+    #[test]
+    fn bodies_that_stick_together_stay_together() {
+        let scene = shipped("more/bullet-swings-a-rod");
+        let mut alone = scene.course()[0].scene.clone();
+        alone.domains = scene.domains.clone();
+        let film = film(&alone, None);
+        let apart = |(_, all): &Moment| size([all[2][0] - all[1][0], all[2][1] - all[1][1]]);
+        let first = apart(&film.after[0]);
+        assert!(film.after.iter().all(|m| (apart(m) - first).abs() < 1e-12));
+        assert!(film.after[12].1[1] != film.after[0].1[1]);
+    }
+
+    #[test]
+    fn a_question_about_something_else_has_no_motion_of_its_own() {
+        let scene = shipped("book/falling-stick");
+        assert!(
+            film(&scene, Some(("E_lost", [1.0, 0.0])))
+                .claimed
+                .is_empty()
+        );
+    }
+}
