@@ -124,6 +124,7 @@ impl Worked {
         let chapter = |t: &StageTold| {
             let chapter = match story::impact(&self.scene, &self.told, Some(&t.placed.name)) {
                 Some(impact) => Chapter::Impact(impact),
+                None if t.way.as_ref().is_some_and(|way| way.is_zero()) => Chapter::Rest,
                 None => Chapter::Motion(Course {
                     begin: story::beginning(t),
                     end: t.after.center.clone(),

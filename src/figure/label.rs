@@ -70,7 +70,7 @@ impl Label {
         let mut text = format!("\\vec{{{base}}}");
         if !index.is_empty() {
             text.push_str("_{");
-            text.push_str(latex_name(index).trim_start_matches("\\mathrm"));
+            text.push_str(&latex_name(index));
             text.push('}');
         }
         if !mark.is_empty() {

@@ -152,6 +152,8 @@ pub enum Chapter {
     Impact(Scene),
     /// A motion.
     Motion(Course),
+    /// No motion: the bodies are where it would end already.
+    Rest,
 }
 
 /// A motion, to be drawn.
@@ -189,6 +191,7 @@ pub fn chapter(name: &str, chapter: &Chapter) -> Vec<(Drawing, Option<Which>)> {
             let panel = motion_panel(name, course);
             vec![(finish(&course.begin, vec![panel]), None)]
         }
+        Chapter::Rest => Vec::new(),
     }
 }
 
@@ -221,6 +224,7 @@ pub fn chapters(scene: &Scene, all: &[(String, Chapter)]) -> Drawing {
                 }
             }
             Chapter::Motion(course) => panels.push(motion_panel(name, course)),
+            Chapter::Rest => {}
         }
     }
     if panels.is_empty() {

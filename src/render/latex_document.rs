@@ -100,7 +100,11 @@ fn body(s: &Solution, pictures: &[Picture]) -> String {
                     ));
                 }
                 Part::Result(lines) => {
-                    let boxed = format!("\\boxed{{{}}}", aligned(s, lines));
+                    let boxed = match rows(s, lines).as_slice() {
+                        [[left, right]] => format!("{} {}", latex(s, left), latex(s, right)),
+                        _ => aligned(s, lines),
+                    };
+                    let boxed = format!("\\boxed{{{boxed}}}");
                     out.push_str(&match is_wide(s, lines) {
                         true => format!("\\[\n\\fitted{{{boxed}}}\n\\]\n"),
                         false => format!("\\[\n{boxed}\n\\]\n"),

@@ -32,7 +32,10 @@ pub(super) fn beyond_motion(solution: &mut Solution, scene: &Scene, answers: &[A
             continue;
         }
         let mine = answers.iter().filter(|a| a.question == question.name);
-        let mine: Vec<Answer> = mine.cloned().collect();
+        let mut mine: Vec<Answer> = mine.cloned().collect();
+        for answer in &mut mine {
+            as_it_stands(scene, &question.ask, answers, answer);
+        }
         let Some(first) = mine.first() else {
             continue;
         };
@@ -52,6 +55,19 @@ pub(super) fn beyond_motion(solution: &mut Solution, scene: &Scene, answers: &[A
         }
         answered(solution, scene, ask, &mine);
         before = Some(ask);
+    }
+}
+
+/// A condition on an answer begins with that answer as it stands on the page: arccos x, where reckoning made π/2 − arcsin x of it.
+fn as_it_stands(scene: &Scene, ask: &Ask, answers: &[Answer], condition: &mut Answer) {
+    let (Ask::Condition { left, .. }, Some((stated, ..))) = (ask, condition.stated.as_mut()) else {
+        return;
+    };
+    let named = |a: &&Answer| left.as_symbol().is_some_and(|name| *a.name == **name);
+    if let Some(formula) = answers.iter().find(named).and_then(Answer::formula)
+        && tidied(scene, formula) == *stated
+    {
+        stated.clone_from(formula);
     }
 }
 

@@ -8,7 +8,10 @@ mod cases;
 mod ends;
 mod flight;
 mod motion;
+mod newton;
 mod pivot;
+mod speeds;
+mod swing;
 
 use super::asked;
 use super::known;

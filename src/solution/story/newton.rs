@@ -1,0 +1,189 @@
+//! A motion in a worked solution by Newton's laws: what the letters stand for, then forces, accelerations, and what they come to.
+
+use super::Page;
+use crate::answer::Answer;
+use crate::expr::{Expr, Node};
+use crate::scene::Ask;
+use crate::solution::neat::{alike, neat, tidied};
+use crate::solution::words::{name, say};
+use crate::solution::{Claim, Detail, Inline, Line, Math, Part};
+use crate::story::{StageTold, Step};
+
+/// Smallest formula, in nodes, whose name is worth standing for it.
+const WORTH_A_NAME: usize = 6;
+
+impl Page<'_> {
+    /// A motion by Newton's laws: what the letters stand for, then forces, accelerations, and what they come to.
+    pub(super) fn steps(&mut self, told: &StageTold) {
+        let taken = |step: &Step| {
+            let mut answers = self.told.answers.iter().filter(|a| a.name == step.letter);
+            let mut parameters = self.scene.parameters.iter();
+            parameters.any(|p| *p.name == *step.letter)
+                || answers.any(|a| a.formula() != Some(&step.value))
+        };
+        let scene = &told.placed.scene;
+        let moved = told.placed.kind.moved();
+        let index = moved.first().map_or("", |b| scene.bodies[*b].name.as_str());
+        let mut lines = Vec::new();
+        let mut letters = vec![say("Let ")];
+        for (i, step) in told.steps.iter().enumerate() {
+            let mark = if matches!(step.letter, "v" | "omega") {
+                "+"
+            } else {
+                ""
+            };
+            let index = if taken(step) { index } else { "" };
+            // What is asked for goes by the name of its answer, and stands in the box.
+            let answer = self.answering(told, step);
+            let letter = match answer {
+                Some(answer) => Math::Expr(Expr::symbol(&answer.name)),
+                None => name(step.letter, index, mark, false),
+            };
+            letters.push(say(match (i, told.steps.len() - i) {
+                (0, _) => "",
+                (_, 1) => " and ",
+                _ => ", ",
+            }));
+            let be = if i == 0 { " be " } else { " " };
+            letters.extend([
+                Inline::Math(vec![letter.clone()]),
+                say(format!("{be}{}", step.why)),
+            ]);
+            let is_boxed = answer.is_some();
+            let claim = Claim {
+                left: step.raw.clone(),
+                right: step.value.clone(),
+            };
+            let claimed = self.solution.step(Vec::new(), vec![claim], step.why);
+            if is_boxed {
+                continue;
+            }
+            let mut math = vec![letter, Math::Op("=")];
+            math.extend(self.made_of(step));
+            math.push(Math::Expr(step.value.clone()));
+            lines.push(Line {
+                math,
+                step: Some(claimed),
+            });
+        }
+        letters.push(say("."));
+        if self.solution.detail != Detail::Brief {
+            self.solution.text(letters);
+        }
+        if !lines.is_empty() {
+            self.solution.push(Part::Display(lines));
+        }
+    }
+
+    /// What a step comes from, with the sign that leads on to its value; nothing where it reads the same.
+    pub(super) fn made_of(&self, step: &Step) -> Vec<Math> {
+        let raw = self.by_names(&step.raw, &step.value);
+        let raw = neat(self.scene, &raw);
+        let written = crate::formula::write_plain;
+        match alike(&raw, &step.value) || written(&raw) == written(&step.value) {
+            true => Vec::new(),
+            false => vec![Math::Expr(raw), Math::Op("=")],
+        }
+    }
+
+    /// The answer that is what a step of a motion finds.
+    pub(super) fn answering(&self, told: &StageTold, step: &Step) -> Option<&Answer> {
+        let fits = |ask: &Ask| match step.letter {
+            "t" => matches!(ask, Ask::Time),
+            "s" => matches!(ask, Ask::Distance | Ask::Position { .. }),
+            "v" => matches!(ask, Ask::Velocity { point: None, .. }),
+            "omega" => matches!(ask, Ask::Spin { .. }),
+            "a" => matches!(ask, Ask::Acceleration { .. }),
+            "T" | "S" => matches!(ask, Ask::Tension { .. }),
+            _ => false,
+        };
+        let asked = |a: &&Answer| {
+            let mut questions = self.scene.questions.iter();
+            questions.any(|q| q.name == a.question && fits(&q.ask))
+        };
+        let mut answers = self.answered(told).filter(asked);
+        answers.find(|a| a.formula() == Some(&step.value))
+    }
+
+    /// The answers at the end of a stage; one that is not reached has none.
+    pub(super) fn answered(&self, told: &StageTold) -> impl Iterator<Item = &Answer> {
+        self.told.answers.iter().filter(move |a| {
+            let stage = a.told.and_then(|(i, _)| self.told.stages.get(i));
+            stage.is_some_and(|stage| std::ptr::eq(stage, told))
+        })
+    }
+
+    /// A component of the motion by the name it has by now, as a told answer or its opposite; else as it is.
+    pub(super) fn named(&self, e: &Expr) -> Expr {
+        if e.is_constant() {
+            return e.clone();
+        }
+        let [plus, minus] = [e, &-e].map(|e| tidied(self.scene, e));
+        let known = |a: &&Answer| self.solution.meanings.contains_key(a.name.as_str());
+        let mut told = self.told.answers.iter().filter(known);
+        let named = told.find_map(|a| match a.formula()? {
+            f if f == e || *f == plus => Some(Expr::symbol(&a.name)),
+            f if *f == minus => Some(-Expr::symbol(&a.name)),
+            _ => None,
+        });
+        named.unwrap_or_else(|| e.clone())
+    }
+
+    /// What a value is made of, with answers that stand on the page by their names, where it holds all of one.
+    fn by_names(&self, e: &Expr, value: &Expr) -> Expr {
+        let known = |a: &&Answer| self.solution.meanings.contains_key(a.name.as_str());
+        let worth = |a: &&Answer| {
+            let formula = a.formula();
+            formula.is_some_and(|f| f.size() >= WORTH_A_NAME && f != value)
+        };
+        let told = self.told.answers.iter();
+        let mut told: Vec<&Answer> = told.filter(known).filter(worth).collect();
+        // The longest first: a shorter one may be a part of it.
+        told.sort_by_key(|a| std::cmp::Reverse(a.formula().map(Expr::size)));
+        let mut out = e.clone();
+        for a in told {
+            let Some(formula) = a.formula() else {
+                continue;
+            };
+            let symbol = Expr::symbol(&a.name);
+            out = replaced(&out, formula, &symbol);
+            out = replaced(&out, &tidied(self.scene, &-formula), &-&symbol);
+        }
+        match out.as_symbol() {
+            Some(_) => e.clone(),
+            None => out,
+        }
+    }
+}
+
+/// A formula with every occurrence of another one, also as some of its factors, by a symbol.
+fn replaced(e: &Expr, part: &Expr, by: &Expr) -> Expr {
+    if e == part {
+        return by.clone();
+    }
+    match e.node() {
+        Node::Sum(terms) => Expr::sum(terms.iter().map(|t| replaced(t, part, by))),
+        Node::Power(base, exponent) => replaced(base, part, by).power(exponent.clone()),
+        Node::Product(factors) => {
+            let (number, rest) = part.split_number();
+            let sought = match rest.node() {
+                Node::Product(sought) => sought.clone(),
+                _ => Vec::new(),
+            };
+            let mut left = factors.clone();
+            let found = !sought.is_empty()
+                && sought.iter().all(|f| {
+                    let at = left.iter().position(|l| l == f);
+                    at.map(|at| left.remove(at)).is_some()
+                });
+            match found {
+                true => Expr::product(
+                    left.into_iter()
+                        .chain([Expr::from(number.recip()), by.clone()]),
+                ),
+                false => Expr::product(factors.iter().map(|f| replaced(f, part, by))),
+            }
+        }
+        _ => e.clone(),
+    }
+}

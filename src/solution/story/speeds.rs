@@ -1,0 +1,132 @@
+//! What the end of a motion leads to: the kinetic energy in terms of what is asked, and the velocities of points.
+
+use super::Page;
+use super::motion::pulley;
+use crate::answer::Answer;
+use crate::expr::{Expr, Symbol};
+use crate::scene::{Ask, StageKind};
+use crate::solution::neat::tidied;
+use crate::solution::words::{self, name};
+use crate::solution::{Line, Math};
+use crate::story::StageTold;
+
+impl Page<'_> {
+    /// How a point of a body moves at the end of a motion: v = ω × r from the fixed point of a rotation, else with the velocity
+    /// of the center of mass.
+    pub(super) fn carried(&self, told: &StageTold, ask: &Ask) -> Vec<Line> {
+        let Ask::Velocity {
+            body,
+            point: Some((point, _)),
+            ..
+        } = ask
+        else {
+            return Vec::new();
+        };
+        let scene = &told.placed.scene;
+        if told.energy.is_none() || scene.bodies[*body].is_particle() {
+            return Vec::new();
+        }
+        let from_center = told.after.carried(self.scene, *body, point);
+        let (base, from, carrier) = match &told.placed.kind {
+            StageKind::Turn(turn) => (turn.about_name.clone(), turn.about.clone(), None),
+            _ => {
+                let velocity = told.after.velocity[*body].each_ref().map(|v| self.named(v));
+                let center = words::center(self.scene, *body);
+                (center, told.after.center[*body].clone(), Some(velocity))
+            }
+        };
+        let arm = [0, 1].map(|k| &(&told.after.center[*body][k] + &from_center[k]) - &from[k]);
+        let arm = arm.map(|e| tidied(self.scene, &e));
+        let spin = self.named(&told.after.spin[*body]);
+        let mut math = vec![name("v", point, "+", true), Math::Op("=")];
+        if carrier.is_some() {
+            math.extend([name("v", &base, "+", true), Math::Op("+")]);
+        }
+        math.extend([
+            words::spin(self.scene, *body, "+"),
+            Math::Op("×"),
+            name("r", &format!("{point}/{base}"), "", true),
+            Math::Op("="),
+        ]);
+        if let Some(velocity) = carrier {
+            math.extend([Math::Brackets(vec![Math::Vector(velocity)]), Math::Op("+")]);
+        }
+        math.extend([
+            Math::Brackets(vec![Math::Along(spin)]),
+            Math::Op("×"),
+            Math::Brackets(vec![Math::Vector(arm)]),
+        ]);
+        vec![Line { math, step: None }]
+    }
+
+    /// Whether this answer is the kinetic energy at the end of a motion.
+    pub(super) fn is_end_energy(told: &StageTold, answer: &Answer) -> bool {
+        let Some([_, end]) = &told.energy else {
+            return false;
+        };
+        let mut asked = told.placed.scene.questions.iter();
+        answer.formula() == Some(end)
+            && asked.any(|q| q.name == answer.name && matches!(q.ask, Ask::Energy { .. }))
+    }
+
+    /// The kinetic energy at the end of a lone particle's motion in terms of its speed, ½ m v² = T⁺, where that gives its value.
+    pub(super) fn energy_of_speed(
+        &self,
+        told: &StageTold,
+        symbol: &Symbol,
+        value: &Expr,
+    ) -> Option<Line> {
+        let moved = told.placed.kind.moved();
+        let ([only], Some([_, end]), true) =
+            (moved.as_slice(), &told.energy, told.steps.is_empty())
+        else {
+            return None;
+        };
+        let body = &told.placed.scene.bodies[*only];
+        let energy = |of: &Expr| &(&Expr::ratio(1, 2) * &body.mass) * &of.powi(2);
+        let gives = tidied(self.scene, &energy(value)) == tidied(self.scene, end);
+        if !body.is_particle() || !gives || self.kinematic(told).is_some() {
+            return None;
+        }
+        let left = Math::Expr(energy(&Expr::symbol(symbol)));
+        let math = vec![left, Math::Op("="), words::kinetic("", "+")];
+        Some(Line { math, step: None })
+    }
+
+    /// The kinetic energy at the end in terms of the speed or spin that is asked for, ½ I ω² = T⁺, where that gives its value.
+    pub(super) fn energy_in(
+        &self,
+        told: &StageTold,
+        ask: &Ask,
+        symbol: &Symbol,
+        value: &Expr,
+    ) -> Option<Line> {
+        let [_, end] = told.energy.as_ref()?;
+        let scene = &told.placed.scene;
+        // Where the motion is not told by its energy, T⁺ stands nowhere above.
+        let otherwise = !told.steps.is_empty() || self.kinematic(told).is_some();
+        if otherwise || matches!(told.placed.kind, StageKind::Linkage(_)) {
+            return None;
+        }
+        let inertia = match (ask, &told.inertia) {
+            (Ask::Spin { .. }, Some([_, about])) => about.clone(),
+            (Ask::Velocity { .. }, None) => {
+                let moved = told.placed.kind.moved().into_iter();
+                Expr::sum(moved.map(|b| match pulley(&told.placed, b) {
+                    Some((_, apparent)) => tidied(self.scene, &apparent),
+                    None => scene.bodies[b].mass.clone(),
+                }))
+            }
+            _ => return None,
+        };
+        let energy = |of: &Expr| &(&Expr::ratio(1, 2) * &inertia) * &of.powi(2);
+        // By Newton's laws no energy is told.
+        let is_told = !told.work.is_empty() && told.steps.is_empty();
+        if !is_told || tidied(self.scene, &energy(value)) != tidied(self.scene, end) {
+            return None;
+        }
+        let left = Math::Expr(energy(&Expr::symbol(symbol)));
+        let math = vec![left, Math::Op("="), words::kinetic("", "+")];
+        Some(Line { math, step: None })
+    }
+}

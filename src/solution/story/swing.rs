@@ -1,0 +1,92 @@
+//! How high a body swings until weight has brought it to rest, and through which angle.
+
+use super::Page;
+use crate::answer::calc::is_zero;
+use crate::expr::{Expr, Symbol, dot, minus};
+use crate::scene::{Ask, Stage, Turn};
+use crate::solution::neat::tidied;
+use crate::solution::words::{self, say};
+use crate::solution::{Claim, Line, Math, Meaning, Part};
+use crate::story::StageTold;
+
+impl Page<'_> {
+    /// How high a body swings until weight has brought it to rest, and through which angle.
+    pub(super) fn rise(&mut self, stage: &Stage, told: &StageTold, turn: &Turn, g: &Expr) {
+        let Some([start, _]) = &told.energy else {
+            return;
+        };
+        let lump = turn.lump(&stage.scene);
+        let weight = &lump.mass * g;
+        let height = tidied(self.scene, &(start / &weight));
+        let is_free = |letter: &&str| {
+            let mut parameters = self.scene.parameters.iter();
+            let mut answers = self.told.answers.iter();
+            !parameters.any(|p| *p.name == **letter) && !answers.any(|a| a.name == **letter)
+        };
+        let letter = Symbol::from(["h", "h_G"].into_iter().find(is_free).unwrap_or("h_up"));
+        let h = Expr::symbol(&letter);
+        self.solution
+            .meanings
+            .insert(letter.clone(), Meaning::Defined);
+        self.solution.text(vec![
+            say("The rotation ends where weight has taken up the kinetic energy. The center of mass has then risen by "),
+            words::formula(&h),
+            say(":"),
+        ]);
+        let claim = Claim {
+            left: h.clone(),
+            right: height.clone(),
+        };
+        let step = self
+            .solution
+            .step(Vec::new(), vec![claim], "kinetic energy over weight");
+        if let Some(step) = self.solution.steps.last_mut() {
+            step.defines = Some(letter);
+        }
+        let balance = vec![
+            Math::Expr(&weight * &h),
+            Math::Op("="),
+            words::kinetic("", "-"),
+        ];
+        let risen = vec![Math::Expr(h.clone()), Math::Op("="), Math::Expr(height)];
+        let lines = vec![
+            Line {
+                math: balance,
+                step: None,
+            },
+            Line {
+                math: risen,
+                step: Some(step),
+            },
+        ];
+        let arm = minus(&lump.center, &turn.about).map(|e| tidied(self.scene, &e));
+        let length = tidied(self.scene, &dot(&arm, &arm).sqrt());
+        let from_below = is_zero(&(&arm[1] + &length), &self.scene.domains) == Some(true);
+        let angle = self.answered(told).find(|a| {
+            let mut questions = self.scene.questions.iter();
+            questions.any(|q| q.name == a.question && matches!(q.ask, Ask::Angle { .. }))
+        });
+        let angle = angle.cloned();
+        self.solution.push(Part::Display(lines));
+        if let Some(angle) = angle.filter(|_| from_below) {
+            let name = Symbol::from(angle.name.as_str());
+            let cosine = Expr::symbol(&name).cos();
+            self.solution.text(vec![
+                say(&format!(
+                    "It began straight below {0}, at the distance ",
+                    turn.about_name
+                )),
+                words::formula(&length),
+                say(" from it, and is in the end that distance times "),
+                words::formula(&cosine),
+                say(" below it:"),
+            ]);
+            let swung = &length * (Expr::one() - cosine);
+            let math = vec![Math::Expr(h), Math::Op("="), Math::Expr(swung)];
+            self.solution
+                .push(Part::Display(vec![Line { math, step: None }]));
+            let meaning = Meaning::Answer(angle.question.clone(), None);
+            self.solution.meanings.insert(name, meaning);
+        }
+    }
+}
