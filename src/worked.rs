@@ -39,9 +39,19 @@ pub fn in_cases(scene: &Scene) -> Result<Worked, String> {
     out(&scene.staged(IMPACT))
 }
 
-/// Its stages alone, for pictures: nothing is answered, and nothing checked beyond what telling them takes.
-pub fn to_draw(scene: &Scene) -> Result<Worked, String> {
-    let scene = verify::friction::settled(scene)?;
+/// Its stages alone, up to one where it is named, for pictures: nothing is answered, and nothing checked beyond what telling
+/// them takes.
+pub fn to_draw(scene: &Scene, last: Option<&str>) -> Result<Worked, String> {
+    let mut scene = verify::friction::settled(scene)?;
+    if let Some(last) = scene
+        .stages
+        .iter()
+        .position(|s| Some(s.name.as_str()) == last)
+    {
+        scene.stages.truncate(last + 1);
+        let is_told = |q: &Question| q.stage.is_none_or(|stage| stage <= last);
+        scene.questions.retain(is_told);
+    }
     let told = story::course(&scene).map_err(|reason| reason.to_string())?;
     Ok(Worked { scene, told })
 }

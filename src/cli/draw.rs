@@ -56,7 +56,8 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
     }
     let all = match scene.has_stages() {
         true => {
-            let told = worked::to_draw(&scene).map_err(|why| refused(&args.scene, why))?;
+            let told = worked::to_draw(&scene, args.stage.as_deref());
+            let told = told.map_err(|why| refused(&args.scene, why))?;
             told.chapters()
         }
         false => vec![(String::new(), Chapter::Impact(scene.clone()))],

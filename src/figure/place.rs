@@ -118,6 +118,12 @@ impl Room {
 
     /// Length of a segment inside.
     pub(super) fn crossed(&self, a: Pair, b: Pair) -> f64 {
+        // Most segments lie beside it altogether.
+        let beside =
+            |i: usize| f64::min(a[i], b[i]) > self.high[i] || f64::max(a[i], b[i]) < self.low[i];
+        if beside(0) || beside(1) {
+            return 0.0;
+        }
         let (mut start, mut end) = (0.0f64, 1.0f64);
         for i in 0..2 {
             let d = b[i] - a[i];

@@ -291,6 +291,10 @@ fn no_end(why: &NoEnd) -> Response {
             StatusCode::UNPROCESSABLE_ENTITY,
             "the result is too large to send",
         ),
+        NoEnd::Hungry => (
+            StatusCode::UNPROCESSABLE_ENTITY,
+            "this takes more memory than a request may; the command line has no such limit",
+        ),
         NoEnd::Broken(why) => return fault_of_carom(why.clone()),
     };
     let mut response = error(status, message, Map::new());

@@ -16,6 +16,8 @@ use tokio::time;
 const LONGEST: Duration = Duration::from_secs(20);
 /// Largest output, in bytes.
 const LARGEST: u64 = 1 << 25;
+/// Most memory a command may take, in bytes; one that wants more is ended by its allocator. Only Linux lets another process say so.
+const MEMORY: u64 = 1 << 30;
 /// Most that is kept of what a command says of errors, in bytes.
 const SAID: u64 = 1 << 16;
 /// Requests that wait for a command to end; who comes later is told to come again.
@@ -51,6 +53,8 @@ pub(super) enum NoEnd {
     Slow,
     /// It printed too much.
     Large,
+    /// It needed too much memory.
+    Hungry,
     /// It could not be run.
     Broken(String),
 }
@@ -106,6 +110,7 @@ impl Workshop {
             None => None,
         };
         let mut child = command.spawn().map_err(broken)?;
+        limit_memory(child.id());
         if let Some(mut input) = child.stdin.take() {
             let text = job.input;
             // A command that has read enough closes its end; then the rest is not needed.
@@ -125,12 +130,32 @@ impl Workshop {
             None => Vec::new(),
         };
         drop(draft);
+        let said = String::from_utf8_lossy(&said).into_owned();
+        if status.code().is_none() && said.contains("memory allocation of") {
+            return Err(NoEnd::Hungry);
+        }
         Ok(Done {
             status: status.code(),
             out,
-            said: String::from_utf8_lossy(&said).into_owned(),
+            said,
         })
     }
+}
+
+/// Bounds the address space of a command that has just begun.
+fn limit_memory(process: Option<u32>) {
+    #[cfg(target_os = "linux")]
+    if let Some(id) = process.and_then(|id| rustix::process::Pid::from_raw(i32::try_from(id).ok()?))
+    {
+        let limit = rustix::process::Rlimit {
+            current: Some(MEMORY),
+            maximum: Some(MEMORY),
+        };
+        // One that has ended already needs no limit.
+        let _ = rustix::process::prlimit(Some(id), rustix::process::Resource::As, limit);
+    }
+    #[cfg(not(target_os = "linux"))]
+    let _ = process;
 }
 
 async fn read(from: impl AsyncRead + Unpin, most: u64) -> std::io::Result<Vec<u8>> {
@@ -163,5 +188,41 @@ impl Drop for Draft {
     fn drop(&mut self) {
         // That it may be gone already is fine.
         let _ = std::fs::remove_file(&self.path);
+    }
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    fn told(script: &str) -> Result<Done, NoEnd> {
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .enable_all()
+            .build();
+        let job = Job {
+            arguments: ["-c", script].map(String::from).into(),
+            ..Job::default()
+        };
+        let shop = Workshop::new(PathBuf::from("sh"));
+        runtime
+            .expect("a runtime")
+            .block_on(shop.run(job, Path::new("/")))
+    }
+
+    #[test]
+    fn a_command_has_a_bound_of_memory() {
+        let Ok(done) = told("sleep 0.2; ulimit -v") else {
+            panic!("a shell runs");
+        };
+        let kibibytes = (MEMORY >> 10).to_string();
+        assert_eq!(String::from_utf8_lossy(&done.out).trim(), kibibytes);
+    }
+
+    #[test]
+    fn one_that_wants_more_is_told_apart_from_a_fault() {
+        let script = "echo 'memory allocation of 9 bytes failed' >&2; kill -ABRT $$";
+        assert!(matches!(told(script), Err(NoEnd::Hungry)));
+        let done = told("kill -ABRT $$");
+        assert!(matches!(done, Ok(Done { status: None, .. })));
     }
 }

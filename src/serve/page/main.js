@@ -50,8 +50,8 @@ export function valuesChanged() {
   waiting = true;
   requestAnimationFrame(() => {
     waiting = false;
-    redraw();
-    renumber();
+    // The figure is what the eye follows: the numbers come behind it.
+    redraw().then(renumber);
     refilm();
   });
 }
