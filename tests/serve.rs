@@ -231,11 +231,49 @@ fn what_comes_back_is_what_the_commands_print() {
 }
 
 #[test]
+fn a_film_shows_both_sides_of_an_impact_and_a_wrong_answer_beside_the_right_one() {
+    let server = server();
+    let set = json!({"m": 1, "l": 1, "v": 2, "theta": "pi/6"});
+    let asked =
+        json!({"name": STICK, "set": set, "film": true, "quantity": "omega", "answer": "v/l"});
+    let film = &server.post("describe", &asked).json()["film"];
+    assert_eq!(film["bodies"], json!(["ground", "bar"]));
+    let last = |part: &str| film[part].as_array().and_then(|all| all.last().cloned());
+    let turned = |part: &str| {
+        let last = last(part).expect("moments");
+        let angle = last["poses"][1][2].as_f64().expect("an angle");
+        (std::f64::consts::FRAC_PI_6 - angle) / last["time"].as_f64().expect("a time")
+    };
+    assert!((turned("claimed") - 2.0).abs() < 1e-9);
+    assert!((turned("after") - 1.5 * 2.0 * (std::f64::consts::FRAC_PI_6).cos()).abs() < 1e-9);
+    assert!(film["before"][0]["poses"][1][1].as_f64() > film["after"][0]["poses"][1][1].as_f64());
+    assert!(server.post("describe", &json!({"name": STICK})).json()["film"].is_null());
+}
+
+#[test]
+fn routes_are_measured_and_their_code_is_written() {
+    let server = server();
+    let report = server.post("report", &json!({"name": STICK})).json();
+    let routes = report["reports"][0]["routes"]
+        .as_array()
+        .expect("routes")
+        .clone();
+    assert!(routes.iter().any(|r| r["route"] == "closed_form"));
+    let code = server.post(
+        "emit",
+        &json!({"name": STICK, "lang": "numpy", "plain": true}),
+    );
+    assert!(code.text().contains("def omega(") && !code.text().contains("unit_scaled"));
+}
+
+#[test]
 fn the_description_names_the_routes_that_are_there() {
     let server = server();
     let document = server.get("/openapi.json").json();
     let paths = document["paths"].as_object().expect("paths");
-    for name in ["derive", "solve", "grade", "verify", "solution"] {
+    for name in [
+        "derive", "solve", "grade", "verify", "solution", "report", "emit",
+    ] {
         assert!(paths.contains_key(&format!("/v1/{name}")), "{name}");
     }
     for (path, methods) in paths {

@@ -236,6 +236,34 @@ pub(super) const COMMANDS: &[Command] = &[
         sceneless: false,
     },
     Command {
+        name: "report",
+        what: "error against run time of every route to the numbers of a scene, measured briefly",
+        fields: &[SET, STAGE],
+        always: &["--quick", "--format=json"],
+        gives: Gives::Json,
+        sceneless: false,
+    },
+    Command {
+        name: "emit",
+        what: "the closed forms as code, arranged for accuracy, each with a bound of its error",
+        fields: &[
+            STAGE,
+            Field {
+                name: "lang",
+                kind: Kind::Word("--lang", &["rust", "no-std", "c", "python", "numpy"]),
+                what: "the language",
+            },
+            Field {
+                name: "plain",
+                kind: Kind::Flag("--plain"),
+                what: "without scaling by powers of two",
+            },
+        ],
+        always: &[],
+        gives: Gives::Text("text/plain; charset=utf-8"),
+        sceneless: false,
+    },
+    Command {
         name: "describe",
         what: "parameters of a scene with ranges for sliders, its stages and plots, and how formulas about it are read; where it cannot be read, what is wrong and where",
         fields: &[

@@ -50,6 +50,11 @@ const FILES: &[(&str, &str, &str)] = &[
         include_str!("page/answers.js"),
     ),
     ("/film.js", "text/javascript", include_str!("page/film.js")),
+    (
+        "/accuracy.js",
+        "text/javascript",
+        include_str!("page/accuracy.js"),
+    ),
     ("/try.js", "text/javascript", include_str!("page/try.js")),
     (
         "/solution.js",

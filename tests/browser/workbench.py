@@ -6,7 +6,7 @@ usage: tests/browser/workbench.py CAROM OUT [SCENE...]
 Starts `CAROM serve derivations`, opens every scene (or those named) in Chromium through its driver (both Debian's packages)
 at 1280 px on light and at 390 px on dark paper, moves a slider, opens every panel, writes screenshots to OUT, and fails if a
 page is wider than its window, says that something is wrong, lacks its figure, or if the console says anything. On the
-falling stick it also judges a wrong answer, plays its motion beside the right one, breaks the scene and mends it.
+falling stick it also judges a wrong answer, plays its motion beside the right one, measures the routes, breaks the scene and mends it.
 """
 
 import base64
@@ -124,6 +124,8 @@ def grade_and_edit(browser, base):
     browser.run("document.querySelector('#try .verdict.failed button').click()")
     browser.wait("location.hash.includes('v.theta=acos')", "its values")
     browser.wait("document.querySelector('#film-picture .claimed')", "both motions, played")
+    browser.run("document.getElementById('tab-accuracy').click()")
+    browser.wait("document.querySelector('#accuracy .scatter .route title') && document.querySelector('#accuracy pre').textContent", "routes and code")
     browser.run("document.getElementById('tab-scene').click()")
     browser.wait("document.getElementById('text')", "the text of the scene")
     browser.run(type_in.format("text", "box.value.replace('\"sticking\"', '\"stickng\"')"))

@@ -8,9 +8,10 @@ import { showFilm } from "/film.js";
 import { showAnswers, renumber } from "/answers.js";
 import { showTry } from "/try.js";
 import { showSolution } from "/solution.js";
+import { showAccuracy } from "/accuracy.js";
 import { showEditor } from "/editor.js";
 
-const PANELS = ["answers", "try", "solution", "scene"];
+const PANELS = ["answers", "try", "solution", "accuracy", "scene"];
 // Longest text of a changed scene that a link holds.
 const IN_LINK = 8000;
 
@@ -73,7 +74,7 @@ export async function load(text) {
   showFigure();
   showFilm();
   showAnswers();
-  stale = new Set(PANELS.slice(1, 3));
+  stale = new Set(Object.keys(FILL));
   openPanel(bench.panel);
   remember();
   return about;
@@ -81,7 +82,7 @@ export async function load(text) {
 
 // Panels that are filled when they are opened.
 let stale = new Set();
-const FILL = { try: showTry, solution: showSolution };
+const FILL = { try: showTry, solution: showSolution, accuracy: showAccuracy };
 
 function openPanel(name, focus) {
   bench.panel = PANELS.includes(name) ? name : "answers";
@@ -103,6 +104,10 @@ for (const panel of PANELS) {
     remember();
   });
 }
+$("stage").addEventListener("change", () => {
+  stale.add("accuracy");
+  if (bench.panel === "accuracy") openPanel("accuracy");
+});
 $("tabs").addEventListener("keydown", (event) => {
   const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
   if (!step) return;
