@@ -63,6 +63,10 @@ pub fn motion(scene: &Scene, values: &Values, course: &Course) -> Option<Sheet> 
     )?;
     let (from, end) = (&begin[gone.body], gone.end());
     surroundings(&stage, sheet, kind, from, end)?;
+    if let StageKind::Linkage(_) = kind {
+        let driven = gone.driven.iter().map(|(b, pose)| [&begin[*b], pose]);
+        stage.guides(sheet, &driven.chain([[from, end]]).collect::<Vec<_>>());
+    }
     for (i, pose) in begin.iter().enumerate() {
         if !gone.moves(i) {
             stage.body(sheet, pose, [0.0, 0.0]);
@@ -195,7 +199,11 @@ fn broken(stage: &Stage, sheet: &mut Sheet, pose: &Pose) {
                 sheet.path(line, true, Line::dashed(Ink::Body), 1.0);
             }
         }
-        _ => sheet.path(outline, true, Line::dashed(Ink::Body), 1.0),
+        // There and back a broken line would fill its own gaps.
+        _ => {
+            let closed = outline.len() > 2;
+            sheet.path(outline, closed, Line::dashed(Ink::Body), 1.0);
+        }
     }
 }
 

@@ -163,6 +163,62 @@ impl Stage<'_> {
         }
     }
 
+    /// Floors and walls that the free ends of rods keep to: an end that moves along x or along y. Each rod is given at its
+    /// beginning and at its end.
+    pub(super) fn guides(&self, sheet: &mut Sheet, rods: &[[&Pose; 2]]) {
+        let ends = |[from, to]: &[&Pose; 2]| from.ends().zip(to.ends());
+        // By the axis that is kept and the place on it: from where to where along the other axis, and on which side the rods are.
+        let mut all: Vec<(usize, [f64; 3], f64)> = Vec::new();
+        for (i, rod) in rods.iter().enumerate() {
+            let Some((begins, stops)) = ends(rod) else {
+                continue;
+            };
+            for (a, b) in begins.into_iter().zip(stops) {
+                let near = |p: Pair, q: Pair| size([p[0] - q[0], p[1] - q[1]]) < 1e-9;
+                let joined = (rods.iter().enumerate()).any(|(j, other)| {
+                    j != i && ends(other).is_some_and(|(ends, _)| ends.iter().any(|e| near(*e, a)))
+                });
+                let kept = [0, 1].map(|k| (a[k] - b[k]).abs() < 1e-9);
+                let k = match kept {
+                    [true, false] if !joined => 0,
+                    [false, true] if !joined => 1,
+                    _ => continue,
+                };
+                let side = (rod[0].center[k] + rod[1].center[k]) / 2.0 - a[k];
+                let [at, p, q] = [a[k], a[1 - k], b[1 - k]];
+                match all
+                    .iter_mut()
+                    .find(|g| g.0 == k && (g.1[0] - at).abs() < 1e-9)
+                {
+                    Some((_, [_, low, high], _)) => {
+                        (*low, *high) = (low.min(p.min(q)), high.max(p.max(q)));
+                    }
+                    None => all.push((k, [at, p.min(q), p.max(q)], side)),
+                }
+            }
+        }
+        for (k, [at, low, high], side) in &all {
+            let out = if *side < 0.0 { 1.0 } else { -1.0 };
+            let point = |along: f64, more: f64| {
+                let mut p = [0.0; 2];
+                (p[*k], p[1 - k]) = (*at, along);
+                let mut p = self.px(p);
+                p[*k] += out * (THICK / 2.0 + 0.8);
+                p[1 - k] += more;
+                p
+            };
+            let mut ends = [point(*low, -26.0), point(*high, 26.0)];
+            // A floor ends at the wall, and a wall on the floor.
+            for (_, [level, ..], side) in all.iter().filter(|g| g.0 != *k) {
+                let corner = point(*level, -side.signum() * (THICK / 2.0 + 0.8));
+                ends[usize::from(*side < 0.0)] = corner;
+            }
+            let mut back = [0.0; 2];
+            back[*k] = out;
+            hatched(sheet, ends[0], ends[1], back);
+        }
+    }
+
     /// A slack string: as long as it is at the end of a fall that makes it taut, it hangs between its end and the body.
     pub(super) fn slack(&self, sheet: &mut Sheet, end: &Vector, from: Pair, taut: Pair) {
         const PIECES: usize = 24;

@@ -386,3 +386,36 @@ fn a_png_has_letters_without_fonts_of_the_system() {
     assert_ne!(with, without);
     assert!(png("<svg").is_err());
 }
+
+#[test]
+fn a_ladder_stands_between_its_wall_and_its_floor() {
+    let (_, scene) = (scenes().into_iter())
+        .find(|(name, _)| name == "ladder-slides-down")
+        .expect("a shipped scene");
+    let slip = &scene.stages[0];
+    let values = values::representative(&slip.scene);
+    let stage = stage::stage(&slip.scene, &values).expect("a place on paper");
+    let course = Course {
+        begin: slip.scene.clone(),
+        end: Vec::new(),
+        kind: slip.kind.clone(),
+        clockwise: false,
+        asked: Vec::new(),
+    };
+    let begin = stage.poses.clone();
+    let gone = way::Gone::new(&slip.scene, &values, &course, &begin).expect("a way");
+    let mut sheet = Sheet::default();
+    stage.guides(&mut sheet, &[[&begin[0], gone.end()]]);
+    let room = sheet.room().expect("a wall and a floor");
+    let corner = stage.px([0.0, 0.0]);
+    let foot = stage.px(gone.end().ends().expect("a rod")[0]);
+    let top = stage.px(begin[0].ends().expect("a rod")[1]);
+    assert!(room.low[0] < corner[0] && room.low[1] < corner[1]);
+    assert!(room.high[0] > foot[0].max(top[0]) && room.high[1] > foot[1].max(top[1]));
+    let mut nothing = Sheet::default();
+    stage.guides(&mut nothing, &[[&begin[0], &begin[0]]]);
+    assert!(
+        nothing.items.is_empty(),
+        "what does not move shows no guide"
+    );
+}

@@ -21,6 +21,7 @@ pub fn document(s: &Solution, pictures: &[Picture]) -> String {
          {FITTED}\
          {}\
          \\allowdisplaybreaks\n\
+         \\AtBeginDocument{{\\abovedisplayshortskip=\\abovedisplayskip}}\n\
          \\clubpenalty=10000 \\widowpenalty=10000\n\
          \\setlength{{\\parindent}}{{0pt}}\n\
          \\setlength{{\\parskip}}{{6pt}}\n\
@@ -153,6 +154,8 @@ pub fn text(words: &str) -> String {
 
 fn caption(pieces: &[Piece]) -> String {
     let each = pieces.iter().map(|piece| match piece {
+        // A value stays with its sign of equality and its unit.
+        Piece::Words(words) if words.starts_with(" = ") => text(words).replace(' ', "~"),
         Piece::Words(words) => text(words),
         Piece::Symbol(label) => format!("${}$", label.to_latex()),
     });
