@@ -333,7 +333,8 @@ fn sets_out(
         .map(|(b, [_, y, _])| &stage.scene.bodies[*b].mass * &y.derivative(&linkage.coordinate));
     let drawn = -(&way * &Expr::sum(lifted));
     let rests = ahead.is_zero();
-    let Some(_) = &linkage.gravity else {
+    let gravity = linkage.gravity.as_ref();
+    if gravity.is_none_or(|g| is_zero(g, domains) == Some(true)) {
         return match rests {
             true => Err(Refused::new(
                 &stage.name,
@@ -342,7 +343,7 @@ fn sets_out(
             )),
             false => Ok(()),
         };
-    };
+    }
     if rests {
         let begins = tidied(stage, &linkage.at(&drawn, &linkage.ends[0]))?;
         match sign(&begins, domains) {
