@@ -92,12 +92,15 @@ pub enum Piece {
     Words(String),
     /// A symbol, or a short formula.
     Symbol(Label),
+    /// What the symbol before it is, a number with its unit.
+    Value(String),
 }
 
 /// A caption in plain characters.
 pub fn plain(caption: &[Piece]) -> String {
     let each = caption.iter().map(|piece| match piece {
         Piece::Words(words) => words.clone(),
+        Piece::Value(value) => format!(" = {value}"),
         Piece::Symbol(label) => label.text().replace('\u{2009}', " "),
     });
     each.collect()

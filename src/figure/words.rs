@@ -90,7 +90,7 @@ pub fn values(scene: &Scene, values: &Values, shown: &dyn Fn(&str) -> bool) -> V
         let lead = if out.is_empty() { " Drawn for " } else { ", " };
         out.push(Piece::Words(lead.to_string()));
         out.push(Piece::Symbol(Label::symbol(&p.name, p.latex.as_deref())));
-        out.push(Piece::Words(format!(" = {value}")));
+        out.push(Piece::Value(value));
     }
     if !out.is_empty() {
         out.push(Piece::Words(String::from(".")));

@@ -63,10 +63,10 @@ mover>mo{font-size:.75em}
 .wide{display:inline-block;max-width:100%;overflow-x:auto;overflow-y:hidden;vertical-align:middle}
 mtable{border-spacing:0}
 mtd{padding:.22em .12em;text-align:left}
-mtd.l{text-align:right;white-space:nowrap}
+mtd.l{text-align:right;text-align:-webkit-right;white-space:nowrap}
 .result mtd.l{padding-left:.8em}
 .result mtd:last-child{padding-right:.8em}
-.matrix mtd{padding:.25em .5em;text-align:center}
+.matrix mtd{padding:.25em .5em;text-align:center;text-align:-webkit-center}
 ul{padding-left:1.3rem}
 li{margin:.3rem 0}
 figure{margin:1rem 0;text-align:center}
@@ -227,6 +227,8 @@ fn table(s: &Solution, rows: &[Cells], class: &str, most: usize) -> String {
 fn caption(pieces: &[Piece]) -> String {
     let each = pieces.iter().map(|piece| match piece {
         Piece::Words(words) => escape(words),
+        // It stays on the line of its symbol.
+        Piece::Value(value) => format!(" = {}", escape(value)).replace(' ', "&nbsp;"),
         Piece::Symbol(label) => format!("<math>{}</math>", from_latex(&label.to_latex())),
     });
     each.collect()

@@ -154,9 +154,9 @@ pub fn text(words: &str) -> String {
 
 fn caption(pieces: &[Piece]) -> String {
     let each = pieces.iter().map(|piece| match piece {
-        // A value stays with its sign of equality and its unit.
-        Piece::Words(words) if words.starts_with(" = ") => text(words).replace(' ', "~"),
         Piece::Words(words) => text(words),
+        // It stays on the line of its symbol.
+        Piece::Value(value) => format!("~=~{}", text(value).replace(' ', "~")),
         Piece::Symbol(label) => format!("${}$", label.to_latex()),
     });
     each.collect()
