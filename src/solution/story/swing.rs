@@ -72,8 +72,8 @@ impl Page<'_> {
             let name = Symbol::from(angle.name.as_str());
             let cosine = Expr::symbol(&name).cos();
             self.solution.text(vec![
-                say(&format!(
-                    "It began straight below {0}, at the distance ",
+                say(format!(
+                    "It began straight below {}, at the distance ",
                     turn.about_name
                 )),
                 words::formula(&length),
