@@ -31,6 +31,11 @@ impl Field {
         (plus, minus)
     }
 
+    /// Whether the numerator has both signs at the sample points, so that no sign can be proved.
+    pub(crate) fn is_seen_to_change(&mut self, x: &Element) -> bool {
+        self.seen_signs(&x.num) == (true, true)
+    }
+
     /// More points are drawn where what is supposed leaves only some.
     fn sample_count(&self) -> usize {
         match self.supposed.len() {
