@@ -13,6 +13,7 @@ use super::element::{Den, Element};
 use super::gcd::Fuel;
 use super::mono::{Mono, exponent, mono_max, mono_of};
 use super::poly::Poly;
+use super::substitution;
 use crate::domain::Domains;
 use crate::expr::angle::angle;
 use crate::expr::{Expr, Function, Int, Node, Rational, Symbol};
@@ -83,7 +84,9 @@ pub struct Field {
     pub(crate) supposed: Vec<(Poly, bool)>,
     pub(crate) complete: bool,
     /// Values of the generators at fixed points of the domain, made when first needed.
-    pub(crate) samples: Vec<Vec<f64>>,
+    pub(crate) samples: RefCell<Vec<Vec<f64>>>,
+    /// What halving the domain has told of signs.
+    pub(super) halved: RefCell<BTreeMap<Poly, substitution::Found>>,
     pub(crate) fuel: Fuel,
     /// Normal forms found so far; the same few formulas are read again and again.
     pub(crate) read: FxHashMap<Expr, Element>,
@@ -104,7 +107,8 @@ impl Field {
             assumed: Vec::new(),
             supposed: Vec::new(),
             complete: true,
-            samples: Vec::new(),
+            samples: RefCell::default(),
+            halved: RefCell::default(),
             fuel: Fuel::new(),
             read: FxHashMap::default(),
             wrote: RefCell::default(),

@@ -37,7 +37,7 @@ impl Field {
             self.supposed.push((p, closed));
             // Normal forms found before know nothing of it.
             self.read.clear();
-            self.samples.clear();
+            self.samples.get_mut().clear();
         }
     }
 

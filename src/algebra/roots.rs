@@ -355,9 +355,10 @@ impl Field {
             Some(_) => return Ok(Element::from_poly(f.neg())),
             None => {}
         }
-        let seen = match self.by_substitution(f) {
-            Found::Mixed => (true, true),
-            _ => self.seen_signs(f),
+        let seen = match self.seen_signs(f) {
+            (true, true) => (true, true),
+            seen if self.by_substitution(f) != Found::Mixed => seen,
+            _ => (true, true),
         };
         match seen {
             (true, false) => {

@@ -6,10 +6,10 @@ use super::field::{AngleOf, Kind};
 use super::mono::powers;
 use super::poly::Poly;
 use super::prime::{PLAIN, prime, random, seed};
-use super::sign::Interval;
+use crate::domain::Limit;
 use crate::expr::number::to_f64;
-use crate::expr::{Int, Rational};
-use num_traits::{One, Signed};
+use crate::expr::{Int, Rational, Symbol};
+use num_traits::One;
 
 /// Points at which an unproved sign is looked at. Enough that a sign change over a tenth of the domain is hardly missed;
 /// what is missed still stands in the list of assumptions.
@@ -19,7 +19,7 @@ const CORNERS: usize = 32;
 
 impl Field {
     /// Signs seen at the sample points: (somewhere positive, somewhere negative).
-    pub(crate) fn seen_signs(&mut self, p: &Poly) -> (bool, bool) {
+    pub(crate) fn seen_signs(&self, p: &Poly) -> (bool, bool) {
         self.ensure_samples();
         let (mut plus, mut minus) = (false, false);
         for k in (0..self.sample_count()).filter(|k| self.keeps_what_is_supposed(*k)) {
@@ -27,13 +27,11 @@ impl Field {
                 plus |= value > 0.0;
                 minus |= value < 0.0;
             }
+            if plus && minus {
+                break;
+            }
         }
         (plus, minus)
-    }
-
-    /// Whether the numerator has both signs at the sample points, so that no sign can be proved.
-    pub(crate) fn is_seen_to_change(&mut self, x: &Element) -> bool {
-        self.seen_signs(&x.num) == (true, true)
     }
 
     /// More points are drawn where what is supposed leaves only some.
@@ -51,11 +49,12 @@ impl Field {
 
     /// Value at a sample point; 0 where rounding leaves the sign open, `None` where a generator has no value.
     fn sample(&self, p: &Poly, k: usize) -> Option<f64> {
+        let samples = self.samples.borrow();
         let (mut total, mut size) = (0.0, 0.0);
         for (mono, coeff) in p.terms() {
             let mut value = to_f64(&Rational::from(coeff.clone()));
             for (v, power) in powers(mono) {
-                value *= self.samples[v][k].powi(power as i32);
+                value *= samples[v][k].powi(power as i32);
             }
             total += value;
             size += f64::abs(value);
@@ -79,13 +78,24 @@ impl Field {
         Some(value)
     }
 
-    fn ensure_samples(&mut self) {
-        for v in self.samples.len()..self.gens.len() {
+    fn ensure_samples(&self) {
+        let known = self.samples.borrow().len();
+        for v in known..self.gens.len() {
             let column: Vec<f64> = (0..self.sample_count())
                 .map(|k| self.sample_generator(v, k).unwrap_or(f64::NAN))
                 .collect();
-            self.samples.push(column);
+            self.samples.borrow_mut().push(column);
         }
+    }
+
+    /// The ends of a symbol's domain in doubles: an enclosure of π would lead out of it.
+    fn ends(&self, name: &Symbol) -> [Option<f64>; 2] {
+        if let Some(domain) = self.domains.symbols.get(name) {
+            let limits = [&domain.low, &domain.high];
+            return limits.map(|limit| limit.as_ref().map(Limit::approximate));
+        }
+        let range = self.interval(name);
+        [range.low, range.high].map(|end| end.map(|(value, _)| to_f64(&value)))
     }
 
     fn sample_generator(&self, v: usize, k: usize) -> Option<f64> {
@@ -94,23 +104,23 @@ impl Field {
             Kind::Symbol(name) => match &self.gens[v].relation {
                 Some((_, value)) => {
                     let size = self.sample(value, k)?.max(0.0).sqrt();
-                    let range = self.interval(name);
-                    let positive = range.low.is_some_and(|(l, _)| !l.is_negative());
-                    let negative = range.high.is_some_and(|(h, _)| !h.is_positive());
+                    let [low, high] = self.ends(name);
+                    let positive = low.is_some_and(|l| l >= 0.0);
+                    let negative = high.is_some_and(|h| h <= 0.0);
                     if positive || (!negative && k.is_multiple_of(2)) {
                         size
                     } else {
                         -size
                     }
                 }
-                None => pick(&self.interval(name), fraction(name, k)),
+                None => pick(self.ends(name), fraction(name, k)),
             },
             Kind::Cos(base) | Kind::Sin(base) => {
                 let base = &self.bases[*base];
                 let angle = match &base.of {
                     AngleOf::Symbol(name) => match self.domains.symbols.get(name) {
                         None => fraction(name, k) * std::f64::consts::FRAC_PI_2,
-                        Some(_) => pick(&self.interval(name), fraction(name, k)),
+                        Some(_) => pick(self.ends(name), fraction(name, k)),
                     },
                     AngleOf::Term(term) => self.sample_element(term, k)?,
                 } / f64::from(base.divisor);
@@ -154,13 +164,13 @@ fn fraction(name: &str, k: usize) -> f64 {
     }
 }
 
-fn pick(range: &Interval, u: f64) -> f64 {
+fn pick(ends: [Option<f64>; 2], u: f64) -> f64 {
     let wide = (14.0 * u - 7.0).exp();
-    match (&range.low, &range.high) {
-        (Some((low, _)), Some((high, _))) => to_f64(low) + (to_f64(high) - to_f64(low)) * u,
-        (Some((low, _)), None) => to_f64(low) + wide,
-        (None, Some((high, _))) => to_f64(high) - wide,
-        (None, None) => {
+    match ends {
+        [Some(low), Some(high)] => low + (high - low) * u,
+        [Some(low), None] => low + wide,
+        [None, Some(high)] => high - wide,
+        [None, None] => {
             let x = 2.0 * u - 1.0;
             4.0 * x / (1.02 - x.abs())
         }

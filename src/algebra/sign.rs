@@ -108,6 +108,10 @@ impl Field {
         if let Some(sign) = self.by_ends(p, depth) {
             return Some(sign);
         }
+        // Where doubles see both signs, no proof of one is worth trying.
+        if self.seen_signs(p) == (true, true) {
+            return None;
+        }
         let found = self.by_substitution(p);
         if found == Found::Mixed {
             return None;

@@ -44,6 +44,15 @@ impl Field {
     /// Writes variables of unknown sign as positive ones, then looks at the coefficients; where they are of both signs, the
     /// domain is halved as far as a count of parts allows.
     pub(crate) fn by_substitution(&self, p: &Poly) -> Found {
+        if let Some(found) = self.halved.borrow().get(p) {
+            return *found;
+        }
+        let found = self.on_domain(p);
+        self.halved.borrow_mut().insert(p.clone(), found);
+        found
+    }
+
+    fn on_domain(&self, p: &Poly) -> Found {
         let Some((p, axes)) = self.axes(p, &[]) else {
             return Found::Unknown;
         };

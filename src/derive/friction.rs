@@ -206,11 +206,7 @@ impl Forms {
 
     fn sign(&mut self, e: &Expr) -> Result<Option<Sign>, Stop> {
         let element = self.field.element(e)?;
-        // Where doubles see both signs, no proof of one is worth trying.
-        Ok(match self.field.is_seen_to_change(&element) {
-            true => None,
-            false => self.field.sign(&element),
-        })
+        Ok(self.field.sign(&element))
     }
 
     /// The directions of friction that the domain allows.
