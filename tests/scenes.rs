@@ -327,6 +327,34 @@ fn a_value_can_be_set_and_is_checked() {
 }
 
 #[test]
+fn numbers_may_have_their_unit_beside_them() {
+    let scene = r#"{
+        "title": "Gliders",
+        "parameters": {"v": {"unit": "m/s", "value": "36 km/h"}, "theta": {"unit": "deg", "value": "30 deg"}},
+        "bodies": {
+            "a": {"shape": "particle", "mass": "500 g", "center": [0, 0], "velocity": ["v*cos(theta)", "18 km/h"]},
+            "b": {"shape": "particle", "mass": 2, "center": [0, 0]}
+        },
+        "contacts": {"C": {"bodies": ["a", "b"], "at": [0, 0], "law": "sticking"}},
+        "questions": {"u": {"velocity": "a"}}
+    }"#;
+    let read = scene::read(scene).expect("a sound scene");
+    let value = |name: &str| parameter(&read, name).value.clone().expect("a value");
+    assert_eq!(value("v"), Expr::from(10));
+    assert!(same(&read, &value("theta"), "pi/6"));
+    assert_eq!(read.bodies[0].mass, Expr::ratio(1, 2));
+    assert_eq!(read.bodies[0].velocity[1], Expr::from(5));
+    for (from, to, said) in [
+        ("500 g", "500 m", "expected mass, found m"),
+        ("18 km/h", "18 Hz", "expected length/time, found Hz"),
+        ("36 km/h", "36 km", "expected length/time, found km"),
+    ] {
+        let faults = scene::read(&scene.replace(from, to)).expect_err(to);
+        assert_eq!(faults.list[0].message, said);
+    }
+}
+
+#[test]
 fn a_value_in_degrees_is_a_multiple_of_pi() {
     let mut scene = shipped("rod-hits-smooth-floor.json");
     assert_eq!(scene::set(&mut scene, "theta", "30"), Ok(()));

@@ -2,7 +2,7 @@
 //!
 //! In: a scene, and what somebody takes for right. Out: places of the bodies at moments. No forces are known there, so every
 //! body keeps its velocity and spin; what turns about a resting point of a support goes on about it, and what moves as one
-//! stays together. The motion itself is that of [`crate::numeric::follow`].
+//! stays together. The motion itself is that of [`crate::numeric::follow()`].
 
 use super::pose::{Pose, posed};
 use super::values::{Pair, Values, representative, size};

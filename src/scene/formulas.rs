@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::fault::{Fault, Span};
 use super::record::{Formula, Pair, Text};
-use crate::dimension::{self, Dimension};
+use crate::dimension::{self, Dimension, Unit};
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::{self, Content, Relation};
@@ -145,14 +145,20 @@ impl Symbols {
         self.used.borrow_mut().insert(name.into());
     }
 
-    /// Reads a formula of the given dimension. A formula without symbols is a number in SI units, whatever the field.
+    /// Reads a formula of the given dimension. A formula without symbols is a number in SI units, whatever the field, or has
+    /// its unit beside it: `500 g`.
     pub fn read(
         &self,
         formula: &Formula,
         quantity: Quantity,
         faults: &mut Vec<Fault>,
     ) -> Option<Expr> {
-        let e = self.expression(formula, faults)?;
+        let e = match self.content(formula, faults)? {
+            Content::Quantity(q) => in_si(*q, &quantity.dimension(), formula)
+                .map_err(|fault| faults.push(fault.hint(quantity.hint)))
+                .ok()?,
+            content => scalar(content, formula, faults)?,
+        };
         let symbols = e.symbols();
         let is_number = symbols.is_empty();
         let is_known = |name: &Symbol| self.dimensions.get(name).is_some_and(Option::is_some);
@@ -231,6 +237,31 @@ impl Symbols {
 
     /// Reads a formula without regard to its dimension.
     pub fn expression(&self, formula: &Formula, faults: &mut Vec<Fault>) -> Option<Expr> {
+        scalar(self.content(formula, faults)?, formula, faults)
+    }
+
+    /// Reads a number in a unit, or in the one beside it; its value in SI units.
+    pub fn measured(
+        &self,
+        formula: &Formula,
+        unit: &Unit,
+        faults: &mut Vec<Fault>,
+    ) -> Option<Expr> {
+        match self.content(formula, faults)? {
+            Content::Quantity(q) => in_si(*q, &unit.dimension, formula)
+                .map_err(|fault| faults.push(fault))
+                .ok(),
+            content => {
+                let e = scalar(content, formula, faults)?;
+                // `30°` is read as π/6, and nobody counts degrees in multiples of π.
+                let is_angle = unit.angle && unit.dimension == Dimension::none();
+                let in_radians = is_angle && e.parts().any(|part| *part == Expr::pi());
+                Some(if in_radians { e } else { e * unit.value() })
+            }
+        }
+    }
+
+    fn content(&self, formula: &Formula, faults: &mut Vec<Fault>) -> Option<Content> {
         let reading = match formula::read(&formula.text, &self.names) {
             Ok(reading) => reading,
             Err(trouble) => {
@@ -245,19 +276,37 @@ impl Symbols {
                 return None;
             }
         };
-        let Content::Scalar(e) = reading.content else {
-            return Fault::new(formula.span, "a single expression is expected here").add_to(faults);
-        };
-        if reading.choices > 0 {
-            let remark = format!("`{}` is read as {}", formula.text, formula::write_plain(&e));
+        let content = reading.content;
+        let e = content.expr();
+        if let Some(e) = e.filter(|_| reading.choices > 0) {
+            let remark = format!("`{}` is read as {}", formula.text, formula::write_plain(e));
             self.remarks.borrow_mut().push(remark);
         }
-        if !is_finite(&e) {
+        if e.is_some_and(|e| !is_finite(e)) {
             return Fault::new(formula.span, "a number here is too large")
                 .hint("numbers go up to about 1e308")
                 .add_to(faults);
         }
-        Some(e)
+        Some(content)
+    }
+}
+
+/// The value of what was written with its unit.
+fn in_si(q: formula::Quantity, dimension: &Dimension, at: &Formula) -> Result<Expr, Fault> {
+    match q.unit.dimension == *dimension && !q.unit.cycles {
+        true => Ok(q.value),
+        false => {
+            let message = format!("expected {dimension}, found {}", q.unit_text);
+            Err(Fault::new(at.span, message))
+        }
+    }
+}
+
+/// The expression that was read.
+fn scalar(content: Content, formula: &Formula, faults: &mut Vec<Fault>) -> Option<Expr> {
+    match content {
+        Content::Scalar(e) => Some(e),
+        _ => Fault::new(formula.span, "a single expression is expected here").add_to(faults),
     }
 }
 

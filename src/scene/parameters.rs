@@ -135,17 +135,16 @@ fn parameter(
     ends
 }
 
-/// The value of a quantity as a person writes it, in the parameter's unit, brought to SI units.
+/// The value of a quantity as a person writes it, in the parameter's unit or one beside it, brought to SI units.
 pub(super) fn value(formula: &Formula, unit: &Unit, faults: &mut Vec<Fault>) -> Option<Expr> {
     let before = faults.len();
-    let e = Symbols::new(BTreeMap::new()).expression(formula, faults);
+    let value = Symbols::new(BTreeMap::new()).measured(formula, unit, faults);
     for fault in &mut faults[before..] {
         fault
             .hint
             .get_or_insert_with(|| "a value is a number, or a formula without symbols".to_owned());
     }
-    let e = e?;
-    let value = e * unit.value();
+    let value = value?;
     if !value
         .evaluate::<f64>(&Point::default())
         .is_some_and(f64::is_finite)

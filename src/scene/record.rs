@@ -180,7 +180,7 @@ impl JsonSchema for Formula {
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
             "description": "A formula in the parameters, such as \"l/2*cos(theta)\" or \"2/5*m*r^2\", or a number. \
-                Numbers are exact (0.1 is 1/10) and count in SI units.",
+                Numbers are exact (0.1 is 1/10) and count in SI units, or have their unit beside them, such as \"500 g\".",
             "type": ["string", "number"]
         })
     }
