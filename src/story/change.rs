@@ -28,6 +28,14 @@ pub(super) fn words(told: &StageTold, case: &Case) -> Vec<String> {
     each.collect()
 }
 
+/// Which way something goes.
+enum Way<'w> {
+    /// This way.
+    Sure(&'w str),
+    /// This way, or it is zero; and the opposite.
+    NotBack([&'w str; 2]),
+}
+
 /// The change of one body, where the conditions of its outcome hold.
 struct Change<'a> {
     told: &'a StageTold,
@@ -51,10 +59,7 @@ impl Change<'_> {
             (true, true) => Some(String::from("stays at rest")),
             (true, false) => Some(String::from("keeps its velocity")),
             (false, true) => Some(String::from("comes to rest")),
-            (false, false) => {
-                let heading = self.heading(v1);
-                (!heading.is_empty()).then(|| format!("moves {heading}"))
-            }
+            (false, false) => self.moving(v0, v1),
         };
         if is_particle {
             return moves.map(|moves| format!("`{name}` {moves}"));
@@ -80,25 +85,41 @@ impl Change<'_> {
     }
 
     /// Which way a velocity points, as far as its signs are known.
-    fn heading(&self, v: &[Expr; 2]) -> String {
-        let part = |e: &Expr, plus: &str, minus: &str| {
-            let stays = is_zero(e, self.domains) == Some(true);
-            let word = self.one_of(e, [plus, minus]);
-            word.filter(|_| !stays)
-        };
-        let x = part(&v[0], "to the right", "to the left");
-        let y = part(&v[1], "up", "down");
-        let parts: Vec<String> = [x, y].into_iter().flatten().collect();
-        parts.join(" and ")
+    fn moving(&self, before: &[Expr; 2], v: &[Expr; 2]) -> Option<String> {
+        let words = [["to the right", "to the left"], ["up", "down"]];
+        let is_zero = |e: &Expr| is_zero(e, self.domains) == Some(true);
+        let others: Vec<_> = v.iter().zip(words).filter(|(e, _)| !is_zero(e)).collect();
+        let known: Vec<_> = others.iter().map(|(e, w)| self.one_of(e, *w)).collect();
+        if let [Some(Way::NotBack([way, _]))] = known.as_slice() {
+            let rest = match before.iter().all(is_zero) {
+                true => "stays at rest",
+                false => "comes to rest",
+            };
+            return Some(format!("moves {way} or {rest}"));
+        }
+        let (mut ways, mut not) = (Vec::new(), Vec::new());
+        for way in known.into_iter().flatten() {
+            match way {
+                Way::Sure(way) => ways.push(way),
+                Way::NotBack([_, back]) => not.push(back),
+            }
+        }
+        let (ways, not) = (ways.join(" and "), not.join(" or "));
+        match (ways.is_empty(), not.is_empty()) {
+            (true, true) => None,
+            (true, false) => Some(format!("does not move {not}")),
+            (false, true) => Some(format!("moves {ways}")),
+            (false, false) => Some(format!("moves {ways} and not {not}")),
+        }
     }
 
     /// The word for a value above zero, or below; nothing where its sign depends on the values.
-    fn one_of(&self, e: &Expr, [plus, minus]: [&str; 2]) -> Option<String> {
+    fn one_of<'w>(&self, e: &Expr, [plus, minus]: [&'w str; 2]) -> Option<Way<'w>> {
         match (self.way(e), sign(e, self.domains)) {
-            (Some(true), _) => Some(plus.to_string()),
-            (Some(false), _) => Some(minus.to_string()),
-            (None, Seen::Proved(Sign::NotNegative)) => Some(format!("{plus} or not at all")),
-            (None, Seen::Proved(Sign::NotPositive)) => Some(format!("{minus} or not at all")),
+            (Some(true), _) => Some(Way::Sure(plus)),
+            (Some(false), _) => Some(Way::Sure(minus)),
+            (None, Seen::Proved(Sign::NotNegative)) => Some(Way::NotBack([plus, minus])),
+            (None, Seen::Proved(Sign::NotPositive)) => Some(Way::NotBack([minus, plus])),
             (None, _) => None,
         }
     }
@@ -118,10 +139,15 @@ impl Change<'_> {
         if is_zero(after, self.domains) == Some(true) {
             return Some(String::from("stops turning"));
         }
-        let sense = self.one_of(after, ["counterclockwise", "clockwise"])?;
-        if is_zero(before, self.domains) == Some(true) {
-            return Some(format!("begins to turn {sense}"));
-        }
+        let begins = is_zero(before, self.domains) == Some(true);
+        let sense = match self.one_of(after, ["counterclockwise", "clockwise"])? {
+            Way::Sure(sense) if begins => return Some(format!("begins to turn {sense}")),
+            Way::NotBack([_, back]) if begins => {
+                return Some(format!("does not begin to turn {back}"));
+            }
+            Way::Sure(sense) => sense,
+            Way::NotBack([sense, _]) => return Some(format!("turns {sense} or stops turning")),
+        };
         if let (Some(a), Some(b)) = (self.way(before), self.way(after))
             && a != b
         {

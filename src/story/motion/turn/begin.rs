@@ -1,0 +1,176 @@
+//! How a rotation begins: in which sense, and whether the motion before it fits.
+
+use super::super::tidied;
+use crate::algebra::Sign;
+use crate::answer::calc::{Seen, constant, is_zero, sign};
+use crate::expr::{Expr, Vector, cross, dot, minus};
+use crate::formula::{Sentence, sentence};
+use crate::scene::{Stage, Turn};
+use crate::story::{Refused, State, given};
+
+/// The sense of the rotation, 1 counterclockwise and −1 clockwise, and what must be ≥ 0 for it where that is taken for granted.
+pub(in crate::story) fn sense(
+    stage: &Stage,
+    spin: &Expr,
+    turn: &Turn,
+) -> Result<(i64, Option<(Expr, Sentence)>), Refused> {
+    let domains = &stage.scene.domains;
+    let body = &stage.scene.bodies[turn.body].name;
+    let begins = sign(spin, domains);
+    let declared = turn.clockwise.map(|c| if c { -1 } else { 1 });
+    let seen = if begins.is_positive() || begins == Seen::Proved(Sign::NotNegative) {
+        Some(1)
+    } else if begins.is_negative() || begins == Seen::Proved(Sign::NotPositive) {
+        Some(-1)
+    } else {
+        None
+    };
+    let sense_words = |s: i64| {
+        if s > 0 {
+            "counterclockwise"
+        } else {
+            "clockwise"
+        }
+    };
+    match (declared, seen) {
+        (Some(d), Some(s)) if d != s => Err(Refused::new(
+            &stage.name,
+            format!(
+                "`{body}` begins to turn {}, not {}",
+                sense_words(s),
+                sense_words(d)
+            ),
+            "the motion handed on decides the sense; leave `clockwise` out, or look at the stage before",
+        )),
+        (Some(d), None) if begins == Seen::Proved(Sign::Zero) && turn.torque.is_none() => {
+            // From rest a body goes where its weight pulls it.
+            let r = minus(&turn.lump(&stage.scene).center, &turn.about);
+            let pull = match &turn.gravity {
+                Some(_) => sign(&(&Expr::from(-d) * &r[0]), domains),
+                None => Seen::Mixed,
+            };
+            if let Seen::Proved(Sign::Negative | Sign::NotPositive) = pull {
+                return Err(Refused::new(
+                    &stage.name,
+                    format!(
+                        "`{body}` is at rest, and its weight turns it {}, not {}",
+                        sense_words(-d),
+                        sense_words(d)
+                    ),
+                    "leave `clockwise` out, or give it a spin",
+                ));
+            }
+            Ok((d, None))
+        }
+        (Some(d), _) => Ok((d, None)),
+        (None, Some(s)) => Ok((s, None)),
+        (None, None) if begins == Seen::Proved(Sign::Zero) => from_rest(stage, turn),
+        // A spin of either sign keeps it: the end is told for a positive one, where values do not say otherwise.
+        (None, None) => {
+            let way = match constant(&spin.substitute(&given(&stage.scene))) {
+                Some(Sign::Negative) => -1,
+                _ => 1,
+            };
+            let words = sentence!["`", body, "` turns ", sense_words(way)];
+            Ok((way, Some((&Expr::from(way) * spin, words))))
+        }
+    }
+}
+
+/// Which way a body at rest begins to turn, by its moments; values that are given decide where the domains leave it open.
+fn from_rest(stage: &Stage, turn: &Turn) -> Result<(i64, Option<(Expr, Sentence)>), Refused> {
+    let body = &stage.scene.bodies[turn.body].name;
+    if turn.torque.is_some() {
+        return Ok((1, None));
+    }
+    let moment = match turn.gravity {
+        Some(_) => -&minus(&turn.lump(&stage.scene).center, &turn.about)[0],
+        None => Expr::zero(),
+    };
+    let told = match sign(&moment, &stage.scene.domains) {
+        Seen::Proved(Sign::NotNegative) => Some(true),
+        Seen::Proved(Sign::NotPositive) => Some(false),
+        seen => seen.side(),
+    };
+    if let Some(left) = told {
+        return Ok((if left { 1 } else { -1 }, None));
+    }
+    let way = match constant(&moment.substitute(&given(&stage.scene))) {
+        Some(Sign::Positive) => 1,
+        Some(Sign::Negative) => -1,
+        _ => {
+            return Err(Refused::new(
+                &stage.name,
+                format!("`{body}` is at rest, and nothing says which way it begins to turn"),
+                "add \"clockwise\": true or false, a moment, or the domain or value of the angle at which it begins",
+            ));
+        }
+    };
+    let need = tidied(stage, &(&Expr::from(way) * &moment))?;
+    let words = sentence![
+        crate::answer::calc::at_least_zero(&need, &stage.scene.domains),
+        ", so that `",
+        body,
+        "` begins to turn as it does at the values given"
+    ];
+    Ok((way, Some((need, words))))
+}
+
+/// A particle that goes round a point has no spin of its own, but an angular velocity about the point.
+pub(super) fn whirl(stage: &Stage, before: &mut State, turn: &Turn) -> Result<(), Refused> {
+    for b in turn.bodies() {
+        if stage.scene.bodies[b].is_particle() {
+            let r = minus(&stage.scene.bodies[b].center, &turn.about);
+            let square = tidied(stage, &dot(&r, &r))?;
+            if square.is_zero() {
+                continue;
+            }
+            let about = &cross(&r, &before.velocity[b]) / &square;
+            before.spin[b] = tidied(stage, &about)?;
+        }
+    }
+    Ok(())
+}
+
+/// Every body that turns moves as a rotation about the point has it.
+pub(super) fn fits(stage: &Stage, before: &State, turn: &Turn, spin: &Expr) -> Result<(), Refused> {
+    for b in turn.bodies() {
+        let body = &stage.scene.bodies[b];
+        let r = minus(&body.center, &turn.about);
+        let needed = [-(spin * &r[1]), spin * &r[0]];
+        let mut gaps: Vec<Expr> = (0..2)
+            .map(|k| &before.velocity[b][k] - &needed[k])
+            .collect();
+        if !body.is_particle() {
+            gaps.push(&before.spin[b] - spin);
+        }
+        let moves = |gap: &Expr| is_zero(gap, &stage.scene.domains) == Some(false);
+        if gaps.iter().any(moves) && b != turn.body {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "`{}` does not begin to turn like `{}`",
+                    body.name, stage.scene.bodies[turn.body].name
+                ),
+                "bodies turn along together after an impact in which they stick; what stuck before holds on in a later impact where a contact says so there, too",
+            ));
+        }
+        if gaps.iter().any(moves) {
+            return Err(Refused::new(
+                &stage.name,
+                format!(
+                    "at its beginning the point {} of `{}` moves, so the body does not turn about it, and energy cannot carry over the jump that stops it",
+                    turn.about_name, body.name
+                ),
+                "put an impact before it, in which the point is caught, or begin with a velocity {\"about\": …}",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Whether a body at rest has no moment to start it.
+pub(super) fn is_balanced(stage: &Stage, turn: &Turn, spin: &Expr, arm: &Vector) -> bool {
+    let zero = |e: &Expr| is_zero(e, &stage.scene.domains) == Some(true);
+    turn.gravity.is_some() && turn.torque.is_none() && zero(spin) && zero(&arm[0])
+}
