@@ -15,6 +15,7 @@ mod inverse;
 mod lexer;
 mod measured;
 mod name;
+pub mod near;
 mod note;
 mod number;
 mod parser;

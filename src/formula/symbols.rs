@@ -7,6 +7,7 @@ use std::borrow::Cow;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::near;
 use crate::dimension::Dimension;
 use crate::expr::Symbol;
 
@@ -177,16 +178,8 @@ impl Symbols {
     }
 
     /// The declared name that looks most like `name`, when one is near.
-    pub fn nearest(&self, name: &str) -> Option<&Symbol> {
-        let limit = 1 + name.chars().count() / 3;
-        let distances = self
-            .declared
-            .iter()
-            .map(|d| (distance(name, &d.name), &d.name));
-        distances
-            .filter(|(far, _)| *far <= limit)
-            .min_by_key(|(far, _)| *far)
-            .map(|(_, name)| name)
+    pub fn nearest(&self, name: &str) -> Option<&str> {
+        near::nearest(name, self.declared.iter().map(|d| &*d.name))
     }
 }
 
@@ -445,20 +438,4 @@ pub(crate) fn is_angle_name(name: &str) -> bool {
                 | "Theta"
                 | "Phi"
         )
-}
-
-/// Number of single-character edits from one word to another; swapping case counts as one.
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().take(40).collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().take(40).enumerate() {
-        let mut corner = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let change = corner + usize::from(x != *y);
-            corner = row[j + 1];
-            row[j + 1] = change.min(row[j] + 1).min(corner + 1);
-        }
-    }
-    row[b.len()]
 }

@@ -38,6 +38,7 @@ use std::borrow::Cow;
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector, minus};
+use crate::formula::near::nearest;
 
 pub use ask::{Ask, EnergyWhen, ImpulseAt, PlotAsk, Question};
 pub use drawing::{Drawn, Outline, Support};
@@ -121,7 +122,7 @@ pub fn set(scene: &mut Scene, name: &str, value: &str) -> Result<(), Fault> {
     let Some(index) = scene.parameters.iter().position(|p| *p.name == *name) else {
         let fault = Fault::new(all, format!("there is no parameter `{name}`"));
         return Err(
-            match fault::nearest(name, scene.parameters.iter().map(|p| &*p.name)) {
+            match nearest(name, scene.parameters.iter().map(|p| &*p.name)) {
                 Some(near) => fault.hint(format!("did you mean `{near}`?")),
                 None => fault,
             },

@@ -8,8 +8,9 @@ use std::collections::BTreeSet;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
-use super::fault::{Fault, Span, far, nearest};
+use super::fault::{Fault, Span, far};
 use super::json::{Entry, Node, Value};
+use crate::formula::near::nearest;
 
 /// What can be read from a JSON value.
 pub(super) trait Read: Sized {

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use super::body::{Solid, SolidReader};
 use super::body_file::{ShapeName, VelocityFile};
 use super::check::{Claim, Claimed, check, unused};
-use super::fault::{Fault, TOLD, nearest};
+use super::fault::{Fault, TOLD};
 use super::file::SceneFile;
 use super::formulas::{Quantity, Symbols};
 use super::geometry;
@@ -18,6 +18,7 @@ use super::{
     Blow, BlowImpulse, Body, Force, Hinge, NamedPoint, Scene, Shape, parameters, plots, questions,
 };
 use crate::expr::{Expr, Vector, minus};
+use crate::formula::near::nearest;
 
 /// Most bodies, points or questions a scene may have.
 const ENTRIES: usize = 10_000;

@@ -5,8 +5,9 @@
 
 use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
+use crate::formula::near::nearest;
 use crate::scene::contact_file::{ContactFile, LawName};
-use crate::scene::fault::{Fault, nearest};
+use crate::scene::fault::Fault;
 use crate::scene::file::SceneFile;
 use crate::scene::formulas::Symbols;
 use crate::scene::question_file::QuestionFile;

@@ -10,10 +10,11 @@ pub(super) use kind::TIME;
 use std::collections::{BTreeMap, HashMap};
 
 use crate::expr::{Expr, Symbol, Vector, minus};
+use crate::formula::near::nearest;
 use crate::scene::body_file::VelocityFile;
 use crate::scene::check::{Claim, check};
 use crate::scene::contact_file::ContactFile;
-use crate::scene::fault::{Fault, nearest};
+use crate::scene::fault::Fault;
 use crate::scene::file::SceneFile;
 use crate::scene::formulas::{Quantity, Symbols};
 use crate::scene::place::Place;
