@@ -370,8 +370,8 @@ impl<'a> Desk<'a> {
             self.caught(&all, finding);
             finding.explained = self
                 .before(item, &all)
-                .or_else(|| self.sought(&all))
                 .or_else(|| self.factor(&all))
+                .or_else(|| self.sought(&all))
                 .or_else(|| self.exchanged(&all))
                 .or_else(|| self.slip(&all))
                 .or_else(|| self.component(&all))

@@ -65,14 +65,17 @@ impl Desk<'_> {
         Some(format!("it would hold with {name} added to one side"))
     }
 
-    /// What holds at a value of a parameter that the scene asks for.
+    /// What holds at a value of a parameter that the scene asks for, and is no 0 = 0 there.
     pub(super) fn sought(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
         self.bounds.iter().find_map(|(item, (of, _, value))| {
             let at = BTreeMap::from([(of.as_symbol()?.clone(), value.clone())]);
+            let same = |a: &Expr, b: &Expr| {
+                let decided = equality::decide(a, b, &self.scene.domains).equality;
+                matches!(decided, Equality::Same { .. })
+            };
             let holds = pairs.iter().all(|(a, b)| {
                 let [a, b] = [a, b].map(|e| e.substitute(&at));
-                let decided = equality::decide(&a, &b, &self.scene.domains).equality;
-                matches!(decided, Equality::Same { .. })
+                same(&a, &b) && !same(&a, &Expr::zero())
             });
             let (of, value) = (self.say(of), self.say(value));
             holds.then(|| {
