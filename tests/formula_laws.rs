@@ -427,7 +427,7 @@ fn a_fault_points_at_its_place_and_offers_the_nearest_name() {
     let fault = read("3*v/omga + q", &symbols).unwrap_err();
     assert_eq!(
         fault.show("3*v/omga + q"),
-        "`omga` is not declared\n  3*v/omga + q\n      ^^^^\nhint: did you mean omega?\n`q` is not declared\n  3*v/omga + q\n             ^\nhint: did you mean v?"
+        "`omga` is not declared\n  3*v/omga + q\n      ^^^^\nhint: did you mean omega?\n`q` is not declared\n  3*v/omga + q\n             ^\nhint: declared are omega, v, l"
     );
 }
 
