@@ -336,13 +336,18 @@ impl Desk<'_> {
         let name = sides.first()?.expr()?.as_symbol()?;
         let mut sought = self.sought.iter().filter(|s| s.parameter == *name);
         // Where a quantity is largest is no answer of its own.
-        let links = self.links(reading);
-        let is_place = |s: &Sought| {
-            let link = links.as_deref().and_then(<[Link]>::first);
-            s.condition.is_none() && link.is_some_and(|link| self.holds_where(link, s))
-        };
-        if sought.clone().any(is_place) {
-            return Some((Status::Holds, Vec::new()));
+        let places = sought.clone().filter(|s| s.condition.is_none());
+        let links = self.links(reading).unwrap_or_default();
+        for place in places {
+            // All sides of `d = a = b` are to be the place.
+            match links.iter().position(|link| !self.holds_where(link, place)) {
+                None if !links.is_empty() => return Some((Status::Holds, Vec::new())),
+                Some(at @ 1..) => {
+                    let broken = self.broken(reading, at).into_iter().collect();
+                    return Some((Status::Wrong, broken));
+                }
+                _ => {}
+            }
         }
         let question = match sought.find(|s| s.condition.is_some()) {
             Some(sought) => sought.question.clone(),
