@@ -38,6 +38,7 @@ impl Field {
             // Normal forms found before know nothing of it.
             self.read.clear();
             self.samples.get_mut().clear();
+            self.halved.get_mut().clear();
         }
     }
 

@@ -536,13 +536,15 @@ fn fractions(sample: &Sample) -> Point<Rational> {
     point
 }
 
+/// The differences of all sides of two systems.
+fn differences<'n>(expected: &'n [Normal], answer: &'n [Normal]) -> Vec<&'n Expr> {
+    let all = expected.iter().chain(answer);
+    all.map(|n| &n.difference).collect()
+}
+
 /// A point at which one system of relations holds and the other does not.
 fn apart_at_points(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Option<Finding> {
-    let all: Vec<&Expr> = expected
-        .iter()
-        .chain(answer)
-        .map(|n| &n.difference)
-        .collect();
+    let all = differences(expected, answer);
     let uses = roles(&all);
     let (domains, assumed) = ctx.key.question.domains.completed(&uses);
     let inside = samples(&uses, &domains, 48);

@@ -17,6 +17,7 @@ const LONGEST: Duration = Duration::from_secs(20);
 /// Largest output, in bytes.
 const LARGEST: u64 = 1 << 25;
 /// Most memory a command may take, in bytes; one that wants more is ended by its allocator. Only Linux lets another process say so.
+#[cfg(target_os = "linux")]
 const MEMORY: u64 = 1 << 30;
 /// Most that is kept of what a command says of errors, in bytes.
 const SAID: u64 = 1 << 16;
@@ -143,20 +144,21 @@ impl Workshop {
 }
 
 /// Bounds the address space of a command that has just begun.
+#[cfg(target_os = "linux")]
 fn limit_memory(process: Option<u32>) {
-    #[cfg(target_os = "linux")]
-    if let Some(id) = process.and_then(|id| rustix::process::Pid::from_raw(i32::try_from(id).ok()?))
-    {
-        let limit = rustix::process::Rlimit {
-            current: Some(MEMORY),
-            maximum: Some(MEMORY),
-        };
-        // One that has ended already needs no limit.
-        let _ = rustix::process::prlimit(Some(id), rustix::process::Resource::As, limit);
-    }
-    #[cfg(not(target_os = "linux"))]
-    let _ = process;
+    use rustix::process::{Pid, Resource, Rlimit, prlimit};
+    let id = process.and_then(|id| Pid::from_raw(i32::try_from(id).ok()?));
+    let limit = Rlimit {
+        current: Some(MEMORY),
+        maximum: Some(MEMORY),
+    };
+    // One that has ended already needs no limit.
+    id.and_then(|id| prlimit(Some(id), Resource::As, limit).ok());
 }
+
+/// Elsewhere nobody can bound another process.
+#[cfg(not(target_os = "linux"))]
+fn limit_memory(_: Option<u32>) {}
 
 async fn read(from: impl AsyncRead + Unpin, most: u64) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();

@@ -5,7 +5,8 @@ use super::super::{Apart, Diagnosis, Verdict};
 use super::cells::{self, Along};
 use super::solved::{rounded, solve_for, unknowns};
 use super::{
-    Normal, REALS, apart_at_points, link, over_reals, same_solutions, says_nothing, undecided,
+    Normal, REALS, apart_at_points, differences, link, over_reals, same_solutions, says_nothing,
+    undecided,
 };
 use crate::domain::{Domain, Domains, Limit, roles, samples};
 use crate::equality::{self, Equality, How};
@@ -33,11 +34,7 @@ pub(super) fn in_one_symbol(
         ));
     }
     debug_assert!(some == mine && not_all == not_mine);
-    let all: Vec<&Expr> = expected
-        .iter()
-        .chain(answer)
-        .map(|n| &n.difference)
-        .collect();
+    let all = differences(expected, answer);
     let along = cells::compare(expected, answer, &over_reals(domains, &all))?;
     match along.holds {
         [[false, _], [false, _]] => return Some(says_nothing("has no solution")),
@@ -73,11 +70,7 @@ pub(super) fn scaled(
     answer: &[Normal],
     domains: &Domains,
 ) -> Option<Finding> {
-    let all: Vec<&Expr> = expected
-        .iter()
-        .chain(answer)
-        .map(|n| &n.difference)
-        .collect();
+    let all = differences(expected, answer);
     let uses = roles(&all);
     let (domains, _) = domains.completed(&uses);
     let ends = |d: &Domain| [&d.low, &d.high].into_iter().flatten().cloned().collect();
