@@ -115,8 +115,17 @@ fn over_positive(
     domains.symbols.insert(root.clone(), Domain::positive());
     let tidy = |e: &Expr| tidy(e, &domains).map_err(|s| refused(s.to_string()));
     let put = |e: &Expr, x: Expr| e.substitute(&BTreeMap::from([(root.clone(), x)]));
-    let square = Expr::symbol(ROOT).powi(2);
-    let through = BTreeMap::from([(reduced.variable.clone(), square)]);
+    // Where it stands under a root, its root makes a fraction of polynomials of the formula.
+    let has_root = reduced.of.parts().any(|part| match part.node() {
+        Node::Power(base, k) => {
+            let whole = k.as_number().is_some_and(|k| k.is_integer());
+            !whole && base.symbols().contains(&reduced.variable)
+        }
+        _ => false,
+    });
+    let power = if has_root { 2 } else { 1 };
+    let through = Expr::symbol(ROOT).powi(power);
+    let through = BTreeMap::from([(reduced.variable.clone(), through)]);
     let f = tidy(&reduced.of.substitute(&through))?;
     let slope = tidy(&f.derivative(&root))?;
     let roots = match solve(&slope, &root, &domains) {
@@ -129,7 +138,10 @@ fn over_positive(
         }
         Err(Unsolved::Limit(what)) => return Err(refused(what)),
     };
-    let named = BTreeMap::from([(root.clone(), reduced.combination.sqrt())]);
+    let named = BTreeMap::from([(
+        root.clone(),
+        reduced.combination.power(Expr::ratio(1, power)),
+    )]);
     let discarded: Vec<Sentence> = roots.discarded.iter().map(|d| d.put_in(&named)).collect();
     if roots.inside.is_empty() {
         out.discarded = discarded;
@@ -149,7 +161,7 @@ fn over_positive(
     }
     let value = tidy(&put(&f, best.value.clone()))?;
     let value = super::calc::shorter(&value, &domains);
-    let place = tidy(&best.value.powi(2))?;
+    let place = tidy(&best.value.powi(power))?;
     out.discarded = discarded;
     out.dimension = super::formulas::dimension_of(scene, &value, &name)?;
     out.checks.push(by_signs(

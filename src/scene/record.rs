@@ -14,6 +14,9 @@ use crate::formula::near::nearest;
 
 /// What can be read from a JSON value.
 pub(super) trait Read: Sized {
+    /// The fields it has, where it is a record.
+    const FIELDS: &'static [&'static str] = &[];
+
     /// The value; `None` where there is none, which has then been reported.
     fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self>;
 
@@ -33,6 +36,8 @@ pub(super) fn unexpected<T>(node: &Node<'_>, expected: &str, faults: &mut Vec<Fa
 }
 
 impl<T: Read> Read for Option<T> {
+    const FIELDS: &'static [&'static str] = T::FIELDS;
+
     fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
         // A field that cannot be read is reported and then counts as missing, so that its neighbors are still read.
         Some(T::read(node, faults))
@@ -43,6 +48,8 @@ impl<T: Read> Read for Option<T> {
 }
 
 impl<T: Read> Read for Box<T> {
+    const FIELDS: &'static [&'static str] = T::FIELDS;
+
     fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
         T::read(node, faults).map(Box::new)
     }
@@ -242,34 +249,53 @@ fn unique<'n, 't>(entries: &'n [Entry<'t>], faults: &mut Vec<Fault>) -> Vec<&'n 
     out
 }
 
+/// A field of a record, and the fields of the record that stands in it.
+pub(super) type Known = (&'static str, &'static [&'static str]);
+
 /// The known fields of an object; unknown and repeated ones are reported.
 pub(super) fn fields<'n, 't>(
     node: &'n Node<'t>,
-    known: &[&str],
+    known: &[Known],
     faults: &mut Vec<Fault>,
 ) -> Option<Vec<&'n Entry<'t>>> {
+    let names = || known.iter().map(|(name, _)| *name);
     let Value::Object(entries) = &node.value else {
-        return unexpected(node, "an object", faults);
+        let message = format!("expected an object, found {}", node.kind());
+        let hint = format!("its fields are {}", names().collect::<Vec<_>>().join(", "));
+        let fault = Fault::new(node.span, message);
+        return match known.len() <= MANY {
+            true => fault.hint(hint),
+            false => fault,
+        }
+        .add_to(faults);
     };
     let mut entries = unique(entries, faults);
+    let present: BTreeSet<String> = entries.iter().map(|e| e.key.to_string()).collect();
     entries.retain(|entry| {
-        let is_known = known.contains(&&*entry.key);
+        let is_known = names().any(|name| name == entry.key);
         if !is_known {
             let fault = Fault::new(entry.key_span, format!("unknown field `{}`", entry.key));
-            let near = nearest(&entry.key, known.iter().copied());
-            faults.push(
-                match meant(&entry.key)
-                    .map(str::to_owned)
-                    .or_else(|| near.map(|n| format!("did you mean `{n}`?")))
-                {
-                    Some(hint) => fault.hint(hint),
-                    None => fault.hint(likely(&entry.key, known)),
-                },
-            );
+            let near = || nearest(&entry.key, names()).map(|n| format!("did you mean `{n}`?"));
+            let hint = further_in(&entry.key, known, &present)
+                .or_else(|| meant(&entry.key).map(str::to_owned))
+                .or_else(near)
+                .unwrap_or_else(|| likely(&entry.key, names().collect()));
+            faults.push(fault.hint(hint));
         }
         is_known
     });
     Some(entries)
+}
+
+/// Where a field stands that was written one level too far out: in those fields that are there, if they have it.
+fn further_in(word: &str, known: &[Known], present: &BTreeSet<String>) -> Option<String> {
+    let homes = known.iter().filter(|(_, fields)| fields.contains(&word));
+    let homes: Vec<&str> = homes.map(|(name, _)| *name).collect();
+    let here = homes.iter().copied().filter(|name| present.contains(*name));
+    let here: Vec<&str> = here.collect();
+    let homes = if here.is_empty() { homes } else { here };
+    let all: Vec<String> = homes.iter().map(|name| format!("`{name}`")).collect();
+    (!all.is_empty()).then(|| format!("`{word}` stands inside {}", all.join(" or ")))
 }
 
 /// Whether nothing inside this place has been reported. Among very many faults the question is not worth its time.
@@ -277,20 +303,22 @@ pub(super) fn is_sound(span: Span, faults: &[Fault]) -> bool {
     faults.len() < 1000 && !faults.iter().any(|f| span.contains(f.span))
 }
 
-/// Most fields that are listed whole.
+/// Most fields that are listed whole beside one that is unknown.
 const FEW: usize = 8;
 
+/// Most fields of an object that are told where something else stands in its place.
+const MANY: usize = 12;
+
 /// The fields that may be meant: all of a short list, the three nearest of a long one.
-fn likely(word: &str, known: &[&str]) -> String {
-    if known.len() <= FEW {
-        return format!("the fields here are {}", known.join(", "));
+fn likely(word: &str, mut near: Vec<&str>) -> String {
+    let all = near.len();
+    if all <= FEW {
+        return format!("the fields here are {}", near.join(", "));
     }
-    let mut near = known.to_vec();
     near.sort_by_key(|field| far(word, field));
     near.truncate(3);
     format!(
-        "the nearest of the {} fields here are {}; `carom schema` tells them all",
-        known.len(),
+        "the nearest of the {all} fields here are {}; `carom schema` tells them all",
         near.join(", ")
     )
 }
@@ -342,6 +370,7 @@ fn meant(word: &str) -> Option<&'static str> {
             "a body flies in a `fall`, with `gravity` or without"
         }
         "stage" => "the stage a question asks about is `at`",
+        "direction" | "component" | "axis" => "a direction is given `along`",
         "left" | "right" | "lhs" | "rhs" | "equation" | "condition" | "for" => {
             "a question names its unknown and says the equation as a whole: \"solve\": \"x\", \"holds\": \"u = 0\""
         }
@@ -395,9 +424,12 @@ macro_rules! record {
         }
 
         impl super::record::Read for $name {
+            const FIELDS: &'static [&'static str] = &[$(super::record::key!($field $($key)?)),+];
+
             fn read(node: &super::json::Node<'_>, faults: &mut Vec<super::fault::Fault>) -> Option<Self> {
-                const FIELDS: &[&str] = &[$(super::record::key!($field $($key)?)),+];
-                let entries = super::record::fields(node, FIELDS, faults)?;
+                const KNOWN: &[super::record::Known] =
+                    &[$((super::record::key!($field $($key)?), <$type as super::record::Read>::FIELDS)),+];
+                let entries = super::record::fields(node, KNOWN, faults)?;
                 $(let $field = super::record::field(node, &entries, super::record::key!($field $($key)?), faults);)+
                 Some($name { span: node.span, $($field: $field?),+ })
             }

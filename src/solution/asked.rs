@@ -50,8 +50,11 @@ pub(super) fn beyond_motion(solution: &mut Solution, scene: &Scene, answers: &[A
         {
             solution.say(reason);
         }
-        if let Ask::Maximum { of, over } = ask {
-            slope(solution, scene, answers, (of, over), &mine);
+        if let Ask::Maximum { of, over } = ask
+            && slope(solution, scene, answers, (of, over), &mine)
+        {
+            // The place comes out of that equation, and the value after it.
+            mine.sort_by_key(|a| a.range.is_empty());
         }
         answered(solution, scene, ask, &mine);
         before = Some(ask);
@@ -71,17 +74,17 @@ fn as_it_stands(scene: &Scene, ask: &Ask, answers: &[Answer], condition: &mut An
     }
 }
 
-/// Where a value is largest inside its range: its derivative vanishes there.
+/// Where a value is largest inside its range: its derivative vanishes there. Whether there was anything to say.
 fn slope(
     solution: &mut Solution,
     scene: &Scene,
     answers: &[Answer],
     (of, over): (&Expr, &[Symbol]),
     mine: &[Answer],
-) {
+) -> bool {
     let place = mine.iter().find_map(|a| a.range.first());
     let ([p], Some((at, Relation::Equal, place))) = (over, place) else {
-        return;
+        return false;
     };
     let known = answers.iter();
     let known = known.filter_map(|a| Some((Symbol::from(a.name.as_str()), a.formula()?.clone())));
@@ -89,7 +92,7 @@ fn slope(
     let there = std::collections::BTreeMap::from([(p.clone(), place.clone())]);
     let vanishes = tidied(scene, &slope.substitute(&there)).is_zero();
     if at.as_symbol() != Some(p) || !vanishes || slope.size() > READABLE {
-        return;
+        return false;
     }
     solution.text(vec![
         say("It is largest where its derivative with respect to "),
@@ -98,9 +101,10 @@ fn slope(
     ]);
     let math = vec![Math::Expr(slope), Math::Op("="), Math::Expr(Expr::zero())];
     solution.push(Part::Display(vec![Line { math, step: None }]));
+    true
 }
 
-/// Adds a section with the answers to one question, in the order they were found.
+/// Adds a section with the answers to one question, in the order given.
 fn answered(solution: &mut Solution, scene: &Scene, ask: &Ask, answers: &[Answer]) {
     for (i, answer) in answers.iter().enumerate() {
         let checks = |a: &Answer| known(&a.checks);
