@@ -17,6 +17,13 @@ fn at<const B: u32>(e: &Expr) -> Enclosure {
 }
 
 #[test]
+fn a_root_of_what_lies_just_above_a_square_is_rounded_up() {
+    let above = Dyadic::from_int((1 << 60) + 1);
+    let [low, high] = [Round::Down, Round::Up].map(|to| above.sqrt(20, to));
+    assert!(low.mul(&low) < above && above < high.mul(&high));
+}
+
+#[test]
 fn constants_have_their_known_digits() {
     let table = [
         (
