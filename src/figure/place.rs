@@ -150,36 +150,52 @@ const THROUGH: f64 = 40.0;
 /// Rounds in which every label may move again.
 const ROUNDS: usize = 3;
 
+/// A place a label may take.
+struct Place {
+    room: Room,
+    /// What it costs by itself.
+    own: f64,
+    /// With what it covers, once that was looked at.
+    whole: Option<f64>,
+}
+
 /// One room per wish.
 pub fn place(wishes: &[Wish], walls: &[(Pair, Pair, f64)], kept: &[Room]) -> Vec<Room> {
-    let scored: Vec<Vec<(Room, f64)>> = wishes
-        .iter()
-        .map(|wish| {
-            let mut places: Vec<(Room, f64)> = candidates(wish)
-                .into_iter()
-                .map(|(room, cost)| (room, cost + covered(&room, walls, kept)))
-                .collect();
-            places.sort_by(|a, b| a.1.total_cmp(&b.1));
-            places
-        })
-        .collect();
+    let places = |wish| {
+        let all = candidates(wish).into_iter();
+        let mut all: Vec<Place> = all
+            .map(|(room, own)| Place {
+                room,
+                own,
+                whole: None,
+            })
+            .collect();
+        all.sort_by(|a, b| a.own.total_cmp(&b.own));
+        all
+    };
+    let mut places: Vec<Vec<Place>> = wishes.iter().map(places).collect();
     let mut taken: Vec<Option<Room>> = vec![None; wishes.len()];
     for _ in 0..ROUNDS {
-        for i in 0..wishes.len() {
+        for (i, mine) in places.iter_mut().enumerate() {
+            let others = taken.iter().enumerate().filter(|(j, _)| *j != i);
+            let others: Vec<Room> = others.filter_map(|(_, room)| *room).collect();
             let mut best: Option<(Room, f64)> = None;
-            for (room, cost) in &scored[i] {
-                if best.is_some_and(|(_, least)| *cost >= least) {
+            for place in mine {
+                let beaten = |cost: f64| best.is_some_and(|(_, least)| cost >= least);
+                // What is covered only adds to it.
+                if beaten(place.own) {
                     break;
                 }
-                let others = taken
-                    .iter()
-                    .enumerate()
-                    .filter(|(j, _)| *j != i)
-                    .filter_map(|(_, b)| *b);
-                let shared: f64 = others.map(|b| room.grown(1.5).overlap(&b)).sum();
+                let covers = || place.own + covered(&place.room, walls, kept);
+                let cost = *place.whole.get_or_insert_with(covers);
+                if beaten(cost) {
+                    continue;
+                }
+                let wide = place.room.grown(1.5);
+                let shared: f64 = others.iter().map(|other| wide.overlap(other)).sum();
                 let total = cost + if shared > 0.0 { 400.0 + shared } else { 0.0 };
-                if best.is_none_or(|(_, least)| total < least) {
-                    best = Some((*room, total));
+                if !beaten(total) {
+                    best = Some((place.room, total));
                 }
             }
             taken[i] = best.map(|(room, _)| room);

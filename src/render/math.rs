@@ -439,7 +439,8 @@ pub fn latex(solution: &Solution, math: &[Math]) -> String {
             Math::Brackets(inner) => format!("\\left({}\\right)", latex(solution, inner)),
         };
         if !out.is_empty() {
-            out.push(' ');
+            let follows = matches!(m, Math::Op("⇒"));
+            out.push_str(if follows { " \\quad" } else { " " });
         }
         out.push_str(&piece);
     }

@@ -23,10 +23,10 @@ pub fn formula(solution: &Solution, math: &[Math]) -> String {
             }
             Math::Name(name) => out.push_str(&quantity(name)),
             Math::Op(op) => {
-                let space = if *op == "⇒" {
-                    " rspace=\"0.8em\""
-                } else {
-                    ""
+                let space = match (*op, out.is_empty()) {
+                    ("⇒", true) => " rspace=\"0.8em\"",
+                    ("⇒", false) => " lspace=\"0.8em\" rspace=\"0.8em\"",
+                    _ => "",
                 };
                 out.push_str(&format!("<mo{space}>{}</mo>", escape(op)));
             }

@@ -182,21 +182,37 @@ impl Case {
 pub struct Step {
     /// Its letter; `alpha` for α.
     pub letter: &'static str,
-    /// What it is made of.
+    /// What it is made of; of an acceleration with an inertia, the force or moment.
     pub raw: Expr,
     /// The same, tidy.
     pub value: Expr,
     /// What it is.
     pub why: &'static str,
+    /// For an acceleration, the inertia it is multiplied by in its equation of motion \[kg or kg m²\].
+    pub inertia: Option<Expr>,
 }
 
 impl Step {
+    /// An acceleration, by the force or moment and the inertia of what it moves.
+    fn by_newton(
+        letter: &'static str,
+        [force, inertia]: [&Expr; 2],
+        value: &Expr,
+        why: &'static str,
+    ) -> Step {
+        Step {
+            inertia: Some(inertia.clone()),
+            ..Step::new(letter, force, value, why)
+        }
+    }
+
     fn new(letter: &'static str, raw: &Expr, value: &Expr, why: &'static str) -> Step {
         Step {
             letter,
             raw: raw.clone(),
             value: value.clone(),
             why,
+            inertia: None,
         }
     }
 }

@@ -52,15 +52,29 @@ impl Page<'_> {
             let is_boxed = answer.is_some();
             let claim = Claim {
                 left: step.raw.clone(),
-                right: step.value.clone(),
+                right: match &step.inertia {
+                    Some(inertia) => inertia * &step.value,
+                    None => step.value.clone(),
+                },
             };
             let claimed = self.solution.step(Vec::new(), vec![claim], step.why);
-            if is_boxed {
+            let mut math = Vec::new();
+            if let Some(inertia) = step.inertia.as_ref().filter(|_| !step.raw.is_zero()) {
+                let inertia = neat(self.scene, inertia);
+                let force = neat(self.scene, &self.by_names(&step.raw, &step.value));
+                math.extend([Math::Factor(inertia), letter.clone(), Math::Op("=")]);
+                math.push(Math::Expr(force));
+                if !is_boxed {
+                    math.push(Math::Op("⇒"));
+                }
+            } else if is_boxed {
                 continue;
             }
-            let mut math = vec![letter, Math::Op("=")];
-            math.extend(self.made_of(step));
-            math.push(Math::Expr(step.value.clone()));
+            if !is_boxed {
+                math.extend([letter, Math::Op("=")]);
+                math.extend(self.made_of(step));
+                math.push(Math::Expr(step.value.clone()));
+            }
             lines.push(Line {
                 math,
                 step: Some(claimed),
@@ -75,8 +89,12 @@ impl Page<'_> {
         }
     }
 
-    /// What a step comes from, with the sign that leads on to its value; nothing where it reads the same.
+    /// What a step comes from beyond an equation of motion, with the sign that leads on to its value; nothing where it reads the same.
     pub(super) fn made_of(&self, step: &Step) -> Vec<Math> {
+        if step.inertia.is_some() {
+            // Its equation of motion stands above.
+            return Vec::new();
+        }
         let raw = self.by_names(&step.raw, &step.value);
         let raw = neat(self.scene, &raw);
         let written = crate::formula::write_plain;

@@ -192,27 +192,30 @@ impl<'a> Line<'a> {
             out.push(Step::new("F", &total, &total, why));
         }
         let rolls = self.round.is_some() && !self.slips();
-        if let Some(radius) = self.radius().filter(|_| rolls) {
-            let raw = self.rolling(radius);
-            let why = "the acceleration, with the inertia of turning added to the mass";
-            out.push(Step::new("a", &raw, &self.acceleration, why));
+        let why = if rolls {
+            "the acceleration, with the inertia of turning added to the mass"
+        } else if self.strings.is_empty() {
+            "the acceleration along the line"
+        } else if self.strings.iter().all(|s| s.turning.is_zero()) {
+            "the acceleration along the string, of all that it ties together"
         } else {
-            let why = match self.strings.is_empty() {
-                true => "the acceleration along the line",
-                false => {
-                    "the acceleration along the string, the forces along it divided by all that it sets in motion"
-                }
-            };
-            let raw = match is_zero(&self.acceleration, self.domains()) {
-                Some(true) => Expr::zero(),
-                _ => &self.net() / &self.mass,
-            };
-            out.push(Step::new("a", &raw, &self.acceleration, why));
-        }
+            "the acceleration along the string, of all that it ties together, the inertia of its pulleys with it"
+        };
+        let (force, inertia) = match self.radius().filter(|_| rolls) {
+            Some(radius) => (&self.pull + &self.drag, &self.mass + &self.apparent(radius)),
+            None => (self.net(), self.mass.clone()),
+        };
+        let force = match is_zero(&self.acceleration, self.domains()) {
+            Some(true) => Expr::zero(),
+            _ => force,
+        };
+        let sides = [&force, &inertia];
+        out.push(Step::by_newton("a", sides, &self.acceleration, why));
         if let Some(round) = self.round.as_ref().filter(|_| self.slips()) {
-            let raw = &(&round.arm * &self.friction) / self.inertia();
+            let moment = &round.arm * &self.friction;
             let why = "the angular acceleration, by the moment of friction about the center";
-            out.push(Step::new("alpha", &raw, &self.angular, why));
+            let sides = [&moment, self.inertia()];
+            out.push(Step::by_newton("alpha", sides, &self.angular, why));
         }
         out
     }
