@@ -10,22 +10,26 @@ use super::{Expr, Function, Node, Rational, Symbol, number, ratio};
 impl Expr {
     /// Sum of the terms; nested sums are opened, numbers added up at the place of the first, zeros dropped.
     pub fn sum(terms: impl IntoIterator<Item = Expr>) -> Expr {
-        let terms = terms.into_iter();
-        let mut out: Vec<Expr> = Vec::with_capacity(terms.size_hint().0);
-        let mut number: Option<(usize, Rational)> = None;
-        let mut add = |term: Expr, out: &mut Vec<Expr>| match term.as_number() {
-            Some(value) => match &mut number {
-                Some((_, total)) => *total = number::sum(total, value, false),
-                None => number = Some((out.len(), value.clone())),
-            },
-            None => out.push(term),
-        };
-        for term in terms {
-            match term.node() {
-                Node::Sum(inner) => inner.iter().for_each(|t| add(t.clone(), &mut out)),
-                _ => add(term, &mut out),
-            }
+        let mut out: Vec<Expr> = terms.into_iter().collect();
+        if out.iter().any(|term| matches!(term.node(), Node::Sum(_))) {
+            out = opened(out, |node| match node {
+                Node::Sum(inner) => Some(inner),
+                _ => None,
+            });
         }
+        let mut number: Option<(usize, Rational)> = None;
+        let mut kept = 0;
+        out.retain(|term| {
+            let Some(value) = term.as_number() else {
+                kept += 1;
+                return true;
+            };
+            match &mut number {
+                Some((_, total)) => *total = number::sum(total, value, false),
+                None => number = Some((kept, value.clone())),
+            }
+            false
+        });
         if let Some((at, total)) = number
             && !total.is_zero()
         {
@@ -41,21 +45,26 @@ impl Expr {
     /// Product of the factors; nested products are opened, numbers gathered in front, ones dropped.
     /// A factor 0 makes the product 0 only where every other factor has a value everywhere.
     pub fn product(factors: impl IntoIterator<Item = Expr>) -> Expr {
-        let factors = factors.into_iter();
-        let mut out: Vec<Expr> = Vec::with_capacity(factors.size_hint().0);
-        let mut number = Rational::one();
-        let mut multiply = |factor: Expr, out: &mut Vec<Expr>| match factor.as_number() {
-            // Most products hold one number.
-            Some(value) if number.is_one() => number = value.clone(),
-            Some(value) => number = number::product(&number, value),
-            None => out.push(factor),
-        };
-        for factor in factors {
-            match factor.node() {
-                Node::Product(inner) => inner.iter().for_each(|f| multiply(f.clone(), &mut out)),
-                _ => multiply(factor, &mut out),
-            }
+        let mut out: Vec<Expr> = factors.into_iter().collect();
+        if out
+            .iter()
+            .any(|factor| matches!(factor.node(), Node::Product(_)))
+        {
+            out = opened(out, |node| match node {
+                Node::Product(inner) => Some(inner),
+                _ => None,
+            });
         }
+        let mut number = Rational::one();
+        out.retain(|factor| {
+            match factor.as_number() {
+                // Most products hold one number.
+                Some(value) if number.is_one() => number = value.clone(),
+                Some(value) => number = number::product(&number, value),
+                None => return true,
+            }
+            false
+        });
         if number.is_zero() && out.iter().all(Expr::is_total) {
             return Expr::zero();
         }
@@ -165,6 +174,35 @@ impl Expr {
     }
 }
 
+/// The parts of parts that are of one kind with the whole in their place.
+fn opened(parts: Vec<Expr>, inside: impl Fn(&Node) -> Option<&Vec<Expr>>) -> Vec<Expr> {
+    let mut out = Vec::with_capacity(2 * parts.len());
+    for part in parts {
+        match inside(part.node()) {
+            Some(inner) => out.extend_from_slice(inner),
+            None => out.push(part),
+        }
+    }
+    out
+}
+
+/// Whole numbers up to this size, either sign, are made once in each thread: most numbers of a formula are such.
+const SMALL: i64 = 16;
+
+thread_local! {
+    static NUMBERS: [Expr; 2 * SMALL as usize + 1] =
+        std::array::from_fn(|i| Expr::new(Node::Number(ratio(i as i64 - SMALL, 1))));
+}
+
+/// A small whole number.
+fn small(value: &Rational) -> Option<Expr> {
+    let at = value.numer().as_i64()?.checked_add(SMALL)?;
+    let at = usize::try_from(at)
+        .ok()
+        .filter(|_| number::is_whole(value))?;
+    NUMBERS.try_with(|known| known.get(at).cloned()).ok()?
+}
+
 impl From<i32> for Expr {
     fn from(value: i32) -> Expr {
         Expr::from(i64::from(value))
@@ -185,7 +223,7 @@ impl From<Symbol> for Expr {
 
 impl From<Rational> for Expr {
     fn from(value: Rational) -> Expr {
-        Expr::new(Node::Number(value))
+        small(&value).unwrap_or_else(|| Expr::new(Node::Number(value)))
     }
 }
 

@@ -68,6 +68,11 @@ pub fn is(x: &Rational, n: i64, d: i64) -> bool {
     x.numer().as_i64() == Some(n) && x.denom().as_i64() == Some(d)
 }
 
+/// Whether a fraction in lowest terms is a whole number.
+pub fn is_whole(x: &Rational) -> bool {
+    x.denom().as_i64() == Some(1)
+}
+
 /// Numerator and denominator that fit a machine word.
 fn words(x: &Rational) -> Option<[i128; 2]> {
     Some([x.numer().as_i64()?.into(), x.denom().as_i64()?.into()])

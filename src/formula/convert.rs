@@ -46,7 +46,7 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
         Shape::Product(factors) => product(w, factors, mode),
         Shape::Fraction(above, below) => {
             let divisor = reciprocal(below, mode)?;
-            multiply(w, [value(above, mode)?, Value::Scalar(divisor)])
+            times(w, value(above, mode)?, divisor)
         }
         Shape::Power(base, exponent)
             if mode.components
@@ -88,9 +88,7 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
             Value::Scalar(e) => Expr::call(Function::Abs, e),
             Value::Vector(v) => dot(&v, &v).sqrt(),
         }),
-        Shape::Measured(inner, unit) => {
-            multiply(w, [value(inner, mode)?, Value::Scalar(unit.value())])
-        }
+        Shape::Measured(inner, unit) => times(w, value(inner, mode)?, unit.value()),
         Shape::Degrees(inner) => scalar(one(inner, mode)? * Expr::pi() * Expr::ratio(1, 180)),
         Shape::List(parts) => {
             let mut components = [Expr::zero(), Expr::zero(), Expr::zero()];
@@ -154,31 +152,32 @@ fn sum(w: &Written, terms: &[(Sign, Written)], mode: Mode) -> Faulty<Value> {
 }
 
 fn product(w: &Written, factors: &[(Link, Written)], mode: Mode) -> Faulty<Value> {
-    let mut values = Vec::with_capacity(factors.len());
+    let mut scalars = Vec::with_capacity(factors.len());
+    // The vector among the factors so far, and how many scalars stand before it.
+    let mut vector: Option<(usize, [Expr; 3])> = None;
     for (i, (link, factor)) in factors.iter().enumerate() {
         let next = match link {
             Link::Over if i > 0 => Value::Scalar(reciprocal(factor, mode)?),
             _ => value(factor, mode)?,
         };
-        // Two vectors: a dot or a cross says what is meant.
-        let vector = |v: &Value| matches!(v, Value::Vector(_));
-        let before = match vector(&next) {
-            true => values.iter().position(vector),
-            false => None,
-        };
-        let product = match (before.map(|at| &values[at]), &next, link) {
-            (Some(Value::Vector(a)), Value::Vector(b), Link::Times) => Value::Scalar(dot(a, b)),
-            (Some(Value::Vector(a)), Value::Vector(b), Link::Cross) => Value::Vector(cross(a, b)),
-            _ => {
-                values.push(next);
-                continue;
+        match (next, vector.take()) {
+            (Value::Scalar(e), before) => {
+                scalars.push(e);
+                vector = before;
             }
-        };
-        if let Some(at) = before {
-            values[at] = product;
+            (Value::Vector(v), None) => vector = Some((scalars.len(), v)),
+            // Two vectors: a dot or a cross says what is meant.
+            (Value::Vector(b), Some((at, a))) => match link {
+                Link::Times => scalars.insert(at, dot(&a, &b)),
+                Link::Cross => vector = Some((at, cross(&a, &b))),
+                _ => {
+                    let message = "a product of two vectors is not read";
+                    return Err(Fault::new(message, w.start, w.end));
+                }
+            },
         }
     }
-    multiply(w, values)
+    scaled(w, scalars, vector.map(|(_, v)| v))
 }
 
 fn dot(a: &[Expr; 3], b: &[Expr; 3]) -> Expr {
@@ -192,28 +191,17 @@ fn cross(a: &[Expr; 3], b: &[Expr; 3]) -> [Expr; 3] {
     })
 }
 
-fn multiply(w: &Written, values: impl IntoIterator<Item = Value>) -> Faulty<Value> {
-    let values = values.into_iter();
-    let mut scalars = Vec::with_capacity(values.size_hint().0);
-    let mut vector: Option<[Expr; 3]> = None;
-    let mut bits = 0;
-    for value in values {
-        match value {
-            Value::Scalar(e) => {
-                bits += leading_bits(&e);
-                scalars.push(e);
-            }
-            Value::Vector(v) if vector.is_none() => vector = Some(v),
-            Value::Vector(_) => {
-                return Err(Fault::new(
-                    "a product of two vectors is not read",
-                    w.start,
-                    w.end,
-                ));
-            }
-        }
+/// A value times a number.
+fn times(w: &Written, value: Value, by: Expr) -> Faulty<Value> {
+    match value {
+        Value::Scalar(e) => scaled(w, vec![e, by], None),
+        Value::Vector(v) => scaled(w, vec![by], Some(v)),
     }
-    if bits > MAX_BITS {
+}
+
+/// The product of some scalars, and of a vector where there is one.
+fn scaled(w: &Written, scalars: Vec<Expr>, vector: Option<[Expr; 3]>) -> Faulty<Value> {
+    if scalars.iter().map(leading_bits).sum::<u64>() > MAX_BITS {
         return Err(Fault::new(
             "the numbers in this product are too large",
             w.start,

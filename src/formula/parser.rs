@@ -27,6 +27,7 @@ use super::Relation;
 use super::fault::{Fault, Faulty};
 use super::lexer::{Lexer, Tok, Token};
 use super::note::Remark;
+use super::product::FEW;
 use super::symbols::Symbols;
 use super::written::{Shape, Sign, Written, is_axis};
 use crate::dimension::Unit;
@@ -206,7 +207,8 @@ impl<'a> Parser<'a> {
         if sign.is_none() && matches!(first, None | Some(Sign::Plus)) {
             return Ok(term);
         }
-        let mut terms = vec![(first.unwrap_or(Sign::Plus), term)];
+        let mut terms = Vec::with_capacity(FEW);
+        terms.push((first.unwrap_or(Sign::Plus), term));
         while let Some(next) = sign {
             let term = self.term()?;
             let term = self.measured(term)?;

@@ -6,6 +6,9 @@ use super::note::Remark;
 use super::parser::Parser;
 use super::written::{Link, Shape, Sign, Written, is_axis};
 
+/// Room made at once for factors or terms: few products and sums have more.
+pub(super) const FEW: usize = 4;
+
 impl Parser<'_> {
     /// Groups tied by `*` and `/`, from left to right.
     pub(super) fn term(&mut self) -> Faulty<Written> {
@@ -22,6 +25,7 @@ impl Parser<'_> {
             };
             self.next()?;
             if let Some(first) = first.take() {
+                factors.reserve(FEW);
                 factors.push((Link::Times, first));
             }
             let negative = match self.peek()?.tok {
@@ -144,7 +148,8 @@ impl Parser<'_> {
             return Ok(first);
         }
         let (start, mut end) = (first.start, first.end);
-        let mut factors = vec![(Link::Beside, first)];
+        let mut factors = Vec::with_capacity(FEW);
+        factors.push((Link::Beside, first));
         while self.starts_factor()? && !(tight && self.peek()?.spaced) {
             if let (
                 Tok::Number(_),

@@ -97,6 +97,12 @@ impl Symbols {
         self.open
     }
 
+    /// Makes room for names that are declared next.
+    pub(crate) fn reserve(&mut self, count: usize) {
+        self.declared.reserve(count);
+        self.keys.reserve(count);
+    }
+
     /// Declares a name.
     pub fn declare(&mut self, name: &str) {
         self.declare_as(name, None, None);

@@ -215,6 +215,7 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
 }
 
 fn declare(symbols: &mut Symbols, question: &Question) {
+    symbols.reserve(question.given().count());
     for given in question.given() {
         symbols.declare_as(
             given.name.clone(),

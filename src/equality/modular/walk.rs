@@ -108,7 +108,9 @@ impl<B: Builder> Walk<'_, B> {
 
     fn index(&self, name: &Symbol) -> Option<usize> {
         let places = self.places;
-        places.binary_search_by(|place| place.name.cmp(name)).ok()
+        // Nearly always it is the same name, not only the same letters.
+        let known = places.iter().position(|p| Symbol::ptr_eq(p.name, name));
+        known.or_else(|| places.binary_search_by(|place| place.name.cmp(name)).ok())
     }
 
     /// A combination of angles and quarter turns.
