@@ -2,7 +2,9 @@
 //!
 //! Knows no formula of its own; it changes the one it is given, a place at a time, and asks its caller whether the result fits.
 
-use crate::expr::{Expr, Function, Node, Symbol, ratio};
+use num_traits::Zero;
+
+use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
 
 /// Words for the slips that lead from a formula to one that `fits`; `kin` says which of the names may be exchanged.
 pub fn that_fit(
@@ -55,112 +57,120 @@ fn changes(
     kin: &dyn Fn(&Symbol, &Symbol) -> bool,
     say: &dyn Fn(&Expr) -> String,
 ) -> Vec<(Expr, String)> {
-    let mut out = Vec::new();
     match e.node() {
-        Node::Number(value) => {
-            for (k, words) in [
-                (ratio(2, 1), "doubled"),
-                (ratio(1, 2), "halved"),
-                (ratio(-1, 1), "with the other sign"),
-            ] {
-                out.push((Expr::from(value * &k), format!("{value} stands {words}")));
-            }
-            if !num_traits::Zero::is_zero(value) {
-                out.push((
-                    Expr::from(value.recip()),
-                    format!("{value} stands upside down"),
-                ));
-            }
-            out.push((Expr::one(), format!("{value} is left out")));
-        }
+        Node::Number(value) => of_number(value),
         Node::Symbol(name) => {
-            for other in names.iter().filter(|n| *n != name && kin(n, name)) {
-                out.push((Expr::symbol(other), format!("{other} stands for {name}")));
-            }
-            for (k, words) in [(Expr::from(2), "twice"), (Expr::ratio(1, 2), "half")] {
-                out.push((e * &k, format!("{words} {} stands for {}", say(e), say(e))));
-            }
+            let kin = names.iter().filter(|n| *n != name && kin(n, name));
+            of_name(
+                e,
+                &kin.map(|n| Expr::from(n.clone())).collect::<Vec<_>>(),
+                say,
+            )
         }
-        Node::Sum(terms) => {
-            if let [a, b] = terms.as_slice()
-                && let (Some((x, plus)), Some((y, also))) = (square_of(a), square_of(b))
-            {
-                // 1 − e² and (1 − e)².
-                let join = |minus: bool| if minus { &x - &y } else { &x + &y };
-                let changed = join(plus != also).powi(2);
-                let changed = if plus { changed } else { -changed };
-                let words = format!("{} stands for {}", say(&changed), say(e));
-                out.push((changed, words));
-            }
-            for (i, term) in terms.iter().enumerate() {
-                let mut all = terms.clone();
-                all[i] = -term;
-                out.push((
-                    Expr::sum(all.clone()),
-                    format!("{} has the other sign", say(term)),
-                ));
-                all.remove(i);
-                out.push((Expr::sum(all), format!("{} is left out", say(term))));
-            }
-        }
-        Node::Product(factors) => {
-            let n = factors.len().min(8);
-            for i in 0..n {
-                for j in i..n {
-                    let rest = || {
-                        factors
-                            .iter()
-                            .enumerate()
-                            .filter(move |(k, _)| *k != i && *k != j)
-                            .map(|(_, f)| f.clone())
-                    };
-                    let picked = if i == j {
-                        factors[i].clone()
-                    } else {
-                        &factors[i] * &factors[j]
-                    };
-                    if i == j {
-                        out.push((
-                            Expr::product(rest()),
-                            format!("the factor {} is left out", say(&picked)),
-                        ));
-                    }
-                    let squared = Expr::product(rest().chain([picked.powi(2)]));
-                    out.push((squared, format!("the factor {} enters twice", say(&picked))));
-                }
-                let inverse = factors
-                    .iter()
-                    .enumerate()
-                    .map(|(k, f)| if k == i { f.powi(-1) } else { f.clone() });
-                out.push((
-                    Expr::product(inverse),
-                    format!("the factor {} stands upside down", say(&factors[i])),
-                ));
-            }
-        }
-        Node::Power(base, k) => {
-            for step in [-1, 1] {
-                let other = k + &Expr::from(step);
-                out.push((
-                    base.power(other.clone()),
-                    format!(
-                        "the exponent {} of {} becomes {}",
-                        say(k),
-                        say(base),
-                        say(&other)
-                    ),
-                ));
-            }
-            out.push((
-                base.power(k * &Expr::from(2)),
-                format!("{} is squared once more", say(e)),
-            ));
-        }
-        Node::Call(Function::Sin, x) => out.push((x.cos(), format!("cos stands for {}", say(e)))),
-        Node::Call(Function::Cos, x) => out.push((x.sin(), format!("sin stands for {}", say(e)))),
-        Node::Call(..) => {}
+        Node::Sum(terms) => of_sum(e, terms, say),
+        Node::Product(factors) => of_product(factors, say),
+        Node::Power(base, k) => of_power(e, base, k, say),
+        Node::Call(Function::Sin, x) => vec![(x.cos(), format!("cos stands for {}", say(e)))],
+        Node::Call(Function::Cos, x) => vec![(x.sin(), format!("sin stands for {}", say(e)))],
+        Node::Call(..) => Vec::new(),
+    }
+}
+
+fn of_number(value: &Rational) -> Vec<(Expr, String)> {
+    let times = |k: Rational, words: &str| {
+        let words = format!("{value} stands {words}");
+        (Expr::from(value * &k), words)
+    };
+    let upside_down = || {
+        let words = format!("{value} stands upside down");
+        (Expr::from(value.recip()), words)
+    };
+    let mut out = vec![
+        times(ratio(2, 1), "doubled"),
+        times(ratio(1, 2), "halved"),
+        times(ratio(-1, 1), "with the other sign"),
+    ];
+    out.extend((!value.is_zero()).then(upside_down));
+    out.push((Expr::one(), format!("{value} is left out")));
+    out
+}
+
+/// A name for another of its kind, a multiple of it, or one for the sum with another: the mass of one body for that of both.
+fn of_name(e: &Expr, kin: &[Expr], say: &dyn Fn(&Expr) -> String) -> Vec<(Expr, String)> {
+    let other = |new: &Expr| (new.clone(), format!("{} stands for {}", say(new), say(e)));
+    let multiple = |(k, words): (Expr, &str)| {
+        let words = format!("{words} {} stands for {}", say(e), say(e));
+        (e * &k, words)
+    };
+    let multiples = [(Expr::from(2), "twice"), (Expr::ratio(1, 2), "half")];
+    let mut out: Vec<(Expr, String)> = kin.iter().map(other).collect();
+    out.extend(multiples.into_iter().map(multiple));
+    out.extend(kin.iter().map(|k| other(&(e + k))));
+    out
+}
+
+fn of_sum(e: &Expr, terms: &[Expr], say: &dyn Fn(&Expr) -> String) -> Vec<(Expr, String)> {
+    let mut out = Vec::new();
+    if let [a, b] = terms
+        && let (Some((x, plus)), Some((y, also))) = (square_of(a), square_of(b))
+    {
+        // 1 − e² and (1 − e)².
+        let join = |minus: bool| if minus { &x - &y } else { &x + &y };
+        let changed = join(plus != also).powi(2);
+        let changed = if plus { changed } else { -changed };
+        let words = format!("{} stands for {}", say(&changed), say(e));
+        out.push((changed, words));
+    }
+    for (i, term) in terms.iter().enumerate() {
+        let mut all = terms.to_vec();
+        all[i] = -term;
+        let turned = format!("{} has the other sign", say(term));
+        out.push((Expr::sum(all.clone()), turned));
+        all.remove(i);
+        out.push((Expr::sum(all), format!("{} is left out", say(term))));
     }
     out
+}
+
+fn of_product(factors: &[Expr], say: &dyn Fn(&Expr) -> String) -> Vec<(Expr, String)> {
+    let mut out = Vec::new();
+    let n = factors.len().min(8);
+    for i in 0..n {
+        for j in i..n {
+            let all = factors.iter().enumerate();
+            let rest = || {
+                let others = all.clone().filter(|(k, _)| *k != i && *k != j);
+                others.map(|(_, f)| f.clone())
+            };
+            let picked = match i == j {
+                true => factors[i].clone(),
+                false => &factors[i] * &factors[j],
+            };
+            if i == j {
+                let words = format!("the factor {} is left out", say(&picked));
+                out.push((Expr::product(rest()), words));
+            }
+            let squared = Expr::product(rest().chain([picked.powi(2)]));
+            out.push((squared, format!("the factor {} enters twice", say(&picked))));
+        }
+        let mut all = factors.to_vec();
+        all[i] = factors[i].powi(-1);
+        let words = format!("the factor {} stands upside down", say(&factors[i]));
+        out.push((Expr::product(all), words));
+    }
+    out
+}
+
+fn of_power(e: &Expr, base: &Expr, k: &Expr, say: &dyn Fn(&Expr) -> String) -> Vec<(Expr, String)> {
+    let step = |step: i64| {
+        let other = k + &Expr::from(step);
+        let [was, of, is] = [k, base, &other].map(say);
+        let words = format!("the exponent {was} of {of} becomes {is}");
+        (base.power(other), words)
+    };
+    let squared = base.power(k * &Expr::from(2));
+    let words = format!("{} is squared once more", say(e));
+    vec![step(-1), step(1), (squared, words)]
 }
 
 /// The root of a square, and whether the square is added: e of −e², 1 of 1.

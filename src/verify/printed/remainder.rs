@@ -17,8 +17,15 @@ use crate::verify::rounding::ten_to;
 const SHORT: usize = 6;
 
 impl Desk<'_> {
-    /// A component that is printed as zero and is not.
+    /// A component that is printed as zero and is not, or two in each other's place.
     pub(super) fn component(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
+        if let [(x, first), (y, second), ..] = pairs
+            && !self.same(x, y)
+            && self.same(x, second)
+            && self.same(y, first)
+        {
+            return Some("the components along x and y stand exchanged".into());
+        }
         let wrong: Vec<usize> = (0..pairs.len())
             .filter(|i| !self.same(&pairs[*i].0, &pairs[*i].1))
             .collect();
