@@ -11,116 +11,94 @@ impl Lexer<'_> {
         let Some(c) = rest.chars().next() else {
             return Ok(Tok::End);
         };
-        let tok = match c {
-            '−' | '–' | '—' | '‐' | '‑' | '﹣' | '－' => Tok::Minus,
-            '＋' => Tok::Plus,
-            '（' => Tok::Open('('),
-            '）' => Tok::Close(')'),
-            '［' => Tok::Open('['),
-            '］' => Tok::Close(']'),
-            '｛' => Tok::Open('{'),
-            '｝' => Tok::Close('}'),
-            '／' => Tok::Slash,
-            '＾' => Tok::Caret,
-            '，' => Tok::Comma,
-            '∥' | '‖' => Tok::Bar,
-            '±' => Tok::PlusMinus,
-            '∓' => Tok::MinusPlus,
-            '·' | '⋅' | '∙' | '•' | '∗' | '＊' => Tok::Times,
-            '×' | '⨯' | '✕' => Tok::Cross,
-            '÷' | '∕' | '⁄' => Tok::Slash,
-            '√' => Tok::Root(2),
-            '∛' => Tok::Root(3),
-            '≤' | '⩽' | '≦' => Tok::Relation(Relation::LessEqual),
-            '≥' | '⩾' | '≧' => Tok::Relation(Relation::GreaterEqual),
-            '≠' => Tok::Relation(Relation::NotEqual),
-            '≈' | '≃' | '≅' => Tok::Relation(Relation::Approximately),
-            '≡' | '＝' => Tok::Relation(Relation::Equal),
-            '½' => Tok::Vulgar(1, 2),
-            '⅓' => Tok::Vulgar(1, 3),
-            '⅔' => Tok::Vulgar(2, 3),
-            '¼' => Tok::Vulgar(1, 4),
-            '¾' => Tok::Vulgar(3, 4),
-            '⅕' => Tok::Vulgar(1, 5),
-            '⅖' => Tok::Vulgar(2, 5),
-            '⅗' => Tok::Vulgar(3, 5),
-            '⅘' => Tok::Vulgar(4, 5),
-            '⅙' => Tok::Vulgar(1, 6),
-            '⅚' => Tok::Vulgar(5, 6),
-            '⅐' => Tok::Vulgar(1, 7),
-            '⅛' => Tok::Vulgar(1, 8),
-            '⅜' => Tok::Vulgar(3, 8),
-            '⅝' => Tok::Vulgar(5, 8),
-            '⅞' => Tok::Vulgar(7, 8),
-            '⅑' => Tok::Vulgar(1, 9),
-            '⅒' => Tok::Vulgar(1, 10),
+        let end = self.pos + c.len_utf8();
+        let fault = |message: &str| Fault::new(message, self.pos, end);
+        match c {
             '°' if rest[c.len_utf8()..].starts_with(['C', 'F']) => {
-                let fault = Fault::new(
-                    "a temperature in degrees is not read",
-                    self.pos,
-                    self.pos + 3,
-                );
-                return Err(fault.hint("write it in kelvins, K"));
+                let message = "a temperature in degrees is not read";
+                let fault = Fault::new(message, self.pos, self.pos + 3);
+                Err(fault.hint("write it in kelvins, K"))
             }
-            '°' | '∘' | 'º' | '˚' => Tok::Degree,
-            '⟨' => Tok::Open('<'),
-            '⟩' => Tok::Close('>'),
-            'π' | '𝜋' | '𝛑' | '𝝅' => Tok::Name("pi".into()),
-            '⁰' | '¹' | '²' | '³' | '⁴'..='⁹' | '⁺' | '⁻' => return self.raised(),
-            '∂' | 'ⅆ' => {
-                return match self.derivative() {
-                    Some(derivative) => derivative,
-                    None => {
-                        let message = "∂ is read in a derivative of one name only, as in ∂x/∂t";
-                        Err(Fault::new(message, self.pos, self.pos + c.len_utf8()))
-                    }
-                };
-            }
-            'ⁿ' => {
-                let message = "a raised letter is not read here";
-                return Err(Fault::new(message, self.pos, self.pos + c.len_utf8()).hint("write ^n"));
-            }
-            'µ' | 'μ' | 'Ω' | '\u{2126}' if self.units_first && self.before != Before::Nothing =>
-            {
-                return match self.unit(false) {
+            '⁰' | '¹' | '²' | '³' | '⁴'..='⁹' | '⁺' | '⁻' => self.raised(),
+            '∂' | 'ⅆ' => self.derivative().unwrap_or_else(|| {
+                let message = "∂ is read in a derivative of one name only, as in ∂x/∂t";
+                Err(Fault::new(message, self.pos, end))
+            }),
+            'µ' | 'μ' | 'Ω' | '\u{2126}' if self.units_first && self.before != Before::Nothing => {
+                match self.unit(false) {
                     Some(tok) => Ok(tok),
-                    None => self.name(self.pos, self.pos + c.len_utf8()),
-                };
+                    None => self.name(self.pos, end),
+                }
             }
             _ if greek_name(c).is_some() || super::name::accented(c).is_some() => {
-                return self.name(self.pos, self.pos + c.len_utf8());
+                self.name(self.pos, end)
             }
-            '\'' | '′' => {
-                let message = "a prime belongs right behind a name";
-                return Err(Fault::new(message, self.pos, self.pos + c.len_utf8()));
+            'ⁿ' => Err(fault("a raised letter is not read here").hint("write ^n")),
+            '\'' | '′' => Err(fault("a prime belongs right behind a name")),
+            '_' => Err(fault("an index belongs right behind a name").hint("write v_1 or v_{G1}")),
+            '.' => Err(fault("a point without digits").hint("write * for a product")),
+            '!' => Err(fault("a factorial has no place in these formulas")),
+            '&' => Err(fault("`&` is no part of a formula")),
+            c => {
+                let tok = sign(c).ok_or_else(|| strange(c, self.pos))?;
+                self.pos = end;
+                Ok(tok)
             }
-            '_' => {
-                let message = "an index belongs right behind a name";
-                return Err(Fault::new(message, self.pos, self.pos + 1).hint("write v_1 or v_{G1}"));
-            }
-            '.' => {
-                return Err(Fault::new("a point without digits", self.pos, self.pos + 1)
-                    .hint("write * for a product"));
-            }
-            '!' => {
-                return Err(Fault::new(
-                    "a factorial has no place in these formulas",
-                    self.pos,
-                    self.pos + 1,
-                ));
-            }
-            '&' => {
-                return Err(Fault::new(
-                    "`&` is no part of a formula",
-                    self.pos,
-                    self.pos + 1,
-                ));
-            }
-            c => return Err(strange(c, self.pos)),
-        };
-        self.pos += c.len_utf8();
-        Ok(tok)
+        }
     }
+}
+
+/// What one character stands for by itself.
+fn sign(c: char) -> Option<Tok> {
+    Some(match c {
+        '−' | '–' | '—' | '‐' | '‑' | '﹣' | '－' => Tok::Minus,
+        '＋' => Tok::Plus,
+        '（' => Tok::Open('('),
+        '）' => Tok::Close(')'),
+        '［' => Tok::Open('['),
+        '］' => Tok::Close(']'),
+        '｛' => Tok::Open('{'),
+        '｝' => Tok::Close('}'),
+        '／' => Tok::Slash,
+        '＾' => Tok::Caret,
+        '，' => Tok::Comma,
+        '∥' | '‖' => Tok::Bar,
+        '±' => Tok::PlusMinus,
+        '∓' => Tok::MinusPlus,
+        '·' | '⋅' | '∙' | '•' | '∗' | '＊' => Tok::Times,
+        '×' | '⨯' | '✕' => Tok::Cross,
+        '÷' | '∕' | '⁄' => Tok::Slash,
+        '√' => Tok::Root(2),
+        '∛' => Tok::Root(3),
+        '≤' | '⩽' | '≦' => Tok::Relation(Relation::LessEqual),
+        '≥' | '⩾' | '≧' => Tok::Relation(Relation::GreaterEqual),
+        '≠' => Tok::Relation(Relation::NotEqual),
+        '≈' | '≃' | '≅' => Tok::Relation(Relation::Approximately),
+        '≡' | '＝' => Tok::Relation(Relation::Equal),
+        '½' => Tok::Vulgar(1, 2),
+        '⅓' => Tok::Vulgar(1, 3),
+        '⅔' => Tok::Vulgar(2, 3),
+        '¼' => Tok::Vulgar(1, 4),
+        '¾' => Tok::Vulgar(3, 4),
+        '⅕' => Tok::Vulgar(1, 5),
+        '⅖' => Tok::Vulgar(2, 5),
+        '⅗' => Tok::Vulgar(3, 5),
+        '⅘' => Tok::Vulgar(4, 5),
+        '⅙' => Tok::Vulgar(1, 6),
+        '⅚' => Tok::Vulgar(5, 6),
+        '⅐' => Tok::Vulgar(1, 7),
+        '⅛' => Tok::Vulgar(1, 8),
+        '⅜' => Tok::Vulgar(3, 8),
+        '⅝' => Tok::Vulgar(5, 8),
+        '⅞' => Tok::Vulgar(7, 8),
+        '⅑' => Tok::Vulgar(1, 9),
+        '⅒' => Tok::Vulgar(1, 10),
+        '°' | '∘' | 'º' | '˚' => Tok::Degree,
+        '⟨' => Tok::Open('<'),
+        '⟩' => Tok::Close('>'),
+        'π' | '𝜋' | '𝛑' | '𝝅' => Tok::Name("pi".into()),
+        _ => return None,
+    })
 }
 
 /// A character that has no place in a formula.

@@ -2,7 +2,7 @@
 
 use super::super::compare::{Context, Finding, scalars};
 use super::super::{Apart, Diagnosis, Verdict};
-use super::factor::factor;
+use super::factor::{Factor, factor};
 use super::locus::{self, Extent};
 use super::solved::lies_in;
 use super::{
@@ -36,39 +36,8 @@ pub(super) fn extent(n: &Normal, domains: &Domains) -> Extent {
 pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     let domains = &ctx.key.question.domains;
     let (f, g) = (&expected.difference, &answer.difference);
-    match [expected, answer].map(|n| extent(n, domains)) {
-        [Extent::All, Extent::All] | [Extent::None, Extent::None] => {
-            let reals = over_reals(domains, &[f, g]);
-            let extents = [expected, answer].map(|n| extent(n, &reals));
-            match extents {
-                [Extent::All, Extent::All] => return says_nothing("holds everywhere"),
-                [Extent::None, Extent::None] => return says_nothing("has no solution"),
-                _ => {}
-            }
-            let same = expected.relation == answer.relation
-                && factor(f, g, &reals).is_some_and(|q| q.positive && q.weak.is_empty());
-            if same && !extents.contains(&Extent::None) && !extents.contains(&Extent::All) {
-                let mut finding = same_solutions("the two differ by a factor that is positive");
-                finding.assumed.push(REALS.into());
-                return finding;
-            }
-            return undecided("on the domain neither inequality says anything");
-        }
-        [
-            a @ (Extent::All | Extent::None),
-            b @ (Extent::All | Extent::None),
-        ] if a != b => {
-            let words = "one holds everywhere on the domain and the other nowhere";
-            return Finding::different("DIFF_INEQUALITY", "solutions", words);
-        }
-        // Where one always or never holds, the other can say the same only if it does so on its boundary too.
-        [Extent::All | Extent::None, Extent::Unknown] => {
-            return beside_boundary(ctx, answer, expected);
-        }
-        [Extent::Unknown, Extent::All | Extent::None] => {
-            return beside_boundary(ctx, expected, answer);
-        }
-        _ => {}
+    if let Some(finding) = by_extent(ctx, expected, answer) {
+        return finding;
     }
     let common = factor(f, g, domains);
     if common.is_none() {
@@ -77,59 +46,9 @@ pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) ->
             return inequalities(ctx, &a, &b);
         }
     }
-    if let Some(common) = &common {
-        let sought = sought_in(ctx, f, g);
-        let free = |e: &Expr| e.symbols().is_disjoint(&sought);
-        if common.positive && expected.relation == answer.relation {
-            if common.weak.is_empty() {
-                return same_solutions("the two differ by a factor that is positive");
-            }
-            if common.weak.iter().all(free) {
-                let mut finding = same_solutions("the two differ by a factor that is not negative");
-                let words = common
-                    .weak
-                    .iter()
-                    .map(|e| format!("{} ≠ 0", write_plain(e)));
-                finding.assumed = words.collect();
-                return finding;
-            }
-        }
-        let boundary = || locus::vanishing(f, &Expr::one(), domains);
-        if common.positive && expected.relation != answer.relation {
-            match boundary() {
-                Some((at, _)) => {
-                    let words =
-                        "the boundary belongs to one of the two inequalities and not to the other";
-                    let mut finding = Finding::different("DIFF_STRICT", "solutions", words);
-                    let word = |r| {
-                        if r == Relation::Less {
-                            "does not hold"
-                        } else {
-                            "holds"
-                        }
-                    };
-                    finding.counterexample = Some(Apart {
-                        at,
-                        yours: word(answer.relation).into(),
-                        expected: word(expected.relation).into(),
-                    });
-                    return finding.with(Diagnosis::new(
-                        "STRICT",
-                        words,
-                        "look at the case of equality",
-                    ));
-                }
-                None => return undecided("the two differ at most on their boundary"),
-            }
-        }
-        if !common.positive && common.weak.is_empty() {
-            let words = "the inequality points the other way";
-            return Finding::different("DIFF_TURNED", "solutions", words).with(Diagnosis::new(
-                "TURNED",
-                words,
-                "multiplying by something negative turns an inequality round",
-            ));
-        }
+    let by_factor = common.and_then(|common| by_factor(ctx, expected, answer, &common));
+    if let Some(finding) = by_factor {
+        return finding;
     }
     apart_at_points(
         ctx,
@@ -140,6 +59,107 @@ pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) ->
     .unwrap_or_else(|| {
         undecided("the inequalities agree at every point tried, and no proof was found")
     })
+}
+
+/// Two inequalities of which one holds everywhere or nowhere on the domain, as far as their signs tell.
+fn by_extent(ctx: &Context, expected: &Normal, answer: &Normal) -> Option<Finding> {
+    let domains = &ctx.key.question.domains;
+    let (f, g) = (&expected.difference, &answer.difference);
+    match [expected, answer].map(|n| extent(n, domains)) {
+        [Extent::All, Extent::All] | [Extent::None, Extent::None] => {
+            let reals = over_reals(domains, &[f, g]);
+            let extents = [expected, answer].map(|n| extent(n, &reals));
+            match extents {
+                [Extent::All, Extent::All] => return Some(says_nothing("holds everywhere")),
+                [Extent::None, Extent::None] => return Some(says_nothing("has no solution")),
+                _ => {}
+            }
+            let same = expected.relation == answer.relation
+                && factor(f, g, &reals).is_some_and(|q| q.positive && q.weak.is_empty());
+            if same && !extents.contains(&Extent::None) && !extents.contains(&Extent::All) {
+                let mut finding = same_solutions("the two differ by a factor that is positive");
+                finding.assumed.push(REALS.into());
+                return Some(finding);
+            }
+            Some(undecided("on the domain neither inequality says anything"))
+        }
+        [
+            a @ (Extent::All | Extent::None),
+            b @ (Extent::All | Extent::None),
+        ] if a != b => {
+            let words = "one holds everywhere on the domain and the other nowhere";
+            Some(Finding::different("DIFF_INEQUALITY", "solutions", words))
+        }
+        // Where one always or never holds, the other can say the same only if it does so on its boundary too.
+        [Extent::All | Extent::None, Extent::Unknown] => {
+            Some(beside_boundary(ctx, answer, expected))
+        }
+        [Extent::Unknown, Extent::All | Extent::None] => {
+            Some(beside_boundary(ctx, expected, answer))
+        }
+        _ => None,
+    }
+}
+
+/// Two inequalities whose differences are the same up to a factor.
+fn by_factor(
+    ctx: &Context,
+    expected: &Normal,
+    answer: &Normal,
+    common: &Factor,
+) -> Option<Finding> {
+    let domains = &ctx.key.question.domains;
+    let (f, g) = (&expected.difference, &answer.difference);
+    let sought = sought_in(ctx, f, g);
+    let free = |e: &Expr| e.symbols().is_disjoint(&sought);
+    if common.positive && expected.relation == answer.relation {
+        if common.weak.is_empty() {
+            return Some(same_solutions(
+                "the two differ by a factor that is positive",
+            ));
+        }
+        if common.weak.iter().all(free) {
+            let mut finding = same_solutions("the two differ by a factor that is not negative");
+            let words = common
+                .weak
+                .iter()
+                .map(|e| format!("{} ≠ 0", write_plain(e)));
+            finding.assumed = words.collect();
+            return Some(finding);
+        }
+    }
+    let boundary = || locus::vanishing(f, &Expr::one(), domains);
+    if common.positive && expected.relation != answer.relation {
+        match boundary() {
+            Some((at, _)) => {
+                let words =
+                    "the boundary belongs to one of the two inequalities and not to the other";
+                let mut finding = Finding::different("DIFF_STRICT", "solutions", words);
+                let word = |r| {
+                    if r == Relation::Less {
+                        "does not hold"
+                    } else {
+                        "holds"
+                    }
+                };
+                finding.counterexample = Some(Apart {
+                    at,
+                    yours: word(answer.relation).into(),
+                    expected: word(expected.relation).into(),
+                });
+                let hint = "look at the case of equality";
+                return Some(finding.with(Diagnosis::new("STRICT", words, hint)));
+            }
+            None => return Some(undecided("the two differ at most on their boundary")),
+        }
+    }
+    if !common.positive && common.weak.is_empty() {
+        let words = "the inequality points the other way";
+        let hint = "multiplying by something negative turns an inequality round";
+        let finding = Finding::different("DIFF_TURNED", "solutions", words);
+        return Some(finding.with(Diagnosis::new("TURNED", words, hint)));
+    }
+    None
 }
 
 /// A relation that changes on its boundary at most, held against one that always or never holds: different where the boundary
