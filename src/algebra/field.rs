@@ -16,7 +16,7 @@ use super::poly::Poly;
 use super::substitution;
 use crate::domain::Domains;
 use crate::expr::angle::angle;
-use crate::expr::{Expr, Function, Int, Node, Rational, Symbol};
+use crate::expr::{Expr, Function, Int, Node, Rational, Symbol, Table};
 
 /// What a variable of the polynomials stands for.
 #[derive(Clone, Debug)]
@@ -136,11 +136,13 @@ impl Field {
             found.collect(&relation.excess);
         }
         for pair in &self.domains.unit_vectors {
-            if pair.iter().any(|name| found.symbols.contains(name)) {
-                found.symbols.extend(pair.iter().cloned());
+            if pair.iter().any(|name| found.symbols.contains_key(name)) {
+                found
+                    .symbols
+                    .extend(pair.iter().map(|name| (name.clone(), ())));
             }
         }
-        for name in &found.symbols {
+        for name in found.symbols.keys() {
             self.symbol(name);
         }
         // Arguments such as ω t: the plain ones first, those with functions inside once the angles of these are known.
@@ -178,7 +180,7 @@ impl Field {
     fn note_terms(
         &mut self,
         arguments: &[Expr],
-        angles: &mut BTreeMap<Symbol, u32>,
+        angles: &mut Table<u32>,
         terms: &mut Vec<(Element, Int)>,
     ) {
         for argument in arguments {
@@ -194,7 +196,7 @@ impl Field {
                 match self.as_symbol(&term) {
                     Some(name) if &*name == "pi" => {}
                     Some(name) => {
-                        let divisor = angles.entry(name).or_insert(1);
+                        let divisor = angles.get_or_insert(&name, || 1);
                         if let Some(d) = factor.denom().as_i64().and_then(|d| u32::try_from(d).ok())
                         {
                             *divisor = divisor.lcm(&d.min(1_000)).min(1_000_000);
@@ -216,7 +218,7 @@ impl Field {
             return;
         }
         let mut terms: Vec<(Element, Int)> = Vec::new();
-        self.note_terms(exponents, &mut BTreeMap::new(), &mut terms);
+        self.note_terms(exponents, &mut Table::default(), &mut terms);
         for e in exponents {
             let Ok(element) = self.element(e) else {
                 continue;
@@ -560,9 +562,9 @@ fn has_call(e: &Expr) -> bool {
 /// Symbols and angles met in expressions.
 #[derive(Default)]
 struct Found {
-    symbols: BTreeSet<Symbol>,
+    symbols: Table<()>,
     /// Least common denominator of each symbol's coefficients.
-    angles: BTreeMap<Symbol, u32>,
+    angles: Table<u32>,
     /// Arguments of sin, cos, tan that are not linear in symbols.
     others: Vec<Expr>,
     /// Different exponents of the exponential function.
@@ -572,15 +574,18 @@ struct Found {
 impl Found {
     /// Symbols and angles.
     fn names(&self) -> BTreeSet<Symbol> {
-        let angles = self.angles.keys().cloned();
-        self.symbols.iter().cloned().chain(angles).collect()
+        self.symbols
+            .keys()
+            .chain(self.angles.keys())
+            .cloned()
+            .collect()
     }
 
     fn collect(&mut self, e: &Expr) {
         match e.node() {
             Node::Number(_) => {}
             Node::Symbol(name) => {
-                self.symbols.insert(name.clone());
+                self.symbols.get_or_insert(name, || ());
             }
             Node::Sum(parts) | Node::Product(parts) => parts.iter().for_each(|p| self.collect(p)),
             Node::Power(base, exponent) => {
@@ -591,7 +596,7 @@ impl Found {
                 match angle(argument) {
                     Some(a) => {
                         for (name, factor) in a.symbols {
-                            let divisor = self.angles.entry(name).or_insert(1);
+                            let divisor = self.angles.get_or_insert(&name, || 1);
                             if let Some(d) =
                                 factor.denom().as_i64().and_then(|d| u32::try_from(d).ok())
                             {

@@ -255,7 +255,7 @@ impl Field {
     fn generator(&self, v: usize) -> (Expr, Rational) {
         let one = Rational::one();
         match &self.gens[v].kind {
-            Kind::Symbol(name) => (Expr::symbol(name), one),
+            Kind::Symbol(name) => (Expr::from(name.clone()), one),
             Kind::Cos(base) => (self.angle(*base).cos(), one),
             Kind::Sin(base) => (self.angle(*base).sin(), one),
             Kind::Root => match &self.gens[v].relation {
@@ -277,7 +277,7 @@ impl Field {
     fn angle(&self, base: usize) -> Expr {
         let base = &self.bases[base];
         let whole = match &base.of {
-            AngleOf::Symbol(name) => Expr::symbol(name),
+            AngleOf::Symbol(name) => Expr::from(name.clone()),
             AngleOf::Term(term) => self.written(term),
         };
         whole * Expr::ratio(1, i64::from(base.divisor))

@@ -227,6 +227,16 @@ impl From<Rational> for Expr {
     }
 }
 
+impl Expr {
+    /// Whether 0 + x is x to the letter: a number inside a sum would come to stand in front.
+    fn holds_no_number(&self) -> bool {
+        match self.node() {
+            Node::Sum(terms) => terms.iter().all(|t| t.as_number().is_none()),
+            _ => true,
+        }
+    }
+}
+
 macro_rules! operator {
     ($trait:ident, $method:ident, |$a:ident, $b:ident| $body:expr) => {
         impl<'a> $trait<&'a Expr> for &'a Expr {
@@ -256,15 +266,27 @@ macro_rules! operator {
         }
     };
 }
-operator!(Add, add, |a, b| Expr::sum([a.clone(), b.clone()]));
-operator!(Sub, sub, |a, b| Expr::sum([a.clone(), -b]));
-operator!(Mul, mul, |a, b| Expr::product([a.clone(), b.clone()]));
+operator!(Add, add, |a, b| match (a.is_zero(), b.is_zero()) {
+    (_, true) => a.clone(),
+    (true, _) if b.holds_no_number() => b.clone(),
+    _ => Expr::sum([a.clone(), b.clone()]),
+});
+operator!(Sub, sub, |a, b| match b.is_zero() {
+    true => a.clone(),
+    false => a + -b,
+});
+operator!(Mul, mul, |a, b| match (a.is_one(), b.is_one()) {
+    (true, _) => b.clone(),
+    (_, true) => a.clone(),
+    _ => Expr::product([a.clone(), b.clone()]),
+});
 operator!(Div, div, |a, b| Expr::product([a.clone(), b.powi(-1)]));
 
 impl Neg for &Expr {
     type Output = Expr;
     fn neg(self) -> Expr {
         match self.node() {
+            Node::Number(value) => Expr::from(-value),
             Node::Sum(terms) => Expr::sum(terms.iter().map(|t| -t)),
             _ => Expr::product([Expr::from(-1), self.clone()]),
         }

@@ -22,15 +22,19 @@ pub fn sum(a: &Rational, b: &Rational, minus: bool) -> Rational {
     let Some(([na, da], [nb, db])) = words(a).zip(words(b)) else {
         return sum_of_any(a, b, minus);
     };
-    let nb = if minus { -nb } else { nb };
-    if da == 1 && db == 1 {
-        return Rational::new_raw(Int::from(na + nb), Int::from(1));
-    }
     // With g = (a's, b's denominator), only what g has can cancel (Henrici 1956).
-    let g = gcd(da, db);
-    let n = na * (db / g) + nb * (da / g);
-    let shared = if g == 1 { 1 } else { gcd(n, g) };
-    Rational::new_raw(Int::from(n / shared), Int::from((da / g) * (db / shared)))
+    let g = common(da, db);
+    let (own, other) = (without(da, g), without(db, g));
+    let (left, right) = (wide(na, other), wide(nb, own));
+    let n = if minus { left - right } else { left + right };
+    if g == 1 {
+        return Rational::new_raw(Int::from(n), Int::from(wide(own, other)));
+    }
+    let shared = gcd(n, g.into());
+    Rational::new_raw(
+        Int::from(n / shared),
+        Int::from(i128::from(own) * (i128::from(db) / shared)),
+    )
 }
 
 /// The same for numbers of any size.
@@ -55,12 +59,30 @@ pub fn product(a: &Rational, b: &Rational) -> Rational {
             (a.denom() / &h) * (b.denom() / &g),
         );
     };
-    let across = |n: i128, d: i128| if d == 1 { 1 } else { gcd(n, d) };
-    let (g, h) = (across(na, db), across(nb, da));
+    let (g, h) = (common(na, db), common(nb, da));
     Rational::new_raw(
-        Int::from((na / g) * (nb / h)),
-        Int::from((da / h) * (db / g)),
+        Int::from(wide(without(na, g), without(nb, h))),
+        Int::from(wide(without(da, h), without(db, g))),
     )
+}
+
+/// Greatest common divisor of a word and a positive one.
+fn common(n: i64, d: i64) -> i64 {
+    match d {
+        1 => 1,
+        // No more than d, which is positive.
+        _ => n.unsigned_abs().gcd(&d.unsigned_abs()) as i64,
+    }
+}
+
+/// n/d for a positive divisor, which is 1 more often than not.
+fn without(n: i64, d: i64) -> i64 {
+    if d == 1 { n } else { n / d }
+}
+
+/// A product that cannot overflow.
+fn wide(a: i64, b: i64) -> i128 {
+    i128::from(a) * i128::from(b)
 }
 
 /// Whether a fraction is n/d, which is in lowest terms. Comparing fractions in general costs divisions.
@@ -74,8 +96,8 @@ pub fn is_whole(x: &Rational) -> bool {
 }
 
 /// Numerator and denominator that fit a machine word.
-fn words(x: &Rational) -> Option<[i128; 2]> {
-    Some([x.numer().as_i64()?.into(), x.denom().as_i64()?.into()])
+fn words(x: &Rational) -> Option<[i64; 2]> {
+    Some([x.numer().as_i64()?, x.denom().as_i64()?])
 }
 
 /// Greatest common divisor of any number and a positive word: 64-bit steps after the first.
