@@ -137,6 +137,9 @@ impl Field {
 
     /// Turns (1−c)(1+c) into s².
     fn gather_squares(&self, parts: &mut Parts) {
+        if parts.factors.len() < 2 {
+            return;
+        }
         for (c, s) in self.circles() {
             for (c, s) in [(c, s), (s, c)] {
                 let (one, x) = (Poly::one(), Poly::var(c));

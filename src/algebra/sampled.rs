@@ -17,13 +17,20 @@ const SAMPLES: usize = 80;
 /// How many of them are near a corner of the domain: what is linear in each symbol changes sign there if anywhere.
 const CORNERS: usize = 32;
 
+/// Coefficients in doubles, with their monomials.
+fn in_doubles(p: &Poly) -> Vec<(f64, &[u64])> {
+    let coefficient = |k: &Int| to_f64(&Rational::from(k.clone()));
+    p.terms().map(|(mono, k)| (coefficient(k), mono)).collect()
+}
+
 impl Field {
     /// Signs seen at the sample points: (somewhere positive, somewhere negative).
     pub(crate) fn seen_signs(&self, p: &Poly) -> (bool, bool) {
         self.ensure_samples();
         let (mut plus, mut minus) = (false, false);
+        let terms = in_doubles(p);
         for k in (0..self.sample_count()).filter(|k| self.keeps_what_is_supposed(*k)) {
-            if let Some(value) = self.sample(p, k) {
+            if let Some(value) = self.sample_terms(&terms, k) {
                 plus |= value > 0.0;
                 minus |= value < 0.0;
             }
@@ -49,10 +56,14 @@ impl Field {
 
     /// Value at a sample point; 0 where rounding leaves the sign open, `None` where a generator has no value.
     fn sample(&self, p: &Poly, k: usize) -> Option<f64> {
+        self.sample_terms(&in_doubles(p), k)
+    }
+
+    fn sample_terms(&self, terms: &[(f64, &[u64])], k: usize) -> Option<f64> {
         let samples = self.samples.borrow();
         let (mut total, mut size) = (0.0, 0.0);
-        for (mono, coeff) in p.terms() {
-            let mut value = to_f64(&Rational::from(coeff.clone()));
+        for (coeff, mono) in terms {
+            let mut value = *coeff;
             for (v, power) in powers(mono) {
                 value *= samples[v][k].powi(power as i32);
             }

@@ -350,10 +350,11 @@ impl Axis {
         };
         let mut total = Poly::zero();
         for (k, part) in p.by_power(v).iter().enumerate() {
-            let k = k as u32;
             if !part.is_zero() {
-                let part = part.mul(&above.pow(k).ok()?).ok()?;
-                total = total.add(&part.mul(&below.pow(degree - k).ok()?).ok()?);
+                // What stands for the power is short, and multiplied out first.
+                let k = k as u32;
+                let power = above.pow(k).ok()?.mul(&below.pow(degree - k).ok()?);
+                total = total.add(&part.mul(&power.ok()?).ok()?);
             }
         }
         let end = End {
