@@ -145,6 +145,14 @@ struct Candidate {
     cost: usize,
 }
 
+impl Candidate {
+    /// What it costs the reader: mostly its unknowns, a little the terms already known, and its kind.
+    fn cost_of(&self, unknowns: u128) -> usize {
+        let open = unknowns.count_ones() as usize;
+        self.cost + 4 * open + 2 * (self.row.len() - open)
+    }
+}
+
 /// The candidate equations of a scene.
 #[derive(Debug)]
 pub struct Planner {
@@ -234,9 +242,11 @@ impl Planner {
         if goal == 0 {
             return None;
         }
+        let open = |c: &Candidate| c.mask & !known_mask;
         let mut search = Search {
             planner: self,
-            known: known_mask,
+            open: self.candidates.iter().map(open).collect(),
+            cost: self.candidates.iter().map(|c| c.cost_of(open(c))).collect(),
             best: None,
             singular: FxHashSet::default(),
             steps: 0,
@@ -416,7 +426,9 @@ fn dense(candidate: &Candidate, columns: u128) -> Vec<f64> {
 /// with one of its equations, so each nonsingular set is reached.
 struct Search<'a> {
     planner: &'a Planner,
-    known: u128,
+    /// What is not known of each candidate, and what it costs.
+    open: Vec<u128>,
+    cost: Vec<usize>,
     best: Option<(usize, Vec<usize>, u128)>,
     /// Sets that are known to be singular; the same set is met in many orders.
     singular: FxHashSet<Vec<usize>>,
@@ -440,22 +452,15 @@ impl Search<'_> {
             if self.steps > STEPS {
                 return;
             }
-            let union = union | (planner.candidates[c].mask & !self.known);
-            let cost = cost + self.cost(c);
+            let union = union | self.open[c];
+            let cost = cost + self.cost[c];
             let too_dear = self.best.as_ref().is_some_and(|(best, ..)| *best <= cost);
-            if union.count_ones() as usize <= self.limit && !too_dear {
+            if !too_dear && union.count_ones() as usize <= self.limit {
                 chosen.push(c);
                 self.extend(chosen, union, matched | 1 << unknown, cost);
                 chosen.pop();
             }
         }
-    }
-
-    /// What an equation costs the reader: mostly its unknowns, a little the terms already known, and its kind.
-    fn cost(&self, candidate: usize) -> usize {
-        let candidate = &self.planner.candidates[candidate];
-        let open = (candidate.mask & !self.known).count_ones() as usize;
-        candidate.cost + 4 * open + 2 * (candidate.row.len() - open)
     }
 
     fn record(&mut self, chosen: &[usize], union: u128, cost: usize) {

@@ -218,6 +218,11 @@ impl<'t> Parser<'t> {
         let start = self.at;
         let mut decoded: Option<String> = None;
         loop {
+            let plain = self.rest().bytes().take_while(|b| is_plain(*b)).count();
+            if let Some(text) = &mut decoded {
+                text.push_str(&self.rest()[..plain]);
+            }
+            self.at += plain;
             let Some(c) = self.rest().chars().next() else {
                 return Err(
                     Fault::new(Span::new(open, open + 1), "this text is never closed")
@@ -383,6 +388,12 @@ impl<'t> Parser<'t> {
         self.at += length;
         Ok(value)
     }
+}
+
+/// Whether a byte of a text stands for itself or is a later one of a character: it ends no text, begins no escape and no
+/// control character, of which those beyond ASCII begin with 0xc2.
+fn is_plain(byte: u8) -> bool {
+    !matches!(byte, b'"' | b'\\' | ..0x20 | 0x7f | 0xc2)
 }
 
 fn never_closed(open: usize, bracket: &str, closing: &str) -> Fault {

@@ -423,6 +423,9 @@ fn with_names<T>(
     for used in symbols.used() {
         r.symbols.mark_used(&used);
     }
+    if r.faults.len() == earlier {
+        return found;
+    }
     for (name, _) in r.file.questions.iter().flat_map(|m| &m.0) {
         let open = format!("`{}` is not declared", name.text);
         for fault in r.faults[earlier..].iter_mut().filter(|f| f.message == open) {
