@@ -28,6 +28,8 @@ struct Differential {
     parts: Option<Parts>,
     end: usize,
     plain: bool,
+    /// Whether a space parts a plain d from the name: `d x`.
+    spaced: bool,
 }
 
 impl Lexer<'_> {
@@ -96,7 +98,9 @@ impl Lexer<'_> {
         }
         let declared = |parts: &Parts| name::find(parts, self.symbols).is_some();
         let factor = self.symbols.find("d").is_some();
-        if above.plain && factor && declared(&of) && declared(&by) {
+        // Nobody writes d² as dd.
+        let apart = above.spaced || below.spaced || declared(&of) && declared(&by);
+        if above.plain && factor && apart && by.key() != "d" {
             return None;
         }
         Some(self.derived(start, end, of, by, order))
@@ -158,11 +162,9 @@ impl Lexer<'_> {
         if above && let Some((k, stop)) = self.order(end) {
             (order, end) = (k, stop);
         }
-        let from = if plain && order == 1 && !inside && !self.text[end..].starts_with(" \\") {
-            end
-        } else {
-            self.blanks(end)
-        };
+        let from = self.blanks(end);
+        let macro_behind = self.text[from..].starts_with('\\');
+        let spaced = plain && order == 1 && !inside && from > end && !macro_behind;
         let parts = match self.differentiated(from) {
             Some((parts, stop)) => {
                 end = stop;
@@ -179,6 +181,7 @@ impl Lexer<'_> {
             parts,
             end,
             plain,
+            spaced,
         })
     }
 

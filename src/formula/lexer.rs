@@ -103,7 +103,7 @@ pub(crate) struct Lexer<'a> {
     pub(super) symbols: &'a Symbols,
     pub(super) before: Before,
     /// Whether a value stood before, so that an empty group is only a spacer.
-    after_value: bool,
+    pub(super) after_value: bool,
     /// Where the current run of letters starts, functions and Greek names apart.
     pub(super) run_from: usize,
     /// Tokens so far.

@@ -245,16 +245,7 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         Ok(reading) => reading.notes.iter().any(|n| n.remark == Remark::Letters),
         Err(_) => text.len() <= MAX_BYTES,
     };
-    if worded
-        && let Some((start, end)) = prose::formula_in_words(text)
-        && let Ok(mut reading) = read_inner(&text[..end], start, symbols, false, 0)
-    {
-        reading.notes.push(Note {
-            remark: Remark::Words,
-            start,
-            middle: start,
-            end,
-        });
+    if worded && let Some(reading) = read_behind_words(text, symbols) {
         return Ok(reading);
     }
     // What no rule read as words is no product of their letters.
@@ -269,6 +260,29 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         return Err(*fault.hint("at most two values or bounds are read, as in x = 1 or x = 2"));
     }
     usual.map_err(|fault| *fault)
+}
+
+/// A formula with words around or before it.
+fn read_behind_words(text: &str, symbols: &Symbols) -> Option<Reading> {
+    let known = |word: &str| {
+        symbols.find(word).is_some() || words::function(word).is_some() || is_greek(word)
+    };
+    let part = |(start, end): (usize, usize)| {
+        let mut reading = read_either(&text[..end], start, symbols, 0).ok()?;
+        reading.notes.push(Note {
+            remark: Remark::Words,
+            start,
+            middle: start,
+            end,
+        });
+        Some(reading)
+    };
+    let split = |r: &Reading| r.notes.iter().any(|n| n.remark == Remark::Letters);
+    let marked = prose::formula_in_words(text).and_then(part);
+    marked.or_else(|| {
+        let start = prose::behind_words(text, &known)?;
+        part((start, text.len())).filter(|reading| !split(reading))
+    })
 }
 
 /// `x = 3 or x = -3` and `2, -2` as one pair of values, `x > 1 and x < 3` as a chain.
@@ -415,10 +429,15 @@ fn read_as(text: &str, symbols: &Symbols, flips: u64, held: prose::Held) -> Faul
     if let Some(behind) = about {
         start = end - behind.len();
     }
-    read_inner(inner, start, symbols, false, flips).or_else(|first| match symbols.is_open() {
+    read_either(inner, start, symbols, flips)
+}
+
+/// With symbols before units, or where that fails and nothing but the symbols may occur, units before symbols.
+fn read_either(text: &str, start: usize, symbols: &Symbols, flips: u64) -> Faulty<Reading> {
+    read_inner(text, start, symbols, false, flips).or_else(|first| match symbols.is_open() {
         // The attempt that got further tells more.
         false => {
-            let second = read_inner(inner, start, symbols, true, flips);
+            let second = read_inner(text, start, symbols, true, flips);
             second.map_err(|second| match second.start > first.start {
                 true => second,
                 false => first,

@@ -3,18 +3,23 @@
 //! Deliberately timid: it finds nothing where two formulas stand in the sentence, or where what stands outside could
 //! belong to the formula.
 
-/// The ASCII characters of a text as bits; the first bit stands for all others. Nearly all texts are a formula and nothing
-/// else, which one look at each character tells.
+/// The ASCII characters of a text as bits; the first bit stands for all others, the second for those that Unicode has arrows
+/// and signs of relations among. Nearly all texts are a formula and nothing else, which one look at each character tells.
 #[derive(Clone, Copy)]
 pub(super) struct Held(u128);
 
 impl Held {
     pub(super) fn of(text: &str) -> Held {
-        let bit = |b: u8| 1u128 << if b.is_ascii() { b } else { 0 };
+        let bit = |b: u8| match b {
+            // The first byte of U+2000 to U+2FFF.
+            0xe2 => 0b11,
+            b if b.is_ascii() => 1u128 << b,
+            _ => 1,
+        };
         Held(text.bytes().fold(0, |bits, b| bits | bit(b)))
     }
 
-    /// Whether one of these occurs; `\0` asks for anything beyond ASCII.
+    /// Whether one of these occurs; `\x01` asks for anything that could be an arrow.
     pub(super) fn any(self, characters: &str) -> bool {
         self.0 & Held::of(characters).0 != 0
     }
@@ -32,7 +37,7 @@ impl Held {
 
     /// Whether there could be words or an arrow before the last statement.
     fn leads_on(self) -> bool {
-        self.any("\\>,:=\0") || self.all("is ")
+        self.any("\\>,:=\x01") || self.all("is ")
     }
 }
 
@@ -76,6 +81,40 @@ pub(super) fn alternatives(text: &str) -> Option<(usize, usize)> {
     }
     found
         .filter(|(start, end)| !text[..*start].trim().is_empty() && !text[*end..].trim().is_empty())
+}
+
+/// Where the formula starts behind words that say what it is: `the speed of the boy u = 2 g t`, `its speed is 3 m/s`. Nothing
+/// where a word could change the value, or where none of them is surely a word: `known` names are none.
+pub(super) fn behind_words(text: &str, known: &dyn Fn(&str) -> bool) -> Option<usize> {
+    const VERBS: [&str; 4] = ["is", "are", "equals", "becomes"];
+    const CHANGING: &str = "above below cosine cube cubed difference double except exceeds half if \
+        inverse least less logarithm minus more most negative never no not opposite or over per \
+        plus product quarter ratio reverse root sine square squared sum tangent tenth than third \
+        thrice triple twice unless without";
+    let (mut at, mut words) = (0, Vec::new());
+    for piece in text.split_inclusive(' ') {
+        let word = piece.trim_end_matches([' ', ',']);
+        if !word.bytes().all(|b| b.is_ascii_alphabetic()) || word.is_empty() && piece != " " {
+            break;
+        }
+        if !word.is_empty() {
+            words.push((at, word.to_ascii_lowercase()));
+        }
+        at += piece.len();
+    }
+    let (start, last) = words.last()?;
+    let changing = |(_, word): &(usize, String)| CHANGING.split(' ').any(|w| w == word);
+    if words.iter().any(changing) {
+        return None;
+    }
+    let surely = |(_, word): &(usize, String)| word.len() > 2 && !known(word);
+    let led = words[..words.len() - 1].iter().any(surely);
+    match text[at..].split_once(['=', '≈']) {
+        _ if led && VERBS.contains(&&**last) => Some(at),
+        Some(("", _)) if led => Some(*start),
+        Some((name, _)) if words.iter().any(surely) && !name.trim().contains(' ') => Some(at),
+        _ => None,
+    }
 }
 
 /// Where the last of several statements starts that follow from each other: `mgh = ½mv² ⟹ v = √(2gh)`; also behind a word
@@ -122,7 +161,7 @@ pub(super) fn conclusion(text: &str, held: Held) -> Option<usize> {
     {
         return Some(text.len() - behind.len());
     }
-    let arrow = match held.any("\\\0") {
+    let arrow = match held.any("\\\x01") {
         true => ARROWS
             .iter()
             .filter_map(|arrow| text.rfind(arrow).map(|at| at + arrow.len()))

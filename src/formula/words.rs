@@ -111,7 +111,9 @@ impl Lexer<'_> {
                 if let Some(tok) = self.declared_name(start, start + length) {
                     return Ok(tok);
                 }
-                if self.symbols.is_open() {
+                // `mu` is m·u where m and u are names and μ is none.
+                let letters = || (0..length).all(|at| self.symbols.find(&word[at..=at]).is_some());
+                if self.symbols.is_open() && !letters() {
                     return self.name(start, start + length);
                 }
             }
@@ -268,6 +270,13 @@ impl Lexer<'_> {
     }
 
     pub(super) fn unknown_word(&mut self, start: usize, run: usize) -> Faulty<Tok> {
+        // `3v/2ℓ rad/s`: the unit behind a name.
+        if self.units_first
+            && self.after_value
+            && let Some(tok) = self.unit(false)
+        {
+            return Ok(tok);
+        }
         // A word that starts with declared letters is one fault, not a product and a fault.
         let from = self.run_from.min(start);
         let (start, run) = (from, run + start - from);

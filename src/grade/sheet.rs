@@ -1,5 +1,7 @@
 //! A scene as an answer sheet: its derived answers are the keys, its parameters and domains the declarations.
 
+mod earlier;
+
 use super::believed::{self, Believed, Story, Written};
 use super::{
     Diagnosis, Given, Grade, Key, Options, Question, Strength, Tolerance, Verdict, judge_against,
@@ -206,8 +208,18 @@ impl Sheet {
         })
     }
 
-    /// Judges an answer for a quantity of the scene; a wrong one is held against the beliefs students have.
+    /// Judges an answer for a quantity of the scene; a wrong one is held against the beliefs students have. Names of earlier
+    /// answers stand for the right ones, which is told.
     pub fn judge(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
+        let Some((answer, told)) = self.with_earlier(entry, answer) else {
+            return self.judge_in_given(entry, answer, options);
+        };
+        let mut grade = self.judge_in_given(entry, &answer, options);
+        grade.assumed.extend(told);
+        grade
+    }
+
+    fn judge_in_given(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
         let sensed = in_words(&entry.question.ask, answer);
         let answer = sensed.as_deref().unwrap_or(answer);
         let along = super::read::answer(&entry.key, answer)
@@ -481,8 +493,13 @@ fn in_words(ask: &Ask, answer: &str) -> Option<String> {
         None => ("", body),
     };
     let value = value.trim();
-    Some(match (sense == clockwise, value.strip_prefix(['-', '−'])) {
+    let positive = value.strip_prefix(['-', '−']);
+    let several = positive
+        .unwrap_or(value)
+        .contains(['+', '-', '−', '±', '∓']);
+    Some(match (sense == clockwise, positive) {
         (true, _) => format!("{name}{value}"),
+        (false, _) if several => format!("{name}-({value})"),
         (false, Some(positive)) => format!("{name}{positive}"),
         (false, None) => format!("{name}-{value}"),
     })

@@ -1,0 +1,48 @@
+//! Answers that stand on answers to earlier questions by their names: `m v²/2 − m ℓ² ω²/6`, where ω was asked before.
+
+use std::collections::BTreeMap;
+
+use super::super::{Given, key_of, read, show};
+use super::{Entry, Sheet};
+use crate::expr::{Expr, Symbol};
+
+impl Sheet {
+    /// An answer with the right values put in for the names of earlier answers, and these in words; nothing where the answer
+    /// is read without them, or uses none.
+    pub(super) fn with_earlier(
+        &self,
+        entry: &Entry,
+        answer: &str,
+    ) -> Option<(String, Vec<String>)> {
+        read::answer(&entry.key, answer).err()?;
+        let asked = self.scene.questions.iter();
+        let before = asked.take_while(|q| q.name != entry.question.name);
+        let of = |name: &str| {
+            let mut answers = self.derivation.answers.iter();
+            answers.find(|a| a.question == name)
+        };
+        let given = &self.scene.parameters;
+        let values: BTreeMap<Symbol, Expr> = before
+            .filter(|q| given.iter().all(|p| *p.name != *q.name))
+            .filter_map(|q| of(&q.name).filter(|a| a.name == q.name))
+            .filter_map(|a| Some((Symbol::from(a.name.as_str()), a.formula()?.clone())))
+            .collect();
+        let mut question = entry.key.question.clone();
+        let names = values.keys().cloned().map(|name| Given {
+            name,
+            latex: None,
+            dimension: None,
+        });
+        question.symbols.extend(names);
+        let key = key_of(entry.key.reading.content.clone(), &question);
+        let content = read::answer(&key, answer).ok()?.content;
+        let used = content.symbols();
+        let told = |(name, value): (&Symbol, &Expr)| {
+            let value = crate::formula::write_plain(value);
+            used.contains(name).then(|| format!("{name} = {value}"))
+        };
+        let told: Vec<String> = values.iter().filter_map(told).collect();
+        let put_in = content.map(&|e| e.substitute(&values));
+        (!told.is_empty()).then(|| (show(&put_in), told))
+    }
+}
