@@ -6,6 +6,7 @@ use std::iter::Peekable;
 use std::str::Chars;
 
 use super::label::{Label, Level, Run, visible};
+use crate::formula::{letter, letters};
 
 /// Deepest nesting of braces that is followed.
 const DEEPEST: usize = 8;
@@ -108,22 +109,14 @@ impl Reader<'_> {
         if depth >= DEEPEST {
             return;
         }
+        let upright = Style {
+            italic: false,
+            ..style
+        };
         match name.as_str() {
             "" => match self.rest.next() {
-                Some(',' | ';' | ':' | ' ' | '!') | None => self.add(
-                    "\u{2009}",
-                    Style {
-                        italic: false,
-                        ..style
-                    },
-                ),
-                Some(c) => self.add(
-                    &visible(&c.to_string()),
-                    Style {
-                        italic: false,
-                        ..style
-                    },
-                ),
+                Some(',' | ';' | ':' | ' ' | '!') | None => self.add("\u{2009}", upright),
+                Some(c) => self.add(&visible(&c.to_string()), upright),
             },
             "vec" => self.one(
                 Style {
@@ -132,15 +125,7 @@ impl Reader<'_> {
                 },
                 depth + 1,
             ),
-            "mathrm" | "text" | "operatorname" | "mathbf" | "rm" => {
-                self.one(
-                    Style {
-                        italic: false,
-                        ..style
-                    },
-                    depth + 1,
-                );
-            }
+            "mathrm" | "text" | "operatorname" | "mathbf" | "rm" => self.one(upright, depth + 1),
             "dot" | "ddot" | "hat" | "bar" | "tilde" => {
                 let before = self.label.runs.len();
                 self.one(style, depth + 1);
@@ -158,20 +143,8 @@ impl Reader<'_> {
                 }
             }
             _ => match letter(&name) {
-                Some(c) => self.add(
-                    c,
-                    Style {
-                        italic: style.italic && c != "∫",
-                        ..style
-                    },
-                ),
-                None => self.add(
-                    &name,
-                    Style {
-                        italic: false,
-                        ..style
-                    },
-                ),
+                Some(c) if c != "∫" => self.add(c, style),
+                other => self.add(other.unwrap_or(name.as_str()), upright),
             },
         }
     }
@@ -230,58 +203,6 @@ pub fn command(c: char) -> Option<String> {
     if let Some(k) = digit("₀₁₂₃₄₅₆₇₈₉") {
         return Some(format!("_{{{k}}}"));
     }
-    let mut letters = LETTERS.iter();
-    let (name, _) = letters.find(|(_, letter)| letter.chars().eq([c]))?;
+    let (name, _) = letters().find(|(_, letter)| letter.chars().eq([c]))?;
     Some(format!("\\{name}"))
 }
-
-/// The character that a LaTeX command for a letter stands for, such as `theta` or `ell`.
-pub fn letter(name: &str) -> Option<&'static str> {
-    LETTERS
-        .iter()
-        .find(|(known, _)| *known == name)
-        .map(|(_, c)| *c)
-}
-
-/// Letters by their commands.
-const LETTERS: [(&str, &str); 39] = [
-    ("alpha", "α"),
-    ("beta", "β"),
-    ("gamma", "γ"),
-    ("delta", "δ"),
-    ("epsilon", "ϵ"),
-    ("varepsilon", "ε"),
-    ("zeta", "ζ"),
-    ("eta", "η"),
-    ("theta", "θ"),
-    ("vartheta", "ϑ"),
-    ("iota", "ι"),
-    ("kappa", "κ"),
-    ("lambda", "λ"),
-    ("mu", "μ"),
-    ("nu", "ν"),
-    ("xi", "ξ"),
-    ("pi", "π"),
-    ("rho", "ρ"),
-    ("sigma", "σ"),
-    ("tau", "τ"),
-    ("upsilon", "υ"),
-    ("phi", "ϕ"),
-    ("varphi", "φ"),
-    ("chi", "χ"),
-    ("psi", "ψ"),
-    ("omega", "ω"),
-    ("Gamma", "Γ"),
-    ("Delta", "Δ"),
-    ("Theta", "Θ"),
-    ("Lambda", "Λ"),
-    ("Xi", "Ξ"),
-    ("Pi", "Π"),
-    ("Sigma", "Σ"),
-    ("Upsilon", "Υ"),
-    ("Phi", "Φ"),
-    ("Psi", "Ψ"),
-    ("Omega", "Ω"),
-    ("ell", "ℓ"),
-    ("int", "∫"),
-];

@@ -31,7 +31,6 @@ mod words;
 
 pub use film::{Film, Moment, film};
 pub use label::Label;
-pub use latex::letter;
 pub(crate) use panel::framed;
 pub use tikz::{COLORS, escaped, node};
 

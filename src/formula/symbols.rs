@@ -4,6 +4,7 @@
 //! *key* writes these in one way, so that `v1`, `v_1`, `v_{1}` and `{v}_{1}` meet.
 
 use std::borrow::Cow;
+use std::sync::LazyLock;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -285,48 +286,34 @@ pub(crate) fn variants(base: &str) -> &'static [&'static str] {
     }
 }
 
-/// Names of Greek letters, as words and as macros.
+/// Letters by their commands in LaTeX, which are the words for them too.
+const LETTERS: &str = "alpha α beta β gamma γ delta δ epsilon ϵ varepsilon ε zeta ζ eta η theta θ vartheta ϑ iota ι \
+    kappa κ lambda λ mu μ nu ν xi ξ pi π rho ρ sigma σ tau τ upsilon υ phi ϕ varphi φ chi χ psi ψ omega ω \
+    Gamma Γ Delta Δ Theta Θ Lambda Λ Xi Ξ Pi Π Sigma Σ Upsilon Υ Phi Φ Psi Ψ Omega Ω ell ℓ int ∫";
+
+/// Commands of letters with the letters.
+pub(crate) fn letters() -> impl Iterator<Item = (&'static str, &'static str)> {
+    pairs(LETTERS)
+}
+
+/// The words of a table, two and two.
+pub(super) fn pairs(table: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
+    let mut words = table.split(' ');
+    std::iter::from_fn(move || words.next().zip(words.next()))
+}
+
+/// The character that a LaTeX command for a letter stands for, such as `theta` or `ell`.
+pub fn letter(name: &str) -> Option<&'static str> {
+    static BY_NAME: LazyLock<FxHashMap<&str, &str>> = LazyLock::new(|| letters().collect());
+    BY_NAME.get(name).copied()
+}
+
+/// Whether a word is the name of a Greek letter, as a word and as a macro; π has a meaning of its own.
 pub(crate) fn is_greek(word: &str) -> bool {
-    matches!(
-        word,
-        "alpha"
-            | "beta"
-            | "gamma"
-            | "delta"
-            | "epsilon"
-            | "varepsilon"
-            | "zeta"
-            | "eta"
-            | "theta"
-            | "vartheta"
-            | "iota"
-            | "kappa"
-            | "lambda"
-            | "mu"
-            | "nu"
-            | "xi"
-            | "rho"
-            | "varrho"
-            | "sigma"
-            | "tau"
-            | "upsilon"
-            | "phi"
-            | "varphi"
-            | "chi"
-            | "psi"
-            | "omega"
-            | "Gamma"
-            | "Delta"
-            | "Theta"
-            | "Lambda"
-            | "Xi"
-            | "Sigma"
-            | "Upsilon"
-            | "Phi"
-            | "Psi"
-            | "Omega"
-            | "hbar"
-    )
+    match word {
+        "pi" | "Pi" | "ell" | "int" => false,
+        _ => word == "hbar" || letter(word).is_some(),
+    }
 }
 
 /// The name of a Greek letter or a letter that stands for one; π is not among them.

@@ -2,6 +2,7 @@
 
 use super::lexer::{Before, Lexer, Tok};
 use super::note::Remark;
+use super::symbols::pairs;
 use crate::dimension;
 
 /// Longest unit with its decoration, in bytes.
@@ -172,38 +173,9 @@ pub(super) fn is_symbol_first(word: &str) -> bool {
 
 /// The unit of siunitx in plain characters: `\kilo\metre\per\second\squared`, `m.s^{-2}`.
 pub(super) fn spelled(text: &str) -> String {
-    const WORDS: [(&str, &str); 30] = [
-        ("kilogram", "kg"),
-        ("metre", "m"),
-        ("meter", "m"),
-        ("second", "s"),
-        ("gram", "g"),
-        ("newton", "N"),
-        ("joule", "J"),
-        ("watt", "W"),
-        ("pascal", "Pa"),
-        ("hertz", "Hz"),
-        ("radian", "rad"),
-        ("degree", "deg"),
-        ("hour", "h"),
-        ("minute", "min"),
-        ("kilo", "k"),
-        ("mega", "M"),
-        ("giga", "G"),
-        ("centi", "c"),
-        ("milli", "m"),
-        ("micro", "u"),
-        ("nano", "n"),
-        ("deci", "d"),
-        ("squared", "^2"),
-        ("cubed", "^3"),
-        ("ampere", "A"),
-        ("volt", "V"),
-        ("kelvin", "K"),
-        ("celsius", "°C"),
-        ("litre", "L"),
-        ("ohm", "Ω"),
-    ];
+    const WORDS: &str = "kilogram kg metre m meter m second s gram g newton N joule J watt W pascal Pa hertz Hz radian \
+        rad degree deg hour h minute min kilo k mega M giga G centi c milli m micro u nano n deci d \
+        squared ^2 cubed ^3 ampere A volt V kelvin K celsius °C litre L ohm Ω";
     let mut out = String::new();
     let mut rest = text;
     let mut prefix = false;
@@ -228,10 +200,8 @@ pub(super) fn spelled(text: &str) -> String {
             per = true;
             continue;
         }
-        let short = WORDS
-            .iter()
-            .find(|(long, _)| *long == word)
-            .map_or(word, |(_, short)| *short);
+        let found = pairs(WORDS).find(|(long, _)| *long == word);
+        let short = found.map_or(word, |(_, short)| short);
         let raised = short.starts_with('^');
         if !prefix && !raised && !out.is_empty() {
             out.push(if per { '/' } else { ' ' });

@@ -5,7 +5,6 @@ use num_traits::{One, Signed};
 
 use super::math::{components, is_plain, needs_brackets, vector_of};
 use crate::expr::{Expr, Function, Node, Rational, ratio};
-use crate::figure;
 use crate::solution::{Math, Name, Solution};
 
 pub use crate::figure::escape;
@@ -437,6 +436,6 @@ fn upright(chars: &[char], at: &mut usize, depth: usize) -> String {
 fn letter(command: &str) -> &str {
     match command {
         "prime" => "′",
-        _ => figure::letter(command).unwrap_or(command),
+        _ => crate::formula::letter(command).unwrap_or(command),
     }
 }

@@ -329,8 +329,8 @@ pub fn assumptions(scene: &Scene, d: &Derivation, proof: &Proof) -> Vec<String> 
     all
 }
 
-/// Commands that only set a symbol; nothing here reads files, defines macros or runs anything.
-const COMMANDS: &[&str] = &[
+/// Commands besides those of letters that only set a symbol; nothing here reads files, defines macros or runs anything.
+const COMMANDS: [&str; 13] = [
     "vec",
     "hat",
     "bar",
@@ -342,45 +342,7 @@ const COMMANDS: &[&str] = &[
     "mathit",
     "boldsymbol",
     "text",
-    "ell",
     "prime",
-    "alpha",
-    "beta",
-    "gamma",
-    "delta",
-    "epsilon",
-    "varepsilon",
-    "zeta",
-    "eta",
-    "theta",
-    "vartheta",
-    "iota",
-    "kappa",
-    "lambda",
-    "mu",
-    "nu",
-    "xi",
-    "pi",
-    "rho",
-    "sigma",
-    "tau",
-    "upsilon",
-    "phi",
-    "varphi",
-    "chi",
-    "psi",
-    "omega",
-    "Gamma",
-    "Delta",
-    "Theta",
-    "Lambda",
-    "Xi",
-    "Pi",
-    "Sigma",
-    "Upsilon",
-    "Phi",
-    "Psi",
-    "Omega",
     "_",
 ];
 
@@ -404,7 +366,8 @@ pub fn is_safe_latex(latex: &str) -> bool {
                 if command.is_empty() {
                     command.extend(chars.next());
                 }
-                if !COMMANDS.contains(&command.as_str()) {
+                let is_letter = command != "int" && crate::formula::letter(&command).is_some();
+                if !is_letter && !COMMANDS.contains(&command.as_str()) {
                     return false;
                 }
             }
