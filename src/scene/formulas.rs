@@ -22,42 +22,28 @@ pub(super) struct Quantity {
 }
 
 impl Quantity {
-    pub const NUMBER: Quantity = Quantity {
-        exponents: [0, 0, 0],
-        hint: "divide by a quantity of the same kind",
-    };
-    pub const ANGLE: Quantity = Quantity {
-        exponents: [0, 0, 0],
-        hint: "an angle is in radians, or pi/180 times degrees",
-    };
-    pub const DIRECTION: Quantity = Quantity {
-        exponents: [0, 0, 0],
-        hint: "a direction has components without unit, such as [\"cos(theta)\", \"sin(theta)\"]",
-    };
-    pub const MASS: Quantity = Quantity {
-        exponents: [1, 0, 0],
-        hint: "a mass, such as m or 3*m",
-    };
-    pub const LENGTH: Quantity = Quantity {
-        exponents: [0, 1, 0],
-        hint: "a length, such as l/2 or d*cos(theta)",
-    };
-    pub const VELOCITY: Quantity = Quantity {
-        exponents: [0, 1, -1],
-        hint: "a velocity, such as v or omega*l",
-    };
-    pub const SPIN: Quantity = Quantity {
-        exponents: [0, 0, -1],
-        hint: "a spin is an angle per time: of a point at speed v and distance l it is v/l",
-    };
-    pub const INERTIA: Quantity = Quantity {
-        exponents: [1, 2, 0],
-        hint: "a uniform rod of length l has inertia m l^2/12 about its center",
-    };
-    pub const IMPULSE: Quantity = Quantity {
-        exponents: [1, 1, -1],
-        hint: "an impulse is a mass times a velocity",
-    };
+    pub const NUMBER: Quantity =
+        Quantity::other([0, 0, 0], "divide by a quantity of the same kind");
+    pub const ANGLE: Quantity =
+        Quantity::other([0, 0, 0], "an angle is in radians, or pi/180 times degrees");
+    pub const DIRECTION: Quantity = Quantity::other(
+        [0, 0, 0],
+        "a direction has components without unit, such as [\"cos(theta)\", \"sin(theta)\"]",
+    );
+    pub const MASS: Quantity = Quantity::other([1, 0, 0], "a mass, such as m or 3*m");
+    pub const LENGTH: Quantity =
+        Quantity::other([0, 1, 0], "a length, such as l/2 or d*cos(theta)");
+    pub const VELOCITY: Quantity = Quantity::other([0, 1, -1], "a velocity, such as v or omega*l");
+    pub const SPIN: Quantity = Quantity::other(
+        [0, 0, -1],
+        "a spin is an angle per time: of a point at speed v and distance l it is v/l",
+    );
+    pub const INERTIA: Quantity = Quantity::other(
+        [1, 2, 0],
+        "a uniform rod of length l has inertia m l^2/12 about its center",
+    );
+    pub const IMPULSE: Quantity =
+        Quantity::other([1, 1, -1], "an impulse is a mass times a velocity");
 
     /// A quantity by its exponents of mass, length and time.
     pub const fn other(exponents: [i64; 3], hint: &'static str) -> Quantity {

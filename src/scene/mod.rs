@@ -59,44 +59,41 @@ pub const LONGEST: usize = 1 << 20;
 
 /// Reads a scene file, JSON with comments. What is wrong with it comes back as faults, all that one pass can find.
 pub fn read(text: &str) -> Result<Scene, Faults> {
-    if text.len() > LONGEST {
-        let message = format!("{} bytes; a scene has at most {LONGEST}", text.len());
-        return Err(Faults::gather(
-            vec![Fault::new(Span::default(), message)],
-            text,
-        ));
-    }
-    let root = json::parse(text).map_err(|fault| Faults::gather(vec![fault], text))?;
-    let mut faults = Vec::new();
-    let file: Option<file::SceneFile> = record::Read::read(&root, &mut faults);
-    let mut scene = Scene::default();
-    if let Some(file) = &file {
-        let lone = stages::lone(file).or_else(|| questions::with_parts(file));
-        (scene, faults) = resolve::resolve(lone.as_ref().unwrap_or(file), faults);
-    }
-    if faults.is_empty() {
-        return Ok(scene);
-    }
-    let mut faults = Faults::gather(faults, text);
-    for fault in &mut faults.list {
-        fault.pointer = root.pointer_to(fault.span);
-    }
-    Err(faults)
+    parsed(text, "scene", |root, faults| {
+        let Some(file) = <file::SceneFile as record::Read>::read(root, faults) else {
+            return Scene::default();
+        };
+        let lone = stages::lone(&file).or_else(|| questions::with_parts(&file));
+        let (scene, all) = resolve::resolve(lone.as_ref().unwrap_or(&file), std::mem::take(faults));
+        *faults = all;
+        scene
+    })
 }
 
 /// Reads a list of printed things from a file of its own, in the form they have in a scene.
 pub fn read_printed(text: &str) -> Result<Vec<Printed>, Faults> {
+    parsed(text, "list", |root, faults| {
+        let list: Option<Vec<file::PrintedFile>> = record::Read::read(root, faults);
+        printed::entries(list.as_deref().unwrap_or_default(), faults)
+    })
+}
+
+/// What is made of a text of JSON, which is a `what`, unless faults are found.
+fn parsed<T>(
+    text: &str,
+    what: &str,
+    make: impl FnOnce(&json::Node<'_>, &mut Vec<Fault>) -> T,
+) -> Result<T, Faults> {
+    let alone = |fault| Faults::gather(vec![fault], text);
     if text.len() > LONGEST {
-        let message = format!("{} bytes; a list has at most {LONGEST}", text.len());
-        let fault = Fault::new(Span::default(), message);
-        return Err(Faults::gather(vec![fault], text));
+        let message = format!("{} bytes; a {what} has at most {LONGEST}", text.len());
+        return Err(alone(Fault::new(Span::default(), message)));
     }
-    let root = json::parse(text).map_err(|fault| Faults::gather(vec![fault], text))?;
+    let root = json::parse(text).map_err(alone)?;
     let mut faults = Vec::new();
-    let list: Option<Vec<file::PrintedFile>> = record::Read::read(&root, &mut faults);
-    let printed = printed::entries(list.as_deref().unwrap_or_default(), &mut faults);
+    let made = make(&root, &mut faults);
     if faults.is_empty() {
-        return Ok(printed);
+        return Ok(made);
     }
     let mut faults = Faults::gather(faults, text);
     for fault in &mut faults.list {
