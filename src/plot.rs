@@ -3,7 +3,7 @@
 //! In: plain data, that is sampled points, labels, marked points. Out: a picture as SVG and TikZ, with its words. Knows nothing
 //! of scenes or formulas; whoever calls says which marks are exact.
 
-use crate::figure::{Drawing, Ink, Label, Line, Piece, Room, Sheet, Spot, Wish, framed, visible};
+use crate::figure::{Drawing, Ink, Label, Line, Piece, Room, Sheet, Spot, framed, visible};
 
 /// An axis.
 #[derive(Clone, PartialEq, Debug)]
@@ -118,15 +118,8 @@ pub fn draw(plot: &Plot) -> Result<Drawing, Empty> {
     for mark in plot.marks.iter().filter(within) {
         let at = place(mark.at);
         sheet.dot(at, 3.5, mark.ink);
-        sheet.wish(Wish {
-            label: mark.label.clone(),
-            size: LETTERS[1],
-            spot: Spot::Point {
-                at,
-                toward: [0.7, 0.7],
-                reach: 5.0,
-            },
-        });
+        let spot = Spot::point(at, [0.7, 0.7], 5.0);
+        sheet.wish(mark.label.clone(), LETTERS[1], spot);
     }
     // What is marked is named within the field.
     let [wide, high] = FIELD;

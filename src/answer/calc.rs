@@ -59,11 +59,7 @@ impl Seen {
 /// A check that rests on signs, with how they are known where `{how}` stands in its words.
 pub fn by_signs(kind: &'static str, words: &str, proved: bool) -> Check {
     let how = if proved { "proved" } else { "seen at points" };
-    Check {
-        kind,
-        words: words.replace("{how}", how),
-        holds: proved.then_some(true),
-    }
+    Check::new(kind, words.replace("{how}", how), proved.then_some(true))
 }
 
 /// The expression as a person would write it.

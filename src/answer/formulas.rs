@@ -232,13 +232,11 @@ impl Work<'_> {
             None => Dimension::none(),
         };
         let raw = self.raw(formula, with);
-        out.checks.push(Check {
-            kind: "identity",
-            words: String::from(
-                "with the results substituted, the difference is zero in the normal form",
-            ),
-            holds: is_zero(&(&raw.substitute(known) - &value), &scene.domains),
-        });
+        out.checks.push(Check::new(
+            "identity",
+            "with the results substituted, the difference is zero in the normal form",
+            is_zero(&(&raw.substitute(known) - &value), &scene.domains),
+        ));
         out.put_in
             .push((raw, value.clone(), "with the results substituted"));
         out.form = Form::value(value);
@@ -257,11 +255,7 @@ impl Work<'_> {
                 hint => format!("{}; {hint}", why.reason),
             };
             open.text.push(sentence!["not found: ", why]);
-            open.checks.push(Check {
-                kind: "maximum",
-                words: String::from("not found"),
-                holds: None,
-            });
+            open.checks.push(Check::new("maximum", "not found", None));
             vec![open]
         }))
     }
@@ -497,11 +491,7 @@ pub(super) fn identity(left: &Expr, right: &Expr, domains: &Domains) -> Check {
         Equality::Different(point) => (format!("different at {}", point.at.words()), Some(false)),
         _ => (String::from("not decided"), None),
     };
-    Check {
-        kind: "identity",
-        words,
-        holds,
-    }
+    Check::new("identity", words, holds)
 }
 
 fn with_words(with: &[(Symbol, Expr)]) -> Vec<Sentence> {

@@ -60,11 +60,8 @@ pub fn fill(out: &mut Answer, of: &Expr, parameter: &Symbol, to: Option<&Expr>, 
         return;
     };
     out.assumptions.extend(found.given);
-    out.checks.push(Check {
-        kind: "limit",
-        words: found.how.to_string(),
-        holds: Some(true),
-    });
+    out.checks
+        .push(Check::new("limit", found.how.to_string(), Some(true)));
     match found.tends {
         Tends::To(value) => {
             out.checks
@@ -152,13 +149,11 @@ pub(super) fn approximate(
             series.coefficients.len()
         )),
     });
-    out.checks.push(Check {
-        kind: "series",
-        words: String::from(
-            "value and derivatives of the closed form there, exact (Taylor's theorem)",
-        ),
-        holds: Some(true),
-    });
+    out.checks.push(Check::new(
+        "series",
+        "value and derivatives of the closed form there, exact (Taylor's theorem)",
+        Some(true),
+    ));
     out.checks
         .extend(tried(of, &polynomial, parameter, Some(to), order, domains));
     out.near.push(Near {
@@ -172,11 +167,7 @@ pub(super) fn approximate(
 }
 
 fn open(kind: &'static str) -> Check {
-    Check {
-        kind,
-        words: String::from("not found"),
-        holds: None,
-    }
+    Check::new(kind, "not found", None)
 }
 
 /// Words for a value that the parameter cannot come to.
@@ -476,18 +467,14 @@ fn tried(
         if second <= 1e-13 * scale || second * power <= first {
             seen += 1;
         } else {
-            return Some(Check {
-                kind: "numbers",
-                words: String::from("in numbers close by this could not be seen"),
-                holds: None,
-            });
+            return Some(Check::new(
+                "numbers",
+                "in numbers close by this could not be seen",
+                None,
+            ));
         }
     }
-    (seen > 0).then(|| Check {
-        kind: "numbers",
-        words: format!(
+    (seen > 0).then(|| Check::new("numbers", format!(
             "at {seen} points: {closer} times closer, what is left out is at least {power} times smaller"
-        ),
-        holds: Some(true),
-    })
+        ), Some(true)))
 }

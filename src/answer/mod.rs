@@ -42,6 +42,14 @@ pub struct Check {
     pub holds: Option<bool>,
 }
 
+impl Check {
+    /// A check of this kind, with what was found and whether it held.
+    pub fn new(kind: &'static str, words: impl Into<String>, holds: Option<bool>) -> Check {
+        let words = words.into();
+        Check { kind, words, holds }
+    }
+}
+
 /// The answer to a question, or to one component of it.
 #[derive(Clone, Debug)]
 pub struct Answer {

@@ -169,11 +169,11 @@ fn over_positive(
         "the derivative vanishes there and nowhere else; the value rises before and falls after ({how})",
         before.is_proved() && after.is_proved(),
     ));
-    out.checks.push(Check {
-        kind: "identity",
-        words: String::from("the derivative at that place is zero in the normal form"),
-        holds: best.proved.then_some(true),
-    });
+    out.checks.push(Check::new(
+        "identity",
+        "the derivative at that place is zero in the normal form",
+        best.proved.then_some(true),
+    ));
     let at_best = |e: &Expr| put(e, best.value.clone());
     out.put_in = vec![
         (
@@ -256,11 +256,7 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
     };
     let place = match inside.as_slice() {
         [best] if bends.is_some_and(Seen::is_negative) => {
-            out.checks.push(Check {
-                kind: "maximum",
-                words: String::from("the derivative vanishes there and nowhere else in the interval, and the second derivative is negative"),
-                holds: bends.is_some_and(Seen::is_proved).then_some(true),
-            });
+            out.checks.push(Check::new("maximum", "the derivative vanishes there and nowhere else in the interval, and the second derivative is negative", bends.is_some_and(Seen::is_proved).then_some(true)));
             best.clone()
         }
         [] => match search.at_an_end(&mut out)? {

@@ -86,15 +86,15 @@ pub(super) fn fill(
                 .push((sides.0, sides.1, "both sides with the value substituted"));
         }
         out.assumptions.extend(root.given.iter().cloned());
-        out.checks.push(Check {
-            kind: "identity",
-            words: if root.proved {
+        out.checks.push(Check::new(
+            "identity",
+            if root.proved {
                 String::from("with the value substituted, both sides are identical")
             } else {
                 String::from("whether both sides meet at this value was not proved")
             },
-            holds: root.proved.then_some(true),
-        });
+            root.proved.then_some(true),
+        ));
     }
     if relation == Relation::Equal {
         for root in &roots.inside {

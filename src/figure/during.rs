@@ -6,7 +6,7 @@
 use super::label::{Label, Level};
 use super::marks::{centers, names};
 use super::picture::arrow_length;
-use super::place::{Spot, Wish};
+use super::place::Spot;
 use super::pose::Look;
 use super::quantity::{magnitude, vector_name};
 use super::sheet::{Ink, SIZE, Sheet};
@@ -140,11 +140,7 @@ impl Push {
             (at, [at[0] + d[0] * length, at[1] + d[1] * length])
         };
         sheet.arrow(from, to, Ink::Impulse, 2.2);
-        sheet.wish(Wish {
-            label: self.label.clone(),
-            size: SIZE,
-            spot: Spot::Along { from, to },
-        });
+        sheet.wish(self.label.clone(), SIZE, Spot::Along { from, to });
     }
 }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::label::Label;
-use super::place::{Room, Spot, Wish};
+use super::place::{Room, Spot};
 use super::pose::{Look, Pose};
 use super::sheet::{Ink, Item, SIZE, SMALL, Sheet};
 use super::stage::{DOT, Stage, center_name};
@@ -33,11 +33,7 @@ pub(super) fn velocity(
         (at, [at[0] + d[0] * length, at[1] + d[1] * length])
     };
     sheet.arrow(from, to, Ink::Motion, 2.0);
-    sheet.wish(Wish {
-        label,
-        size: SIZE,
-        spot: Spot::Along { from, to },
-    });
+    sheet.wish(label, SIZE, Spot::Along { from, to });
 }
 
 /// A curved arrow around a body's center, clear of its velocity.
@@ -77,15 +73,7 @@ pub(super) fn turning(stage: &Stage, sheet: &mut Sheet, body: usize, spin: f64, 
         center[0] + radius * half.cos(),
         center[1] + radius * half.sin(),
     ];
-    sheet.wish(Wish {
-        label,
-        size: SIZE,
-        spot: Spot::Point {
-            at,
-            toward: [half.cos(), half.sin()],
-            reach: 2.0,
-        },
-    });
+    sheet.wish(label, SIZE, Spot::point(at, [half.cos(), half.sin()], 2.0));
 }
 
 fn distance(p: Pair, a: Pair, b: Pair) -> f64 {
@@ -112,15 +100,7 @@ pub(super) fn centers(stage: &Stage, sheet: &mut Sheet, bodies: &[usize]) {
         };
         let at = stage.px(stage.poses[*i].center);
         sheet.dot(at, 2.4, Ink::Body);
-        sheet.wish(Wish {
-            label,
-            size: SIZE,
-            spot: Spot::Point {
-                at,
-                toward: [0.0, 0.0],
-                reach: 3.0,
-            },
-        });
+        sheet.wish(label, SIZE, Spot::point(at, [0.0, 0.0], 3.0));
     }
 }
 
@@ -170,15 +150,11 @@ pub(super) fn names(stage: &Stage, sheet: &mut Sheet, bodies: &[usize], free: bo
             sheet.dot(at, 1.9, Ink::Body);
         }
         let label = Label::symbol(name, None);
-        sheet.wish(Wish {
+        sheet.wish(
             label,
-            size: SIZE,
-            spot: Spot::Point {
-                at,
-                toward: [0.0, 0.0],
-                reach: if hinge { 5.0 } else { 3.0 },
-            },
-        });
+            SIZE,
+            Spot::point(at, [0.0, 0.0], if hinge { 5.0 } else { 3.0 }),
+        );
     }
 }
 
@@ -251,17 +227,9 @@ fn mass(stage: &Stage, sheet: &mut Sheet, pose: &Pose, aside: Pair, label: Label
                 radius: stage.long(least),
             }
         }
-        _ => Spot::Point {
-            at,
-            toward: [0.0, 0.0],
-            reach: DOT,
-        },
+        _ => Spot::point(at, [0.0, 0.0], DOT),
     };
-    sheet.wish(Wish {
-        label,
-        size: SIZE,
-        spot,
-    });
+    sheet.wish(label, SIZE, spot);
 }
 
 /// The axes, in the lower left corner.
@@ -303,15 +271,7 @@ pub(super) fn axes(sheet: &mut Sheet) {
         let tip = [at[0] + to[0], at[1] + to[1]];
         extra.arrow(at, tip, Ink::Dimension, 1.1);
         let toward = [to[0], to[1]];
-        extra.wish(Wish {
-            label: Label::latex(latex),
-            size: SMALL,
-            spot: Spot::Point {
-                at: tip,
-                toward,
-                reach: 1.0,
-            },
-        });
+        extra.wish(Label::latex(latex), SMALL, Spot::point(tip, toward, 1.0));
     }
     extra.settle();
     sheet.items.extend(extra.items);

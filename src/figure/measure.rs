@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use num_traits::{One, Signed, Zero};
 
 use super::label::Label;
-use super::place::{Room, Spot, Wish};
+use super::place::{Room, Spot};
 use super::pose::Look;
 use super::sheet::{Ink, Line, SIZE, Sheet, arc};
 use super::stage::Stage;
@@ -45,14 +45,14 @@ fn shapes(stage: &Stage, sheet: &mut Sheet, shown: &mut Vec<Expr>) {
                 let phi = quiet(sheet, center, r);
                 let edge = [center[0] + r * phi.cos(), center[1] + r * phi.sin()];
                 sheet.arrow(center, edge, Ink::Dimension, 0.9);
-                sheet.wish(Wish {
-                    label: text(radius),
-                    size: SIZE,
-                    spot: Spot::Along {
+                sheet.wish(
+                    text(radius),
+                    SIZE,
+                    Spot::Along {
                         from: center,
                         to: edge,
                     },
-                });
+                );
                 shown.push(radius.clone());
             }
             (Shape::Rectangle { width, height }, Look::Plate(..)) => {
@@ -190,11 +190,7 @@ fn line(sheet: &mut Sheet, ends: [Pair; 2], offset: Pair, label: Label) {
     let middle = [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0];
     sheet.arrow(middle, a, Ink::Dimension, 0.9);
     sheet.arrow(middle, b, Ink::Dimension, 0.9);
-    sheet.wish(Wish {
-        label,
-        size: SIZE,
-        spot: Spot::Along { from: a, to: b },
-    });
+    sheet.wish(label, SIZE, Spot::Along { from: a, to: b });
 }
 
 /// Lengths that no shape shows: between named places, along x or y.
@@ -369,16 +365,12 @@ fn angles(stage: &Stage, sheet: &mut Sheet) {
             );
             let half = start + turn / 2.0;
             let label = Label::symbol(&parameter.name, parameter.latex.as_deref());
-            let spot = Spot::Point {
-                at: tip(half, reach),
-                toward: [half.cos(), half.sin()],
-                reach: 1.5,
-            };
-            sheet.wish(Wish {
-                label: if value < 0.0 { label.negated() } else { label },
-                size: SIZE,
+            let spot = Spot::point(tip(half, reach), [half.cos(), half.sin()], 1.5);
+            sheet.wish(
+                if value < 0.0 { label.negated() } else { label },
+                SIZE,
                 spot,
-            });
+            );
             break;
         }
     }

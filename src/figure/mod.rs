@@ -42,7 +42,7 @@ use crate::scene::{
 };
 pub(crate) use label::visible;
 use panel::{Panel, finish, motion_panel, nothing, panel};
-pub(crate) use place::{Room, Spot, Wish};
+pub(crate) use place::{Room, Spot};
 #[cfg(feature = "png")]
 pub use png::{PngFault, png};
 pub use sheet::Ink;

@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use super::Course;
 use super::label::Label;
 use super::marks::centers;
-use super::place::{Spot, Wish};
+use super::place::Spot;
 use super::pose::{Look, Pose, posed};
 use super::sheet::{Ink, Line, SIZE, SMALL, Sheet, arc};
 use super::stage::{Stage, spanning};
@@ -107,15 +107,11 @@ pub fn motion(scene: &Scene, values: &Values, course: &Course) -> Option<Sheet> 
     forces(&stage, sheet, kind, &gone);
     centers(&stage, sheet, &[gone.body]);
     for (pose, word) in [(from, "beginning"), (end, "end")] {
-        sheet.wish(Wish {
-            label: Label::words(word),
-            size: SMALL,
-            spot: Spot::Point {
-                at: stage.px(pose.center),
-                toward: [0.0, 0.0],
-                reach: 9.0,
-            },
-        });
+        sheet.wish(
+            Label::words(word),
+            SMALL,
+            Spot::point(stage.px(pose.center), [0.0, 0.0], 9.0),
+        );
     }
     sheet.settle();
     Some(std::mem::take(sheet))
@@ -255,15 +251,11 @@ fn angle(stage: &Stage, sheet: &mut Sheet, course: &Course, turn: &Turn, [from, 
     let sweep = way * (way * (b[1].atan2(b[0]) - start)).rem_euclid(TAU);
     // A center of mass there has its name already.
     if size(a) > 1.0 {
-        sheet.wish(Wish {
-            label: Label::symbol(&turn.about_name, None),
-            size: SIZE,
-            spot: Spot::Point {
-                at,
-                toward: [0.0, 0.0],
-                reach: 6.0,
-            },
-        });
+        sheet.wish(
+            Label::symbol(&turn.about_name, None),
+            SIZE,
+            Spot::point(at, [0.0, 0.0], 6.0),
+        );
     }
     if size(a) < 8.0 || sweep.abs() < 0.03 {
         return;
@@ -285,15 +277,11 @@ fn angle(stage: &Stage, sheet: &mut Sheet, course: &Course, turn: &Turn, [from, 
     };
     if let Some(label) = label {
         let half = start + sweep / 2.0;
-        sheet.wish(Wish {
+        sheet.wish(
             label,
-            size: SIZE,
-            spot: Spot::Point {
-                at: tip(half, reach),
-                toward: [half.cos(), half.sin()],
-                reach: 1.5,
-            },
-        });
+            SIZE,
+            Spot::point(tip(half, reach), [half.cos(), half.sin()], 1.5),
+        );
     }
 }
 
@@ -324,11 +312,7 @@ fn level(stage: &Stage, sheet: &mut Sheet, [from, to]: [Pair; 2], is_apart: bool
 }
 
 fn beside(sheet: &mut Sheet, from: Pair, to: Pair, label: Label) {
-    sheet.wish(Wish {
-        label,
-        size: SIZE,
-        spot: Spot::Along { from, to },
-    });
+    sheet.wish(label, SIZE, Spot::Along { from, to });
 }
 
 /// What does work: weight at the center of all that moves as one, a moment at the fixed point, a force along the way.
@@ -341,11 +325,11 @@ fn forces(stage: &Stage, sheet: &mut Sheet, kind: &StageKind, gone: &Gone) {
     };
     let mut arrow = |at: Pair, to: Pair, e: &Expr| {
         sheet.arrow(at, to, Ink::Impulse, 1.8);
-        sheet.wish(Wish {
-            label: Label::formula(e, stage.scene),
-            size: SIZE,
-            spot: Spot::Along { from: at, to },
-        });
+        sheet.wish(
+            Label::formula(e, stage.scene),
+            SIZE,
+            Spot::Along { from: at, to },
+        );
     };
     let at = stage.px(gone.end().center);
     if let Some(g) = gravity {
@@ -376,14 +360,14 @@ fn forces(stage: &Stage, sheet: &mut Sheet, kind: &StageKind, gone: &Gone) {
         let start = FRAC_PI_2 + 0.3;
         sheet.turning(at, radius, start, sweep, Ink::Impulse);
         let half: f64 = start + sweep / 2.0;
-        sheet.wish(Wish {
-            label: Label::formula(torque, stage.scene),
-            size: SIZE,
-            spot: Spot::Point {
-                at: [at[0] + radius * half.cos(), at[1] + radius * half.sin()],
-                toward: [half.cos(), half.sin()],
-                reach: 2.0,
-            },
-        });
+        sheet.wish(
+            Label::formula(torque, stage.scene),
+            SIZE,
+            Spot::point(
+                [at[0] + radius * half.cos(), at[1] + radius * half.sin()],
+                [half.cos(), half.sin()],
+                2.0,
+            ),
+        );
     }
 }

@@ -43,6 +43,13 @@ pub enum Spot {
     },
 }
 
+impl Spot {
+    /// A point, with the preferred direction or zero, and the least distance from it.
+    pub fn point(at: Pair, toward: Pair, reach: f64) -> Spot {
+        Spot::Point { at, toward, reach }
+    }
+}
+
 /// A label that wants a place.
 #[derive(Clone, Debug)]
 pub struct Wish {
@@ -369,11 +376,7 @@ mod tests {
         let wish = |text: &str| Wish {
             label: Label::words(text),
             size: 16.0,
-            spot: Spot::Point {
-                at: [0.0, 0.0],
-                toward: [0.0, 0.0],
-                reach: 3.0,
-            },
+            spot: Spot::point([0.0, 0.0], [0.0, 0.0], 3.0),
         };
         let wishes: Vec<Wish> = (0..40)
             .map(|i| wish(&format!("a long label {i}")))
@@ -389,11 +392,7 @@ mod tests {
         let wish = Wish {
             label: Label::words("x"),
             size: 16.0,
-            spot: Spot::Point {
-                at: [0.0, 0.0],
-                toward: [1.0, 0.0],
-                reach: 3.0,
-            },
+            spot: Spot::point([0.0, 0.0], [1.0, 0.0], 3.0),
         };
         let line = ([0.0, 0.0], [50.0, 0.0], 3.0);
         let rooms = place(&[wish], &[line], &[]);

@@ -4,7 +4,7 @@
 //! nothing of scenes or SVG.
 
 use super::label::Label;
-use super::place::{self, Room, Wish};
+use super::place::{self, Room, Spot, Wish};
 use super::values::Pair;
 
 /// What a line or label belongs to; the writer picks colors.
@@ -257,9 +257,9 @@ impl Sheet {
     }
 
     /// Asks for a label.
-    pub fn wish(&mut self, wish: Wish) {
-        if !wish.label.runs.is_empty() {
-            self.wishes.push(wish);
+    pub fn wish(&mut self, label: Label, size: f64, spot: Spot) {
+        if !label.runs.is_empty() {
+            self.wishes.push(Wish { label, size, spot });
         }
     }
 

@@ -53,11 +53,7 @@ pub fn check(scene: &Scene, possible: &Possible) -> Option<Check> {
         (_, Some(true)) => Some(true),
         _ => None,
     };
-    Some(Check {
-        kind: "possible",
-        words,
-        holds,
-    })
+    Some(Check::new("possible", words, holds))
 }
 
 /// The verdict as data.

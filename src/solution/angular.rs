@@ -174,10 +174,7 @@ impl Writer<'_> {
             ];
             let id = self.step(
                 Vec::new(),
-                vec![Claim {
-                    left: raw,
-                    right: x.moment.clone(),
-                }],
+                vec![Claim::new(raw, x.moment.clone())],
                 "the moment of the impulse",
             );
             self.show(math, Some(id));
@@ -256,7 +253,7 @@ impl Writer<'_> {
             math.push(Math::Op("="));
         }
         math.push(Math::Along(value.clone()));
-        let claim = Claim { left, right: value };
+        let claim = Claim::new(left, value);
         let id = self.step(Vec::new(), vec![claim], reason);
         self.show(math, Some(id));
     }

@@ -157,10 +157,7 @@ impl Writer<'_> {
                     .into_iter()
                     .zip(&v)
                     .filter(|(s, value)| s != *value)
-                    .map(|(left, right)| Claim {
-                        left,
-                        right: right.clone(),
-                    })
+                    .map(|(left, right)| Claim::new(left, right.clone()))
                     .collect();
                 let lead = if turns && still {
                     format!(
@@ -209,10 +206,7 @@ impl Writer<'_> {
             Math::Op("·"),
             Math::Brackets(vec![Math::Vector(d.clone())]),
         ];
-        let claim = Claim {
-            left: symbol.clone(),
-            right: raw.clone(),
-        };
+        let claim = Claim::new(symbol.clone(), raw.clone());
         // A component that has a name already needs no line of its own.
         if raw.size() <= NAMED {
             if symbol != raw {
@@ -259,10 +253,7 @@ impl Writer<'_> {
                     .into_iter()
                     .zip(&v)
                     .filter(|(s, value)| s != *value)
-                    .map(|(left, right)| Claim {
-                        left,
-                        right: right.clone(),
-                    })
+                    .map(|(left, right)| Claim::new(left, right.clone()))
                     .collect();
                 if !claims.is_empty() {
                     let id = self.step(Vec::new(), claims, "components of the impulse");
@@ -329,10 +320,7 @@ impl Writer<'_> {
         let named = answers.first().is_some_and(|a| !self.is_solved(&a.name));
         let mut shown = Vec::new();
         for &(i, mark) in ends {
-            let claim = Claim {
-                left: raw[i].clone(),
-                right: tidy[i].clone(),
-            };
+            let claim = Claim::new(raw[i].clone(), tidy[i].clone());
             let reason = ["kinetic energy just before", "kinetic energy just after"][i];
             let id = self.step(Vec::new(), vec![claim], reason);
             // What is asked for stands in the box as it is.
@@ -383,17 +371,11 @@ impl Writer<'_> {
             let before = if symbol == *raw {
                 Vec::new()
             } else {
-                vec![Claim {
-                    left: symbol.clone(),
-                    right: raw.clone(),
-                }]
+                vec![Claim::new(symbol.clone(), raw.clone())]
             };
             let id = self.step(
                 before,
-                vec![Claim {
-                    left: symbol.clone(),
-                    right: closed.clone(),
-                }],
+                vec![Claim::new(symbol.clone(), closed.clone())],
                 "with the values found above",
             );
             let mut math = vec![Math::Expr(symbol), Math::Op("=")];
@@ -482,10 +464,10 @@ impl Writer<'_> {
                             .iter()
                             .zip(&m.unknowns)
                             .map(|(k, u)| k * &Expr::symbol(u));
-                        claims.push(Claim {
-                            left: Expr::sum(terms.filter(|t| !t.is_zero())),
-                            right: rhs.clone(),
-                        });
+                        claims.push(Claim::new(
+                            Expr::sum(terms.filter(|t| !t.is_zero())),
+                            rhs.clone(),
+                        ));
                     }
                     self.step(Vec::new(), claims, "the rows of the matrix form");
                     self.say("The equations in matrix form:");

@@ -151,10 +151,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     // its name.
     let named = answer.formula().filter(|_| !parameter);
     let defined = named.map(|formula| {
-        let claim = Claim {
-            left: symbol.clone(),
-            right: formula.clone(),
-        };
+        let claim = Claim::new(symbol.clone(), formula.clone());
         let id = solution.step(Vec::new(), vec![claim], &answer.words);
         if fresh {
             solution.meanings.insert(name.clone(), Meaning::Defined);
@@ -270,10 +267,7 @@ fn identity(
             .all(|s| is_parameter(s) || solution.meanings.contains_key(s))
     };
     if holds(answer) && with.is_empty() && known(left) && known(right) {
-        let claim = Claim {
-            left: left.clone(),
-            right: right.clone(),
-        };
+        let claim = Claim::new(left.clone(), right.clone());
         solution.step(Vec::new(), vec![claim], "what was to be shown");
     }
     lines
@@ -406,10 +400,7 @@ fn is_used(scene: &Scene, name: &crate::expr::Symbol) -> bool {
 
 /// What shows an answer, about its name where it has one.
 fn claims(ask: &Ask, answer: &Answer, named: Option<(&Expr, &Expr)>) -> Vec<Claim> {
-    let claim = |left: &Expr, right: &Expr| Claim {
-        left: left.clone(),
-        right: right.clone(),
-    };
+    let claim = |left: &Expr, right: &Expr| Claim::new(left.clone(), right.clone());
     let put_in = answer.put_in.iter();
     let Some((symbol, formula)) = named else {
         return put_in.map(|(left, right, _)| claim(left, right)).collect();

@@ -219,10 +219,7 @@ impl Writer<'_> {
             for (axis, value) in v.iter().enumerate() {
                 let symbol = Expr::symbol(self.d.names.plain(laws::Unknown::Velocity(b, axis)));
                 if symbol != *value {
-                    claims.push(Claim {
-                        left: symbol,
-                        right: value.clone(),
-                    });
+                    claims.push(Claim::new(symbol, value.clone()));
                 }
             }
             let id = self.step(Vec::new(), claims, "the joint leaves only the spin free");
@@ -376,7 +373,7 @@ impl Writer<'_> {
             for (axis, (left, right)) in sides.into_iter().enumerate() {
                 if right.is_zero() && left.size() < 6 {
                     // What is zero by inspection is told by the result.
-                    self.step(Vec::new(), vec![Claim { left, right }], &along(axis));
+                    self.step(Vec::new(), vec![Claim::new(left, right)], &along(axis));
                 } else {
                     self.claim(left, right, &along(axis));
                 }

@@ -228,7 +228,7 @@ impl Writer<'_> {
             .flat_map(|b| &b.equations)
             .map(|e| {
                 let (left, right) = self.sides(e);
-                Claim { left, right }
+                Claim::new(left, right)
             })
             .collect();
         let pairs: Vec<(Unknown, Expr)> = blocks
@@ -276,10 +276,7 @@ impl Writer<'_> {
                 Math::Op("="),
                 Math::Expr(shown),
             ]);
-            after.push(Claim {
-                left: symbol,
-                right: value.clone(),
-            });
+            after.push(Claim::new(symbol, value.clone()));
         }
         let id = self.step(before, after, "solving for the unknowns");
         let divisors: Vec<Expr> = blocks.iter().flat_map(|b| b.divided_by.clone()).collect();

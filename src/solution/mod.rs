@@ -254,6 +254,13 @@ pub struct Claim {
     pub right: Expr,
 }
 
+impl Claim {
+    /// Both sides.
+    pub fn new(left: Expr, right: Expr) -> Claim {
+        Claim { left, right }
+    }
+}
+
 /// A step of the solution.
 #[derive(Clone, Debug)]
 pub struct Step {

@@ -156,10 +156,7 @@ impl Writer<'_> {
             text.push(say("Of the kinetic energy, the fraction "));
             text.push(words::formula(&fraction));
             text.push(say(format!(" is lost{at}{joints}.")));
-            let claim = Claim {
-                left: lost,
-                right: fraction * before,
-            };
+            let claim = Claim::new(lost, fraction * before);
             self.step(
                 Vec::new(),
                 vec![claim],

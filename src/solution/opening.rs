@@ -78,10 +78,7 @@ pub(super) fn composites(solution: &mut Solution, scene: &Scene) {
         });
         let raw = Expr::sum(terms);
         let whole = tidied(scene, &body.inertia);
-        let claim = Claim {
-            left: raw.clone(),
-            right: whole.clone(),
-        };
+        let claim = Claim::new(raw.clone(), whole.clone());
         let why = "moment of inertia of the parts about the common center of mass: I + m d²";
         let step = solution.step(Vec::new(), vec![claim], why);
         let place = body.center.each_ref().map(|e| tidied(scene, e));

@@ -45,10 +45,7 @@ impl Writer<'_> {
                     }
                     let id = self.step(
                         Vec::new(),
-                        vec![Claim {
-                            left: symbol,
-                            right: closed.clone(),
-                        }],
+                        vec![Claim::new(symbol, closed.clone())],
                         "result",
                     );
                     if self.told.contains(answer.name.as_str()) {
@@ -128,10 +125,7 @@ impl Writer<'_> {
                 .entry(definition.name.clone())
                 .or_insert(Meaning::Defined);
             let words = self.by_name(&words::named(self.scene, &definition.meaning));
-            let claim = Claim {
-                left: symbol.clone(),
-                right: definition.value.clone(),
-            };
+            let claim = Claim::new(symbol.clone(), definition.value.clone());
             let id = self.step(Vec::new(), vec![claim], &words);
             let fresh = self.solution.meanings.get(&definition.name) == Some(&Meaning::Defined);
             if let Some(step) = self.last_step() {
@@ -189,10 +183,7 @@ impl Writer<'_> {
             if let Form::Value { closed, short } = &answer.form {
                 let symbol = Expr::symbol(&answer.name);
                 if short != closed && *short != symbol {
-                    let claim = Claim {
-                        left: symbol,
-                        right: short.clone(),
-                    };
+                    let claim = Claim::new(symbol, short.clone());
                     self.step(Vec::new(), vec![claim], "result, with abbreviations");
                 }
             }

@@ -24,10 +24,7 @@ impl Writer<'_> {
         for (root, _) in found {
             let name = self.free_letter();
             let symbol = Expr::symbol(&name);
-            let claim = Claim {
-                left: symbol.clone(),
-                right: root.clone(),
-            };
+            let claim = Claim::new(symbol.clone(), root.clone());
             self.step(Vec::new(), vec![claim], "a letter for a long root");
             if let Some(step) = self.last_step() {
                 step.defines = Some(name.clone());
@@ -36,10 +33,7 @@ impl Writer<'_> {
                 .meanings
                 .insert(name.clone(), Meaning::Defined);
             // Its square is a sum, and so breaks over lines.
-            let square = Claim {
-                left: symbol.powi(2),
-                right: radicand(&root),
-            };
+            let square = Claim::new(symbol.powi(2), radicand(&root));
             let id = self.step(Vec::new(), vec![square.clone()], "the square of the root");
             self.text(vec![
                 say("Let "),

@@ -193,7 +193,7 @@ impl<'a> Writer<'a> {
             Math::Op("="),
             Math::Expr(right.clone()),
         ];
-        let id = self.step(Vec::new(), vec![Claim { left, right }], reason);
+        let id = self.step(Vec::new(), vec![Claim::new(left, right)], reason);
         self.show(math, Some(id.clone()));
         id
     }

@@ -65,22 +65,18 @@ pub(super) fn points_of(
 
 fn check(worst: f64, count: usize, what: &str) -> Check {
     if count == 0 {
-        return Check {
-            kind: "integration",
-            words: format!("{what}: not integrated"),
-            holds: None,
-        };
+        return Check::new("integration", format!("{what}: not integrated"), None);
     }
     // The integrator works to 1e-12; what is below is the rounding of the machine at hand.
     let worst_shown = if worst <= 1e-12 { 1e-12 } else { worst };
-    Check {
-        kind: "integration",
-        words: format!(
+    Check::new(
+        "integration",
+        format!(
             "{what}: integrated in time at {count} point{}, relative difference at most {worst_shown:.0e}",
             if count == 1 { "" } else { "s" }
         ),
-        holds: Some(worst < CLOSE),
-    }
+        Some(worst < CLOSE),
+    )
 }
 
 /// A body on a spring under a constant force: m y″ = 1/τ − k y over the time τ, from rest. The blow is 1, what is left of it

@@ -468,13 +468,11 @@ fn at_values(scene: &Scene, told: &StageTold) -> Option<Check> {
     let fails = |e: &&Expr| constant(&e.substitute(&given)) == Some(Sign::Negative);
     let broken = told.needs.iter().find(fails)?;
     let need = at_least_zero(broken, &scene.domains).written(write_plain);
-    Some(Check {
-        kind: second::POSSIBLE,
-        words: format!(
-            "it goes on as told only where {need}, and that is not so at the given values"
-        ),
-        holds: Some(false),
-    })
+    Some(Check::new(
+        second::POSSIBLE,
+        format!("it goes on as told only where {need}, and that is not so at the given values"),
+        Some(false),
+    ))
 }
 
 type Beginning = (Option<(usize, usize)>, State, Vec<(String, Expr)>);

@@ -241,14 +241,14 @@ impl Compared {
     fn check(self, what: &str, second: &Second<'_>) -> Check {
         let kind = "integration";
         if self.points == 0 {
-            return Check {
+            return Check::new(
                 kind,
-                words: format!(
+                format!(
                     "{what} is not held against the scene followed in numbers{}",
                     second.why_not()
                 ),
-                holds: second.contradicts().then_some(false),
-            };
+                second.contradicts().then_some(false),
+            );
         }
         let points = match self.points {
             1 => String::from("1 point"),
@@ -262,11 +262,7 @@ impl Compared {
             ),
             Some(apart) => format!("{what}: followed in numbers from the file, {apart}"),
         };
-        Check {
-            kind,
-            words,
-            holds: Some(self.apart.is_none()),
-        }
+        Check::new(kind, words, Some(self.apart.is_none()))
     }
 }
 
@@ -310,11 +306,11 @@ impl Second<'_> {
             true => ("", Some(false)),
             false => (" at some of the points looked at", None),
         };
-        Some(Check {
-            kind: POSSIBLE,
-            words: format!("`{a}` and `{b}` pass through each other on the way{words}"),
+        Some(Check::new(
+            POSSIBLE,
+            format!("`{a}` and `{b}` pass through each other on the way{words}"),
             holds,
-        })
+        ))
     }
 
     /// Holds places, angles, velocities, spins and times of a stage against what was followed.

@@ -53,13 +53,7 @@ pub(super) fn share(mut out: Answer, given: [&Expr; 3], domains: &Domains) -> Ve
         &phase,
         ": the spring has taken the rest"
     ]);
-    out.checks.push(Check {
-        kind: "identity",
-        words: String::from(
-            "substituted into the equation of motion, this motion satisfies it and its initial conditions, and its momentum at the end leaves the share",
-        ),
-        holds,
-    });
+    out.checks.push(Check::new("identity", "substituted into the equation of motion, this motion satisfies it and its initial conditions, and its momentum at the end leaves the share", holds));
     out.checks.push(integrate::share(domains, given, &share));
     let mut short = out.clone();
     short.name = format!("{}_short", out.name);
@@ -87,11 +81,11 @@ pub(super) fn share(mut out: Answer, given: [&Expr; 3], domains: &Domains) -> Ve
         &wider,
     );
     let sixth = found.formula().map(|f| *f == Expr::ratio(1, 6));
-    short.checks.push(Check {
-        kind: "limit",
-        words: String::from("the share divided by φ² tends to 1/6 as φ → 0"),
-        holds: sixth,
-    });
+    short.checks.push(Check::new(
+        "limit",
+        "the share divided by φ² tends to 1/6 as φ → 0",
+        sixth,
+    ));
     short.form = Form::value(leading);
     out.form = Form::value(share);
     vec![out, short]

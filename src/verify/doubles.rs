@@ -57,22 +57,18 @@ pub(super) fn check(
         count += 1;
     }
     if count == 0 {
-        return Check {
-            kind: "doubles",
-            words: String::from("no value in doubles"),
-            holds: None,
-        };
+        return Check::new("doubles", "no value in doubles", None);
     }
-    Check {
-        kind: "doubles",
-        words: match weighed {
+    Check::new(
+        "doubles",
+        match weighed {
             false => format!("within {worst:.0} ulp of nalgebra's solution in doubles"),
             true => format!(
                 "within {worst:.0} times what rounding of the data makes of it, of nalgebra's solution in doubles"
             ),
         },
-        holds: Some(worst < ALL_LOST),
-    }
+        Some(worst < ALL_LOST),
+    )
 }
 
 /// The independent solution at a point: LU with refinement, and the nearest doubles where a pivot seems to vanish.

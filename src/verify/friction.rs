@@ -370,13 +370,13 @@ fn against_path(scene: &Scene, table: &Table, checks: &mut Vec<Check>) {
         .map(|(mode, n)| format!("{} {n}", mode.words()))
         .collect();
     checks.push(match (wrong, compared) {
-        (Some(words), _) => check("path", words, Some(false)),
-        (None, 0) => check(
+        (Some(words), _) => Check::new("path", words, Some(false)),
+        (None, 0) => Check::new(
             "path",
             String::from("at none of the points tried are all values rational"),
             None,
         ),
-        (None, n) => check(
+        (None, n) => Check::new(
             "path",
             format!(
                 "at {n} exact points one case holds and ends where Routh's path ends ({})",
@@ -388,10 +388,6 @@ fn against_path(scene: &Scene, table: &Table, checks: &mut Vec<Check>) {
     checks.push(energy(&table.law, gains, compared));
 }
 
-fn check(kind: &'static str, words: String, holds: Option<bool>) -> Check {
-    Check { kind, words, holds }
-}
-
 /// Poisson, Stronge, and Chatterjee and Ruina never gain energy at one contact; Newton and Brach may, and are told so.
 fn energy(law: &Friction, gains: usize, points: usize) -> Check {
     let name = law.hypothesis.name();
@@ -400,19 +396,19 @@ fn energy(law: &Friction, gains: usize, points: usize) -> Check {
         Hypothesis::Newton | Hypothesis::Brach { .. }
     );
     match (gains, calm) {
-        (0, _) => check(
+        (0, _) => Check::new(
             "energy",
             format!("no energy is gained at {points} points"),
             (points > 0).then_some(true),
         ),
-        (n, true) => check(
+        (n, true) => Check::new(
             "energy",
             format!(
                 "energy is gained at {n} of {points} points, which {name}'s hypothesis excludes"
             ),
             Some(false),
         ),
-        (n, false) => check(
+        (n, false) => Check::new(
             "energy",
             format!(
                 "energy is gained at {n} of {points} points of the domain: {name}'s hypothesis does not fit friction there"

@@ -39,29 +39,23 @@ impl<'a> Identities<'a> {
     /// The motion put into every equation of the full system.
     pub(super) fn of_motion(&mut self) -> Check {
         if self.derivation.in_steps {
-            return Check {
-                kind: "identity",
-                words: String::from(
-                    "not carried out: solved in steps, too long to be multiplied out; the exact points decide",
-                ),
-                holds: None,
-            };
+            return Check::new(
+                "identity",
+                "not carried out: solved in steps, too long to be multiplied out; the exact points decide",
+                None,
+            );
         }
         match self.count() {
-            Ok((0, failed)) if failed.is_empty() => Check {
-                kind: "identity",
-                words: String::from(
-                    "nothing is determined, so nothing can be substituted into the equations",
-                ),
-                holds: None,
-            },
-            Ok((held, failed)) if failed.is_empty() => Check {
-                kind: "identity",
-                words: format!(
-                    "identity in all {held} equations of the full system that are determined"
-                ),
-                holds: Some(true),
-            },
+            Ok((0, failed)) if failed.is_empty() => Check::new(
+                "identity",
+                "nothing is determined, so nothing can be substituted into the equations",
+                None,
+            ),
+            Ok((held, failed)) if failed.is_empty() => Check::new(
+                "identity",
+                format!("identity in all {held} equations of the full system that are determined"),
+                Some(true),
+            ),
             Ok((_, failed)) => {
                 // A remainder that the normal form does not find to be zero may still be; a point at which it is not decides.
                 let refuted: Vec<String> = failed
@@ -79,17 +73,9 @@ impl<'a> Identities<'a> {
                 } else {
                     (format!("does not satisfy {}", all(refuted)), Some(false))
                 };
-                Check {
-                    kind: "identity",
-                    words,
-                    holds,
-                }
+                Check::new("identity", words, holds)
             }
-            Err(stop) => Check {
-                kind: "identity",
-                words: format!("not carried out: {stop}"),
-                holds: None,
-            },
+            Err(stop) => Check::new("identity", format!("not carried out: {stop}"), None),
         }
     }
 
@@ -201,11 +187,7 @@ impl<'a> Identities<'a> {
             ),
             Err(stop) => (format!("not carried out: {stop}"), None),
         };
-        Check {
-            kind: "definitions",
-            words,
-            holds,
-        }
+        Check::new("definitions", words, holds)
     }
 
     fn is_same(&self, closed: &Expr, short: &Expr) -> Result<bool, Stop> {

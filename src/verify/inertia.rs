@@ -41,26 +41,22 @@ pub(super) fn check(scene: &Scene, at: &[Point<f64>]) -> Option<Check> {
                 () if off(told.inertia, found.inertia, found.inertia) => "moment of inertia",
                 () => continue,
             };
-            return Some(Check {
-                kind: "inertia",
-                words: format!("the {wrong} of {name} is not that of its outline"),
-                holds: Some(false),
-            });
+            return Some(Check::new(
+                "inertia",
+                format!("the {wrong} of {name} is not that of its outline"),
+                Some(false),
+            ));
         }
     }
     Some(match points {
-        0 => Check {
-            kind: "inertia",
-            words: String::from("no outline has a value in doubles"),
-            holds: None,
-        },
-        n => Check {
-            kind: "inertia",
-            words: format!(
+        0 => Check::new("inertia", "no outline has a value in doubles", None),
+        n => Check::new(
+            "inertia",
+            format!(
                 "masses, centers and moments of inertia are those of the outlines, integrated at {n} points"
             ),
-            holds: Some(true),
-        },
+            Some(true),
+        ),
     })
 }
 

@@ -245,14 +245,10 @@ fn invariants(runs: &[Run<Rational>], proof: &mut Proof) {
     }
     failed.dedup();
     if count > 0 || !failed.is_empty() {
-        proof.scene.push(Check {
-            kind: "invariants",
-            words: match failed.as_slice() {
+        proof.scene.push(Check::new("invariants", match failed.as_slice() {
                 [] => format!("momentum, angular momentum and energy identities hold exactly ({count} over {} points)", runs.len()),
                 _ => format!("violated: {}", failed.join(", ")),
-            },
-            holds: Some(failed.is_empty()),
-        });
+            }, Some(failed.is_empty())));
     }
 }
 
@@ -282,14 +278,14 @@ fn admissible(scene: &Scene, runs: &[Run<Rational>], proof: &mut Proof) {
         ));
     }
     if let Some(mu) = friction {
-        proof.scene.push(Check {
-            kind: "friction",
-            words: format!(
+        proof.scene.push(Check::new(
+            "friction",
+            format!(
                 "sticking needs friction |P_t|/P_n, at the points tried up to {:.3}",
                 crate::expr::number::to_f64(&mu)
             ),
-            holds: None,
-        });
+            None,
+        ));
     }
 }
 
@@ -335,27 +331,25 @@ fn exact_points(
         match evaluate(closed, derivation, &run.point) {
             Some(value) if value == expected => equal += 1,
             Some(value) => {
-                return Check {
-                    kind: "exact points",
-                    words: format!(
-                        "closed form gives {value}, the independent solution {expected}"
-                    ),
-                    holds: Some(false),
-                };
+                return Check::new(
+                    "exact points",
+                    format!("closed form gives {value}, the independent solution {expected}"),
+                    Some(false),
+                );
             }
             None => {}
         }
     }
     match equal {
-        0 => Check {
-            kind: "exact points",
-            words: String::from("at none of the points tried are all values rational"),
-            holds: None,
-        },
-        n => Check {
-            kind: "exact points",
-            words: format!("equal to the independent exact solution at {n} points"),
-            holds: Some(true),
-        },
+        0 => Check::new(
+            "exact points",
+            "at none of the points tried are all values rational",
+            None,
+        ),
+        n => Check::new(
+            "exact points",
+            format!("equal to the independent exact solution at {n} points"),
+            Some(true),
+        ),
     }
 }

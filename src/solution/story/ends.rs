@@ -106,10 +106,10 @@ impl Page<'_> {
         }
         let claimed = flown.as_ref().map(|[_, claimed]| claimed);
         let sides = [Some(&Expr::symbol(&symbol)), claimed];
-        let claims = sides.into_iter().flatten().map(|left| Claim {
-            left: left.clone(),
-            right: formula.clone(),
-        });
+        let claims = sides
+            .into_iter()
+            .flatten()
+            .map(|left| Claim::new(left.clone(), formula.clone()));
         let id = self
             .solution
             .step(Vec::new(), claims.collect(), &answer.words);
@@ -185,10 +185,10 @@ impl Page<'_> {
             Some(Expr::symbol(&symbol)),
             by_parts.then(|| formula.clone()),
         ];
-        let claims = sides.into_iter().flatten().map(|left| Claim {
-            left,
-            right: value.clone(),
-        });
+        let claims = sides
+            .into_iter()
+            .flatten()
+            .map(|left| Claim::new(left, value.clone()));
         let claims = claims.collect();
         let id = self.solution.step(Vec::new(), claims, &answer.words);
         if let Some(step) = self.solution.steps.last_mut() {

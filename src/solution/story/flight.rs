@@ -78,10 +78,7 @@ impl Page<'_> {
 
     /// `name = raw = value`, a claim.
     fn defined(&mut self, head: Math, raw: &Expr, value: &Expr, why: &str) -> Line {
-        let claim = Claim {
-            left: raw.clone(),
-            right: value.clone(),
-        };
+        let claim = Claim::new(raw.clone(), value.clone());
         let step = Some(self.solution.step(Vec::new(), vec![claim], why));
         let mut math = vec![head, Math::Op("=")];
         if !alike(raw, value) {

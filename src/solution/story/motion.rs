@@ -20,10 +20,7 @@ impl Page<'_> {
         };
         let mut lines = Vec::new();
         let claim = |s: &mut Solution, left: &Expr, right: &Expr, why: &str| {
-            let claim = Claim {
-                left: left.clone(),
-                right: right.clone(),
-            };
+            let claim = Claim::new(left.clone(), right.clone());
             Some(s.step(Vec::new(), vec![claim], why))
         };
         let mut answers = self.told.answers.iter();

@@ -50,13 +50,11 @@ impl Page<'_> {
                 say(format!("{be}{}", step.why)),
             ]);
             let is_boxed = answer.is_some();
-            let claim = Claim {
-                left: step.raw.clone(),
-                right: match &step.inertia {
-                    Some(inertia) => inertia * &step.value,
-                    None => step.value.clone(),
-                },
+            let made = match &step.inertia {
+                Some(inertia) => inertia * &step.value,
+                None => step.value.clone(),
             };
+            let claim = Claim::new(step.raw.clone(), made);
             let claimed = self.solution.step(Vec::new(), vec![claim], step.why);
             let mut math = Vec::new();
             if let Some(inertia) = step.inertia.as_ref().filter(|_| !step.raw.is_zero()) {

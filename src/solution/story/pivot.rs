@@ -141,10 +141,7 @@ impl Page<'_> {
         };
         let symbol = Expr::symbol(&answer.name);
         let claims = [Some(symbol.clone()), raw.clone()].into_iter().flatten();
-        let claims = claims.map(|left| Claim {
-            left,
-            right: value.clone(),
-        });
+        let claims = claims.map(|left| Claim::new(left, value.clone()));
         let id = self
             .solution
             .step(Vec::new(), claims.collect(), &answer.words);

@@ -33,10 +33,7 @@ impl Page<'_> {
             words::formula(&h),
             say(":"),
         ]);
-        let claim = Claim {
-            left: h.clone(),
-            right: height.clone(),
-        };
+        let claim = Claim::new(h.clone(), height.clone());
         let step = self
             .solution
             .step(Vec::new(), vec![claim], "kinetic energy over weight");

@@ -262,14 +262,14 @@ pub(super) fn angular_momentum(
     }
     let value =
         tidy(&h, &scene.domains).map_err(|stop| Refused::uncalculated(&question.name, stop))?;
-    out.checks.push(Check {
-        kind: "identity",
-        words: format!(
+    out.checks.push(Check::new(
+        "identity",
+        format!(
             "r × m v + I ω of the motion told in `{}`: the difference is zero in the normal form",
             told.name
         ),
-        holds: is_zero(&(&h - &value), &scene.domains),
-    });
+        is_zero(&(&h - &value), &scene.domains),
+    ));
     valued(
         &mut out,
         &value,
@@ -421,13 +421,11 @@ fn kinetic(scene: &Scene, state: &State, of: Option<usize>) -> Expr {
 fn energy_check(told: &StageTold, domains: &Domains) -> Option<Check> {
     let [_, end] = told.energy.as_ref()?;
     let again = told.kinetic.as_ref()?;
-    Some(Check {
-        kind: "identity",
-        words: String::from(
-            "velocity and spin at the end give the energy at the beginning and the work",
-        ),
-        holds: is_zero(&(again - end), domains),
-    })
+    Some(Check::new(
+        "identity",
+        "velocity and spin at the end give the energy at the beginning and the work",
+        is_zero(&(again - end), domains),
+    ))
 }
 
 /// Force of the fixed point on a turning body along a direction: m a_G less the weight.
