@@ -4,11 +4,11 @@
 //! doubles, at several points; one equation holds in few motions.
 
 use super::Diagnosis;
-use super::belief::BELIEFS;
+use super::belief::{BELIEFS, Slip};
 use super::believed::{NAMED, Written, doubles, words};
 use crate::expr::{Expr, Point, Symbol};
 use crate::numeric;
-use crate::scene::{Ask, Scene};
+use crate::scene::{Ask, EnergyWhen, Scene};
 
 /// Points at which every belief is tried.
 const POINTS: u64 = 3;
@@ -36,16 +36,7 @@ pub(super) fn behind(scene: &Scene, [left, right]: [&Expr; 2], names: &[Named]) 
             let mut at = |point: &Point<f64>| {
                 let mut point = point.clone();
                 for ((name, ask, component), moves) in names.iter().zip(&mut moves) {
-                    let written = Written {
-                        scene,
-                        ask,
-                        component: *component,
-                        values: Vec::new(),
-                        rounding: None,
-                    };
-                    let [value] = doubles(&written, slip, &point)?[..] else {
-                        return None;
-                    };
+                    let value = asked(scene, (ask, *component), slip, &point)?;
                     *moves |= value != 0.0;
                     point.values.insert(name.clone(), value);
                 }
@@ -60,5 +51,64 @@ pub(super) fn behind(scene: &Scene, [left, right]: [&Expr; 2], names: &[Named]) 
     if found.len() > NAMED {
         found.clear();
     }
+    if found.is_empty() {
+        found.extend(keeps_energy(scene, [left, right], names, &points));
+    }
     found
+}
+
+/// What is asked, in the motion a slip leads to.
+fn asked(
+    scene: &Scene,
+    (ask, component): (&Ask, Option<usize>),
+    slip: &Slip,
+    point: &Point<f64>,
+) -> Option<f64> {
+    let written = Written {
+        scene,
+        ask,
+        component,
+        values: Vec::new(),
+        rounding: None,
+    };
+    match doubles(&written, slip, point)?[..] {
+        [value] => Some(value),
+        _ => None,
+    }
+}
+
+/// A balance of velocities and spins in which just the energy is missing, or a multiple of it, that the impact loses.
+fn keeps_energy(
+    scene: &Scene,
+    [left, right]: [&Expr; 2],
+    names: &[Named],
+    points: &[Point<f64>],
+) -> Option<Diagnosis> {
+    let belief = BELIEFS.iter().find(|b| b.code == "ENERGY_KEPT")?;
+    let slip = (belief.slips)(scene).into_iter().next()?;
+    let moves = |(_, ask, _): &Named| matches!(ask, Ask::Velocity { .. } | Ask::Spin { .. });
+    if !names.iter().all(moves) {
+        return None;
+    }
+    let truth = Slip {
+        changes: Vec::new(),
+        ..slip.clone()
+    };
+    let lost = Ask::Energy {
+        when: EnergyWhen::Lost,
+        of: None,
+    };
+    let share = |point: &Point<f64>| {
+        let mut here = point.clone();
+        for (name, ask, component) in names {
+            let value = asked(scene, (ask, *component), &truth, point)?;
+            here.values.insert(name.clone(), value);
+        }
+        let gap = left.evaluate(&here)? - right.evaluate(&here)?;
+        Some(gap / asked(scene, (&lost, None), &truth, point)?).filter(|k| k.is_finite())
+    };
+    let shares: Vec<f64> = points.iter().map(share).collect::<Option<_>>()?;
+    let first = *shares.first()?;
+    let same = |k: &f64| (k - first).abs() <= 1e-9 * first.abs();
+    (first != 0.0 && shares.iter().all(same)).then(|| words(belief, &slip, false))
 }

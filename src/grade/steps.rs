@@ -372,6 +372,8 @@ impl<'a> Desk<'a> {
         let weighed = self.weigh(text, &links);
         let fails = matches!(weighed, Weighed::Slip(_) | Weighed::Carried(_));
         if fails && self.is_condition(&links, &weighed) {
+            let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
+            self.state(None, &all);
             let words = "a condition the scene asks about, not a fact";
             let found = Diagnosis::new(CONDITION, words, words);
             return (Status::Holds, vec![found]);

@@ -1,13 +1,19 @@
 //! From which wrong line a later one follows: what each wrong line implies is kept, and tried.
 
 use std::collections::BTreeMap;
+use std::convert::Infallible;
 
 use super::super::relation::{follows, solve_for};
 use super::link::Link;
 use super::{Desk, MOST_CAUSES, MOST_STATED};
+use crate::domain::Domains;
 use crate::equality::{self, Equality};
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::{Content, Reading};
+use crate::laws::{self, Geometry, Kinematics, Law, Unknown};
+
+/// Most laws that may be used without being written.
+const MOST_LAWS: usize = 10;
 
 impl Desk<'_> {
     /// The wrong line from which equations follow: they hold in the motion it implies, or say the same.
@@ -81,24 +87,47 @@ impl Desk<'_> {
         let mut causes: Vec<usize> = self.stated.iter().filter_map(|(c, _)| *c).collect();
         causes.sort_unstable();
         causes.dedup();
-        causes.into_iter().rev().take(MOST_CAUSES).find(|&cause| {
-            let of = |wanted: Option<usize>| self.stated.iter().filter(move |(c, _)| *c == wanted);
-            let mut rules: Vec<BTreeMap<Symbol, Expr>> = Vec::new();
-            let reduced = |e: &Expr, rules: &[BTreeMap<Symbol, Expr>]| {
-                rules.iter().fold(e.clone(), |e, rule| e.substitute(rule))
+        causes.reverse();
+        causes.truncate(MOST_CAUSES);
+        let reduced = |e: &Expr, rules: &[BTreeMap<Symbol, Expr>]| {
+            rules.iter().fold(e.clone(), |e, rule| e.substitute(rule))
+        };
+        let follows = |cause: usize, laws: &[&Expr]| {
+            let of = |wanted: Option<usize>| {
+                let stated = self.stated.iter().filter(move |(c, _)| *c == wanted);
+                stated.map(|(_, line)| line)
             };
-            for (_, line) in of(Some(cause)).chain(of(None)) {
+            let mut rules: Vec<BTreeMap<Symbol, Expr>> = Vec::new();
+            for line in of(Some(cause)).chain(of(None)).chain(laws.iter().copied()) {
                 let line = reduced(line, &rules);
                 // What says nothing new, or contradicts those before, gives no rule.
                 let symbols = line.symbols();
                 let mut names = symbols.iter().filter(|n| self.is_found(n));
                 let rule = names.find_map(|name| {
-                    let root = solve_for(&line, name, domains)?;
+                    let root = solve_for(&line, name, domains);
+                    let root = root.or_else(|| size_in(&line, name, domains))?;
                     Some(BTreeMap::from([(name.clone(), root)]))
                 });
                 rules.extend(rule);
             }
             is_zero(&reduced(one, &rules))
+        };
+        let mut all = causes.iter().copied();
+        let found = all.find(|cause| follows(*cause, &[]));
+        found.or_else(|| {
+            // The wrong line stands in place of one law; the others may be used for a result without being written.
+            let symbols = one.symbols();
+            let results = symbols.iter().filter(|n| self.is_found(n)).count();
+            let laws = match results {
+                1 => self.unwritten(),
+                _ => Vec::new(),
+            };
+            let without = |j: usize| -> Vec<&Expr> {
+                let others = laws.iter().enumerate().filter(|(i, _)| *i != j);
+                others.map(|(_, law)| law).collect()
+            };
+            let mut all = causes.iter().copied();
+            all.find(|cause| (0..laws.len()).any(|j| follows(*cause, &without(j))))
         })
     }
 
@@ -144,4 +173,49 @@ impl Desk<'_> {
             }
         }
     }
+
+    /// The scene's laws in the names of its unknowns, and what these are called where they are asked for; none where they are
+    /// many, or of several stages.
+    fn unwritten(&self) -> Vec<Expr> {
+        let scene = &self.sheet.scene;
+        let names = &self.sheet.derivation.names;
+        let laws = laws::of(scene);
+        if laws.len() > MOST_LAWS || !scene.stages.is_empty() {
+            return Vec::new();
+        }
+        let Ok(g) = Geometry::of(scene, |e| Ok::<_, Infallible>(e.clone()));
+        let motion = Kinematics::full(scene, &g);
+        let named = |unknown: Unknown| {
+            let symbol = Expr::symbol(names.plain(unknown));
+            match names.is_reversed(unknown) {
+                true => -symbol,
+                false => symbol,
+            }
+        };
+        let equation = |law: &Law| {
+            let plain = |v: &Vector| Ok::<_, Infallible>(v.clone());
+            let Ok(linear) = laws::equation(scene, &g, &motion, law, plain);
+            let terms = linear.terms.iter().map(|(u, k)| k * &named(*u));
+            Expr::sum(terms) - linear.known
+        };
+        let mut all: Vec<Expr> = laws.iter().map(equation).collect();
+        for unknown in laws::unknowns(scene) {
+            let name = Symbol::from(names.plain(unknown));
+            let Some(value) = self.closed.get(&name).filter(|v| !v.is_zero()) else {
+                continue;
+            };
+            let others = self.closed.iter().filter(|(other, _)| **other != name);
+            let same = others.filter(|(_, v)| *v == value);
+            all.extend(same.map(|(other, _)| Expr::symbol(other) - Expr::symbol(&name)));
+        }
+        all
+    }
+}
+
+/// The size of what occurs by its square alone, as the speed does in an energy.
+fn size_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
+    let square = Symbol::from(format!("{name}^2"));
+    let line = line.replace(&Expr::symbol(name).powi(2), &Expr::symbol(&square));
+    let alone = !line.symbols().contains(name);
+    alone.then(|| Some(solve_for(&line, &square, domains)?.sqrt()))?
 }

@@ -357,7 +357,10 @@ impl Desk<'_> {
             }
         };
         let entry: Entry = self.sheet.entry(&question).ok()?;
-        let grade = self.sheet.judge(&entry, text, options);
+        let grade = match self.in_given(reading) {
+            Some(text) => self.sheet.judge(&entry, &text, options),
+            None => self.sheet.judge(&entry, text, options),
+        };
         let status = match grade.verdict {
             Verdict::Equivalent => Status::Holds,
             Verdict::Different => {
@@ -370,6 +373,12 @@ impl Desk<'_> {
         self.finals
             .insert(question, Final::new(number, text, grade.verdict));
         Some((status, grade.diagnosis))
+    }
+
+    /// A line about a parameter with the student's own names put in, where it has such.
+    fn in_given(&self, reading: &Reading) -> Option<String> {
+        let own = reading.content.map(&|e| self.with_own(e));
+        (own != reading.content).then(|| super::super::show(&own))
     }
 
     /// A line with an inequality: it holds where its sign is proved, or where it says what a question supposes.
