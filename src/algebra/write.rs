@@ -35,6 +35,11 @@ impl Field {
     /// The element as a person would write it. Read again, it gives the same element.
     pub fn expr(&self, x: &Element) -> Expr {
         self.fuel.refill();
+        self.kept(x)
+    }
+
+    /// The same within an operation, remembered for a while: a root stands in many terms.
+    fn kept(&self, x: &Element) -> Expr {
         if let Some(known) = self.remembered(x) {
             return known;
         }
@@ -260,7 +265,7 @@ impl Field {
             Kind::Sin(base) => (self.angle(*base).sin(), one),
             Kind::Root => match &self.gens[v].relation {
                 Some((n, value)) => (
-                    self.written(&Element::from_poly(value.clone())),
+                    self.kept(&Element::from_poly(value.clone())),
                     ratio(1, i64::from(*n)),
                 ),
                 None => (Expr::zero(), one),
