@@ -202,23 +202,18 @@ impl Field {
         for (parts, sign) in [(above, 1i64), (below, -1)] {
             for (f, k) in &parts.factors {
                 let mut power = ratio(i64::from(*k) * sign, 1);
-                let (expr, rank, under_root) = if f.len() == 1 {
+                let (expr, rank, root) = if f.len() == 1 {
                     let v = f.variables()[0];
                     let (expr, own) = self.generator(v);
-                    let root = !own.is_one();
+                    let root = (!own.is_one()).then_some(v);
                     power *= own;
-                    let under_root = root.then(|| {
-                        self.gens[v].relation.as_ref().is_some_and(|(_, p)| {
-                            self.sign_poly(p).is_some_and(|s| s.is_not_negative())
-                        })
-                    });
                     let rank = match expr.node() {
                         Node::Number(_) => Rank::Number,
                         Node::Symbol(name) if name.starts_with(['m', 'M']) => Rank::Mass,
                         Node::Symbol(_) => Rank::Symbol,
                         _ => Rank::Other,
                     };
-                    (expr, rank, under_root)
+                    (expr, rank, root)
                 } else {
                     let (expr, flipped, mixed) = self.sum(f);
                     if flipped && k % 2 == 1 {
@@ -232,13 +227,13 @@ impl Field {
                 match factors.iter_mut().find(|other| other.base == expr) {
                     Some(other) => {
                         other.power += power;
-                        other.under_root = other.under_root.max(under_root);
+                        other.root = other.root.max(root);
                     }
                     None => factors.push(Factor {
                         rank,
                         base: expr,
                         power,
-                        under_root,
+                        root,
                     }),
                 }
             }
@@ -253,7 +248,7 @@ impl Field {
         }
         factors.retain(|f| !f.power.is_zero());
         factors.sort_by(|a, b| (a.rank, &a.base).cmp(&(b.rank, &b.base)));
-        with_one_root(number, factors)
+        self.with_one_root(number, factors)
     }
 
     /// A generator as base and exponent.
@@ -516,8 +511,8 @@ struct Factor {
     rank: Rank,
     base: Expr,
     power: Rational,
-    /// For a root, whether what stands under it is known not to be negative.
-    under_root: Option<bool>,
+    /// For a root, its generator.
+    root: Option<usize>,
 }
 
 impl Factor {
@@ -537,50 +532,59 @@ enum Rank {
     Sum,
 }
 
-/// The product of a number and factors in their order: √a·√b/√c is written √(ab/c) where each of them is known to be real; if
-/// all but one are, so is that one.
-fn with_one_root(number: Rational, factors: Vec<Factor>) -> Expr {
-    let mut out = vec![Expr::from(number)];
-    let half = |f: &Factor| f.under_root.is_some() && *f.power.denom() == Int::from(2);
-    let unsure = |f: &Factor| half(f) && f.under_root == Some(false);
-    let apart = factors.iter().filter(|f| unsure(f)).count() > 1;
-    let (rooted, mut rest): (Vec<Factor>, Vec<Factor>) = factors
-        .into_iter()
-        .partition(|f| half(f) && !(apart && unsure(f)));
-    // 1/√2 is written √2/2, and numbers stand in front.
-    let numeric = rooted.iter().all(|f| f.rank == Rank::Number);
-    let all_below = !numeric && rooted.iter().all(|f| f.power.is_negative());
-    let mut inside = Vec::new();
-    for f in rooted {
-        let below = f.power.is_negative() && !numeric;
-        let half = ratio(if below { -1 } else { 1 }, 2);
-        if f.power != half {
-            rest.push(Factor {
-                rank: f.rank,
-                base: f.base.clone(),
-                power: &f.power - &half,
-                under_root: None,
+impl Field {
+    /// The product of a number and factors in their order: √a·√b/√c is written √(ab/c) where each of them is known to be real; if
+    /// all but one are, so is that one.
+    fn with_one_root(&self, number: Rational, factors: Vec<Factor>) -> Expr {
+        let mut out = vec![Expr::from(number)];
+        let half = |f: &Factor| f.root.is_some() && *f.power.denom() == Int::from(2);
+        let is_real = |v: usize| {
+            let under = self.gens[v].relation.as_ref().map(|(_, p)| p);
+            let sign = under.and_then(|p| self.sign_poly(p));
+            sign.is_some_and(|s| s.is_not_negative())
+        };
+        let unsure = |f: &Factor| half(f) && !f.root.is_some_and(is_real);
+        // One alone is as real as the whole.
+        let several = factors.iter().filter(|f| half(f)).count() > 1;
+        let apart = several && factors.iter().filter(|f| unsure(f)).count() > 1;
+        let (rooted, mut rest): (Vec<Factor>, Vec<Factor>) = factors
+            .into_iter()
+            .partition(|f| half(f) && !(apart && unsure(f)));
+        // 1/√2 is written √2/2, and numbers stand in front.
+        let numeric = rooted.iter().all(|f| f.rank == Rank::Number);
+        let all_below = !numeric && rooted.iter().all(|f| f.power.is_negative());
+        let mut inside = Vec::new();
+        for f in rooted {
+            let below = f.power.is_negative() && !numeric;
+            let half = ratio(if below { -1 } else { 1 }, 2);
+            if f.power != half {
+                rest.push(Factor {
+                    rank: f.rank,
+                    base: f.base.clone(),
+                    power: &f.power - &half,
+                    root: None,
+                });
+            }
+            inside.push(if below && !all_below {
+                f.base.powi(-1)
+            } else {
+                f.base
             });
         }
-        inside.push(if below && !all_below {
-            f.base.powi(-1)
-        } else {
-            f.base
+        let root = (!inside.is_empty()).then(|| {
+            // Nothing above: 1/√(ab).
+            Expr::product(inside).power(Expr::ratio(if all_below { -1 } else { 1 }, 2))
         });
+        rest.sort_by(|a, b| (a.rank, &a.base).cmp(&(b.rank, &b.base)));
+        if numeric {
+            out.extend(root);
+            out.extend(rest.into_iter().map(Factor::written));
+        } else {
+            out.extend(rest.into_iter().map(Factor::written));
+            out.extend(root);
+        }
+        Expr::product(out)
     }
-    let root = (!inside.is_empty()).then(|| {
-        // Nothing above: 1/√(ab).
-        Expr::product(inside).power(Expr::ratio(if all_below { -1 } else { 1 }, 2))
-    });
-    rest.sort_by(|a, b| (a.rank, &a.base).cmp(&(b.rank, &b.base)));
-    if numeric {
-        out.extend(root);
-        out.extend(rest.into_iter().map(Factor::written));
-    } else {
-        out.extend(rest.into_iter().map(Factor::written));
-        out.extend(root);
-    }
-    Expr::product(out)
 }
 
 /// The negative of a sum, its positive terms in front again.
