@@ -207,8 +207,12 @@ pub(super) fn replay(
             let found = stages[impact.stage].filter(|passed| goes_so(impact, passed));
             compared[i] |= found.is_some();
             if let (None, Some(found)) = (&apart, found) {
-                let size = extent(&followed);
-                *apart = differs(impact, &doubles, &found.before.bodies, size);
+                *apart = differs(
+                    impact,
+                    &doubles,
+                    &found.before.bodies,
+                    &Sizes::of(&followed),
+                );
             }
         }
         // Symbols of answers mean the first of several outcomes.
@@ -274,28 +278,42 @@ fn goes_so(impact: &Impact, passed: &Passed) -> bool {
     }
 }
 
-/// The largest of some components.
-fn size(all: &[&Component]) -> f64 {
-    let known = all.iter().filter_map(|c| c.as_ref().ok());
-    known.fold(1e-12, |a, c| a.max(c.abs()))
+/// How large and how fast the scene is. A speed that comes out as the root of a difference is known to a part of the largest
+/// speeds only, so that those of all stages count.
+struct Sizes {
+    /// The largest coordinate of a body, or radius of gyration \[m\].
+    length: f64,
+    /// The largest speed, of a center or by a spin \[m/s\].
+    speed: f64,
+    /// The largest spin \[rad/s\].
+    spin: f64,
 }
 
-/// How large the scene is: the largest coordinate of a body, and the largest radius of gyration \[m\].
-fn extent(followed: &Followed) -> f64 {
-    let passed = followed.stages.iter().filter_map(|s| s.as_ref().ok());
-    let centers = passed.flat_map(|p| p.before.bodies.iter().chain(&p.after.bodies));
-    let centers = centers.flat_map(|b| b.center.iter().filter_map(|c| c.as_ref().ok()));
-    let solids = followed.solids.iter().filter(|s| s.mass > 0.0);
-    let radii = solids.map(|s| (s.inertia / s.mass).sqrt());
-    centers.map(|c| c.abs()).chain(radii).fold(1e-12, f64::max)
+impl Sizes {
+    fn of(followed: &Followed) -> Sizes {
+        let passed = || followed.stages.iter().filter_map(|s| s.as_ref().ok());
+        let bodies = || passed().flat_map(|p| p.before.bodies.iter().chain(&p.after.bodies));
+        let largest = |all: &mut dyn Iterator<Item = &Component>| {
+            let known = all.filter_map(|c| c.as_ref().ok());
+            known.fold(1e-12f64, |a, c| a.max(c.abs()))
+        };
+        let solids = followed.solids.iter().filter(|s| s.mass > 0.0);
+        let radii = solids.map(|s| (s.inertia / s.mass).sqrt());
+        let length = largest(&mut bodies().flat_map(|b| &b.center));
+        let length = radii.fold(length, f64::max);
+        let spin = largest(&mut bodies().map(|b| &b.spin));
+        let speed = largest(&mut bodies().flat_map(|b| &b.velocity));
+        Sizes {
+            length,
+            speed: speed.max(spin * length),
+            spin,
+        }
+    }
 }
 
 /// Where the solution lets bodies be elsewhere or move otherwise than is found.
-fn differs(impact: &Impact, at: &Point<f64>, found: &[BodyState], extent: f64) -> Option<String> {
-    let spins: Vec<&Component> = found.iter().map(|state| &state.spin).collect();
-    let fastest = size(&spins);
-    let speeds: Vec<&Component> = found.iter().flat_map(|state| &state.velocity).collect();
-    let speed = size(&speeds).max(fastest * extent);
+fn differs(impact: &Impact, at: &Point<f64>, found: &[BodyState], sizes: &Sizes) -> Option<String> {
+    let (extent, speed) = (sizes.length, sizes.speed);
     for (body, state) in impact.scene.bodies.iter().zip(found) {
         if body.is_fixed() {
             continue;
@@ -308,7 +326,7 @@ fn differs(impact: &Impact, at: &Point<f64>, found: &[BodyState], extent: f64) -
             ("moves with v_x =", &body.velocity[0], u, speed),
             ("moves with v_y =", &body.velocity[1], v, speed),
         ];
-        let spin = ("turns with", &body.spin, &state.spin, fastest);
+        let spin = ("turns with", &body.spin, &state.spin, sizes.spin);
         let turns = (!body.is_particle()).then_some(spin);
         for (words, told, found, scale) in pairs.into_iter().chain(turns) {
             let value = told.substitute(&impact.handed).evaluate(at);

@@ -25,7 +25,7 @@ use crate::answer::calc::{at_least_zero, constant};
 use crate::answer::{Answer, Check, Refused, TOO_LONG};
 use crate::derive::{Derivation, Stop};
 use crate::domain::Domain;
-use crate::expr::{Expr, Symbol, Vector, minus};
+use crate::expr::{Expr, Point, Symbol, Vector, minus};
 use crate::formula::{Sentence, write_plain};
 use crate::scene::{Ask, ContactLaw, Scene, Stage, StageKind, direction};
 use crate::verify::Proof;
@@ -466,13 +466,22 @@ fn given(scene: &Scene) -> BTreeMap<Symbol, Expr> {
 fn at_values(scene: &Scene, told: &StageTold) -> Option<Check> {
     let given = given(scene);
     let fails = |e: &&Expr| constant(&e.substitute(&given)) == Some(Sign::Negative);
-    let broken = told.needs.iter().find(fails)?;
-    let need = at_least_zero(broken, &scene.domains).written(write_plain);
-    Some(Check::new(
-        second::POSSIBLE,
-        format!("it goes on as told only where {need}, and that is not so at the given values"),
-        Some(false),
-    ))
+    let words = match told.needs.iter().find(fails) {
+        Some(broken) => {
+            let need = at_least_zero(broken, &scene.domains).written(write_plain);
+            format!("it goes on as told only where {need}, and that is not so at the given values")
+        }
+        None => {
+            let time = told.time.as_ref()?.substitute(&given);
+            let is_number = time.symbols().iter().all(|s| &**s == "pi");
+            let value = time.evaluate(&Point::<f64>::default());
+            if !is_number || value.is_some_and(f64::is_finite) {
+                return None;
+            }
+            String::from("at the given values it never gets to its end")
+        }
+    };
+    Some(Check::new(second::POSSIBLE, words, Some(false)))
 }
 
 type Beginning = (Option<(usize, usize)>, State, Vec<(String, Expr)>);

@@ -64,7 +64,7 @@ pub(super) fn others(
                     _ => "weight may act on it, and",
                 };
                 let why = format!(
-                    "`{}` goes on moving during `{}`: {why} the stage does not say how",
+                    "`{0}` goes on moving during `{1}`: {why} the stage does not say how (a stage that follows `{0}` meanwhile begins with \"from\" where `{1}` does)",
                     body.name, stage.name
                 );
                 let steady = weightless && *part != Part::Joined;

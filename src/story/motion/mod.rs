@@ -83,16 +83,21 @@ fn never_arrives(stage: &Stage, body: usize, end: &Expr) -> Refused {
 /// What must hold so that a body gets to the end of a motion with this kinetic energy; nothing where that is proved.
 fn arrival(stage: &Stage, body: usize, end: &Expr, seen: Seen) -> Option<Sentence> {
     let proved = matches!(seen, Seen::Proved(s) if s.is_not_negative());
-    (!proved).then(|| {
-        sentence![
-            crate::answer::calc::at_least_zero(end, &stage.scene.domains),
-            ", so that `",
-            &stage.scene.bodies[body].name,
-            "` gets to the end of `",
-            &stage.name,
-            "`"
-        ]
-    })
+    let need = || crate::answer::calc::at_least_zero(end, &stage.scene.domains);
+    (!proved).then(|| arrives(stage, body, need()))
+}
+
+/// What must hold, with what it is needed for.
+fn arrives(stage: &Stage, body: usize, need: Sentence) -> Sentence {
+    let name = &stage.scene.bodies[body].name;
+    sentence![
+        need,
+        ", so that `",
+        name,
+        "` gets to the end of `",
+        &stage.name,
+        "`"
+    ]
 }
 
 /// What is granted of a body that is at rest and in balance when its motion begins.

@@ -25,6 +25,8 @@ pub(super) struct Pulled<'a> {
     pub spins: Vec<Expr>,
     /// Whether the other end moves away from the pulleys and draws the body.
     pub draws: bool,
+    /// How far the end that nears its pulley is from being beside it \[m\], and the two bodies.
+    pub room: (Expr, [usize; 2]),
 }
 
 /// What the strings of a motion along a line move.
@@ -89,8 +91,9 @@ fn one<'a>(
             "one end moves towards the pulley and the other away from it",
         ));
     }
-    let nears = approaches(stage, before, first, head)?;
-    let draws = !approaches(stage, before, last, tail)?;
+    let [to_first, to_last] = [(first, head), (last, tail)].map(|(p, end)| ahead(before, p, end));
+    let nears = approaches(stage, &to_first, [head.2, first])?;
+    let draws = !approaches(stage, &to_last, [tail.2, last])?;
     if nears != draws {
         let how = if nears { "slack" } else { "longer" };
         return Err(Refused::new(
@@ -112,6 +115,10 @@ fn one<'a>(
         mass,
         spins,
         draws,
+        room: match draws {
+            true => (to_first, [head.2, first]),
+            false => (to_last, [tail.2, last]),
+        },
     })
 }
 
@@ -140,15 +147,14 @@ fn spin(
     tidied(stage, &(&arm / &square))
 }
 
-/// Whether a body moves towards a pulley.
-fn approaches(
-    stage: &Stage,
-    before: &State,
-    pulley: usize,
-    (center, along, body): (&Vector, &Vector, usize),
-) -> Result<bool, Refused> {
-    let ahead = dot(&minus(&before.center[pulley], center), along);
-    let side = sign(&ahead, &stage.scene.domains).side();
+/// How far a body has to go along its line until it is beside a pulley \[m\]; negative where it moves away.
+fn ahead(before: &State, pulley: usize, (center, along, _): (&Vector, &Vector, usize)) -> Expr {
+    dot(&minus(&before.center[pulley], center), along)
+}
+
+/// Whether a body with this way to go moves towards a pulley.
+fn approaches(stage: &Stage, ahead: &Expr, [body, pulley]: [usize; 2]) -> Result<bool, Refused> {
+    let side = sign(ahead, &stage.scene.domains).side();
     side.ok_or_else(|| {
         Refused::new(
             &stage.name,
@@ -188,6 +194,40 @@ impl Pulled<'_> {
             .zip(self.tensions(acceleration));
         each.map(|((letter, why), raw)| Ok(Step::new(letter, &raw, &tidied(stage, &raw)?, why)))
             .collect()
+    }
+
+    /// Adds what it takes that no end gets beside its pulley on a way of this length, and the words for what is not proved;
+    /// refused where one does.
+    pub(super) fn keeps_off(
+        &self,
+        stage: &Stage,
+        way: &Expr,
+        needs: &mut Vec<Expr>,
+        assumptions: &mut Vec<Sentence>,
+    ) -> Result<(), Refused> {
+        let (ahead, pair) = &self.room;
+        let [body, pulley] = pair.map(|b| &stage.scene.bodies[b].name);
+        let left = tidied(stage, &(ahead - way))?;
+        match sign(&left, &stage.scene.domains) {
+            Seen::Proved(s) if s.is_not_negative() => return Ok(()),
+            Seen::Proved(_) | Seen::Negative => {
+                return Err(Refused::new(
+                    &stage.name,
+                    format!("`{body}` gets to `{pulley}` before the stage ends"),
+                    "end the stage earlier, or let the string be longer",
+                ));
+            }
+            _ => assumptions.push(sentence![
+                Sentence::not_negative(&left),
+                ", so that `",
+                body,
+                "` does not get to `",
+                pulley,
+                "`"
+            ]),
+        }
+        needs.push(left);
+        Ok(())
     }
 
     /// The tensions: at the other end first, at the body last. Adds what the string needs so that it stays taut, and the words for

@@ -5,7 +5,7 @@ mod top;
 
 use super::bearing::bearing;
 use super::{arrival, balance, half, kept, meanwhile, pushed, tidied};
-use crate::answer::calc::{Seen, is_zero, sign, tidy};
+use crate::answer::calc::{Seen, at_least_zero, is_zero, sign, tidy};
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::formula::Sentence;
 use crate::scene::{Lump, Stage, Turn, Until, direction};
@@ -118,7 +118,10 @@ pub(in crate::story) fn turn(
     if !work.is_zero()
         && let Some(words) = arrival(stage, turn.body, &end, reaches)
     {
-        assumptions.push(words);
+        // What makes the angle one that is turned through may be all that it takes.
+        if !assumptions.contains(&at_least_zero(&end, &stage.scene.domains)) {
+            assumptions.push(words);
+        }
         needs.push(end);
     }
     out.needs = needs;

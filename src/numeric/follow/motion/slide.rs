@@ -186,6 +186,10 @@ pub(in crate::numeric::follow) fn slide(
         return Err(course.never("it rolls before"));
     }
     let (mut after, samples) = movers.ended(course, &units, &run, &before);
+    let way = gone(&before, &after, slide.body, acting.along);
+    if ropes.room.iter().any(|room| way > room * (1.0 + ROUNDING)) {
+        return Err(course.never("a body gets to the pulley of its string before"));
+    }
     let time = Ok(run.time * units.time);
     others(course, &before, &mut after, &bodies, &time, has_forces);
     let rates = mechanism.accelerations(&start).map(|(rates, _)| rates);
@@ -417,4 +421,14 @@ fn to_the_end(
             mechanism.until(start, &mut goal).map_err(stopped(never))
         }
     }
+}
+
+/// How far a body has gone along a direction \[m\]; nothing where its place is open.
+fn gone(before: &State, after: &State, body: usize, along: [f64; 2]) -> f64 {
+    let centers = [before, after].map(|state| &state.bodies[body].center);
+    let part = |k: usize| match [&centers[0][k], &centers[1][k]] {
+        [Ok(from), Ok(to)] => (to - from) * along[k],
+        _ => 0.0,
+    };
+    part(0) + part(1)
 }

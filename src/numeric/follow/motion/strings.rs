@@ -32,6 +32,8 @@ pub(super) struct Pulley {
 pub(super) struct Ropes {
     pub ends: Vec<End>,
     pub pulleys: Vec<Pulley>,
+    /// How far each end that nears its pulley is from being beside it \[m\].
+    pub room: Vec<f64>,
     /// Every free part of a string: places in the list of rates with their factors, lengths in meters.
     parts: Vec<Vec<(usize, f64)>>,
 }
@@ -42,8 +44,8 @@ struct Leg {
     pull: [f64; 2],
     /// Speed of the rim along that for a spin of 1 \[m\].
     rim: f64,
-    /// Whether the body moves towards the pulley.
-    nears: bool,
+    /// How far the body has to go until it is beside the pulley \[m\]; negative where it moves away.
+    ahead: f64,
 }
 
 impl Ropes {
@@ -75,9 +77,10 @@ impl Ropes {
         let head = leg(course, movers, 0, along, first)?;
         let tail = leg(course, movers, bodies[0], there, last)?;
         let crossed = first == last && (head.rim + tail.rim).abs() > ROUNDING * head.rim.abs();
-        if crossed || head.nears == tail.nears {
+        if crossed || (head.ahead > 0.0) == (tail.ahead > 0.0) {
             return Err(course.contradiction("a string would get longer or slack"));
         }
+        self.room.push(head.ahead.max(tail.ahead));
         self.parts.push(head.row(0, first));
         if first != last {
             let row = vec![(3 * first + 2, head.rim), (3 * last + 2, tail.rim)];
@@ -246,11 +249,7 @@ fn leg(
     if (rim.abs() - radius).abs() > ROUNDING * radius.max(arm[0].hypot(arm[1])) || radius <= 0.0 {
         return Err(course.contradiction("a string does not touch the rim of its pulley"));
     }
-    Ok(Leg {
-        pull,
-        rim,
-        nears: ahead > 0.0,
-    })
+    Ok(Leg { pull, rim, ahead })
 }
 
 /// The center of a body does not leave the line with this direction.

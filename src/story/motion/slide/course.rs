@@ -1,9 +1,9 @@
 //! The course of a motion with constant acceleration, from its beginning to its end.
 
-use super::super::{arrival, half, never_arrives};
+use super::super::{arrival, arrives, half, never_arrives};
 use super::line::{Line, proved};
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, at_least_zero, essential, is_zero, sign};
+use crate::answer::calc::{Seen, above_zero, at_least_zero, essential, is_zero, sign};
 use crate::expr::Expr;
 use crate::formula::{Sentence, sentence};
 use crate::scene::SlideEnd;
@@ -179,7 +179,18 @@ impl Line<'_> {
             let end = self.tidied(&half(&(&self.mass * &square)))?;
             return Err(never_arrives(self.stage, self.slide.body, &end));
         }
-        assumptions.extend(arrival(self.stage, self.slide.body, &square, seen));
+        let body = self.slide.body;
+        // At rest a constant force of zero moves nothing.
+        let starts = is_zero(&self.speed, self.domains()) == Some(true);
+        assumptions.extend(match (starts, seen) {
+            (true, Seen::Proved(Sign::Positive)) => None,
+            (true, _) if is_zero(s, self.domains()) == Some(false) => Some(arrives(
+                self.stage,
+                body,
+                above_zero(&square, self.domains()),
+            )),
+            _ => arrival(self.stage, body, &square, seen),
+        });
         self.tidied(&square.sqrt())
     }
 

@@ -47,6 +47,9 @@ pub(in crate::story) fn slide(
     if let ([string], true) = (line.strings.as_slice(), is_driven) {
         steps.extend(string.steps(stage, &line.acceleration)?);
     }
+    for string in &line.strings {
+        string.keeps_off(stage, &course.distance, &mut needs, &mut assumptions)?;
+    }
     let tensions = line.tensions(&mut needs, &mut assumptions)?;
     let mut after = line.moved(&before, &course)?;
     assumptions.extend(meanwhile::others(
