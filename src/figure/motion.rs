@@ -213,24 +213,55 @@ fn strings(
     driven: &[(usize, Pose)],
 ) -> Option<()> {
     for string in &slide.strings {
-        let other = driven.iter().find(|(b, _)| *b == string.to[0])?;
+        let hung = string.under.unwrap_or(string.to[0]);
+        let other = driven.iter().find(|(b, _)| *b == hung)?;
+        let radius = |b: usize| {
+            let radius = stage.scene.bodies[b].shape.radius()?;
+            stage.values.of(radius)
+        };
         let legs = [
-            (end, &slide.along, string.over[0]),
-            (&other.1, &string.along, string.over[string.over.len() - 1]),
+            (end, &slide.along, string.over[0], None),
+            (
+                &other.1,
+                &string.along,
+                string.over[string.over.len() - 1],
+                string.under,
+            ),
         ];
         let mut feet = Vec::new();
-        for (pose, along, pulley) in legs {
+        for (pose, along, pulley, under) in legs {
             let along = stage.values.pair(along)?;
+            let along = along.map(|c| c / size(along));
             let center = begin.get(pulley)?.center;
-            let ahead = (0..2).map(|k| (center[k] - pose.center[k]) * along[k]);
-            let ahead: f64 = ahead.sum();
-            let foot = [0, 1].map(|k| pose.center[k] + ahead * along[k]);
-            let ends = [pose.center, foot].map(|p| stage.px(p));
-            sheet.segment(ends[0], ends[1], Line::thin(Ink::Body), 1.0);
-            feet.push(stage.px(foot));
+            let arm = [0, 1].map(|k| center[k] - pose.center[k]);
+            let ahead = arm[0] * along[0] + arm[1] * along[1];
+            // The parts at a movable pulley run along its rim on either side, first the one that leads to the other pulley.
+            let aside = match under {
+                None => vec![0.0],
+                Some(under) => {
+                    let (own, rim) = (radius(under)?, radius(pulley)?);
+                    let across = along[0] * arm[1] - along[1] * arm[0];
+                    let off = |a: f64| ((a - across).abs() - rim).abs();
+                    let first = if off(own) <= off(-own) { own } else { -own };
+                    vec![first, -first]
+                }
+            };
+            for (k, a) in aside.into_iter().enumerate() {
+                let from = [pose.center[0] - a * along[1], pose.center[1] + a * along[0]];
+                let foot = [0, 1].map(|k| from[k] + ahead * along[k]);
+                let ends = [from, foot].map(|p| stage.px(p));
+                sheet.segment(ends[0], ends[1], Line::thin(Ink::Body), 1.0);
+                if k == 0 {
+                    feet.push(stage.px(foot));
+                }
+            }
         }
         if string.over.len() > 1 {
             sheet.segment(feet[0], feet[1], Line::thin(Ink::Body), 1.0);
+        }
+        if let Some((_, load)) = driven.iter().find(|(b, _)| *b == string.to[0]) {
+            let ends = [other.1.center, load.center].map(|p| stage.px(p));
+            sheet.segment(ends[0], ends[1], Line::thin(Ink::Body), 1.0);
         }
     }
     Some(())

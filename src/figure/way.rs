@@ -142,10 +142,10 @@ fn driven(
     let mut out = Vec::new();
     for string in &slide.strings {
         let along = values.pair(&string.along)?;
-        for b in &string.to {
-            let pose = begin.get(*b)?;
+        for b in string.hung() {
+            let pose = begin.get(b)?;
             let shift = along.map(|c| c * far);
-            out.push((*b, moved(pose, pose.center, 0.0, shift)));
+            out.push((b, moved(pose, pose.center, 0.0, shift)));
         }
     }
     Some(out)

@@ -378,8 +378,8 @@ pub struct Slide {
 impl Slide {
     /// All bodies that move, pulleys last.
     pub fn bodies(&self) -> Vec<usize> {
-        let ends = self.strings.iter().flat_map(|s| &s.to);
-        let all = self.company().into_iter().chain(ends.copied());
+        let ends = self.strings.iter().flat_map(Strung::hung);
+        let all = self.company().into_iter().chain(ends);
         all.chain(self.pulleys()).collect()
     }
 
@@ -388,7 +388,7 @@ impl Slide {
         [&[self.body], self.with.as_slice()].concat()
     }
 
-    /// The pulleys of all strings.
+    /// The pulleys of all strings whose centers stay.
     pub fn pulleys(&self) -> impl Iterator<Item = usize> {
         self.strings.iter().flat_map(|s| s.over.iter().copied())
     }
@@ -399,12 +399,27 @@ impl Slide {
 pub struct Strung {
     /// Indices of the bodies; they move as one.
     pub to: Vec<usize>,
-    /// Direction in which they move while the body moves along its own.
+    /// Their velocity where the body moves along its own direction at the speed 1: a unit vector, or half of one on a movable
+    /// pulley.
     pub along: Vector,
-    /// Indices of the pulleys, from the body on.
+    /// Indices of the pulleys whose centers stay, from the body on.
     pub over: Vec<usize>,
+    /// Index of the movable pulley on whose axle the bodies hang; behind it the string is fastened.
+    pub under: Option<usize>,
     /// Coefficient of sliding friction of a surface below them; `None` for a smooth guide, or where they hang.
     pub friction: Option<Expr>,
+}
+
+impl Strung {
+    /// What moves along the line of the other end: the bodies there, and a movable pulley.
+    pub fn hung(&self) -> impl Iterator<Item = usize> {
+        self.to.iter().copied().chain(self.under)
+    }
+
+    /// Their speed where the body has the speed 1.
+    pub fn ratio(&self) -> Expr {
+        Expr::ratio(1, if self.under.is_some() { 2 } else { 1 })
+    }
 }
 
 /// How a motion along a line ends.

@@ -157,6 +157,9 @@ record! {
         /// Names of one or two pulleys, from the body on: disks or rings whose centers stay, of mass "0" where they are light
         /// or smooth. The string runs along their rims.
         over: Vec<Text>,
+        /// Name of a movable pulley, a disk or ring that hangs in the string with `to` on its axle; behind it the string is
+        /// fastened. They move half as fast as the body.
+        under: Option<Text>,
         /// Coefficient of sliding friction of a surface below what moves at the other end.
         friction: Option<Formula>,
     }

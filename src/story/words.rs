@@ -242,15 +242,22 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
     };
     let lead = names.join(" and ");
     if told.time.as_ref().is_some_and(Expr::is_zero) {
-        let verb = if one { " is" } else { " are" };
-        return sentence![lead, verb, " at rest already"];
+        return match (&slide.until, one) {
+            (SlideEnd::Rolls, _) => sentence![lead, " rolls already"],
+            (_, true) => sentence![lead, " is at rest already"],
+            (_, false) => sentence![lead, " are at rest already"],
+        };
     }
     let lead = lead + how;
     let strings = slide.strings.iter().map(|s| {
         let list = |all: &[usize]| all.iter().map(name).collect::<Vec<_>>().join(" and ");
         let rough = s.friction.as_ref().map_or("", |_| " on a rough surface");
+        let under = s
+            .under
+            .map(|p| (format!(" and under {}", name(&p)), ", half as fast"));
+        let (under, half) = under.unwrap_or_default();
         format!(
-            ", and the string over {} takes {} along{rough}",
+            ", and the string over {}{under} takes {} along{rough}{half}",
             list(&s.over),
             list(&s.to)
         )

@@ -196,8 +196,10 @@ fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) 
         _ => return None,
     };
     let (body, with) = all?;
-    let others = strings.iter().flat_map(|s| s.to.iter().chain(&s.over));
-    let mut all: Vec<usize> = others.copied().chain([body]).chain(with.clone()).collect();
+    let others = strings
+        .iter()
+        .flat_map(|s| s.hung().chain(s.over.iter().copied()));
+    let mut all: Vec<usize> = others.chain([body]).chain(with.clone()).collect();
     all.sort_unstable();
     if let Some(twice) = all.windows(2).find(|pair| pair[0] == pair[1]) {
         let name = &scene.bodies[twice[0]].name;
@@ -280,9 +282,14 @@ fn strung(r: &mut Resolver<'_>, scene: &Scene, string: &StrungFile) -> Option<St
     let over: Vec<_> = string.over.iter().map(|name| r.moving(name)).collect();
     let along = r.direction(&string.along);
     let friction = coefficient(r, string.friction.as_ref())?;
+    let under = string.under.as_ref().map(|name| r.moving(name));
     let (to, over): (Option<Vec<_>>, Option<Vec<_>>) =
         (to.into_iter().collect(), over.into_iter().collect());
     let (to, over) = (to?, over?);
+    let under = match under {
+        None => None,
+        Some(pulley) => Some(pulley?),
+    };
     if to.is_empty() || !(1..=2).contains(&over.len()) {
         let message = "a string runs over one or two pulleys to one or more bodies";
         let fault = Fault::new(string.span, message);
@@ -290,7 +297,8 @@ fn strung(r: &mut Resolver<'_>, scene: &Scene, string: &StrungFile) -> Option<St
             .hint("a body that is pulled along the same line is named under `with`")
             .add_to(&mut r.faults);
     }
-    for (pulley, name) in over.iter().zip(&string.over) {
+    let pulleys = over.iter().zip(&string.over);
+    for (pulley, name) in pulleys.chain(under.iter().zip(&string.under)) {
         let body = &scene.bodies[*pulley];
         if !matches!(body.shape, Shape::Disk { .. } | Shape::Ring { .. }) {
             let message = format!("`{}` is no pulley", body.name);
@@ -302,12 +310,18 @@ fn strung(r: &mut Resolver<'_>, scene: &Scene, string: &StrungFile) -> Option<St
                 .add_to(&mut r.faults);
         }
     }
-    Some(Strung {
+    let mut out = Strung {
         to,
         along: along?,
         over,
+        under,
         friction,
-    })
+    };
+    if under.is_some() {
+        let ratio = out.ratio();
+        out.along = out.along.map(|c| &ratio * &c);
+    }
+    Some(out)
 }
 
 fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {

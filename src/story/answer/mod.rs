@@ -116,7 +116,7 @@ fn one(
         }
         Ask::Time => each(&|told| Ok(motion::time(question, told))),
         Ask::Distance => each(&|told| Ok(motion::distance(question, told))),
-        Ask::Acceleration { .. } => each(&|told| Ok(motion::acceleration(question, told))),
+        Ask::Acceleration { body } => each(&|told| Ok(motion::acceleration(question, told, *body))),
         Ask::AngularAcceleration { at_end, .. } => {
             each(&|told| motion::angular_acceleration(question, told, *at_end))
         }

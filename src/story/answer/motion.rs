@@ -119,9 +119,18 @@ pub(super) fn time(question: &Question, told: &StageTold) -> Answer {
 }
 
 /// How a body on a line gets faster.
-pub(super) fn acceleration(question: &Question, told: &StageTold) -> Answer {
+pub(super) fn acceleration(question: &Question, told: &StageTold, body: usize) -> Answer {
     let words = format!("acceleration along its way in `{}`", told.name);
-    let value = (&told.acceleration, "what comes before is open");
+    let strings = match &told.placed.kind {
+        StageKind::Slide(slide) => slide.strings.as_slice(),
+        _ => &[],
+    };
+    let its_own = strings.iter().find(|s| s.hung().any(|b| b == body));
+    let rate = told.acceleration.as_ref().map(|a| match its_own {
+        Some(string) => &string.ratio() * a,
+        None => a.clone(),
+    });
+    let value = (&rate, "what comes before is open");
     measured(question, told, words, Dimension::new(0, 1, -2), value)
 }
 

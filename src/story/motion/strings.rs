@@ -13,19 +13,20 @@ use crate::story::{Refused, State, Step};
 /// A string, with what moves at its other end.
 pub(super) struct Pulled<'a> {
     pub string: &'a Strung,
-    /// Mass at the other end \[kg\].
+    /// Mass of the other end as it counts where the body is: its energy there is half of this times the body's speed squared
+    /// \[kg\].
     pub mass: Expr,
     /// Moments of inertia of the pulleys by the squares of their radii \[kg\].
     pub turning: Expr,
-    /// Weight of the other end along its direction \[N\].
+    /// Weight of the other end along its direction, by its share of the body's way \[N\].
     pub pull: Expr,
-    /// Friction of the other end along its direction \[N\], not positive.
+    /// Friction of the other end along its direction in the same way \[N\], not positive.
     pub friction: Expr,
-    /// Spins of the pulleys where the speed is 1 \[1/m\], in the order of the string.
+    /// Spins of the pulleys where the speed is 1 \[1/m\], in the order of the string, the movable one last.
     pub spins: Vec<Expr>,
     /// Whether the other end moves away from the pulleys and draws the body.
     pub draws: bool,
-    /// How far the end that nears its pulley is from being beside it \[m\], and the two bodies.
+    /// How far the body may go until an end that nears its pulley is beside it \[m\], and the two.
     pub room: (Expr, [usize; 2]),
 }
 
@@ -46,11 +47,8 @@ fn one<'a>(
     string: &'a Strung,
 ) -> Result<Pulled<'a>, Refused> {
     let scene = &stage.scene;
-    let all = string.to.iter();
-    let mass = tidied(
-        stage,
-        &Expr::sum(all.map(|b| scene.bodies[*b].mass.clone())),
-    )?;
+    let all = string.hung().map(|b| scene.bodies[b].mass.clone());
+    let mass = tidied(stage, &Expr::sum(all))?;
     let zero = Expr::zero();
     let weight = &mass * slide.gravity.as_ref().unwrap_or(&zero);
     let friction = match &string.friction {
@@ -76,8 +74,17 @@ fn one<'a>(
     };
     let (first, last) = (string.over[0], string.over[string.over.len() - 1]);
     let head = (&before.center[slide.body], &slide.along, slide.body);
-    let tail = (&before.center[string.to[0]], &string.along, string.to[0]);
     let mut spins = vec![spin(stage, before, first, head)?];
+    let loops = string
+        .under
+        .map(|p| looped(stage, before, string, p, &spins[0]));
+    let loops = loops.transpose()?;
+    let hung = string.under.unwrap_or(string.to[0]);
+    let (from, along) = match &loops {
+        Some(looped) => (&looped.from, &looped.along),
+        None => (&before.center[hung], &string.along),
+    };
+    let tail = (from, along, hung);
     let there = spin(stage, before, last, tail)?;
     if string.over.len() > 1 {
         spins.push(there);
@@ -107,19 +114,72 @@ fn one<'a>(
     }
     let pulleys = string.over.iter().zip(&spins);
     let turning = pulleys.map(|(p, k)| &scene.bodies[*p].inertia * &k.powi(2));
+    let turning = tidied(stage, &Expr::sum(turning))?;
+    let mut mass = &mass * &string.ratio().powi(2);
+    if let (Some(looped), Some(pulley)) = (loops, string.under) {
+        mass = &mass + &(&scene.bodies[pulley].inertia * &looped.spin.powi(2));
+        spins.push(looped.spin);
+    }
     Ok(Pulled {
         string,
-        turning: tidied(stage, &Expr::sum(turning))?,
+        turning,
         pull: tidied(stage, &-(&weight * &string.along[1]))?,
         friction: tidied(stage, &friction)?,
-        mass,
+        mass: tidied(stage, &mass)?,
         spins,
         draws,
         room: match draws {
             true => (to_first, [head.2, first]),
-            false => (to_last, [tail.2, last]),
+            false => (&to_last / &string.ratio(), [hung, last]),
         },
     })
+}
+
+/// The part of a string that leads down to a movable pulley.
+struct Looped {
+    /// Where it meets the rim of that pulley.
+    from: Vector,
+    /// Direction in which it moves, at the speed of the body.
+    along: Vector,
+    /// Spin of that pulley where the body has the speed 1 \[1/m\].
+    spin: Expr,
+}
+
+/// The loop of a string around a movable pulley: down along its rim on one side, and on the other up to where it is fastened.
+/// There the rim is at rest, so that the center has half the speed of the string.
+fn looped(
+    stage: &Stage,
+    before: &State,
+    string: &Strung,
+    pulley: usize,
+    first_spin: &Expr,
+) -> Result<Looped, Refused> {
+    let scene = &stage.scene;
+    let zero = Expr::zero();
+    let radius = scene.bodies[pulley].shape.radius().unwrap_or(&zero);
+    let along = [0, 1].map(|k| &string.along[k] / &string.ratio());
+    let last = string.over[string.over.len() - 1];
+    for side in [1, -1] {
+        let reach = &Expr::from(side) * radius;
+        let rim = [-&(&reach * &along[1]), &reach * &along[0]];
+        let from = [0, 1].map(|k| &before.center[pulley][k] + &rim[k]);
+        let Ok(spin) = spin(stage, before, last, (&from, &along, pulley)) else {
+            continue;
+        };
+        // Over one pulley only the side counts on which the string comes off it.
+        let fits =
+            string.over.len() > 1 || is_zero(&(&spin - first_spin), &scene.domains) == Some(true);
+        if fits {
+            let spin = tidied(stage, &-(&string.ratio() / &reach))?;
+            return Ok(Looped { from, along, spin });
+        }
+    }
+    let [last, under] = [last, pulley].map(|b| &scene.bodies[b].name);
+    Err(Refused::new(
+        &stage.name,
+        format!("the string does not run straight from the rim of `{last}` to that of `{under}`"),
+        "the center of a movable pulley is one radius beside the line on which the string leaves the pulley before it",
+    ))
 }
 
 /// Spin of a pulley where a body that hangs on its rim moves with the speed 1.
@@ -184,7 +244,14 @@ impl Pulled<'_> {
     /// The tensions as steps of a solution.
     pub(super) fn steps(&self, stage: &Stage, acceleration: &Expr) -> Result<Vec<Step>, Refused> {
         let why = [
-            "the pull of the string at its other end, by the forces on what hangs there",
+            match self.string.under {
+                Some(_) => {
+                    "the pull of the string, of which two parts carry what hangs on the movable pulley"
+                }
+                None => {
+                    "the pull of the string at its other end, by the forces on what hangs there"
+                }
+            },
             "the pull of the string on this side of the pulleys, by the moment that turns them",
         ];
         let letters = ["T", "S"];

@@ -123,17 +123,13 @@ pub(in crate::numeric::follow) fn slide(
     let mut start = movers.start(&units);
     let n = start.len() / 2;
     // What is across the line is rounding, and so is the spin of what does not turn.
-    let mut directions = vec![acting.along; company];
-    directions.extend(
-        ropes
-            .ends
-            .iter()
-            .flat_map(|e| e.bodies.iter().map(|_| e.along)),
-    );
-    directions.resize(bodies.len(), [0.0; 2]);
-    for (i, along) in directions.iter().enumerate() {
-        start[n + 3 * i] = speed * along[0] / units.speed();
-        start[n + 3 * i + 1] = speed * along[1] / units.speed();
+    let mut directions = vec![(acting.along, 1.0); company];
+    let ends = ropes.ends.iter();
+    directions.extend(ends.flat_map(|e| e.hung().map(|_| (e.along, e.ratio))));
+    directions.resize(bodies.len(), ([0.0; 2], 0.0));
+    for (i, (along, ratio)) in directions.iter().enumerate() {
+        start[n + 3 * i] = speed * ratio * along[0] / units.speed();
+        start[n + 3 * i + 1] = speed * ratio * along[1] / units.speed();
         if !turns || i > 0 {
             start[n + 3 * i + 2] = 0.0;
         }
@@ -197,8 +193,8 @@ pub(in crate::numeric::follow) fn slide(
         rates.ok_or_else(|| course.out_of_reach("the equations of motion have no solution"))?;
     let acceleration = units.length / (units.time * units.time);
     let driven = directions.iter().enumerate();
-    let driven = driven.filter(|(_, along)| **along != [0.0; 2]);
-    let driven = driven.map(|(i, along)| Driven {
+    let driven = driven.filter(|(_, (along, _))| *along != [0.0; 2]);
+    let driven = driven.map(|(i, (along, _))| Driven {
         body: bodies[i],
         acceleration: dot(&[rates[3 * i], rates[3 * i + 1]], along) * acceleration,
         tension: ropes.pull(i, company, tensions).map(|t| t * units.force()),

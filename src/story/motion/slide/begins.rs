@@ -38,11 +38,14 @@ fn fits_line(
     let domains = &stage.scene.domains;
     let across = [-&direction[1], direction[0].clone()];
     let turns = slide.rolling || slide.friction.is_some();
+    // On a movable pulley the line has half the speed of the body.
+    let speed = speed * &dot(direction, direction);
     for &b in bodies {
         let body = &stage.scene.bodies[b];
         let v = &before.velocity[b];
         let is_alone = b == slide.body && slide.with.is_empty();
         let may_turn = turns && is_alone && body.shape.radius().is_some();
+        let may_turn = may_turn || slide.strings.iter().any(|s| s.under == Some(b));
         let leaves = is_zero(&dot(v, &across), domains) == Some(false);
         if leaves || !may_turn && is_zero(&before.spin[b], domains) == Some(false) {
             return Err(Refused::new(
@@ -54,7 +57,7 @@ fn fits_line(
                 "an impact before it may stop what does not fit",
             ));
         }
-        let gap = &dot(v, direction) - speed;
+        let gap = &dot(v, direction) - &speed;
         if is_zero(&gap, domains) == Some(false) {
             return Err(Refused::new(
                 &stage.name,

@@ -196,6 +196,8 @@ impl<'a> Line<'a> {
             "the acceleration, with the inertia of turning added to the mass"
         } else if self.strings.is_empty() {
             "the acceleration along the line"
+        } else if self.strings.iter().any(|s| s.string.under.is_some()) {
+            "the acceleration along the string, of all that it ties together, where what moves half as fast counts with half its weight and a quarter of its mass"
         } else if self.strings.iter().all(|s| s.turning.is_zero()) {
             "the acceleration along the string, of all that it ties together"
         } else {
@@ -250,8 +252,8 @@ impl<'a> Line<'a> {
 
     /// The pulleys of all strings with their spins where the speed is 1.
     pub fn pulleys(&self) -> impl Iterator<Item = (usize, &Expr)> {
-        let all = self.strings.iter();
-        all.flat_map(|s| s.string.over.iter().copied().zip(&s.spins))
+        let all = self.strings.iter().map(|s| (s.string, &s.spins));
+        all.flat_map(|(s, spins)| s.over.iter().copied().chain(s.under).zip(spins))
     }
 
     /// Whether friction does work.

@@ -81,7 +81,7 @@ pub(in crate::story) fn slide(
 
 /// The bodies that move along one line each, with their directions.
 fn lumps(slide: &Slide) -> Vec<(Vec<usize>, &Vector)> {
-    let strung = slide.strings.iter().map(|s| (s.to.clone(), &s.along));
+    let strung = slide.strings.iter().map(|s| (s.hung().collect(), &s.along));
     let own = (slide.company(), &slide.along);
     std::iter::once(own).chain(strung).collect()
 }
