@@ -418,6 +418,12 @@ pub fn course(scene: &Scene) -> Result<Told, Refused> {
                     .symbols
                     .insert(open.clone(), Domain::real());
             }
+            // A motion goes on where the case that leads to it happens; an impact weighs its own conditions.
+            if !matches!(stage.kind, StageKind::Impact { .. }) {
+                for (_, need) in &given {
+                    placed.scene.domains = placed.scene.domains.given(need, false);
+                }
+            }
             let mut told = match one(scene, &stages, &placed, (before, &given)) {
                 Ok(told) => told,
                 Err(why) if why.contradicts => {

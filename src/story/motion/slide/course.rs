@@ -148,6 +148,9 @@ impl Line<'_> {
         let Some(round) = &self.round else {
             return Err(self.refused("it does not roll", "a disk, ring or sphere does"));
         };
+        if !self.slips() {
+            return Ok(Expr::zero());
+        }
         let gain = &self.acceleration + &(&round.arm * &self.angular);
         let raw = -(&round.slip / &gain);
         let time = self.tidied(&raw)?;
