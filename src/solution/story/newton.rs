@@ -58,8 +58,9 @@ impl Page<'_> {
             let claimed = self.solution.step(Vec::new(), vec![claim], step.why);
             let mut math = Vec::new();
             if let Some(inertia) = step.inertia.as_ref().filter(|_| !step.raw.is_zero()) {
-                let inertia = neat(self.scene, inertia);
-                let force = neat(self.scene, &self.by_names(&step.raw, &step.value));
+                let inertia = spread(&neat(self.scene, inertia));
+                let force = self.by_names(&step.raw, &step.value);
+                let force = spread(&neat(self.scene, &force));
                 math.extend([Math::Factor(inertia), letter.clone(), Math::Op("=")]);
                 math.push(Math::Expr(force));
                 if !is_boxed {
@@ -169,6 +170,27 @@ impl Page<'_> {
             Some(_) => e.clone(),
             None => out,
         }
+    }
+}
+
+/// M/4 + m for (M + 4 m)/4: each force and each mass in its place.
+fn spread(e: &Expr) -> Expr {
+    let (number, rest) = e.split_number();
+    let factors = match rest.node() {
+        Node::Product(factors) => factors.as_slice(),
+        _ => std::slice::from_ref(&rest),
+    };
+    let is_sum = |f: &&Expr| matches!(f.node(), Node::Sum(_));
+    let (sums, others): (Vec<&Expr>, Vec<&Expr>) = factors.iter().partition(is_sum);
+    match sums.as_slice() {
+        [sum] if !number.is_integer() => {
+            let others = Expr::from(number) * Expr::product(others.into_iter().cloned());
+            let Node::Sum(terms) = sum.node() else {
+                return e.clone();
+            };
+            Expr::sum(terms.iter().map(|term| &others * term))
+        }
+        _ => e.clone(),
     }
 }
 
