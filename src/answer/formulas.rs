@@ -520,8 +520,22 @@ fn stated_dimension(
     // Of an answer that is 0 nothing can be told: it stands for itself.
     let plain = known.iter().filter(|(_, v)| of_answer(v).is_none());
     let plain: Known = plain.map(|(s, v)| (s.clone(), v.clone())).collect();
-    let e = &e.substitute(&plain);
-    dimension::of(e, &of).map_err(|clash| clashes(at, clash.message(&write_plain)))
+    dimension::of(&e.substitute(&plain), &of).or_else(|clash| {
+        // A velocity that came out of plain numbers in their units is a velocity all the same.
+        let asked = |name: &str| {
+            let mut questions = scene.questions.iter();
+            let found = questions.find(|q| {
+                let part = name.strip_prefix(&*q.name);
+                part.is_some_and(|part| matches!(part, "" | "_x" | "_y"))
+            });
+            match found.map(|q| q.ask.dimension()) {
+                Some(known) if known != Dimension::none() => Some(known),
+                _ => of(name),
+            }
+        };
+        let by_kind = dimension::of(e, &asked);
+        by_kind.map_err(|_| clashes(at, clash.message(&write_plain)))
+    })
 }
 
 /// What is put in for a parameter has its dimension, or is a number.

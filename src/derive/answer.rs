@@ -5,8 +5,7 @@ use super::{Names, Stop, Work};
 use crate::algebra::{self, Element, Row};
 use crate::answer::{Answer, Form, Matrix};
 use crate::derive::count::Counting;
-use crate::dimension::Dimension;
-use crate::expr::{Expr, Rational, Vector, ratio};
+use crate::expr::{Expr, Vector};
 use crate::laws::{self, Affine, Direction, Kinematics, Law, Place, Unknown};
 use crate::scene::{Ask, EnergyWhen, ImpulseAt, KnownQuantity, Question, Scene};
 
@@ -97,7 +96,7 @@ impl Work<'_> {
             .clone()
             .unwrap_or_else(|| crate::formula::latex_name(&question.name));
         let words = words(self.scene, &question.ask);
-        let dimension = dimension(&question.ask);
+        let dimension = question.ask.dimension();
         let make = |name: String, latex: String, words: String, form: Form| Answer {
             latex,
             form,
@@ -535,30 +534,5 @@ fn words(scene: &Scene, ask: &Ask) -> String {
         }
         Ask::Matrix { .. } => String::from("the equations in matrix form"),
         _ => String::new(),
-    }
-}
-
-/// The dimension of what a question asks for; that of a number where only its answer tells.
-pub fn dimension(ask: &Ask) -> Dimension {
-    let [zero, one, two] = [0, 1, 2].map(|k| ratio(k, 1));
-    let minus = |k: &Rational| -k.clone();
-    let (mass, length, time) = match ask {
-        Ask::Velocity { .. } => (zero, one.clone(), minus(&one)),
-        Ask::Spin { .. } => (zero.clone(), zero, minus(&one)),
-        Ask::Impulse { .. } | Ask::Balance { .. } => (one.clone(), one.clone(), minus(&one)),
-        Ask::Energy { .. } => (one, two.clone(), minus(&two)),
-        Ask::Reaction { .. } | Ask::Tension { .. } => (one.clone(), one, minus(&two)),
-        Ask::Acceleration { .. } => (zero, one, minus(&two)),
-        Ask::AngularAcceleration { .. } => (zero.clone(), zero, minus(&two)),
-        Ask::Time => (zero.clone(), zero, one),
-        Ask::Distance | Ask::Position { .. } => (zero.clone(), one, zero),
-        Ask::AngularMomentum { .. } => (one.clone(), two, minus(&one)),
-        _ => (zero.clone(), zero.clone(), zero),
-    };
-    Dimension {
-        mass,
-        length,
-        time,
-        ..Dimension::none()
     }
 }

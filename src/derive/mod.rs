@@ -20,7 +20,7 @@ mod work;
 use std::collections::BTreeMap;
 use std::fmt;
 
-pub use answer::{dimension, full_matrix};
+pub use answer::full_matrix;
 pub use count::{Counting, count};
 pub use left_out::LeftOut;
 pub use names::Names;

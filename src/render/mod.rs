@@ -299,5 +299,5 @@ fn latex_system(m: &Matrix, write: impl Fn(&Expr) -> String, gap: &str) -> Strin
 /// The SI unit of what a question asks for.
 pub fn unit_of(scene: &Scene, question: &str) -> String {
     let found = scene.questions.iter().find(|q| q.name == question);
-    found.map_or_else(String::new, |q| crate::derive::dimension(&q.ask).spoken())
+    found.map_or_else(String::new, |q| q.ask.dimension().spoken())
 }

@@ -191,7 +191,7 @@ fn answers(
     for question in &scene.questions {
         let name = &question.name;
         let found = answer(scene, followed, question, at);
-        let unit = crate::derive::dimension(&question.ask).spoken();
+        let unit = question.ask.dimension().spoken();
         match found {
             Ok(Answer::Scalar(v)) => out.push((name.clone(), unit, Ok(v))),
             Ok(Answer::Vector([x, y])) => {

@@ -1,6 +1,7 @@
 //! What is asked of a scene: of an impact, of a motion, of the answers; and the curves to be drawn. Types only.
 
 use super::FrictionEvent;
+use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::Relation;
 
@@ -230,6 +231,23 @@ pub enum Ask {
 }
 
 impl Ask {
+    /// The dimension of what is asked for; that of a number where only the answer tells.
+    pub fn dimension(&self) -> Dimension {
+        match self {
+            Ask::Velocity { .. } => Dimension::new(0, 1, -1),
+            Ask::Spin { .. } => Dimension::new(0, 0, -1),
+            Ask::Impulse { .. } | Ask::Balance { .. } => Dimension::new(1, 1, -1),
+            Ask::Energy { .. } => Dimension::new(1, 2, -2),
+            Ask::Reaction { .. } | Ask::Tension { .. } => Dimension::new(1, 1, -2),
+            Ask::Acceleration { .. } => Dimension::new(0, 1, -2),
+            Ask::AngularAcceleration { .. } => Dimension::new(0, 0, -2),
+            Ask::Time => Dimension::new(0, 0, 1),
+            Ask::Distance | Ask::Position { .. } => Dimension::new(0, 1, 0),
+            Ask::AngularMomentum { .. } => Dimension::new(1, 2, -1),
+            _ => Dimension::none(),
+        }
+    }
+
     /// Whether it is about the motion just after an impact or at the end of a motion, about how long and how far it went, or
     /// about the impulses and equations of an impact.
     pub fn is_motion(&self) -> bool {

@@ -30,7 +30,7 @@ pub(super) fn ask(
         let ask = Ask::Value {
             formula,
             with: Vec::new(),
-            meaning: told::meaning(q),
+            meaning: told::meaning(q, base.file.stages.as_deref().unwrap_or_default()),
         };
         return Some((None, ask));
     }

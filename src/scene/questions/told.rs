@@ -10,7 +10,7 @@ use crate::scene::fault::Fault;
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
 use crate::scene::resolve::Resolver;
-use crate::scene::stage_file::EndName;
+use crate::scene::stage_file::{EndName, StageFile};
 use crate::scene::{Ask, Question, Scene, geometry};
 
 /// Reads one question of a scene of one impact into the scene.
@@ -23,7 +23,7 @@ pub(super) fn resolve(
 ) -> Option<()> {
     let is_start = q.when == Some(EndName::Start);
     let latex = q.latex.as_ref().map(|t| t.text.as_str());
-    let meaning = meaning(q);
+    let meaning = meaning(q, &[]);
     let push = |scene: &mut Scene, suffix: &str, formula: Expr| {
         let latex = latex.map(|l| match suffix.strip_prefix('_') {
             Some(axis) => with_subscript(l, axis),
@@ -120,8 +120,8 @@ pub(super) fn resolve(
     Some(())
 }
 
-/// What one of these is, in words.
-pub(super) fn meaning(q: &QuestionFile) -> String {
+/// What one of these is, in words; where it belongs to the end of a motion, to that of its stage.
+pub(super) fn meaning(q: &QuestionFile, stages: &[StageFile]) -> String {
     let of = [
         ("speed", &q.speed),
         ("moment of inertia", &q.inertia),
@@ -137,9 +137,17 @@ pub(super) fn meaning(q: &QuestionFile) -> String {
         return String::new();
     };
     let when = match (what, q.when) {
-        ("moment of inertia", _) => "",
-        (_, Some(EndName::Start)) => " just before",
-        _ => " just after",
+        ("moment of inertia", _) => String::new(),
+        (_, Some(EndName::Start)) => String::from(" just before"),
+        _ => {
+            let named = |s: &&StageFile| q.at.as_ref().is_none_or(|at| at.text == s.name.text);
+            match stages.iter().rfind(named) {
+                Some(stage) if stage.impact.is_none() => {
+                    format!(" at the end of `{}`", stage.name.text)
+                }
+                _ => String::from(" just after"),
+            }
+        }
     };
     match &q.of {
         // A velocity names the point, and `of` its body.

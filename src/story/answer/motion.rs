@@ -2,7 +2,6 @@
 
 use crate::answer::calc::{Seen, is_zero, sign, tidy};
 use crate::answer::{Answer, Check, Form, Refused};
-use crate::derive;
 use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::expr::{Expr, Vector, cross, dot, minus};
@@ -48,7 +47,7 @@ pub(super) fn angular_acceleration(
     let when = if at_end { "end" } else { "beginning" };
     let words = format!("angular acceleration at the {when} of `{}`", told.name);
     let mut out = Answer::blank(question, &question.name, words);
-    out.dimension = derive::dimension(&question.ask);
+    out.dimension = question.ask.dimension();
     let Ask::AngularAcceleration {
         body, clockwise, ..
     } = question.ask
@@ -358,7 +357,7 @@ pub(super) fn at_end(
         }
         _ => return Err(refuse("a motion transmits no impulse; ask it of an impact")),
     }
-    let dimension = derive::dimension(ask);
+    let dimension = ask.dimension();
     let mut out = Vec::new();
     for (suffix, value) in parts {
         let mut a = Answer::blank(
