@@ -197,8 +197,8 @@ impl Field {
     fn assemble(&self, above: &Parts, below: &Parts) -> Expr {
         let mut number = Rational::new(above.content.clone(), below.content.clone());
         let mut factors: Vec<Factor> = Vec::new();
-        // Sums of mixed signs may be turned round to carry a minus sign.
-        let mut turnable: Option<Expr> = None;
+        // Sums of mixed signs may be turned round to carry a minus sign; 1 − e² reads better as it is.
+        let mut turnable: Option<(bool, Expr)> = None;
         for (parts, sign) in [(above, 1i64), (below, -1)] {
             for (f, k) in &parts.factors {
                 let mut power = ratio(i64::from(*k) * sign, 1);
@@ -219,8 +219,10 @@ impl Field {
                     if flipped && k % 2 == 1 {
                         number = -number;
                     }
-                    if mixed && k % 2 == 1 && turnable.is_none() {
-                        turnable = Some(expr.clone());
+                    let number = matches!(expr.node(), Node::Sum(terms) if terms.iter().any(|t| t.as_number().is_some()));
+                    let better = turnable.as_ref().is_none_or(|(had, _)| *had && !number);
+                    if mixed && k % 2 == 1 && better {
+                        turnable = Some((number, expr.clone()));
                     }
                     (expr, Rank::Sum, None)
                 };
@@ -238,7 +240,7 @@ impl Field {
                 }
             }
         }
-        if let (true, Some(sum)) = (number.is_negative(), turnable) {
+        if let (true, Some((_, sum))) = (number.is_negative(), turnable) {
             let odd =
                 |f: &&mut Factor| f.base == sum && f.power.is_integer() && f.power.numer().is_odd();
             if let Some(place) = factors.iter_mut().find(odd) {

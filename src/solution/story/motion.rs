@@ -140,12 +140,24 @@ impl Page<'_> {
         }
     }
 
-    /// The speed with which a fall or a rotation ends, from its energy, where the next stage takes it over and no question asks
-    /// for it.
+    /// The speed with which a motion ends, from its energy, where the next stage takes it over and no question asks for it.
     fn speed(&mut self, stage: &Stage, told: &StageTold) -> Option<Line> {
         let [_, end] = told.energy.as_ref()?;
         let asks = |is: fn(&Ask) -> bool| self.asked(told, is);
+        let index = self.told.stages.iter().position(|s| std::ptr::eq(s, told));
+        let mut next = self.told.stages.iter();
+        let goes_on = next.any(|s| s.branch.map(|(parent, _)| parent) == index);
         let (head, inertia) = match &stage.kind {
+            StageKind::Slide(slide) => {
+                let spins = !told.after.spin[slide.body].is_zero();
+                let others = spins || !slide.strings.is_empty();
+                if asks(|_| true) || others || !goes_on || end.is_zero() {
+                    return None;
+                }
+                let masses = slide.company().into_iter();
+                let masses = masses.map(|b| stage.scene.bodies[b].mass.clone());
+                (name("v", "", "+", false), Expr::sum(masses))
+            }
             StageKind::Fall(fall) => {
                 let spins = !told.after.spin[fall.body].is_zero();
                 if asks(|_| true) || spins || fall.bodies().len() > 1 {
@@ -155,9 +167,6 @@ impl Page<'_> {
                 (name("v", "", "+", false), mass)
             }
             StageKind::Turn(turn) => {
-                let index = self.told.stages.iter().position(|s| std::ptr::eq(s, told));
-                let mut next = self.told.stages.iter();
-                let goes_on = next.any(|s| s.branch.map(|(parent, _)| parent) == index);
                 let is_given = *end == told.energy.as_ref()?[0];
                 let needed = goes_on || asks(|ask| matches!(ask, Ask::Velocity { .. }));
                 let asked =

@@ -39,7 +39,12 @@ fn fits_line(
     let across = [-&direction[1], direction[0].clone()];
     let turns = slide.rolling || slide.friction.is_some();
     // On a movable pulley the line has half the speed of the body.
-    let speed = speed * &dot(direction, direction);
+    let square = dot(direction, direction);
+    let how = match is_zero(&(&square - &Expr::one()), domains) {
+        Some(false) => "at half the speed of",
+        _ => "like",
+    };
+    let speed = speed * &square;
     for &b in bodies {
         let body = &stage.scene.bodies[b];
         let v = &before.velocity[b];
@@ -62,7 +67,7 @@ fn fits_line(
             return Err(Refused::new(
                 &stage.name,
                 format!(
-                    "`{}` does not begin to move like `{}`",
+                    "`{}` does not begin to move {how} `{}`",
                     body.name, stage.scene.bodies[slide.body].name
                 ),
                 "bodies move along together after an impact in which they stick",
