@@ -143,7 +143,8 @@ impl<'a> Line<'a> {
         };
         if way == 0 {
             // It rolls on: as much friction as keeps it rolling, up to the limit.
-            let a = self.rolling(radius);
+            let (force, inertia) = self.rolling(radius);
+            let a = force / inertia;
             self.friction = self.tidied(&-(&self.apparent(radius) * &a))?;
             if self.slide.friction.is_some() {
                 needs.push(self.tidied(&(limit - &self.friction))?);
@@ -204,7 +205,7 @@ impl<'a> Line<'a> {
             "the acceleration along the string, of all that it ties together, the inertia of its pulleys with it"
         };
         let (force, inertia) = match self.radius().filter(|_| rolls) {
-            Some(radius) => (&self.pull + &self.drag, &self.mass + &self.apparent(radius)),
+            Some(radius) => self.rolling(radius),
             None => (self.net(), self.mass.clone()),
         };
         let force = match is_zero(&self.acceleration, self.domains()) {
@@ -227,9 +228,10 @@ impl<'a> Line<'a> {
         self.inertia() / &radius.powi(2)
     }
 
-    /// The acceleration of a body that rolls \[m/s²\].
-    fn rolling(&self, radius: &Expr) -> Expr {
-        &(&self.pull + &self.drag) / &(&self.mass + &self.apparent(radius))
+    /// What gets a body that rolls faster \[N\], and its mass with what turning adds to it \[kg\].
+    fn rolling(&self, radius: &Expr) -> (Expr, Expr) {
+        let inertia = &self.mass + &self.apparent(radius);
+        (&self.pull + &self.drag, inertia)
     }
 
     fn radius(&self) -> Option<&'a Expr> {
