@@ -107,16 +107,24 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     let composed: Vec<SceneFile> = (0..stages.len())
         .map(|i| composed(file, &stages[i], i, &homes))
         .collect();
+    // One that does not read keeps its place, since the others name their predecessors by number.
+    let mut read: Vec<Option<Stage>> = Vec::new();
     for (i, stage) in stages.iter().enumerate() {
         let Some(from) = predecessor(base, stages, i) else {
+            read.push(None);
             continue;
         };
         let symbols = std::mem::replace(&mut base.symbols, Symbols::new(Default::default()));
-        let (read, symbols, faults) = one(&composed[i], stage, from, scene, symbols);
+        let left_at = left_at(&read, from);
+        let (one, symbols, faults) = one(&composed[i], stage, (from, &left_at), scene, symbols);
         base.symbols = symbols;
         base.faults.extend(faults);
-        scene.stages.extend(read);
+        read.push(one);
     }
+    let Some(read) = read.into_iter().collect() else {
+        return;
+    };
+    scene.stages = read;
     let mut axles = Vec::new();
     for stage in &scene.stages {
         if let StageKind::Slide(slide) = &stage.kind {
@@ -348,7 +356,7 @@ fn places(scene: &SceneFile, stage: &str) -> Vec<[Symbol; 3]> {
 fn one(
     file: &SceneFile,
     stage: &StageFile,
-    from: Option<usize>,
+    (from, left_at): (Option<usize>, &BTreeMap<Symbol, Expr>),
     whole: &Scene,
     symbols: Symbols,
 ) -> (Option<Stage>, Symbols, Vec<Fault>) {
@@ -380,11 +388,10 @@ fn one(
         r.body_places[b] = Place::Done(Some([Expr::symbol(x), Expr::symbol(y)]));
     }
     r.point_places.fill(Place::Untouched);
-    let left_at = left_at(&whole.stages, from);
     if stage.impact.is_some() && !left_at.is_empty() {
         for i in 0..r.point_places.len() {
             let at = r.point(i);
-            let at = at.map(|at| at.map(|e| e.substitute(&left_at)));
+            let at = at.map(|at| at.map(|e| e.substitute(left_at)));
             r.point_places[i] = Place::Done(at);
         }
     }
@@ -455,10 +462,10 @@ fn one(
 
 /// The values at which linkages on the way to a stage have left their coordinates: an impact finds the points that the file
 /// gives by a coordinate where its last value puts them.
-fn left_at(stages: &[Stage], from: Option<usize>) -> BTreeMap<Symbol, Expr> {
+fn left_at(stages: &[Option<Stage>], from: Option<usize>) -> BTreeMap<Symbol, Expr> {
     let mut out = BTreeMap::new();
     let mut before = from;
-    while let Some(stage) = before.and_then(|i| stages.get(i)) {
+    while let Some(Some(stage)) = before.and_then(|i| stages.get(i)) {
         if let StageKind::Linkage(linkage) = &stage.kind {
             let [_, end] = &linkage.ends;
             out.entry(linkage.coordinate.clone())
