@@ -149,13 +149,10 @@ pub(crate) fn square_part(value: &Int) -> (Int, Int) {
         root *= prime.pow(take_out(&mut rest, &square));
         p += if p == 2 { 1 } else { 2 };
     }
-    if !num_traits::Signed::is_negative(&rest) {
-        let r = rest.sqrt();
-        if &r * &r == rest {
-            return (root * r, Int::one());
-        }
+    match rest.square_root() {
+        Some(r) => (root * r, Int::one()),
+        None => (root, rest),
     }
-    (root, rest)
 }
 
 /// Prime factors as far as small primes reach; what is left counts as one.

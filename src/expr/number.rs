@@ -166,21 +166,40 @@ impl Int {
         }
     }
 
-    /// Largest integer whose square does not exceed `self`; `self` must not be negative.
-    pub fn sqrt(&self) -> Int {
+    /// The integer whose square this is, where there is one.
+    pub fn square_root(&self) -> Option<Int> {
         match &self.0 {
-            Small(value) => Int(Small(value.isqrt())),
+            Small(value) => {
+                let root = value.checked_isqrt()?;
+                (root * root == *value).then_some(Int(Small(root)))
+            }
+            Big(value) if value.is_negative() => None,
             Big(value) => {
                 // Powers of two, as in long decimals and halves, cost no search.
-                let half = value.trailing_zeros().unwrap_or(0) / 2;
-                let root = (&**value >> (2 * half)).sqrt();
-                match (&root * &root) << (2 * half) == **value {
-                    true => Int::from(root << half),
-                    false => Int::from(value.sqrt()),
+                let zeros = value.trailing_zeros().unwrap_or(0);
+                if zeros % 2 == 1 {
+                    return None;
                 }
+                let odd = &**value >> zeros;
+                if !may_be_square(&odd) {
+                    return None;
+                }
+                let root = odd.sqrt();
+                (&root * &root == odd).then(|| Int::from(root << (zeros / 2)))
             }
         }
     }
+}
+
+/// Whether an odd integer leaves the remainders that squares leave: of those that are no squares 1 in 1 000 does. The root of
+/// a long integer costs as much as some hundred products.
+fn may_be_square(odd: &BigInt) -> bool {
+    const MODULI: [u64; 8] = [8, 63, 65, 11, 17, 19, 23, 31];
+    let Some(remainder) = (odd % MODULI.iter().product::<u64>()).to_u64() else {
+        return true;
+    };
+    let leaves = |m: u64| (0..=m / 2).any(|k| k * k % m == remainder % m);
+    MODULI.into_iter().all(leaves)
 }
 
 impl From<i32> for Int {
@@ -381,7 +400,18 @@ impl Integer for Int {
                 let rest = rest.magnitude().to_u64().unwrap_or(0);
                 Int::from(i128::from(rest.gcd(&word.unsigned_abs())))
             }
-            _ => Int::from(self.big().gcd(&other.big())),
+            (Small(0), _) => other.abs(),
+            (_, Small(0)) => self.abs(),
+            _ => {
+                let (a, b) = (self.big(), other.big());
+                let [i, j] = [&a, &b].map(|n| n.trailing_zeros().unwrap_or(0));
+                // Long decimals and halves have powers of two below, and little else.
+                let [one, two] = [&*a >> i, &*b >> j].map(Int::from);
+                match (&one.0, &two.0) {
+                    (Big(one), Big(two)) => Int::from(one.gcd(two) << i.min(j)),
+                    _ => Int::from(one.gcd(&two).to_bigint() << i.min(j)),
+                }
+            }
         }
     }
     fn lcm(&self, other: &Int) -> Int {
@@ -459,11 +489,8 @@ pub fn ratio(numerator: i64, denominator: i64) -> Rational {
 
 /// The exact square root of a fraction, when it is a fraction too.
 pub fn sqrt_exact(value: &Rational) -> Option<Rational> {
-    if value.is_negative() {
-        return None;
-    }
-    let (n, d) = (value.numer().sqrt(), value.denom().sqrt());
-    (&n * &n == *value.numer() && &d * &d == *value.denom()).then(|| Rational::new_raw(n, d))
+    let root = value.numer().square_root()?;
+    Some(Rational::new_raw(root, value.denom().square_root()?))
 }
 
 /// Nearest double, correctly rounded (ties to even), also where numerator or denominator leave the range of doubles.
@@ -513,6 +540,22 @@ mod tests {
     fn a_value_that_shrinks_is_small_again() {
         let big = Int::from(i64::MAX) + Int::one();
         assert_eq!(big - Int::one(), Int::from(i64::MAX));
+    }
+
+    #[test]
+    fn squares_are_told_from_their_neighbours() {
+        for root in [0i64, 1, 2, 7, 1 << 31, 3_037_000_499] {
+            for long in [Int::one(), Int::from(3).pow(90), Int::from(2).pow(301)] {
+                let root = &Int::from(root) * &long;
+                let square = &root * &root;
+                assert_eq!(square.square_root(), Some(root.clone()));
+                for (near, off) in [(-1, Int::from(4)), (1, Int::zero()), (2, Int::zero())] {
+                    let near = &square + &Int::from(near);
+                    assert!(square <= off || near.square_root().is_none(), "{near}");
+                }
+            }
+        }
+        assert_eq!(Int::from(-4).square_root(), None);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use num_integer::Integer;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Zero};
 
 use super::{MOST_TAKEN, MOST_TERMS, MOST_UNDER_ROOT, Poly, put};
 use crate::algebra::image;
@@ -153,22 +153,14 @@ impl Poly {
         if self.is_zero() {
             return Some(Poly::zero());
         }
-        let root = |c: &Int| -> Option<Int> {
-            let r = if c.is_negative() {
-                return None;
-            } else {
-                c.sqrt()
-            };
-            (&r * &r == *c).then_some(r)
-        };
         let half = |m: &[u64]| {
             m.iter()
                 .all(|w| w & 0x0101_0101_0101_0101 == 0)
                 .then(|| m.iter().map(|w| w >> 1).collect::<Mono>())
         };
         half(self.mono(self.len() - 1))?;
-        root(&self.coeffs[self.len() - 1])?;
-        let lead = (half(self.mono(0))?, root(&self.coeffs[0])?);
+        self.coeffs[self.len() - 1].square_root()?;
+        let lead = (half(self.mono(0))?, self.coeffs[0].square_root()?);
         let twice = &lead.1 * &Int::from(2);
         let mut out = Poly::term(&lead.0, lead.1.clone());
         let mut rest = self.sub(&out.mul(&out).ok()?);
