@@ -249,7 +249,7 @@ pub struct Kinematics<T> {
 }
 
 impl<T: Quantity> Kinematics<T> {
-    /// Every free body has its own unknown velocity and spin; fixed bodies keep the prescribed motion.
+    /// Every body with laws has its own unknown velocity and spin; the others keep their motion.
     pub fn full(scene: &Scene, g: &Geometry<T>) -> Kinematics<T> {
         let bodies = 0..scene.bodies.len();
         Kinematics {
@@ -286,7 +286,7 @@ impl<T: Quantity> Kinematics<T> {
 
 fn own_velocity<T: Quantity>(scene: &Scene, g: &Geometry<T>, b: usize) -> [Affine<T>; 2] {
     [0, 1].map(|axis| {
-        if scene.bodies[b].is_fixed() {
+        if !scene.has_law(b) {
             Affine::constant(g.velocity[b][axis].clone())
         } else {
             Affine::unknown(Unknown::Velocity(b, axis))
@@ -295,7 +295,7 @@ fn own_velocity<T: Quantity>(scene: &Scene, g: &Geometry<T>, b: usize) -> [Affin
 }
 
 fn own_spin<T: Quantity>(scene: &Scene, g: &Geometry<T>, b: usize) -> Affine<T> {
-    if scene.bodies[b].is_fixed() {
+    if !scene.has_law(b) {
         Affine::constant(g.spin[b].clone())
     } else if scene.bodies[b].is_particle() {
         // A point has no spin; its velocity is all there is to say.
@@ -309,7 +309,7 @@ fn own_spin<T: Quantity>(scene: &Scene, g: &Geometry<T>, b: usize) -> Affine<T> 
 pub fn unknowns(scene: &Scene) -> Vec<Unknown> {
     let mut all = Vec::new();
     for (b, body) in scene.bodies.iter().enumerate() {
-        if !body.is_fixed() {
+        if scene.has_law(b) {
             all.extend([Unknown::Velocity(b, 0), Unknown::Velocity(b, 1)]);
             if !body.is_particle() {
                 all.push(Unknown::Spin(b));
@@ -340,7 +340,7 @@ pub fn unknowns(scene: &Scene) -> Vec<Unknown> {
 pub fn of(scene: &Scene) -> Vec<Law> {
     let mut laws = Vec::new();
     for (b, body) in scene.bodies.iter().enumerate() {
-        if !body.is_fixed() {
+        if scene.has_law(b) {
             laws.extend([Direction::X, Direction::Y].map(|d| Law::linear(&[b], d)));
             if !body.is_particle() {
                 laws.push(Law::angular(&[b], Place::Center(b)));

@@ -216,6 +216,21 @@ impl Scene {
         self.parameters.iter().map(|p| &p.name)
     }
 
+    /// Whether anything acts on a body in the impact.
+    pub fn takes_part(&self, b: usize) -> bool {
+        let hinges = self.hinges.iter().map(|h| h.bodies);
+        let mut pairs = hinges.chain(self.contacts.iter().map(|c| c.bodies));
+        pairs.any(|bodies| bodies.contains(&b))
+            || self.blows.iter().any(|blow| blow.body == b)
+            || self.after.iter().any(|known| known.body == b)
+    }
+
+    /// Whether the laws of impact say how a body moves just after. A fixed body has none; nor has one without mass that
+    /// takes no part: it moves on, as the lightest body would.
+    pub fn has_law(&self, b: usize) -> bool {
+        !self.bodies[b].is_fixed() && (!self.bodies[b].mass.is_zero() || self.takes_part(b))
+    }
+
     /// Whether it goes through stages, and is not one impact.
     pub fn has_stages(&self) -> bool {
         !self.stages.is_empty()

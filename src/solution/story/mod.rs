@@ -200,7 +200,10 @@ impl Page<'_> {
         if self.solution.detail == Detail::Brief || (!full && !told.cases.is_empty()) {
             return;
         }
-        let named = told.kept.iter().filter(|k| full || k.what == "energy");
+        // An equation of motion does without the energy.
+        let is_used = told.steps.is_empty();
+        let named = told.kept.iter();
+        let named = named.filter(|k| full || k.what == "energy" && (is_used || !k.conserved));
         let mut items: Vec<Vec<Inline>> = named
             .map(|k| {
                 let is = if k.conserved { "is" } else { "is not" };

@@ -9,6 +9,7 @@ use crate::derive::{self, Derivation};
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
+use crate::laws::Unknown;
 use crate::scene::{
     Ask, Contact, ContactLaw, EnergyWhen, Hypothesis, ImpulseAt, OneSided, Question, Scene, Stage,
 };
@@ -375,9 +376,7 @@ pub(super) fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<
     let why = format!("the laws of `{}` do not determine it", stage.name);
     for b in 0..scene.bodies.len() {
         let body = &scene.bodies[b];
-        // What has no mass and takes no part has no law, and moves on.
-        let has_law = !body.mass.is_zero() || takes_part(&scene, b);
-        if body.is_fixed() || !has_law {
+        if !scene.has_law(b) {
             continue;
         }
         let value = |form: &crate::laws::Affine<Expr>| -> Result<Option<Expr>, Refused> {
@@ -410,15 +409,6 @@ pub(super) fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<
     Ok(after)
 }
 
-/// Whether anything acts on a body in an impact.
-fn takes_part(scene: &Scene, b: usize) -> bool {
-    let hinges = scene.hinges.iter().map(|h| h.bodies);
-    let mut pairs = hinges.chain(scene.contacts.iter().map(|c| c.bodies));
-    pairs.any(|bodies| bodies.contains(&b))
-        || scene.blows.iter().any(|blow| blow.body == b)
-        || scene.after.iter().any(|known| known.body == b)
-}
-
 /// How a body takes part after an impact.
 fn part(scene: &Scene, b: usize, before: Part) -> Part {
     let hinges = scene.hinges.iter().map(|h| (h.bodies, true));
@@ -433,7 +423,7 @@ fn part(scene: &Scene, b: usize, before: Part) -> Part {
         Some((_, true)) => Part::Joined,
         Some(_) if touching.any(|(_, joins)| joins) => Part::Joined,
         Some(_) => Part::Free,
-        None if takes_part(scene, b) => Part::Free,
+        None if scene.takes_part(b) => Part::Free,
         None => before,
     }
 }
@@ -480,9 +470,22 @@ impl Case {
         let own: Vec<&Question> = self.scene.questions.iter().filter(|q| q.hidden).collect();
         let is_own = |name: &str| own.iter().any(|q| q.name == name);
         derivation.answers.retain(|a| !is_own(&a.question));
+        // What comes to rest or goes on as before is told in words.
+        let by_inspection = |u: &Unknown| {
+            match *u {
+                Unknown::Velocity(b, k) => Some(&scene.bodies[b].velocity[k]),
+                Unknown::Spin(b) => Some(&scene.bodies[b].spin),
+                _ => None,
+            }
+            .zip(derivation.motion.get(u))
+            .is_some_and(|(before, after)| after.is_zero() || before == after)
+        };
         let has_block = |q: &Question| {
             let mut blocks = derivation.blocks.iter();
-            blocks.any(|b| b.asked_by.as_deref() == Some(q.name.as_str()))
+            blocks.any(|b| {
+                let asks = b.asked_by.as_deref() == Some(q.name.as_str());
+                asks && !b.unknowns.iter().all(by_inspection)
+            })
         };
         let asked = scene.questions.iter().any(|q| !q.hidden);
         scene
