@@ -2,9 +2,9 @@
 
 use super::line::Line;
 use super::lumps;
-use crate::answer::calc::{Seen, at_least_zero, is_zero, sign};
+use crate::answer::calc::{Seen, at_least_zero, is_zero, sign, tidy};
 use crate::expr::{Expr, Vector, dot};
-use crate::formula::Sentence;
+use crate::formula::{Sentence, write_plain};
 use crate::scene::{Slide, Stage};
 use crate::story::{Refused, State};
 
@@ -51,16 +51,22 @@ fn fits_line(
         let is_alone = b == slide.body && slide.with.is_empty();
         let may_turn = turns && is_alone && body.shape.radius().is_some();
         let may_turn = may_turn || slide.strings.iter().any(|s| s.under == Some(b));
-        let leaves = is_zero(&dot(v, &across), domains) == Some(false);
-        if leaves || !may_turn && is_zero(&before.spin[b], domains) == Some(false) {
-            return Err(Refused::new(
-                &stage.name,
-                format!(
-                    "`{}` does not begin to move along this line without turning",
-                    body.name
-                ),
-                "an impact before it may stop what does not fit",
-            ));
+        let refuse = |does: &str, e: &Expr, hint: &str| {
+            let value = write_plain(&tidy(e, domains).unwrap_or_else(|_| e.clone()));
+            let words = format!("`{}` does not begin to move along this line", body.name);
+            Err(Refused::new(&stage.name, format!("{words}: {does} {value}"), hint))
+        };
+        let aside = dot(v, &across);
+        if is_zero(&aside, domains) == Some(false) {
+            let hint = "an impact before it may stop what does not fit, or a slide goes another way";
+            return refuse("across it, its velocity is", &aside, hint);
+        }
+        if !may_turn && is_zero(&before.spin[b], domains) == Some(false) {
+            let hint = match is_alone && body.shape.radius().is_some() {
+                true => "a round body may turn where it slides with `friction` or is `rolling`",
+                false => "an impact before it may stop what does not fit",
+            };
+            return refuse("it turns, at", &before.spin[b], hint);
         }
         let gap = &dot(v, direction) - &speed;
         if is_zero(&gap, domains) == Some(false) {
@@ -113,7 +119,7 @@ pub(super) fn not_negative(
                 format!(
                     "`{}` is to move along the line, and its {what} along it, {}, is negative",
                     stage.scene.bodies[slide.body].name,
-                    crate::formula::write_plain(size)
+                    write_plain(size)
                 ),
                 "turn the direction round",
             ));
