@@ -172,8 +172,9 @@ pub(crate) fn repeating(
     let mark = ["\\overline{", "\\bar{"]
         .iter()
         .find(|mark| rest.starts_with(**mark))?;
-    let digits = rest[mark.len()..].split('}').next()?;
-    let period = digits.parse::<u32>().ok().filter(|_| digits.len() < 9)?;
+    let (digits, _) = rest[mark.len()..].split_once('}')?;
+    let are_digits = digits.len() < 9 && digits.bytes().all(|b| b.is_ascii_digit());
+    let period = digits.parse::<u32>().ok().filter(|_| are_digits)?;
     if !text[at..end].contains('.') {
         return None;
     }
