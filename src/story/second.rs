@@ -27,6 +27,8 @@ const PROMISING: [usize; 2] = [1000, 20];
 const ELSEWHERE: usize = 24;
 /// Difference that counts as agreement, in parts of the largest quantity of its kind; the integrator works to 1e-12.
 const CLOSE: f64 = 1e-7;
+/// Relative error of the data whose effect is no disagreement either: a thousand times that of the integrator.
+const BACKWARD: f64 = 1e-9;
 /// How far from a threshold its sides are looked at, in parts of it.
 const ASIDE: f64 = 1e-3;
 
@@ -228,11 +230,12 @@ struct Compared {
 }
 
 impl Compared {
-    fn put(&mut self, what: &str, told: f64, found: f64, size: f64) {
+    /// A value told and the one found; `shaken` is how far the told one moves with the data.
+    fn put(&mut self, what: &str, [told, found]: [f64; 2], size: f64, shaken: impl Fn() -> f64) {
         let size = size.max(told.abs().max(found.abs()) * 1e-3).max(1e-300);
         let gap = (told - found).abs() / size;
         // A gap that is no number is one.
-        if (gap.is_nan() || gap > CLOSE) && self.apart.is_none() {
+        if (gap.is_nan() || gap > CLOSE && gap > shaken() / size) && self.apart.is_none() {
             self.apart = Some(format!("{what} is {told:.9} here and {found:.9} there"));
         }
         self.worst = self.worst.max(gap);
@@ -264,6 +267,20 @@ impl Compared {
         };
         Check::new(kind, words, Some(self.apart.is_none()))
     }
+}
+
+/// By how much a value changes when each of the data changes by [`BACKWARD`] of itself: much where what is left of a body's
+/// speed is a small difference.
+fn shaken(e: Option<&Expr>, point: &Point<f64>) -> f64 {
+    let Some((e, here)) = e.and_then(|e| Some((e, e.evaluate(point)?))) else {
+        return 0.0;
+    };
+    let moves = point.values.keys().filter_map(|name| {
+        let mut near = point.clone();
+        *near.values.get_mut(name)? *= 1.0 + BACKWARD;
+        Some((e.evaluate(&near)? - here).abs())
+    });
+    moves.sum()
 }
 
 impl Second<'_> {
@@ -336,7 +353,8 @@ impl Second<'_> {
                 && let Some(time) = time.evaluate(&seen.point)
             {
                 let size = seen.units.size(&Dimension::new(0, 0, 1));
-                compared.put("the time it takes", time, *found, size);
+                let shaken = || shaken(told.time.as_ref(), &seen.point);
+                compared.put("the time it takes", [time, *found], size, shaken);
             }
         }
         compared.check("where the bodies are and how they move", self)
@@ -360,9 +378,10 @@ impl Second<'_> {
                 if state.why_open([told]).is_some() {
                     return;
                 }
-                if let (Some(told), Ok(found)) = (told.evaluate(&seen.point), found) {
+                if let (Some(value), Ok(found)) = (told.evaluate(&seen.point), found) {
                     let what = format!("{what} of `{}` {when}", body.name);
-                    compared.put(&what, told, *found, size);
+                    let shaken = || shaken(Some(told), &seen.point);
+                    compared.put(&what, [value, *found], size, shaken);
                 }
             };
             for (k, axis) in ["x", "y"].into_iter().enumerate() {
@@ -395,7 +414,8 @@ impl Second<'_> {
                     let what = format!("angle of `{}` {when}", body.name);
                     // After many turns an angle is known to so many parts of itself.
                     let size = angle.abs().max(1.0);
-                    compared.put(&what, 2.0 * (gap / 2.0).sin(), 0.0, size);
+                    let shaken = || shaken(Some(&state.angle[b]), &seen.point);
+                    compared.put(&what, [2.0 * (gap / 2.0).sin(), 0.0], size, shaken);
                 }
             }
         }
@@ -469,7 +489,8 @@ impl Second<'_> {
                         continue;
                     };
                     compared.points += 1;
-                    compared.put("the value", told, found, size);
+                    let shaken = || shaken(Some(&formula), &seen.point);
+                    compared.put("the value", [told, found], size, shaken);
                 }
             }
         }
