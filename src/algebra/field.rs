@@ -87,6 +87,8 @@ pub struct Field {
     pub(crate) samples: RefCell<Vec<Vec<f64>>>,
     /// What halving the domain has told of signs.
     pub(super) halved: RefCell<BTreeMap<Poly, substitution::Found>>,
+    /// Roots whose radicand's sign is being looked for.
+    pub(super) asked: RefCell<Vec<usize>>,
     pub(crate) fuel: Fuel,
     /// Normal forms found so far; the same few formulas are read again and again.
     pub(crate) read: FxHashMap<Expr, Element>,
@@ -109,6 +111,7 @@ impl Field {
             complete: true,
             samples: RefCell::default(),
             halved: RefCell::default(),
+            asked: RefCell::default(),
             fuel: Fuel::new(),
             read: FxHashMap::default(),
             wrote: RefCell::default(),

@@ -277,6 +277,22 @@ impl Field {
         Some(if negative { sign.flip() } else { sign })
     }
 
+    /// Whether a root vanishes, by the sign of its radicand. A relation that tells that sign may hold the root itself: then
+    /// it is no more than not negative.
+    fn radicand_sign(&self, v: usize) -> Known {
+        let relation = self.gens[v].relation.as_ref();
+        let Some((_, radicand)) = relation.filter(|_| !self.asked.borrow().contains(&v)) else {
+            return Known::NotNegative;
+        };
+        self.asked.borrow_mut().push(v);
+        let sign = self.sign_poly(radicand);
+        self.asked.borrow_mut().pop();
+        match sign {
+            Some(Sign::Positive) => Known::Positive,
+            _ => Known::NotNegative,
+        }
+    }
+
     fn known(&self, v: usize) -> Known {
         match &self.gens[v].kind {
             Kind::Symbol(name) => match self.interval(name).low {
@@ -291,14 +307,7 @@ impl Field {
             Kind::Sin(base) => self
                 .in_turns(*base)
                 .map_or(Known::Unknown, |i| within(&i, ratio(0, 1), ratio(1, 1))),
-            Kind::Root => match self.gens[v]
-                .relation
-                .as_ref()
-                .and_then(|(_, p)| self.sign_poly(p))
-            {
-                Some(Sign::Positive) => Known::Positive,
-                _ => Known::NotNegative,
-            },
+            Kind::Root => self.radicand_sign(v),
             Kind::Abs(_) => Known::NotNegative,
             Kind::Call(Function::Exp | Function::Cosh, _) => Known::Positive,
             Kind::Call(Function::Cos | Function::Sin, x) => match self.as_turns(x) {

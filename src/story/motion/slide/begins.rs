@@ -54,11 +54,16 @@ fn fits_line(
         let refuse = |does: &str, e: &Expr, hint: &str| {
             let value = write_plain(&tidy(e, domains).unwrap_or_else(|_| e.clone()));
             let words = format!("`{}` does not begin to move along this line", body.name);
-            Err(Refused::new(&stage.name, format!("{words}: {does} {value}"), hint))
+            Err(Refused::new(
+                &stage.name,
+                format!("{words}: {does} {value}"),
+                hint,
+            ))
         };
         let aside = dot(v, &across);
         if is_zero(&aside, domains) == Some(false) {
-            let hint = "an impact before it may stop what does not fit, or a slide goes another way";
+            let hint =
+                "an impact before it may stop what does not fit, or a slide goes another way";
             return refuse("across it, its velocity is", &aside, hint);
         }
         if !may_turn && is_zero(&before.spin[b], domains) == Some(false) {
