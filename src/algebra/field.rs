@@ -72,7 +72,7 @@ pub enum Assumption {
 pub struct Field {
     pub(crate) domains: Domains,
     pub(crate) gens: Vec<Generator>,
-    names: BTreeMap<Symbol, usize>,
+    pub(super) names: BTreeMap<Symbol, usize>,
     pub(crate) bases: Vec<Base>,
     /// Algebraic generators in the order they were adjoined.
     pub(crate) algebraic: Vec<usize>,
@@ -329,11 +329,13 @@ impl Field {
 
     // ---- polynomials modulo the relations ----
 
+    /// Whether no relation has anything to do with a monomial.
+    pub(super) fn is_reduced(&self, mono: &[u64]) -> bool {
+        mono.iter().zip(&self.mask).all(|(w, k)| w & k == 0)
+    }
+
     pub(crate) fn reduce(&self, p: Poly) -> Result<Poly, Stop> {
-        let dirty = p
-            .terms()
-            .any(|(m, _)| m.iter().zip(&self.mask).any(|(w, k)| w & k != 0));
-        if !dirty {
+        if p.terms().all(|(m, _)| self.is_reduced(m)) {
             return Ok(p);
         }
         let mut p = p;

@@ -3,11 +3,15 @@
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
+use smallvec::SmallVec;
+
 use super::Stop;
-use super::element::Element;
+use super::element::{Den, Element};
 use super::field::{Field, Kind};
-use super::mono::exponent;
-use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
+use super::mono::{Mono, cmp_mono, exponent, mono_add, mono_of};
+use super::poly::Poly;
+use crate::expr::number::product;
+use crate::expr::{Expr, Function, Int, Node, Rational, Symbol, ratio};
 
 /// Deepest nesting of an expression.
 const MOST_DEPTH: u32 = 120;
@@ -43,13 +47,22 @@ impl Field {
                 Ok(Element::var(v))
             }
             Node::Sum(terms) => {
-                let mut total = self.read(&terms[0], depth)?;
-                for term in &terms[1..] {
+                let mut plain = Vec::new();
+                let mut others = Vec::new();
+                for term in terms.iter() {
+                    match self.term(term) {
+                        Some(term) if term.below.is_empty() => plain.push(term),
+                        _ => others.push(term),
+                    }
+                }
+                let mut total = sum(plain);
+                for term in others {
                     let term = self.read(term, depth)?;
                     total = self.add(&total, &term)?;
                 }
                 Ok(total)
             }
+            Node::Product(_) if let Some(term) = self.term(e) => Ok(term.element()),
             Node::Product(factors) if factors.iter().any(is_high_power) => {
                 self.read_high_powers(factors, depth)
             }
@@ -82,6 +95,52 @@ impl Field {
                 Ok(element)
             }
         }
+    }
+
+    /// What is a product of numbers and whole powers of generators, read at once; `None` where it is anything else.
+    fn term(&self, e: &Expr) -> Option<Term> {
+        let factors = match e.node() {
+            Node::Product(factors) => &factors[..],
+            _ => std::slice::from_ref(e),
+        };
+        let mut coeff = Rational::one();
+        let mut powers: SmallVec<[(usize, i64); 8]> = SmallVec::new();
+        for factor in factors {
+            let (base, k) = match factor.node() {
+                Node::Number(value) => {
+                    coeff = product(&coeff, value);
+                    continue;
+                }
+                Node::Power(base, k) => (base, whole(k)?),
+                _ => (factor, 1),
+            };
+            let v = match base.node() {
+                Node::Symbol(name) => *self.names.get(name)?,
+                Node::Call(..) => self.as_generator(self.read.get(base)?)?,
+                _ => return None,
+            };
+            match powers.iter_mut().find(|(other, _)| *other == v) {
+                Some((_, sum)) => *sum += k,
+                None => powers.push((v, k)),
+            }
+        }
+        let (mut above, mut below) = (Mono::new(), Mono::new());
+        for (v, k) in powers.into_iter().filter(|(_, k)| *k != 0) {
+            let size = u32::try_from(k.abs()).ok().filter(|k| *k < 128)?;
+            let side = match k > 0 {
+                true => &mut above,
+                // Roots are kept out of denominators.
+                false if self.gens[v].relation.is_some() => return None,
+                false => &mut below,
+            };
+            *side = mono_add(side, &mono_of(v, size)).ok()?;
+        }
+        let plain = !coeff.is_zero() && self.is_reduced(&above);
+        plain.then_some(Term {
+            coeff,
+            above,
+            below,
+        })
     }
 
     /// A product with high powers: those of the same base are joined first.
@@ -230,6 +289,51 @@ impl Field {
 
     pub(super) fn is_symbol(&self, x: &Element, name: &Symbol) -> bool {
         self.as_symbol(x).is_some_and(|s| s == *name)
+    }
+}
+
+/// A product of numbers and powers of generators, `coeff · above / below`, in lowest terms.
+struct Term {
+    coeff: Rational,
+    above: Mono,
+    below: Mono,
+}
+
+impl Term {
+    fn element(self) -> Element {
+        let (numer, int) = self.coeff.into_raw();
+        Element {
+            num: Poly::term(&self.above, numer),
+            den: Den {
+                int,
+                mono: self.below,
+                factors: Vec::new(),
+            },
+        }
+    }
+}
+
+/// The sum of terms without denominators but numbers.
+fn sum(mut terms: Vec<Term>) -> Element {
+    terms.sort_unstable_by(|a, b| cmp_mono(&b.above, &a.above));
+    terms.dedup_by(|next, kept| {
+        let same = cmp_mono(&next.above, &kept.above).is_eq();
+        if same {
+            kept.coeff += &next.coeff;
+        }
+        same
+    });
+    terms.retain(|term| !term.coeff.is_zero());
+    let denominators = terms.iter().map(|term| term.coeff.denom());
+    let int = denominators.fold(Int::one(), |all, d| all.lcm(d));
+    let whole = |term: Term| {
+        let coeff = term.coeff.numer() * &(&int / term.coeff.denom());
+        (term.above, coeff)
+    };
+    let num = Poly::from_terms(terms.into_iter().map(whole).collect());
+    Element {
+        num,
+        den: Den { int, ..Den::one() },
     }
 }
 

@@ -19,6 +19,7 @@ mod work;
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
 
 pub use answer::full_matrix;
 pub use count::{Counting, count};
@@ -26,7 +27,7 @@ pub use left_out::LeftOut;
 pub use names::Names;
 pub use plan::{Attachment, Reduction, reduction};
 
-use crate::algebra::{self};
+use crate::algebra::{self, Element, Field};
 use crate::answer::{Answer, Form, Known};
 use crate::expr::{Expr, Symbol};
 use crate::laws::{Law, Unknown};
@@ -63,9 +64,21 @@ pub struct Derivation {
     pub left_out: Vec<LeftOut>,
     /// What must hold for the answers: expressions that must not vanish, and signs that were seen rather than proved.
     pub assumptions: Vec<String>,
+    /// Writes the solutions of blocks.
+    field: Arc<Mutex<Field>>,
 }
 
 impl Derivation {
+    /// The values of the unknowns' symbols of a block, in the order of its `unknowns`, as a person would write them.
+    pub fn solution(&self, block: &Block) -> Vec<Expr> {
+        let field = self.field.lock().unwrap_or_else(PoisonError::into_inner);
+        let written = block.solution.iter().map(|value| match value {
+            Solved::Closed(value) => field.expr(value),
+            Solved::Written(value) => value.clone(),
+        });
+        written.collect()
+    }
+
     /// The answers, by name, in parameters alone.
     pub fn known(&self) -> Known {
         let mut known = BTreeMap::new();
@@ -98,12 +111,19 @@ pub struct Block {
     pub equations: Vec<Equation>,
     /// What they determine.
     pub unknowns: Vec<Unknown>,
-    /// The values of the unknowns' symbols, in the order of `unknowns`.
-    pub solution: Vec<Expr>,
+    /// The values of the unknowns' symbols, in the order of `unknowns`; [`Derivation::solution`] writes them.
+    pub(crate) solution: Vec<Solved>,
     /// Expressions divided by that are not known to keep away from zero.
     pub divided_by: Vec<Expr>,
     /// Name of the question that needed the block; `None` for the completion that only the proof uses.
     pub asked_by: Option<String>,
+}
+
+/// A value of an unknown's symbol. Writing it well takes longer than solving, and most are never shown.
+#[derive(Clone, Debug)]
+pub(crate) enum Solved {
+    Closed(Element),
+    Written(Expr),
 }
 
 /// A law written out: Σ coefficient × symbol = known, with the symbols of [`Names`].
@@ -237,5 +257,6 @@ pub fn derive(scene: &Scene) -> Result<Derivation, Stop> {
         in_steps: work.in_steps,
         left_out,
         assumptions,
+        field: Arc::new(Mutex::new(work.field)),
     })
 }

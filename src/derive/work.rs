@@ -4,13 +4,14 @@
 //! affair of [`super::plan`].
 
 use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex};
 
 use super::compact::Parts;
 use super::plan::{self, Planner};
 use super::steps;
 use super::{
     Block, Counting, Definition, Derivation, Equation, LONGEST, LONGEST_OF_TWO, Names, Reduction,
-    Stop, TRIED, WORK,
+    Solved, Stop, TRIED, WORK,
 };
 use crate::algebra::{self, Element, Field, Row};
 use crate::expr::{Expr, Vector};
@@ -107,6 +108,7 @@ impl<'a> Work<'a> {
             in_steps: false,
             left_out: Vec::new(),
             assumptions: Vec::new(),
+            field: Arc::new(Mutex::new(self.field)),
         })
     }
 
@@ -316,7 +318,7 @@ impl<'a> Work<'a> {
         if asked_by.is_none() {
             return;
         }
-        let solution = unknowns.iter().map(|u| self.closed_symbol(*u)).collect();
+        let solution = unknowns.iter().map(|u| self.solved(*u)).collect();
         let equations = equations
             .into_iter()
             .map(|e| self.written(e.law, &e.terms, &e.known))
@@ -406,7 +408,7 @@ impl<'a> Work<'a> {
         for (unknown, value) in unknowns.into_iter().zip(solution.values) {
             if let Some(value) = value {
                 found.push(unknown);
-                printed.push(self.symbol_value(unknown, &value));
+                printed.push(Solved::Closed(self.symbol_element(unknown, &value)));
                 self.values.insert(unknown, value);
             }
         }
@@ -420,22 +422,25 @@ impl<'a> Work<'a> {
         Ok(())
     }
 
-    /// The closed form of the symbol of an unknown that has a value.
-    fn closed_symbol(&self, unknown: Unknown) -> Expr {
+    /// The value of the symbol of an unknown that has one, to be written when it is shown.
+    fn solved(&self, unknown: Unknown) -> Solved {
         match self.parts.as_ref().and_then(|p| p.closed(unknown)) {
-            Some(closed) if self.names.is_reversed(unknown) => -closed,
-            Some(closed) => closed,
-            None => self.symbol_value(unknown, &self.values[&unknown]),
+            Some(closed) if self.names.is_reversed(unknown) => Solved::Written(-closed),
+            Some(closed) => Solved::Written(closed),
+            None => Solved::Closed(self.symbol_element(unknown, &self.values[&unknown])),
+        }
+    }
+
+    fn symbol_element(&self, unknown: Unknown, value: &Element) -> Element {
+        match self.names.is_reversed(unknown) {
+            true => self.field.neg(value),
+            false => value.clone(),
         }
     }
 
     /// The value of an unknown's symbol.
     pub(super) fn symbol_value(&self, unknown: Unknown, value: &Element) -> Expr {
-        if self.names.is_reversed(unknown) {
-            self.field.expr(&self.field.neg(value))
-        } else {
-            self.field.expr(value)
-        }
+        self.field.expr(&self.symbol_element(unknown, value))
     }
 
     /// An equation as a person writes it: in the scene's symbols, and not with minus signs alone on the left.
@@ -447,17 +452,7 @@ impl<'a> Work<'a> {
     ) -> Equation {
         let symbols: Vec<(Unknown, Element)> = terms
             .iter()
-            .map(|(u, k)| {
-                let reversed = self.names.is_reversed(*u);
-                (
-                    *u,
-                    if reversed {
-                        self.field.neg(k)
-                    } else {
-                        k.clone()
-                    },
-                )
-            })
+            .map(|(u, k)| (*u, self.symbol_element(*u, k)))
             .collect();
         let print = |negate: bool, x: &Element| {
             if negate {

@@ -388,8 +388,17 @@ pub fn equation<T: Quantity, E>(
             };
             let mut total = Affine::constant(T::zero());
             for &b in system {
-                let change = change(&motion.velocity[b], &g.velocity[b]);
-                total = total.plus(&component(&change).times(&g.mass[b]));
+                let (after, before, m) = (&motion.velocity[b], &g.velocity[b], &g.mass[b]);
+                let mut add = |axis: usize, m: &T| {
+                    total.add_times(&after[axis], m);
+                    total.add_known(&before[axis], &m.neg());
+                };
+                match &d {
+                    Ok(d) => [0, 1]
+                        .into_iter()
+                        .for_each(|axis| add(axis, &m.mul(&d[axis]))),
+                    Err(axis) => add(*axis, m),
+                }
             }
             for (_, impulse) in external(scene, g, system) {
                 total = total.minus(&component(&impulse));
@@ -401,14 +410,22 @@ pub fn equation<T: Quantity, E>(
             let mut total = Affine::constant(T::zero());
             for &b in system {
                 if !scene.bodies[b].is_particle() {
-                    let turned = motion.spin[b].plus(&Affine::constant(g.spin[b].neg()));
-                    total = total.plus(&turned.times(&g.inertia[b]));
+                    total.add_times(&motion.spin[b], &g.inertia[b]);
+                    total.add_known(&g.spin[b], &g.inertia[b].neg());
                 }
-                let change = change(&motion.velocity[b], &g.velocity[b]);
-                total = total.plus(&moment(&minus(&g.center[b], o), &change).times(&g.mass[b]));
+                // m r × (v⁺ − v⁻)
+                let r = minus(&g.center[b], o);
+                let (after, before) = (&motion.velocity[b], &g.velocity[b]);
+                let arms = [g.mass[b].mul(&r[1]).neg(), g.mass[b].mul(&r[0])];
+                for (axis, arm) in arms.iter().enumerate() {
+                    total.add_times(&after[axis], arm);
+                    total.add_known(&before[axis], &arm.neg());
+                }
             }
             for (at, impulse) in external(scene, g, system) {
-                total = total.minus(&moment(&minus(&at, o), &impulse));
+                let r = minus(&at, o);
+                total.add_times(&impulse[1], &r[0].neg());
+                total.add_times(&impulse[0], &r[1]);
             }
             total.equals_zero()
         }
@@ -518,21 +535,12 @@ fn minus<T: Quantity>(a: &[T; 2], b: &[T; 2]) -> [T; 2] {
     [a[0].sub(&b[0]), a[1].sub(&b[1])]
 }
 
-fn change<T: Quantity>(after: &[Affine<T>; 2], before: &[T; 2]) -> [Affine<T>; 2] {
-    [0, 1].map(|axis| after[axis].plus(&Affine::constant(before[axis].neg())))
-}
-
 fn relative<T: Quantity>(one: &[Affine<T>; 2], two: &[Affine<T>; 2]) -> [Affine<T>; 2] {
     [0, 1].map(|axis| two[axis].minus(&one[axis]))
 }
 
 fn along_direction<T: Quantity>(v: &[Affine<T>; 2], d: &[T; 2]) -> Affine<T> {
     v[0].times(&d[0]).plus(&v[1].times(&d[1]))
-}
-
-/// z-component of r × v.
-fn moment<T: Quantity>(r: &[T; 2], v: &[Affine<T>; 2]) -> Affine<T> {
-    v[1].times(&r[0]).minus(&v[0].times(&r[1]))
 }
 
 /// What `f` makes of each item, or the first failure.

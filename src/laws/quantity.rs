@@ -131,6 +131,37 @@ impl<T: Quantity> Affine<T> {
         }
     }
 
+    /// Adds another form times a known factor, in place.
+    pub fn add_times(&mut self, other: &Affine<T>, factor: &T) {
+        if factor.vanishes() {
+            return;
+        }
+        let mut at = 0;
+        for (unknown, k) in &other.terms {
+            let k = k.mul(factor);
+            while self.terms.get(at).is_some_and(|(u, _)| u < unknown) {
+                at += 1;
+            }
+            match self.terms.get_mut(at) {
+                Some((u, sum)) if u == unknown => {
+                    *sum = sum.add(&k);
+                    if sum.vanishes() {
+                        self.terms.remove(at);
+                    }
+                }
+                _ => self.terms.insert(at, (*unknown, k)),
+            }
+        }
+        self.add_known(&other.constant, factor);
+    }
+
+    /// Adds a known value times a known factor, in place.
+    pub fn add_known(&mut self, value: &T, factor: &T) {
+        if !value.vanishes() && !factor.vanishes() {
+            self.constant = self.constant.add(&value.mul(factor));
+        }
+    }
+
     /// The opposite form.
     pub fn negated(&self) -> Affine<T> {
         Affine {

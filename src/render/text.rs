@@ -154,8 +154,8 @@ pub(super) fn equations(out: &mut String, scene: &Scene, d: &Derivation) {
                 &format!("{} = {}", unicode(scene, &left), unicode(scene, &right)),
             );
         }
-        for (unknown, value) in block.unknowns.iter().zip(&block.solution) {
-            let value = unicode(scene, value);
+        for (unknown, value) in block.unknowns.iter().zip(d.solution(block)) {
+            let value = unicode(scene, &value);
             if value.chars().count() <= 120 {
                 line(
                     out,

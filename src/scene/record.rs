@@ -270,9 +270,13 @@ pub(super) fn fields<'n, 't>(
         .add_to(faults);
     };
     let mut entries = unique(entries, faults);
+    let is_known = |entry: &&Entry<'t>| names().any(|name| name == entry.key);
+    if entries.iter().all(is_known) {
+        return Some(entries);
+    }
     let present: BTreeSet<String> = entries.iter().map(|e| e.key.to_string()).collect();
     entries.retain(|entry| {
-        let is_known = names().any(|name| name == entry.key);
+        let is_known = is_known(entry);
         if !is_known {
             let fault = Fault::new(entry.key_span, format!("unknown field `{}`", entry.key));
             let near = || nearest(&entry.key, names()).map(|n| format!("did you mean `{n}`?"));

@@ -233,7 +233,7 @@ impl Writer<'_> {
             .collect();
         let pairs: Vec<(Unknown, Expr)> = blocks
             .iter()
-            .flat_map(|b| b.unknowns.iter().copied().zip(b.solution.iter().cloned()))
+            .flat_map(|b| b.unknowns.iter().copied().zip(self.d.solution(b)))
             .collect();
         // A single equation that already reads `unknown = value` needs no further line.
         if let ([claim], [(u, value)]) = (before.as_slice(), pairs.as_slice()) {

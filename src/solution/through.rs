@@ -85,7 +85,8 @@ impl Writer<'_> {
         // What is not asked for is said in the sentence.
         let mut line = vec![say(format!("{text}, so "))];
         for (i, block) in blocks.iter().enumerate() {
-            let (unknown, value) = (block.unknowns[0], block.solution[0].clone());
+            let unknown = block.unknowns[0];
+            let value = self.d.solution(block).swap_remove(0);
             let symbol = Expr::symbol(self.d.names.plain(unknown));
             if i > 0 {
                 line.push(say(if i + 1 == blocks.len() { " and " } else { ", " }));
@@ -159,12 +160,16 @@ impl Writer<'_> {
             .map(|e| self.for_impulses(e, &balances, &impulses))
             .collect();
         // Where abbreviations make the answers short, the equations in full would be long.
-        let abbreviated = block.unknowns.iter().zip(&block.solution).any(|(u, v)| {
-            let short = self.short(*u, v);
-            let mut all = self.d.definitions.iter();
-            let named = |d: &Symbol| impulses.iter().any(|p| *self.d.names.plain(*p) == **d);
-            all.any(|d| !named(&d.name) && short.symbols().contains(&d.name))
-        });
+        let abbreviated = block
+            .unknowns
+            .iter()
+            .zip(self.d.solution(block))
+            .any(|(u, v)| {
+                let short = self.short(*u, &v);
+                let mut all = self.d.definitions.iter();
+                let named = |d: &Symbol| impulses.iter().any(|p| *self.d.names.plain(*p) == **d);
+                all.any(|d| !named(&d.name) && short.symbols().contains(&d.name))
+            });
         let short = !abbreviated && rows.iter().all(|(l, r)| l.size() + r.size() <= READABLE);
         if short {
             let verb = if rows.len() == 1 {

@@ -88,6 +88,20 @@ impl Poly {
         }
     }
 
+    /// The polynomial of terms that descend, of which none is zero.
+    pub fn from_terms(terms: Vec<(Mono, Int)>) -> Poly {
+        let stride = terms.iter().map(|(mono, _)| mono.len()).max().unwrap_or(0);
+        let mut exps: Mono = smallvec![0; stride * terms.len()];
+        for (i, (mono, _)) in terms.iter().enumerate() {
+            exps[i * stride..i * stride + mono.len()].copy_from_slice(mono);
+        }
+        Poly {
+            stride,
+            exps,
+            coeffs: terms.into_iter().map(|(_, coeff)| coeff).collect(),
+        }
+    }
+
     pub fn len(&self) -> usize {
         self.coeffs.len()
     }
