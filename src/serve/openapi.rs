@@ -8,7 +8,7 @@ use super::request::MANY;
 /// The document, by OpenAPI 3.1.
 pub(super) fn document() -> Value {
     let mut paths = Map::new();
-    for command in COMMANDS {
+    for command in COMMANDS.iter() {
         paths.insert(
             format!("/v1/{}", command.name),
             json!({"post": post(command)}),
@@ -82,7 +82,7 @@ fn scene_fields() -> Vec<(&'static str, Value)> {
 
 fn schema(field: &Field) -> Value {
     let texts = json!({"type": ["string", "number"]});
-    let mut schema = match field.kind {
+    let mut schema = match &field.kind {
         Kind::Values(_) => {
             json!({"type": "object", "additionalProperties": texts, "maxProperties": MANY})
         }

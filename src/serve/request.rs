@@ -89,7 +89,7 @@ pub(super) fn job(
         None => return Err(Bad::new("", "\"scene\" or \"name\" is missing")),
     }
     let mut gives = command.gives;
-    for field in command.fields {
+    for field in &command.fields {
         if let Some(value) = fields.get(field.name).filter(|v| !v.is_null()) {
             put(&mut job, field, value)?;
             if let ("format", Value::String(word)) = (field.name, value) {
@@ -113,15 +113,15 @@ pub(super) fn job(
 fn put(job: &mut Job, field: &Field, value: &Value) -> Result<(), Bad> {
     let pointer = below("", field.name);
     let expected = |what: &str| Bad::new(&pointer, format!("expected {what}"));
-    match (field.kind, value) {
+    match (&field.kind, value) {
         (Kind::Text(option), value) => {
             let text = text(value, &pointer)?;
             job.arguments.push(format!("{option}={text}"));
         }
         (Kind::Flag(option), Value::Bool(wanted)) => {
-            job.arguments.extend(wanted.then(|| String::from(option)));
+            job.arguments.extend(wanted.then(|| option.to_string()));
         }
-        (Kind::Word(option, words), Value::String(word)) if words.contains(&word.as_str()) => {
+        (Kind::Word(option, words), Value::String(word)) if words.contains(word) => {
             job.arguments.push(format!("{option}={word}"));
         }
         (Kind::Word(_, words), _) => {
