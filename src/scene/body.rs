@@ -81,6 +81,13 @@ impl SolidReader<'_> {
                 .shown_at(first(part.span));
             return fault.hint("list its own parts here").add_to(self.faults);
         }
+        let velocity = part.velocity.as_ref().map(VelocityFile::span);
+        if let Some(span) = velocity.or(part.spin.as_ref().map(|spin| spin.span)) {
+            let fault = Fault::new(span, "a part has no motion of its own");
+            return fault
+                .hint("the composite has `velocity` and `spin`")
+                .add_to(self.faults);
+        }
         self.read(part)
     }
 
@@ -129,13 +136,7 @@ impl SolidReader<'_> {
             ("parts", body.parts.as_ref().map(|_| first(body.span))),
             ("center", body.center.as_ref().map(place)),
             ("angle", formula(&body.angle)),
-            (
-                "velocity",
-                body.velocity.as_ref().map(|v| match v {
-                    VelocityFile::Components(pair) => pair.span,
-                    VelocityFile::About(about) => about.span,
-                }),
-            ),
+            ("velocity", body.velocity.as_ref().map(VelocityFile::span)),
             ("spin", formula(&body.spin)),
         ];
         let (needed, allowed) = fields_of(body.shape);

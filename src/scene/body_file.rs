@@ -1,6 +1,6 @@
 //! Bodies as a scene file writes them: shapes, sizes, places and motion just before.
 
-use super::fault::Fault;
+use super::fault::{Fault, Span};
 use super::json::{Node, Value};
 use super::place_file::PositionFile;
 use super::record::{Formula, Map, Pair, Read, choice, record, unexpected};
@@ -48,8 +48,8 @@ record! {
         inertia: Option<Formula>,
         /// Radius of gyration about the center of mass.
         radius_of_gyration: Option<Formula>,
-        /// Parts of a composite, by name.
-        parts: Option<Map<PartFile>>,
+        /// Parts of a composite, by name: bodies, each with its `center` and without a motion of its own.
+        parts: Option<Map<BodyFile>>,
         /// Position of the center of mass. A particle without it sits where it is touched.
         center: Option<PositionFile>,
         /// Orientation, counterclockwise from x. Missing: 0.
@@ -62,66 +62,6 @@ record! {
     }
 }
 
-record! {
-    /// A part of a composite body; the fields are those of a body.
-    PartFile {
-        /// What it looks like.
-        shape: ShapeName,
-        /// Mass.
-        mass: Option<Formula>,
-        /// Length of a rod.
-        length: Option<Formula>,
-        /// Radius of a disk, ring or sphere.
-        radius: Option<Formula>,
-        /// Side of a rectangle along `angle`.
-        width: Option<Formula>,
-        /// Side of a rectangle across `angle`.
-        height: Option<Formula>,
-        /// Moment of inertia about the part's own center of mass.
-        inertia: Option<Formula>,
-        /// Radius of gyration about the part's own center of mass.
-        radius_of_gyration: Option<Formula>,
-        /// Position of the part's center of mass.
-        center: PositionFile,
-        /// Orientation, counterclockwise from x. Missing: 0.
-        angle: Option<Formula>,
-    }
-}
-
-impl From<&PartFile> for BodyFile {
-    fn from(part: &PartFile) -> BodyFile {
-        let PartFile {
-            span,
-            shape,
-            mass,
-            length,
-            radius,
-            width,
-            height,
-            inertia,
-            radius_of_gyration,
-            center,
-            angle,
-        } = part.clone();
-        BodyFile {
-            span,
-            shape,
-            mass,
-            length,
-            radius,
-            width,
-            height,
-            inertia,
-            radius_of_gyration,
-            parts: None,
-            center: Some(center),
-            angle,
-            velocity: None,
-            spin: None,
-        }
-    }
-}
-
 /// A velocity just before.
 #[derive(Clone, Debug, schemars::JsonSchema)]
 #[schemars(untagged)]
@@ -130,6 +70,16 @@ pub(super) enum VelocityFile {
     Components(Pair<Formula>),
     /// Rotation about a point.
     About(AboutFile),
+}
+
+impl VelocityFile {
+    /// Where it stands.
+    pub fn span(&self) -> Span {
+        match self {
+            VelocityFile::Components(pair) => pair.span,
+            VelocityFile::About(about) => about.span,
+        }
+    }
 }
 
 impl Read for VelocityFile {

@@ -5,7 +5,7 @@
 
 use super::Body;
 use super::body::Solid;
-use super::body_file::ShapeName;
+use super::body_file::{BodyFile, ShapeName};
 use super::check::{Claim, Claimed};
 use super::fault::Fault;
 use super::formulas::Quantity;
@@ -74,17 +74,17 @@ impl<'f> Resolver<'f> {
                 Some(at) => self.link(name, |this| this.position(at)),
                 None => Some(origin()),
             },
-            (None, _) => {
-                let fault =
-                    Fault::new(body.span, "the field `center` is missing").shown_at(name.span);
-                self.faults.push(fault.hint(
-                    "the position of its center of mass: a point's name, [x, y] or {\"from\": …}",
-                ));
-                None
-            }
+            (None, _) => self.without_center(name, body),
         });
         self.body_places[i] = Place::Done(at.clone());
         at
+    }
+
+    fn without_center(&mut self, name: &Text, body: &BodyFile) -> Option<Vector> {
+        let fault = Fault::new(body.span, "the field `center` is missing").shown_at(name.span);
+        fault
+            .hint("the position of its center of mass: a point's name, [x, y] or {\"from\": …}")
+            .add_to(&mut self.faults)
     }
 
     /// The first place where a hinge, contact or blow touches the body, unless that place is the body itself.
@@ -105,13 +105,15 @@ impl<'f> Resolver<'f> {
         let body = self.file.bodies.0[i].1.as_ref()?;
         let mut parts = Vec::new();
         for (name, part) in entries(body.parts.as_ref()) {
-            let center = self.position(&part.center);
+            let center = match &part.center {
+                Some(center) => self.position(center),
+                None => self.without_center(name, part),
+            };
             let angle = part
                 .angle
                 .as_ref()
                 .map(|a| self.symbols.read(a, Quantity::ANGLE, &mut self.faults));
-            let entry = part.into();
-            let solid = self.solids().read_part(&entry);
+            let solid = self.solids().read_part(part);
             parts.push((|| {
                 let Solid {
                     shape,
