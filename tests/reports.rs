@@ -212,3 +212,32 @@ fn an_interrupt_keeps_what_is_finished() {
             .all(|l| serde_json::from_str::<Value>(l).is_ok())
     );
 }
+
+#[test]
+fn a_page_answers_first_with_formula_and_code_then_usual_values_then_extremes() {
+    let report = report(1, 1, None);
+    let page = carom::render::report::html(std::slice::from_ref(&report));
+    let at = |text: &str| page.find(text).unwrap_or_else(|| panic!("no {text}"));
+    let order = [
+        at("class=\"verdict\""),
+        at("<code>omega = "),
+        at("double omega("),
+        at(">Usual values<"),
+        at("Largest error at usual values"),
+        at(">Extremes<"),
+    ];
+    assert!(order.is_sorted(), "{order:?}");
+}
+
+#[test]
+fn a_route_that_is_better_at_usual_values_is_not_beaten_by_one_that_fails_no_worse() {
+    let report = report(1, 1, None);
+    for one in report.routes.iter().filter(|r| r.dominated) {
+        let beats = |other: &&carom::report::RouteSummary| {
+            other.seconds[1] < one.seconds[1]
+                && other.usual_max <= one.usual_max
+                && other.worst <= one.worst
+        };
+        assert!(report.routes.iter().any(|r| beats(&r)), "{}", one.words);
+    }
+}

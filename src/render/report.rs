@@ -5,6 +5,7 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::mathml::escape;
+use super::report_pareto::{At, plot};
 use crate::figure::Label;
 use crate::plot::{Axis, Curve, Plot, draw};
 use crate::report::measure::{Cell, Swept};
@@ -15,8 +16,11 @@ use crate::report::{BINS, Report, Route};
 pub fn text(report: &Report) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "{}", super::heading(&report.title, &report.source));
-    let _ = writeln!(out, "{}", effort(report));
     let _ = writeln!(out, "\n{}\n", report.verdict);
+    for [name, formula] in &report.formulas {
+        let _ = writeln!(out, "  {name} = {formula}");
+    }
+    let _ = writeln!(out, "\n{}\n", effort(report));
     let _ = writeln!(
         out,
         "{:24} {:>9} {:>19} {:>9} {:>9} {:>9}  worst in",
@@ -131,15 +135,21 @@ fn section(out: &mut String, index: usize, report: &Report) {
     if report.interrupted {
         out.push_str("<p><strong>Interrupted:</strong> only finished rows are shown.</p>");
     }
-    out.push_str("<div class=\"pair\"><div>");
+    formulas(out, report);
+    out.push_str("<h3>Usual values</h3>");
     routes_table(out, report);
+    out.push_str("<div class=\"plots\">");
+    for (at, caption) in [
+        (At::Usual, "Largest error at usual values over median time."),
+        (At::Worst, "Worst error anywhere over median time."),
+    ] {
+        let beaten = "Routes that another one beats in both are grey.";
+        figure(out, plot(report, at), &format!("{caption} {beaten}"));
+    }
     out.push_str("</div>");
-    figure(
-        out,
-        super::report_pareto::plot(report),
-        "Error against run time: worst error anywhere over median time. Routes that another one beats in both are grey.",
-    );
-    out.push_str("</div><h3>Extreme families</h3><div class=\"plots\">");
+    histogram(out, report);
+    conditions(out, report);
+    out.push_str("<h3>Extremes</h3><div class=\"plots\">");
     for f in report.families.iter().filter(|f| !f.axis.is_empty()) {
         figure(
             out,
@@ -147,14 +157,30 @@ fn section(out: &mut String, index: usize, report: &Report) {
             &format!("{}. {}", f.words, flags(f)),
         );
     }
-    out.push_str("</div><h3>Errors at usual values</h3>");
-    histogram(out, report);
-    conditions(out, report);
     let _ = write!(
         out,
-        "<p class=\"small\">{}</p></section>",
+        "</div><p class=\"small\">{}</p></section>",
         escape(&effort(report))
     );
+}
+
+/// The closed forms, and behind a fold the code of them.
+fn formulas(out: &mut String, report: &Report) {
+    for [name, formula] in &report.formulas {
+        let _ = write!(
+            out,
+            "<p><code>{} = {}</code></p>",
+            escape(name),
+            escape(formula)
+        );
+    }
+    if !report.code.is_empty() {
+        let _ = write!(
+            out,
+            "<details><summary>The closed form, arranged, as code (C)</summary><pre>{}</pre></details>",
+            escape(&report.code)
+        );
+    }
 }
 
 fn flags(f: &Swept) -> String {
@@ -344,7 +370,7 @@ main{max-width:78rem;margin:0 auto;padding:1.5rem}
 h2{margin-top:2.5rem;border-bottom:1px solid var(--line)}h2 small{color:var(--soft);font-weight:normal}
 .verdict{font-size:1.1rem;border-left:4px solid rgb(var(--tint));padding-left:.8rem}
 table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.85rem}
-.pair>div,section{overflow-x:auto}
+section,pre{overflow-x:auto}
 th,td{padding:.15rem .5rem;text-align:right;border-bottom:1px solid var(--line);white-space:nowrap}
 tbody th{text-align:left;font-weight:normal}td.words{text-align:left}
 tr.dominated{color:var(--soft);opacity:.6}

@@ -1,12 +1,25 @@
-//! Error against run time of every route: the best joined by a line, the others grey, no label on another.
+//! Error against run time of every route, at usual values or at worst: the best joined by a line, the others grey, no label on another.
 
 use super::report::level;
 use crate::figure::{Ink, Label};
 use crate::plot::{Axis, Curve, Mark, Plot, draw};
-use crate::report::Report;
+use crate::report::{Report, RouteSummary};
+
+/// Where the error of a route is taken.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum At {
+    /// Largest at usual values.
+    Usual,
+    /// Largest anywhere.
+    Worst,
+}
 
 /// The plot as SVG; `None` where no route has a time.
-pub fn plot(report: &Report) -> Option<String> {
+pub fn plot(report: &Report, at: At) -> Option<String> {
+    let error = |r: &RouteSummary| match at {
+        At::Usual => r.usual_max,
+        At::Worst => r.worst,
+    };
     let timed = report.routes.iter();
     let timed: Vec<_> = timed.filter(|r| r.seconds[1].is_finite()).collect();
     let time = |seconds: f64| seconds.max(1e-10).log10();
@@ -16,36 +29,51 @@ pub fn plot(report: &Report) -> Option<String> {
     let mut front: Vec<[f64; 2]> = Vec::new();
     let mut marks: Vec<Mark> = Vec::new();
     for route in &timed {
-        let at = [time(route.seconds[1]), level(route.worst)];
-        if !route.dominated {
+        let at = [time(route.seconds[1]), level(error(route))];
+        let faster = |r: &&&RouteSummary| r.seconds[1] < route.seconds[1];
+        let beaten = (timed.iter().filter(faster)).any(|r| error(r) <= error(route));
+        if !beaten {
             front.push(at);
         }
         marks.push(Mark {
             at,
             label: Label::words(route.route.short()),
-            ink: match route.dominated {
+            ink: match beaten {
                 true => Ink::Dimension,
                 false => Ink::Curve(0),
             },
         });
     }
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let (title, label, top) = match at {
+        At::Usual => {
+            let errors = timed.iter().map(|r| level(r.usual_max));
+            let top = errors.fold(2.0, f64::max).ceil();
+            (
+                "Error at usual values",
+                "largest error at usual values [ulp]",
+                top,
+            )
+        }
+        At::Worst => ("Worst error", "worst error [ulp], ∞ on top", 17.0),
+    };
     let decades = (low as i32..=high as i32).map(|log| (f64::from(log), decade(log)));
-    let errors = [0, 4, 8, 12, 16].map(|k| match k {
-        0 => (0.0, String::from("1")),
+    let step = if top > 5.0 { 4 } else { 1 };
+    let errors = (0..=top as i32).step_by(step).map(|k| match k {
+        ..4 => (f64::from(k), format!("{}", 10i32.pow(k as u32))),
         _ => (f64::from(k), format!("1e{k}")),
     });
     let plot = Plot {
-        title: format!("Error against run time: {}", report.title),
+        title: format!("{title} against run time: {}", report.title),
         x: Axis {
             label: Label::words("median time"),
             range: Some([low, high]),
             ticks: decades.collect(),
         },
         y: Axis {
-            label: Label::words("worst error [ulp], ∞ on top"),
-            range: Some([-1.2, 17.5]),
-            ticks: errors.into(),
+            label: Label::words(label),
+            range: Some([-1.2, top + 0.5]),
+            ticks: errors.collect(),
         },
         curves: vec![Curve {
             label: Label::default(),

@@ -13,6 +13,7 @@ use super::routes::{Place, Prepared, Route};
 use super::sample::{Family, Sampler, flags};
 use super::verdict;
 use crate::derive::Derivation;
+use crate::emit::{self, Heading, Language, Style};
 use crate::scene::Scene;
 
 /// How much to measure.
@@ -119,6 +120,11 @@ pub struct Report {
     pub families: Vec<Swept>,
     /// Which route to use here, and why.
     pub verdict: String,
+    /// Name and closed form of each quantity that has one.
+    pub formulas: Vec<[String; 2]>,
+    /// What `carom emit` writes of them in C.
+    #[serde(skip)]
+    pub code: String,
     /// Answers left out: exactly zero, or beyond the range of normal doubles.
     pub left_out: usize,
     /// Whether the measurement was stopped before its end.
@@ -246,6 +252,12 @@ pub fn measure(
         .iter()
         .map(|r| bench.summary(*r, &swept, seconds(*r)));
     let summaries = summaries.collect();
+    let functions = derivation.map_or_else(Vec::new, |d| emit::functions(scene, d).0);
+    let heading = Heading {
+        title: scene.title.clone(),
+        source: scene.source.clone(),
+        assumptions: derivation.map_or_else(Vec::new, |d| d.assumptions.clone()),
+    };
     let mut report = Report {
         title: scene.title.clone(),
         source: scene.source.clone(),
@@ -256,6 +268,14 @@ pub fn measure(
         routes: summaries,
         families: swept,
         verdict: String::new(),
+        formulas: functions
+            .iter()
+            .map(|f| [f.name.clone(), f.formula.clone()])
+            .collect(),
+        code: match functions.is_empty() {
+            true => String::new(),
+            false => emit::file(&Style::of(Language::C), &heading, &functions),
+        },
         left_out: bench.left_out,
         interrupted,
     };

@@ -8,5 +8,5 @@ pub mod sample;
 pub mod verdict;
 
 pub use errors::{BINS, Errors};
-pub use measure::{Effort, Machine, NoReport, Report, Row, measure};
+pub use measure::{Effort, Machine, NoReport, Report, RouteSummary, Row, measure};
 pub use routes::{Prepared, Route};

@@ -3,7 +3,7 @@
 //! In: a measured report. Out: the same with its judgements; every figure in them is read from the report.
 
 use super::errors::digits_lost;
-use super::measure::Report;
+use super::measure::{Report, RouteSummary};
 use super::routes::Route;
 use super::sample::RANGES;
 
@@ -14,23 +14,20 @@ const STABLE: f64 = 16.0;
 
 /// Fills in dominance and verdict.
 pub fn judge(report: &mut Report) {
-    let figures: Vec<(f64, f64)> = report
-        .routes
-        .iter()
-        .map(|r| (r.seconds[1], r.worst))
-        .collect();
-    for (i, route) in report.routes.iter_mut().enumerate() {
-        let (time, worst) = figures[i];
-        route.dominated = figures
+    let figures = |r: &RouteSummary| [r.seconds[1], r.usual_max, r.worst];
+    let all: Vec<_> = report.routes.iter().map(figures).collect();
+    for route in &mut report.routes {
+        let [time, usual, worst] = figures(route);
+        // One that is better at usual values is not beaten by one that is no worse where both fail.
+        route.dominated = all
             .iter()
-            .enumerate()
-            .any(|(j, (t, w))| j != i && *t < time && *w <= worst);
+            .any(|[t, u, w]| *t < time && *u <= usual && *w <= worst);
     }
     report.verdict = verdict(report);
 }
 
 fn verdict(report: &Report) -> String {
-    let fastest = |of: &dyn Fn(&super::measure::RouteSummary) -> bool| {
+    let fastest = |of: &dyn Fn(&RouteSummary) -> bool| {
         report
             .routes
             .iter()
