@@ -23,6 +23,8 @@ pub struct Curve {
     pub label: Label,
     /// Points in order of x.
     pub points: Vec<[f64; 2]>,
+    /// Its color.
+    pub ink: Ink,
 }
 
 /// A point worth knowing, such as a zero.
@@ -98,7 +100,7 @@ pub fn draw(plot: &Plot) -> Result<Drawing, Empty> {
                 ends.retain(|(_, k)| *k != i);
                 ends.push((FIELD[1] - end[1], i));
             }
-            sheet.path(path, false, Line::of(Ink::Curve(i)), 3.0);
+            sheet.path(path, false, Line::of(curve.ink), 3.0);
         }
     }
     if plot.curves.len() > 1 {
@@ -106,7 +108,7 @@ pub fn draw(plot: &Plot) -> Result<Drawing, Empty> {
             let [edge, high] = [FIELD[0], FIELD[1] - row];
             let dash = Line {
                 width: 3.0,
-                ..Line::of(Ink::Curve(i))
+                ..Line::of(plot.curves[i].ink)
             };
             sheet.segment([edge + 4.0, high], [edge + 12.0, high], dash, 1.0);
             let label = plot.curves[i].label.clone();
@@ -337,8 +339,9 @@ mod tests {
 
     /// The hinge impulse of a struck bar against the place of the blow (book, fig. 17.88).
     fn hinge() -> Plot {
-        let curves = [0.25, 1.0, 4.0]
-            .map(|ratio| Curve {
+        let curves = [(0, 0.25), (1, 1.0), (2, 4.0)]
+            .map(|(i, ratio)| Curve {
+                ink: Ink::Curve(i),
                 label: Label::words(&format!("m₁/m₂ = {ratio}")),
                 points: sample(
                     |q| (3.0 - 4.0 * q) / (3.0 * ratio + 4.0 * q * q) * q,
@@ -388,6 +391,7 @@ mod tests {
         plot.curves = vec![Curve {
             label: Label::default(),
             points: vec![[0.0, f64::NAN]],
+            ink: Ink::Curve(0),
         }];
         plot.marks.clear();
         assert_eq!(draw(&plot), Err(Empty));

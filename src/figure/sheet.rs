@@ -22,7 +22,7 @@ pub enum Ink {
     Ground,
     /// The lines that numbers along an axis stand at.
     Grid,
-    /// A curve, by its number; after six the colors begin again.
+    /// A curve, by its number; after eight the colors begin again.
     Curve(usize),
 }
 

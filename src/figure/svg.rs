@@ -89,8 +89,8 @@ fn color(ink: Ink) -> &'static str {
 }
 
 /// Colors of curves; TikZ knows them as `curve0` and on.
-pub(super) const CURVES: [&str; 6] = [
-    "#2f81d6", "#d9534a", "#2e965f", "#b06ecd", "#c4801c", "#1496a0",
+pub(super) const CURVES: [&str; 8] = [
+    "#2f81d6", "#d9534a", "#2e965f", "#b06ecd", "#c4801c", "#1496a0", "#c2468f", "#8a6a4c",
 ];
 
 /// A line through points, in the commands of a path.

@@ -15,7 +15,8 @@ const SCALE: f64 = 0.72;
 /// The colors a document defines before its first figure.
 pub const COLORS: &str = "\\definecolor{motion}{HTML}{2F81D6}\n\\definecolor{impulse}{HTML}{D9534A}\n\\definecolor{dimension}{HTML}{858B93}\n\
 \\definecolor{curve0}{HTML}{2F81D6}\n\\definecolor{curve1}{HTML}{D9534A}\n\\definecolor{curve2}{HTML}{2E965F}\n\
-\\definecolor{curve3}{HTML}{B06ECD}\n\\definecolor{curve4}{HTML}{C4801C}\n\\definecolor{curve5}{HTML}{1496A0}\n";
+\\definecolor{curve3}{HTML}{B06ECD}\n\\definecolor{curve4}{HTML}{C4801C}\n\\definecolor{curve5}{HTML}{1496A0}\n\
+\\definecolor{curve6}{HTML}{C2468F}\n\\definecolor{curve7}{HTML}{8A6A4C}\n";
 
 /// The picture; `y` grows upwards, as on the sheet.
 pub(super) fn write(items: &[Item]) -> String {
@@ -29,7 +30,9 @@ pub(super) fn write(items: &[Item]) -> String {
 }
 
 /// Names of the colors of curves.
-const CURVES: [&str; 6] = ["curve0", "curve1", "curve2", "curve3", "curve4", "curve5"];
+const CURVES: [&str; 8] = [
+    "curve0", "curve1", "curve2", "curve3", "curve4", "curve5", "curve6", "curve7",
+];
 
 fn at(p: &Pair) -> String {
     format!("({},{})", number(p[0]), number(p[1]))

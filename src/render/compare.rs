@@ -154,7 +154,7 @@ pub fn plane(scene: &Scene, c: &Comparison) -> Plot {
     let side = side.max(top * 0.35).min(top * 1.5);
     let s = &c.space;
     // The part of p·P_t + q·P_n + r = 0 inside the frame.
-    let line = |label: &str, p: f64, q: f64, r: f64| {
+    let line = |i: usize, label: &str, p: f64, q: f64, r: f64| {
         let mut points: Vec<[f64; 2]> = Vec::new();
         if q != 0.0 {
             points.extend([-side, side].map(|x| [x, -(r + p * x) / q]));
@@ -168,6 +168,7 @@ pub fn plane(scene: &Scene, c: &Comparison) -> Plot {
         Curve {
             label: Label::words(label),
             points,
+            ink: Ink::Curve(i),
         }
     };
     let reach = if c.mu > 0.0 {
@@ -179,9 +180,10 @@ pub fn plane(scene: &Scene, c: &Comparison) -> Plot {
         Curve {
             label: Label::words("friction cone"),
             points: vec![[-c.mu * reach, reach], [0.0, 0.0], [c.mu * reach, reach]],
+            ink: Ink::Curve(0),
         },
-        line("sticking", s.a, s.b, s.tangential),
-        line("compression ends", s.b, s.c, s.normal),
+        line(1, "sticking", s.a, s.b, s.tangential),
+        line(2, "compression ends", s.b, s.c, s.normal),
     ];
     let longest = outcomes()
         .filter(|(_, o)| o.corners.len() > 2)
@@ -190,6 +192,7 @@ pub fn plane(scene: &Scene, c: &Comparison) -> Plot {
         curves.push(Curve {
             label: Label::words("path"),
             points: o.corners.clone(),
+            ink: Ink::Curve(3),
         });
     }
     let mut marks: Vec<Mark> = Vec::new();

@@ -41,7 +41,8 @@ pub fn picture(scene: &Scene, graph: &Graph) -> Result<Picture, Empty> {
         }
     }
     let [from, to] = graph.range;
-    let curves = graph.curves.iter().map(|c| plot::Curve {
+    let curves = graph.curves.iter().enumerate().map(|(i, c)| plot::Curve {
+        ink: Ink::Curve(i),
         label: label(scene, c),
         points: plot::sample(|x| value(graph, c, x), from, to, POINTS),
     });

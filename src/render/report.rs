@@ -5,8 +5,8 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::mathml::escape;
-use super::report_pareto::{At, plot};
-use crate::figure::Label;
+use super::report_pareto::{At, ink, plot};
+use crate::figure::{Ink, Label};
 use crate::plot::{Axis, Curve, Plot, draw};
 use crate::report::measure::{Cell, Swept};
 use crate::report::verdict::{nanoseconds, short};
@@ -276,6 +276,7 @@ fn family_plot(report: &Report, family: &Swept) -> Option<String> {
                 [] => Label::default(),
             },
             points,
+            ink: routes.first().map_or(Ink::Dimension, |route| ink(*route)),
         })
         .collect();
     curves.truncate(5);
@@ -287,6 +288,7 @@ fn family_plot(report: &Report, family: &Swept) -> Option<String> {
     curves.push(Curve {
         label: Label::words("cond·u"),
         points: data,
+        ink: Ink::Dimension,
     });
     let single = family.rows.len() < 2;
     let plot = Plot {

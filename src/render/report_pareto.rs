@@ -3,7 +3,12 @@
 use super::report::level;
 use crate::figure::{Ink, Label};
 use crate::plot::{Axis, Curve, Mark, Plot, draw};
-use crate::report::{Report, RouteSummary};
+use crate::report::{Report, Route, RouteSummary};
+
+/// The color of a route in every plot.
+pub(super) fn ink(route: Route) -> Ink {
+    Ink::Curve(route as usize)
+}
 
 /// Where the error of a route is taken.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -40,7 +45,7 @@ pub fn plot(report: &Report, at: At) -> Option<String> {
             label: Label::words(route.route.short()),
             ink: match beaten {
                 true => Ink::Dimension,
-                false => Ink::Curve(0),
+                false => ink(route.route),
             },
         });
     }
@@ -78,6 +83,7 @@ pub fn plot(report: &Report, at: At) -> Option<String> {
         curves: vec![Curve {
             label: Label::default(),
             points: front,
+            ink: Ink::Grid,
         }],
         marks,
     };
