@@ -7,7 +7,7 @@ use num_traits::Zero;
 
 use super::body_file::{BodyFile, ShapeName, VelocityFile};
 use super::check::{Claim, Claimed};
-use super::fault::{Fault, Span};
+use super::fault::Fault;
 use super::formulas::{Quantity, Symbols};
 use super::place_file::PositionFile;
 use super::record::{Formula, is_sound};
@@ -78,7 +78,7 @@ impl SolidReader<'_> {
     pub fn read_part(&mut self, part: &BodyFile) -> Option<Solid> {
         if matches!(part.shape, ShapeName::Fixed | ShapeName::Composite) {
             let fault = Fault::new(part.span, "a part is neither fixed nor composite")
-                .shown_at(first(part.span));
+                .shown_at(part.span.opening());
             return fault.hint("list its own parts here").add_to(self.faults);
         }
         let velocity = part.velocity.as_ref().map(VelocityFile::span);
@@ -99,7 +99,7 @@ impl SolidReader<'_> {
         let mass = Expr::sum(parts.iter().map(|p| p.mass.clone()));
         if mass.is_zero() {
             let fault =
-                Fault::new(body.span, "this composite has no mass").shown_at(first(body.span));
+                Fault::new(body.span, "this composite has no mass").shown_at(body.span.opening());
             return fault
                 .hint("give one of its parts a mass")
                 .add_to(self.faults);
@@ -133,8 +133,8 @@ impl SolidReader<'_> {
             ("height", formula(&body.height)),
             ("inertia", formula(&body.inertia)),
             ("radius_of_gyration", formula(&body.radius_of_gyration)),
-            ("parts", body.parts.as_ref().map(|_| first(body.span))),
-            ("center", body.center.as_ref().map(place)),
+            ("parts", body.parts.as_ref().map(|_| body.span.opening())),
+            ("center", body.center.as_ref().map(PositionFile::span)),
             ("angle", formula(&body.angle)),
             ("velocity", body.velocity.as_ref().map(VelocityFile::span)),
             ("spin", formula(&body.spin)),
@@ -158,7 +158,7 @@ impl SolidReader<'_> {
                         continue;
                     }
                     let fault = Fault::new(body.span, format!("{shape} needs `{name}`"));
-                    self.faults.push(fault.shown_at(first(body.span)));
+                    self.faults.push(fault.shown_at(body.span.opening()));
                 }
                 _ => {}
             }
@@ -174,7 +174,7 @@ impl SolidReader<'_> {
             }
             (None, None) if body.shape == ShapeName::Body && is_sound => {
                 let fault = Fault::new(body.span, "a body needs `inertia` or `radius_of_gyration`")
-                    .shown_at(first(body.span));
+                    .shown_at(body.span.opening());
                 self.faults.push(fault.hint(Quantity::INERTIA.hint()));
             }
             _ => {}
@@ -320,17 +320,4 @@ fn article(shape: ShapeName) -> &'static str {
         ShapeName::Body => "a body",
         ShapeName::Composite => "a composite",
     }
-}
-
-fn place(position: &PositionFile) -> Span {
-    match position {
-        PositionFile::Name(name) => name.span,
-        PositionFile::At(pair) => pair.span,
-        PositionFile::From(step) => step.span,
-    }
-}
-
-/// The opening bracket of an object: the place to show when something in it is missing.
-fn first(span: Span) -> Span {
-    Span::new(span.start, span.start + 1)
 }

@@ -277,9 +277,8 @@ impl Resolver<'_> {
                         known.span,
                         "a known velocity needs the direction `along` which it is known",
                     );
-                    let place = Span::new(known.span.start, known.span.start + 1);
                     return fault
-                        .shown_at(place)
+                        .shown_at(known.span.opening())
                         .hint("add \"along\": [\"1\", \"0\"]; a vector takes two entries")
                         .add_to(&mut self.faults);
                 };

@@ -29,6 +29,11 @@ impl Span {
         Span::new(self.start, other.end)
     }
 
+    /// The opening bracket of an object: the place to show when something in it is missing.
+    pub fn opening(self) -> Span {
+        Span::new(self.start, self.start + 1)
+    }
+
     /// Whether `other` lies inside.
     pub fn contains(self, other: Span) -> bool {
         self.start <= other.start && other.end <= self.end

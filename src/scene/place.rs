@@ -57,12 +57,10 @@ impl<'f> Resolver<'f> {
         let body = body.as_ref();
         let at = body.and_then(|body| match (&body.center, body.shape) {
             (Some(center), ShapeName::Composite) => {
-                let span = match center {
-                    PositionFile::Name(name) => name.span,
-                    PositionFile::At(pair) => pair.span,
-                    PositionFile::From(step) => step.span,
-                };
-                let fault = Fault::new(span, "the center of a composite follows from its parts");
+                let fault = Fault::new(
+                    center.span(),
+                    "the center of a composite follows from its parts",
+                );
                 self.faults
                     .push(fault.hint("leave `center` out, and give each part its own"));
                 None

@@ -1,6 +1,6 @@
 //! Positions and directions as a scene file writes them.
 
-use super::fault::Fault;
+use super::fault::{Fault, Span};
 use super::json::{Node, Value};
 use super::record::{Formula, Pair, Read, Text, choice, record, unexpected};
 
@@ -14,6 +14,17 @@ pub(super) enum PositionFile {
     At(Pair<Formula>),
     /// A step from another position.
     From(Box<StepFile>),
+}
+
+impl PositionFile {
+    /// Where it stands.
+    pub fn span(&self) -> Span {
+        match self {
+            PositionFile::Name(name) => name.span,
+            PositionFile::At(pair) => pair.span,
+            PositionFile::From(step) => step.span,
+        }
+    }
 }
 
 impl Read for PositionFile {

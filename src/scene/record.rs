@@ -404,10 +404,8 @@ pub(super) fn field<T: Read>(
             let absent = T::absent();
             // An unreadable or misspelled neighbor may be this field.
             if absent.is_none() && is_sound(node.span, faults) {
-                let place = Span::new(node.span.start, node.span.start + 1);
-                faults.push(
-                    Fault::new(node.span, format!("the field `{name}` is missing")).shown_at(place),
-                );
+                let fault = Fault::new(node.span, format!("the field `{name}` is missing"));
+                faults.push(fault.shown_at(node.span.opening()));
             }
             absent
         }
