@@ -402,6 +402,11 @@ fn to_the_end(
             // What comes to nothing in the end.
             let stops = matches!(slide.until, SlideEnd::Stops);
             let wanes: &dyn Fn(&[f64]) -> f64 = if stops { &rate } else { &slip };
+            if !stops && wanes(start).abs() <= ROUNDING {
+                // It rolls already, and what is left of its slip is rounding.
+                let run = mechanism.lasting(start, 0.0);
+                return run.map_err(stopped(NEVER));
+            }
             let never = match stops {
                 true => "nothing slows it down",
                 false => "its slip grows",
