@@ -6,11 +6,13 @@ use std::convert::Infallible;
 use super::super::relation::{follows, solve_for};
 use super::link::Link;
 use super::{Desk, MOST_CAUSES, MOST_STATED};
+use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::{Content, Reading};
 use crate::laws::{self, Geometry, Kinematics, Law, Unknown};
+use crate::scene::Question;
 
 /// Most laws that may be used without being written.
 const MOST_LAWS: usize = 10;
@@ -153,7 +155,8 @@ impl Desk<'_> {
         }
     }
 
-    /// In a motion with one freedom all velocities are what they are, times the same wrong number.
+    /// In a motion with one freedom all velocities are what they are, times the same wrong number; and what comes in later
+    /// stages is what it would be had the bodies come in faster by that number.
     pub(super) fn carry_along(
         &self,
         name: &Symbol,
@@ -166,12 +169,55 @@ impl Desk<'_> {
         if !self.moving.contains(name) {
             return;
         }
+        let ratio = root * &truth.powi(-1);
         for other in self.moving.iter().filter(|other| *other != name) {
             if let Some(value) = self.closed.get(other) {
-                let scaled = value * &(root * &truth.powi(-1));
-                values.entry(other.clone()).or_insert(scaled);
+                values
+                    .entry(other.clone())
+                    .or_insert_with(|| value * &ratio);
             }
         }
+        let Some(speed) = self.incoming() else {
+            return;
+        };
+        let faster = BTreeMap::from([(speed.clone(), &Expr::symbol(&speed) * &ratio)]);
+        for other in self.later() {
+            if let Some(value) = self.closed.get(&other) {
+                values
+                    .entry(other)
+                    .or_insert_with(|| value.substitute(&faster));
+            }
+        }
+    }
+
+    /// The given speed to which all velocities and spins before the impact are proportional.
+    fn incoming(&self) -> Option<Symbol> {
+        let scene = &self.sheet.scene;
+        let bodies = scene.bodies.iter();
+        let parts = bodies.flat_map(|b| b.velocity.iter().chain([&b.spin]));
+        let moving: Vec<&Expr> = parts.filter(|part| !part.is_zero()).collect();
+        let rate = Dimension::new(0, 0, -1);
+        let per_time = |d: &Dimension| *d == rate || *d == rate.times(&Dimension::new(0, 1, 0));
+        let mut given = scene.parameters.iter().filter(|p| per_time(&p.dimension));
+        let found = given.find(|p| {
+            let twice = &Expr::symbol(&p.name) * &Expr::from(2);
+            let twice = BTreeMap::from([(p.name.clone(), twice)]);
+            moving.iter().all(|part| {
+                let doubled = &part.substitute(&twice) - &(*part * &Expr::from(2));
+                self.all_zero(&[doubled], &BTreeMap::new()) == Some(true)
+            })
+        });
+        found.filter(|_| !moving.is_empty()).map(|p| p.name.clone())
+    }
+
+    /// Answers about stages behind the impact.
+    fn later(&self) -> Vec<Symbol> {
+        let scene = &self.sheet.scene;
+        let behind = |q: &&Question| q.stage > Some(0);
+        let questions: Vec<&Question> = scene.questions.iter().filter(behind).collect();
+        let answers = self.sheet.derivation.answers.iter();
+        let of_them = answers.filter(|a| questions.iter().any(|q| q.name == a.question));
+        of_them.map(|a| Symbol::from(a.name.as_str())).collect()
     }
 
     /// The scene's laws in the names of its unknowns, and what these are called where they are asked for; none where they are
