@@ -22,6 +22,17 @@ const SIGNS: [&str; 10] = [
     "ⅆ",
 ];
 
+/// Commands of a fraction.
+const FRACTIONS: [&str; 3] = ["\\frac", "\\dfrac", "\\tfrac"];
+
+/// Most bytes that are searched for the end of what is differentiated.
+const FARTHEST: usize = 200;
+
+fn unread(start: usize, end: usize) -> Box<Fault> {
+    let message = "the derivative of a product, power or sum is not read";
+    Fault::new(message, start, end).hint("write the derivative of each name, as in dx/dt")
+}
+
 /// Something differentiated: its order, its name, and the byte behind.
 struct Differential {
     order: u32,
@@ -36,10 +47,63 @@ impl Lexer<'_> {
     /// A derivative that starts here with `d`, `∂` or `\frac`.
     pub(super) fn derivative(&mut self) -> Option<Faulty<Tok>> {
         let start = self.pos;
+        self.derivative_of_name(start).or_else(|| {
+            let end = self.derivative_of_more(start)?;
+            Some(Err(unread(start, end)))
+        })
+    }
+
+    /// The end of a derivative of more than one name: `d(mv)/dt`, `\frac{d v^2}{dt}`.
+    fn derivative_of_more(&self, start: usize) -> Option<usize> {
         let rest = &self.text[start..];
-        let fraction = ["\\frac", "\\dfrac", "\\tfrac"]
-            .iter()
-            .find(|f| rest.starts_with(**f));
+        let fraction = FRACTIONS.iter().find(|f| rest.starts_with(**f));
+        let (sign_at, between, stops): (usize, _, &[u8]) = match fraction {
+            Some(word) => {
+                let open = self.blanks(start + word.len());
+                self.text[open..].starts_with('{').then_some(())?;
+                (self.blanks(open + 1), b'}', b"")
+            }
+            None => (start, b'/', b"+-*=,;<>&"),
+        };
+        let (above, plain) = self.sign(sign_at)?;
+        if plain && self.symbols.find("d").is_some() {
+            return None;
+        }
+        let below = self.blanks(self.outside(above, between, stops)? + 1);
+        let close = match self.text[below..].chars().next()? {
+            '{' => Some('}'),
+            '(' if fraction.is_none() => Some(')'),
+            _ if fraction.is_none() => None,
+            _ => return None,
+        };
+        let from = self.blanks(below + usize::from(close.is_some()));
+        let end = self.differential(from, false, true)?.end;
+        let Some(close) = close else {
+            return Some(end);
+        };
+        let end = self.blanks(end);
+        self.text[end..].starts_with(close).then_some(end + 1)
+    }
+
+    /// Where a byte stands outside all brackets that open behind `at`, with none of the `stops` before it.
+    pub(super) fn outside(&self, at: usize, wanted: u8, stops: &[u8]) -> Option<usize> {
+        let mut depth = 0_u32;
+        for (i, byte) in self.text.bytes().enumerate().skip(at).take(FARTHEST) {
+            match byte {
+                _ if depth == 0 && byte == wanted => return Some(i),
+                b'(' | b'[' | b'{' => depth += 1,
+                b')' | b']' | b'}' => depth = depth.checked_sub(1)?,
+                _ if depth == 0 && stops.contains(&byte) => return None,
+                _ => {}
+            }
+        }
+        None
+    }
+
+    /// A derivative of one name.
+    fn derivative_of_name(&mut self, start: usize) -> Option<Faulty<Tok>> {
+        let rest = &self.text[start..];
+        let fraction = FRACTIONS.iter().find(|f| rest.starts_with(**f));
         let (above, below, mut end) = match fraction {
             Some(word) => {
                 let above_at = self.blanks(start + word.len());
@@ -79,11 +143,7 @@ impl Lexer<'_> {
                 fraction?;
                 let at = self.blanks(end);
                 let Some((of, stop)) = self.differentiated(at) else {
-                    let message = "the derivative of a product or sum is not read";
-                    let fault = Fault::new(message, start, end);
-                    return Some(Err(
-                        fault.hint("write the derivative of each name, as in dx/dt")
-                    ));
+                    return Some(Err(unread(start, end)));
                 };
                 end = stop;
                 (of, above.order)
@@ -144,20 +204,7 @@ impl Lexer<'_> {
     /// A sign of a derivative, its order and what it stands before; the upper one of `\frac{d}{dt}` stands alone. `inside` the
     /// groups of a fraction a space is not seen.
     fn differential(&self, at: usize, above: bool, inside: bool) -> Option<Differential> {
-        let rest = &self.text[at..];
-        let marked = SIGNS.iter().find(|sign| rest.starts_with(**sign));
-        let command = marked.is_some_and(|s| s.ends_with(|c: char| c.is_ascii_alphabetic()));
-        let (mut end, plain) = match marked {
-            Some(sign) => {
-                let behind = rest[sign.len()..].chars().next();
-                if command && behind.is_some_and(|c| c.is_ascii_alphabetic()) {
-                    return None;
-                }
-                (at + sign.len(), false)
-            }
-            None if rest.starts_with('d') => (at + 1, true),
-            None => return None,
-        };
+        let (mut end, plain) = self.sign(at)?;
         let mut order = 1;
         if above && let Some((k, stop)) = self.order(end) {
             (order, end) = (k, stop);
@@ -183,6 +230,17 @@ impl Lexer<'_> {
             plain,
             spaced,
         })
+    }
+
+    /// The byte behind a sign of a derivative, and whether it is a plain d.
+    fn sign(&self, at: usize) -> Option<(usize, bool)> {
+        let rest = &self.text[at..];
+        let Some(sign) = SIGNS.iter().find(|sign| rest.starts_with(**sign)) else {
+            return rest.starts_with('d').then_some((at + 1, true));
+        };
+        let command = sign.ends_with(|c: char| c.is_ascii_alphabetic());
+        let longer = rest[sign.len()..].starts_with(|c: char| c.is_ascii_alphabetic());
+        (!(command && longer)).then_some((at + sign.len(), false))
     }
 
     /// The exponent of a sign of a derivative.

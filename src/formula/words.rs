@@ -96,6 +96,10 @@ impl Lexer<'_> {
                 self.pos = start + length;
                 return Ok(Tok::RootOf);
             }
+            if self.is_other_function(start, length) {
+                let message = format!("`{word}` is no function that is read here");
+                return Err(Fault::new(message, start, start + length));
+            }
             if let Some(tok) = function(word) {
                 if !self.function_wanted(word, start) {
                     continue;
@@ -189,14 +193,27 @@ impl Lexer<'_> {
         let inside = index.unwrap_or(rest);
         let braced = index.and_then(|i| i.strip_prefix('{'));
         let digits = braced.unwrap_or(inside);
+        let attached = rest.len() == self.text.len() - self.pos;
+        for (sign, base) in [("₁₀", 10), ("₂", 2)] {
+            if let Some(behind) = rest.strip_prefix(sign) {
+                self.pos = self.text.len() - behind.len();
+                return Tok::Logarithm(base);
+            }
+        }
         let count = digits.bytes().take_while(u8::is_ascii_digit).count();
         // In TeX an index without braces is one digit; `\log_10` means ten to whoever types it.
         let behind = &digits[count..];
         let closed = match (braced, index) {
             (Some(_), _) => behind.strip_prefix('}'),
             (None, Some(_)) => Some(behind),
-            // `log10(x)`, while `log 2(a+b)` is the logarithm of a product.
-            (None, None) => Some(behind).filter(|b| b.starts_with('(')),
+            // `log10(x)` and `log10 x`, while `log 2(a+b)` is the logarithm of a product.
+            (None, None) => Some(behind).filter(|b| {
+                let parted = b.strip_prefix(' ').map(|b| b.trim_start_matches(' '));
+                let argued = parted.is_some_and(|b| {
+                    b.starts_with(|c: char| c.is_alphanumeric() || c == '(' || c == '\\')
+                });
+                b.starts_with('(') || attached && matches!(&digits[..count], "2" | "10") && argued
+            }),
         };
         let euler = ["_e", "_{e}"].iter().find_map(|e| rest.strip_prefix(e));
         if let Some(behind) = euler.filter(|b| !b.starts_with(|c: char| c.is_alphanumeric()))
@@ -222,6 +239,23 @@ impl Lexer<'_> {
                 }
             },
         }
+    }
+
+    /// A function that carom does not know, with its brackets: it is no product of its letters, unless all are declared
+    /// and no comma is inside.
+    fn is_other_function(&self, start: usize, length: usize) -> bool {
+        let word = &self.text[start..start + length];
+        let behind = &self.text[start + length..];
+        let known = match word {
+            "max" | "min" | "hypot" | "floor" | "ceil" | "round" | "trunc" | "erf" | "erfc"
+            | "gcd" | "lcm" | "mod" | "sinc" | "mean" | "avg" | "sum" => behind.starts_with('('),
+            "atan" | "exp" => behind.starts_with("2("),
+            _ => false,
+        };
+        let declared = |name: &str| self.symbols.find(name).is_some();
+        let letters = || (0..length).all(|at| declared(&word[at..=at]));
+        let listed = || self.outside(start + length + 1, b',', b"").is_some();
+        known && !declared(word) && (listed() || !letters())
     }
 
     /// A declared name with several indices, written exactly so: `v_bat_x` stays one name where `vb` is declared too.
