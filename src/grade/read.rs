@@ -302,15 +302,25 @@ fn vector(reading: &Reading) -> bool {
 /// Refuses a word that was read letter by letter although its letters are no names of the question.
 fn worded(key: &Key, text: &str, reading: Reading) -> Result<Reading, Fault> {
     for note in reading.notes.iter().filter(|n| n.remark == Remark::Letters) {
-        let word = text.get(note.start..note.end).unwrap_or_default();
+        let letters = text.get(note.start..note.end).unwrap_or_default();
         let strange = |c: &char| {
             let name = Symbol::from(c.to_string().as_str());
             !declared(key, &name) && !STRANGERS.contains(&&*name)
         };
-        if word.chars().filter(strange).count() > 1 {
+        if letters.chars().filter(strange).count() > 1 {
+            let before = text.get(..note.start).unwrap_or_default();
+            let before = before.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+            let word = text.get(before.len()..note.end).unwrap_or_default();
+            // Behind a number stands its unit.
+            let numbered = before.trim_end().ends_with(|c: char| c.is_ascii_digit());
+            let kind = if numbered {
+                "unit known here"
+            } else {
+                "name of the question"
+            };
             return Err(Fault {
-                message: format!("`{word}` is no name of the question"),
-                start: note.start,
+                message: format!("`{word}` is no {kind}"),
+                start: before.len(),
                 end: note.end,
                 hint: Some(
                     "write * between the factors of a product; words do not belong to a formula"

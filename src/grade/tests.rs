@@ -15,3 +15,12 @@ fn a_rearranged_formula_is_equivalent_and_a_wrong_sign_is_told() {
     assert_eq!(grade("3*v/(2*l)", "3*v/l").note, "DIFF_FACTOR");
     assert_eq!(grade("a", "(a").verdict, Verdict::Invalid);
 }
+
+#[test]
+fn a_word_behind_a_number_is_called_a_unit_as_a_whole() {
+    let message = |answer| grade("5*a", answer).error.map(|fault| fault.message);
+    let unit = "`apples` is no unit known here";
+    assert_eq!(message("5 apples").as_deref(), Some(unit));
+    let name = "`apples` is no name of the question";
+    assert_eq!(message("a + apples").as_deref(), Some(name));
+}
