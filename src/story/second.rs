@@ -489,7 +489,7 @@ impl Second<'_> {
                         continue;
                     };
                     compared.points += 1;
-                    let shaken = || shaken(Some(&formula), &seen.point);
+                    let shaken = || shaken(Some(formula), &seen.point);
                     compared.put("the value", [told, found], size, shaken);
                 }
             }
