@@ -478,7 +478,10 @@ impl Case {
                 _ => None,
             }
             .zip(derivation.motion.get(u))
-            .is_some_and(|(before, after)| after.is_zero() || before == after)
+            .is_some_and(|(before, after)| {
+                let change = before - after;
+                after.is_zero() || is_zero(&change, &scene.domains) == Some(true)
+            })
         };
         let has_block = |q: &Question| {
             let mut blocks = derivation.blocks.iter();
