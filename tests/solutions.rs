@@ -93,6 +93,36 @@ fn every_step_of_every_solution_can_be_replayed() {
 }
 
 #[test]
+fn steps_that_suppose_something_are_replayed_where_it_is_so() {
+    let mut supposed = 0;
+    for path in shared::files("tests/stories/scenes", "json") {
+        let text = fs::read_to_string(&path).expect("a scene");
+        let scene = scene::read(&text).expect("a sound scene");
+        // Cases that differ in what is known are refused with their conditions.
+        let Ok(worked) = worked::in_cases(&scene) else {
+            continue;
+        };
+        let written = worked.solution(Detail::Normal);
+        let mut json = render::steps::solution(&written, &text, &[]);
+        let failed = |json: &serde_json::Value| {
+            let report = check::check(&json.to_string()).expect("a usable solution");
+            report.failed
+        };
+        let path = path.display();
+        assert_eq!(failed(&json).len(), 0, "{path}: {:?}", failed(&json));
+        // The contrary supposed, the motion found is another.
+        for need in json["needs"].as_array_mut().into_iter().flatten() {
+            *need = format!("-({})", need.as_str().expect("a formula")).into();
+        }
+        for impact in json["impacts"].as_array_mut().into_iter().flatten() {
+            impact["needs"] = serde_json::json!([]);
+        }
+        supposed += usize::from(!failed(&json).is_empty());
+    }
+    assert!(supposed > 0);
+}
+
+#[test]
 fn every_line_of_algebra_is_part_of_the_step_it_leads_to() {
     let mut nested = 0;
     for case in cases() {

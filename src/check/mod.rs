@@ -127,15 +127,17 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
             &impact.scene,
             &impact.meanings,
             &mine,
-            impact.mode.as_deref(),
+            (impact.mode.as_deref(), &impact.needs),
             &mut report,
         );
     }
     if scene.has_stages() {
-        story::replay(&scene, &impacts, &meanings, &of(None), &mut report);
+        let needs = story::needs(&scene, &root["needs"])?;
+        let claims = of(None);
+        story::replay(&scene, &impacts, &meanings, (&claims, &needs), &mut report);
     } else {
         let mode = root["mode"].as_str();
-        replay::replay(&scene, &meanings, &of(None), mode, &mut report);
+        replay::replay(&scene, &meanings, &of(None), (mode, &[]), &mut report);
     }
     for near in &claims.near {
         near::replay(&scene, near, &mut report);

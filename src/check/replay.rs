@@ -22,19 +22,26 @@ pub(super) fn replay(
     scene: &Scene,
     meanings: &BTreeMap<Symbol, Meaning>,
     claims: &[&Claim],
-    mode: Option<&str>,
+    (mode, needs): (Option<&str>, &[Expr]),
     report: &mut Report,
 ) {
-    let needed = needed(numeric::needed(scene), meanings, claims);
+    let mut needed = needed(numeric::needed(scene), meanings, claims);
+    needs.iter().for_each(|e| needed.add(e));
+    let told = |p: &Point<Rational>| holds(needs, &numeric::rounded(p));
     let random = |seed| numeric::random_point(&needed, &scene.domains, seed);
     let points: Vec<Point<Rational>> = match scene.friction() {
-        None => (1..=POINTS).map(random).collect(),
+        None => {
+            let all = (1..=SEEDS).map(random).filter(told);
+            all.take(POINTS as usize).collect()
+        }
         Some(_) => {
             let wide = |seed| numeric::point_of_any_size(&needed, &scene.domains, seed);
             let seeds = (1..=SEEDS).map(random).chain((1..=SEEDS).map(wide));
             // The values of the scene show a case that few points of the domain have.
             let own = numeric::exact_values(scene).ok();
-            let fits = |p: &Point<Rational>| mode.is_some() && does(scene, p).as_deref() == mode;
+            let fits = |p: &Point<Rational>| {
+                mode.is_some() && told(p) && does(scene, p).as_deref() == mode
+            };
             own.into_iter()
                 .chain(seeds)
                 .filter(fits)
@@ -50,6 +57,12 @@ pub(super) fn replay(
         (point, doubles)
     });
     compare(points.collect(), meanings, claims, report);
+}
+
+/// Whether nothing that has to be ≥ 0 is negative at a point.
+pub(super) fn holds(needs: &[Expr], at: &Point<f64>) -> bool {
+    let mut values = needs.iter().filter_map(|e| e.evaluate(at));
+    values.all(|value| value >= 0.0)
 }
 
 /// What the contact with friction does at a point, followed in fractions, or in doubles where a root is no fraction.

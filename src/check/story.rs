@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
+use super::replay::holds;
 use super::{Claim, Failure, Meaning, POINTS, Report, Unusable, meanings, unusable};
 use crate::dimension::Dimension;
 use crate::domain::Domain;
@@ -41,6 +42,8 @@ pub(super) struct Impact {
     pub meanings: BTreeMap<Symbol, Meaning>,
     /// Symbols for what is handed on, with their values in parameters.
     handed: BTreeMap<Symbol, Expr>,
+    /// What must be ≥ 0 for it, and for the motions before it.
+    pub needs: Vec<Expr>,
 }
 
 /// Reads the impacts of a solution.
@@ -102,6 +105,10 @@ fn impact(scene: &Scene, value: &Value) -> Result<Impact, Unusable> {
     for symbol in &open {
         out.domains.symbols.insert(symbol.clone(), Domain::real());
     }
+    for (symbol, value) in &handed {
+        let side = side(scene, value);
+        out.domains.symbols.insert(symbol.clone(), side);
+    }
     for body in out.bodies.iter_mut().filter(|b| !b.is_fixed()) {
         let before = &value["before"][body.name.as_str()];
         body.velocity = [
@@ -128,7 +135,41 @@ fn impact(scene: &Scene, value: &Value) -> Result<Impact, Unusable> {
         scene: out,
         meanings,
         handed,
+        needs: needs(scene, &value["needs"])?,
     })
+}
+
+/// The numbers of the sign that a value handed on has where it is tried.
+fn side(scene: &Scene, value: &Expr) -> Domain {
+    let mut needed = numeric::Needed::default();
+    needed.add(value);
+    let at = |seed| numeric::rounded(&numeric::random_point(&needed, &scene.domains, seed));
+    let seen: Vec<f64> = (1..=ORDINARY)
+        .filter_map(|seed| value.evaluate(&at(seed)))
+        .collect();
+    if seen.iter().all(|v| *v > 0.0) {
+        Domain::positive()
+    } else if seen.iter().all(|v| *v < 0.0) {
+        Domain::negative()
+    } else {
+        Domain::real()
+    }
+}
+
+/// Reads what a solution supposes to be ≥ 0. Steps are held against points where it is.
+pub(super) fn needs(scene: &Scene, list: &Value) -> Result<Vec<Expr>, Unusable> {
+    let mut symbols = Symbols::strict();
+    for parameter in &scene.parameters {
+        symbols.declare(&parameter.name);
+    }
+    let all = list.as_array().into_iter().flatten();
+    let texts = all.map(|v| v.as_str().unwrap_or_default());
+    texts
+        .map(|text| {
+            formula::read_expr(text, &symbols)
+                .map_err(|fault| Unusable(format!("`needs`: `{text}`: {}", fault.message)))
+        })
+        .collect()
 }
 
 fn names(list: &Value) -> Vec<String> {
@@ -167,7 +208,7 @@ pub(super) fn replay(
     scene: &Scene,
     impacts: &[Impact],
     meanings: &BTreeMap<Symbol, Meaning>,
-    claims: &[&Claim],
+    (claims, needs): (&[&Claim], &[Expr]),
     report: &mut Report,
 ) {
     let mut needed = numeric::needed(scene);
@@ -204,7 +245,8 @@ pub(super) fn replay(
             continue;
         }
         for (i, (impact, apart)) in impacts.iter().zip(&mut apart).enumerate() {
-            let found = stages[impact.stage].filter(|passed| goes_so(impact, passed));
+            let found = stages[impact.stage]
+                .filter(|passed| goes_so(impact, passed) && holds(&impact.needs, &doubles));
             compared[i] |= found.is_some();
             if let (None, Some(found)) = (&apart, found) {
                 *apart = differs(
@@ -222,6 +264,7 @@ pub(super) fn replay(
         };
         let mut each = stages.iter().enumerate();
         if points.len() as u64 >= POINTS
+            || !holds(needs, &doubles)
             || !each.all(|(i, passed)| passed.is_some_and(|passed| is_first(passed, i)))
         {
             continue;

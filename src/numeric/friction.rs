@@ -123,15 +123,16 @@ pub fn happened<T: Number + PartialOrd>(given: &Given<T>, followed: &Followed<T>
     let last = path.corners.iter().rfind(|c| !ends(c));
     let lasts = last.is_some_and(|c| !c.velocity[0].is_zero());
     let at = |event| path.corners.iter().position(|c| c.event == event);
-    let slip_at_start = !path.corners[0].velocity[0].is_zero();
+    let start = path.corners[0].velocity.each_ref().map(Number::size);
+    let slip_at_start = start[0] > 1e-12 * start[1];
     match (at(Event::SlipEnds), at(Event::Compressed), still) {
+        // Without slip before, it sticks from the start or slips from the start.
+        (_, _, true) if !slip_at_start => Mode::SticksInCompression,
+        (_, _, false) if !slip_at_start => Mode::ReversesInCompression,
         (Some(slip), Some(pressed), true) if slip < pressed => Mode::SticksInCompression,
         (Some(slip), Some(pressed), false) if slip < pressed => Mode::ReversesInCompression,
         (Some(_), _, true) => Mode::SticksInRestitution,
         (Some(_), _, false) => Mode::ReversesInRestitution,
-        // Without slip before, it sticks from the start or slips from the start.
-        (None, _, true) if !slip_at_start => Mode::SticksInCompression,
-        (None, _, false) if !slip_at_start => Mode::ReversesInCompression,
         (None, _, _) if lasts => Mode::Slides,
         (None, _, true) => Mode::SticksInRestitution,
         (None, _, false) => Mode::ReversesInRestitution,

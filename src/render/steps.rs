@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use serde_json::{Map, Value, json};
 
 use super::math::latex;
-use crate::expr::Symbol;
+use crate::expr::{Expr, Symbol};
 use crate::formula::write_plain;
 use crate::solution::{Claim, Math, Meaning, Scope, Solution, Step};
 
@@ -22,6 +22,7 @@ pub fn solution(s: &Solution, scene: &str, set: &[String]) -> Value {
         "symbols": symbols(&s.meanings),
         "spelled": spelled(s),
         "assumptions": s.assumptions,
+        "needs": needs(&s.needs),
         "steps": s.steps.iter().map(|x| step(s, x)).collect::<Vec<_>>(),
     });
     if let Some(mode) = s.mode {
@@ -44,6 +45,11 @@ fn symbols(meanings: &BTreeMap<Symbol, Meaning>) -> Map<String, Value> {
     let each = meanings.iter();
     each.map(|(name, m)| (name.to_string(), meaning(m)))
         .collect()
+}
+
+/// What must be ≥ 0.
+fn needs(all: &[Expr]) -> Vec<String> {
+    all.iter().map(write_plain).collect()
 }
 
 /// An impact of a scene with stages: what goes into it, so that its steps can be replayed by themselves.
@@ -73,6 +79,7 @@ fn scope(x: &Scope) -> Value {
         "handed": handed,
         "open": x.open.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "before": before,
+        "needs": needs(&x.needs),
         "symbols": symbols(&x.meanings),
     });
     if let Some(mode) = x.mode {

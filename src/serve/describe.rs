@@ -274,6 +274,7 @@ fn written(scene: &Scene) -> Solution {
         sections: Vec::new(),
         steps: Vec::new(),
         scopes: Vec::new(),
+        needs: Vec::new(),
         assumptions: Vec::new(),
         mode: None,
     }

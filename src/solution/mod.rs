@@ -73,6 +73,8 @@ pub struct Solution {
     pub scopes: Vec<Scope>,
     /// Everything the results rest on.
     pub assumptions: Vec<String>,
+    /// What must be ≥ 0 for the motions to go as told; steps are replayed where it is.
+    pub needs: Vec<Expr>,
     /// What a contact with friction does in the case worked out; points to replay it at are those where it does that.
     pub mode: Option<Mode>,
 }
@@ -122,6 +124,8 @@ pub struct Scope {
     pub open: Vec<Symbol>,
     /// The bodies just before.
     pub before: Vec<Before>,
+    /// What must be ≥ 0 for them to get there as told, and for the impact to go this way.
+    pub needs: Vec<Expr>,
     /// What the other symbols stand for.
     pub meanings: BTreeMap<Symbol, Meaning>,
 }

@@ -118,6 +118,7 @@ impl<'a> Writer<'a> {
                 sections: Vec::new(),
                 steps: Vec::new(),
                 scopes: Vec::new(),
+                needs: Vec::new(),
                 assumptions,
                 mode: super::decided(scene),
             },

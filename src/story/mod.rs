@@ -17,6 +17,7 @@ mod words;
 mod worlds;
 
 use std::collections::BTreeMap;
+use std::iter::successors;
 
 pub use sheet::{beginning, impact, impacts, is_clockwise, sheet};
 
@@ -294,6 +295,14 @@ impl StageTold {
             checks: Vec::new(),
         }
     }
+}
+
+/// An outcome of a stage and those it goes on from, by index of the stage and of the outcome; the nearest first.
+pub(crate) fn line(
+    stages: &[StageTold],
+    at: (usize, usize),
+) -> impl Iterator<Item = (usize, usize)> {
+    successors(Some(at), |(stage, _)| stages[*stage].branch)
 }
 
 /// A scene, told: its stages, or the one impact that it is.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Case, StageTold, change};
+use super::{Case, StageTold, change, line};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, is_zero, sign, tidy};
 use crate::derive;
@@ -58,14 +58,8 @@ fn acting(one_sided: &[OneSided], case: &Case) -> String {
 
 /// Which outcomes lead through an outcome of a stage to what follows it.
 pub(super) fn leading(stages: &[StageTold], parent: usize, case: usize) -> String {
-    let mut parts = Vec::new();
-    let mut at = Some((parent, case));
-    while let Some((i, k)) = at {
-        if stages[i].cases.len() > 1 {
-            parts.push(active(&stages[i].cases[k]));
-        }
-        at = stages[i].branch;
-    }
+    let several = line(stages, (parent, case)).filter(|(i, _)| stages[*i].cases.len() > 1);
+    let mut parts: Vec<_> = several.map(|(i, k)| active(&stages[i].cases[k])).collect();
     parts.reverse();
     parts.join("; ")
 }

@@ -24,7 +24,7 @@ use super::{Before, Detail, Inline, Part, Scope, Slot, Solution, Writer};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
 use crate::scene::{Ask, Scene, Stage};
-use crate::story::{Case, StageTold, Told};
+use crate::story::{Case, StageTold, Told, line};
 
 /// Writes the solution of a scene with stages.
 pub(super) fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
@@ -59,6 +59,10 @@ fn blank(scene: &Scene, told: &Told, detail: Detail) -> Solution {
     for a in &told.answers {
         put(&a.name, &a.latex);
     }
+    // Symbols of answers mean the first of several outcomes.
+    let first = |i: &usize| line(&told.stages, (*i, 0)).all(|(_, outcome)| outcome == 0);
+    let firsts = (0..told.stages.len()).filter(first);
+    let needs = needed(scene, firsts.flat_map(|i| &told.stages[i].needs));
     let stages = told.stages.iter().flat_map(|s| &s.assumptions);
     let given = told.answers.iter().flat_map(|a| &a.assumptions);
     let mut assumptions = told.readings.clone();
@@ -76,8 +80,16 @@ fn blank(scene: &Scene, told: &Told, detail: Detail) -> Solution {
         steps: Vec::new(),
         scopes: Vec::new(),
         assumptions,
+        needs,
         mode: None,
     }
+}
+
+/// Of what must be ≥ 0, that which is told in the parameters of the scene.
+fn needed<'a>(scene: &Scene, all: impl Iterator<Item = &'a Expr>) -> Vec<Expr> {
+    let is_known = |s: &Symbol| scene.parameters.iter().any(|p| p.name == *s);
+    let known = all.filter(|need| need.symbols().iter().all(is_known));
+    known.cloned().collect()
 }
 
 /// A solution under way.
@@ -161,7 +173,7 @@ impl Page<'_> {
         let mut shared = Vec::new();
         for (k, case) in told.cases.iter().enumerate() {
             let from = self.solution.sections.len();
-            self.impact(stage, told, case, k, together);
+            self.impact(stage, case, [i, k], together);
             if told.cases.len() > 1 {
                 cases::share(&mut shared, k + 1, &mut self.solution.sections[from..]);
             }
@@ -233,7 +245,8 @@ impl Page<'_> {
     }
 
     /// An impact, written like a collision by itself.
-    fn impact(&mut self, stage: &Stage, told: &StageTold, case: &Case, k: usize, together: bool) {
+    fn impact(&mut self, stage: &Stage, case: &Case, [i, k]: [usize; 2], together: bool) {
+        let told = &self.told.stages[i];
         let several = told.cases.len() > 1;
         let id = if several {
             format!("{}/{}", told.name, k + 1)
@@ -294,6 +307,11 @@ impl Page<'_> {
                 spin: b.spin.clone(),
             })
             .collect();
+        let line = line(&self.told.stages, (i, k));
+        let earlier = line.flat_map(|(j, _)| &self.told.stages[j].needs);
+        let given = told.given.iter().map(|(_, e)| e);
+        let own = case.conditions.iter().map(|(_, e)| e);
+        let needs = needed(self.scene, earlier.chain(given).chain(own));
         self.solution.scopes.push(Scope {
             name: id,
             stage: stage.name.clone(),
@@ -302,6 +320,7 @@ impl Page<'_> {
             handed: case.handed.clone(),
             open: told.before.open.keys().cloned().collect(),
             before,
+            needs,
             meanings: writer.solution.meanings,
         });
     }

@@ -5,8 +5,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::super::StageTold;
 use super::super::worlds::World;
+use super::super::{StageTold, line};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, at_least_zero, is_zero, sign};
 use crate::answer::{Answer, Form};
@@ -155,7 +155,7 @@ fn leading(
         let Some(question) = chain.iter().find(|q| q.name == a.question) else {
             continue;
         };
-        let Some((mut stage, case)) = a.told else {
+        let Some((stage, case)) = a.told else {
             continue;
         };
         let happens = |w: &usize| worlds[*w].outcome.get(&stage) == Some(&case);
@@ -165,10 +165,11 @@ fn leading(
         if question.ask.is_at_end() {
             out.insert(stage);
         }
-        while let Some((parent, _)) = stages[stage].branch {
-            out.insert(parent);
-            stage = parent;
-        }
+        out.extend(
+            line(stages, (stage, case))
+                .skip(1)
+                .map(|(parent, _)| parent),
+        );
     }
     out
 }
