@@ -124,7 +124,7 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
     for impact in &impacts {
         let mine = of(Some(&impact.name));
         replay::replay(
-            &impact.scene,
+            (&impact.name, &impact.scene),
             &impact.meanings,
             &mine,
             (impact.mode.as_deref(), &impact.needs),
@@ -137,7 +137,7 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
         story::replay(&scene, &impacts, &meanings, (&claims, &needs), &mut report);
     } else {
         let mode = root["mode"].as_str();
-        replay::replay(&scene, &meanings, &of(None), (mode, &[]), &mut report);
+        replay::replay(("", &scene), &meanings, &of(None), (mode, &[]), &mut report);
     }
     for near in &claims.near {
         near::replay(&scene, near, &mut report);

@@ -19,7 +19,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// Replays the claims of a scene of one impact, or those of one of its impacts.
 pub(super) fn replay(
-    scene: &Scene,
+    (name, scene): (&str, &Scene),
     meanings: &BTreeMap<Symbol, Meaning>,
     claims: &[&Claim],
     (mode, needs): (Option<&str>, &[Expr]),
@@ -39,14 +39,25 @@ pub(super) fn replay(
             let seeds = (1..=SEEDS).map(random).chain((1..=SEEDS).map(wide));
             // The values of the scene show a case that few points of the domain have.
             let own = numeric::exact_values(scene).ok();
+            let mut instead = None;
             let fits = |p: &Point<Rational>| {
-                mode.is_some() && told(p) && does(scene, p).as_deref() == mode
+                let found = mode.and_then(|_| does(scene, p));
+                let fits = found.is_some() && found.as_deref() == mode;
+                if !fits && instead.is_none() {
+                    instead = found;
+                }
+                fits
             };
-            own.into_iter()
-                .chain(seeds)
-                .filter(fits)
-                .take(POINTS as usize)
-                .collect()
+            let all = own.into_iter().chain(seeds).filter(told).filter(fits);
+            let all: Vec<_> = all.take(POINTS as usize).collect();
+            if let (true, false, Some(found)) = (all.is_empty(), needs.is_empty(), instead) {
+                report.failed.push(Failure {
+                    step: name.to_owned(),
+                    claim: format!("the contact {}", mode.unwrap_or_default()),
+                    why: format!("wherever that was tried under its conditions, it {found}"),
+                });
+            }
+            all
         }
     };
     let points = points.into_iter().map(|mut point| {
