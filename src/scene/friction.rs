@@ -124,6 +124,17 @@ impl Mode {
         }
     }
 
+    /// What happens at the contact of this name, as a sentence.
+    pub fn of(self, contact: &str) -> String {
+        match self {
+            Mode::InsideCone | Mode::OnCone => {
+                format!("the impulse at `{contact}` lies {}", self.words())
+            }
+            Mode::GivenRatio => format!("the impulses at `{contact}` have the given ratio"),
+            _ => format!("`{contact}` {}", self.words()),
+        }
+    }
+
     /// Whether the contact does not slip just after.
     pub fn sticks(self) -> bool {
         matches!(

@@ -17,7 +17,7 @@ use crate::laws::friction::{Side, When};
 use crate::numeric::friction::Followed;
 use crate::numeric::path::{NoPath, Path};
 use crate::numeric::{self, Number};
-use crate::scene::{ContactLaw, Friction, Hypothesis, Mode, Scene};
+use crate::scene::{Friction, Hypothesis, Mode, Scene};
 
 /// Exact points tried; about half of them have other modes than the one wanted.
 const POINTS: u64 = 40;
@@ -159,7 +159,7 @@ pub fn outcomes(scene: &Scene) -> Result<Vec<Outcome>, String> {
     let name = &scene.contacts[table.contact].name;
     let outcome = |case: &Case| Outcome {
         scene: case.scene.clone(),
-        words: format!("`{name}` {}", case.mode.words()),
+        words: case.mode.of(name),
         when: case.needs(&table.side),
         slip_ends: case.slip_ends.clone(),
     };
@@ -173,17 +173,12 @@ pub fn settled(scene: &Scene) -> Result<Scene, String> {
     if let [one] = all.as_slice() {
         return Ok(one.scene.clone());
     }
-    let contacts = all.iter().flat_map(|o| &o.scene.contacts);
-    let modes = contacts.filter_map(|c| match &c.law {
-        ContactLaw::Decided(decided) => Some(decided.mode.words()),
-        _ => None,
-    });
-    let modes: BTreeSet<&str> = modes.collect();
-    let modes: Vec<&str> = modes.into_iter().collect();
+    let told: BTreeSet<&str> = all.iter().map(|o| o.words.as_str()).collect();
+    let told: Vec<&str> = told.into_iter().collect();
     Err(format!(
-        "friction leaves {} cases: it {}\nhint: give the parameters values, with --set or in the scene, or choose a case with `supposing`; `carom derive` tells when each holds",
+        "friction leaves {} cases: {}\nhint: give the parameters values, with --set or in the scene, or choose a case with `supposing`; `carom derive` tells when each holds",
         all.len(),
-        modes.join(", or ")
+        told.join(", or ")
     ))
 }
 

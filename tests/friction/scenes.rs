@@ -260,7 +260,7 @@ fn a_scene_left_open_names_the_cases_it_has() {
     let scene = scene::read(&text).unwrap_or_else(|f| panic!("{}", f.render("ball", &text)));
     let why = carom::verify::friction::settled(&scene).expect_err("several cases");
     assert!(
-        why.contains("cases: it ") && why.contains("slides"),
+        why.contains("cases: `C` ") && why.contains("slides"),
         "{why}"
     );
 }
