@@ -21,6 +21,8 @@ pub struct Axis {
 pub struct Curve {
     /// What tells it from the others, such as `m₁/m₂ = 2`.
     pub label: Label,
+    /// What it says where it is pointed at; nothing if empty.
+    pub note: String,
     /// Points in order of x.
     pub points: Vec<[f64; 2]>,
     /// Its color.
@@ -34,6 +36,8 @@ pub struct Mark {
     pub at: [f64; 2],
     /// What it is, such as `q = 3/4`.
     pub label: Label,
+    /// What it says where it is pointed at; nothing if empty.
+    pub note: String,
     /// How it is drawn.
     pub ink: Ink,
 }
@@ -101,6 +105,7 @@ pub fn draw(plot: &Plot) -> Result<Drawing, Empty> {
                 ends.push((FIELD[1] - end[1], i));
             }
             sheet.path(path, false, Line::of(curve.ink), 3.0);
+            sheet.note(&curve.note);
         }
     }
     if plot.curves.len() > 1 {
@@ -120,6 +125,7 @@ pub fn draw(plot: &Plot) -> Result<Drawing, Empty> {
     for mark in plot.marks.iter().filter(within) {
         let at = place(mark.at);
         sheet.dot(at, 3.5, mark.ink);
+        sheet.note(&mark.note);
         let spot = Spot::point(at, [0.7, 0.7], 5.0);
         sheet.wish(mark.label.clone(), LETTERS[1], spot);
     }
@@ -341,6 +347,7 @@ mod tests {
     fn hinge() -> Plot {
         let curves = [(0, 0.25), (1, 1.0), (2, 4.0)]
             .map(|(i, ratio)| Curve {
+                note: String::new(),
                 ink: Ink::Curve(i),
                 label: Label::words(&format!("m₁/m₂ = {ratio}")),
                 points: sample(
@@ -365,6 +372,7 @@ mod tests {
             },
             curves,
             marks: vec![Mark {
+                note: String::new(),
                 at: [0.75, 0.0],
                 label: Label::words("q = 3/4"),
                 ink: Ink::Body,
@@ -389,6 +397,7 @@ mod tests {
     fn no_finite_value_is_a_fault_and_a_pole_is_a_gap() {
         let mut plot = hinge();
         plot.curves = vec![Curve {
+            note: String::new(),
             label: Label::default(),
             points: vec![[0.0, f64::NAN]],
             ink: Ink::Curve(0),

@@ -89,6 +89,13 @@ pub enum Item {
         /// The room it takes.
         room: Room,
     },
+    /// What says something where it is pointed at.
+    Noted {
+        /// What is drawn.
+        item: Box<Item>,
+        /// What it says.
+        note: String,
+    },
 }
 
 /// Font size of symbols.
@@ -193,6 +200,19 @@ impl Sheet {
         });
     }
 
+    /// What was drawn last says this where it is pointed at.
+    pub fn note(&mut self, note: &str) {
+        if note.is_empty() {
+            return;
+        }
+        if let Some(item) = self.items.pop() {
+            self.items.push(Item::Noted {
+                item: Box::new(item),
+                note: note.to_string(),
+            });
+        }
+    }
+
     /// Draws an arrow.
     pub fn arrow(&mut self, from: Pair, to: Pair, ink: Ink, width: f64) {
         let d = [to[0] - from[0], to[1] - from[1]];
@@ -287,49 +307,13 @@ impl Sheet {
 
     /// The room everything takes; `None` for an empty sheet.
     pub fn room(&self) -> Option<Room> {
-        let mut all: Option<Room> = None;
-        for item in &self.items {
-            let room = match item {
-                Item::Path { points, line, .. } => match Room::of(points) {
-                    Some(room) => room.grown(line.width / 2.0),
-                    None => continue,
-                },
-                Item::Circle {
-                    center,
-                    radius,
-                    line,
-                } => Room::around(*center, radius + line.width / 2.0),
-                Item::Dot { center, radius, .. } => Room::around(*center, *radius),
-                Item::Fill { points, .. } => match Room::of(points) {
-                    Some(room) => room,
-                    None => continue,
-                },
-                Item::Text { room, .. } => *room,
-            };
-            all = Some(all.map_or(room, |b| b.with(&room)));
-        }
-        all
+        let rooms = self.items.iter().filter_map(Item::room);
+        rooms.reduce(|all, room| all.with(&room))
     }
 
     /// Moves everything.
     pub fn shift(&mut self, by: Pair) {
-        let moved = |p: &mut Pair| {
-            p[0] += by[0];
-            p[1] += by[1];
-        };
-        for item in &mut self.items {
-            match item {
-                Item::Path { points, .. } | Item::Fill { points, .. } => {
-                    points.iter_mut().for_each(moved);
-                }
-                Item::Circle { center, .. } | Item::Dot { center, .. } => moved(center),
-                Item::Text { at, room, .. } => {
-                    moved(at);
-                    moved(&mut room.low);
-                    moved(&mut room.high);
-                }
-            }
-        }
+        self.items.iter_mut().for_each(|item| item.shift(by));
     }
 }
 
@@ -344,6 +328,41 @@ impl Item {
             bold,
             label,
             room,
+        }
+    }
+
+    /// The room it takes; `None` where it has no point.
+    fn room(&self) -> Option<Room> {
+        match self {
+            Item::Path { points, line, .. } => Some(Room::of(points)?.grown(line.width / 2.0)),
+            Item::Circle {
+                center,
+                radius,
+                line,
+            } => Some(Room::around(*center, radius + line.width / 2.0)),
+            Item::Dot { center, radius, .. } => Some(Room::around(*center, *radius)),
+            Item::Fill { points, .. } => Room::of(points),
+            Item::Text { room, .. } => Some(*room),
+            Item::Noted { item, .. } => item.room(),
+        }
+    }
+
+    fn shift(&mut self, by: Pair) {
+        let moved = |p: &mut Pair| {
+            p[0] += by[0];
+            p[1] += by[1];
+        };
+        match self {
+            Item::Path { points, .. } | Item::Fill { points, .. } => {
+                points.iter_mut().for_each(moved);
+            }
+            Item::Circle { center, .. } | Item::Dot { center, .. } => moved(center),
+            Item::Text { at, room, .. } => {
+                moved(at);
+                moved(&mut room.low);
+                moved(&mut room.high);
+            }
+            Item::Noted { item, .. } => item.shift(by),
         }
     }
 }

@@ -143,6 +143,11 @@ fn write_item(item: &Item, height: f64, out: &mut String) {
             number(*radius),
             color(*ink)
         ),
+        Item::Noted { item, note } => {
+            let _ = write!(out, "<g><title>{}</title>", escape(note));
+            write_item(item, height, out);
+            writeln!(out, "</g>")
+        }
         Item::Fill { points, ink } => writeln!(
             out,
             "<path d=\"{}\" fill=\"{}\"/>",

@@ -98,6 +98,7 @@ fn one(item: &Item) -> String {
             at(center),
             number(*radius)
         ),
+        Item::Noted { item, .. } => one(item),
         Item::Fill { points, ink } => {
             format!("\\path[fill={}] {};\n", color(*ink), path(points, true))
         }

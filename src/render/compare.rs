@@ -166,6 +166,7 @@ pub fn plane(scene: &Scene, c: &Comparison) -> Plot {
         points.retain(|[x, y]| x.abs() <= side + slack && (-slack..=top + slack).contains(y));
         points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
         Curve {
+            note: String::new(),
             label: Label::words(label),
             points,
             ink: Ink::Curve(i),
@@ -178,6 +179,7 @@ pub fn plane(scene: &Scene, c: &Comparison) -> Plot {
     };
     let mut curves = vec![
         Curve {
+            note: String::new(),
             label: Label::words("friction cone"),
             points: vec![[-c.mu * reach, reach], [0.0, 0.0], [c.mu * reach, reach]],
             ink: Ink::Curve(0),
@@ -190,6 +192,7 @@ pub fn plane(scene: &Scene, c: &Comparison) -> Plot {
         .max_by(|a, b| a.1.impulse[1].total_cmp(&b.1.impulse[1]));
     if let Some((_, o)) = longest {
         curves.push(Curve {
+            note: String::new(),
             label: Label::words("path"),
             points: o.corners.clone(),
             ink: Ink::Curve(3),
@@ -201,6 +204,7 @@ pub fn plane(scene: &Scene, c: &Comparison) -> Plot {
         match marks.iter_mut().find(near) {
             Some(mark) => mark.label = Label::words(&format!("{}, {law}", mark.label.text())),
             None => marks.push(Mark {
+                note: String::new(),
                 at: o.impulse,
                 label: Label::words(law),
                 ink: Ink::Body,

@@ -31,6 +31,7 @@ pub fn picture(scene: &Scene, graph: &Graph) -> Result<Picture, Empty> {
     let mut marks: Vec<Mark> = Vec::new();
     for (exact, at) in graph.curves.iter().flat_map(|c| &c.zeros) {
         let mark = Mark {
+            note: String::new(),
             at: [*at, 0.0],
             label: equation(scene, &variable, exact),
             ink: Ink::Body,
@@ -42,6 +43,7 @@ pub fn picture(scene: &Scene, graph: &Graph) -> Result<Picture, Empty> {
     }
     let [from, to] = graph.range;
     let curves = graph.curves.iter().enumerate().map(|(i, c)| plot::Curve {
+        note: String::new(),
         ink: Ink::Curve(i),
         label: label(scene, c),
         points: plot::sample(|x| value(graph, c, x), from, to, POINTS),

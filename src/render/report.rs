@@ -70,7 +70,7 @@ pub fn text(report: &Report) -> String {
 }
 
 const LEGEND: &str = " · dominated: another route is both faster and no less accurate. Errors in units in the last place of the exact answer;\n \
-    stability: error over 2⁻⁵³ × structured condition number.\n";
+    stability: error over 2⁻⁵³ × structured condition number, where nothing leaves the range of doubles.\n";
 
 fn effort(report: &Report) -> String {
     let (e, m) = (&report.effort, &report.machine);
@@ -141,7 +141,10 @@ fn section(out: &mut String, index: usize, report: &Report) {
     out.push_str("<div class=\"plots\">");
     for (at, caption) in [
         (At::Usual, "Largest error at usual values over median time."),
-        (At::Worst, "Worst error anywhere over median time."),
+        (
+            At::Extremes,
+            "Largest stability factor over median time: the error over what rounding the data costs, wherever nothing leaves the range of doubles.",
+        ),
     ] {
         let beaten = "Routes that another one beats in both are grey.";
         figure(out, plot(report, at), &format!("{caption} {beaten}"));
@@ -154,7 +157,7 @@ fn section(out: &mut String, index: usize, report: &Report) {
         figure(
             out,
             family_plot(report, f),
-            &format!("{}. {}", f.words, flags(f)),
+            &format!("{}: {}. {}", f.name, f.words, flags(f)),
         );
     }
     let _ = write!(
@@ -166,13 +169,12 @@ fn section(out: &mut String, index: usize, report: &Report) {
 
 /// The closed forms, and behind a fold the code of them.
 fn formulas(out: &mut String, report: &Report) {
-    for [name, formula] in &report.formulas {
-        let _ = write!(
-            out,
-            "<p><code>{} = {}</code></p>",
-            escape(name),
-            escape(formula)
-        );
+    let lines = report.formulas.iter();
+    let lines: Vec<String> = lines
+        .map(|[name, f]| escape(&format!("{name} = {f}")))
+        .collect();
+    if !lines.is_empty() {
+        let _ = write!(out, "<pre>{}</pre>", lines.join("\n"));
     }
     if !report.code.is_empty() {
         let _ = write!(
@@ -267,9 +269,24 @@ fn family_plot(report: &Report, family: &Swept) -> Option<String> {
             None => groups.push((vec![r.route], own)),
         }
     }
+    let lines_of = |routes: &[Route]| -> String {
+        let lines = routes.iter().map(|route| {
+            let cells = family.rows.iter().filter_map(|r| {
+                let cell = r.cells.iter().find(|c| c.route == *route)?;
+                Some(format!("{}: {}", r.x, short(cell.max)))
+            });
+            format!(
+                "{}, ulp at {}",
+                route.words(),
+                cells.collect::<Vec<_>>().join(", ")
+            )
+        });
+        lines.collect::<Vec<_>>().join("\n")
+    };
     let mut curves: Vec<Curve> = groups
         .into_iter()
         .map(|(routes, points)| Curve {
+            note: lines_of(&routes),
             label: match routes.as_slice() {
                 [one] => Label::words(one.short()),
                 [one, rest @ ..] => Label::words(&format!("{} +{}", one.short(), rest.len())),
@@ -286,6 +303,7 @@ fn family_plot(report: &Report, family: &Swept) -> Option<String> {
         .map(|r| [r.x, level(r.condition)])
         .collect();
     curves.push(Curve {
+        note: String::new(),
         label: Label::words("cond·u"),
         points: data,
         ink: Ink::Dimension,
@@ -299,7 +317,7 @@ fn family_plot(report: &Report, family: &Swept) -> Option<String> {
             ticks: Vec::new(),
         },
         y: Axis {
-            label: Label::words(&format!("{}: log10 of error [ulp]", family.name)),
+            label: Label::words("log10 of error [ulp]"),
             range: Some([-1.2, 17.5]),
             ticks: Vec::new(),
         },
@@ -378,7 +396,7 @@ tbody th{text-align:left;font-weight:normal}td.words{text-align:left}
 tr.dominated{color:var(--soft);opacity:.6}
 .counts td{background:color-mix(in srgb,rgb(var(--tint)) calc(var(--share)*.6),transparent)}
 .plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(23rem,1fr));gap:1rem}
-figure{margin:.5rem 0;max-width:34rem}figure svg{width:100%;height:auto;color:var(--ink)}
+figure{margin:.5rem 0;max-width:34rem}figure svg{width:100%;height:auto;overflow:visible;color:var(--ink)}
 figcaption,.small{color:var(--soft);font-size:.82rem}
 </style></head><body><main><h1>Error against run time</h1>
 "#;

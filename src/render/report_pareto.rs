@@ -1,8 +1,9 @@
-//! Error against run time of every route, at usual values or at worst: the best joined by a line, the others grey, no label on another.
+//! Error against run time of every route, at usual values or at the extremes: the best joined by a line, the others grey, no label on another.
 
 use super::report::level;
 use crate::figure::{Ink, Label};
 use crate::plot::{Axis, Curve, Mark, Plot, draw};
+use crate::report::verdict::{nanoseconds, short};
 use crate::report::{Report, Route, RouteSummary};
 
 /// The color of a route in every plot.
@@ -15,15 +16,15 @@ pub(super) fn ink(route: Route) -> Ink {
 pub enum At {
     /// Largest at usual values.
     Usual,
-    /// Largest anywhere.
-    Worst,
+    /// Over what rounding the data costs, wherever nothing leaves the range of doubles.
+    Extremes,
 }
 
 /// The plot as SVG; `None` where no route has a time.
 pub fn plot(report: &Report, at: At) -> Option<String> {
     let error = |r: &RouteSummary| match at {
         At::Usual => r.usual_max,
-        At::Worst => r.worst,
+        At::Extremes => r.stability,
     };
     let timed = report.routes.iter();
     let timed: Vec<_> = timed.filter(|r| r.seconds[1].is_finite()).collect();
@@ -41,6 +42,13 @@ pub fn plot(report: &Report, at: At) -> Option<String> {
             front.push(at);
         }
         marks.push(Mark {
+            note: format!(
+                "{}: {}, usual values {} ulp, stability factor {}",
+                route.words,
+                nanoseconds(route.seconds[1]),
+                short(route.usual_max),
+                short(route.stability)
+            ),
             at,
             label: Label::words(route.route.short()),
             ink: match beaten {
@@ -50,17 +58,14 @@ pub fn plot(report: &Report, at: At) -> Option<String> {
         });
     }
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let (title, label, top) = match at {
-        At::Usual => {
-            let errors = timed.iter().map(|r| level(r.usual_max));
-            let top = errors.fold(2.0, f64::max).ceil();
-            (
-                "Error at usual values",
-                "largest error at usual values [ulp]",
-                top,
-            )
-        }
-        At::Worst => ("Worst error", "worst error [ulp], ∞ on top", 17.0),
+    let errors = timed.iter().map(|r| level(error(r)));
+    let top = errors.fold(2.0, f64::max).ceil();
+    let (title, label) = match at {
+        At::Usual => (
+            "Error at usual values",
+            "largest error at usual values [ulp]",
+        ),
+        At::Extremes => ("Error at the extremes", "largest stability factor"),
     };
     let decades = (low as i32..=high as i32).map(|log| (f64::from(log), decade(log)));
     let step = if top > 5.0 { 4 } else { 1 };
@@ -81,6 +86,7 @@ pub fn plot(report: &Report, at: At) -> Option<String> {
             ticks: errors.collect(),
         },
         curves: vec![Curve {
+            note: String::new(),
             label: Label::default(),
             points: front,
             ink: Ink::Grid,

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::errors::{Errors, digits_lost, ulps};
 use super::routes::{Place, Prepared, Route};
-use super::sample::{Family, Sampler, flags};
+use super::sample::{Family, RANGES, Sampler, flags};
 use super::verdict;
 use crate::derive::Derivation;
 use crate::emit::{self, Heading, Language, Style};
@@ -93,7 +93,7 @@ pub struct RouteSummary {
     pub worst: f64,
     /// The family it happened in.
     pub worst_family: String,
-    /// Largest stability factor anywhere.
+    /// Largest stability factor wherever nothing leaves the range of doubles.
     pub stability: f64,
     /// Whether another route is both faster and at least as accurate everywhere.
     pub dominated: bool,
@@ -298,8 +298,11 @@ impl Bench<'_> {
         let (mut worst, mut worst_family) = (0.0, String::new());
         for family in swept {
             let cells = family.rows.iter().flat_map(|r| &r.cells);
+            let in_range = !RANGES.contains(&family.name.as_str());
             for cell in cells.filter(|c| c.route == route) {
-                stability = stability.max(cell.stability);
+                if in_range {
+                    stability = stability.max(cell.stability);
+                }
                 if cell.max > worst {
                     (worst, worst_family) = (cell.max, family.name.clone());
                 }

@@ -4,8 +4,6 @@
 
 use super::errors::digits_lost;
 use super::measure::{Report, RouteSummary};
-use super::routes::Route;
-use super::sample::RANGES;
 
 /// An error up to which a route counts as accurate at usual values \[ulp\]: sixteen units leave fifteen digits.
 const ACCURATE: f64 = 16.0;
@@ -38,7 +36,7 @@ fn verdict(report: &Report) -> String {
         return "no route has an answer".into();
     };
     // What no route could keep from rounded data is no fault of a route: near a zero of the answer every one loses digits.
-    let sound = fastest(&|r| r.usual_max <= ACCURATE && stability(report, r.route) <= STABLE);
+    let sound = fastest(&|r| r.usual_max <= ACCURATE && r.stability <= STABLE);
     let best = sound.unwrap_or_else(|| {
         let calmest = report.routes.iter();
         calmest
@@ -53,17 +51,14 @@ fn verdict(report: &Report) -> String {
     );
     out.push_str(&match best.worst {
         worst if worst <= ACCURATE => format!(" and {} ulp on everything measured.", short(worst)),
-        worst if worst.is_infinite() => format!(
-            " and at most {} times what rounding the data by half a unit loses, while nothing leaves the range of doubles ({}).",
-            short(stability(report, best.route)),
-            best.worst_family
-        ),
-        _ => format!(
-            "; at the extremes ({}) it loses {:.0} digits, {} times what rounding the data by half a unit loses there.",
-            best.worst_family,
-            digits_lost(best.worst),
-            short(best.stability)
-        ),
+        worst => {
+            let (family, steady) = (&best.worst_family, short(best.stability));
+            let lost = match worst.is_infinite() {
+                true => format!("until something leaves the range of doubles ({family})"),
+                false => format!("and loses {:.0} digits at the extremes ({family})", digits_lost(worst)),
+            };
+            format!("; its error is at most {steady} times what rounding the data by half a unit costs, {lost}.")
+        }
     });
     if best.route != quick.route {
         out.push_str(&format!(
@@ -71,19 +66,10 @@ fn verdict(report: &Report) -> String {
             capital(&advised(quick.words)),
             nanoseconds(quick.seconds[1]),
             short(quick.usual_max),
-            short(stability(report, quick.route))
+            short(quick.stability)
         ));
     }
     out
-}
-
-/// The largest stability factor of a route where nothing leaves the range of doubles.
-fn stability(report: &Report, route: Route) -> f64 {
-    let families = report.families.iter();
-    let families = families.filter(|f| !RANGES.contains(&f.name.as_str()));
-    let rows = families.flat_map(|f| &f.rows);
-    let cells = rows.flat_map(|row| &row.cells).filter(|c| c.route == route);
-    cells.map(|c| c.stability).fold(0.0, f64::max)
 }
 
 /// Words at the beginning of a sentence.
