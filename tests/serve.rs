@@ -247,6 +247,13 @@ fn a_film_shows_both_sides_of_an_impact_and_a_wrong_answer_beside_the_right_one(
     assert!((turned("claimed") - 2.0).abs() < 1e-9);
     assert!((turned("after") - 1.5 * 2.0 * (std::f64::consts::FRAC_PI_6).cos()).abs() < 1e-9);
     assert!(film["before"][0]["poses"][1][1].as_f64() > film["after"][0]["poses"][1][1].as_f64());
+    // The foot of the bar meets the ground at the origin, and is held there.
+    let standing = film["standing"].as_array().expect("lines");
+    let foot = standing
+        .iter()
+        .flat_map(|line| line.as_array().expect("points"));
+    let mut heights = foot.map(|p| p[1].as_f64().expect("a height"));
+    assert!(heights.all(|y| y < 0.05) && !standing.is_empty());
     assert!(server.post("describe", &json!({"name": STICK})).json()["film"].is_null());
 }
 

@@ -5,7 +5,10 @@
 //! stays together. The motion itself is that of [`crate::numeric::follow()`].
 
 use super::pose::{Pose, posed};
-use super::values::{Pair, Values, representative, size};
+use super::sheet::{Ink, Sheet};
+use super::stage::spanning;
+use super::values::{Pair, Values, fits, representative, size};
+use crate::expr::Point;
 use crate::numeric::follow::{self, Followed, Passed, Solid, State, What};
 use crate::numeric::given::Freedom;
 use crate::scene::{Ask, Scene, Stage};
@@ -16,6 +19,9 @@ const STEPS: u32 = 12;
 const FAR: [f64; 2] = [0.6, 0.9];
 /// Relative difference that rounding may make.
 const ROUNDING: f64 = 1e-9;
+
+/// What a value is multiplied by to see whether more stages come to their ends.
+const OTHERS: [f64; 6] = [2.0, 0.5, 4.0, 0.25, 8.0, 0.125];
 
 /// Time in a part \[s\] and, for every body of the scene, x and y of its center \[m\] and its angle \[rad\].
 pub type Moment = (f64, Vec<[f64; 3]>);
@@ -29,6 +35,39 @@ pub struct Film {
     pub after: Vec<Moment>,
     /// The same, with a quantity as somebody takes it to be.
     pub claimed: Vec<Moment>,
+    /// What stands still where bodies are met or held, as lines through points \[m\].
+    pub standing: Vec<Vec<Pair>>,
+}
+
+/// Values a scene is shown at: those given, and for the others some at which its bodies touch and approach each other, and
+/// at which as many of its stages as are found to come to their ends.
+pub fn shown_at(scene: &Scene) -> Point<f64> {
+    let mut shown = representative(scene).point;
+    let told = |point: &Point<f64>| {
+        let followed = follow::follow(scene, point);
+        followed.map_or(0, |f| f.stages.iter().filter(|s| s.is_ok()).count())
+    };
+    let mut most = if scene.stages.is_empty() {
+        0
+    } else {
+        told(&shown)
+    };
+    let directions = scene.domains.unit_vectors.as_flattened();
+    let free = scene.parameters.iter().filter(|p| p.value.is_none());
+    let free = free.filter(|p| !directions.contains(&p.name));
+    for (parameter, factor) in free.flat_map(|p| OTHERS.map(|factor| (p, factor))) {
+        if most == scene.stages.len() {
+            break;
+        }
+        let mut trial = shown.clone();
+        if let Some(value) = trial.values.get_mut(&parameter.name) {
+            *value *= factor;
+        }
+        if fits(scene, parameter, &trial) && told(&trial) > most {
+            (most, shown) = (told(&trial), trial);
+        }
+    }
+    shown
 }
 
 /// The film of a scene at the values it is drawn at. `claim` is the name of a question about the last impact, and the value of
@@ -84,7 +123,25 @@ pub fn film(scene: &Scene, claim: Option<(&str, [f64; 2])>) -> Film {
         before: shown(&before, -time),
         after: shown(&after, 0.0),
         claimed: shown(&claimed, 0.0),
+        standing: standing(&told, &course, &values, &poses),
     }
+}
+
+/// What stands still at the impacts of a scene, drawn to one scale that has room for `all`.
+fn standing(told: &[&Passed], course: &[Stage], values: &Values, all: &[Pose]) -> Vec<Vec<Pair>> {
+    let impacts = told.iter().zip(course);
+    let impacts = impacts.filter(|(passed, _)| matches!(passed.what, What::Impact(_)));
+    let drawn = impacts.filter_map(|(passed, stage)| {
+        let values = placed(stage, values, &passed.before);
+        let poses = posed(&stage.scene, &values)?;
+        let stage = spanning(&stage.scene, &values, poses, all)?;
+        let mut sheet = Sheet::default();
+        stage.fixed(&mut sheet, &[]);
+        let place = |line: Vec<Pair>| line.into_iter().map(|p| stage.place(p)).collect();
+        let lines = sheet.lines(Ink::Ground).into_iter();
+        Some(lines.map(place).collect::<Vec<Vec<Pair>>>())
+    });
+    drawn.flatten().collect()
 }
 
 /// Bodies that keep their velocities and spins.
@@ -98,8 +155,8 @@ struct Going<'f> {
     supports: Vec<Pair>,
 }
 
-/// Where bodies are joined to fixed ones, as far as that has a place.
-fn supports(stage: &Stage, values: &Values, state: &State) -> Vec<Pair> {
+/// The values of a stage, with the bodies where they are then.
+fn placed(stage: &Stage, values: &Values, state: &State) -> Values {
     let mut values = values.clone();
     for (names, body) in stage.places.iter().zip(&state.bodies) {
         let place = body.components().into_iter().take(3);
@@ -109,6 +166,12 @@ fn supports(stage: &Stage, values: &Values, state: &State) -> Vec<Pair> {
             }
         }
     }
+    values
+}
+
+/// Where bodies are joined to fixed ones, as far as that has a place.
+fn supports(stage: &Stage, values: &Values, state: &State) -> Vec<Pair> {
+    let values = placed(stage, values, state);
     let scene = &stage.scene;
     let hinges = scene.hinges.iter().map(|h| (h.bodies, &h.at));
     let contacts = scene.contacts.iter().map(|c| (c.bodies, &c.at));
@@ -380,5 +443,21 @@ mod tests {
                 .claimed
                 .is_empty()
         );
+    }
+
+    #[test]
+    fn a_scene_is_shown_where_its_stages_come_to_their_ends() {
+        for name in ["more/ball-bounces", "more/ballistic-pendulum"] {
+            let scene = shipped(name);
+            let ends = |point: &Point<f64>| {
+                let followed = follow::follow(&scene, point).expect("it is followed");
+                followed.stages.iter().all(Result::is_ok)
+            };
+            assert!(
+                !ends(&representative(&scene).point),
+                "{name}: another scene"
+            );
+            assert!(ends(&shown_at(&scene)), "{name}");
+        }
     }
 }

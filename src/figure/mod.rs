@@ -29,14 +29,14 @@ mod values;
 mod way;
 mod words;
 
-pub use film::{Film, Moment, film};
+pub use film::{Film, Moment, film, shown_at};
 pub use label::Label;
 pub(crate) use panel::framed;
 pub use tikz::{COLORS, escaped, node};
 
 use std::collections::BTreeSet;
 
-use crate::expr::{Expr, Point, Symbol, Vector};
+use crate::expr::{Expr, Symbol, Vector};
 use crate::scene::{
     Ask, BlowImpulse, ContactLaw, KnownQuantity, Question, Scene, Shape, StageKind,
 };
@@ -111,11 +111,6 @@ const MOST_BODIES: usize = 40;
 const MOST_JOINTS: usize = 80;
 /// Named points a scene may have to be drawn.
 const MOST_POINTS: usize = 120;
-
-/// Values a scene is drawn at: those given, and for the others some at which its bodies touch and approach each other.
-pub fn shown_at(scene: &Scene) -> Point<f64> {
-    values::representative(scene).point
-}
 
 /// Outlines of the bodies in the order of the scene, in meters where the scene places them: closed lines, of two points for
 /// a thin rod and of one for a particle. `None` where a body has no finite place.

@@ -3,6 +3,8 @@
 //! What is drawn is also an obstacle to labels. Labels are wishes until [`Sheet::settle`] finds them a place. Knows
 //! nothing of scenes or SVG.
 
+use std::f64::consts::TAU;
+
 use super::label::Label;
 use super::place::{self, Room, Spot, Wish};
 use super::values::Pair;
@@ -180,7 +182,7 @@ impl Sheet {
 
     /// Draws a circle.
     pub fn circle(&mut self, center: Pair, radius: f64, line: Line) {
-        let edge: Vec<Pair> = arc(center, radius, 0.0, std::f64::consts::TAU);
+        let edge: Vec<Pair> = arc(center, radius, 0.0, TAU);
         self.walls
             .extend(edge.windows(2).map(|w| (w[0], w[1], 1.0)));
         self.items.push(Item::Circle {
@@ -303,6 +305,27 @@ impl Sheet {
             self.items
                 .push(Item::text(wish.label, wish.size, false, room));
         }
+    }
+
+    /// The lines drawn in an ink, each through its points; a closed one returns to its first.
+    pub fn lines(&self, ink: Ink) -> Vec<Vec<Pair>> {
+        let drawn = self.items.iter().filter_map(|item| match item {
+            Item::Path {
+                points,
+                closed,
+                line,
+            } if line.ink == ink => {
+                let again = points.first().filter(|_| *closed);
+                Some(points.iter().chain(again).copied().collect())
+            }
+            Item::Circle {
+                center,
+                radius,
+                line,
+            } if line.ink == ink => Some(arc(*center, *radius, 0.0, TAU)),
+            _ => None,
+        });
+        drawn.collect()
     }
 
     /// The room everything takes; `None` for an empty sheet.

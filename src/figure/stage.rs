@@ -97,6 +97,11 @@ impl Stage<'_> {
         ]
     }
 
+    /// What place \[m\] a point of the sheet shows.
+    pub fn place(&self, p: Pair) -> Pair {
+        [0, 1].map(|k| p[k] / self.scale + self.middle[k])
+    }
+
     /// A length on the sheet.
     pub fn long(&self, meters: f64) -> f64 {
         meters * self.scale

@@ -195,6 +195,15 @@ fn choices(scene: &Scene, parameter: &Parameter, earlier: usize) -> Vec<f64> {
     }
 }
 
+/// Whether a parameter may have a value, and all that is said of the others still holds.
+pub fn fits(scene: &Scene, parameter: &Parameter, point: &Point<f64>) -> bool {
+    let value = point.values.get(&parameter.name);
+    let domain = scene.domains.symbols.get(&parameter.name);
+    let mut relations = scene.domains.relations.iter();
+    value.is_some_and(|v| domain.is_none_or(|domain| lies_in(*v, domain)))
+        && relations.all(|r| r.excess.evaluate(point).is_some_and(|v: f64| v > 0.0))
+}
+
 /// Inside, and not so near an end that nothing could be seen.
 fn lies_in(value: f64, domain: &Domain) -> bool {
     domain.low.as_ref().is_none_or(|l| value > l.approximate())

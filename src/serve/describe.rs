@@ -101,6 +101,7 @@ fn film(scene: &Scene, shown: &Point<f64>, filmed: &Filmed) -> Value {
         "before": part(&film.before),
         "after": part(&film.after),
         "claimed": part(&film.claimed),
+        "standing": film.standing,
     })
 }
 

@@ -90,7 +90,7 @@ function made(about, solved) {
     return first ? pose(first.bodies?.find((b) => b.name === name)?.before) : (before.at(-1) ?? after[0])?.poses[k];
   };
   const bodies = about.outlines.map((o) => ({ ...o, from: from(o.body) }));
-  return { bodies, parts, length, note };
+  return { bodies, parts, length, note, standing: about.film.standing };
 }
 
 const pose = (b) => (b && [b.x, b.y, b.angle].every(Number.isFinite) ? [b.x, b.y, b.angle] : null);
@@ -136,18 +136,20 @@ function at(moment) {
   svg.setAttribute("viewBox", film.box.join(" "));
   svg.setAttribute("role", "img");
   svg.setAttribute("aria-label", `${part.name}, ${digits(time)} s`);
-  const thick = film.box[2] / 150;
+  const thick = Math.max(film.box[2] / 150, film.box[3] / 80);
+  const standing = [[film.standing, "standing"]];
   const begin = film.bodies.map((body) => [body.lines, "begin"]);
   const now = film.bodies.map((body) => [moved(body, place(part, body.body, time)), "now"]);
   const other = part.other ? film.bodies.map((body) => [moved(body, place(part, body.body, time, part.other)), "claimed"]) : [];
-  for (const [lines, when] of [...begin, ...now, ...other]) {
+  for (const [lines, when] of [...standing, ...begin, ...now, ...other]) {
     for (const line of lines) {
-      const shape = document.createElementNS(SPACE, line.length === 1 ? "circle" : "polygon");
+      const kind = when === "standing" ? "polyline" : line.length === 1 ? "circle" : "polygon";
+      const shape = document.createElementNS(SPACE, kind);
       if (line.length === 1) {
         for (const [name, value] of [["cx", line[0][0]], ["cy", -line[0][1]], ["r", 3 * thick]]) shape.setAttribute(name, value);
       } else shape.setAttribute("points", line.map(([x, y]) => `${x},${-y}`).join(" "));
       shape.setAttribute("class", when);
-      shape.setAttribute("stroke-width", thick * (line.length === 2 ? 2.5 : 1));
+      shape.setAttribute("stroke-width", thick * (when === "standing" ? 0.7 : line.length === 2 ? 2.5 : 1));
       svg.append(shape);
     }
   }
@@ -160,8 +162,9 @@ function at(moment) {
 // Room for all that is shown in the film.
 function box() {
   const courses = film.parts.flatMap((part) => [part.samples, part.other].filter(Boolean).map((samples) => [part, samples]));
-  const all = courses.flatMap(([part, samples]) => [0, 0.25, 0.5, 0.75, 1].flatMap((u) =>
+  const moving = courses.flatMap(([part, samples]) => [0, 0.25, 0.5, 0.75, 1].flatMap((u) =>
     film.bodies.flatMap((body) => moved(body, place(part, body.body, u * part.time, samples)).flat())));
+  const all = [...film.standing.flat(), ...moving];
   const [xs, ys] = [all.map((p) => p[0]), all.map((p) => -p[1])];
   const [left, top] = [Math.min(...xs), Math.min(...ys)];
   const [wide, high] = [Math.max(...xs) - left, Math.max(...ys) - top];
