@@ -45,7 +45,8 @@ impl Server {
         let mut child = Command::new(CAROM)
             .arg("serve")
             .arg(folder)
-            .arg("--port=0")
+            // Debug builds of the tests share the cores with each other.
+            .args(["--port=0", "--seconds=80"])
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()
@@ -62,7 +63,7 @@ impl Server {
     /// Sends bytes as they are, and reads to the end.
     fn raw(&self, request: &[u8]) -> Answer {
         let mut stream = TcpStream::connect(self.address).expect("a connection");
-        let patience = Some(Duration::from_secs(90));
+        let patience = Some(Duration::from_secs(250));
         stream.set_read_timeout(patience).expect("a time limit");
         // A server that refuses early may close before everything is sent.
         let _ = stream.write_all(request);

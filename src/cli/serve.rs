@@ -20,6 +20,9 @@ pub struct ServeArgs {
     /// Address to listen at; other machines reach only an address that is theirs to reach, such as 0.0.0.0
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     host: IpAddr,
+    /// How long the work on a request may take, in seconds
+    #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u16).range(1..))]
+    seconds: u16,
 }
 
 /// Arguments of `carom describe`.
@@ -56,6 +59,7 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
         host: args.host,
         port: args.port,
         program,
+        seconds: args.seconds,
     };
     let mut told = Ok(());
     serve::serve(&options, |address, scenes| {

@@ -42,6 +42,8 @@ pub struct Options {
     pub port: u16,
     /// The program that runs the commands.
     pub program: PathBuf,
+    /// How long a command may take \[s\].
+    pub seconds: u16,
 }
 
 /// Connections at a time; who comes later waits until one ends.
@@ -84,7 +86,7 @@ pub fn serve(options: &Options, ready: impl FnOnce(SocketAddr, usize)) -> Result
         let address = listener.local_addr().unwrap_or(asked);
         let shared = Shared {
             folder,
-            workshop: Workshop::new(options.program.clone()),
+            workshop: Workshop::new(options.program.clone(), options.seconds),
             is_local: options.host.is_loopback(),
         };
         ready(address, scenes);

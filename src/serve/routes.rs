@@ -2,7 +2,6 @@
 
 use std::io::Write;
 use std::sync::Arc;
-use std::time::Duration;
 
 use axum::Router;
 use axum::body::{Body, Bytes};
@@ -24,8 +23,8 @@ use super::{Shared, describe, openapi};
 const VERSION: u32 = 1;
 /// Largest body of a request, in bytes.
 const BODY: usize = 1 << 20;
-/// How long a request may take from its head to its answer, waiting for a turn included.
-const REQUEST: Duration = Duration::from_secs(60);
+/// How long a request may take from its head to its answer, waiting for a turn included, against how long a command may.
+const WAITING: u32 = 3;
 
 /// The files of the page: address, type, text.
 const FILES: &[(&str, &str, &str)] = &[
@@ -109,7 +108,7 @@ async fn guard(State(shared): State<Arc<Shared>>, request: Request, next: Next) 
             Map::new(),
         )
     } else {
-        match time::timeout(REQUEST, next.run(request)).await {
+        match time::timeout(WAITING * shared.workshop.longest, next.run(request)).await {
             Ok(response) => response,
             Err(_) => no_end(&NoEnd::Slow),
         }
@@ -290,7 +289,7 @@ fn no_end(why: &NoEnd) -> Response {
         ),
         NoEnd::Slow => (
             StatusCode::SERVICE_UNAVAILABLE,
-            "this takes longer than a request may; the command line has no such limit",
+            "this takes longer than a request may; `carom serve --seconds` sets the limit, and the command line has none",
         ),
         NoEnd::Large => (
             StatusCode::UNPROCESSABLE_ENTITY,

@@ -12,8 +12,6 @@ use tokio::process::Command;
 use tokio::sync::Semaphore;
 use tokio::time;
 
-/// How long a command may take. A verdict never hangs on it: what takes longer has no answer here.
-const LONGEST: Duration = Duration::from_secs(20);
 /// Largest output, in bytes.
 const LARGEST: u64 = 1 << 25;
 /// Most memory a command may take, in bytes; one that wants more is ended by its allocator. Only Linux lets another process say so.
@@ -65,15 +63,18 @@ pub(super) struct Workshop {
     program: PathBuf,
     doors: Semaphore,
     benches: Semaphore,
+    /// How long a command may take. A verdict never hangs on it: what takes longer has no answer here.
+    pub(super) longest: Duration,
 }
 
 impl Workshop {
-    pub(super) fn new(program: PathBuf) -> Workshop {
+    pub(super) fn new(program: PathBuf, seconds: u16) -> Workshop {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         Workshop {
             program,
             doors: Semaphore::new(cores + WAITING),
             benches: Semaphore::new(cores),
+            longest: Duration::from_secs(u64::from(seconds)),
         }
     }
 
@@ -81,7 +82,7 @@ impl Workshop {
     pub(super) async fn run(&self, job: Job, folder: &Path) -> Result<Done, NoEnd> {
         let _inside = self.doors.try_acquire().map_err(|_| NoEnd::Busy)?;
         let _bench = self.benches.acquire().await.map_err(|_| NoEnd::Busy)?;
-        match time::timeout(LONGEST, self.to_end(job, folder)).await {
+        match time::timeout(self.longest, self.to_end(job, folder)).await {
             Ok(done) => done,
             Err(_) => Err(NoEnd::Slow),
         }
@@ -205,7 +206,7 @@ mod tests {
             arguments: ["-c", script].map(String::from).into(),
             ..Job::default()
         };
-        let shop = Workshop::new(PathBuf::from("sh"));
+        let shop = Workshop::new(PathBuf::from("sh"), 20);
         runtime
             .expect("a runtime")
             .block_on(shop.run(job, Path::new("/")))
