@@ -239,7 +239,7 @@ impl<'a> Reader<'a> {
         let start = self.at;
         let rest = &self.text[start..];
         if behind
-            && let Some(digit) = rest.strip_prefix('-')
+            && let Some(digit) = rest.strip_prefix(['-', '−'])
             && matches!(digit, "1" | "2" | "3")
         {
             self.at = self.text.len();

@@ -404,7 +404,9 @@ pub(super) fn decoration(rest: &str) -> Option<usize> {
         let group = rest[length..].strip_prefix('{')?;
         return Some(length + 2 + group.find('}')?);
     }
-    known.then_some(length)
+    // `\left.` and `\right.` are brackets nobody sees.
+    let unseen = matches!(&rest[..length], "left" | "right") && rest[length..].starts_with('.');
+    known.then_some(length + usize::from(unseen))
 }
 
 /// Whether blanks from `start` to `end` show as a space: one that ends a command does not, nor does `\left`.

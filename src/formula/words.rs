@@ -281,7 +281,8 @@ impl Lexer<'_> {
         Some(tok)
     }
 
-    /// `asin` is the arcsine unless `a` is declared and the other reading is asked for.
+    /// `asin` is the arcsine unless `a` is declared and the other reading is asked for; `Asin`, where A is a name or none is
+    /// declared, is a product: no function begins with a capital letter alone.
     pub(super) fn function_wanted(&mut self, word: &str, start: usize) -> bool {
         // `lg` and `tg` are products where nothing is declared, or one of their letters is, or no argument follows.
         if matches!(word, "lg" | "tg") {
@@ -290,8 +291,13 @@ impl Lexer<'_> {
             let argued = behind.starts_with([' ', '(', '\\', '{']) && behind.trim() != "";
             return argued && !self.symbols.declared().is_empty() && free(0) && free(1);
         }
-        if !matches!(word, "asin" | "acos" | "atan") || self.symbols.find("a").is_none() {
-            return true;
+        let (letter, trigonometric) = word.split_at(1);
+        let arc = matches!(trigonometric, "sin" | "cos" | "tan" | "cot" | "sec" | "csc");
+        let declared = self.symbols.find(letter).is_some();
+        match letter {
+            "A" if arc => return !declared && !self.symbols.is_open(),
+            "a" if arc && declared => {}
+            _ => return true,
         }
         let usual = self.usual();
         self.note(
@@ -458,8 +464,9 @@ impl Lexer<'_> {
         end
     }
 
-    /// `v(t_1)` and `v(0)`: the value of v at a time, no product; where v or the time is declared, `v(t_1)` is one. At the
-    /// start of an equation `v(t) =` says what v is.
+    /// `v(t_1)` and `v(0)`: the value of v at a time, no product; where v or the time is declared, `v(t_1)` is one. So is
+    /// `f(x)`, a letter that is used for functions with the letter they are of. At the start of an equation `v(t) =` says what
+    /// v is.
     fn of_time(&mut self, start: usize, at: usize, parts: &Parts) -> Option<Faulty<Tok>> {
         let inside = self.text[at..].strip_prefix('(')?;
         let (inside, behind) = inside.split_once(')')?;
@@ -473,10 +480,14 @@ impl Lexer<'_> {
         } else {
             let end = name::base(time, 0, &mut when, 0)?;
             let end = name::tail(time, end, &mut when, self.symbols, false, &mut false);
-            if end != time.len() || when.base != "t" {
+            let alone = !(start > 0 && self.text.as_bytes()[start - 1].is_ascii_alphabetic());
+            let function = matches!(&*parts.base, "f" | "g" | "h" | "F" | "G") && alone;
+            let of_place = function && matches!(time, "x" | "y" | "z");
+            if end != time.len() || when.base != "t" && !of_place {
                 return None;
             }
-            if time == "t" && self.count == 1 && behind.trim_start().starts_with('=') {
+            let of_all = time == "t" || of_place;
+            if of_all && self.count == 1 && behind.trim_start().starts_with('=') {
                 return Some(self.resolve(start, stop, parts.clone()));
             }
         }

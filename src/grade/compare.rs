@@ -162,6 +162,15 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
     match (claim(&ctx.key.reading.content), claim(&answer.content)) {
         (Claim::Value(expected_name, expected), Claim::Value(name, value)) => {
             let mut finding = values(ctx, expected, value);
+            if finding.verdict == Verdict::Different
+                && let Content::Relations(sides, signs) = &answer.content
+                && let [.., exact, rounded] = sides.as_slice()
+                && signs.last() == Some(&Relation::Approximately)
+                && signs.len() > 1
+                && close(ctx, expected, rounded)
+            {
+                finding = values(ctx, expected, exact);
+            }
             if let (Some(mine), Some(theirs)) = (expected_name, name) {
                 let declared = |n: &Symbol| ctx.key.question.symbols.iter().any(|g| g.name == *n);
                 if mine != theirs && !(is_asked(mine) && is_asked(theirs)) {
@@ -274,17 +283,23 @@ fn nameless(
         finding = values(&plain, expected, value);
     }
     let right = finding.verdict == Verdict::Equivalent;
-    // Rounded to two digits a number is at most 1/20 off.
-    let close = |side: &Content| {
-        let share = quotient(side.expr()?, expected.expr()?, &plain)?;
-        number::within(&share, &Expr::one(), &Tolerance::Relative(ratio(1, 20)))
-    };
     let follows = |(sign, side): (&Relation, &Content)| match sign {
         Relation::Equal => values(&plain, expected, side).verdict == Verdict::Equivalent,
-        Relation::Approximately => close(side) == Some(true),
+        Relation::Approximately => close(ctx, expected, side),
         _ => false,
     };
     (right && signs.iter().zip(others).all(follows)).then_some(finding)
+}
+
+/// Whether a side behind ≈ is the expected value with its factor rounded: to two digits a number is at most 1/20 off.
+fn close(ctx: &Context, expected: &Content, side: &Content) -> bool {
+    let plain = Context {
+        diagnose: false,
+        ..*ctx
+    };
+    let share = || quotient(side.expr()?, expected.expr()?, &plain);
+    let near = |share| number::within(&share, &Expr::one(), &Tolerance::Relative(ratio(1, 20)));
+    share().and_then(near) == Some(true)
 }
 
 /// Whether letters side by side, none of them of the question, are a name such as `KE`; so are the letters of a velocity

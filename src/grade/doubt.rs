@@ -135,30 +135,49 @@ fn is_count(k: &Expr) -> bool {
 }
 
 /// An answer that is wrong as it is usually read, and right with every slash turned round, is right, and is told how it was
-/// taken: people differ about slashes.
-pub(super) fn slashes(
+/// taken: people differ about slashes. So is `acosφ` that is right as a times the cosine.
+pub(super) fn turned(
     key: &Key,
     answer: &str,
     options: &Options,
     reading: &mut Reading,
     finding: &mut compare::Finding,
 ) {
-    if !reading.slashes || finding.verdict != Verdict::Different {
+    let arc = |notes: &[Note], arc| {
+        notes
+            .iter()
+            .any(|n| n.remark == Remark::ArcOrFactor { arc })
+    };
+    let arcs = arc(&reading.notes, true);
+    if !(reading.slashes || arcs) || finding.verdict != Verdict::Different {
         return;
     }
-    let Some(other) = formula::slashes_turned(answer, &key.readable) else {
+    let slashes = reading
+        .slashes
+        .then(|| formula::slashes_turned(answer, &key.readable));
+    let factors = || {
+        let mut others = formula::other_readings(answer, &key.readable, false);
+        others.retain(|other| arc(&other.notes, false));
+        others
+    };
+    let others = slashes.flatten().into_iter();
+    let mut others = others.chain(arcs.then(factors).into_iter().flatten());
+    let found = others.find_map(|other| {
+        let turned = compare::contents(key, &other, options);
+        (turned.verdict == Verdict::Equivalent).then_some((turned, other))
+    });
+    let Some((turned, other)) = found else {
         return;
     };
-    let turned = compare::contents(key, &other, options);
-    if turned.verdict != Verdict::Equivalent {
-        return;
-    }
     let message = format!(
         "right when it is read as {}; by the usual rule it is {}",
         show(&other.content),
         show(&reading.content)
     );
-    let hint = "the slash can be read in two ways; use brackets to say what stands below";
+    let hint = match arc(&other.notes, false) {
+        true => "write a space before the function: acos is the arccosine",
+        false => "the slash can be read in two ways; use brackets to say what stands below",
+    };
     *finding = turned;
     finding.note = "EQUIV_READING";
     finding

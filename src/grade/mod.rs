@@ -298,7 +298,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         read::differentials(key, &mut reading);
     }
     let mut finding = compare::contents(key, &reading, options);
-    doubt::slashes(key, answer, options, &mut reading, &mut finding);
+    doubt::turned(key, answer, options, &mut reading, &mut finding);
     doubt::unit_behind(key, answer, options, &mut reading, &mut finding);
     unit::behind(key, &reading, &mut finding);
     let settled = finding.note == "EQUIV_READING";
