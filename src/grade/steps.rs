@@ -315,6 +315,18 @@ impl<'a> Desk<'a> {
             return found;
         }
         let reading = match formula::read(text, &self.symbols()) {
+            // `(m+M) V`, `(m+M) g h`: a letter that is said further down, or is a quantity first, is no unit.
+            Ok(reading) if names::behind(text, &reading).is_some() => {
+                let unit = names::behind(text, &reading).and_then(|(from, to)| text.get(from..to));
+                let letter = unit.is_some_and(names::is_quantity_first);
+                match self.looked_ahead(text) {
+                    Some(reading) => reading,
+                    None if letter && self.new_name(text).is_some() => {
+                        return (Status::Defines, Vec::new());
+                    }
+                    None => reading,
+                }
+            }
             Ok(reading) => reading,
             Err(fault) => {
                 if let Some(found) = self.definition(number, text, options) {

@@ -259,7 +259,7 @@ impl Desk<'_> {
 }
 
 /// The size of what occurs by its square alone, as the speed does in an energy.
-fn size_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
+pub(super) fn size_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
     let square = Symbol::from(format!("{name}^2"));
     let line = line.replace(&Expr::symbol(name).powi(2), &Expr::symbol(&square));
     let alone = !line.symbols().contains(name);

@@ -1,13 +1,14 @@
 //! Names the student introduces: what they stand for, said before or further down, and with which slip.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::relation::solve_for;
+use super::cause::size_in;
 use super::link::Weighed;
 use super::{Desk, Diagnosis, Options, Status};
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol};
-use crate::formula::{self, Content, Reading, Symbols};
+use crate::formula::{self, Content, Reading, Remark, Symbols};
 use crate::scene::Body;
 
 /// Most names a student may introduce.
@@ -47,6 +48,23 @@ pub(super) fn solved_for(text: &str) -> BTreeSet<Symbol> {
         sides.first()?.expr()?.as_symbol().cloned()
     });
     alone.collect()
+}
+
+/// The place of what was read as a unit behind a formula in symbols; of several the last, as others may be names.
+pub(super) fn behind(text: &str, reading: &Reading) -> Option<(usize, usize)> {
+    let mut notes = reading.notes.iter();
+    let note = notes.find(|n| n.remark == Remark::UnitOfSymbols)?;
+    let unit = text.get(note.start..note.end)?.trim_end();
+    let last = unit.rfind(' ').map_or(0, |at| at + 1);
+    Some((note.start + last, note.start + unit.len()))
+}
+
+/// Whether a letter behind a formula is a quantity first: a speed V rather than volts, a height h rather than hours.
+pub(super) fn is_quantity_first(unit: &str) -> bool {
+    matches!(
+        unit.trim(),
+        "V" | "h" | "A" | "C" | "F" | "H" | "K" | "L" | "T" | "l" | "d" | "W"
+    )
 }
 
 impl Desk<'_> {
@@ -96,9 +114,23 @@ impl Desk<'_> {
                 place = name.trim_start_matches("I_")
             );
             let hint = "moments of inertia: I_G of the shape, plus m times the square of the distance to G";
+            // A slip in I_G goes on to I_A = I_G + m d².
+            let off = |name: &Symbol, truth: &Expr| self.with_own(&Expr::symbol(name)) - truth;
+            let mine = self.with_own(&first) - &true_value;
+            let mut earlier = self.slipped.iter();
+            let none = BTreeMap::new();
+            let cause = earlier.find(|(_, name, truth)| {
+                name.starts_with("I_")
+                    && self.all_zero(&[&off(name, truth) - &mine], &none) == Some(true)
+            });
+            let cause = cause.map(|(cause, ..)| *cause);
             self.own.insert(name.clone(), last);
-            self.slipped.push((number, name, true_value));
-            return Some((Status::Wrong, vec![Diagnosis::new("INERTIA", words, hint)]));
+            self.slipped
+                .push((cause.unwrap_or(number), name, true_value));
+            return Some(match cause {
+                Some(cause) => (Status::Carried(cause), Vec::new()),
+                None => (Status::Wrong, vec![Diagnosis::new("INERTIA", words, hint)]),
+            });
         }
         if sides.len() == 1 {
             self.own.insert(name, last);
@@ -186,11 +218,14 @@ impl Desk<'_> {
     pub(super) fn looked_ahead(&mut self, text: &str) -> Option<Reading> {
         for _ in 0..8 {
             let symbols = self.symbols();
-            let fault = match formula::read(text, &symbols) {
-                Ok(reading) => return Some(reading),
-                Err(fault) => fault,
+            let (from, to) = match formula::read(text, &symbols) {
+                Ok(reading) => match behind(text, &reading) {
+                    Some(unit) => unit,
+                    None => return Some(reading),
+                },
+                Err(fault) => (fault.start, fault.end),
             };
-            let word = text.get(fault.start..fault.end)?;
+            let word = text.get(from..to)?;
             let missing = formula::read(word, &Symbols::open()).ok();
             let missing = missing.and_then(|r| r.expr()?.as_symbol().cloned());
             let missing = missing.unwrap_or_else(|| Symbol::from(word.trim()));
@@ -244,7 +279,8 @@ impl Desk<'_> {
         let [one] = link.differences.as_slice() else {
             return None;
         };
-        let value = solve_for(&self.with_own(one), name, &self.sheet.scene.domains)?;
+        let (one, domains) = (self.with_own(one), &self.sheet.scene.domains);
+        let value = solve_for(&one, name, domains).or_else(|| size_in(&one, name, domains))?;
         self.own.insert(name.clone(), value);
         Some(Status::Defines)
     }

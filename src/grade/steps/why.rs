@@ -90,6 +90,13 @@ impl Desk<'_> {
             let side = sides.get(at + 1).and_then(Content::expr);
             let own = side.map(|side| (side, self.put_in_others(side, name)));
             let own = own.filter(|(side, own)| *side != own || sides.len() > 2);
+            // What is said by way of other quantities is a law, and the sign of a term in it says more than a factor.
+            if let (Some(_), [left, right]) = (&own, sides.as_slice())
+                && let (Some(left), Some(right)) = (left.expr(), right.expr())
+                && let Some(turned) = self.turned(left, right)
+            {
+                return vec![turned];
+            }
             let text = own.map_or(text.to_string(), |(_, own)| formula::write_plain(&own));
             let mut found = self.sheet.judge(&entry, &text, options).diagnosis;
             // Behind a side that is right a slip of algebra follows, and no belief.
