@@ -142,12 +142,10 @@ fn answers_in_a_file_beside_the_scene_are_held_against_it() {
             panic!("four cells: {line}")
         };
         if !known.iter().any(|(n, _)| n == name) {
-            let scene = scene::read(&text(&format!("{name}.json"))).expect("a sound scene");
-            let (mut sheet, _) = command::sheet(scene).expect("a derivation");
+            let mut scene = scene::read(&text(&format!("{name}.json"))).expect("a sound scene");
             let answers = text(&format!("{name}.answers.json"));
-            sheet.scene.printed = scene::read_printed(&answers).expect("a sound list");
-            let mut found = printed::check(&sheet.scene, &sheet.derivation);
-            sheet.explain(&mut found);
+            scene.printed = scene::read_printed(&answers).expect("a sound list");
+            let (found, _) = command::printed(scene).expect("a derivation");
             every_wrong_entry_is_explained(name, &found);
             known.push((name.to_string(), found));
         }
@@ -155,7 +153,8 @@ fn answers_in_a_file_beside_the_scene_are_held_against_it() {
         let finding = all.and_then(|(_, f)| f.iter().find(|f| f.place == *place));
         let finding = finding.unwrap_or_else(|| panic!("{name} prints no {place}"));
         let told = format!(
-            "{} {} {}",
+            "{} {} {} {}",
+            finding.only_where.as_deref().unwrap_or("everywhere"),
             finding.because,
             finding.explained.as_deref().unwrap_or_default(),
             finding.caught_by.as_deref().unwrap_or_default()

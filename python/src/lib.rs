@@ -17,7 +17,7 @@ use carom::expr::{Point, Symbol};
 use carom::grade::entry::Keys;
 use carom::grade::sheet::Sheet;
 use carom::grade::{Options, Strength};
-use carom::{emit, render, scene, verify};
+use carom::{emit, render, scene};
 
 pyo3::create_exception!(
     _carom,
@@ -86,17 +86,14 @@ fn solve(
 #[pyfunction]
 fn printed(py: Python<'_>, name: &str, text: &str, answers: Option<&str>) -> PyResult<String> {
     work(py, || {
-        let (mut sheet, _) = opened(name, text, &[])?;
+        let mut scene = command::scene(name, text, &[])?;
         if let Some(answers) = answers {
             let list = scene::read_printed(answers);
-            sheet.scene.printed = list.map_err(|faults| faults.render("answers", answers))?;
+            scene.printed = list.map_err(|faults| faults.render("answers", answers))?;
         }
-        let mut findings = verify::printed::check(&sheet.scene, &sheet.derivation);
-        sheet.explain(&mut findings);
-        Ok(render::pretty(&render::printed::json(
-            &sheet.scene,
-            &findings,
-        )))
+        let (findings, _) =
+            command::printed(scene.clone()).map_err(|why| format!("{name}: {why}"))?;
+        Ok(render::pretty(&render::printed::json(&scene, &findings)))
     })
 }
 

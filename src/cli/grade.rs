@@ -164,13 +164,17 @@ pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
 
 /// The answers of a scene, proved; what is to be said of them goes to standard error.
 pub(super) fn open(path: &Path) -> Result<Sheet, Failure> {
+    told(path, command::sheet(read_scene(path, &[])?))
+}
+
+/// What was found of a file, its notes told on the way.
+fn told<T>(path: &Path, found: Result<(T, Vec<String>), String>) -> Result<T, Failure> {
     let named = |words: String| format!("{}: {words}", path.display());
-    let (sheet, notes) =
-        command::sheet(read_scene(path, &[])?).map_err(|why| Failure::Input(named(why)))?;
+    let (found, notes) = found.map_err(|why| Failure::Input(named(why)))?;
     for note in notes {
         complain(&named(note));
     }
-    Ok(sheet)
+    Ok(found)
 }
 
 /// Longest worked solution, in bytes.
@@ -269,12 +273,11 @@ pub fn verify(args: &VerifyArgs) -> Result<u8, Failure> {
         return Err(Failure::Input(message.into()));
     }
     for path in &args.scenes {
-        let mut sheet = open(path)?;
+        let mut scene = read_scene(path, &[])?;
         if let Some(answers) = &args.answers {
-            sheet.scene.printed = printed_list(answers)?;
+            scene.printed = printed_list(answers)?;
         }
-        let mut findings = carom::verify::printed::check(&sheet.scene, &sheet.derivation);
-        sheet.explain(&mut findings);
+        let mut findings = told(path, command::printed(scene.clone()))?;
         for finding in &findings {
             worst = match (finding.holds, worst) {
                 (Some(false), _) => 1,
@@ -287,8 +290,8 @@ pub fn verify(args: &VerifyArgs) -> Result<u8, Failure> {
             findings.retain(|f| f.holds != Some(true));
         }
         match args.format {
-            Format::Text => print(&render::printed::text(&sheet.scene, &findings, total))?,
-            Format::Json => all.push(render::printed::json(&sheet.scene, &findings)),
+            Format::Text => print(&render::printed::text(&scene, &findings, total))?,
+            Format::Json => all.push(render::printed::json(&scene, &findings)),
         }
     }
     if args.format == Format::Json {

@@ -4,6 +4,7 @@
 //! A refusal is words without the name of the file; whoever has the file puts it in front.
 
 mod lines;
+mod printed;
 mod read;
 mod sheet;
 
@@ -17,6 +18,7 @@ use crate::worked;
 use crate::{answer, numeric, story, verify};
 
 pub use lines::{Lines, refuse};
+pub use printed::printed;
 pub use read::read;
 pub use sheet::{only_quantity, sheet};
 

@@ -23,6 +23,9 @@ pub fn text(scene: &Scene, findings: &[Finding], total: usize) -> String {
         out.push_str(&format!("  {sign:<6}{}{place}: {}\n", f.kind, f.printed));
         let mut line =
             |label: &str, words: &str| out.push_str(&format!("        {label}: {words}\n"));
+        if let Some(words) = &f.only_where {
+            line("only where", words);
+        }
         if f.holds != Some(true) {
             if !f.carom.is_empty() {
                 line("carom", &f.carom);
@@ -49,6 +52,7 @@ pub fn json(scene: &Scene, findings: &[Finding]) -> Value {
                 "kind": f.kind,
                 "printed": f.printed,
                 "holds": f.holds,
+                "only_where": f.only_where,
                 "carom": f.carom,
                 "because": f.because,
                 "explained": f.explained,

@@ -16,6 +16,7 @@ mod formulas;
 mod friction;
 mod geometry;
 mod json;
+mod meant;
 pub mod outline;
 mod parameters;
 mod place;

@@ -10,6 +10,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
 use super::fault::{Fault, Span, far};
 use super::json::{Entry, Node, Value};
+use super::meant::meant;
 use crate::formula::near::nearest;
 
 /// What can be read from a JSON value.
@@ -64,6 +65,11 @@ impl<T: Read> Read for Vec<T> {
                     .filter_map(|item| T::read(item, faults))
                     .collect(),
             ),
+            Value::Text(text) => {
+                let message = "expected a list, found a text";
+                let hint = format!("a list of one is [\"{text}\"]");
+                Fault::new(node.span, message).hint(hint).add_to(faults)
+            }
             _ => unexpected(node, "a list", faults),
         }
     }
@@ -281,7 +287,7 @@ pub(super) fn fields<'n, 't>(
             let fault = Fault::new(entry.key_span, format!("unknown field `{}`", entry.key));
             let near = || nearest(&entry.key, names()).map(|n| format!("did you mean `{n}`?"));
             let hint = further_in(&entry.key, known, &present)
-                .or_else(|| meant(&entry.key).map(str::to_owned))
+                .or_else(|| meant(&entry.key, &names().collect::<Vec<_>>()).map(str::to_owned))
                 .or_else(near)
                 .unwrap_or_else(|| likely(&entry.key, names().collect()));
             faults.push(fault.hint(hint));
@@ -325,70 +331,6 @@ fn likely(word: &str, mut near: Vec<&str>) -> String {
         "the nearest of the {all} fields here are {}; `carom schema` tells them all",
         near.join(", ")
     )
-}
-
-/// What there is for a word of mechanics that is no word of scene files.
-fn meant(word: &str) -> Option<&'static str> {
-    Some(match word.to_lowercase().as_str() {
-        "elastic" => {
-            "an elastic collision is \"law\": \"frictionless\" with \"restitution\": \"1\""
-        }
-        "inelastic" | "plastic" => {
-            "\"law\": \"sticking\", or \"frictionless\" with \"restitution\": \"0\""
-        }
-        "smooth" => "a smooth contact is \"law\": \"frictionless\" with a `restitution`",
-        "friction" | "rough" | "coulomb" | "slipping" | "sliding" => {
-            "a contact with friction has \"law\": \"friction\" with `mu`, `restitution` and `hypothesis`"
-        }
-        "newton" | "poisson" | "stronge" | "brach" | "routh" => {
-            "\"law\": \"friction\", and this word as its `hypothesis`: newton, poisson, stronge, chatterjee-ruina or brach"
-        }
-        "e" | "cor" | "coefficient_of_restitution" => {
-            "the coefficient of restitution is `restitution`"
-        }
-        "string" | "strings" | "rope" | "cord" | "cable" => {
-            "a string that jerks taut stands among the `strings` of an impact, in `stages`; in a scene of one impact it is a blow `along` it, with the velocity along it `after`"
-        }
-        "pulley" | "pulleys" => {
-            "a pulley is a body, a disk of mass \"0\" where it is light; a `slide` has `strings` `over` it, and an impact has one of the `strings` on each side of it"
-        }
-        "weld" | "welded" | "glued" | "rigid" | "docking" => {
-            "bodies that are one after the impact stick at two points: two contacts with \"law\": \"sticking\""
-        }
-        "omega" | "angular_velocity" | "rotation" => "an angular velocity is `spin`",
-        "box" | "block" | "square" | "plate" | "brick" => {
-            "a box is a `rectangle` with `width` and `height`"
-        }
-        "circle" | "cylinder" | "wheel" => {
-            "a uniform wheel is a `disk` with `radius`, a thin one a `ring`"
-        }
-        "ball" | "billiard" => "a ball is a `sphere` with `radius`, or a `particle`",
-        "bar" | "stick" | "beam" | "plank" | "line" => "a thin bar is a `rod` with `length`",
-        "wall" | "ground" | "floor" | "static" => "what does not move is `fixed`",
-        "point" | "mass_point" | "point_mass" => "a point mass is a `particle`",
-        "roll" | "rolls" | "rolling" => {
-            "a body rolls in a `slide` with \"rolling\": true, or with `friction` and \"until\": \"rolls\""
-        }
-        "swing" | "rotate" | "pivot" => "a body turns about a point in a `turn`",
-        "fly" | "flight" | "throw" | "drop" | "free_fall" => {
-            "a body flies in a `fall`, with `gravity` or without"
-        }
-        "stage" => "the stage a question asks about is `at`",
-        "direction" | "component" | "axis" => "a direction is given `along`",
-        "left" | "right" | "lhs" | "rhs" | "equation" | "condition" | "for" => {
-            "a question names its unknown and says the equation as a whole: \"solve\": \"x\", \"holds\": \"u = 0\""
-        }
-        "position" | "place" | "location" => "a body stands at its `center`",
-        "momentum" => {
-            "\"balance\": \"momentum\" gives an equation, `angular_momentum` with `about` a quantity"
-        }
-        "collisions" | "impacts" => "bodies collide at their `contacts`",
-        "moment_of_inertia" => "a moment of inertia is `inertia`",
-        "gravity" => {
-            "gravity belongs to a motion in `stages`; in an impact weight has no impulse, and is one of `forces`"
-        }
-        _ => return None,
-    })
 }
 
 /// One field of an object.
@@ -489,7 +431,7 @@ pub(super) fn word<T: Copy>(
         // `stick` is more likely to be `sticking` here than a rod.
         let begun = names().find(|w| text.len() > 2 && w.starts_with(text.as_ref() as &str));
         let likely = |n: &str| format!("did you mean `{n}`?");
-        let known = || meant(text).map(str::to_owned);
+        let known = || meant(text, &names().collect::<Vec<_>>()).map(str::to_owned);
         let near = || nearest(text, names()).map(likely);
         faults.push(match begun.map(likely).or_else(known).or_else(near) {
             Some(hint) => fault.hint(hint),

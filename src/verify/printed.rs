@@ -4,6 +4,7 @@
 //! its own digits; a row of a matrix when it is a law, not merely true of this one solution. What does not hold comes with
 //! the value it should have, a slip that explains it where one is found, and the cheap check that would have caught it.
 
+mod cases;
 mod explain;
 mod inequality;
 mod matrix;
@@ -11,6 +12,8 @@ mod number;
 mod remainder;
 
 use std::collections::BTreeMap;
+
+pub use cases::in_cases;
 
 use crate::answer::Form;
 use crate::derive::Derivation;
@@ -32,6 +35,8 @@ pub struct Finding {
     pub printed: String,
     /// Whether it holds; `None` where that could not be found out.
     pub holds: Option<bool>,
+    /// In which cases of friction it holds, where it does not in all of them.
+    pub only_where: Option<String>,
     /// What carom has in its place.
     pub carom: String,
     /// How it is known.
@@ -291,6 +296,7 @@ impl<'a> Desk<'a> {
             kind,
             printed: text,
             holds: None,
+            only_where: None,
             carom: String::new(),
             because: String::new(),
             explained: None,
@@ -327,14 +333,14 @@ impl<'a> Desk<'a> {
             self.closed.get(&name),
             reading.content.answer(),
         ) {
+            _ if let Some((_, value, derived)) = &bound => vec![(derived.clone(), value.clone())],
             (_, Some(closed), content) => {
                 let value = match content {
-                    _ if let Some((_, value)) = &bound => value.clone(),
                     Content::Vector([x, y, z]) if x.is_zero() && y.is_zero() => z.clone(),
                     other => other
                         .expr()
                         .cloned()
-                        .ok_or("the printed formula is no single expression")?,
+                        .ok_or(format!("{item} is a value, and none is printed"))?,
                 };
                 vec![(closed.clone(), value)]
             }
@@ -363,7 +369,7 @@ impl<'a> Desk<'a> {
             format!("[{}]", shown.join(", "))
         };
         self.identities(&all, printed, finding);
-        if let Some((sign, _)) = bound {
+        if let Some((sign, ..)) = bound {
             self.sense(&name, sign, finding);
         }
         if finding.holds == Some(false) && finding.explained.is_none() {

@@ -178,7 +178,8 @@ pub(super) fn of_impact(r: &mut Resolver<'_>, scene: &mut Scene) {
                     "`{}` is asked of a stage, and this scene has none",
                     kind.name
                 );
-                r.faults.push(Fault::new(name.span, message));
+                let hint = "what moves before or after the impact is a stage of its own: put it and the impact into `stages`";
+                r.faults.push(Fault::new(name.span, message).hint(hint));
             }
             // Read when all of these are known.
             About::Answers => {}
@@ -200,7 +201,18 @@ pub(super) fn of_answers(r: &mut Resolver<'_>, scene: &mut Scene) {
     for (name, q) in entries(r.file.questions.as_ref()) {
         if let Some(at) = &q.at {
             let message = "`at` names a stage, and this scene has none";
-            r.faults.push(Fault::new(at.span, message));
+            let fault = Fault::new(at.span, message);
+            let bodies = [("velocity", &q.velocity), ("speed", &q.speed)];
+            let body = bodies
+                .iter()
+                .find_map(|(asked, body)| Some((asked, &body.as_ref()?.text)));
+            r.faults.push(match body {
+                Some((asked, body)) => fault.hint(format!(
+                    "a point of `{body}` is named in place of it: \"{asked}\": \"{}\", \"of\": \"{body}\"",
+                    at.text
+                )),
+                None => fault,
+            });
         }
         if !asks(q, About::Answers) {
             continue;
@@ -426,13 +438,23 @@ fn with_names<T>(
     if r.faults.len() == earlier {
         return found;
     }
-    for (name, _) in r.file.questions.iter().flat_map(|m| &m.0) {
-        let open = format!("`{}` is not declared", name.text);
+    let questions = r.file.questions.iter().flat_map(|m| &m.0);
+    let further_down = questions.map(|(name, _)| {
+        let hint = format!(
+            "`{name}` is asked further down; a formula takes answers to questions above it",
+            name = name.text
+        );
+        (&name.text, hint)
+    });
+    let stages = r.file.stages.iter().flatten();
+    let of_stages = stages.map(|stage| &stage.name.text).map(|stage| {
+        let hint = format!("`{stage}` is a stage; ask for its `distance` or `time` in a question above, and name that one here");
+        (stage, hint)
+    });
+    for (name, hint) in further_down.chain(of_stages) {
+        let open = format!("`{name}` is not declared");
         for fault in r.faults[earlier..].iter_mut().filter(|f| f.message == open) {
-            fault.hint = Some(format!(
-                "`{}` is asked further down; a formula takes answers to questions above it",
-                name.text
-            ));
+            fault.hint = Some(hint.clone());
         }
     }
     found

@@ -7,24 +7,27 @@ use crate::formula::{Content, Relation};
 use crate::interval::{Interval, Outcome, evaluate};
 
 impl Desk<'_> {
-    /// A bound as it is printed, `v > …` or `… < v`, of what the scene has a bound for: how what is bounded stands to it, and
-    /// the bound.
-    pub(super) fn bound(&self, item: &Symbol, content: &Content) -> Option<(Relation, Expr)> {
-        let (of, derived, _) = self.bounds.get(item)?;
+    /// A bound as it is printed, `v > …` or `… < v`, of what the scene has a bound for, or a place `d = …`: how what is bounded
+    /// stands to it, the bound, and the one that the scene has.
+    pub(super) fn bound(&self, item: &Symbol, content: &Content) -> Option<(Relation, Expr, Expr)> {
+        let (of, derived, value) = self.bounds.get(item)?;
         let Content::Relations(sides, signs) = content else {
             return None;
         };
         let ([left, right], [sign]) = (sides.as_slice(), signs.as_slice()) else {
             return None;
         };
-        if !sign.is_order() || !derived.is_order() {
+        let both = |r: fn(&Relation) -> bool| r(sign) && r(derived);
+        let is_place = both(|r| *r == Relation::Equal);
+        if !is_place && !both(|r| r.is_order()) {
             return None;
         }
         let (left, right) = (left.expr()?, right.expr()?);
-        let is_bounded = |e: &Expr| e == of || *e == Expr::symbol(item);
+        // Of a largest value the name is that of the value, and not of its place.
+        let is_bounded = |e: &Expr| e == of || !is_place && *e == Expr::symbol(item);
         match (is_bounded(left), is_bounded(right)) {
-            (true, false) => Some((*sign, right.clone())),
-            (false, true) => Some((sign.turned(), left.clone())),
+            (true, false) => Some((*sign, right.clone(), value.clone())),
+            (false, true) => Some((sign.turned(), left.clone(), value.clone())),
             _ => None,
         }
     }

@@ -1,0 +1,82 @@
+//! Hints for words of mechanics that people write where scene files have another one.
+
+/// What there is for a word of mechanics that is no word of scene files.
+/// `here` are the words that could stand in its place.
+pub(super) fn meant(word: &str, here: &[&str]) -> Option<&'static str> {
+    Some(match word.to_lowercase().as_str() {
+        "left" | "right" | "up" | "down" | "horizontal" | "vertical" if here.contains(&"-x") => {
+            "\"x\" is to the right, \"-x\" to the left, \"y\" up and \"-y\" down"
+        }
+        "rest" | "stop" | "stopped" | "over" | "end" if here.contains(&"stops") => {
+            "a motion that ends at rest has \"until\": \"stops\""
+        }
+        "point" | "position" | "place" | "location" if !here.contains(&"center") => {
+            return here.contains(&"at").then_some("its place is `at`");
+        }
+        "to" | "angle" if here.contains(&"by") && here.contains(&"until") => {
+            "it turns `by` an angle, or `until` its center is above or below the point, or it stops"
+        }
+        "height" | "rise" if here.contains(&"position") => {
+            "how high a body is at the end of a stage is its `position` along y; how high it will rise is a `value`, such as \"v^2/(2*g)\""
+        }
+        "elastic" => {
+            "an elastic collision is \"law\": \"frictionless\" with \"restitution\": \"1\""
+        }
+        "inelastic" | "plastic" => {
+            "\"law\": \"sticking\", or \"frictionless\" with \"restitution\": \"0\""
+        }
+        "smooth" => "a smooth contact is \"law\": \"frictionless\" with a `restitution`",
+        "friction" | "rough" | "coulomb" | "slipping" | "sliding" => {
+            "a contact with friction has \"law\": \"friction\" with `mu`, `restitution` and `hypothesis`"
+        }
+        "newton" | "poisson" | "stronge" | "brach" | "routh" => {
+            "\"law\": \"friction\", and this word as its `hypothesis`: newton, poisson, stronge, chatterjee-ruina or brach"
+        }
+        "e" | "cor" | "coefficient_of_restitution" => {
+            "the coefficient of restitution is `restitution`"
+        }
+        "string" | "strings" | "rope" | "cord" | "cable" => {
+            "a string that jerks taut stands among the `strings` of an impact, in `stages`; in a scene of one impact it is a blow `along` it, with the velocity along it `after`"
+        }
+        "pulley" | "pulleys" => {
+            "a pulley is a body, a disk of mass \"0\" where it is light; a `slide` has `strings` `over` it, and an impact has one of the `strings` on each side of it"
+        }
+        "weld" | "welded" | "glued" | "rigid" | "docking" => {
+            "bodies that are one after the impact stick at two points: two contacts with \"law\": \"sticking\""
+        }
+        "omega" | "angular_velocity" | "rotation" => "an angular velocity is `spin`",
+        "box" | "block" | "square" | "plate" | "brick" => {
+            "a box is a `rectangle` with `width` and `height`"
+        }
+        "hoop" | "tube" => "a thin hoop is a `ring` with `radius`",
+        "circle" | "cylinder" | "wheel" => {
+            "a uniform wheel is a `disk` with `radius`, a thin one a `ring`"
+        }
+        "ball" | "billiard" => "a ball is a `sphere` with `radius`, or a `particle`",
+        "bar" | "stick" | "beam" | "plank" | "line" => "a thin bar is a `rod` with `length`",
+        "wall" | "ground" | "floor" | "static" => "what does not move is `fixed`",
+        "mass_point" | "point_mass" | "point" => "a point mass is a `particle`",
+        "roll" | "rolls" | "rolling" => {
+            "a body rolls in a `slide` with \"rolling\": true, or with `friction` and \"until\": \"rolls\""
+        }
+        "swing" | "rotate" | "pivot" => "a body turns about a point in a `turn`",
+        "fly" | "flight" | "throw" | "drop" | "free_fall" => {
+            "a body flies in a `fall`, with `gravity` or without"
+        }
+        "stage" => "the stage a question asks about is `at`",
+        "direction" | "component" | "axis" => "a direction is given `along`",
+        "left" | "right" | "lhs" | "rhs" | "equation" | "condition" | "for" => {
+            "a question names its unknown and says the equation as a whole: \"solve\": \"x\", \"holds\": \"u = 0\""
+        }
+        "position" | "place" | "location" => "a body stands at its `center`",
+        "momentum" => {
+            "\"balance\": \"momentum\" gives an equation, `angular_momentum` with `about` a quantity"
+        }
+        "collisions" | "impacts" => "bodies collide at their `contacts`",
+        "moment_of_inertia" => "a moment of inertia is `inertia`",
+        "gravity" => {
+            "gravity belongs to a motion in `stages`; in an impact weight has no impulse, and is one of `forces`"
+        }
+        _ => return None,
+    })
+}

@@ -1,0 +1,46 @@
+//! Findings about one printed thing in several cases of friction, put together.
+
+use super::{Finding, UNEXPLAINED};
+
+/// Findings in each of several cases, all about the same printed things. What holds in one of the cases holds there: a book
+/// prints one of them, and what it is read with is told beside it.
+pub fn in_cases(cases: Vec<(String, Vec<Finding>)>) -> Vec<Finding> {
+    let mut columns: Vec<Vec<(&str, Finding)>> = Vec::new();
+    for (words, findings) in &cases {
+        columns.resize_with(findings.len(), Vec::new);
+        for (column, finding) in columns.iter_mut().zip(findings) {
+            column.push((words, finding.clone()));
+        }
+    }
+    columns.into_iter().filter_map(together).collect()
+}
+
+/// One finding of those in each case.
+fn together(all: Vec<(&str, Finding)>) -> Option<Finding> {
+    let holds = |wanted: Option<bool>| all.iter().filter(move |(_, f)| f.holds == wanted);
+    if let Some((_, found)) = holds(Some(true)).next() {
+        let mut where_: Vec<&str> = holds(Some(true)).map(|(words, _)| *words).collect();
+        let is_everywhere = where_.len() == all.len();
+        where_.dedup();
+        return Some(Finding {
+            only_where: (!is_everywhere).then(|| where_.join(", or ")),
+            ..found.clone()
+        });
+    }
+    if let Some((_, open)) = holds(None).next() {
+        return Some(open.clone());
+    }
+    let is_explained = |f: &Finding| f.explained.as_deref().is_some_and(|e| e != UNEXPLAINED);
+    let told = all.iter().find(|(_, f)| is_explained(f)).or(all.first())?;
+    let mut values: Vec<String> = Vec::new();
+    for (words, f) in &all {
+        let value = format!("{} where {words}", f.carom);
+        if !values.contains(&value) {
+            values.push(value);
+        }
+    }
+    Some(Finding {
+        carom: values.join("; "),
+        ..told.1.clone()
+    })
+}
