@@ -128,6 +128,7 @@ fn surroundings(
     stage.fixed(sheet, &[]);
     if let StageKind::Slide(slide) = kind
         && let along = stage.values.pair(&slide.along)?
+        && !slide.level
         && (slide.rolling
             || slide.friction.is_some()
             || slide.gravity.is_some() && along[0].abs() > 1e-9)
@@ -350,6 +351,7 @@ fn beside(sheet: &mut Sheet, from: Pair, to: Pair, label: Label) {
 fn forces(stage: &Stage, sheet: &mut Sheet, kind: &StageKind, gone: &Gone) {
     let (gravity, torque, push) = match kind {
         StageKind::Turn(t) => (&t.gravity, &t.torque, None),
+        StageKind::Slide(s) if s.level => return,
         StageKind::Slide(s) => (&s.gravity, &None, s.force.as_ref().map(|f| (f, &s.along))),
         StageKind::Fall(f) => (&f.gravity, &None, None),
         _ => return,

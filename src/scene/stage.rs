@@ -363,8 +363,10 @@ pub struct Slide {
     pub along: Vector,
     /// How the stage ends.
     pub until: SlideEnd,
-    /// Gravity g \[m/s²\], downwards.
+    /// Gravity g \[m/s²\], downwards; away from the reader where the surface is level.
     pub gravity: Option<Expr>,
+    /// Whether the scene is seen from above, and the surface is level.
+    pub level: bool,
     /// Constant force along the direction, at the center of mass \[N\].
     pub force: Option<Expr>,
     /// Coefficient of sliding friction μ of the surface; `None` for a smooth guide.

@@ -142,6 +142,8 @@ record! {
         friction: Option<Formula>,
         /// Whether a disk, ring or sphere rolls on the surface below it without slipping, however much friction that takes.
         rolling: Option<bool>,
+        /// Whether the scene is seen from above: gravity presses the body on a level surface, and pulls it nowhere.
+        level: Option<bool>,
         /// Light inextensible strings from the body over pulleys to other bodies, taut all the while.
         strings: Option<Vec<StrungFile>>,
     }

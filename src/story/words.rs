@@ -219,7 +219,7 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
     let name = |b: &usize| format!("`{}`", stage.scene.bodies[*b].name);
     let names: Vec<String> = slide.company().iter().map(name).collect();
     let one = names.len() == 1;
-    let is_round = one && stage.scene.bodies[slide.body].shape.radius().is_some();
+    let is_round = one && !slide.level && stage.scene.bodies[slide.body].shape.radius().is_some();
     let slips = told.work.iter().any(|(what, _)| *what == "friction");
     let how = match (
         is_round && !slips && told.way.is_some(),
@@ -229,6 +229,8 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
         (true, Some(_), _) => " rolls without slipping",
         _ if slide.rolling => " rolls without slipping",
         (_, Some(_), true) if is_round => " slips on a rough surface, which turns it,",
+        (_, Some(_), true) if slide.level => " slides on a rough level surface",
+        (_, Some(_), false) if slide.level => " slide together on a rough level surface",
         (_, Some(_), true) => " slides on a rough surface",
         (_, Some(_), false) => " slide together on a rough surface",
         (_, None, true) => " moves along a line",

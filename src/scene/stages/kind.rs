@@ -232,8 +232,15 @@ fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) 
             String::from("without friction a body that slips never begins to roll"),
             "add \"friction\": \"mu\"",
         ),
+        () if slide.level == Some(true) && (rolls || !strings.is_empty()) => refuse(
+            String::from(
+                "a scene seen from above has bodies that slide, and neither roll nor hang on strings",
+            ),
+            "leave out `level` where the scene is seen from the side",
+        ),
         () => {
             return Some(Slide {
+                level: slide.level == Some(true),
                 body,
                 with,
                 along: along?,

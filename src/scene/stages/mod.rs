@@ -4,6 +4,7 @@
 //! found out by [`crate::story`] and by [`crate::numeric`], each for itself; here symbols stand for it.
 
 mod kind;
+mod seen;
 
 pub(super) use kind::TIME;
 
@@ -135,6 +136,9 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
         stage.scene.axles = axles.clone();
     }
     scene.axles = axles;
+    for (i, stage) in stages.iter().enumerate() {
+        seen::from_above(base, scene, i, stage.name.span);
+    }
     name_pivots(scene);
     begin(scene);
     if base.faults.is_empty() {

@@ -14,6 +14,9 @@ use crate::scene::{Slide, SlideEnd};
 struct Acting {
     along: [f64; 2],
     gravity: f64,
+    /// Acceleration by gravity in the plane in which the press on the surface is found. A level surface is turned up for that: its
+    /// bodies are pulled across their line alone.
+    fall: [f64; 2],
     force: f64,
     /// Coefficient of friction.
     rough: Option<f64>,
@@ -24,7 +27,7 @@ struct Acting {
 impl Acting {
     fn of(course: &Course<'_>, slide: &Slide) -> Result<Acting, Lost> {
         let along = course.pair(&slide.along, "direction")?;
-        let is_on_surface = slide.rolling || slide.friction.is_some();
+        let is_on_surface = (slide.rolling || slide.friction.is_some()) && !slide.level;
         let body = &course.scene.bodies[slide.body];
         let radius = match body.shape.radius() {
             Some(radius) if is_on_surface && slide.with.is_empty() => {
@@ -38,9 +41,12 @@ impl Acting {
         } else {
             [-along[1], along[0]]
         };
+        let gravity = course.optional(slide.gravity.as_ref(), "gravity")?;
+        let fall = if slide.level { down } else { [0.0, -1.0] };
         Ok(Acting {
             along,
-            gravity: course.optional(slide.gravity.as_ref(), "gravity")?,
+            gravity,
+            fall: fall.map(|d| d * gravity),
             force: course.optional(slide.force.as_ref(), "force")?,
             rough: (slide.friction.as_ref())
                 .map(|mu| course.number(mu, "coefficient of friction"))
@@ -100,7 +106,7 @@ pub(in crate::numeric::follow) fn slide(
     let [.., u, v, spin] = movers.states[0];
     let speed = dot(&[u, v], &acting.along);
     let [hangs, drags] = ropes.weights(&movers);
-    let pull = acting.force + acting.gravity * (hangs - own * acting.along[1]);
+    let pull = acting.force + acting.gravity * hangs + own * dot(&acting.fall, &acting.along);
     let rubs = acting.gravity * (drags + own * acting.rough.unwrap_or(0.0));
     let [pull, rubs] = [pull, rubs].map(|force| force / mass);
     let size = sizes(course, slide, &movers, &acting, [speed, pull, rubs])?;
@@ -319,8 +325,10 @@ fn on_line(
         bodies: [0, i],
         arm: movers.arm(i).map(|r| r / units.length),
     });
-    let weights = movers.inertias.iter().map(|[m, _]| -m * acting.gravity);
-    let mut forces: Vec<[f64; 3]> = weights.map(|w| [0.0, w / units.force(), 0.0]).collect();
+    let weights = movers.inertias.iter().map(|[m, _]| m / units.force());
+    let mut forces: Vec<[f64; 3]> = weights
+        .map(|m| [m * acting.fall[0], m * acting.fall[1], 0.0])
+        .collect();
     for (total, along) in forces[0].iter_mut().zip(acting.along) {
         *total += acting.force * along / units.force();
     }

@@ -73,7 +73,7 @@ impl<'a> Line<'a> {
         let speed = tidied(stage, &dot(&before.velocity[slide.body], &slide.along))?;
         let weight = slide.gravity.as_ref().map(|g| &own * g);
         let mut pull = slide.force.clone().unwrap_or_else(Expr::zero);
-        if let Some(weight) = &weight {
+        if let Some(weight) = weight.as_ref().filter(|_| !slide.level) {
             pull = &pull - &(weight * &slide.along[1]);
         }
         pull = Expr::sum(strings.iter().map(|s| s.pull.clone()).chain([pull]));
@@ -93,8 +93,9 @@ impl<'a> Line<'a> {
             round: None,
         };
         let rough = slide.rolling || slide.friction.is_some();
-        let right = proved(&slide.along[0], domains).filter(|_| rough);
-        if rough && !matches!(right, Some(1 | -1)) {
+        let steep = rough && !slide.level;
+        let right = proved(&slide.along[0], domains).filter(|_| steep);
+        if steep && !matches!(right, Some(1 | -1)) {
             return Err(line.refused(
                 "whether its line leads to the right or to the left is not decided, and so is which side the surface is on",
                 "say it by the domain of an angle, or by `relations`",
@@ -103,10 +104,11 @@ impl<'a> Line<'a> {
         let right = Expr::from(right.unwrap_or(1));
         // What presses the body on the surface: the weight across the line.
         let limit = match (&slide.friction, &weight) {
+            (Some(mu), Some(weight)) if slide.level => mu * weight,
             (Some(mu), Some(weight)) => mu * &(weight * &(&right * &slide.along[0])),
             _ => Expr::zero(),
         };
-        match line.radius().filter(|_| rough && slide.with.is_empty()) {
+        match line.radius().filter(|_| steep && slide.with.is_empty()) {
             Some(radius) => line.on_surface(radius, &right, &limit, needs)?,
             None => line.friction = -limit,
         }
@@ -285,7 +287,7 @@ impl<'a> Line<'a> {
     /// Work of each force, along the way of the point where it acts.
     pub fn work(&self, course: &Course) -> Vec<(&'static str, Expr)> {
         let mut out = Vec::new();
-        if let Some(g) = &self.slide.gravity {
+        if let Some(g) = self.slide.gravity.as_ref().filter(|_| !self.slide.level) {
             let lost = -&(&self.slide.along[1] * &course.distance);
             let own = &(&self.own * g) * &lost;
             let others = self.strings.iter().map(|s| &s.pull * &course.distance);
