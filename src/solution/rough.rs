@@ -3,16 +3,16 @@
 
 use super::words::{self, say};
 use super::{Inline, Math, Writer};
-use crate::expr::Expr;
-use crate::scene::{ContactLaw, Decided, Hypothesis, Mode, Scene};
+use crate::expr::{Expr, dot};
+use crate::scene::{Contact, ContactLaw, Decided, Hypothesis, Mode, Scene};
 
 /// Longest condition, in nodes, that stands in the sentence about its case.
 const LONG: usize = 60;
 
 /// The contact whose friction is decided.
-fn decided(scene: &Scene) -> Option<(&str, &Decided)> {
+fn decided(scene: &Scene) -> Option<(&Contact, &Decided)> {
     scene.contacts.iter().find_map(|c| match &c.law {
-        ContactLaw::Decided(decided) => Some((c.name.as_str(), &**decided)),
+        ContactLaw::Decided(decided) => Some((c, &**decided)),
         _ => None,
     })
 }
@@ -24,7 +24,7 @@ pub(super) fn law(scene: &Scene) -> Option<Vec<Inline>> {
     let mut text = vec![
         say(format!(
             "The contact at {} is rough, with coefficient of friction ",
-            words::place(at, "contact")
+            words::place(&at.name, "contact")
         )),
         words::formula(&law.mu),
         say(" and coefficient of restitution "),
@@ -43,7 +43,7 @@ pub(super) fn law(scene: &Scene) -> Option<Vec<Inline>> {
 impl Writer<'_> {
     /// What the rough contact does in the one case that is told, and when it does that.
     pub(super) fn case(&mut self) {
-        let Some((_, decided)) = decided(self.scene) else {
+        let Some((contact, decided)) = decided(self.scene) else {
             return;
         };
         let does = match decided.mode {
@@ -52,6 +52,9 @@ impl Writer<'_> {
             Mode::GivenRatio => "the ratio of the impulses is given",
             Mode::Slides => "it slides to the end",
             Mode::Sticks => "it sticks",
+            Mode::SticksInCompression if !self.slips_before(contact) => {
+                "nothing slides at the contact, from the first to the last"
+            }
             Mode::SticksInCompression => "it stops sliding during compression, and sticks",
             Mode::SticksInRestitution => "it stops sliding during restitution, and sticks",
             Mode::ReversesInCompression => "it turns its slip round during compression",
@@ -74,6 +77,14 @@ impl Writer<'_> {
         }
         text.push(say("."));
         self.text(text);
+    }
+
+    /// Whether the touching points slide on each other just before; where that is not known, they are said to.
+    fn slips_before(&mut self, contact: &Contact) -> bool {
+        contact.normal.as_ref().is_none_or(|[x, y]| {
+            let slip = dot(&contact.relative_velocity(self.scene), &[y.clone(), -x]);
+            !self.vanishes(&slip)
+        })
     }
 
     /// Why one of the two conditions of a rough contact holds: its index, as the laws count them.
@@ -106,7 +117,8 @@ impl Writer<'_> {
                 "Friction acts against the slip, first one way and then the other:",
             )],
             "normal impulse, 1 + e times that of compression" => {
-                return self.compression(&at, e, mode);
+                let slips = self.slips_before(c);
+                return self.compression(&at, e, mode, slips);
             }
             "restitution by energy" => vec![
                 say("Restitution gives back "),
@@ -130,8 +142,11 @@ impl Writer<'_> {
     }
 
     /// Poisson: compression ends when the contact has no normal velocity left, and restitution adds e times its impulse.
-    fn compression(&mut self, at: &str, e: &Expr, mode: Mode) {
+    fn compression(&mut self, at: &str, e: &Expr, mode: Mode, slips: bool) {
         let state = match mode {
+            Mode::SticksInCompression if !slips => {
+                "nothing slides, so the impulse until then is the one that brings it to rest"
+            }
             Mode::SticksInCompression => {
                 "it has stopped sliding by then, so the impulse until then is the one that brings it to rest"
             }
