@@ -25,6 +25,7 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
     notes.extend(worked.refusals());
     let bounds = bounds(worked.answers());
     let impacts = story::impacts(&worked.scene, &worked.told);
+    let laws = story::lent(&worked.scene, &worked.told);
     let told = worked.scene.has_stages().then(|| worked.scene.clone());
     let (scene, derivation) = worked.sheet()?;
     let sheet = Sheet {
@@ -32,6 +33,7 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
         derivation,
         bounds,
         impacts: impacts.into_iter().map(|(_, impact)| impact).collect(),
+        laws,
         story: told.map(|scene| Story::new(scene, answers)),
     };
     Ok((sheet, notes))

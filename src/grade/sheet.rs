@@ -25,6 +25,8 @@ pub struct Sheet {
     pub bounds: Vec<Bound>,
     /// The impacts of a scene with stages, each with the motion that comes in and with its own questions.
     pub impacts: Vec<Scene>,
+    /// Laws of the motions between the impacts, in the names of the answers: expressions that are zero.
+    pub laws: Vec<Expr>,
     /// Its story, where it has stages.
     pub story: Option<Story>,
 }
@@ -65,6 +67,7 @@ pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
         derivation,
         bounds: Vec::new(),
         impacts: Vec::new(),
+        laws: Vec::new(),
         story: None,
     })
 }

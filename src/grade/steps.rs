@@ -117,6 +117,7 @@ pub const MAX_LINES: usize = 400;
 pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
     let mut desk = Desk::new(sheet);
     desk.ahead = names::definitions(text);
+    desk.along_normal(text);
     desk.solved_for = names::solved_for(text);
     let mut before = String::new();
     let lines = text
@@ -166,6 +167,8 @@ struct Desk<'a> {
     early: BTreeSet<Symbol>,
     /// Spins as vectors: the name with an arrow, the spin, and whether it counts clockwise.
     spins: BTreeMap<Symbol, (Symbol, bool)>,
+    /// What names along the normal are in terms of components, as expressions that are zero.
+    linked: Vec<Expr>,
     /// Parameters whose values the scene asks for.
     sought: Vec<Sought>,
     /// Those of them of which it was stated what is supposed.
@@ -227,6 +230,7 @@ impl<'a> Desk<'a> {
             solved_for: BTreeSet::new(),
             early: BTreeSet::new(),
             spins: spins(&sheet.scene),
+            linked: Vec::new(),
             sought: link::sought(sheet),
             supposed: Vec::new(),
             finals: BTreeMap::new(),

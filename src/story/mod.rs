@@ -9,6 +9,7 @@ mod answer;
 mod change;
 mod impact;
 mod integrate;
+mod lent;
 mod motion;
 mod second;
 mod sheet;
@@ -19,6 +20,7 @@ mod worlds;
 use std::collections::BTreeMap;
 use std::iter::successors;
 
+pub use lent::lent;
 pub use sheet::{beginning, impact, impacts, is_clockwise, sheet};
 
 use crate::algebra::Sign;

@@ -12,7 +12,7 @@ use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::{Content, Reading};
 use crate::laws::{self, Geometry, Kinematics, Law, Unknown};
-use crate::scene::Question;
+use crate::scene::{Ask, EnergyWhen, Question, Scene};
 
 /// Most laws that may be used without being written.
 const MOST_LAWS: usize = 10;
@@ -220,10 +220,46 @@ impl Desk<'_> {
         of_them.map(|a| Symbol::from(a.name.as_str())).collect()
     }
 
-    /// The scene's laws in the names of its unknowns, and what these are called where they are asked for; none where they are
-    /// many, or of several stages.
+    /// The laws that hold in truth: those of the impact, and of the motions of a story.
     fn unwritten(&self) -> Vec<Expr> {
-        let scene = &self.sheet.scene;
+        let none = BTreeMap::new();
+        let is_true = |law: &Expr| self.all_zero(std::slice::from_ref(law), &none) == Some(true);
+        let motions = self.sheet.laws.iter().filter(|law| is_true(law));
+        let mut all = self.of_impact();
+        all.extend_from_slice(&self.linked);
+        all.extend(motions.take(MOST_LAWS).cloned());
+        all
+    }
+
+    /// The scene of the impact, with what an earlier stage hands on by the name of the answer that gives it.
+    fn with_named_motion(&self) -> Scene {
+        let mut scene = self.sheet.scene.clone();
+        let earlier = self.sheet.scene.questions.iter();
+        let earlier = earlier.filter(|q| {
+            q.stage.is_some() && matches!(q.ask, Ask::Velocity { .. } | Ask::Spin { .. })
+        });
+        let values: Vec<(Expr, &Expr)> = earlier
+            .filter_map(|q| Some((Expr::symbol(&q.name), self.closed.get(q.name.as_str())?)))
+            .filter(|(_, value)| value.as_symbol().is_none() && !value.is_constant())
+            .collect();
+        let parts = scene.bodies.iter_mut();
+        for part in parts.flat_map(|b| b.velocity.iter_mut().chain([&mut b.spin])) {
+            let named = values.iter().find_map(|(name, value)| match () {
+                () if **value == *part => Some(name.clone()),
+                () if -*value == *part => Some(-name),
+                () => None,
+            });
+            if let Some(named) = named {
+                *part = named;
+            }
+        }
+        scene
+    }
+
+    /// The laws of the impact in the names of its unknowns, and what these are called where they are asked for; none where
+    /// they are many.
+    fn of_impact(&self) -> Vec<Expr> {
+        let scene = &self.with_named_motion();
         let names = &self.sheet.derivation.names;
         let laws = laws::of(scene);
         if laws.len() > MOST_LAWS || !scene.stages.is_empty() {
@@ -245,6 +281,38 @@ impl Desk<'_> {
             Expr::sum(terms) - linear.known
         };
         let mut all: Vec<Expr> = laws.iter().map(equation).collect();
+        // The energy that is lost, or left, is that of the velocities.
+        for q in scene.asked_of_impact() {
+            let Ask::Energy { when, of: None } = q.ask else {
+                continue;
+            };
+            let kinetic = |after: bool| {
+                let free = scene
+                    .bodies
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, b)| !b.is_fixed());
+                let each = free.map(|(k, b)| {
+                    let [x, y] = [0, 1].map(|axis| match after {
+                        true => named(Unknown::Velocity(k, axis)),
+                        false => b.velocity[axis].clone(),
+                    });
+                    let spin = match (after, b.is_particle()) {
+                        (true, false) => named(Unknown::Spin(k)),
+                        _ => b.spin.clone(),
+                    };
+                    let twice = &b.mass * &(x.powi(2) + y.powi(2)) + &b.inertia * &spin.powi(2);
+                    twice * Expr::ratio(1, 2)
+                });
+                Expr::sum(each)
+            };
+            let name = Expr::symbol(&q.name);
+            match when {
+                EnergyWhen::Before => {}
+                EnergyWhen::After => all.push(name - kinetic(true)),
+                EnergyWhen::Lost => all.push(name - kinetic(false) + kinetic(true)),
+            }
+        }
         for unknown in laws::unknowns(scene) {
             let name = Symbol::from(names.plain(unknown));
             let Some(value) = self.closed.get(&name).filter(|v| !v.is_zero()) else {

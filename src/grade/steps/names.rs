@@ -7,9 +7,9 @@ use super::cause::size_in;
 use super::link::Weighed;
 use super::{Desk, Diagnosis, Options, Status};
 use crate::equality::{self, Equality};
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Symbol, dot};
 use crate::formula::{self, Content, Reading, Remark, Symbols};
-use crate::scene::Body;
+use crate::scene::{Ask, Body};
 
 /// Most names a student may introduce.
 const MOST_NAMES: usize = 100;
@@ -68,6 +68,33 @@ pub(super) fn is_quantity_first(unit: &str) -> bool {
 }
 
 impl Desk<'_> {
+    /// Velocities that are asked for along the one normal of the scene, as in v_{1n}, unless the solution says itself what such
+    /// a name is.
+    pub(super) fn along_normal(&mut self, text: &str) {
+        let text = text.replace(['_', '{', '}'], "");
+        let scene = &self.sheet.scene;
+        let mut normals = scene.contacts.iter().filter_map(|c| c.normal.as_ref());
+        let (Some(normal), None) = (normals.next(), normals.next()) else {
+            return;
+        };
+        for q in &scene.questions {
+            let name = Symbol::from(format!("{}_n", q.name));
+            // `v1_n` and `v_{1n}` are one name, the student's own where it comes first with what it is.
+            let joined = name.replace('_', "");
+            let first = text.split_once(&*joined);
+            let said = first.is_some_and(|(_, behind)| behind.trim_start().starts_with('='));
+            if let Ask::Velocity { along: None, .. } = q.ask
+                && !said
+                && let Some([x, y, _]) = self.components(&q.name)
+            {
+                let along = dot(&[x, y], normal);
+                self.linked.push(Expr::symbol(&name) - &along);
+                let along = along.substitute(&self.closed);
+                self.closed.insert(name, along);
+            }
+        }
+    }
+
     /// Whether a name is the scene's or was introduced.
     fn is_known(&self, name: &Symbol) -> bool {
         let parameters = &self.sheet.scene.parameters;

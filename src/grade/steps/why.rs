@@ -90,6 +90,7 @@ impl Desk<'_> {
             let side = sides.get(at + 1).and_then(Content::expr);
             let own = side.map(|side| (side, self.put_in_others(side, name)));
             let own = own.filter(|(side, own)| *side != own || sides.len() > 2);
+            let by_others = own.is_some();
             // What is said by way of other quantities is a law, and the sign of a term in it says more than a factor.
             if let (Some(_), [left, right]) = (&own, sides.as_slice())
                 && let (Some(left), Some(right)) = (left.expr(), right.expr())
@@ -103,6 +104,10 @@ impl Desk<'_> {
             if at > 0 {
                 let belief = |code| code == "TWO_BELIEFS" || BELIEFS.iter().any(|b| b.code == code);
                 found.retain(|d| !belief(d.code));
+            }
+            // By way of other quantities a value may well be said in symbols that it does not depend on.
+            if by_others {
+                found.retain(|d| !d.code.starts_with("SYMBOLS_"));
             }
             if !found.is_empty() {
                 return found;
