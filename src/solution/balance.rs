@@ -177,7 +177,9 @@ impl Writer<'_> {
             let still = self.stands(link.to, link.at);
             let mut math = vec![name("v", &c, "+", true), Math::Op("=")];
             let there = words::at(self.scene, link.at);
-            let lead = if still {
+            let lead = if still && self.scene.bodies[b].is_particle() {
+                format!("Just after, {whom} is at rest at {there}:")
+            } else if still {
                 format!("Just after, {whom} turns about {there}:")
             } else {
                 format!(

@@ -25,7 +25,9 @@ impl Writer<'_> {
             (Law::LinearMomentum { system, along }, Unknown::Velocity(b, axis)) => {
                 let axes = [Direction::X, Direction::Y];
                 let d = along.vector();
-                *system == [b]
+                // Bodies that were joined keep what they had not before.
+                let joined = equation.known.is_zero();
+                (*system == [b] || joined)
                     && *along == axes[axis]
                     && self.outside(system, None).iter().all(|o| {
                         let component = &o.impulse[0] * &d[0] + &o.impulse[1] * &d[1];
@@ -47,33 +49,46 @@ impl Writer<'_> {
 
     /// Says why nothing changes these, and what they are.
     pub(super) fn keeps(&mut self, blocks: &[&Block]) {
-        let mut along: Vec<(usize, Vec<usize>)> = Vec::new();
+        let mut along: Vec<(usize, Vec<String>)> = Vec::new();
         let mut spins = Vec::new();
         for block in blocks {
-            match block.unknowns[0] {
-                Unknown::Velocity(b, axis) => match along.iter_mut().find(|(a, _)| *a == axis) {
-                    Some((_, bodies)) => bodies.push(b),
-                    None => along.push((axis, vec![b])),
-                },
-                Unknown::Spin(b) => spins.push(b),
+            match (&block.equations[0].law, block.unknowns[0]) {
+                (Law::LinearMomentum { system, .. }, Unknown::Velocity(_, axis)) => {
+                    let on = match system.len() {
+                        1 => words::bodies(self.scene, system),
+                        _ => words::bodies(self.scene, system) + " together",
+                    };
+                    match along.iter_mut().find(|(a, _)| *a == axis) {
+                        Some((_, bodies)) => bodies.push(on),
+                        None => along.push((axis, vec![on])),
+                    }
+                }
+                (_, Unknown::Spin(b)) => spins.push(words::body(self.scene, b)),
                 _ => {}
             }
         }
-        let mut reasons: Vec<String> = along
-            .into_iter()
-            .map(|(axis, bodies)| {
-                let on = words::either(self.scene, &bodies);
-                format!("no impulse acts on {on} along {}", super::block::AXES[axis])
-            })
-            .collect();
-        if !spins.is_empty() {
-            let about = match spins.as_slice() {
-                [b] => format!("the center of mass of {}", words::body(self.scene, *b)),
-                all => format!("the center of mass of {}", words::either(self.scene, all)),
-            };
-            reasons.push(format!("no impulse has a moment about {about}"));
-        }
-        let text = words::capital(&reasons.join(", and "));
+        let direction = |axis: &usize| super::block::AXES[*axis];
+        let text = match along.as_slice() {
+            [(axis, bodies)] if *bodies == spins => {
+                let on = words::either(bodies);
+                let axis = direction(axis);
+                format!(
+                    "No impulse acts on {on} along {axis} or has a moment about its center of mass"
+                )
+            }
+            _ => {
+                let reasons = along.iter().map(|(axis, bodies)| {
+                    let on = words::either(bodies);
+                    format!("no impulse acts on {on} along {}", direction(axis))
+                });
+                let turns = (!spins.is_empty()).then(|| {
+                    let of = words::either(&spins);
+                    format!("no impulse has a moment about the center of mass of {of}")
+                });
+                let reasons: Vec<String> = reasons.chain(turns).collect();
+                words::capital(&reasons.join(", and "))
+            }
+        };
         let asked = |b: &&Block| {
             let name = self.d.names.plain(b.unknowns[0]);
             self.d.answers.iter().any(|a| a.name == name)

@@ -41,9 +41,8 @@ pub fn stage(name: &str) -> String {
 }
 
 /// `the bar or the ball`.
-pub fn either(scene: &Scene, system: &[usize]) -> String {
-    let all: Vec<String> = system.iter().map(|b| body(scene, *b)).collect();
-    match all.as_slice() {
+pub fn either(all: &[String]) -> String {
+    match all {
         [first @ .., last] if !first.is_empty() => format!("{} or {last}", first.join(", ")),
         _ => all.concat(),
     }

@@ -191,6 +191,8 @@ pub struct Step {
     pub value: Expr,
     /// What it is.
     pub why: &'static str,
+    /// What it is made of by powers of the time that a step before it found; empty where it does not go by that.
+    pub by_time: Vec<Expr>,
     /// For an acceleration, the inertia it is multiplied by in its equation of motion \[kg or kg m²\].
     pub inertia: Option<Expr>,
 }
@@ -215,6 +217,7 @@ impl Step {
             raw: raw.clone(),
             value: value.clone(),
             why,
+            by_time: Vec::new(),
             inertia: None,
         }
     }

@@ -43,12 +43,24 @@ impl Page<'_> {
     pub(super) fn asked_of(&mut self, i: usize, outcome: usize, from: usize) {
         let mut end = End::default();
         let (scene, told) = (self.scene, self.told);
+        let mut asked = Vec::new();
         for question in scene.questions.iter().filter(|q| q.ask.is_motion()) {
             let mine = |a: &&Answer| a.told == Some((i, outcome)) && a.question == question.name;
-            for answer in told.answers.iter().filter(mine) {
-                if !self.is_in_speed(&told.stages[i], answer) {
-                    self.answer([i, outcome, from], question, answer, &mut end);
-                }
+            let mine = told.answers.iter().filter(mine);
+            asked.extend(mine.map(|answer| (question, answer)));
+        }
+        // What a motion finds stands in the order in which one follows from the other.
+        let here = &told.stages[i];
+        asked.sort_by_key(|(_, answer)| {
+            let found = |s: &Step| {
+                self.answering(here, s)
+                    .is_some_and(|a| a.name == answer.name)
+            };
+            here.steps.iter().position(found).unwrap_or(usize::MAX)
+        });
+        for (question, answer) in asked {
+            if !self.is_in_speed(here, answer) {
+                self.answer([i, outcome, from], question, answer, &mut end);
             }
         }
         self.speed_at_end(&told.stages[i], &mut end);
@@ -98,7 +110,11 @@ impl Page<'_> {
             let answering = self.answering(here, s);
             answering.is_some_and(|a| a.name == answer.name)
         };
-        let made = here.steps.iter().find(found).map(|step| self.made_of(step));
+        let made = here
+            .steps
+            .iter()
+            .find(found)
+            .map(|step| self.made_of(here, step));
         self.solution.meanings.insert(symbol.clone(), meaning);
         for line in self.carried(here, &ask) {
             let known = end.steps.iter().any(|l: &Line| l.math == line.math);

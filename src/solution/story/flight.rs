@@ -192,7 +192,7 @@ impl Page<'_> {
     }
 
     /// Whether something of a kind is answered at the end of a stage.
-    pub(super) fn asked(&self, told: &StageTold, is: fn(&Ask) -> bool) -> bool {
+    pub(super) fn asked(&self, told: &StageTold, is: impl Fn(&Ask) -> bool) -> bool {
         self.answered(told).any(|a| {
             self.scene
                 .questions

@@ -141,7 +141,8 @@ impl Page<'_> {
             1 => String::new(),
             _ => format!("{}. ", i + 1),
         };
-        let title = words::capital(&told.name.replace('_', " "));
+        let title = sentence::called(self.scene, &told.name.replace('_', " "));
+        let title = words::capital(&title);
         self.solution
             .section(0, vec![say(format!("{number}{title}"))]);
         let brief = self.solution.detail == Detail::Brief;
@@ -237,6 +238,7 @@ impl Page<'_> {
             None if i > 0 => String::from("This begins anew, with the bodies as they are given."),
             Some((j, _)) if j + 1 != i => {
                 let stage = words::stage(&self.told.stages[j].name);
+                let stage = sentence::called(self.scene, &stage);
                 format!("This goes on from the end of {stage}.")
             }
             _ => return,

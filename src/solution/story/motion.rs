@@ -18,13 +18,20 @@ impl Page<'_> {
         let Some([start, end]) = &told.energy else {
             return;
         };
+        // A steady rotation needs no energy, unless that is asked for.
+        let named = self
+            .told
+            .answers
+            .iter()
+            .any(|a| Self::is_end_energy(told, a));
+        if matches!(stage.kind, StageKind::Turn(_)) && told.work.is_empty() && !named {
+            return;
+        }
         let mut lines = Vec::new();
         let claim = |s: &mut Solution, left: &Expr, right: &Expr, why: &str| {
             let claim = Claim::new(left.clone(), right.clone());
             Some(s.step(Vec::new(), vec![claim], why))
         };
-        let mut answers = self.told.answers.iter();
-        let named = answers.any(|a| Self::is_end_energy(told, a));
         let scene = self.scene;
         let chain = |head: Vec<Math>, raw: &Expr, value: &Expr| {
             let mut math = head;
@@ -147,7 +154,7 @@ impl Page<'_> {
         let index = self.told.stages.iter().position(|s| std::ptr::eq(s, told));
         let mut next = self.told.stages.iter();
         let goes_on = next.any(|s| s.branch.map(|(parent, _)| parent) == index);
-        let (head, inertia) = match &stage.kind {
+        let (letter, inertia) = match &stage.kind {
             StageKind::Slide(slide) => {
                 let spins = !told.after.spin[slide.body].is_zero();
                 let others = spins || !slide.strings.is_empty();
@@ -156,7 +163,7 @@ impl Page<'_> {
                 }
                 let masses = slide.company().into_iter();
                 let masses = masses.map(|b| stage.scene.bodies[b].mass.clone());
-                (name("v", "", "+", false), Expr::sum(masses))
+                ("v", Expr::sum(masses))
             }
             StageKind::Fall(fall) => {
                 let spins = !told.after.spin[fall.body].is_zero();
@@ -164,7 +171,7 @@ impl Page<'_> {
                     return None;
                 }
                 let mass = stage.scene.bodies[fall.body].mass.clone();
-                (name("v", "", "+", false), mass)
+                ("v", mass)
             }
             StageKind::Turn(turn) => {
                 let is_given = *end == told.energy.as_ref()?[0];
@@ -176,8 +183,8 @@ impl Page<'_> {
                 }
                 let body = &stage.scene.bodies[turn.body];
                 match (body.is_particle() && turn.with.is_empty(), &told.inertia) {
-                    (true, _) => (name("v", "", "+", false), body.mass.clone()),
-                    (false, Some([_, inertia])) => (name("omega", "", "+", false), inertia.clone()),
+                    (true, _) => ("v", body.mass.clone()),
+                    (false, Some([_, inertia])) => ("omega", inertia.clone()),
                     (false, None) => return None,
                 }
             }
@@ -185,10 +192,18 @@ impl Page<'_> {
         };
         let square = Expr::from(2) * end / &inertia;
         let speed = tidied(self.scene, &tidied(self.scene, &square).sqrt());
+        // No name of a scene ends so.
+        let symbol = Symbol::from(format!("{letter}⁺").as_str());
+        let latex = format!("{}^{{+}}", crate::formula::latex_name(letter));
+        self.solution.names.insert(symbol.clone(), latex);
+        let symbol = Expr::symbol(&symbol);
+        let energy = Expr::ratio(1, 2) * &inertia * symbol.powi(2);
         let math = vec![
-            head,
+            Math::Expr(energy),
             Math::Op("="),
-            Math::Expr(neat(self.scene, &square).sqrt()),
+            words::kinetic("", "+"),
+            Math::Op("⇒"),
+            Math::Expr(symbol),
             Math::Op("="),
             Math::Expr(speed),
         ];

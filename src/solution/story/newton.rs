@@ -15,31 +15,22 @@ const WORTH_A_NAME: usize = 6;
 impl Page<'_> {
     /// A motion by Newton's laws: what the letters stand for, then forces, accelerations, and what they come to.
     pub(super) fn steps(&mut self, told: &StageTold) {
-        let taken = |step: &Step| {
-            let mut answers = self.told.answers.iter().filter(|a| a.name == step.letter);
-            let mut parameters = self.scene.parameters.iter();
-            parameters.any(|p| *p.name == *step.letter)
-                || answers.any(|a| a.formula() != Some(&step.value))
-        };
-        let scene = &told.placed.scene;
-        let moved = told.placed.kind.moved();
-        let index = moved.first().map_or("", |b| scene.bodies[*b].name.as_str());
         let mut lines = Vec::new();
         let mut letters = vec![say("Let ")];
-        for (i, step) in told.steps.iter().enumerate() {
+        let steps: Vec<&Step> = told.steps.iter().filter(|s| self.serves(told, s)).collect();
+        for (i, step) in steps.iter().enumerate() {
             let mark = if matches!(step.letter, "v" | "omega") {
                 "+"
             } else {
                 ""
             };
-            let index = if taken(step) { index } else { "" };
             // What is asked for goes by the name of its answer, and stands in the box.
             let answer = self.answering(told, step);
             let letter = match answer {
                 Some(answer) => Math::Expr(Expr::symbol(&answer.name)),
-                None => name(step.letter, index, mark, false),
+                None => name(step.letter, self.index(told, step), mark, false),
             };
-            letters.push(say(match (i, told.steps.len() - i) {
+            letters.push(say(match (i, steps.len() - i) {
                 (0, _) => "",
                 (_, 1) => " and ",
                 _ => ", ",
@@ -60,6 +51,7 @@ impl Page<'_> {
             if let Some(inertia) = step.inertia.as_ref().filter(|_| !step.raw.is_zero()) {
                 let inertia = spread(&neat(self.scene, inertia));
                 let force = self.by_names(&step.raw, &step.value);
+                let force = self.by_letter(told, "F", 0, &force);
                 let force = spread(&neat(self.scene, &force));
                 math.extend([Math::Factor(inertia), letter.clone(), Math::Op("=")]);
                 math.push(Math::Expr(force));
@@ -71,7 +63,7 @@ impl Page<'_> {
             }
             if !is_boxed {
                 math.extend([letter, Math::Op("=")]);
-                math.extend(self.made_of(step));
+                math.extend(self.made_of(told, step));
                 math.push(Math::Expr(step.value.clone()));
             }
             lines.push(Line {
@@ -88,13 +80,72 @@ impl Page<'_> {
         }
     }
 
+    /// Whether a step is worth telling: a time or a way only where a question or another step needs it.
+    fn serves(&self, told: &StageTold, step: &Step) -> bool {
+        let is_asked = self.asked(told, |ask| match ask {
+            Ask::Position { .. } => true,
+            Ask::Time => step.letter == "t",
+            Ask::Distance => step.letter == "s",
+            _ => false,
+        });
+        match step.letter {
+            "t" => is_asked || told.steps.iter().any(|s| !s.by_time.is_empty()),
+            "s" => is_asked,
+            _ => true,
+        }
+    }
+
+    /// The index of a step's letter: the body's name where the letter stands for something else.
+    fn index<'t>(&self, told: &'t StageTold, step: &Step) -> &'t str {
+        let mut parameters = self.scene.parameters.iter();
+        let mut answers = self.told.answers.iter().filter(|a| a.name == step.letter);
+        let is_taken = parameters.any(|p| *p.name == *step.letter)
+            || answers.any(|a| a.formula() != Some(&step.value));
+        let moved = told.placed.kind.moved();
+        let body = moved.first().filter(|_| is_taken);
+        body.map_or("", |b| told.placed.scene.bodies[*b].name.as_str())
+    }
+
+    /// The letter of a step as it stands in a formula.
+    fn letter_of(&self, told: &StageTold, step: &Step) -> Expr {
+        let own = match self.index(told, step) {
+            "" => String::from(step.letter),
+            index => format!("{}_{index}", step.letter),
+        };
+        let answer = self.answering(told, step);
+        Expr::symbol(answer.map_or(own.as_str(), |a| a.name.as_str()))
+    }
+
+    /// A formula in which a quantity of the same motion, of at least so many nodes, stands by its letter, above the line and
+    /// below it.
+    fn by_letter(&self, told: &StageTold, letter: &str, least: usize, e: &Expr) -> Expr {
+        let mut steps = told.steps.iter();
+        let Some(step) = steps.find(|s| s.letter == letter && s.value.size() >= least) else {
+            return e.clone();
+        };
+        let symbol = self.letter_of(told, step);
+        let above = replaced(e, &step.value, &symbol);
+        replaced(&above, &step.value.powi(-1), &symbol.powi(-1))
+    }
+
     /// What a step comes from beyond an equation of motion, with the sign that leads on to its value; nothing where it reads the same.
-    pub(super) fn made_of(&self, step: &Step) -> Vec<Math> {
+    pub(super) fn made_of(&self, told: &StageTold, step: &Step) -> Vec<Math> {
         if step.inertia.is_some() {
             // Its equation of motion stands above.
             return Vec::new();
         }
-        let raw = self.by_names(&step.raw, &step.value);
+        let time = told.steps.iter().find(|s| s.letter == "t");
+        let raw = match time.filter(|_| !step.by_time.is_empty()) {
+            Some(time) => {
+                let time = self.letter_of(told, time);
+                let powers = step.by_time.iter().zip(0..);
+                Expr::sum(powers.map(|(k, n)| self.by_names(k, &step.value) * time.powi(n)))
+            }
+            None => {
+                let raw = self.by_names(&step.raw, &step.value);
+                self.by_letter(told, "a", WORTH_A_NAME, &raw)
+            }
+        };
         let raw = neat(self.scene, &raw);
         let written = crate::formula::write_plain;
         match alike(&raw, &step.value) || written(&raw) == written(&step.value) {

@@ -140,7 +140,17 @@ fn work(
     let mut work = Vec::new();
     if let Some(g) = &turn.gravity {
         let height = tidied(stage, &(&r[1] - &r_end[1]))?;
-        work.push(("weight", &(&lump.mass * g) * &height));
+        let weighed = &(&lump.mass * g) * &height;
+        // The masses of several bodies stand below the line of their common center.
+        let lone = turn.with.is_empty();
+        work.push((
+            "weight",
+            if lone {
+                weighed
+            } else {
+                tidied(stage, &weighed)?
+            },
+        ));
     }
     if let Some(torque) = &turn.torque {
         let by = through.ok_or_else(|| {
@@ -150,7 +160,7 @@ fn work(
                 "end the stage with `by`",
             )
         })?;
-        work.push(("the applied moment", torque * by));
+        work.push(("moment", torque * by));
     }
     Ok(work)
 }
@@ -259,7 +269,7 @@ fn conserved(turn: &Turn) -> Vec<crate::story::Kept> {
         (_, Some(_)) => kept(
             "energy",
             false,
-            "the moment does work, its size times the angle, and that work is the gain",
+            "the moment does work, its size times the angle",
         ),
         (Some(_), None) => kept(
             "energy",

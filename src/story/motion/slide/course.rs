@@ -200,17 +200,17 @@ impl Line<'_> {
     /// Time, distance, velocity and spin at the end.
     pub fn told(&self, course: &Course, steps: &mut Vec<Step>) {
         let Some(t) = &course.time else { return };
+        let rolls = matches!(self.slide.until, SlideEnd::Rolls) && self.slips();
         if !matches!(self.slide.until, SlideEnd::Distance(_)) {
             let raw = match &self.slide.until {
                 SlideEnd::Stops => -(&self.speed.powi(2) / &(&Expr::from(2) * &self.acceleration)),
                 _ => self.way(t),
             };
-            steps.push(Step::new(
-                "s",
-                &raw,
-                &course.distance,
-                "the distance covered",
-            ));
+            let mut step = Step::new("s", &raw, &course.distance, "the distance covered");
+            if rolls {
+                step.by_time = vec![Expr::zero(), self.speed.clone(), half(&self.acceleration)];
+            }
+            steps.push(step);
         }
         if !matches!(self.slide.until, SlideEnd::Stops) {
             let raw = match &self.slide.until {
@@ -218,7 +218,11 @@ impl Line<'_> {
                 _ => self.speed_after(t),
             };
             let why = "the velocity along the line at the end";
-            steps.push(Step::new("v", &raw, &course.speed, why));
+            let mut step = Step::new("v", &raw, &course.speed, why);
+            if rolls {
+                step.by_time = vec![self.speed.clone(), self.acceleration.clone()];
+            }
+            steps.push(step);
         }
         if self.round.is_some() {
             let raw = match &self.round {

@@ -191,7 +191,7 @@ impl<'a> Line<'a> {
         let mut out = Vec::new();
         if self.rubs() {
             let total = &self.friction + &self.drag;
-            let why = "the friction along the line, its coefficient times the force that presses the body on the surface";
+            let why = "the friction along the line, its coefficient times the normal force";
             out.push(Step::new("F", &total, &total, why));
         }
         let rolls = self.round.is_some() && !self.slips();
@@ -297,7 +297,7 @@ impl<'a> Line<'a> {
             }
         }
         if let Some(force) = &self.slide.force {
-            out.push(("the applied force", force * &course.distance));
+            out.push(("force", force * &course.distance));
         }
         if self.rubs() {
             let way = match (&self.round, &course.time) {
