@@ -155,7 +155,7 @@ pub(super) fn approach(
             continue;
         }
         let seen = sign(&opening, &scene.domains);
-        if let Seen::Proved(Sign::Positive) = seen {
+        if let Seen::Proved(Sign::Positive | Sign::NotNegative) = seen {
             let [first, second] = contact.bodies.map(|b| &scene.bodies[b].name);
             return Err(Refused::new(
                 &stage.name,
