@@ -16,8 +16,15 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
     let derivation = derive::derive(scene).map_err(|stop| Refused::stop("", stop))?;
     let proof = verify::prove(scene, &derivation);
     let possible = possible::judge(scene, &derivation);
-    let about = verify::about_answers(scene, &derivation, &proof)?;
     let counting = &derivation.counting;
+    let about = match counting.contradictory {
+        true => {
+            let why = Sentence::words("the laws contradict each other");
+            let asked = scene.asked_of_answers();
+            asked.map(|q| super::answer::unanswered(q, &why)).collect()
+        }
+        false => verify::about_answers(scene, &derivation, &proof)?,
+    };
     let contradiction = counting.contradictory.then(|| Refused {
         contradicts: true,
         ..Refused::new(

@@ -73,7 +73,7 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
 }
 
 /// An answer that has no value, and why.
-fn unanswered(question: &Question, why: &Sentence) -> Answer {
+pub(super) fn unanswered(question: &Question, why: &Sentence) -> Answer {
     Answer::blank(question, &question.name, "what is asked").leave_open(why)
 }
 
@@ -82,7 +82,10 @@ fn needs_open(ask: &Ask, known: &Known, earlier: &[Answer]) -> Option<Sentence> 
     let symbols = ask.formulas().into_iter().flat_map(Expr::symbols);
     let mut missing = symbols.filter(|s| !known.contains_key(s));
     missing.find_map(|name| {
-        let is_it = |a: &&Answer| a.name == *name || a.question == *name;
+        // A vector without a value has no components that could be named.
+        let whole = ["_x", "_y"].iter().find_map(|axis| name.strip_suffix(axis));
+        let is_it =
+            |a: &&Answer| a.name == *name || a.question == *name || whole == Some(a.name.as_str());
         let open = earlier
             .iter()
             .filter(is_it)
