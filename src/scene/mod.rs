@@ -232,6 +232,27 @@ impl Scene {
         !self.bodies[b].is_fixed() && (!self.bodies[b].mass.is_zero() || self.takes_part(b))
     }
 
+    /// Positions of its points relative to one another, r_{B/C} from C to B \[m\], none where there are many; G is the center
+    /// of mass of the one body that can move.
+    pub fn arms(&self) -> Vec<(String, Vector)> {
+        const MOST: usize = 8;
+        let mut free = self.bodies.iter().filter(|b| !b.is_fixed());
+        let named = self.points.iter().map(|p| (p.name.as_str(), &p.at));
+        let mut places: Vec<(&str, &Vector)> = named.collect();
+        if let (Some(body), None) = (free.next(), free.next())
+            && self.points.iter().all(|p| p.name != "G")
+        {
+            places.push(("G", &body.center));
+        }
+        let mut arms = Vec::new();
+        for (i, (to, at)) in places.iter().enumerate().filter(|_| places.len() <= MOST) {
+            for (_, (from, base)) in places.iter().enumerate().filter(|(j, _)| *j != i) {
+                arms.push((format!("r_{to}/{from}"), minus(at, base)));
+            }
+        }
+        arms
+    }
+
     /// Whether it goes through stages, and is not one impact.
     pub fn has_stages(&self) -> bool {
         !self.stages.is_empty()

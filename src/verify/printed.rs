@@ -19,7 +19,7 @@ use crate::answer::Form;
 use crate::derive::Derivation;
 use crate::dimension::Dimension;
 use crate::equality::{self, Equality};
-use crate::expr::{Expr, Symbol, dot};
+use crate::expr::{Expr, Symbol, dot, minus};
 use crate::formula::{self, Content, Reading, Relation, Symbols, write_unicode};
 use crate::laws;
 use crate::scene::{Ask, Print, Printed, Scene};
@@ -75,7 +75,7 @@ struct Desk<'a> {
     /// Components of vectors by name.
     vectors: BTreeMap<Symbol, [Expr; 2]>,
     /// The same by their names with an arrow, with those just before.
-    arrows: BTreeMap<Symbol, [Expr; 2]>,
+    arrows: BTreeMap<Symbol, [Expr; 3]>,
     dimensions: BTreeMap<Symbol, Dimension>,
 }
 
@@ -98,6 +98,19 @@ impl<'a> Desk<'a> {
             if !body.is_fixed() {
                 dimensions.insert(name.clone(), Dimension::new(1, 2, 0));
                 closed.insert(name, body.inertia.clone());
+            }
+        }
+        // The moment of inertia of the one body that can move about each point.
+        let mut free = scene.bodies.iter().filter(|b| !b.is_fixed());
+        if let (Some(body), None) = (free.next(), free.next()) {
+            for point in &scene.points {
+                let [x, y] = minus(&point.at, &body.center).map(|d| d.powi(2));
+                let name = Symbol::from(format!("I_{}", point.name));
+                dimensions.insert(name.clone(), Dimension::new(1, 2, 0));
+                let about = &body.inertia + &(&body.mass * &(x + y));
+                if scene.parameters.iter().all(|p| p.name != name) {
+                    closed.entry(name).or_insert(about);
+                }
             }
         }
         let whole = |n: usize| Expr::from(n as i64);
@@ -132,10 +145,23 @@ impl<'a> Desk<'a> {
             }
         }
         let arrowed = |name: &str| formula::with_arrow(name).map(Symbol::from);
-        let mut arrows: BTreeMap<Symbol, [Expr; 2]> = vectors
+        let in_plane = |[x, y]: &[Expr; 2]| [x.clone(), y.clone(), Expr::zero()];
+        let mut arrows: BTreeMap<Symbol, [Expr; 3]> = vectors
             .iter()
-            .filter_map(|(name, v)| Some((arrowed(name)?, v.clone())))
+            .map(|(name, v)| (name.to_string(), v.clone()))
+            .chain(scene.arms())
+            .filter_map(|(name, v)| Some((arrowed(&name)?, in_plane(&v))))
             .collect();
+        for q in scene.asked_of_impact() {
+            let Ask::Spin { clockwise, .. } = q.ask else {
+                continue;
+            };
+            // A spin is a vector out of the page.
+            if let (Some(arrow), Some(spin)) = (arrowed(&q.name), closed.get(q.name.as_str())) {
+                let spin = if clockwise { -spin } else { spin.clone() };
+                arrows.insert(arrow, [Expr::zero(), Expr::zero(), spin]);
+            }
+        }
         for (name, value) in before(scene) {
             match value.as_slice() {
                 [x, y] => {
@@ -143,7 +169,8 @@ impl<'a> Desk<'a> {
                         closed.insert(format!("{name}_{axis}^-").into(), part.clone());
                     }
                     let arrow = arrowed(&format!("{name}^-"));
-                    arrows.extend(arrow.map(|arrow| (arrow, [x.clone(), y.clone()])));
+                    let value = in_plane(&[x.clone(), y.clone()]);
+                    arrows.extend(arrow.map(|arrow| (arrow, value)));
                 }
                 one => closed.extend(one.iter().map(|v| (format!("{name}^-").into(), v.clone()))),
             }
@@ -171,6 +198,11 @@ impl<'a> Desk<'a> {
             let latex = name.contains('^').then(|| formula::latex_name(name));
             let dimension = self.dimensions.get(name).cloned();
             symbols.declare_as(name.clone(), latex.as_deref(), dimension);
+        }
+        // `ω⁺` is what is asked of the moment just after.
+        for name in self.closed.keys().filter(|name| !name.contains('^')) {
+            let after = format!("{}^{{+}}", formula::latex_name(name));
+            symbols.declare_as(name.clone(), Some(&after), None);
         }
         for name in self.arrows.keys() {
             symbols.declare(name);
@@ -243,9 +275,14 @@ impl<'a> Desk<'a> {
         for angle in &printed.small {
             special.insert(Symbol::from(angle.as_str()), Expr::zero());
         }
-        let parts = self.arrows.iter().flat_map(|(name, [x, y])| {
-            let all = [("x", x.clone()), ("y", y.clone()), ("z", Expr::zero())];
-            all.map(|(axis, value)| (Symbol::from(format!("{name}_{axis}")), value))
+        let parts = self.arrows.iter().flat_map(|(name, value)| {
+            let part = |k: usize| {
+                (
+                    format!("{name}_{}", ["x", "y", "z"][k]).into(),
+                    value[k].clone(),
+                )
+            };
+            [0, 1, 2].map(part)
         });
         let out = out.substitute(&self.closed).substitute(&parts.collect());
         if out
