@@ -45,6 +45,23 @@ pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> 
     }
 }
 
+/// A text with letters for the vectors that the expected formula writes with arrows over them.
+fn arrows_put(key: &Key, text: &str) -> Option<Reading> {
+    let names = key.reading.symbols();
+    let stems = names.iter().map(|name| match formula::is_component(name) {
+        true => &name[..name.len() - 2],
+        false => name,
+    });
+    let mut arrows: Vec<&str> = stems.filter(|name| formula::has_arrow(name)).collect();
+    arrows.dedup();
+    let mut symbols = key.readable.clone();
+    for arrow in &arrows {
+        let plain = formula::latex_name(&arrow.replacen("_vec", "", 1));
+        symbols.declare_as(*arrow, Some(&plain), None);
+    }
+    (!arrows.is_empty()).then(|| formula::read(text, &symbols).ok())?
+}
+
 /// A text with the letters i and j, where these are the directions.
 fn along_axes(text: &str, symbols: &Symbols) -> Option<Reading> {
     let axes = ['i', 'j'].iter().all(|axis| text.contains(*axis));
@@ -85,6 +102,14 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         });
     }
     let usual = formula::read(text, &key.readable);
+    // `r × p`, where the expected formula has arrows over these letters.
+    let crossed = match &usual {
+        Ok(reading) => reading.notes.iter().any(|n| n.remark == Remark::Cross),
+        Err(_) => ["×", "\\times"].iter().any(|sign| text.contains(sign)),
+    };
+    if crossed && let Some(reading) = arrows_put(key, text) {
+        return worded(key, text, reading);
+    }
     if vector(&key.reading) && !usual.as_ref().is_ok_and(vector) {
         // Where a vector is asked, `(2,3)` is one, and so is `2i + 3j`.
         let lists = key.readable.clone().with_lists();

@@ -167,6 +167,8 @@ struct Desk<'a> {
     early: BTreeSet<Symbol>,
     /// Spins as vectors: the name with an arrow, the spin, and whether it counts clockwise.
     spins: BTreeMap<Symbol, (Symbol, bool)>,
+    /// Components of spins and places as vectors, `omega_vec_z` and `r_vec_B/C_x`.
+    parts: BTreeMap<Symbol, Expr>,
     /// What names along the normal are in terms of components, as expressions that are zero.
     linked: Vec<Expr>,
     /// Parameters whose values the scene asks for.
@@ -230,6 +232,7 @@ impl<'a> Desk<'a> {
             solved_for: BTreeSet::new(),
             early: BTreeSet::new(),
             spins: spins(&sheet.scene),
+            parts: parts(&sheet.scene),
             linked: Vec::new(),
             sought: link::sought(sheet),
             supposed: Vec::new(),
@@ -256,8 +259,13 @@ impl<'a> Desk<'a> {
         out
     }
 
-    fn symbols(&self) -> Symbols {
+    /// The names a line may use; around the cross of `ω × r_{B/C}` letters are vectors without their arrows.
+    fn symbols(&self, text: &str) -> Symbols {
         let mut symbols = Symbols::strict();
+        let crossed =
+            ["×", "\\times"].iter().any(|sign| text.contains(sign)) && text.contains("r_");
+        let is_vector =
+            |name: &Symbol| crossed && self.spins.values().any(|(spin, _)| spin == name);
         for p in &self.sheet.scene.parameters {
             symbols.declare_as(
                 p.name.clone(),
@@ -266,16 +274,27 @@ impl<'a> Desk<'a> {
             );
         }
         for q in &self.sheet.scene.questions {
-            if self.closed.contains_key(q.name.as_str()) || self.components(&q.name).is_some() {
+            let known = self.closed.contains_key(q.name.as_str());
+            let spin = is_vector(&Symbol::from(q.name.as_str()));
+            if !spin && (known || self.components(&q.name).is_some()) {
                 symbols.declare_as(q.name.as_str(), q.latex.as_deref(), None);
             }
         }
         self.closed
             .keys()
             .chain(self.own.keys())
+            .filter(|name| !is_vector(name))
             .for_each(|name| symbols.declare(name));
+        for (name, _) in self.sheet.scene.arms() {
+            if let Some(arrow) = formula::with_arrow(&name) {
+                let [plain, arrowed] = [&name, &arrow].map(|name| formula::latex_name(name));
+                symbols.declare_as(&*arrow, Some(&plain), None);
+                symbols.declare_as(&*arrow, Some(&arrowed), None);
+            }
+        }
         // `ω⁺` is what is asked of the moment just after, and a vector may wear its arrow.
-        for name in self.closed.keys().filter(|name| !name.contains('^')) {
+        let now = |name: &&Symbol| !name.contains('^') && !is_vector(name);
+        for name in self.closed.keys().filter(now) {
             let after = format!("{}^{{+}}", formula::latex_name(name));
             symbols.declare_as(name.clone(), Some(&after), None);
         }
@@ -285,6 +304,12 @@ impl<'a> Desk<'a> {
             .spins
             .iter()
             .map(|(arrow, (spin, _))| (&**arrow, &**spin));
+        for (arrow, (spin, _)) in self.spins.iter().filter(|(_, (spin, _))| is_vector(spin)) {
+            let latex = formula::latex_name(spin);
+            for moment in ["", "^{+}"] {
+                symbols.declare_as(arrow.clone(), Some(&format!("{latex}{moment}")), None);
+            }
+        }
         for (name, plain) in vectors.map(|name| (name, name)).chain(spins) {
             let latex = formula::latex_name(plain);
             let (base, index) = latex.split_at(latex.find(['_', '^']).unwrap_or(latex.len()));
@@ -318,7 +343,7 @@ impl<'a> Desk<'a> {
         if let Some(found) = self.said_before(number, text, options) {
             return found;
         }
-        let reading = match formula::read(text, &self.symbols()) {
+        let reading = match formula::read(text, &self.symbols(text)) {
             // `(m+M) V`, `(m+M) g h`: a letter that is said further down, or is a quantity first, is no unit.
             Ok(reading) if names::behind(text, &reading).is_some() => {
                 let unit = names::behind(text, &reading).and_then(|(from, to)| text.get(from..to));
@@ -369,7 +394,7 @@ impl<'a> Desk<'a> {
 
     /// Whether texts are read as they stand.
     fn are_read(&self, parts: &[String]) -> bool {
-        let symbols = self.symbols();
+        let symbols = self.symbols("");
         parts
             .iter()
             .all(|part| formula::read(part, &symbols).is_ok())
@@ -396,7 +421,7 @@ impl<'a> Desk<'a> {
         }
         if let Weighed::Slip(_) = weighed {
             // The student may have meant the other reading of a slash.
-            let others = formula::other_readings(text, &self.symbols(), true);
+            let others = formula::other_readings(text, &self.symbols(text), true);
             for other in others.into_iter().take(4) {
                 let Some(links) = self.links(&other) else {
                     continue;
@@ -478,7 +503,7 @@ impl<'a> Desk<'a> {
     fn with_own(&self, e: &Expr) -> Expr {
         // Own names may use one another.
         let rounds = 0..self.own.len().min(8);
-        rounds.fold(e.clone(), |e, _| e.substitute(&self.own))
+        rounds.fold(e.substitute(&self.parts), |e, _| e.substitute(&self.own))
     }
 
     /// Whether all differences vanish with the names' values put in; those of `instead` go first.
@@ -512,6 +537,29 @@ fn spins(scene: &Scene) -> BTreeMap<Symbol, (Symbol, bool)> {
         _ => None,
     };
     scene.questions.iter().filter_map(spin).collect()
+}
+
+/// Components of spins that are asked for, out of the page, and of places relative to one another.
+fn parts(scene: &Scene) -> BTreeMap<Symbol, Expr> {
+    let out_of_page = |(spin, clockwise): (Symbol, bool)| {
+        let along = Expr::symbol(&spin);
+        [
+            Expr::zero(),
+            Expr::zero(),
+            if clockwise { -along } else { along },
+        ]
+    };
+    let spins = spins(scene).into_iter();
+    let spins = spins.map(|(arrow, spin)| (arrow.to_string(), out_of_page(spin)));
+    let arms = scene.arms().into_iter();
+    let arms =
+        arms.filter_map(|(name, [x, y])| Some((formula::with_arrow(&name)?, [x, y, Expr::zero()])));
+    let all = spins.chain(arms).flat_map(|(arrow, value)| {
+        let axes = ["x", "y", "z"].into_iter().zip(value);
+        axes.map(move |(axis, value)| (format!("{arrow}_{axis}").into(), value))
+            .collect::<Vec<_>>()
+    });
+    all.collect()
 }
 
 /// Whether hinges and sticking contacts leave the bodies one freedom, so that all velocities go in step.

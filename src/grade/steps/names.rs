@@ -111,7 +111,7 @@ impl Desk<'_> {
         options: &Options,
     ) -> Option<(Status, Vec<Diagnosis>)> {
         let (name, right) = named(text).filter(|(name, _)| !self.is_known(name))?;
-        let right = match formula::read(right, &self.symbols()) {
+        let right = match formula::read(right, &self.symbols(right)) {
             Ok(reading) => reading,
             Err(_) => match self.looked_ahead(right) {
                 Some(reading) => reading,
@@ -220,7 +220,7 @@ impl Desk<'_> {
         options: &Options,
     ) -> Option<(Status, Vec<Diagnosis>)> {
         let (name, right) = text.split_once('=')?;
-        let symbols = self.symbols();
+        let symbols = self.symbols(text);
         let sides = right.split('=').map(str::trim);
         let (known, new): (Vec<&str>, Vec<&str>) =
             sides.partition(|side| formula::read(side, &symbols).is_ok());
@@ -244,7 +244,7 @@ impl Desk<'_> {
     /// A text with names that are said only further down.
     pub(super) fn looked_ahead(&mut self, text: &str) -> Option<Reading> {
         for _ in 0..8 {
-            let symbols = self.symbols();
+            let symbols = self.symbols(text);
             let (from, to) = match formula::read(text, &symbols) {
                 Ok(reading) => match behind(text, &reading) {
                     Some(unit) => unit,
