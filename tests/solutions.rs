@@ -876,7 +876,7 @@ fn no_abbreviation_is_used_before_it_is_told() {
 
 #[test]
 fn no_phrase_that_an_editor_would_strike() {
-    const STRUCK: [&str; 27] = [
+    const STRUCK: [&str; 31] = [
         "the component along",
         "it is told that",
         "what is lost is lost",
@@ -904,6 +904,10 @@ fn no_phrase_that_an_editor_would_strike() {
         "are, as in case",
         "that is determined of",
         "points given by",
+        "the force that presses the body",
+        "that work is the gain",
+        "do not determine it",
+        "which is not determined: it",
     ];
     for case in cases() {
         for detail in [Detail::Brief, Detail::Normal] {
@@ -911,6 +915,26 @@ fn no_phrase_that_an_editor_would_strike() {
             let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
             for phrase in STRUCK {
                 assert!(!text.contains(phrase), "{}: {phrase}", case.path.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_relation_is_typeset_as_a_whole() {
+    let is_relation = |c: char| "<>≤≥".contains(c);
+    for case in cases() {
+        let solution = case.solution(Detail::Normal);
+        // The statement is in the words of its author.
+        for part in solution.sections.iter().skip(1).flat_map(|s| &s.parts) {
+            let solution::Part::Text(text) = part else {
+                continue;
+            };
+            for piece in text {
+                if let solution::Inline::Text(words) = piece {
+                    let half = words.contains(is_relation);
+                    assert!(!half, "{}: {words}", case.path.display());
+                }
             }
         }
     }

@@ -390,8 +390,14 @@ fn within_interval(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots
                 given: Vec::new(),
             });
         } else {
-            out.discarded
-                .push(sentence![symbol, " = 0, outside ", within(&domain, symbol)]);
+            let outside = within(&domain, symbol);
+            out.discarded.push(sentence![
+                symbol,
+                " = ",
+                &Expr::zero(),
+                ", outside ",
+                outside
+            ]);
         }
     }
     for coefficients in factors {
@@ -458,12 +464,20 @@ fn tidied(field: &mut Field, e: &Expr) -> Result<Expr, Unsolved> {
 
 /// The domain as a sentence, such as `x > 0`.
 pub fn within(domain: &Domain, symbol: &Symbol) -> Sentence {
-    let words = domain.words("\u{1}");
-    let around: Vec<Sentence> = words.split('\u{1}').map(Sentence::from).collect();
-    match around.as_slice() {
-        [before, after] => sentence![before, symbol, after],
-        _ => words.into(),
+    let low = domain.low.as_ref().map(|l| (l.expr(), l.open));
+    let high = domain.high.as_ref().map(|l| (l.expr(), l.open));
+    match (low, high) {
+        (None, None) => sentence![symbol, " is real"],
+        (Some((low, open)), None) => sentence![symbol, if open { " > " } else { " ≥ " }, &low],
+        (None, Some((high, open))) => sentence![symbol, below(open), &high],
+        (Some((low, from)), Some((high, to))) => {
+            sentence![&low, below(from), symbol, below(to), &high]
+        }
     }
+}
+
+fn below(open: bool) -> &'static str {
+    if open { " < " } else { " ≤ " }
 }
 
 /// What must hold for a value to be real: radicands not below zero, arguments of arcs between −1 and 1. Nothing where it is

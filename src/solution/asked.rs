@@ -130,7 +130,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     let given: Vec<Sentence> = given.cloned().collect();
     if !given.is_empty() {
         let mut text = vec![say("Given that ")];
-        text.extend(sentence(scene, &Sentence::join(given, "; ")));
+        text.extend(sentence(scene, &Sentence::join(by_reason(given), "; ")));
         text.push(say(","));
         solution.text(text);
     }
@@ -428,4 +428,22 @@ fn stands_for(ask: &Ask, answer: &Answer) -> Option<(Expr, &'static str)> {
         Some(vector) if !axis.is_empty() => (Expr::symbol(&format!("{vector}{axis}")), op),
         _ => (of.clone(), op),
     })
+}
+
+/// Conditions one after the other; those with the same reason in brackets behind them share it.
+fn by_reason(all: Vec<Sentence>) -> Vec<Sentence> {
+    let mut out: Vec<Sentence> = Vec::new();
+    for one in all {
+        let reason = one.0.last().cloned();
+        let is_reason = matches!(&reason, Some(Piece::Words(words)) if words.starts_with(" ("));
+        match out.last_mut() {
+            Some(before) if is_reason && before.0.last() == reason.as_ref() => {
+                before.0.pop();
+                before.0.push(Piece::Words(String::from(" and ")));
+                before.0.extend(one.0);
+            }
+            _ => out.push(one),
+        }
+    }
+    out
 }

@@ -3,19 +3,20 @@
 //! In: a stage and one outcome. Out: a clause for each body whose change can be told; where its sense depends on the values,
 //! the formulas say more than words.
 
+use super::words::listed;
 use super::{Case, StageTold};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, essential, is_zero, sign};
 use crate::domain::Domains;
 use crate::expr::{Expr, minus};
 
-/// What becomes of every body that moves.
+/// What becomes of every body that moves; those of which the same is said stand together.
 pub(super) fn words(told: &StageTold, case: &Case) -> Vec<String> {
     let scene = &told.placed.scene;
     let given: Vec<&Expr> = case.conditions.iter().map(|(_, e)| e).collect();
     let bodies = scene.bodies.iter().enumerate();
-    let moving = bodies.filter(|(_, body)| !body.is_fixed());
-    let each = moving.filter_map(|(b, body)| {
+    let mut all: Vec<(Clause, Vec<String>)> = Vec::new();
+    for (b, body) in bodies.filter(|(_, body)| !body.is_fixed()) {
         let change = Change {
             told,
             case,
@@ -23,9 +24,53 @@ pub(super) fn words(told: &StageTold, case: &Case) -> Vec<String> {
             domains: &scene.domains,
             given: &given,
         };
-        change.words(&body.name, body.is_particle())
-    });
-    each.collect()
+        let Some(clause) = change.words(&body.name, body.is_particle()) else {
+            continue;
+        };
+        let name = format!("`{}`", body.name);
+        match all.iter_mut().find(|(c, _)| *c == clause) {
+            Some((_, names)) => names.push(name),
+            None => all.push((clause, vec![name])),
+        }
+    }
+    let told = all.into_iter();
+    told.map(|(clause, names)| clause.of(&names)).collect()
+}
+
+/// What is said of a body.
+#[derive(PartialEq)]
+enum Clause {
+    /// Of one or several by their names, between what stands before and what stands behind.
+    Around([String; 2]),
+    /// Of one alone.
+    Alone(String),
+}
+
+impl Clause {
+    fn of(&self, names: &[String]) -> String {
+        let who = listed(names);
+        match self {
+            Clause::Alone(words) => words.clone(),
+            Clause::Around([before, behind]) if names.len() == 1 => {
+                format!("{before}{who}{behind}")
+            }
+            Clause::Around([before, behind]) => {
+                let words: Vec<&str> = behind.split(' ').map(of_several).collect();
+                format!("{before}{who}{}", words.join(" "))
+            }
+        }
+    }
+}
+
+/// A word of what a body does as it stands for several.
+fn of_several(word: &str) -> &str {
+    match word {
+        "does" => "do",
+        "its" => "their",
+        "velocity" => "velocities",
+        "moves" | "comes" | "stays" | "keeps" => &word[..word.len() - 1],
+        _ => word,
+    }
 }
 
 /// Which way something goes.
@@ -46,11 +91,15 @@ struct Change<'a> {
 }
 
 impl Change<'_> {
-    fn words(&self, name: &str, is_particle: bool) -> Option<String> {
+    fn words(&self, name: &str, is_particle: bool) -> Option<Clause> {
         let (before, after) = (&self.told.before, &self.case.after);
         let parts = [before, after].map(|s| s.velocity[self.b].iter().chain([&s.spin[self.b]]));
         if let Some(why) = after.why_open(parts.into_iter().flatten()) {
-            return Some(format!("how `{name}` moves is not determined: {why}"));
+            let around = match why.strip_suffix(" do not determine it") {
+                Some(laws) => [format!("{laws} do not determine how "), " moves".into()],
+                None => ["how ".into(), format!(" moves is not determined: {why}")],
+            };
+            return Some(Clause::Around(around));
         }
         let (v0, v1) = (&before.velocity[self.b], &after.velocity[self.b]);
         let zero = |v: &[Expr; 2]| v.iter().all(|c| is_zero(c, self.domains) == Some(true));
@@ -62,14 +111,14 @@ impl Change<'_> {
             (false, false) => self.moving(v0, v1),
         };
         if is_particle {
-            return moves.map(|moves| format!("`{name}` {moves}"));
+            return moves.map(|moves| Clause::Around([String::new(), format!(" {moves}")]));
         }
         let (w0, w1) = (&before.spin[self.b], &after.spin[self.b]);
         let [spins_on, still] =
             [w0 - w1, w1.clone()].map(|w| is_zero(&w, self.domains) == Some(true));
         let turns = self.turning(w0, w1);
         // Of a body that a joint holds at its center only the spin is worth a word.
-        Some(match (keeps, rests, spins_on, still) {
+        Some(Clause::Alone(match (keeps, rests, spins_on, still) {
             (_, true, true, true) => format!("`{name}` {}", moves?),
             (true, false, true, _) => format!("`{name}` moves on as before"),
             (true, true, ..) => format!("`{name}` {}", turns?),
@@ -81,7 +130,7 @@ impl Change<'_> {
                 (None, Some(turns)) => format!("`{name}` {turns}"),
                 (None, None) => return None,
             },
-        })
+        }))
     }
 
     /// Which way a velocity points, as far as its signs are known.

@@ -6,7 +6,7 @@ use super::{Case, StageTold, change, line};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, is_zero, sign, tidy};
 use crate::derive;
-use crate::expr::Expr;
+use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{
     BlowImpulse, ContactLaw, FallEnd, OneSided, Scene, Slide, SlideEnd, Stage, StageKind, Turn,
@@ -65,34 +65,55 @@ pub(super) fn leading(stages: &[StageTold], parent: usize, case: usize) -> Strin
 }
 
 impl Case {
-    /// What must hold for it: `a ≥ h and b ≥ 0`, of a coefficient of friction as a bound on it.
+    /// What must hold for it: `a ≥ h and b ≥ 0`, of a coefficient of friction as the bounds of it.
     pub fn holds_where(&self) -> Sentence {
-        let each = self.conditions.iter().map(|(_, e)| self.states(e));
+        let all: Vec<&Expr> = self.conditions.iter().map(|(_, e)| e).collect();
+        let bounds: Vec<_> = all.iter().map(|e| self.bound(e)).collect();
+        if let [Some(one), Some(other)] = bounds.as_slice()
+            && one.is_least != other.is_least
+        {
+            let (low, high) = if one.is_least {
+                (one, other)
+            } else {
+                (other, one)
+            };
+            return sentence![&low.at, " ≤ ", &low.of, " ≤ ", &high.at];
+        }
+        let each = all.into_iter().zip(bounds);
+        let each = each.map(|(e, bound)| match bound {
+            Some(b) if b.is_least => sentence![&b.of, " ≥ ", &b.at],
+            Some(b) => sentence![&b.of, " ≤ ", &b.at],
+            None => Sentence::not_negative(e),
+        });
         Sentence::join(each, " and ")
     }
 
     /// `e ≥ 0` as a bound on the coefficient of friction, where it is one on the whole domain.
-    fn states(&self, e: &Expr) -> Sentence {
+    fn bound(&self, e: &Expr) -> Option<Bound> {
         let mut contacts = self.scene.contacts.iter();
-        let coefficient = contacts.find_map(|c| match &c.law {
+        let of = contacts.find_map(|c| match &c.law {
             ContactLaw::Decided(decided) => decided.law.mu.as_symbol().cloned(),
             _ => None,
-        });
-        let bound = coefficient.and_then(|mu| {
-            let slope = tidy(&e.derivative(&mu), &self.scene.domains).ok()?;
-            let at_zero = BTreeMap::from([(mu.clone(), Expr::zero())]);
-            let relation = match sign(&slope, &self.scene.domains) {
-                Seen::Proved(Sign::Positive) => " ≥ ",
-                Seen::Proved(Sign::Negative) => " ≤ ",
-                _ => return None,
-            };
-            let right = -(e.substitute(&at_zero) / &slope);
-            let right = tidy(&right, &self.scene.domains).ok()?;
-            let free = !slope.symbols().contains(&mu) && !right.symbols().contains(&mu);
-            free.then(|| sentence![&mu, relation, &right])
-        });
-        bound.unwrap_or_else(|| Sentence::not_negative(e))
+        })?;
+        let slope = tidy(&e.derivative(&of), &self.scene.domains).ok()?;
+        let at_zero = BTreeMap::from([(of.clone(), Expr::zero())]);
+        let is_least = match sign(&slope, &self.scene.domains) {
+            Seen::Proved(Sign::Positive) => true,
+            Seen::Proved(Sign::Negative) => false,
+            _ => return None,
+        };
+        let at = -(e.substitute(&at_zero) / &slope);
+        let at = tidy(&at, &self.scene.domains).ok()?;
+        let free = !slope.symbols().contains(&of) && !at.symbols().contains(&of);
+        free.then_some(Bound { of, is_least, at })
     }
+}
+
+/// A coefficient of friction is at least this, or at most.
+struct Bound {
+    of: Symbol,
+    is_least: bool,
+    at: Expr,
 }
 
 /// What happens in a stage.
@@ -540,7 +561,7 @@ pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence
 }
 
 /// `a`, `a and b`, `a, b and c`.
-fn listed(names: &[String]) -> String {
+pub(super) fn listed(names: &[String]) -> String {
     match names {
         [] => String::new(),
         [one] => one.clone(),

@@ -75,7 +75,7 @@ pub(super) fn resolve(
                     moved(scene, b, v, at.as_ref())
                 }
             };
-            push(scene, "", dot(&v, &v).sqrt());
+            push(scene, "", (v[0].powi(2) + v[1].powi(2)).sqrt());
         }
         "instantaneous_center" => {
             let b = resolver.moving(q.instantaneous_center.as_ref()?)?;
@@ -186,7 +186,7 @@ fn about(resolver: &mut Resolver<'_>, name: &Text, q: &QuestionFile) -> Option<V
 /// The speed of a velocity that is asked for under this name.
 pub(super) fn speed_of(velocity: &str) -> Expr {
     let v = ["x", "y"].map(|axis| Expr::symbol(&format!("{velocity}_{axis}")));
-    dot(&v, &v).sqrt()
+    (v[0].powi(2) + v[1].powi(2)).sqrt()
 }
 
 /// Velocity just after of another point, from that of the center of mass.

@@ -91,7 +91,11 @@ fn needs_open(ask: &Ask, known: &Known, earlier: &[Answer]) -> Option<Sentence> 
             .filter(is_it)
             .find(|a| matches!(a.form, Form::Open(_)))?;
         let why = open.text.first().cloned().unwrap_or_default();
-        Some(sentence!["it needs `", &open.name, "`, which is ", why])
+        let name = Expr::symbol(&open.name);
+        Some(match why.to_string().strip_prefix("not determined: it ") {
+            Some(why) => sentence!["it needs ", &name, ", which ", why],
+            None => sentence!["it needs ", &name, ", which is ", why],
+        })
     })
 }
 
