@@ -6,6 +6,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::Course;
+use super::fixture::hatched;
 use super::label::Label;
 use super::marks::centers;
 use super::place::Spot;
@@ -19,6 +20,9 @@ use crate::scene::{Ask, Body, FallEnd, Hinge, Scene, Slide, SlideEnd, StageKind,
 
 /// Shortest length that is marked, in pixels.
 const SHORTEST: f64 = 8.0;
+
+/// Half the length of the ceiling that a string is fastened to, in pixels.
+const FASTENED: f64 = 12.0;
 
 /// The scene as it is drawn: a point that is turned about is a hinge here, so that its support is seen.
 pub fn stand_in(scene: &Scene, kind: &StageKind) -> Scene {
@@ -253,8 +257,15 @@ fn strings(
                 let ends = [from, foot].map(|p| stage.px(p));
                 sheet.segment(ends[0], ends[1], Line::thin(Ink::Body), 1.0);
                 if k == 0 {
-                    feet.push(stage.px(foot));
+                    feet.push(ends[1]);
+                    continue;
                 }
+                // The other part is fastened there.
+                let d = [0, 1].map(|k| ends[1][k] - ends[0][k]);
+                let back = d.map(|c| c / size(d));
+                let half = [-back[1] * FASTENED, back[0] * FASTENED];
+                let [low, high] = [-1.0, 1.0].map(|s| [0, 1].map(|k| ends[1][k] + s * half[k]));
+                hatched(sheet, low, high, back);
             }
         }
         if string.over.len() > 1 {
