@@ -277,7 +277,7 @@ fn exists(out: &mut Answer, roots: &Roots, domains: &Domains) -> Domains {
             &symbol,
             " > ",
             &at_end,
-            ", or there is no such value"
+            " (otherwise there is no such value)"
         ]);
     }
     domains

@@ -64,9 +64,9 @@ impl Writer<'_> {
         let rule = if is_string {
             "The string does not stretch: its ends move alike along it"
         } else if restitution.is_one() {
-            "Restitution with e = 1: the points in contact separate along the normal as fast as they approached"
+            "The contact is elastic: its points separate along the normal as fast as they approached"
         } else if restitution.is_zero() {
-            "Restitution with e = 0: the points in contact do not separate along the normal"
+            "There is no rebound: the points in contact do not separate along the normal"
         } else {
             "Restitution: the points in contact separate along the normal at "
         };
