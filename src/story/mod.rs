@@ -7,6 +7,7 @@
 mod alone;
 mod answer;
 mod change;
+mod granted;
 mod impact;
 mod integrate;
 mod lent;
@@ -336,7 +337,7 @@ impl Told {
 
     /// Everything that is taken for granted: how the statement is read, and what the stages suppose.
     pub fn assumed(&self) -> Vec<Sentence> {
-        words::assumed(&self.readings, &self.stages)
+        granted::assumed(&self.readings, &self.stages)
     }
 
     /// Why what is told cannot happen, by stage; empty where it can.

@@ -7,7 +7,7 @@ mod reached;
 
 use std::collections::BTreeSet;
 
-use super::{Case, StageTold, State, Told, second, spring, words, worlds};
+use super::{Case, StageTold, State, Told, granted, second, spring, words, worlds};
 use crate::answer::{self, Answer, Check, Form, Known, Refused};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
@@ -218,7 +218,7 @@ fn in_words(
         ),
         _ => (
             String::from("what is assumed"),
-            words::assumed(&scene.readings, stages),
+            granted::assumed(&scene.readings, stages),
         ),
     };
     let mut out = Answer::blank(question, &question.name, what);

@@ -1,0 +1,83 @@
+//! What a story takes for granted, in sentences: that impacts take no time, and what holds of each kind of motion.
+
+use super::StageTold;
+use super::words::listed;
+use crate::formula::{Sentence, sentence};
+use crate::scene::StageKind;
+
+/// Everything the story takes for granted.
+pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence> {
+    let mut out: Vec<Sentence> = readings.iter().map(Sentence::from).collect();
+    let named = |is: fn(&StageKind) -> bool| {
+        let mut names: Vec<String> = Vec::new();
+        let has_name = |s: &&StageTold| !s.placed.name.is_empty();
+        for told in stages
+            .iter()
+            .filter(|s| is(&s.placed.kind))
+            .filter(has_name)
+        {
+            let name = format!("`{}`", told.placed.name);
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
+    };
+    let impacts = named(|kind| matches!(kind, StageKind::Impact { .. }));
+    if !impacts.is_empty() {
+        let takes = if impacts.len() == 1 { "takes" } else { "take" };
+        out.push(sentence![
+            listed(&impacts),
+            format!(" {takes} no time: nothing moves while velocities jump, and finite forces have no impulse")
+        ]);
+    }
+    let falls = named(|kind| matches!(kind, StageKind::Fall(_)));
+    if !falls.is_empty() {
+        out.push(sentence!["in ", listed(&falls), " there is no drag"]);
+    }
+    let strung = named(|kind| matches!(kind, StageKind::Slide(s) if !s.strings.is_empty()));
+    if !strung.is_empty() {
+        let why = " strings have no mass, keep their length and do not slip on their pulleys, whose axles are frictionless";
+        out.push(sentence!["in ", listed(&strung), why]);
+    }
+    let linked = named(|kind| matches!(kind, StageKind::Linkage(_)));
+    if !linked.is_empty() {
+        let why = " joints and guides hold the bodies all the way, pulling where need be, and are frictionless";
+        out.push(sentence!["in ", listed(&linked), why]);
+    }
+    // Rotations about one point are told together.
+    let mut turns: Vec<(String, Vec<String>)> = Vec::new();
+    for told in stages {
+        let StageKind::Turn(turn) = &told.placed.kind else {
+            continue;
+        };
+        let body = &told.placed.scene.bodies[turn.body];
+        let about = &turn.about_name;
+        let holds = match body.is_particle() && turn.with.is_empty() {
+            true => format!(
+                " `{}` keeps its distance from `{about}`, which does not move",
+                body.name
+            ),
+            false => {
+                format!(" the body is rigid, and `{about}` is frictionless and does not move")
+            }
+        };
+        let name = format!("`{}`", told.placed.name);
+        match turns.iter_mut().find(|(h, _)| *h == holds) {
+            Some((_, names)) if names.contains(&name) => {}
+            Some((_, names)) => names.push(name),
+            None => turns.push((holds, vec![name])),
+        }
+    }
+    let turns = turns.into_iter();
+    out.extend(turns.map(|(holds, names)| sentence!["in ", listed(&names), holds]));
+    out.extend(stages.iter().flat_map(|told| told.assumptions.clone()));
+    let mut seen: Vec<Sentence> = Vec::new();
+    out.retain(|s| {
+        !seen.contains(s) && {
+            seen.push(s.clone());
+            true
+        }
+    });
+    out
+}
