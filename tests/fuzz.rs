@@ -2,10 +2,12 @@
 //! scenes of this repository. Nothing panics, nothing runs away, whatever is read reads back.
 //!
 //! `CAROM_FUZZ=10000000 cargo test --release --test fuzz -- --nocapture --test-threads=1` runs ten million inputs: eight
-//! tenths read, a tenth graded, a tenth read as scenes. A case is known by its number; the slowest input of each target is
-//! printed, and `CAROM_FROM` says where to take a run up again.
+//! tenths read, a tenth graded, a tenth read as scenes; and one in a hundred more where a scene is worked out. A case is known
+//! by its number; the slowest input of each target is printed, and `CAROM_FROM` says where to take a run up again.
 
 mod shared;
+#[path = "fuzz/worked.rs"]
+mod worked;
 
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -374,6 +376,26 @@ fn a_tenth_of_the_inputs_is_graded_without_a_panic() {
 #[test]
 fn a_tenth_of_the_inputs_is_read_as_scenes_without_a_panic() {
     read_any_scene(inputs() / 10);
+}
+
+#[test]
+fn answers_in_scenes_are_judged_without_a_panic() {
+    worked::answer_anything(inputs() / 250);
+}
+
+#[test]
+fn worked_solutions_are_checked_without_a_panic() {
+    worked::check_any_solution(inputs() / 250);
+}
+
+#[test]
+fn printed_answers_are_verified_without_a_panic() {
+    worked::verify_anything(inputs() / 1_000);
+}
+
+#[test]
+fn changed_stages_are_worked_out_without_a_panic() {
+    worked::work_out_any_stages(inputs() / 1_000);
 }
 
 #[test]

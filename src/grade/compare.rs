@@ -9,10 +9,15 @@ use super::{
     show, unit,
 };
 use crate::dimension::Dimension;
+use crate::domain::{Sample, roles, samples};
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Node, Symbol, ratio};
 use crate::formula::{self, Content, Reading, Relation, write_unicode};
+use crate::interval::{Interval, Outcome, evaluate};
 pub(crate) use scalar::{WRITTEN, is_short, quotient, same_number, scalars};
+
+/// Points at which an equation is tried before its solutions are compared.
+const POINTS: usize = 4;
 
 /// What a comparison found; the grade without what concerns the text.
 #[derive(Clone, Debug)]
@@ -253,6 +258,7 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
                 names => names
                     .iter()
                     .take(3)
+                    .filter(|name| may_hold(ctx, mine, name, expected))
                     .map(solved)
                     .find(|finding| finding.verdict == Verdict::Equivalent)
                     .unwrap_or_else(|| kind("a value is expected, and the answer is a relation")),
@@ -346,6 +352,25 @@ fn strangers(ctx: &Context, sides: &[Content]) -> Vec<Symbol> {
         .for_each(|s| s.each(&mut |e| found.extend(e.symbols())));
     found.retain(|name| !declared_symbol(ctx, name));
     found.into_iter().collect()
+}
+
+/// Whether an equation can hold with a value in the place of a name: solutions are compared at much greater cost.
+fn may_hold(ctx: &Context, sides: &[Content], name: &Symbol, value: &Content) -> bool {
+    let ([left, right], Some(value)) = (sides, value.expr()) else {
+        return true;
+    };
+    let (Some(left), Some(right)) = (left.expr(), right.expr()) else {
+        return true;
+    };
+    let there = BTreeMap::from([(name.clone(), value.clone())]);
+    let difference = (left - right).substitute(&there);
+    let uses = roles(&[&difference]);
+    let (domains, _) = ctx.key.question.domains.completed(&uses);
+    let is_zero = |sample: &Sample| match evaluate::<Interval>(&difference, &sample.point(true)) {
+        Outcome::Value(value) => value.low <= 0.0 && value.high >= 0.0,
+        _ => true,
+    };
+    samples(&uses, &domains, POINTS).iter().all(is_zero)
 }
 
 fn kind(words: &str) -> Finding {

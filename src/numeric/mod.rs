@@ -35,7 +35,7 @@ pub use doubles::{NoDoubles, doubles};
 pub use energy::{energy_after, energy_before, energy_lost};
 pub use exact::solve_exact;
 pub use field::eliminate;
-pub use float::{lu_scaled, solve_f64};
+pub use float::{lu_scaled, solve_f64, solve_roughly};
 pub use follow::{Followed, Lost, follow};
 pub use friction::settle;
 pub use given::{Given, Reason, Undefined, given};

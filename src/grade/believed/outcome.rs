@@ -17,11 +17,11 @@ pub(in crate::grade) fn doubles(
 ) -> Option<Vec<f64>> {
     if slip.changes.iter().any(|c| matches!(c, Change::EnergyKept)) {
         return energy_kept(written, slip, point, has_one_freedom, |system| {
-            numeric::solve_f64(system).ok()
+            numeric::solve_roughly(system).ok()
         });
     }
     outcome(written, slip, point, |system| {
-        numeric::solve_f64(system).ok()
+        numeric::solve_roughly(system).ok()
     })
 }
 
