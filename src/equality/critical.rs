@@ -30,7 +30,7 @@ const ROUNDS: usize = 3;
 const PARTS: usize = 400;
 
 /// What a formula takes roots, logarithms, arcs or absolute values of: it has a value only where those marked with `true` are
-/// not negative.
+/// not negative. A square under a root comes out with the sign of what is squared.
 pub(super) fn arguments(formulas: &[&Expr]) -> Vec<(Expr, bool)> {
     let mut out: Vec<(Expr, bool)> = Vec::new();
     let mut note = |e: Expr, needed: bool| {
@@ -57,12 +57,30 @@ pub(super) fn arguments(formulas: &[&Expr]) -> Vec<(Expr, bool)> {
                 {
                     note(base.clone(), false);
                 }
-                _ => note(base.clone(), true),
+                _ => {
+                    note(base.clone(), true);
+                    squared(base).for_each(|x| note(x, false));
+                }
             },
             _ => {}
         }
     }
     out
+}
+
+/// What stands to an even power in a product.
+fn squared(e: &Expr) -> impl Iterator<Item = Expr> {
+    let factors = match e.node() {
+        Node::Product(factors) => factors.as_slice(),
+        _ => std::slice::from_ref(e),
+    };
+    let even = |k: &Rational| k.is_integer() && k.numer().as_i64().is_some_and(|k| k % 2 == 0);
+    factors
+        .iter()
+        .filter_map(move |factor| match factor.node() {
+            Node::Power(base, k) => k.as_number().is_some_and(even).then(|| base.clone()),
+            _ => None,
+        })
 }
 
 /// Points at which the signs of the arguments form patterns not seen at the given ones.
