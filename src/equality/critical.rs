@@ -34,10 +34,7 @@ const PARTS: usize = 400;
 pub(super) fn arguments(formulas: &[&Expr]) -> Vec<(Expr, bool)> {
     let mut out: Vec<(Expr, bool)> = Vec::new();
     let mut note = |e: Expr, needed: bool| {
-        if !e.is_constant()
-            && out.len() < ARGUMENTS
-            && !out.iter().any(|(f, n)| *f == e && *n == needed)
-        {
+        if !e.is_constant() && !out.iter().any(|(f, n)| *f == e && *n == needed) {
             out.push((e, needed));
         }
     };
@@ -65,6 +62,9 @@ pub(super) fn arguments(formulas: &[&Expr]) -> Vec<(Expr, bool)> {
             _ => {}
         }
     }
+    // In an order that is the same for both orders of a pair: what leads most symbols along comes first.
+    out.sort_by(|(e, _), (f, _)| f.size().cmp(&e.size()).then_with(|| e.cmp(f)));
+    out.truncate(ARGUMENTS);
     out
 }
 
@@ -321,6 +321,11 @@ pub(super) fn tested(
         );
         let starts = near.iter().take(DESCENTS);
         all.extend(starts.map(|start| descended(e, start, domains, roles)));
+        all.extend(
+            near.iter()
+                .take(2)
+                .flat_map(|start| kinks(e, start, domains)),
+        );
         for start in near {
             for name in free_symbols(std::slice::from_ref(e), domains, start) {
                 if let (Some(domain), Some(Coordinate::Number(_))) =
@@ -373,6 +378,45 @@ fn descended(e: &Expr, start: &Sample, domains: &Domains, roles: &Roles) -> Samp
         }
     }
     at
+}
+
+/// Points where an absolute value or a root inside an expression vanishes: with one symbol led along its domain, another
+/// follows. Such a valley may be too narrow to be met by going down along either.
+fn kinks(e: &Expr, start: &Sample, domains: &Domains) -> Vec<Sample> {
+    let mut out = Vec::new();
+    for (inner, _) in arguments(&[e]).into_iter().take(2) {
+        let inside = free_symbols(std::slice::from_ref(&inner), domains, start);
+        for led in free_symbols(std::slice::from_ref(e), domains, start) {
+            let (Some(domain), Some(Coordinate::Number(_))) =
+                (domains.symbols.get(&led), start.coordinates.get(&led))
+            else {
+                continue;
+            };
+            for value in far(domain)
+                .into_iter()
+                .chain([start.coordinates[&led].clone()])
+            {
+                let mut moved = start.clone();
+                moved.coordinates.insert(led.clone(), value);
+                let here = doubles(&moved);
+                for follows in inside.iter().filter(|name| **name != led).take(2) {
+                    let Some(domain) = domains.symbols.get(follows) else {
+                        continue;
+                    };
+                    for zero in rough_zeros(&inner, follows, &here, domain) {
+                        let Some(zero) = from_f64(zero).filter(|z| domain.contains(z)) else {
+                            continue;
+                        };
+                        let mut at = moved.clone();
+                        at.coordinates
+                            .insert(follows.clone(), Coordinate::Number(zero));
+                        out.push(at);
+                    }
+                }
+            }
+        }
+    }
+    out
 }
 
 /// A point with the numbers of an expression led towards the ends of their domains in every combination: what is linear in
