@@ -348,6 +348,8 @@ fn gathered(e: &Expr) -> Expr {
     if bases.iter().any(|(base, _)| base.is_zero()) {
         return Expr::zero();
     }
+    // What stands above and below the line is not zero.
+    bases.retain(|(_, k)| !k.is_zero());
     Expr::product(bases.into_iter().map(|(base, k)| base.power(k)))
 }
 

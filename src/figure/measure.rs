@@ -450,7 +450,7 @@ fn rays<'a>(stage: &'a Stage) -> Vec<Ray<'a>> {
         }
     }
     for known in &scene.after {
-        if let KnownQuantity::Velocity { at, along } = &known.what
+        if let KnownQuantity::Velocity { at, along, .. } = &known.what
             && let Some(at) = stage.spot(at)
         {
             add(at, along, false);

@@ -168,7 +168,7 @@ impl<T: Quantity> Geometry<T> {
             BlowImpulse::Given(p) | BlowImpulse::Along(p) => vector(p),
         })?;
         let known_at = each(&scene.after, |k| match &k.what {
-            KnownQuantity::Velocity { at, along } => Ok(Some((vector(at)?, vector(along)?))),
+            KnownQuantity::Velocity { at, along, .. } => Ok(Some((vector(at)?, vector(along)?))),
             KnownQuantity::Spin => Ok(None),
         })?;
         let mass = each(&scene.bodies, |b| value(&b.mass))?;
@@ -465,10 +465,17 @@ pub fn equation<T: Quantity, E>(
         }
         Law::Given(k) => {
             let (place, value) = &g.known[*k];
-            let b = scene.after[*k].body;
+            let known = &scene.after[*k];
             let quantity = match place {
-                Some((at, along)) => along_direction(&motion.velocity_of(g, b, at), along),
-                None => motion.spin[b].clone(),
+                Some((at, along)) => {
+                    let velocity = |body| along_direction(&motion.velocity_of(g, body, at), along);
+                    let own = velocity(known.body);
+                    match known.to() {
+                        Some(other) => own.minus(&velocity(other)),
+                        None => own,
+                    }
+                }
+                None => motion.spin[known.body].clone(),
             };
             quantity.plus(&Affine::constant(value.neg())).equals_zero()
         }

@@ -37,8 +37,12 @@ pub fn describe(scene: &Scene, law: &Law) -> String {
         Law::Given(k) => {
             let known = &scene.after[*k];
             let body = &scene.bodies[known.body].name;
+            let from = known.to().map(|to| &scene.bodies[to].name);
+            let from = from.map_or(String::new(), |to| format!(" relative to {to}"));
             match known.what {
-                KnownQuantity::Velocity { .. } => format!("given velocity of {body} just after"),
+                KnownQuantity::Velocity { .. } => {
+                    format!("given velocity of {body}{from} just after")
+                }
                 KnownQuantity::Spin => format!("given spin of {body} just after"),
             }
         }

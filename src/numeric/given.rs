@@ -128,6 +128,8 @@ pub struct GivenKnown<T> {
     pub body: usize,
     /// Point and direction of a known velocity component; `None` for a known spin.
     pub component: Option<[[T; 2]; 2]>,
+    /// Index of the body whose point there the velocity is counted from.
+    pub to: Option<usize>,
     /// The value just after.
     pub value: T,
 }
@@ -256,16 +258,23 @@ pub(super) fn around<T: Number>(
         let name = &scene.bodies[body].name;
         let component = match &row.what {
             KnownQuantity::Spin => None,
-            KnownQuantity::Velocity { at: point, along } => Some([
+            KnownQuantity::Velocity {
+                at: point, along, ..
+            } => Some([
                 vector(point, at, || format!("point of a known velocity of {name}"))?,
                 vector(along, at, || {
                     format!("direction of a known velocity of {name}")
                 })?,
             ]),
         };
+        let to = match row.to() {
+            Some(to) => Some(known_body(to, &|| format!("body that {name} leaves"))?),
+            None => None,
+        };
         known.push(GivenKnown {
             body,
             component,
+            to,
             value: value(&row.value, at, || format!("known motion of {name}"))?,
         });
     }

@@ -253,7 +253,11 @@ fn laws<T: Number>(given: &Given<T>, motion: &Motion<T>, list: &mut Vec<Identity
     for (i, known) in given.known.iter().enumerate() {
         let actual = match &known.component {
             None => motion.spin[known.body].clone(),
-            Some([point, along]) => dot(along, &velocity_after(given, motion, known.body, point)),
+            Some([point, along]) => {
+                let velocity = |body| dot(along, &velocity_after(given, motion, body, point));
+                let own = velocity(known.body);
+                known.to.map_or(own.clone(), |to| own.minus(&velocity(to)))
+            }
         };
         same(Invariant::Known(i), &actual, &known.value);
     }

@@ -75,7 +75,7 @@ pub fn needed(scene: &Scene) -> Needed {
     }
     for known in &scene.after {
         needed.add(&known.value);
-        if let KnownQuantity::Velocity { at, along } = &known.what {
+        if let KnownQuantity::Velocity { at, along, .. } = &known.what {
             vectors.extend([at, along]);
         }
     }

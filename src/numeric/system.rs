@@ -119,7 +119,11 @@ pub fn assemble<T: Number>(given: &Given<T>) -> System<T> {
         match &known.component {
             None => rows.add_spin(row, &columns, given, known.body, &T::one()),
             Some([point, along]) => {
-                rows.add_velocity(row, &columns, given, known.body, point, along)
+                rows.add_velocity(row, &columns, given, known.body, point, along);
+                if let Some(to) = known.to {
+                    let back = along.each_ref().map(T::negated);
+                    rows.add_velocity(row, &columns, given, to, point, &back);
+                }
             }
         }
         rows.right[row] = rows.right[row].plus(&known.value);

@@ -283,6 +283,14 @@ impl Resolver<'_> {
                         .add_to(&mut self.faults);
                 };
                 let along = self.direction(along);
+                let to = known.relative_to.as_ref().map(|other| {
+                    let to = self.body_named(other)?;
+                    if Some(to) != body {
+                        return Some(to);
+                    }
+                    let message = format!("`{}` does not move relative to itself", other.text);
+                    Fault::new(other.span, message).add_to(&mut self.faults)
+                });
                 let at = match at {
                     Some(at) => at,
                     None => body.and_then(|b| self.center(b)),
@@ -292,6 +300,7 @@ impl Resolver<'_> {
                     KnownQuantity::Velocity {
                         at: at?,
                         along: along?,
+                        to: to.map_or(Some(None), |to| to.map(Some))?,
                     },
                     Quantity::VELOCITY,
                 )
@@ -302,10 +311,11 @@ impl Resolver<'_> {
                     .as_ref()
                     .map(|_| known.span)
                     .or(known.along.as_ref().map(|_| known.span))
+                    .or(known.relative_to.as_ref().map(|_| known.span))
                 {
                     self.faults.push(Fault::new(
                         span,
-                        "a known spin has neither `at` nor `along`",
+                        "a known spin has no `at`, no `along` and no `relative_to`",
                     ));
                 }
                 let index = self.moving(body)?;

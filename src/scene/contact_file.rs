@@ -119,6 +119,9 @@ record! {
         at: Option<PositionFile>,
         /// Direction of the known component.
         along: Option<DirectionFile>,
+        /// Name of another body from which the velocity is counted, as that of a shell from its gun: of the point of that body
+        /// at the same place. Missing: the ground.
+        relative_to: Option<Text>,
         /// Name of the body whose spin is known.
         spin: Option<Text>,
         /// The value.

@@ -45,6 +45,10 @@ pub(super) fn meant(word: &str, here: &[&str]) -> Option<&'static str> {
             "bodies that are one after the impact stick at two points: two contacts with \"law\": \"sticking\""
         }
         "omega" | "angular_velocity" | "rotation" => "an angular velocity is `spin`",
+        "gained" | "gain" | "released" => "energy that is gained is `lost` with a minus sign",
+        "relative" | "relative_velocity" => {
+            "a velocity counted from another body is the `velocity` of the one, `relative_to` the other"
+        }
         "box" | "block" | "square" | "plate" | "brick" => {
             "a box is a `rectangle` with `width` and `height`"
         }

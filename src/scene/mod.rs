@@ -566,6 +566,16 @@ pub struct Known {
     pub value: Expr,
 }
 
+impl Known {
+    /// The body that a velocity is counted from.
+    pub fn to(&self) -> Option<usize> {
+        match self.what {
+            KnownQuantity::Velocity { to, .. } => to,
+            KnownQuantity::Spin => None,
+        }
+    }
+}
+
 /// What [`Known`] speaks of.
 #[derive(Clone, Debug)]
 pub enum KnownQuantity {
@@ -575,6 +585,8 @@ pub enum KnownQuantity {
         at: Vector,
         /// Direction, a unit vector.
         along: Vector,
+        /// Index of the body whose point at the same place the velocity is counted from; `None` for the ground.
+        to: Option<usize>,
     },
     /// Angular velocity [rad/s].
     Spin,

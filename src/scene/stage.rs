@@ -125,7 +125,7 @@ impl Scene {
         }
         for known in &mut self.after {
             put(&mut known.value);
-            if let KnownQuantity::Velocity { at, along } = &mut known.what {
+            if let KnownQuantity::Velocity { at, along, .. } = &mut known.what {
                 at.iter_mut().chain(along).for_each(&mut *put);
             }
         }

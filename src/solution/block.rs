@@ -214,6 +214,10 @@ impl Writer<'_> {
                 let known = &self.scene.after[*k];
                 let body = words::body(self.scene, known.body);
                 match known.what {
+                    KnownQuantity::Velocity { to: Some(to), .. } => {
+                        let to = words::body(self.scene, to);
+                        format!("the given velocity of {body} relative to {to}")
+                    }
                     KnownQuantity::Velocity { .. } => format!("the given velocity of {body}"),
                     KnownQuantity::Spin => format!("the given spin of {body}"),
                 }

@@ -15,9 +15,11 @@ impl Writer<'_> {
     pub(super) fn given(&mut self, k: usize) {
         let known = self.scene.after[k].clone();
         let body = words::body(self.scene, known.body);
-        let KnownQuantity::Velocity { at, along } = &known.what else {
+        let KnownQuantity::Velocity { at, along, to } = &known.what else {
             return self.say(&format!("The given spin of {body}:"));
         };
+        let from = to.map(|to| format!(" relative to {}", words::body(self.scene, to)));
+        let from = from.unwrap_or_default();
         let center = words::center(self.scene, known.body);
         let scene = self.scene;
         let contacts = scene.contacts.iter().map(|c| (&c.name, &c.at));
@@ -25,7 +27,10 @@ impl Writer<'_> {
         let blows = scene.blows.iter().map(|b| (&b.name, &b.at));
         let mut places = contacts.chain(hinges).chain(blows);
         let is_center = *at == scene.bodies[known.body].center;
-        let point = places.find(|(_, p)| *p == at).filter(|_| !is_center);
+        let point = places
+            .find(|(_, p)| *p == at)
+            .filter(|_| !is_center && to.is_none());
+        let centers = to.is_none_or(|to| *at == scene.bodies[to].center);
         let mut math = Vec::new();
         let of = match point {
             Some((name, _)) => {
@@ -35,11 +40,17 @@ impl Writer<'_> {
                     words::place(name, "contact")
                 )
             }
-            None if is_center => {
-                math.push(name("v", &center, "+", true));
-                format!("the velocity of {body}")
+            None if is_center && centers => {
+                let mut both = vec![name("v", &center, "+", true)];
+                if let Some(to) = to {
+                    let other = words::center(scene, *to);
+                    both.extend([Math::Op("−"), name("v", &other, "+", true)]);
+                    both = vec![Math::Brackets(both)];
+                }
+                math.extend(both);
+                format!("the velocity of {body}{from}")
             }
-            None => return self.say(&format!("The given velocity of {body}:")),
+            None => return self.say(&format!("The given velocity of {body}{from}:")),
         };
         let along = self.tidy_vector(along);
         math.extend([

@@ -132,6 +132,8 @@ impl<'a> Desk<'a> {
             if let [bound] = answer.range.as_slice() {
                 bounds.insert(Symbol::from(answer.name.as_str()), bound.clone());
             }
+            // What is asked under a name is meant by it, though it has no value.
+            closed.remove(answer.name.as_str());
             if let Form::Value { closed: value, .. } = &answer.form {
                 let name = Symbol::from(answer.name.as_str());
                 dimensions.insert(name.clone(), answer.dimension.clone());
