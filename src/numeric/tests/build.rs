@@ -131,7 +131,11 @@ pub fn known_velocity(on: usize, place: Vector, along: Vector, value: Expr) -> K
     Known {
         name: String::new(),
         body: on,
-        what: KnownQuantity::Velocity { at: place, along },
+        what: KnownQuantity::Velocity {
+            at: place,
+            along,
+            to: None,
+        },
         value,
     }
 }
