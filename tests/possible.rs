@@ -182,7 +182,7 @@ impl Frame {
         }
         for known in &mut scene.after {
             match &mut known.what {
-                KnownQuantity::Velocity { at, along } => {
+                KnownQuantity::Velocity { at, along, .. } => {
                     *at = self.vector(at);
                     *along = self.vector(along);
                 }
