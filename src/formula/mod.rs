@@ -240,6 +240,11 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     {
         return pair;
     }
+    if held.any(",;")
+        && let Some(between) = interval(text, symbols)
+    {
+        return Ok(between);
+    }
     let usual = read_as(text, symbols, 0, held);
     let worded = match &usual {
         Ok(reading) => reading.notes.iter().any(|n| n.remark == Remark::Letters),
@@ -285,13 +290,44 @@ fn read_behind_words(text: &str, symbols: &Symbols) -> Option<Reading> {
     })
 }
 
+/// `x ∈ [2, 3)` and `x in (0, ∞)` as the relations they stand for.
+fn interval(text: &str, symbols: &Symbols) -> Option<Reading> {
+    let (start, stop) = boxed(text).ok()?;
+    let part = |[from, to]: [usize; 2]| read_inner(&text[..to], from, symbols, false, 0).ok();
+    let ends = prose::interval(&text[start..stop])?.map_bytes(start);
+    let name = part(ends.name)?;
+    let mut sides = vec![name.content.clone()];
+    let mut signs = Vec::new();
+    let strict = |open: bool| match open {
+        true => Relation::Less,
+        false => Relation::LessEqual,
+    };
+    if let Some(low) = ends.low {
+        sides.insert(0, part(low)?.content);
+        signs.push(strict(ends.open[0]));
+    }
+    if let Some(high) = ends.high {
+        sides.push(part(high)?.content);
+        signs.push(strict(ends.open[1]));
+    }
+    let plain = |side: &Content| matches!(side, Content::Scalar(_));
+    (!signs.is_empty() && sides.iter().all(plain)).then_some(Reading {
+        content: Content::Relations(sides, signs),
+        ..name
+    })
+}
+
 /// `x = 3 or x = -3` and `2, -2` as one pair of values, `x > 1 and x < 3` as a chain.
 fn two_values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fault>> {
     if text.len() > MAX_BYTES {
         return None;
     }
     let (start, stop) = boxed(text).ok()?;
-    let (end, next) = prose::alternatives(&text[start..stop])?;
+    let set = prose::without_braces(&text[start..stop]);
+    let set = set.map(|set| format!("{}{set}", " ".repeat(start)));
+    let list = set.is_some();
+    let (text, stop) = set.as_ref().map_or((text, stop), |set| (set, set.len()));
+    let (end, next) = prose::alternatives(&text[start..stop], list)?;
     if symbols.find("or").is_some() || symbols.find("and").is_some() {
         return None;
     }

@@ -20,6 +20,17 @@ fn braced(text: &str, at: usize) -> Option<(&str, usize)> {
     None
 }
 
+/// The name of a letter or sign that stands as an index: π is no number there.
+fn index_name(c: char) -> Option<&'static str> {
+    match c {
+        '⊥' => Some("perp"),
+        '∥' | '‖' => Some("parallel"),
+        '∞' => Some("infty"),
+        'π' => Some("pi"),
+        c => greek_name(c),
+    }
+}
+
 /// The plain spelling of an index: fonts, braces and spaces dropped, Greek letters named. `None` where it is no name.
 fn index_text(written: &str) -> Option<String> {
     let mut out = String::new();
@@ -30,9 +41,6 @@ fn index_text(written: &str) -> Option<String> {
             '{' | '}' | '_' | ' ' | '~' => {}
             '/' | ',' | '+' | '-' | '\'' | '*' => out.push(c),
             '−' => out.push('-'),
-            '⊥' => out.push_str("perp"),
-            '∥' | '‖' => out.push_str("parallel"),
-            '∞' => out.push_str("infty"),
             '′' | '’' => out.push('\''),
             '\\' => {
                 let length = rest
@@ -50,12 +58,12 @@ fn index_text(written: &str) -> Option<String> {
                     "ell" => out.push('l'),
                     "" if rest.starts_with([',', ' ', ';', '!']) => rest = &rest[1..],
                     "" if rest.starts_with('/') => {}
-                    word if is_greek(word) => out.push_str(word),
+                    word if is_greek(word) || word == "pi" => out.push_str(word),
                     _ => return None,
                 }
             }
             c if c.is_ascii_alphanumeric() => out.push(c),
-            c => out.push_str(greek_name(c)?),
+            c => out.push_str(index_name(c)?),
         }
     }
     (!out.is_empty() && out.len() <= LONGEST).then_some(out)
@@ -136,8 +144,11 @@ pub(crate) fn bare_index(
         }
     }
     if digits > 0 {
-        let component =
-            !split && run == digits + 1 && matches!(bytes[at + digits], b'x' | b'y' | b'z');
+        // A letter with an index of its own is a name of its own: `x_1x_2`.
+        let component = !split
+            && run == digits + 1
+            && matches!(bytes[at + digits], b'x' | b'y' | b'z')
+            && bytes.get(at + run) != Some(&b'_');
         return Some(index(digits + usize::from(component), component));
     }
     Some(index(run, false))
@@ -214,7 +225,7 @@ pub(crate) fn tail(
                     *took |= found.took_letter;
                     put_index(parts, &found.text);
                     at = found.end;
-                } else if let Some(name) = text[next..].chars().next().and_then(greek_name) {
+                } else if let Some(name) = text[next..].chars().next().and_then(index_name) {
                     put_index(parts, name);
                     at = next + text[next..].chars().next().map_or(0, char::len_utf8);
                 } else {

@@ -76,6 +76,11 @@ pub(crate) fn literal(
             stop += 1;
         }
         let shown = &text[at..stop];
+        if shown.ends_with("...") {
+            let message = format!("`{shown}` does not say which digits follow");
+            let fault = Fault::new(message, at, stop);
+            return Err(fault.hint("write a fraction, or 0.\\overline{3}"));
+        }
         return Err(Fault::new(
             format!("`{shown}` is no number: it has two decimal points"),
             at,

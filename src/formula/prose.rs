@@ -41,8 +41,96 @@ impl Held {
     }
 }
 
+/// An interval that something lies in: where its name and its ends stand, from the first byte of each to the one behind it.
+pub(super) struct Interval {
+    pub name: [usize; 2],
+    /// Nothing where there is no end on that side.
+    pub low: Option<[usize; 2]>,
+    pub high: Option<[usize; 2]>,
+    /// Whether each end is left out.
+    pub open: [bool; 2],
+}
+
+impl Interval {
+    /// The same in a text before which so many bytes stand.
+    pub(super) fn map_bytes(self, before: usize) -> Interval {
+        let moved = |[from, to]: [usize; 2]| [from + before, to + before];
+        Interval {
+            name: moved(self.name),
+            low: self.low.map(moved),
+            high: self.high.map(moved),
+            open: self.open,
+        }
+    }
+}
+
+/// `x ∈ [2, 3)`: a name, a sign of membership, and two ends in brackets.
+pub(super) fn interval(text: &str) -> Option<Interval> {
+    let signs = ["∈", "\\in ", "\\in\\", "\\in(", "\\in[", " in "];
+    let found = signs
+        .iter()
+        .find_map(|sign| Some((text.find(sign)?, *sign)));
+    let (at, sign) = found?;
+    // What opens the interval stands behind the word.
+    let behind = at + sign.trim_end_matches(['\\', '(', '[']).len();
+    let rest = text[behind..].trim_start();
+    let rest = rest.strip_prefix("\\left").unwrap_or(rest);
+    let opened = rest.strip_prefix(['(', '[', ']'])?;
+    let from = text.len() - opened.len();
+    let closed = text.trim_end();
+    let inside = closed.strip_suffix([')', ']', '['])?;
+    let to = inside.strip_suffix("\\right").unwrap_or(inside).len();
+    let ends = text.get(from..to)?;
+    let comma = ends.find([',', ';'])?;
+    if ends[comma + 1..].contains([',', ';']) || ends.contains(['{', '}']) && !ends.contains('\\') {
+        return None;
+    }
+    let bounded = |[from, to]: [usize; 2]| {
+        let end = text[from..to].trim().trim_start_matches(['+', '-', '−']);
+        !matches!(end.trim(), "∞" | "\\infty" | "inf" | "oo")
+    };
+    let [low, high] = [[from, from + comma], [from + comma + 1, to]];
+    Some(Interval {
+        name: [0, at],
+        low: Some(low).filter(|end| bounded(*end)),
+        high: Some(high).filter(|end| bounded(*end)),
+        open: [
+            text[..from].ends_with(['(', ']']),
+            closed.ends_with([')', '[']),
+        ],
+    })
+}
+
+/// `{2, 3}` and `x ∈ {2, 3}` with blanks for the braces and an equals sign for that of membership, byte for byte; nothing
+/// where the text is no set.
+pub(super) fn without_braces(text: &str) -> Option<String> {
+    let (open, close) = (text.find('{')?, text.rfind('}')?);
+    let inside = text.get(open + 1..close)?;
+    if inside.contains(['{', '}']) || !text[close + 1..].trim().is_empty() {
+        return None;
+    }
+    let escaped = inside.ends_with('\\');
+    let before = match (text[..open].strip_suffix('\\'), escaped) {
+        (Some(before), true) => before,
+        (None, false) => &text[..open],
+        _ => return None,
+    };
+    let inside = &inside[..inside.len() - usize::from(escaped)];
+    let named = before.trim_end();
+    let name = ["∈", "\\in", " in"]
+        .iter()
+        .find_map(|sign| named.strip_suffix(sign));
+    let start = match name {
+        Some(name) => format!("{name}{:<1$}", "=", open - name.len() + 1),
+        None if named.is_empty() => " ".repeat(open + 1),
+        None => return None,
+    };
+    Some(format!("{start}{inside}"))
+}
+
 /// Where one of two values ends and the other begins: `x = 3 or x = -3`, `2, -2`. Nothing where more than two stand there.
-pub(super) fn alternatives(text: &str) -> Option<(usize, usize)> {
+/// In a list any comma parts them.
+pub(super) fn alternatives(text: &str, list: bool) -> Option<(usize, usize)> {
     const WORDS: [&str; 6] = [
         "\\text{ or }",
         "\\text{or}",
@@ -59,7 +147,10 @@ pub(super) fn alternatives(text: &str) -> Option<(usize, usize)> {
         let length = match (word, c) {
             (Some(word), _) if depth == 0 => word.len(),
             // Behind a comma a sign begins another value: `3,-3`.
-            (None, ',') if depth == 0 && text[at + 1..].starts_with([' ', '\\', '-', '−', '±']) => {
+            (None, ',')
+                if depth == 0
+                    && (list || text[at + 1..].starts_with([' ', '\\', '-', '−', '±'])) =>
+            {
                 1
             }
             _ => 0,

@@ -97,8 +97,11 @@ impl Lexer<'_> {
                 return Ok(Tok::RootOf);
             }
             if self.is_other_function(start, length) {
-                let message = format!("`{word}` is no function that is read here");
-                return Err(Fault::new(message, start, start + length));
+                let two = rest[length..].starts_with("2(");
+                let end = start + length + usize::from(two);
+                let shown = &self.text[start..end];
+                let message = format!("`{shown}` is no function that is read here");
+                return Err(Fault::new(message, start, end));
             }
             if let Some(tok) = function(word) {
                 if !self.function_wanted(word, start) {
@@ -342,8 +345,11 @@ impl Lexer<'_> {
             return Err(Fault::new("a name is not declared", start, end));
         }
         let shown = &self.text[start..end];
+        let small = shown.to_lowercase();
         let mut fault = Fault::new(format!("`{shown}` is not declared"), start, end);
-        if let Some(nearest) = self.symbols.nearest(key) {
+        if shown.len() > 1 && small != shown && crate::dimension::unit(&small).is_ok() {
+            fault = fault.hint(format!("the unit is {small}"));
+        } else if let Some(nearest) = self.symbols.nearest(key) {
             fault = fault.hint(format!("did you mean {nearest}?"));
         } else if !self.symbols.declared().is_empty() && self.symbols.declared().len() <= 24 {
             let names: Vec<&str> = self.symbols.declared().iter().map(|d| &*d.name).collect();
