@@ -519,25 +519,43 @@ fn stated_dimension(
         Some(answer) => of_answer(answer),
         None => parameter(name),
     };
+    // A velocity that came out of plain numbers in their units is a velocity all the same.
+    let asked = |name: &str| {
+        let mut questions = scene.questions.iter();
+        let found = questions.find(|q| {
+            let part = name.strip_prefix(&*q.name);
+            part.is_some_and(|part| matches!(part, "" | "_x" | "_y"))
+        });
+        match found.map(|q| q.ask.dimension()) {
+            Some(known) if known != Dimension::none() => Some(known),
+            _ => of(name),
+        }
+    };
+    let is_plain = |s: &Symbol| known.get(s).is_some_and(Expr::is_constant);
+    if e.symbols().iter().any(is_plain)
+        && !has_number(e)
+        && let Ok(by_kind) = dimension::of(e, &asked)
+    {
+        return Ok(by_kind);
+    }
     // Of an answer that is 0 nothing can be told: it stands for itself.
     let plain = known.iter().filter(|(_, v)| of_answer(v).is_none());
     let plain: Known = plain.map(|(s, v)| (s.clone(), v.clone())).collect();
     dimension::of(&e.substitute(&plain), &of).or_else(|clash| {
-        // A velocity that came out of plain numbers in their units is a velocity all the same.
-        let asked = |name: &str| {
-            let mut questions = scene.questions.iter();
-            let found = questions.find(|q| {
-                let part = name.strip_prefix(&*q.name);
-                part.is_some_and(|part| matches!(part, "" | "_x" | "_y"))
-            });
-            match found.map(|q| q.ask.dimension()) {
-                Some(known) if known != Dimension::none() => Some(known),
-                _ => of(name),
-            }
-        };
         let by_kind = dimension::of(e, &asked);
         by_kind.map_err(|_| clashes(at, clash.message(&write_plain)))
     })
+}
+
+/// Whether a number stands beside the symbols, other than an exponent: it may be a quantity in its unit.
+fn has_number(e: &Expr) -> bool {
+    match e.node() {
+        Node::Number(_) => true,
+        Node::Symbol(_) => false,
+        Node::Sum(parts) | Node::Product(parts) => parts.iter().any(has_number),
+        Node::Power(base, _) => has_number(base),
+        Node::Call(_, argument) => has_number(argument),
+    }
 }
 
 /// What is put in for a parameter has its dimension, or is a number.

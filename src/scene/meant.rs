@@ -46,6 +46,12 @@ pub(super) fn meant(word: &str, here: &[&str]) -> Option<&'static str> {
         }
         "omega" | "angular_velocity" | "rotation" => "an angular velocity is `spin`",
         "gained" | "gain" | "released" => "energy that is gained is `lost` with a minus sign",
+        "spring" | "springs" => {
+            "no motion presses a spring; how far a body presses one follows from its energy E, another question: \"solve\": \"x\", \"holds\": \"k*x^2/2 = E\""
+        }
+        "explosive" | "charge" | "burst" | "explosion" => {
+            "a burst is an impact at a contact without law, with \"gains_energy\": true and what is known `after`"
+        }
         "relative" | "relative_velocity" => {
             "a velocity counted from another body is the `velocity` of the one, `relative_to` the other"
         }

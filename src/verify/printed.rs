@@ -136,7 +136,10 @@ impl<'a> Desk<'a> {
             closed.remove(answer.name.as_str());
             if let Form::Value { closed: value, .. } = &answer.form {
                 let name = Symbol::from(answer.name.as_str());
-                dimensions.insert(name.clone(), answer.dimension.clone());
+                // What follows from plain numbers may be in a unit that nobody states.
+                if !(value.is_constant() && answer.dimension.is_none()) {
+                    dimensions.insert(name.clone(), answer.dimension.clone());
+                }
                 closed.insert(name, value.clone());
                 if answer.name != answer.question {
                     let vector = vectors
