@@ -230,6 +230,9 @@ fn within_limits(a: &Expr, b: &Expr) -> Option<(Size, Roles)> {
 /// Most points at which two formulas both have values that count as ends where they meet.
 const MEETINGS: usize = 2;
 
+/// How many times more points are tried where it is certain that the formulas differ.
+const PATIENCE: usize = 10;
+
 /// A pair with what is known of it so far.
 struct Search<'a> {
     a: &'a Expr,
@@ -452,7 +455,9 @@ impl Search<'_> {
 
     /// More points and more digits, where no proof was found.
     fn after_proof(&mut self, proof: Proof) -> Equality {
-        if let Some(found) = self.extend(self.size.points()) {
+        // Of formulas that differ for certain it is worth looking longer for a point that can be shown.
+        let patience = if self.apart { PATIENCE } else { 1 };
+        if let Some(found) = self.extend(patience * self.size.points()) {
             return self.different(found);
         }
         if let Proof::Unequal { folded, .. } = &proof
