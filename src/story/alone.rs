@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Case, StageTold, State, Told};
+use super::{Case, StageTold, State, Told, second};
 use crate::answer::{Answer, Refused};
 use crate::derive;
 use crate::formula::Sentence;
@@ -51,9 +51,10 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
         possible,
     };
     let mut answers = answers(&case);
-    answers.extend(about);
     let assumptions = case.assumptions().map(Sentence::from).collect();
-    Ok(Told {
+    let first = answers.len();
+    answers.extend(about);
+    let mut told = Told {
         stages: vec![StageTold {
             cases: vec![case],
             assumptions,
@@ -63,7 +64,16 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
         readings: Vec::new(),
         unused: Vec::new(),
         ended: contradiction.into_iter().collect(),
-    })
+    };
+    if told.answers.len() > first {
+        for (i, check) in second::held(scene, &told) {
+            // Those of the impact itself are held against exact solutions.
+            if i >= first {
+                told.answers[i].checks.push(check);
+            }
+        }
+    }
+    Ok(told)
 }
 
 /// The answers of the impact as they were derived.

@@ -22,6 +22,7 @@ use std::collections::BTreeMap;
 use std::iter::successors;
 
 pub use lent::lent;
+pub use second::held;
 pub use sheet::{beginning, impact, impacts, is_clockwise, sheet};
 
 use crate::algebra::Sign;

@@ -4,18 +4,18 @@
 //! file and takes nothing from here: not a place, an inertia, a branch or a sense of rotation. A check that could not be made
 //! says so.
 
+mod asked;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::integrate::points_of;
-use super::worlds::World;
-use super::{Answer, StageTold, State};
+use super::worlds::{self, World};
+use super::{Answer, StageTold, State, Told};
 use crate::answer::Check;
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Point, Rational, Symbol};
-use crate::formula::Relation;
-use crate::numeric::Answer as Found;
 use crate::numeric::follow::{self, BodyState, Component, Followed, Loss, Lost, Passed, What};
-use crate::scene::{Ask, ContactLaw, FrictionEvent, Mode, Question, Scene};
+use crate::scene::Scene;
 
 /// Points at which each way through the cases is followed.
 const POINTS: usize = 2;
@@ -29,8 +29,6 @@ const ELSEWHERE: usize = 24;
 const CLOSE: f64 = 1e-7;
 /// Relative error of the data whose effect is no disagreement either: a thousand times that of the integrator.
 const BACKWARD: f64 = 1e-9;
-/// How far from a threshold its sides are looked at, in parts of it.
-const ASIDE: f64 = 1e-3;
 
 /// The kind of check that tells whether a motion can be.
 pub(super) const POSSIBLE: &str = "possible";
@@ -173,10 +171,9 @@ fn world_of(
 }
 
 fn passed<'f>(scene: &Scene, followed: &'f Followed, told: &StageTold) -> Option<&'f Passed> {
-    let index = scene
-        .stages
-        .iter()
-        .position(|s| s.name == told.placed.name)?;
+    let name = &told.placed.name;
+    let index = scene.stages.iter().position(|s| s.name == *name);
+    let index = index.or((!scene.has_stages()).then_some(0))?;
     followed.stages.get(index)?.as_ref().ok()
 }
 
@@ -420,224 +417,13 @@ impl Second<'_> {
             }
         }
     }
-
-    /// Holds an answer against what was followed; `None` for one that no number is asked of.
-    pub fn answer(&self, worlds: &[World], question: &Question, answer: &Answer) -> Option<Check> {
-        let formula = answer.formula()?;
-        let mut compared = Compared::default();
-        let mut seen_any = false;
-        for seen in &self.points {
-            let world = &worlds[seen.world];
-            let here = match answer.told {
-                // A threshold of friction is asked of the impact, whatever its contact does.
-                Some((stage, _)) if matches!(question.ask, Ask::Friction { .. }) => {
-                    world.outcome.contains_key(&stage)
-                }
-                Some((stage, case)) => world.outcome.get(&stage) == Some(&case),
-                None => answer.worlds.is_empty() || answer.worlds.contains(&seen.world),
-            };
-            if !here {
-                continue;
-            }
-            let size = seen.units.size(&answer.dimension);
-            match &question.ask {
-                Ask::Condition { parameter, .. } => {
-                    let [(_, relation, value)] = answer.range.as_slice() else {
-                        return None;
-                    };
-                    seen_any = true;
-                    let Some(at) = value.evaluate(&seen.point) else {
-                        continue;
-                    };
-                    let sides = [-ASIDE, 0.0, ASIDE].map(|step| {
-                        let mut point = seen.point.clone();
-                        point.values.insert(parameter.clone(), at * (1.0 + step));
-                        self.gap(question, &point)
-                    });
-                    let Some(agrees) = tips(*relation, &sides) else {
-                        continue;
-                    };
-                    compared.points += 1;
-                    if !agrees {
-                        let shown =
-                            sides.map(|s| s.map_or(String::from("-"), |v| format!("{v:.3e}")));
-                        compared.apart = Some(format!(
-                            "below, at and above it the sides differ by {}",
-                            shown.join(", ")
-                        ));
-                    }
-                }
-                Ask::Friction { contact, event } => {
-                    seen_any = true;
-                    let at = formula.evaluate(&seen.point);
-                    let Some(agrees) = at.and_then(|at| {
-                        self.turns_to(question.stage?, (*contact, *event), at, &seen.point)
-                    }) else {
-                        continue;
-                    };
-                    compared.points += 1;
-                    if !agrees {
-                        compared.apart =
-                            Some(String::from("the contact does something else beside it"));
-                    }
-                }
-                _ => {
-                    let found = self.number(question, answer, &seen.point, &seen.followed);
-                    let Some(found) = found else { continue };
-                    seen_any = true;
-                    let Some(told) = formula.evaluate(&seen.point) else {
-                        continue;
-                    };
-                    compared.points += 1;
-                    let shaken = || shaken(Some(formula), &seen.point);
-                    compared.put("the value", [told, found], size, shaken);
-                }
-            }
-        }
-        let asks_motion = question.stage.is_some();
-        (seen_any || asks_motion).then(|| compared.check("this answer", self))
-    }
-
-    /// Whether what a contact with friction does changes at a value of its coefficient as told; `None` where it was not seen.
-    fn turns_to(
-        &self,
-        stage: usize,
-        (contact, event): (usize, FrictionEvent),
-        at: f64,
-        point: &Point<f64>,
-    ) -> Option<bool> {
-        let law = &self.scene.stages[stage].scene.contacts[contact].law;
-        let ContactLaw::Friction(law) = law else {
-            return None;
-        };
-        let mu = law.mu.as_symbol()?;
-        let [below, above] = [-ASIDE, ASIDE].map(|step| {
-            let mut point = point.clone();
-            point.values.insert(mu.clone(), at * (1.0 + step));
-            let followed = follow::follow(self.scene, &point).ok()?;
-            match &followed.stages[stage].as_ref().ok()?.what {
-                What::Impact(impact) => impact.mode,
-                What::Motion(_) => None,
-            }
-        });
-        let [below, above] = [below?, above?];
-        let sticks = |mode: Mode| mode.sticks() || mode == Mode::InsideCone;
-        let slides = |mode: Mode| matches!(mode, Mode::Slides | Mode::OnCone);
-        match event {
-            FrictionEvent::Sticks => Some(sticks(above) && !sticks(below)),
-            FrictionEvent::Slides => Some(slides(below) && !slides(above)),
-            FrictionEvent::Jams => None,
-        }
-    }
-
-    /// The number a question asks for, from what was followed.
-    fn number(
-        &self,
-        question: &Question,
-        answer: &Answer,
-        point: &Point<f64>,
-        followed: &Followed,
-    ) -> Option<f64> {
-        match &question.ask {
-            Ask::Value { formula, with, .. } => {
-                let mut moved = point.clone();
-                for (name, value) in with {
-                    let value = value.evaluate(point)?;
-                    moved.values.insert(name.clone(), value);
-                }
-                let env = match with.is_empty() {
-                    true => self.answers(point, followed),
-                    false => self.answers(&moved, &follow::follow(self.scene, &moved).ok()?),
-                };
-                let formula = match answer.axis() {
-                    Some(axis) if formula.as_symbol().is_some() => {
-                        let name = format!("{}_{}", formula.as_symbol()?, ["x", "y"][axis]);
-                        Expr::symbol(&name)
-                    }
-                    _ => formula.clone(),
-                };
-                formula.evaluate(&env)
-            }
-            _ if question.stage.is_some() => {
-                match follow::answer(self.scene, followed, question, point).ok()? {
-                    Found::Scalar(value) => Some(value),
-                    Found::Vector(v) => Some(v[answer.axis()?]),
-                }
-            }
-            _ => None,
-        }
-    }
-
-    /// The point with a value for every answer about motion, and for formulas of them.
-    fn answers(&self, point: &Point<f64>, followed: &Followed) -> Point<f64> {
-        let mut out = point.clone();
-        for question in &self.scene.questions {
-            let value = match &question.ask {
-                Ask::Value { formula, with, .. } if with.is_empty() => formula.evaluate(&out),
-                _ => None,
-            };
-            let mut put = |name: String, value: f64| {
-                out.values.insert(Symbol::from(name.as_str()), value);
-            };
-            match &question.ask {
-                Ask::Value { .. } => {
-                    if let Some(value) = value {
-                        put(question.name.clone(), value);
-                    }
-                }
-                _ if question.stage.is_some() => {
-                    match follow::answer(self.scene, followed, question, point) {
-                        Ok(Found::Scalar(value)) => put(question.name.clone(), value),
-                        Ok(Found::Vector([x, y])) => {
-                            put(format!("{}_x", question.name), x);
-                            put(format!("{}_y", question.name), y);
-                        }
-                        Err(_) => {}
-                    }
-                }
-                _ => {}
-            }
-        }
-        out
-    }
-
-    /// Left side less right side of a relation, with everything followed at a point.
-    fn gap(&self, question: &Question, point: &Point<f64>) -> Option<f64> {
-        let Ask::Condition {
-            left, right, with, ..
-        } = &question.ask
-        else {
-            return None;
-        };
-        let mut moved = point.clone();
-        for (name, value) in with {
-            let value = value.evaluate(point)?;
-            moved.values.insert(name.clone(), value);
-        }
-        let followed = follow::follow(self.scene, &moved).ok()?;
-        let env = self.answers(&moved, &followed);
-        Some(left.evaluate(&env)? - right.evaluate(&env)?)
-    }
 }
 
-/// Whether a relation changes at a value as told, from the gap between its sides below, at and above it; `None` where too
-/// little of it was followed.
-fn tips(told: Relation, gaps: &[Option<f64>; 3]) -> Option<bool> {
-    let [below, on, above] = *gaps;
-    if below.is_some() != above.is_some() {
-        // A motion that gets to its end on one side only.
-        return Some(true);
-    }
-    if told == Relation::Equal {
-        // At the value the sides meet, and beside it they do not.
-        let beside = below.or(above)?.abs();
-        return Some(on?.abs() <= 0.1 * beside);
-    }
-    match (below, above) {
-        // Where a support comes free, its impulse stays zero beyond.
-        (Some(a), Some(b)) => Some(a * b <= 0.0 && a != b),
-        _ => None,
-    }
+/// Holds the answers of a scene against the scene followed in numbers from the file: checks by index of the answer.
+pub fn held(scene: &Scene, told: &Told) -> BTreeMap<usize, Check> {
+    let worlds = worlds::of(&told.stages);
+    let second = look(scene, &worlds, &told.stages);
+    answers(&second, &worlds, &told.answers)
 }
 
 /// Checks of all answers, by index.
@@ -646,15 +432,16 @@ pub(super) fn answers(
     worlds: &[World],
     answers: &[Answer],
 ) -> BTreeMap<usize, Check> {
-    let mut out = BTreeMap::new();
-    for (i, answer) in answers.iter().enumerate() {
-        let questions = &second.scene.questions;
-        let Some(question) = questions.iter().find(|q| q.name == answer.question) else {
-            continue;
-        };
-        if let Some(check) = second.answer(worlds, question, answer) {
-            out.insert(i, check);
-        }
-    }
-    out
+    let asked = asked::Asked {
+        scene: second.scene,
+        second,
+        worlds,
+        answers,
+    };
+    let check = |(i, answer): (usize, &Answer)| {
+        let mut questions = second.scene.questions.iter();
+        let question = questions.find(|q| q.name == answer.question)?;
+        Some((i, asked.check(question, answer)?))
+    };
+    answers.iter().enumerate().filter_map(check).collect()
 }

@@ -47,15 +47,17 @@ impl From<Open> for Unanswered {
     }
 }
 
-/// The number or vector that a question about a stage asks for.
+/// The number or vector that a question about a stage asks for, or about the one impact of a scene without stages.
 pub fn answer(
     scene: &Scene,
     followed: &Followed,
     question: &Question,
     values: &Point<f64>,
 ) -> Result<Answer<f64>, Unanswered> {
-    let index = question.stage.ok_or(Unanswered::NotANumber)?;
-    let stage = scene.stages.get(index).ok_or(Unanswered::NotANumber)?;
+    let course = scene.course();
+    let alone = (!scene.has_stages()).then_some(0);
+    let index = question.stage.or(alone).ok_or(Unanswered::NotANumber)?;
+    let stage = course.get(index).ok_or(Unanswered::NotANumber)?;
     let passed = match &followed.stages[index] {
         Ok(passed) => passed,
         Err(lost) => return Err(Unanswered::Lost(lost.clone())),

@@ -1,0 +1,466 @@
+//! Answers held against the scene followed in numbers: what a motion is asked for, and what is asked about answers.
+//!
+//! In: questions with their answers in closed form, and the points at which the scene was followed. Out: checks. A threshold is
+//! looked at on both sides, a largest value beside its place and far from it, a limit and an approximation at two distances.
+
+use super::{Compared, Second, Seen, World, points_of, shaken};
+use crate::answer::{Answer, Check};
+use crate::domain::Limit;
+use crate::expr::{Expr, Node, Point, Symbol};
+use crate::formula::Relation;
+use crate::numeric::Answer as Found;
+use crate::numeric::follow::{self, Followed, What};
+use crate::numeric::points::keeps;
+use crate::scene::{Ask, ContactLaw, FrictionEvent, Mode, Question, Scene};
+
+/// How far from a threshold or a largest value its sides are looked at, in parts of it.
+const ASIDE: f64 = 1e-3;
+/// Other values of the parameter at which something that is largest is looked at.
+const OTHERS: usize = 6;
+/// Distances from what a parameter tends to, in parts of its value.
+const NEAR: [f64; 2] = [1e-2, 1e-4];
+/// Relative difference of what was followed that the integrator may have made.
+const NOISE: f64 = 1e-8;
+
+/// What came of an answer at a point.
+enum Held {
+    /// It was not seen there.
+    Unseen,
+    /// Two numbers that have to be the same, the one told first, and a size of their kind.
+    Same([f64; 2], f64),
+    /// Whether it is so, and what is otherwise.
+    So(bool, String),
+}
+
+/// The answers of a scene, and the scene followed.
+pub(super) struct Asked<'a> {
+    pub scene: &'a Scene,
+    pub second: &'a Second<'a>,
+    pub worlds: &'a [World],
+    pub answers: &'a [Answer],
+}
+
+impl Asked<'_> {
+    /// Holds an answer against what was followed; `None` for one that no number is asked of.
+    pub fn check(&self, question: &Question, answer: &Answer) -> Option<Check> {
+        let mut compared = Compared::default();
+        let formulas = question.ask.formulas().into_iter();
+        let mut about = formulas.flat_map(|formula| self.needs(formula));
+        let is_threshold = question.stage.is_some() && matches!(question.ask, Ask::Friction { .. });
+        let asks_motion =
+            (self.is_of_motion(question) || is_threshold) && answer.formula().is_some();
+        let mut is_asked = asks_motion;
+        if !asks_motion && !about.any(|q| self.is_of_motion(q)) {
+            return None;
+        }
+        let here = |seen: &&Seen| happens(seen, self.worlds, question, answer);
+        for seen in self.second.points.iter().filter(here) {
+            let held = match &question.ask {
+                Ask::Condition { .. } => self.tips(seen, question, answer),
+                Ask::Friction { contact, event } => {
+                    self.turns(seen, question, (*contact, *event), answer)
+                }
+                Ask::Maximum { of, over } => self.is_largest(seen, (of, over), answer),
+                Ask::Limit { of, .. } | Ask::Approximate { of, .. } => self.nears(seen, of, answer),
+                Ask::Show {
+                    left, right, with, ..
+                } => Some(self.shows(seen, [left, right], with)),
+                _ => self.number(seen, question, answer),
+            };
+            is_asked |= held.is_some();
+            match held {
+                None | Some(Held::Unseen) => {}
+                Some(Held::Same(values, size)) => {
+                    compared.points += 1;
+                    let shaken = || shaken(answer.formula(), &seen.point);
+                    compared.put("the value", values, size, shaken);
+                }
+                Some(Held::So(is_so, otherwise)) => {
+                    compared.points += 1;
+                    compared.apart = compared.apart.or((!is_so).then_some(otherwise));
+                }
+            }
+        }
+        is_asked.then(|| compared.check("this answer", self.second))
+    }
+
+    /// Whether a question asks for something of an impact or a motion.
+    fn is_of_motion(&self, question: &Question) -> bool {
+        match question.ask {
+            Ask::Friction { .. } => false,
+            _ => question.stage.is_some() || !self.scene.has_stages() && question.ask.is_motion(),
+        }
+    }
+
+    /// A number, and what the question asks for followed at the same point.
+    fn number(&self, seen: &Seen, question: &Question, answer: &Answer) -> Option<Held> {
+        let formula = answer.formula()?;
+        let found = match &question.ask {
+            Ask::Value { formula, with, .. } => {
+                self.formula(seen, &component(formula, answer), with, &[])
+            }
+            _ if self.is_of_motion(question) => {
+                match follow::answer(self.scene, &seen.followed, question, &seen.point).ok()? {
+                    Found::Scalar(value) => Some(value),
+                    Found::Vector(v) => Some(v[answer.axis()?]),
+                }
+            }
+            _ => None,
+        }?;
+        let size = seen.units.size(&answer.dimension);
+        Some(match formula.evaluate(&seen.point) {
+            Some(told) => Held::Same([told, found], size),
+            None => Held::Unseen,
+        })
+    }
+
+    /// Whether both sides of an identity are the same number.
+    fn shows(&self, seen: &Seen, sides: [&Expr; 2], with: &[(Symbol, Expr)]) -> Held {
+        let [left, right] = sides.map(|side| self.formula(seen, side, with, &[]));
+        let (Some(left), Some(right)) = (left, right) else {
+            return Held::Unseen;
+        };
+        // Where both are nothing, what is nothing of its kind tells what is small.
+        let mut sizes = seen.point.clone();
+        for question in sides.into_iter().flat_map(|side| self.needs(side)) {
+            let size = seen.units.size(&question.ask.dimension());
+            let names = ["", "_x", "_y"].map(|axis| format!("{}{axis}", question.name).into());
+            sizes.values.extend(names.map(|name| (name, size)));
+        }
+        let terms = sides.into_iter().flat_map(|side| match side.node() {
+            Node::Sum(terms) => terms.iter(),
+            _ => std::slice::from_ref(side).iter(),
+        });
+        let terms = terms.filter_map(|term| term.evaluate(&sizes));
+        let size = terms.fold(0.0f64, |size, term| size.max(term.abs()));
+        Held::Same([left, right], size)
+    }
+
+    /// Whether the sides of a relation change places at the values told.
+    fn tips(&self, seen: &Seen, question: &Question, answer: &Answer) -> Option<Held> {
+        let Ask::Condition {
+            parameter,
+            left,
+            right,
+            with,
+            ..
+        } = &question.ask
+        else {
+            return None;
+        };
+        let own = Expr::symbol(parameter);
+        let mut out = None;
+        for (_, relation, value) in answer.range.iter().filter(|(of, ..)| *of == own) {
+            let Some(at) = value.evaluate(&seen.point) else {
+                out = out.or(Some(Held::Unseen));
+                continue;
+            };
+            let gap = left - right;
+            let sides = [-ASIDE, 0.0, ASIDE].map(|step| {
+                let there = (
+                    parameter.clone(),
+                    at + step * self.scale(seen, parameter, at),
+                );
+                self.formula(seen, &gap, with, &[there])
+            });
+            let Some(tips) = tips(*relation, &sides) else {
+                out = out.or(Some(Held::Unseen));
+                continue;
+            };
+            let shown = sides.map(|s| s.map_or(String::from("-"), |v| format!("{v:.3e}")));
+            let shown = shown.join(", ");
+            let how = format!("below, at and above it the sides differ by {shown}");
+            if !matches!(out, Some(Held::So(false, _))) {
+                out = Some(Held::So(tips, how));
+            }
+        }
+        out
+    }
+
+    /// Whether what a contact with friction does changes at a value of its coefficient as told; `None` where it was not seen.
+    fn turns(
+        &self,
+        seen: &Seen,
+        question: &Question,
+        (contact, event): (usize, FrictionEvent),
+        answer: &Answer,
+    ) -> Option<Held> {
+        let at = answer.formula()?;
+        let turns = || {
+            let at = at.evaluate(&seen.point)?;
+            let stage = question.stage?;
+            let law = &self.scene.stages[stage].scene.contacts[contact].law;
+            let ContactLaw::Friction(law) = law else {
+                return None;
+            };
+            let mu = law.mu.as_symbol()?;
+            let [below, above] = [-ASIDE, ASIDE].map(|step| {
+                let there = moved(&seen.point, &[(mu.clone(), at * (1.0 + step))]);
+                let followed = follow::follow(self.scene, &there).ok()?;
+                match &followed.stages[stage].as_ref().ok()?.what {
+                    What::Impact(impact) => impact.mode,
+                    What::Motion(_) => None,
+                }
+            });
+            let [below, above] = [below?, above?];
+            let sticks = |mode: Mode| mode.sticks() || mode == Mode::InsideCone;
+            let slides = |mode: Mode| matches!(mode, Mode::Slides | Mode::OnCone);
+            match event {
+                FrictionEvent::Sticks => Some(sticks(above) && !sticks(below)),
+                FrictionEvent::Slides => Some(slides(below) && !slides(above)),
+                FrictionEvent::Jams => None,
+            }
+        };
+        let otherwise = || String::from("the contact does something else beside it");
+        Some(turns().map_or(Held::Unseen, |turns| Held::So(turns, otherwise())))
+    }
+
+    /// Whether a formula is as large as told where it is told to be largest, and nowhere larger.
+    fn is_largest(
+        &self,
+        seen: &Seen,
+        (of, over): (&Expr, &[Symbol]),
+        answer: &Answer,
+    ) -> Option<Held> {
+        let told = answer.formula()?;
+        let same = |a: &&Answer| a.question == answer.question && a.worlds == answer.worlds;
+        let place = self
+            .answers
+            .iter()
+            .filter(same)
+            .flat_map(|a| &a.range)
+            .next();
+        let Some((combination, _, place)) = place else {
+            // No parameter plays a part.
+            let found = self.formula(seen, of, &[], &[]);
+            let values = told.evaluate(&seen.point).zip(found);
+            let size = seen.units.size(&answer.dimension);
+            return values.map(|(told, found)| Held::Same([told, found], size));
+        };
+        let of_at = |values: &[(Symbol, f64)]| self.formula(seen, of, &[], values);
+        let largest = || {
+            let symbol = over.iter().find(|p| combination.symbols().contains(*p))?;
+            let here = seen.point.values.get(symbol)?;
+            let at = place.evaluate(&seen.point)?;
+            // A combination of two parameters is proportional to the first of them.
+            let at = match combination.as_symbol() {
+                Some(_) => at,
+                None => here * at / combination.evaluate(&seen.point)?,
+            };
+            let best = of_at(&[(symbol.clone(), at)])?;
+            Some((symbol, at, best))
+        };
+        let Some((symbol, at, best)) = largest() else {
+            return Some(Held::Unseen);
+        };
+        let scale = self.scale(seen, symbol, at);
+        let mut others = vec![at - ASIDE * scale, at + ASIDE * scale];
+        let names = [symbol.clone()].into_iter().collect();
+        let far = points_of(names, &self.scene.domains, OTHERS);
+        others.extend(far.iter().filter_map(|p| p.values.get(symbol)));
+        others.retain(|value| self.admits(seen, symbol, *value));
+        for value in others {
+            let other = of_at(&[(symbol.clone(), value)]);
+            if let Some(other) = other.filter(|o| o - best > NOISE * best.abs()) {
+                let how = format!(
+                    "with {symbol} = {value:.6} it is {other:.9}, at the place told {best:.9}"
+                );
+                return Some(Held::So(false, how));
+            }
+        }
+        if answer.name != answer.question {
+            return Some(Held::So(true, String::new()));
+        }
+        let told = told.evaluate(&moved(&seen.point, &[(symbol.clone(), at)]));
+        let size = seen.units.size(&answer.dimension);
+        Some(told.map_or(Held::Unseen, |told| Held::Same([told, best], size)))
+    }
+
+    /// Whether a formula comes closer to what stands for it, the closer the parameter comes to its value.
+    fn nears(&self, seen: &Seen, of: &Expr, answer: &Answer) -> Option<Held> {
+        let [near] = answer.near.as_slice() else {
+            return None;
+        };
+        let of = component(of, answer);
+        let gap = |distance: f64| {
+            let here = seen.point.values.get(&near.parameter)?.abs();
+            let value = match &near.to {
+                None => here / distance,
+                Some(to) => {
+                    let to = to.evaluate(&seen.point)?;
+                    let aside = distance * self.scale(seen, &near.parameter, to);
+                    let mut sides = [to + aside, to - aside].into_iter();
+                    sides.find(|value| self.admits(seen, &near.parameter, *value))?
+                }
+            };
+            let there = (near.parameter.clone(), value);
+            let told = near.right.evaluate(&moved(&seen.point, &[there.clone()]))?;
+            let found = self.formula(seen, &of, &[], &[there])?;
+            Some(((found - told).abs(), found.abs().max(told.abs())))
+        };
+        let [Some((far, _)), Some((close, size))] = NEAR.map(gap) else {
+            return Some(Held::Unseen);
+        };
+        let closer = (NEAR[1] / NEAR[0]).powi(i32::try_from(near.order).unwrap_or(i32::MAX));
+        let nears = close <= 0.5 * closer * far + NOISE * size;
+        let how = format!("{far:.3e} away from it at a distance, and {close:.3e} closer by");
+        Some(Held::So(nears, how))
+    }
+
+    /// The value of a formula of answers in the scene followed at a point, with some parameters at other values and others
+    /// replaced.
+    fn formula(
+        &self,
+        seen: &Seen,
+        formula: &Expr,
+        with: &[(Symbol, Expr)],
+        values: &[(Symbol, f64)],
+    ) -> Option<f64> {
+        if with.is_empty() && values.is_empty() {
+            return formula.evaluate(&self.known(&seen.point, &seen.followed, formula)?);
+        }
+        self.formula_at(&moved(&seen.point, values), formula, with)
+    }
+
+    fn formula_at(
+        &self,
+        point: &Point<f64>,
+        formula: &Expr,
+        with: &[(Symbol, Expr)],
+    ) -> Option<f64> {
+        let mut replaced = point.clone();
+        for (name, value) in with {
+            let value = match self.needs(value).is_empty() {
+                true => value.evaluate(point)?,
+                false => self.formula_at(point, value, &[])?,
+            };
+            replaced.values.insert(name.clone(), value);
+        }
+        let followed = follow::follow(self.scene, &replaced).ok()?;
+        formula.evaluate(&self.known(&replaced, &followed, formula)?)
+    }
+
+    /// The point with values for the answers that a formula needs, as they are followed there; `None` where one of them is not a
+    /// number of the motion, nor a formula of such.
+    fn known(&self, point: &Point<f64>, followed: &Followed, of: &Expr) -> Option<Point<f64>> {
+        let mut out = point.clone();
+        for question in self.needs(of) {
+            let name = question.name.as_str();
+            let found = match &question.ask {
+                Ask::Value { formula, with, .. } if with.is_empty() => {
+                    formula.evaluate(&out).map(Found::Scalar)
+                }
+                Ask::Value { formula, with, .. } => {
+                    self.formula_at(point, formula, with).map(Found::Scalar)
+                }
+                // Where sides meet and what is largest are held against it by themselves.
+                Ask::Condition { .. } | Ask::Maximum { .. } | Ask::Friction { .. } => {
+                    let mut told = self.answers.iter().filter(|a| a.name == name);
+                    let told = told.next().filter(|a| a.worlds.is_empty());
+                    let value = told.and_then(|a| a.formula()?.evaluate(point));
+                    value.map(Found::Scalar)
+                }
+                _ => follow::answer(self.scene, followed, question, point).ok(),
+            };
+            match found {
+                Some(Found::Scalar(value)) => _ = out.values.insert(name.into(), value),
+                Some(Found::Vector(v)) => out.values.extend(
+                    (["x", "y"].iter().zip(v))
+                        .map(|(axis, v)| (format!("{name}_{axis}").into(), v)),
+                ),
+                None => return None,
+            }
+        }
+        Some(out)
+    }
+
+    /// The questions whose answers a formula uses, and those that values of formulas among them use, in the order of the file.
+    fn needs(&self, of: &Expr) -> Vec<&Question> {
+        let mut names = of.symbols();
+        let is_given = |name: &str| self.scene.parameters.iter().any(|p| *p.name == *name);
+        let mut out: Vec<&Question> = Vec::new();
+        for question in self.scene.questions.iter().rev() {
+            let uses = |name: &Symbol| {
+                let rest = name.strip_prefix(question.name.as_str());
+                rest.is_some_and(|rest| ["", "_x", "_y"].contains(&rest)) && !is_given(name)
+            };
+            if names.iter().any(uses) {
+                out.push(question);
+                if let Ask::Value { formula, with, .. } = &question.ask {
+                    let put_in = with.iter().map(|(_, value)| value);
+                    names.extend(put_in.chain([formula]).flat_map(Expr::symbols));
+                }
+            }
+        }
+        out.reverse();
+        out
+    }
+
+    /// What is an ordinary change of a parameter near a value.
+    fn scale(&self, seen: &Seen, parameter: &Symbol, near: f64) -> f64 {
+        let ordinary = || seen.point.values.get(parameter).map_or(1.0, |v| v.abs());
+        match near == 0.0 {
+            true => ordinary(),
+            false => near.abs(),
+        }
+    }
+
+    /// Whether a parameter may have a value, the others as they are.
+    fn admits(&self, seen: &Seen, parameter: &Symbol, value: f64) -> bool {
+        let domains = &self.scene.domains;
+        let within = domains.symbols.get(parameter).is_none_or(|domain| {
+            let end = |limit: &Option<Limit>| limit.as_ref().map(Limit::approximate);
+            end(&domain.low).is_none_or(|low| low <= value)
+                && end(&domain.high).is_none_or(|high| value <= high)
+        });
+        within && keeps(domains, &moved(&seen.point, &[(parameter.clone(), value)]))
+    }
+}
+
+/// Whether an answer is about what happens at a point.
+fn happens(seen: &Seen, worlds: &[World], question: &Question, answer: &Answer) -> bool {
+    let world = &worlds[seen.world];
+    match answer.told {
+        // A threshold of friction is asked of the impact, whatever its contact does.
+        Some((stage, _)) if matches!(question.ask, Ask::Friction { .. }) => {
+            world.outcome.contains_key(&stage)
+        }
+        Some((stage, case)) => world.outcome.get(&stage) == Some(&case),
+        None => answer.worlds.is_empty() || answer.worlds.contains(&seen.world),
+    }
+}
+
+/// A formula, or of a vector the component that is told.
+fn component(formula: &Expr, answer: &Answer) -> Expr {
+    match (answer.axis(), formula.as_symbol()) {
+        (Some(axis), Some(vector)) => Expr::symbol(&format!("{vector}_{}", ["x", "y"][axis])),
+        _ => formula.clone(),
+    }
+}
+
+/// A point with other values of some parameters.
+fn moved(point: &Point<f64>, values: &[(Symbol, f64)]) -> Point<f64> {
+    let mut point = point.clone();
+    point.values.extend(values.iter().cloned());
+    point
+}
+
+/// Whether a relation changes at a value as told, from the gap between its sides below, at and above it; `None` where too
+/// little of it was followed.
+fn tips(told: Relation, gaps: &[Option<f64>; 3]) -> Option<bool> {
+    let [below, on, above] = *gaps;
+    if below.is_some() != above.is_some() {
+        // A motion that gets to its end on one side only.
+        return Some(true);
+    }
+    if told == Relation::Equal {
+        // At the value the sides meet, and beside it they do not.
+        let beside = below.or(above)?.abs();
+        return Some(on?.abs() <= 0.1 * beside);
+    }
+    match (below, above) {
+        // Where a support comes free, its impulse stays zero beyond.
+        (Some(a), Some(b)) => Some(a * b <= 0.0 && a != b),
+        _ => None,
+    }
+}
