@@ -294,7 +294,9 @@ impl Asked<'_> {
                 }
             };
             let there = (near.parameter.clone(), value);
-            let told = near.right.evaluate(&moved(&seen.point, &[there.clone()]))?;
+            let told = near
+                .right
+                .evaluate(&moved(&seen.point, std::slice::from_ref(&there)))?;
             let found = self.formula(seen, &of, &[], &[there])?;
             Some(((found - told).abs(), found.abs().max(told.abs())))
         };
