@@ -277,8 +277,8 @@ impl Scalar for Rational {
     fn sqrt(&self) -> Option<Rational> {
         number::sqrt_exact(self)
     }
-    fn pow(&self, _: &Rational) -> Option<Rational> {
-        None
+    fn pow(&self, exponent: &Rational) -> Option<Rational> {
+        (self.is_zero() && exponent.is_positive()).then(Rational::zero)
     }
     fn call(&self, function: Function) -> Option<Rational> {
         match function {
@@ -311,6 +311,11 @@ mod tests {
 
     #[test]
     fn a_fraction_has_no_irrational_root() {
+        let nothing = Expr::zero().power(Expr::ratio(1, 4));
+        assert_eq!(
+            nothing.evaluate(&Point::<Rational>::default()),
+            Some(Rational::zero())
+        );
         assert_eq!(
             Expr::from(2).sqrt().evaluate(&Point::<Rational>::default()),
             None
