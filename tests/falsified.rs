@@ -23,6 +23,7 @@ use carom::numeric::{self, Motion};
 use carom::scene::{self, Ask, Scene, Shape};
 use carom::verify::{Trust, prove, trust};
 use carom::{check, command, render, solution, story, worked};
+use rayon::prelude::*;
 
 /// The rows of a table, cell by cell.
 fn rows(name: &str) -> Vec<Vec<String>> {
@@ -258,16 +259,50 @@ fn written(text: &str, scene: &Scene) -> serde_json::Value {
     render::steps::solution(&solution, text, &[])
 }
 
+/// What was falsified: how many of each kind were refused, and what was accepted.
+#[derive(Default)]
+struct Tried {
+    refused: BTreeMap<String, usize>,
+    passed: Vec<String>,
+}
+
+impl Tried {
+    fn note(&mut self, is_refused: bool, kind: &str, words: impl FnOnce() -> String) {
+        match is_refused {
+            true => *self.refused.entry(kind.to_owned()).or_default() += 1,
+            false => self.passed.push(words()),
+        }
+    }
+}
+
+/// Falsifies something in each shipped scene; a scene comes with its number, path and text.
+fn over_shipped(
+    each: impl Fn(&mut Tried, usize, &str, &str, &Scene) + Sync,
+) -> (BTreeMap<String, usize>, Vec<String>) {
+    let all = shipped().into_par_iter().enumerate();
+    let all = all.map(|(k, (path, text, scene))| {
+        let mut tried = Tried::default();
+        each(&mut tried, k, &path, &text, &scene);
+        tried
+    });
+    let both = all.reduce(Tried::default, |mut tried, other| {
+        for (kind, count) in other.refused {
+            *tried.refused.entry(kind).or_default() += count;
+        }
+        tried.passed.extend(other.passed);
+        tried
+    });
+    (both.refused, both.passed)
+}
+
 #[test]
 fn a_falsified_step_threshold_limit_or_motion_handed_on_is_refused() {
-    let mut refused: BTreeMap<String, usize> = BTreeMap::new();
-    let mut passed = Vec::new();
-    for (path, text, scene) in shipped() {
+    let (refused, passed) = over_shipped(|tried, _, path, text, scene| {
         // Cases of friction in a scene of one impact have checks of their own, in `tests/friction`.
         if path.contains("friction") && !scene.has_stages() {
-            continue;
+            return;
         }
-        let json = written(&text, &scene);
+        let json = written(text, scene);
         let caught = |tampered: &serde_json::Value| {
             let report = check::check(&tampered.to_string()).expect("a usable solution");
             !report.failed.is_empty()
@@ -293,11 +328,9 @@ fn a_falsified_step_threshold_limit_or_motion_handed_on_is_refused() {
                 };
                 let Some(right) = side.as_str() else { continue };
                 *side = row[0].replace('x', right).into();
-                if caught(&tampered) {
-                    *refused.entry(kind.clone()).or_default() += 1;
-                } else {
-                    passed.push(format!("{path}, step {id}, {}", row[1]));
-                }
+                tried.note(caught(&tampered), &kind, || {
+                    format!("{path}, step {id}, {}", row[1])
+                });
             }
         }
         let impacts: Vec<&serde_json::Value> =
@@ -308,25 +341,21 @@ fn a_falsified_step_threshold_limit_or_motion_handed_on_is_refused() {
             for mode in modes.filter(|mode| mode.is_string() && **mode != impact["mode"]) {
                 let mut tampered = json.clone();
                 tampered["impacts"][i]["mode"] = mode.clone();
-                if caught(&tampered) {
-                    *refused.entry(String::from("mode of friction")).or_default() += 1;
-                } else {
-                    passed.push(format!("{path}, impact {i}, {mode}"));
-                }
+                tried.note(caught(&tampered), "mode of friction", || {
+                    format!("{path}, impact {i}, {mode}")
+                });
             }
             let symbols = impact["handed"].as_object().into_iter().flatten();
             for (symbol, value) in symbols {
                 let mut tampered = json.clone();
                 let value = value.as_str().expect("a formula");
                 tampered["impacts"][i]["handed"][symbol] = format!("1 + 2*({value})").into();
-                if caught(&tampered) {
-                    *refused.entry(String::from("handed on")).or_default() += 1;
-                } else {
-                    passed.push(format!("{path}, {symbol} handed on"));
-                }
+                tried.note(caught(&tampered), "handed on", || {
+                    format!("{path}, {symbol} handed on")
+                });
             }
         }
-    }
+    });
     assert!(passed.is_empty(), "accepted:\n{}", passed.join("\n"));
     assert!(refused.values().sum::<usize>() > 150, "{refused:?}");
     for kind in ["handed on", "mode of friction"] {
@@ -336,25 +365,23 @@ fn a_falsified_step_threshold_limit_or_motion_handed_on_is_refused() {
 
 #[test]
 fn a_falsified_answer_is_refused_by_the_scene_followed_in_numbers() {
-    let mut refused: BTreeMap<&str, usize> = BTreeMap::new();
-    let mut passed = Vec::new();
     let about = |ask: &Ask| {
         matches!(
             ask,
             Ask::Maximum { .. } | Ask::Limit { .. } | Ask::Approximate { .. }
         )
     };
-    for (k, (path, _, scene)) in shipped().into_iter().enumerate() {
+    let (refused, passed) = over_shipped(|tried, k, path, _, scene| {
         // Every third scene, and all that ask for what is rare.
         if k % 3 > 0 && !scene.questions.iter().any(|q| about(&q.ask)) {
-            continue;
+            return;
         }
         // Cases of friction in a scene of one impact have checks of their own, in `tests/friction`.
-        let Ok(told) = worked::out(&scene).map(|worked| worked.told) else {
+        let Ok(told) = worked::out(scene).map(|worked| worked.told) else {
             assert!(path.contains("friction"), "{path}");
-            continue;
+            return;
         };
-        let sound = story::held(&scene, &told);
+        let sound = story::held(scene, &told);
         for row in rows("steps") {
             let wrong = |e: &Expr| {
                 let x = BTreeMap::from([("x".into(), e.clone())]);
@@ -367,7 +394,7 @@ fn a_falsified_answer_is_refused_by_the_scene_followed_in_numbers() {
                 let values = values.chain(answer.near.iter_mut().map(|near| &mut near.right));
                 values.for_each(|value| *value = wrong(value));
             }
-            let falsified = story::held(&scene, &told);
+            let falsified = story::held(scene, &told);
             for (i, _) in sound.iter().filter(|(_, c)| c.holds == Some(true)) {
                 let answer = &told.answers[*i];
                 let question = scene.questions.iter().find(|q| q.name == answer.question);
@@ -381,13 +408,13 @@ fn a_falsified_answer_is_refused_by_the_scene_followed_in_numbers() {
                     _ => "motion",
                 };
                 // Beyond a threshold a motion may never get to its end: then it is told that nothing was held against it.
-                match falsified.get(i).map(|check| check.holds) {
-                    Some(Some(true)) => passed.push(format!("{path}, {}, {}", answer.name, row[1])),
-                    _ => *refused.entry(kind).or_default() += 1,
-                }
+                let holds = falsified.get(i).and_then(|check| check.holds);
+                tried.note(holds != Some(true), kind, || {
+                    format!("{path}, {}, {}", answer.name, row[1])
+                });
             }
         }
-    }
+    });
     assert!(passed.is_empty(), "accepted:\n{}", passed.join("\n"));
     for kind in ["threshold", "largest value", "limit", "value", "motion"] {
         assert!(refused.contains_key(kind), "{refused:?}");
