@@ -18,12 +18,19 @@ impl Page<'_> {
         let lump = turn.lump(&stage.scene);
         let weight = &lump.mass * g;
         let height = tidied(self.scene, &(start / &weight));
-        let is_free = |letter: &&str| {
+        let is_free = |letter: &String| {
             let mut parameters = self.scene.parameters.iter();
             let mut answers = self.told.answers.iter();
-            !parameters.any(|p| *p.name == **letter) && !answers.any(|a| a.name == **letter)
+            // A second body that swings up rises by another height.
+            let is_defined = self.solution.meanings.contains_key(letter.as_str());
+            !(is_defined
+                || parameters.any(|p| *p.name == **letter)
+                || answers.any(|a| a.name == **letter))
         };
-        let letter = Symbol::from(["h", "h_G"].into_iter().find(is_free).unwrap_or("h_up"));
+        let more = (1..).map(|i| format!("h_{i}"));
+        let mut letters = ["h", "h_G"].map(String::from).into_iter().chain(more);
+        let letter = letters.find(is_free).unwrap_or_default();
+        let letter = Symbol::from(letter);
         let h = Expr::symbol(&letter);
         self.solution
             .meanings
