@@ -169,6 +169,13 @@ fn one(
         } => {
             let sides = [work.put(left, with)?, work.put(right, with)?];
             let statement = statement(left, *relation, right);
+            same_kind(
+                scene,
+                &name,
+                &statement,
+                [left, right],
+                [&sides[0], &sides[1]],
+            )?;
             condition(
                 scene, question, &statement, parameter, *relation, sides, with,
             )?
@@ -382,7 +389,6 @@ fn condition(
         name,
         format!("{what} of {parameter} for {statement}"),
     );
-    same_kind(scene, name, statement, [&left, &right])?;
     out.text.extend(with_words(with));
     out.stated = Some((left.clone(), relation, right.clone()));
     threshold::fill(&mut out, parameter, &left, relation, &right, scene);
@@ -406,16 +412,27 @@ fn condition(
     Ok(out)
 }
 
-/// Refuses to compare quantities of different kinds.
+/// Refuses to compare quantities of different kinds. A plain number counts in SI units, and what came out of plain numbers is of
+/// the kind that was asked for.
 fn same_kind(
     scene: &Scene,
     name: &str,
     statement: &str,
-    [left, right]: [&Expr; 2],
+    stated: [&Expr; 2],
+    put: [&Expr; 2],
 ) -> Result<(), Refused> {
-    let l = dimension_of(scene, left, name)?;
-    let r = dimension_of(scene, right, name)?;
-    if l == r || left.is_zero() || right.is_zero() {
+    if stated.iter().any(|side| side.is_constant()) || put.iter().any(|side| side.is_zero()) {
+        return Ok(());
+    }
+    let kinds = stated.map(|side| dimension::of(side, &|name| kind_of(scene, name)));
+    if let [Ok(Some(l)), Ok(Some(r))] = &kinds
+        && l == r
+    {
+        return Ok(());
+    }
+    let [l, r] = put.map(|side| dimension_of(scene, side, name));
+    let (l, r) = (l?, r?);
+    if l == r {
         return Ok(());
     }
     Err(Refused::question(
@@ -434,7 +451,7 @@ fn show(
 ) -> Result<Answer, Refused> {
     let name = question.name.as_str();
     let equation = statement(shown.0, Relation::Equal, shown.1);
-    same_kind(scene, name, &equation, [&left, &right])?;
+    same_kind(scene, name, &equation, [shown.0, shown.1], [&left, &right])?;
     let words = match claim {
         "" => equation,
         claim => claim.to_string(),
@@ -510,26 +527,15 @@ fn stated_dimension(
     e: &Expr,
     at: &str,
 ) -> Result<Option<Dimension>, Refused> {
-    let parameter = |name: &str| {
-        let found = scene.parameters.iter().find(|p| *p.name == *name);
-        found.map(|p| p.dimension.clone())
-    };
+    let parameter = |name: &str| dimension_of_parameter(scene, name);
     let of_answer = |answer: &Expr| dimension::of(answer, &parameter).ok().flatten();
     let of = |name: &str| match known.get(name) {
         Some(answer) => of_answer(answer),
         None => parameter(name),
     };
-    // A velocity that came out of plain numbers in their units is a velocity all the same.
-    let asked = |name: &str| {
-        let mut questions = scene.questions.iter();
-        let found = questions.find(|q| {
-            let part = name.strip_prefix(&*q.name);
-            part.is_some_and(|part| matches!(part, "" | "_x" | "_y"))
-        });
-        match found.map(|q| q.ask.dimension()) {
-            Some(known) if known != Dimension::none() => Some(known),
-            _ => of(name),
-        }
+    let asked = |name: &str| match known.contains_key(name) {
+        true => kind_of(scene, name).or_else(|| of(name)),
+        false => of(name),
     };
     let is_plain = |s: &Symbol| known.get(s).is_some_and(Expr::is_constant);
     if e.symbols().iter().any(is_plain)
@@ -545,6 +551,25 @@ fn stated_dimension(
         let by_kind = dimension::of(e, &asked);
         by_kind.map_err(|_| clashes(at, clash.message(&write_plain)))
     })
+}
+
+fn dimension_of_parameter(scene: &Scene, name: &str) -> Option<Dimension> {
+    let found = scene.parameters.iter().find(|p| *p.name == *name);
+    found.map(|p| p.dimension.clone())
+}
+
+/// The dimension of a parameter, or of what a question asks for: a velocity that came out of plain numbers in their units is a
+/// velocity all the same.
+fn kind_of(scene: &Scene, name: &str) -> Option<Dimension> {
+    let mut questions = scene.questions.iter();
+    let found = questions.find(|q| {
+        let part = name.strip_prefix(&*q.name);
+        part.is_some_and(|part| matches!(part, "" | "_x" | "_y"))
+    });
+    match found.map(|q| q.ask.dimension()) {
+        Some(known) if known != Dimension::none() => Some(known),
+        _ => dimension_of_parameter(scene, name),
+    }
 }
 
 /// Whether a number stands beside the symbols, other than an exponent: it may be a quantity in its unit.
@@ -588,14 +613,7 @@ fn clashes(at: &str, reason: String) -> Refused {
 
 /// Dimension of an expression in the scene's parameters.
 pub(super) fn dimension_of(scene: &Scene, e: &Expr, at: &str) -> Result<Dimension, Refused> {
-    let of = |name: &str| {
-        scene
-            .parameters
-            .iter()
-            .find(|p| *p.name == *name)
-            .map(|p| p.dimension.clone())
-    };
-    match dimension::of(e, &of) {
+    match dimension::of(e, &|name| dimension_of_parameter(scene, name)) {
         Ok(found) => Ok(found.unwrap_or_else(Dimension::none)),
         Err(clash) => Err(clashes(at, clash.message(&write_plain))),
     }

@@ -78,6 +78,9 @@ pub(super) fn held(
                 }
                 Seen::Proved(s) if relation == Relation::Equal && s.is_not_negative() => {}
                 _ if relation == Relation::Equal => besides.push(words(&there)),
+                // What every value grants is no condition.
+                _ if matches!(sign(need, &scene.domains), Seen::Proved(s) if s.is_not_negative()) =>
+                    {}
                 // From that value on, everything above it does too.
                 _ if is_upward(relation) && holds_above(need, &symbol, &value, scene) => {}
                 _ => besides.push(words(need)),
