@@ -261,9 +261,19 @@ pub(crate) fn parts_of(name: &str) -> Parts {
     parts
 }
 
+fn in_words(name: &str) -> String {
+    let words = |c: char| match c {
+        'π' => String::from("pi"),
+        c => greek_name(c).map_or_else(|| c.to_string(), String::from),
+    };
+    name.chars().map(words).collect()
+}
+
 fn key_of(name: &str) -> Cow<'_, str> {
     // Letters, then digits, are their own key.
     match name.contains(['_', '\'', '^', '{', '}']) {
+        // Greek letters are read as their names: `m_π` is `m_pi`.
+        _ if !name.is_ascii() => Cow::Owned(parts_of(&in_words(name)).key()),
         true => Cow::Owned(parts_of(name).key()),
         false => Cow::Borrowed(name),
     }
