@@ -16,7 +16,7 @@ fn findings(name: &str) -> Vec<Finding> {
     let scene =
         scene::read(&text).unwrap_or_else(|faults| panic!("{}", faults.render(name, &text)));
     let sheet = sheet::sheet(scene).expect("a derivation");
-    printed::check(&sheet.scene, &sheet.derivation)
+    printed::check(&sheet.scene, &sheet.derivation, &sheet.all)
 }
 
 /// Scene, how many entries it has, and places of those that do not hold.

@@ -32,7 +32,7 @@ pub fn printed(scene: Scene) -> Result<(Vec<Finding>, Vec<String>), String> {
 /// The same of a scene that goes one way, or tells its cases in stages.
 fn one(scene: Scene) -> Result<(Vec<Finding>, Vec<String>), String> {
     let (sheet, notes) = super::sheet(scene)?;
-    let mut findings = check(&sheet.scene, &sheet.derivation);
+    let mut findings = check(&sheet.scene, &sheet.derivation, &sheet.all);
     sheet.explain(&mut findings);
     Ok((findings, notes))
 }

@@ -23,7 +23,8 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
         notes.push(format!("not proved: {}", open.join(", ")));
     }
     notes.extend(worked.refusals());
-    let bounds = bounds(worked.answers());
+    let all = worked.answers().to_vec();
+    let bounds = bounds(&all);
     let impacts = story::impacts(&worked.scene, &worked.told);
     let laws = story::lent(&worked.scene, &worked.told);
     let told = worked.scene.has_stages().then(|| worked.scene.clone());
@@ -32,6 +33,7 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
         scene,
         derivation,
         bounds,
+        all,
         impacts: impacts.into_iter().map(|(_, impact)| impact).collect(),
         laws,
         story: told.map(|scene| Story::new(scene, answers)),

@@ -23,6 +23,8 @@ pub struct Sheet {
     pub derivation: Derivation,
     /// Answers that say for which values of a parameter something holds.
     pub bounds: Vec<Bound>,
+    /// All answers: also those in words, places of largest values and further outcomes, which the derivation leaves out.
+    pub all: Vec<Answer>,
     /// The impacts of a scene with stages, each with the motion that comes in and with its own questions.
     pub impacts: Vec<Scene>,
     /// Laws of the motions between the impacts, in the names of the answers: expressions that are zero.
@@ -66,6 +68,7 @@ pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
         scene,
         derivation,
         bounds: Vec::new(),
+        all: Vec::new(),
         impacts: Vec::new(),
         laws: Vec::new(),
         story: None,

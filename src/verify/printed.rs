@@ -15,14 +15,14 @@ use std::collections::BTreeMap;
 
 pub use cases::in_cases;
 
-use crate::answer::Form;
+use crate::answer::{Answer, Form};
 use crate::derive::Derivation;
 use crate::dimension::Dimension;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol, dot, minus};
 use crate::formula::{self, Content, Reading, Relation, Symbols, write_unicode};
 use crate::laws;
-use crate::scene::{Ask, Print, Printed, Scene};
+use crate::scene::{Ask, ContactLaw, FrictionEvent, Print, Printed, Scene};
 
 /// The finding about one printed thing.
 #[derive(Clone, Debug)]
@@ -50,9 +50,10 @@ pub struct Finding {
 /// What is said where nothing explains a wrong thing.
 pub const UNEXPLAINED: &str = "no single slip of the pen leads to it";
 
-/// Checks everything printed about a scene.
-pub fn check(scene: &Scene, derivation: &Derivation) -> Vec<Finding> {
-    let desk = Desk::new(scene, derivation);
+/// Checks everything printed about a scene; all answers tell why there is no value, and where a
+/// value is largest.
+pub fn check(scene: &Scene, derivation: &Derivation, all: &[Answer]) -> Vec<Finding> {
+    let desk = Desk::new(scene, derivation, all);
     let mut findings: Vec<Finding> = scene
         .printed
         .iter()
@@ -77,10 +78,12 @@ struct Desk<'a> {
     /// The same by their names with an arrow, with those just before.
     arrows: BTreeMap<Symbol, [Expr; 3]>,
     dimensions: BTreeMap<Symbol, Dimension>,
+    /// Why an answer has no value, by its name.
+    open: BTreeMap<String, String>,
 }
 
 impl<'a> Desk<'a> {
-    fn new(scene: &'a Scene, derivation: &Derivation) -> Desk<'a> {
+    fn new(scene: &'a Scene, derivation: &Derivation, all: &[Answer]) -> Desk<'a> {
         let mut closed = BTreeMap::new();
         let mut dimensions: BTreeMap<Symbol, Dimension> = scene
             .parameters
@@ -128,10 +131,23 @@ impl<'a> Desk<'a> {
         }
         let mut vectors: BTreeMap<Symbol, [Expr; 2]> = BTreeMap::new();
         let mut bounds = BTreeMap::new();
-        for answer in &derivation.answers {
+        let mut open = BTreeMap::new();
+        for answer in derivation.answers.iter().chain(all) {
             if let [bound] = answer.range.as_slice() {
-                bounds.insert(Symbol::from(answer.name.as_str()), bound.clone());
+                let name = Symbol::from(answer.name.as_str());
+                bounds.insert(name.clone(), bound.clone());
+                // The place of a largest value is printed under its own name, or under that of the value.
+                if answer.name == format!("{}_at", answer.question) {
+                    bounds.insert(Symbol::from(answer.question.as_str()), bound.clone());
+                    closed.insert(name, bound.2.clone());
+                }
             }
+            if let (Form::Open(_) | Form::Words, [why, ..]) = (&answer.form, answer.text.as_slice())
+            {
+                open.insert(answer.name.clone(), why.to_string());
+            }
+        }
+        for answer in &derivation.answers {
             // What is asked under a name is meant by it, though it has no value.
             closed.remove(answer.name.as_str());
             if let Form::Value { closed: value, .. } = &answer.form {
@@ -139,6 +155,9 @@ impl<'a> Desk<'a> {
                 // What follows from plain numbers may be in a unit that nobody states.
                 if !(value.is_constant() && answer.dimension.is_none()) {
                     dimensions.insert(name.clone(), answer.dimension.clone());
+                }
+                if let Some((mu, relation)) = friction_bound(scene, &answer.name) {
+                    bounds.insert(name.clone(), (mu, relation, value.clone()));
                 }
                 closed.insert(name, value.clone());
                 if answer.name != answer.question {
@@ -187,6 +206,15 @@ impl<'a> Desk<'a> {
             vectors,
             arrows,
             dimensions,
+            open,
+        }
+    }
+
+    /// What is said of something printed for which the scene has no value.
+    fn unanswered(&self, item: &str) -> String {
+        match self.open.get(item) {
+            Some(why) => format!("{item} has no value: {why}"),
+            None => format!("the scene answers no {item}"),
         }
     }
 
@@ -395,7 +423,7 @@ impl<'a> Desk<'a> {
             (Some(_), None, _) => {
                 return Err(format!("{item} is a vector, and a number is printed"));
             }
-            (None, None, _) => return Err(format!("the scene answers no {item}")),
+            (None, None, _) => return Err(self.unanswered(item)),
         };
         let mut shown = Vec::new();
         let mut all = Vec::new();
@@ -418,6 +446,7 @@ impl<'a> Desk<'a> {
             self.caught(&all, finding);
             finding.explained = self
                 .before(item, &all)
+                .or_else(|| self.place(item, &all))
                 .or_else(|| self.factor(&all))
                 .or_else(|| self.sought(&all))
                 .or_else(|| self.exchanged(&all))
@@ -531,6 +560,25 @@ impl<'a> Desk<'a> {
 }
 
 /// What is asked of velocities and spins, just before: one value, or two components.
+/// Which coefficient of friction a threshold bounds, and how it stands to it.
+fn friction_bound(scene: &Scene, name: &str) -> Option<(Expr, Relation)> {
+    let question = scene.questions.iter().find(|q| q.name == name)?;
+    let Ask::Friction { contact, event } = &question.ask else {
+        return None;
+    };
+    // Of another impact than the scene's own the contact has another number.
+    let law = match (question.stage, &scene.contacts.get(*contact)?.law) {
+        (None, ContactLaw::Friction(law)) => law,
+        (None, ContactLaw::Decided(decided)) => &decided.law,
+        _ => return None,
+    };
+    let relation = match event {
+        FrictionEvent::Slides => Relation::LessEqual,
+        FrictionEvent::Sticks | FrictionEvent::Jams => Relation::GreaterEqual,
+    };
+    Some((law.mu.clone(), relation))
+}
+
 fn before(scene: &Scene) -> Vec<(&str, Vec<Expr>)> {
     let asked = scene.asked_of_impact().filter_map(|q| {
         let value = match &q.ask {

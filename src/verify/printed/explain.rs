@@ -10,7 +10,7 @@ use crate::algebra::Field;
 use crate::dimension;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Point, Rational, Symbol, ratio};
-use crate::formula::Content;
+use crate::formula::{Content, Relation};
 use crate::numeric;
 use crate::scene::{Print, Printed};
 use crate::verify::rounding::ten_to;
@@ -44,6 +44,17 @@ impl Desk<'_> {
             .zip(pairs)
             .all(same)
             .then(|| "it is the value before the collision: the superscript is wrong".to_string())
+    }
+
+    /// The place of a largest value, printed as the value.
+    pub(super) fn place(&self, item: &str, pairs: &[(Expr, Expr)]) -> Option<String> {
+        let (of, relation, place) = self.bounds.get(item)?;
+        let [(_, value)] = pairs else { return None };
+        let same = equality::decide(place, value, &self.scene.domains).equality;
+        let is_place = *relation == Relation::Equal && matches!(same, Equality::Same { .. });
+        let of = self.say(of);
+        is_place
+            .then(|| format!("it is the {of} at which `{item}` is largest: print it as {of} = …"))
     }
 
     /// Sides that agree when two parameters of one kind are exchanged in one of them.

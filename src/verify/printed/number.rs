@@ -62,6 +62,15 @@ impl Desk<'_> {
                 Expr::one(),
             ),
         };
+        // An angle in degrees is read as a multiple of π.
+        let (value, unit) = match text.contains("deg") || text.contains('°') {
+            true if unit.is_one() => {
+                let half_turns = BTreeMap::from([(Symbol::from("pi"), Expr::from(180))]);
+                let degree = Expr::pi() * Expr::ratio(1, 180);
+                (value.substitute(&half_turns), degree)
+            }
+            _ => (value, unit),
+        };
         // In the printed unit, which may hold π: 286 deg/s.
         let [low, high] = self.value(&(self.put_in(of_expr, printed)? * unit.powi(-1)))?;
         let written = fraction(&value).ok_or("the printed number is no fraction")?;
