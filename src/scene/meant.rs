@@ -7,6 +7,9 @@ pub(super) fn meant(word: &str, here: &[&str]) -> Option<&'static str> {
         "left" | "right" | "up" | "down" | "horizontal" | "vertical" if here.contains(&"-x") => {
             "\"x\" is to the right, \"-x\" to the left, \"y\" up and \"-y\" down"
         }
+        _ if here == ["start", "end"] => {
+            "`when` is the beginning or the end of a stage; a parameter `tends` `to` a value"
+        }
         "rest" | "stop" | "stopped" | "over" | "end" if here.contains(&"stops") => {
             "a motion that ends at rest has \"until\": \"stops\""
         }

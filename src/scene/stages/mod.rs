@@ -117,8 +117,17 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
         };
         let symbols = std::mem::replace(&mut base.symbols, Symbols::new(Default::default()));
         let left_at = left_at(&read, from);
-        let (one, symbols, faults) = one(&composed[i], stage, (from, &left_at), scene, symbols);
+        let (one, symbols, mut faults) = one(&composed[i], stage, (from, &left_at), scene, symbols);
         base.symbols = symbols;
+        for (name, _) in file.questions.iter().flat_map(|m| &m.0) {
+            let open = format!("`{}` is not declared", name.text);
+            for fault in faults.iter_mut().filter(|f| f.message == open) {
+                fault.hint = Some(format!(
+                    "`{}` is the answer to a question, and stages are read before any is answered: write its formula in parameters here",
+                    name.text
+                ));
+            }
+        }
         base.faults.extend(faults);
         read.push(one);
     }

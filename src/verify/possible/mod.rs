@@ -137,7 +137,14 @@ impl Possible {
             _ => "at the given values",
         };
         let reasons = self.reasons().join("; ");
-        Some(format!("not possible: {reasons}, {whatever}"))
+        let refuses = |c: &Condition| c.verdict == Verdict::Nowhere || c.at_values == Some(false);
+        let mut refusing = self.conditions.iter().filter(|c| refuses(c));
+        let is_charge = refusing.all(|c| c.rule == Rule::Energy);
+        let may = match is_charge {
+            true => "; where a charge or a spring gives it, the scene has \"gains_energy\": true",
+            false => "",
+        };
+        Some(format!("not possible: {reasons}, {whatever}{may}"))
     }
 
     /// Why it cannot happen; empty where it can.
