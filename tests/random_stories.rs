@@ -4,6 +4,7 @@ use carom::scene::read;
 use carom::story::tell;
 use proptest::prelude::*;
 use proptest::sample::select;
+use proptest::test_runner::RngSeed;
 
 /// A body with its center half a length from O, and what happens to it.
 #[derive(Clone, Debug)]
@@ -390,6 +391,23 @@ fn same_end(stories: impl Strategy<Value = String>) {
     );
 }
 
+/// Draws half of the cases on each of two threads.
+fn halves(test: impl Fn(ProptestConfig) + Sync) {
+    std::thread::scope(|scope| {
+        for half in 0..2 {
+            let test = &test;
+            scope.spawn(move || {
+                let mut config = ProptestConfig::default();
+                config.cases = config.cases.div_ceil(2);
+                if let RngSeed::Fixed(seed) = config.rng_seed {
+                    config.rng_seed = RngSeed::Fixed(seed + half);
+                }
+                test(config);
+            });
+        }
+    });
+}
+
 /// A body that falls or is there already, hits rough ground at one point and flies on; values pick what the contact does.
 fn on_rough_ground() -> impl Strategy<Value = String> {
     let body = select(vec![
@@ -492,29 +510,31 @@ fn what_bounces_on_rough_ground_is_followed_to_the_same_end() {
 fn every_check_of_a_random_story_holds_and_many_stories_can_be_told() {
     use std::sync::atomic::{AtomicU32, Ordering};
     let (told, all) = (AtomicU32::new(0), AtomicU32::new(0));
-    proptest!(|(course in course())| {
-        all.fetch_add(1, Ordering::Relaxed);
-        let text = course.text();
-        let scene = read(&text).map_err(|f| TestCaseError::fail(f.render("story", &text)))?;
-        // One impact alone is no story.
-        if !scene.has_stages() {
-            return Ok(());
-        }
-        // Many courses contradict themselves: a sense that is not the motion's, an end that is never reached.
-        let Ok(found) = tell(&scene) else {
-            return Ok(());
-        };
-        told.fetch_add(1, Ordering::Relaxed);
-        let stages = found.stages.iter().flat_map(|s| &s.checks);
-        let wrong: Vec<_> = stages
-            .chain(found.answers.iter().flat_map(|a| &a.checks))
-            .filter(|c| c.holds == Some(false))
-            .map(|c| &c.words)
-            .collect();
-        prop_assert!(wrong.is_empty() && found.holds(), "{wrong:?}\n{text}");
-        for a in &found.answers {
-            prop_assert!(a.formula().is_none() || !a.checks.is_empty(), "{} is not marked\n{text}", a.name);
-        }
+    halves(|config| {
+        proptest!(config, |(course in course())| {
+            all.fetch_add(1, Ordering::Relaxed);
+            let text = course.text();
+            let scene = read(&text).map_err(|f| TestCaseError::fail(f.render("story", &text)))?;
+            // One impact alone is no story.
+            if !scene.has_stages() {
+                return Ok(());
+            }
+            // Many courses contradict themselves: a sense that is not the motion's, an end that is never reached.
+            let Ok(found) = tell(&scene) else {
+                return Ok(());
+            };
+            told.fetch_add(1, Ordering::Relaxed);
+            let stages = found.stages.iter().flat_map(|s| &s.checks);
+            let wrong: Vec<_> = stages
+                .chain(found.answers.iter().flat_map(|a| &a.checks))
+                .filter(|c| c.holds == Some(false))
+                .map(|c| &c.words)
+                .collect();
+            prop_assert!(wrong.is_empty() && found.holds(), "{wrong:?}\n{text}");
+            for a in &found.answers {
+                prop_assert!(a.formula().is_none() || !a.checks.is_empty(), "{} is not marked\n{text}", a.name);
+            }
+        })
     });
     let (told, all) = (told.into_inner(), all.into_inner());
     assert!(3 * told > all, "{told} of {all} stories are told");

@@ -14,6 +14,7 @@ use super::{Answer, StageTold, State, Told};
 use crate::answer::Check;
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Point, Rational, Symbol};
+use crate::interval::{Interval, Outcome, evaluate};
 use crate::numeric::follow::{self, BodyState, Component, Followed, Loss, Lost, Passed, What};
 use crate::scene::Scene;
 
@@ -266,8 +267,8 @@ impl Compared {
     }
 }
 
-/// By how much a value changes when each of the data changes by [`BACKWARD`] of itself: much where what is left of a body's
-/// speed is a small difference.
+/// By how much a value changes when each of the data changes by [`BACKWARD`] of itself, and what rounding may make of its
+/// formula: much where what is left is a small difference.
 fn shaken(e: Option<&Expr>, point: &Point<f64>) -> f64 {
     let Some((e, here)) = e.and_then(|e| Some((e, e.evaluate(point)?))) else {
         return 0.0;
@@ -277,7 +278,19 @@ fn shaken(e: Option<&Expr>, point: &Point<f64>) -> f64 {
         *near.values.get_mut(name)? *= 1.0 + BACKWARD;
         Some((e.evaluate(&near)? - here).abs())
     });
-    moves.sum()
+    let as_it_is = |(name, value): (&Symbol, &f64)| {
+        let [low, high] = [*value; 2];
+        (name.clone(), Outcome::Value(Interval { low, high }))
+    };
+    let exact = Point {
+        values: point.values.iter().map(as_it_is).collect(),
+        ..Point::default()
+    };
+    let rounding = match evaluate(e, &exact) {
+        Outcome::Value(enclosed) => enclosed.high - enclosed.low,
+        Outcome::Undefined | Outcome::Unknown => 0.0,
+    };
+    moves.sum::<f64>() + rounding
 }
 
 impl Second<'_> {

@@ -559,7 +559,6 @@ impl<'a> Desk<'a> {
     }
 }
 
-/// What is asked of velocities and spins, just before: one value, or two components.
 /// Which coefficient of friction a threshold bounds, and how it stands to it.
 fn friction_bound(scene: &Scene, name: &str) -> Option<(Expr, Relation)> {
     let question = scene.questions.iter().find(|q| q.name == name)?;
@@ -579,6 +578,7 @@ fn friction_bound(scene: &Scene, name: &str) -> Option<(Expr, Relation)> {
     Some((law.mu.clone(), relation))
 }
 
+/// What is asked of velocities and spins, just before: one value, or two components.
 fn before(scene: &Scene) -> Vec<(&str, Vec<Expr>)> {
     let asked = scene.asked_of_impact().filter_map(|q| {
         let value = match &q.ask {

@@ -15,6 +15,9 @@ use top::{highest, hurdle, stops, swung};
 
 pub(in crate::story) use begin::sense;
 
+/// Whole turns that a body may have made before.
+const MOST_TURNS: usize = 20;
+
 /// Rotation about a fixed point.
 pub(in crate::story) fn turn(
     stage: &Stage,
@@ -224,13 +227,29 @@ fn through(
         Until::Stops if turn.gravity.is_some() => return Ok(Some(forward)),
         Until::Stops | Until::By(_) | Until::For(_) => forward,
         // A place is reached up to whole turns, and the sense of the rotation says which.
-        Until::Above | Until::Below => match sign(&forward, &stage.scene.domains).side() {
-            Some(true) => forward,
-            Some(false) => forward + Expr::from(2) * Expr::pi(),
+        Until::Above | Until::Below => match within_a_turn(stage, forward) {
+            Some(forward) => forward,
             None => return Ok(None),
         },
     };
     tidied(stage, &forward).map(Some)
+}
+
+/// An angle less whole turns, so that it is positive and no more than one; `None` where its sign is not decided.
+fn within_a_turn(stage: &Stage, mut angle: Expr) -> Option<Expr> {
+    let whole = Expr::from(2) * Expr::pi();
+    let side = |e: &Expr| sign(e, &stage.scene.domains).side();
+    for _ in 0..MOST_TURNS {
+        if side(&angle)? {
+            match side(&(&angle - &whole)) {
+                Some(true) => angle = angle - &whole,
+                _ => return Some(angle),
+            }
+        } else {
+            angle = angle + &whole;
+        }
+    }
+    None
 }
 
 /// Leads the bodies round: their places and angles at the end.
