@@ -119,7 +119,21 @@ pub fn sign(e: &Expr, domains: &Domains) -> Seen {
     {
         return Seen::Proved(sign);
     }
-    constant(e).map_or_else(|| seen(e, domains), Seen::Proved)
+    if let Some(sign) = constant(e) {
+        return Seen::Proved(sign);
+    }
+    // A factor such as cos(π/36) − sin(π/18) has its sign by itself.
+    if let Node::Product(factors) = e.node() {
+        let is_fixed = |f: &Expr| f.is_constant() && f.as_number().is_none();
+        let (fixed, rest): (Vec<Expr>, Vec<Expr>) = factors.iter().cloned().partition(is_fixed);
+        let rest = Expr::product(rest);
+        match constant(&Expr::product(fixed)) {
+            Some(Sign::Positive) if rest != *e => return sign(&rest, domains),
+            Some(Sign::Negative) => return sign(&-&rest, domains),
+            _ => {}
+        }
+    }
+    seen(e, domains)
 }
 
 /// The sign of a formula without symbols, such as cos(π/18) − 0.98: its enclosure proves it.

@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use super::calc::{essential, is_zero, tidy};
-use super::{Answer, Check, Form, Known, Refused, limit, optimum, threshold, zeros};
+use super::{Answer, Check, Form, Known, Refused, inequality, limit, optimum, threshold, zeros};
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
 use crate::equality::{self, Equality, How};
@@ -194,11 +194,12 @@ fn one(
         } => work.approximate(of.unwrap_or(whole), parameter, to, *order)?,
         Ask::Show {
             left,
+            relation,
             right,
             with,
             unless,
             claim,
-        } => work.show([left, right], with, unless, claim)?,
+        } => work.show((left, *relation, right), with, unless, claim)?,
         _ => return Ok(Vec::new()),
     };
     Ok(vec![out])
@@ -305,20 +306,18 @@ impl Work<'_> {
 
     fn show(
         &self,
-        asked: [&Expr; 2],
+        asked: (&Expr, Relation, &Expr),
         with: &[(Symbol, Expr)],
         unless: &[Symbol],
         claim: &str,
     ) -> Result<Answer, Refused> {
-        let [left, right] = asked;
-        let sides = [self.put(left, with)?, self.put(right, with)?];
-        let mut out = show(self.scene, self.question, (left, right), claim, sides)?;
-        if let Form::Equation { left, right } = &out.form {
-            for (asked, value) in asked.into_iter().zip([left, right]) {
-                let raw = self.raw(asked, with);
-                let shown = (raw, value.clone(), "with the results substituted");
-                out.put_in.push(shown);
-            }
+        let sides = [self.put(asked.0, with)?, self.put(asked.2, with)?];
+        let values = sides.clone();
+        let mut out = show(self.scene, self.question, asked, claim, sides)?;
+        for (asked, value) in [asked.0, asked.2].into_iter().zip(values) {
+            let raw = self.raw(asked, with);
+            out.put_in
+                .push((raw, value, "with the results substituted"));
         }
         out.text.extend(with_words(with));
         for name in unless {
@@ -445,21 +444,30 @@ fn same_kind(
 fn show(
     scene: &Scene,
     question: &Question,
-    shown: (&Expr, &Expr),
+    shown: (&Expr, Relation, &Expr),
     claim: &str,
     [left, right]: [Expr; 2],
 ) -> Result<Answer, Refused> {
     let name = question.name.as_str();
-    let equation = statement(shown.0, Relation::Equal, shown.1);
-    same_kind(scene, name, &equation, [shown.0, shown.1], [&left, &right])?;
+    let (_, relation, _) = shown;
+    let equation = statement(shown.0, relation, shown.2);
+    same_kind(scene, name, &equation, [shown.0, shown.2], [&left, &right])?;
     let words = match claim {
         "" => equation,
         claim => claim.to_string(),
     };
     let mut out = Answer::blank(question, name, format!("to be shown: {words}"));
-    out.checks.push(identity(&left, &right, &scene.domains));
     out.dimension = dimension_of(scene, &left, name)?;
-    let equation = sentence![shown.0, " = ", shown.1];
+    if relation != Relation::Equal {
+        let gap = tidy(&(&left - &right), &scene.domains);
+        let gap = gap.map_err(|stop| Refused::uncalculated(name, stop))?;
+        let (text, check) = inequality::shown(&gap, relation, &scene.domains);
+        out.text.push(text);
+        out.checks.push(check);
+        return Ok(out);
+    }
+    out.checks.push(identity(&left, &right, &scene.domains));
+    let equation = sentence![shown.0, " = ", shown.2];
     out.text.push(match out.checks[0].holds {
         Some(true) => sentence![equation, ": both are ", &left],
         Some(false) => sentence![equation, " does not hold: ", &left, " against ", &right],

@@ -6,6 +6,7 @@
 pub mod calc;
 mod formulas;
 mod graph;
+mod inequality;
 mod intervals;
 pub mod limit;
 mod optimum;

@@ -9,6 +9,7 @@ use num_traits::Signed;
 
 use super::Check;
 use super::calc::{Roots, Seen, Unsolved, by_signs, essential, is_zero, sign, solve, tidy};
+use super::inequality::{everywhere, sign_words};
 use super::{Answer, Form, intervals, limit};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
@@ -380,45 +381,16 @@ fn always(gap: &Expr, relation: Relation, domains: &Domains) -> Sentence {
             write_plain(gap)
         ),
     };
-    let (yes, no) = match relation {
-        Relation::Less => (
-            s.is_negative(),
-            s.is_positive() || s == Seen::Proved(Sign::Zero),
-        ),
-        Relation::LessEqual => (
-            s.is_negative() || s == Seen::Proved(Sign::Zero),
-            s.is_positive(),
-        ),
-        Relation::Greater => (
-            s.is_positive(),
-            s.is_negative() || s == Seen::Proved(Sign::Zero),
-        ),
-        Relation::GreaterEqual => (
-            s.is_positive() || s == Seen::Proved(Sign::Zero),
-            s.is_negative(),
-        ),
-        _ => (
-            s == Seen::Proved(Sign::Zero),
-            s.is_positive() || s.is_negative(),
-        ),
-    };
-    let sign_words = match s {
-        Seen::Proved(Sign::Zero) => "zero",
-        s if s.is_positive() => "positive",
-        s if s.is_negative() => "negative",
-        _ => "of a sign that could not be told",
-    };
+    let sign_words = sign_words(s);
     let how = if s.is_proved() {
         ""
     } else {
         " (seen at points, not proved)"
     };
-    if yes {
-        sentence!["it always holds: ", reason(sign_words), how]
-    } else if no {
-        sentence!["it never holds: ", reason(sign_words), how]
-    } else {
-        sentence!["not decided: ", reason(sign_words)]
+    match everywhere(s, relation) {
+        Some(true) => sentence!["it always holds: ", reason(sign_words), how],
+        Some(false) => sentence!["it never holds: ", reason(sign_words), how],
+        None => sentence!["not decided: ", reason(sign_words)],
     }
 }
 

@@ -184,10 +184,12 @@ pub enum Ask {
         /// Highest power of the difference.
         order: u32,
     },
-    /// An identity to be proved.
+    /// An identity or inequality to be proved.
     Show {
         /// Left side.
         left: Expr,
+        /// How it stands to the right side.
+        relation: Relation,
         /// Right side.
         right: Expr,
         /// Parameters and what stands for them.

@@ -113,7 +113,7 @@ record! {
         approximate: Option<Formula>,
         /// Highest power kept: 0, 1, 2, ….
         order: Option<Formula>,
-        /// An equation to be proved.
+        /// An equation or inequality to be proved.
         show: Option<Text>,
         /// Names of answers that must not vanish for what is shown to mean something, such as velocities between which an angle is
         /// measured; where they vanish is found and told.

@@ -226,7 +226,11 @@ fn identity(
     shown: &Option<String>,
 ) -> Vec<Line> {
     let Ask::Show {
-        left, right, with, ..
+        left,
+        relation,
+        right,
+        with,
+        ..
     } = ask
     else {
         return Vec::new();
@@ -266,7 +270,8 @@ fn identity(
             .iter()
             .all(|s| is_parameter(s) || solution.meanings.contains_key(s))
     };
-    if holds(answer) && with.is_empty() && known(left) && known(right) {
+    let is_identity = *relation == Relation::Equal;
+    if is_identity && holds(answer) && with.is_empty() && known(left) && known(right) {
         let claim = Claim::new(left.clone(), right.clone());
         solution.step(Vec::new(), vec![claim], "what was to be shown");
     }
@@ -359,16 +364,22 @@ fn said(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer) {
         .skip(in_heading)
         .map(|t| full_sentence(scene, t))
         .collect();
-    if let Ask::Show { claim, with, .. } = ask
+    if let Ask::Show {
+        claim,
+        with,
+        relation,
+        ..
+    } = ask
         && holds(answer)
     {
-        // What is proved stands above; the values put in, before it.
-        text.drain(..text.len().min(1 + with.len()));
+        // What is proved stands above; the values put in, before it. Of an inequality the sign is told.
+        let kept = usize::from(*relation != Relation::Equal);
+        text.drain(kept.min(text.len())..text.len().min(1 + with.len()));
         let end = match claim.as_str() {
             "" => String::from("This was to be shown."),
             claim => format!("So {}.", claim.trim_end_matches('.')),
         };
-        text.insert(0, vec![say(end)]);
+        text.insert(kept.min(text.len()), vec![say(end)]);
     }
     if text.len() > 1 && matches!(ask, Ask::Show { .. }) {
         let sentences = std::mem::take(&mut text);

@@ -158,9 +158,13 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
             out
         }
         Ask::Show {
-            left, right, claim, ..
+            left,
+            relation,
+            right,
+            claim,
+            ..
         } => match claim.as_str() {
-            "" => vec![say("To show: "), related(left, Relation::Equal, right)],
+            "" => vec![say("To show: "), related(left, *relation, right)],
             claim => vec![say("To show: "), say(claim)],
         },
         Ask::Unused(of) => vec![say("Data not needed for "), math(&Expr::symbol(of))],

@@ -116,16 +116,13 @@ fn show(
     equation: &Text,
 ) -> Option<Ask> {
     let (left, relation, right) = relation(base, symbols, equation)?;
-    if relation != Relation::Equal {
-        let message = "what is to be shown is an equation";
-        return Fault::new(equation.span, message).add_to(&mut base.faults);
-    }
     let unless = q.unless.iter().flatten();
     let unless = unless.filter_map(|t| answer_named(base, symbols, t));
     let unless = unless.collect();
     let claim = q.claim.as_ref().map(|t| t.text.clone());
     Some(Ask::Show {
         left,
+        relation,
         right,
         with: with(base, symbols, q.with.as_ref())?,
         unless,
