@@ -122,7 +122,13 @@ impl Line<'_> {
         match sign(&slowing, self.domains()) {
             Seen::Proved(Sign::Positive) => {}
             Seen::Proved(_) | Seen::Negative => {
-                return Err(self.refused("nothing slows it down", "add \"friction\": \"mu\""));
+                return Err(match self.friction.is_zero() {
+                    true => self.refused("nothing slows it down", "add \"friction\": \"mu\""),
+                    false => self.refused(
+                        "friction does not slow it down against what drives it",
+                        "more friction would, or a motion that ends after a `distance` or a time",
+                    ),
+                });
             }
             _ => assumptions.push(sentence![
                 Sentence::positive(&essential(&slowing, self.domains())),
