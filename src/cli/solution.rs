@@ -215,8 +215,7 @@ pub fn plots(scene: &Scene, graphs: &[answer::Graph]) -> Result<Vec<(Picture, St
 /// Where a picture stands in the solution of a scene of one impact.
 fn slot(which: Which) -> Slot {
     match which {
-        Which::Before | Which::All => Slot::Before,
-        Which::During(_) => Slot::During,
+        Which::Before | Which::During(_) | Which::All => Slot::Before,
         Which::After => Slot::After,
     }
 }

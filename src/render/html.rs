@@ -71,8 +71,8 @@ ul{padding-left:1.3rem}
 li{margin:.3rem 0}
 figure{margin:1rem 0;text-align:center}
 figure svg{max-width:100%;height:auto}
-figcaption{font-size:.86rem;color:#555;text-align:left}
-.figures{display:flex;flex-wrap:wrap;gap:1rem;justify-content:center}
+figcaption{font-size:.86rem;color:#555}
+.figures{display:flex;flex-wrap:wrap;gap:1rem;justify-content:center;align-items:flex-end}
 .figures figure{flex:1 1 300px;margin:0;min-width:0;max-width:26rem}
 @media (prefers-color-scheme:dark){body{color:#e6e6e6;background:#16181c}h2{border-color:#444}.source,figcaption{color:#aaa}}
 @media (max-width:480px){body{font-size:16px;padding:.8rem .8rem 2rem}.display:not(.result) math{margin-left:.2rem}.desk{display:none}.phone{display:block}}

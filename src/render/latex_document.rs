@@ -21,6 +21,7 @@ pub fn document(s: &Solution, pictures: &[Picture]) -> String {
          {FITTED}\
          {}\
          \\allowdisplaybreaks\n\
+         \\makeatletter \\@beginparpenalty=10000 \\makeatother\n\
          \\AtBeginDocument{{\\abovedisplayshortskip=\\abovedisplayskip}}\n\
          \\clubpenalty=10000 \\widowpenalty=10000\n\
          \\setlength{{\\parindent}}{{0pt}}\n\
@@ -38,6 +39,8 @@ pub fn document(s: &Solution, pictures: &[Picture]) -> String {
 
 /// Scales a formula that is wider than the line down to it.
 const FITTED: &str = "\\newcommand{\\fitted}[1]{\\sbox0{$\\displaystyle #1$}\\ifdim\\wd0>\\linewidth\\resizebox{\\linewidth}{!}{\\usebox0}\\else\\usebox0\\fi}\n";
+/// A picture that keeps its caption; two stand beside each other where both are narrow enough.
+const SHOWN: &str = "\\providecommand{\\shown}[3][.47]{\\sbox0{#2}\\begin{minipage}[t]{\\ifdim\\wd0>#1\\linewidth .86\\else#1\\fi\\linewidth}\\centering\\usebox0\\par\\smallskip{\\small #3\\par}\\end{minipage}}\n";
 /// About as many characters as a line of the document holds; a formula that has more is made to fit.
 const LINE: usize = 80;
 
@@ -58,7 +61,10 @@ pub fn fragment(s: &Solution, pictures: &[Picture]) -> String {
 }
 
 fn body(s: &Solution, pictures: &[Picture]) -> String {
-    let mut out = String::new();
+    let mut out = match pictures {
+        [] => String::new(),
+        _ => String::from(SHOWN),
+    };
     if !s.source.is_empty() {
         out.push_str(&format!("\\emph{{{}}}\n\n", text(&s.source)));
     }
@@ -115,20 +121,31 @@ fn body(s: &Solution, pictures: &[Picture]) -> String {
                     out.push_str(&format!("\\[\n{}\n\\]\n", matrix(s, m)));
                 }
                 Part::Figure(slot) => {
-                    // A picture and its caption stay together.
-                    for picture in pictures.iter().filter(|p| p.slot == *slot) {
-                        out.push_str(&format!(
-                            "\\begin{{center}}\n\\begin{{minipage}}{{0.86\\linewidth}}\\centering\n{}\\par\\smallskip\n{{\\small {}\\par}}\n\\end{{minipage}}\n\\end{{center}}\n\n",
-                            picture.tikz.trim_end(),
-                            caption(&picture.caption)
-                        ));
-                    }
+                    let here = pictures.iter().filter(|p| p.slot == *slot);
+                    out.push_str(&row(&here.collect::<Vec<_>>()));
                 }
             }
         }
     }
     // Older LaTeX knows no \lt outside MathJax.
     out.replace("\\lt", "<")
+}
+
+/// Pictures beside each other; a page may end between their lines.
+fn row(pictures: &[&Picture]) -> String {
+    let width = match pictures {
+        [] => return String::new(),
+        [_] => "[.86]",
+        _ => "",
+    };
+    let shown = |p: &&Picture| {
+        let caption = caption(&p.caption);
+        format!("\\shown{width}{{{}}}{{{caption}}}\n", p.tikz.trim_end())
+    };
+    let all: String = pictures.iter().map(shown).collect();
+    format!(
+        "\\begin{{center}}\\leavevmode\\lineskip=9pt\\clubpenalty=0\\widowpenalty=0\n{all}\\end{{center}}\n\n"
+    )
 }
 
 /// Whether a line of a display is wider than the page, as far as its characters tell.
@@ -160,4 +177,26 @@ fn caption(pieces: &[Piece]) -> String {
         Piece::Symbol(label) => format!("${}$", label.to_latex()),
     });
     each.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solution::Slot;
+
+    #[test]
+    fn narrow_pictures_of_one_place_stand_in_one_row() {
+        let picture = Picture {
+            slot: Slot::Before,
+            svg: String::new(),
+            tikz: String::from("\\tikz{}\n"),
+            caption: vec![Piece::Words(String::from("Just before."))],
+            alternative: String::new(),
+        };
+        let two = row(&[&picture, &picture]);
+        assert_eq!(two.matches("\\begin{center}").count(), 1);
+        assert_eq!(two.matches("\\shown{\\tikz{}}{Just before.}").count(), 2);
+        assert!(row(&[&picture]).contains("\\shown[.86]{"));
+        assert!(row(&[]).is_empty());
+    }
 }

@@ -176,10 +176,8 @@ pub enum Part {
 /// Which figure belongs somewhere.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Slot {
-    /// The bodies just before.
+    /// The bodies just before, and the free-body diagrams of the collision.
     Before,
-    /// The free-body diagrams of the collision.
-    During,
     /// The bodies just after.
     After,
     /// Quantities against a parameter.

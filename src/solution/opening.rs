@@ -126,7 +126,6 @@ impl Writer<'_> {
             self.text(text);
         }
         self.push(Part::Figure(Slot::Before));
-        self.push(Part::Figure(Slot::During));
         let mut text = format!("{AXES}.");
         let forces: Vec<String> = self.forces();
         if !forces.is_empty() {
