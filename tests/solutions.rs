@@ -1190,3 +1190,29 @@ fn every_case_that_friction_leaves_is_told() {
     }
     assert!(several > 0);
 }
+
+#[test]
+fn what_a_teacher_would_say_is_said_and_what_an_editor_would_strike_is_not() {
+    let mut faults = Vec::new();
+    let mut last = (String::new(), String::new());
+    let table = fs::read_to_string("tests/solutions/told.tsv").expect("a table");
+    for row in table.lines().skip(1) {
+        let [path, words, reason] = *row.split('\t').collect::<Vec<_>>() else {
+            panic!("{row}");
+        };
+        if last.0 != path {
+            let case = Case::read(path.into());
+            let text = render::plain::solution(&case.solution(Detail::Normal));
+            let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+            last = (path.to_string(), text);
+        }
+        let (sought, is_there) = match words.strip_prefix("not: ") {
+            Some(words) => (words, false),
+            None => (words, true),
+        };
+        if last.1.contains(sought) != is_there {
+            faults.push(format!("{path}: {words}: {reason}\n{}", last.1));
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}

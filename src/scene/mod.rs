@@ -381,7 +381,7 @@ impl Body {
         if name.to_lowercase().starts_with("the ") {
             return name.to_string();
         }
-        if name.chars().count() == 1 {
+        if name.chars().count() == 1 || ["one", "two", "three", "four"].contains(&name) {
             return format!("body {name}");
         }
         let digits = name.chars().rev().take_while(char::is_ascii_digit).count();

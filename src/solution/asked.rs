@@ -445,11 +445,11 @@ fn stands_for(ask: &Ask, answer: &Answer) -> Option<(Expr, &'static str)> {
 fn by_reason(all: Vec<Sentence>) -> Vec<Sentence> {
     let mut out: Vec<Sentence> = Vec::new();
     for one in all {
-        let reason = one.0.last().cloned();
-        let is_reason = matches!(&reason, Some(Piece::Words(words)) if words.starts_with(" ("));
-        match out.last_mut() {
-            Some(before) if is_reason && before.0.last() == reason.as_ref() => {
-                before.0.pop();
+        let opens = |p: &Piece| matches!(p, Piece::Words(words) if words.starts_with(" ("));
+        let reason = one.0.iter().rposition(opens).map(|at| &one.0[at..]);
+        match (out.last_mut(), reason) {
+            (Some(before), Some(reason)) if before.0.ends_with(reason) => {
+                before.0.truncate(before.0.len() - reason.len());
                 before.0.push(Piece::Words(String::from(" and ")));
                 before.0.extend(one.0);
             }

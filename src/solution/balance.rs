@@ -55,7 +55,7 @@ impl Writer<'_> {
             Law::Given(k) => self.given(*k),
             Law::Condition(c, i) => {
                 self.name_roots(std::slice::from_ref(&right), 1);
-                self.rubs(*c, *i);
+                self.rubs(*c, *i, &right);
             }
         }
         let right = self.with_roots(&right);

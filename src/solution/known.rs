@@ -8,7 +8,9 @@ use crate::scene::Scene;
 /// ` = 1.2 m/s`, where the scene gives every value.
 pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
     let formula = answer.formula()?;
-    if formula.symbols().iter().all(|s| s.as_ref() == "pi") {
+    // What is plain already needs a number only for its unit.
+    let is_plain = formula.symbols().iter().all(|s| s.as_ref() == "pi");
+    if is_plain && (formula.is_zero() || answer.dimension.is_none()) {
         return None;
     }
     let values = scene

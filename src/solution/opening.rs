@@ -33,6 +33,14 @@ impl Solution {
                 continue;
             };
             let is_axes = matches!(text.first(), Some(Inline::Text(t)) if t.starts_with(AXES));
+            let is_plain = |e: &Expr| e.is_constant() && !e.is_zero();
+            let in_numbers = moving.iter().any(|b| {
+                let body = &scene.bodies[*b];
+                is_plain(&body.mass) || body.velocity.iter().any(is_plain)
+            });
+            if is_axes && in_numbers {
+                text.push(say(" Plain numbers are in SI units."));
+            }
             if let ([b], true) = (moving.as_slice(), used && is_axes) {
                 let whose = words::body(scene, *b);
                 text.push(say(format!(" G is the center of mass of {whose}.")));

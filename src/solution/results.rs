@@ -1,5 +1,6 @@
 //! The results in one place, their abbreviations, and what was checked.
 
+use super::known;
 use super::opening::NUMBERS;
 use super::words::{self, say};
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Writer};
@@ -194,29 +195,14 @@ impl Writer<'_> {
     fn numbers(&mut self) {
         let mut items = Vec::new();
         for answer in &self.d.answers {
-            let Form::Value { closed, .. } = &answer.form else {
-                continue;
-            };
-            let values: std::collections::BTreeMap<_, _> = self
-                .scene
-                .parameters
-                .iter()
-                .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
-                .collect();
-            let symbols = closed.symbols();
-            if symbols.is_empty() || !symbols.iter().all(|s| values.contains_key(s)) {
-                continue;
-            }
-            let put_in = closed.substitute(&values);
-            let Some(value) = put_in.evaluate(&crate::expr::Point::<f64>::default()) else {
+            let Some(number) = known::number(self.scene, answer) else {
                 continue;
             };
             if !items.is_empty() {
                 items.push(say(", "));
             }
             items.push(words::formula(&Expr::symbol(&answer.name)));
-            let number = answer.dimension.measured(&words::digits(value));
-            items.push(say(format!(" = {number}")));
+            items.push(say(number));
         }
         if !items.is_empty() {
             items.insert(0, say(NUMBERS));

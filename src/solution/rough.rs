@@ -87,8 +87,8 @@ impl Writer<'_> {
         })
     }
 
-    /// Why one of the two conditions of a rough contact holds: its index, as the laws count them.
-    pub(super) fn rubs(&mut self, contact: usize, index: usize) {
+    /// Why one of the two conditions of a rough contact holds: its index, as the laws count them, and its right side.
+    pub(super) fn rubs(&mut self, contact: usize, index: usize, right: &Expr) {
         let c = &self.scene.contacts[contact];
         let at = words::place(&c.name, "contact");
         let ContactLaw::Decided(decided) = &c.law else {
@@ -118,7 +118,12 @@ impl Writer<'_> {
             )],
             "normal impulse, 1 + e times that of compression" => {
                 let slips = self.slips_before(c);
-                return self.compression(&at, e, mode, slips);
+                let slides = matches!(
+                    mode,
+                    Mode::SticksInRestitution | Mode::ReversesInRestitution
+                );
+                let rate = (slides || !slips).then(|| self.stopping(c, e, right));
+                return self.compression(&at, e, (mode, slips), rate.flatten());
             }
             "restitution by energy" => vec![
                 say("Restitution gives back "),
@@ -141,8 +146,24 @@ impl Writer<'_> {
         self.text(text);
     }
 
+    /// The speed of approach at a contact and by how much a unit of the normal impulse lessens it in compression: this is what
+    /// the impulse of compression is the quotient of. `impulse` is the whole one, 1 + e times as large.
+    fn stopping(&mut self, contact: &Contact, e: &Expr, impulse: &Expr) -> Option<[Expr; 2]> {
+        let normal = contact.normal.as_ref()?;
+        let approach = -dot(&contact.relative_velocity(self.scene), normal);
+        let approach = self.tidy(&approach);
+        let rate = self.tidy(&(&approach * (Expr::one() + e) / impulse));
+        (rate.size() <= LONG).then_some([approach, rate])
+    }
+
     /// Poisson: compression ends when the contact has no normal velocity left, and restitution adds e times its impulse.
-    fn compression(&mut self, at: &str, e: &Expr, mode: Mode, slips: bool) {
+    fn compression(
+        &mut self,
+        at: &str,
+        e: &Expr,
+        (mode, slips): (Mode, bool),
+        rate: Option<[Expr; 2]>,
+    ) {
         let state = match mode {
             Mode::SticksInCompression if !slips => {
                 "nothing slides, so the impulse until then is the one that brings it to rest"
@@ -153,16 +174,32 @@ impl Writer<'_> {
             Mode::SticksInRestitution | Mode::ReversesInRestitution => {
                 "it slides until then, so friction is the coefficient times the normal impulse"
             }
+            _ if !slips => {
+                "it slides from the beginning, so friction is the coefficient times the normal impulse"
+            }
             _ => "by then it slides the other way, so friction has changed its sign on the way",
         };
-        let lead = format!("Compression ends when {at} has no normal velocity left; {state}.");
-        if e.is_zero() {
-            return self.say(&format!("{lead} Without rebound that is all:"));
+        let mut text = vec![say(format!(
+            "Compression ends when {at} has no normal velocity left; {state}."
+        ))];
+        if let Some([approach, rate]) = rate {
+            text.extend([
+                say(" Each unit of normal impulse takes "),
+                words::formula(&rate),
+                say(" off the speed of approach, "),
+                words::formula(&approach),
+                say("."),
+            ]);
         }
-        self.text(vec![
-            say(format!("{lead} Restitution adds ")),
-            words::formula(e),
-            say(" times as much:"),
-        ]);
+        if e.is_zero() {
+            text.push(say(" Without rebound that is all:"));
+        } else {
+            text.extend([
+                say(" Restitution adds "),
+                words::formula(e),
+                say(" times as much:"),
+            ]);
+        }
+        self.text(text);
     }
 }

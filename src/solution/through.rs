@@ -186,13 +186,22 @@ impl Writer<'_> {
                 all.any(|d| !named(&d.name) && short.symbols().contains(&d.name))
             });
         let short = !abbreviated && rows.iter().all(|(l, r)| l.size() + r.size() <= READABLE);
+        // What holds impulses alone stands there already.
+        let is_mixed = |e: &Equation| e.terms.iter().any(|(u, _)| !u.is_impulse());
+        let mixed = rows.into_iter().zip(&others);
+        let rows: Vec<_> = mixed
+            .filter(|(_, e)| is_mixed(e))
+            .map(|(row, _)| row)
+            .collect();
+        let short = short && !rows.is_empty();
         if short {
-            let verb = if rows.len() == 1 {
-                "this becomes"
-            } else {
-                "these become"
+            let these = match (rows.len(), rows.len() == others.len()) {
+                (1, true) => "this becomes",
+                (1, false) => "the condition on the velocities becomes",
+                (_, true) => "these become",
+                (_, false) => "the conditions on the velocities become",
             };
-            self.say(&format!("With the velocities from the balances {verb}"));
+            self.say(&format!("With the velocities from the balances {these}"));
             for (left, right) in rows {
                 self.claim(left, right, "the velocities substituted");
             }

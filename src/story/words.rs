@@ -148,30 +148,48 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
             let name = &scene.bodies[fall.body].name;
             out.push(match (&fall.until, &fall.gravity) {
                 (FallEnd::Drop(h), Some(_)) if fall.rising => {
-                    sentence!["`", name, "` rises freely through ", &-h]
+                    sentence!["`", name, "` rises freely through ", measured(&-h, "m")]
                 }
                 (FallEnd::Drop(h), Some(_)) if h.is_zero() => {
                     sentence!["`", name, "` flies freely until it is as high as at first"]
                 }
                 (FallEnd::Drop(h), Some(_)) => match counted(h, [" lower", " higher"]) {
-                    (_, " lower") => sentence!["`", name, "` falls freely through ", h],
+                    (_, " lower") => {
+                        sentence!["`", name, "` falls freely through ", measured(h, "m")]
+                    }
                     (up, _) => sentence![
                         "`",
                         name,
                         "` flies freely until it comes down to a place ",
-                        &up,
+                        measured(&up, "m"),
                         " higher"
                     ],
                 },
-                (FallEnd::Time(t), Some(_)) => sentence!["`", name, "` falls freely for ", t],
-                (FallEnd::Time(t), None) => sentence!["`", name, "` flies freely for ", t],
+                (FallEnd::Time(t), Some(_)) => {
+                    sentence!["`", name, "` falls freely for ", measured(t, "s")]
+                }
+                (FallEnd::Time(t), None) => {
+                    sentence!["`", name, "` flies freely for ", measured(t, "s")]
+                }
                 (FallEnd::Range(s), _) => {
                     let (far, way) = counted(s, [" further right", " further left"]);
-                    sentence!["`", name, "` flies freely until it is ", &far, way]
+                    sentence![
+                        "`",
+                        name,
+                        "` flies freely until it is ",
+                        measured(&far, "m"),
+                        way
+                    ]
                 }
                 (FallEnd::Drop(h), None) => {
                     let (far, way) = counted(h, [" lower", " higher"]);
-                    sentence!["`", name, "` flies freely until it is ", &far, way]
+                    sentence![
+                        "`",
+                        name,
+                        "` flies freely until it is ",
+                        measured(&far, "m"),
+                        way
+                    ]
                 }
             });
             for b in &fall.with {
@@ -281,11 +299,19 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
     });
     let strings = strings.collect::<String>();
     match &slide.until {
-        SlideEnd::Distance(s) => sentence![lead, " through ", s, strings],
-        SlideEnd::Time(t) => sentence![lead, " for ", t, strings],
+        SlideEnd::Distance(s) => sentence![lead, " through ", measured(s, "m"), strings],
+        SlideEnd::Time(t) => sentence![lead, " for ", measured(t, "s"), strings],
         SlideEnd::Stops if one => sentence![lead, " until it stops", strings],
         SlideEnd::Stops => sentence![lead, " until they stop", strings],
         SlideEnd::Rolls => sentence![lead, " until it rolls", strings],
+    }
+}
+
+/// A formula, or a number with its unit.
+fn measured(e: &Expr, unit: &str) -> Sentence {
+    match e.is_constant() && !e.is_zero() {
+        true => sentence![e, " ", unit],
+        false => e.into(),
     }
 }
 

@@ -37,7 +37,10 @@ impl Page<'_> {
             None => vec![say(format!("No force acts, so {who} keeps its velocity"))],
             Some(g) => vec![
                 say(format!("The weight gives {who} the constant acceleration ")),
-                words::formula(g),
+                match g.evaluate(&crate::expr::Point::<f64>::default()) {
+                    Some(g) => say(format!("{} m/s²", words::digits(g))),
+                    None => words::formula(g),
+                },
                 say(" downward"),
             ],
         };

@@ -214,7 +214,7 @@ impl Page<'_> {
             return;
         }
         // An equation of motion does without the energy.
-        let is_used = told.steps.is_empty();
+        let is_used = told.steps.is_empty() && !self.is_of_moments(told);
         let named = told.kept.iter();
         let named = named.filter(|k| full || k.what == "energy" && (is_used || !k.conserved));
         let mut items: Vec<Vec<Inline>> = named

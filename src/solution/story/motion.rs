@@ -2,6 +2,7 @@
 //! are told in [`super::newton`], a flight in [`super::flight`].
 
 use super::Page;
+use crate::answer::Answer;
 use crate::expr::{Expr, Symbol, dot, minus};
 use crate::scene::{Ask, Linkage, Slide, Stage, StageKind, Turn, Until};
 use crate::solution::neat::{alike, neat, tidied};
@@ -57,6 +58,10 @@ impl Page<'_> {
             );
             lines.push(Line { math, step });
         }
+        if self.is_of_moments(told) {
+            self.solution.push(Part::Display(lines));
+            return self.whirled(stage, told);
+        }
         let t = |mark| vec![words::kinetic("", mark)];
         if let StageKind::Linkage(linkage) = &stage.kind {
             self.velocities(told, linkage);
@@ -76,6 +81,14 @@ impl Page<'_> {
         {
             self.solution.push(Part::Display(lines));
             return self.rise(stage, told, turn, g);
+        }
+        if let StageKind::Turn(turn) = &stage.kind
+            && matches!(turn.until, Until::Stops)
+            && let Some(line) = self.braked(told, turn)
+        {
+            lines.push(line);
+            self.solution.push(Part::Display(lines));
+            return self.stopped(told, turn);
         }
         let total = Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
         let gain = end - start;
@@ -123,28 +136,124 @@ impl Page<'_> {
         self.whirled(stage, told);
     }
 
+    /// The answer of a stage to a question of this kind.
+    fn to(&self, told: &StageTold, is: fn(&Ask) -> bool) -> Option<&Answer> {
+        self.answered(told).find(|answer| {
+            let mut questions = self.scene.questions.iter();
+            questions.any(|q| q.name == answer.question && is(&q.ask))
+        })
+    }
+
+    /// How a moment alone stops a rotation: its work takes up the kinetic energy.
+    fn braked(&self, told: &StageTold, turn: &Turn) -> Option<Line> {
+        let braking = -turn.torque.as_ref()?;
+        let through = self.to(told, |ask| matches!(ask, Ask::Angle { .. }))?;
+        let turned = told.turned.as_ref()?;
+        let opposite = tidied(self.scene, &-turned);
+        let is_size = [turned, &opposite].contains(&through.formula()?);
+        let work = braking * Expr::symbol(&through.name);
+        let math = vec![Math::Expr(work), Math::Op("="), words::kinetic("", "-")];
+        is_size.then_some(Line { math, step: None })
+    }
+
+    /// When a moment alone has stopped a rotation: its angular impulse takes up the angular momentum.
+    fn stopped(&mut self, told: &StageTold, turn: &Turn) {
+        let time = self.to(told, |ask| matches!(ask, Ask::Time));
+        let (Some(time), Some([_, inertia]), Some(torque)) = (time, &told.inertia, &turn.torque)
+        else {
+            return;
+        };
+        let spin = &told.before.spin[turn.body];
+        let spin = if spin.is_negative() {
+            -spin
+        } else {
+            spin.clone()
+        };
+        let momentum = tidied(self.scene, &(inertia * spin));
+        let impulse = -torque * Expr::symbol(&time.name);
+        let math = vec![Math::Expr(impulse), Math::Op("="), Math::Expr(momentum)];
+        self.solution
+            .say("In the time it takes, the moment takes up the angular momentum as well:");
+        self.solution
+            .push(Part::Display(vec![Line { math, step: None }]));
+    }
+
+    /// Whether a rotation is asked for its angular acceleration alone, which its moments give without its energy.
+    pub(super) fn is_of_moments(&self, told: &StageTold) -> bool {
+        let index = self.told.stages.iter().position(|s| std::ptr::eq(s, told));
+        let mut next = self.told.stages.iter();
+        let goes_on = next.any(|s| s.branch.map(|(parent, _)| parent) == index);
+        let whirls = |ask: &Ask| matches!(ask, Ask::AngularAcceleration { .. });
+        matches!(told.placed.kind, StageKind::Turn(_))
+            && !goes_on
+            && self.asked(told, whirls)
+            && !self.asked(told, |ask| !whirls(ask))
+    }
+
     /// Where an angular acceleration, or the time of a linkage, comes from, if it is asked of this stage.
     fn whirled(&mut self, stage: &Stage, told: &StageTold) {
         let asks = |is: fn(&Ask) -> bool| self.asked(told, is);
         let whirls = asks(|ask| matches!(ask, Ask::AngularAcceleration { .. }));
         let takes = asks(|ask| matches!(ask, Ask::Time));
         let is_linkage = matches!(stage.kind, StageKind::Linkage(_));
-        if whirls {
-            self.solution.say(&match &stage.kind {
-                StageKind::Turn(turn) => format!(
-                    "The moments about {} over the moment of inertia give the angular acceleration.",
-                    turn.about_name
-                ),
-                _ => String::from(
-                    "The balance of energy from the beginning to any place, differentiated by the time, gives the angular acceleration.",
-                ),
-            });
+        match &stage.kind {
+            StageKind::Turn(turn) if whirls => self.moments(told, turn),
+            _ if whirls => self.solution.say(
+                "The balance of energy from the beginning to any place, differentiated by the time, gives the angular acceleration.",
+            ),
+            _ => {}
         }
         if takes && is_linkage {
             self.solution.say(
                 "The acceleration is the same all the way, and the time is the change of the velocity over it.",
             );
         }
+    }
+
+    /// The moments about the fixed point, which turn the bodies: each angular acceleration that is asked for by its own.
+    fn moments(&mut self, told: &StageTold, turn: &Turn) {
+        let scene = &told.placed.scene;
+        let zero = Expr::zero();
+        let g = turn.gravity.as_ref().unwrap_or(&zero);
+        let mut lines = Vec::new();
+        for answer in self.answered(told).cloned().collect::<Vec<_>>() {
+            let mut questions = self.scene.questions.iter();
+            let ask = questions.find(|q| q.name == answer.question);
+            let Some(Ask::AngularAcceleration {
+                clockwise, at_end, ..
+            }) = ask.map(|q| &q.ask)
+            else {
+                continue;
+            };
+            let (Some([_, inertia]), Some(value)) = (&told.inertia, answer.formula()) else {
+                continue;
+            };
+            let state = if *at_end { &told.after } else { &told.before };
+            let weights = turn.bodies().into_iter().map(|b| {
+                let arm = &turn.about[0] - &state.center[b][0];
+                &scene.bodies[b].mass * g * tidied(self.scene, &arm)
+            });
+            let turns_back = match turn.clockwise {
+                Some(clockwise) => clockwise,
+                None => told.before.spin[turn.body].is_negative(),
+            };
+            let way = Expr::from(if turns_back { -1 } else { 1 });
+            let torque = turn.torque.iter().map(|torque| &way * torque);
+            let counted = Expr::from(if *clockwise { -1 } else { 1 });
+            let moment = Expr::sum(weights.chain(torque).map(|m| &counted * m));
+            let claim = Claim::new(inertia * value, moment.clone());
+            let why = "moment of inertia times angular acceleration = moments";
+            let step = Some(self.solution.step(Vec::new(), vec![claim], why));
+            let symbol = Math::Expr(Expr::symbol(&answer.name));
+            let inertia = name("I", &turn.about_name, "", false);
+            let math = vec![inertia, symbol, Math::Op("="), Math::Expr(moment)];
+            lines.push(Line { math, step });
+        }
+        self.solution.say(&format!(
+            "The moments about {} over the moment of inertia give the angular acceleration:",
+            turn.about_name
+        ));
+        self.solution.push(Part::Display(lines));
     }
 
     /// The speed with which a motion ends, from its energy, where the next stage takes it over and no question asks for it.
@@ -157,13 +266,13 @@ impl Page<'_> {
         let (letter, inertia) = match &stage.kind {
             StageKind::Slide(slide) => {
                 let spins = !told.after.spin[slide.body].is_zero();
-                let others = spins || !slide.strings.is_empty();
-                if asks(|_| true) || others || !goes_on || end.is_zero() {
+                if asks(|_| true) || spins || !goes_on || end.is_zero() {
                     return None;
                 }
-                let masses = slide.company().into_iter();
-                let masses = masses.map(|b| stage.scene.bodies[b].mass.clone());
-                ("v", Expr::sum(masses))
+                // What strings tie to it moves, and turns, in a fixed ratio to it.
+                let speed = dot(&told.after.velocity[slide.body], &slide.along);
+                let apparent = Expr::from(2) * end / speed.powi(2);
+                ("v", tidied(self.scene, &apparent))
             }
             StageKind::Fall(fall) => {
                 let spins = !told.after.spin[fall.body].is_zero();

@@ -2,15 +2,17 @@
 
 use super::Page;
 use crate::answer::Answer;
-use crate::expr::{Expr, Node};
-use crate::scene::Ask;
+use crate::expr::{Expr, Node, Symbol, dot};
+use crate::scene::{Ask, StageKind};
 use crate::solution::neat::{alike, neat, tidied};
-use crate::solution::words::{name, say};
-use crate::solution::{Claim, Detail, Inline, Line, Math, Part};
+use crate::solution::words::{self, name, say};
+use crate::solution::{Claim, Detail, Inline, Line, Math, Meaning, Part};
 use crate::story::{StageTold, Step};
 
 /// Smallest formula, in nodes, whose name is worth standing for it.
 const WORTH_A_NAME: usize = 6;
+/// The speed at the beginning of a motion along a line.
+const START: &str = "v_0";
 
 impl Page<'_> {
     /// A motion by Newton's laws: what the letters stand for, then forces, accelerations, and what they come to.
@@ -18,6 +20,25 @@ impl Page<'_> {
         let mut lines = Vec::new();
         let mut letters = vec![say("Let ")];
         let steps: Vec<&Step> = told.steps.iter().filter(|s| self.serves(told, s)).collect();
+        if let Some((symbol, value)) = self.start(told) {
+            letters.extend([
+                words::formula(&symbol),
+                say(" be the speed at the beginning, "),
+            ]);
+            let claim = Claim::new(symbol.clone(), value.clone());
+            let id = self
+                .solution
+                .step(Vec::new(), vec![claim], "the speed at the beginning");
+            if let Some(step) = self.solution.steps.last_mut() {
+                step.defines = Some(Symbol::from(START));
+            }
+            let meanings = &mut self.solution.meanings;
+            meanings.insert(Symbol::from(START), Meaning::Defined);
+            lines.push(Line {
+                math: vec![Math::Expr(symbol), Math::Op("="), Math::Expr(value)],
+                step: Some(id),
+            });
+        }
         for (i, step) in steps.iter().enumerate() {
             let mark = if matches!(step.letter, "v" | "omega") {
                 "+"
@@ -35,7 +56,7 @@ impl Page<'_> {
                 (_, 1) => " and ",
                 _ => ", ",
             }));
-            let be = if i == 0 { " be " } else { " " };
+            let be = if letters.len() == 2 { " be " } else { " " };
             letters.extend([
                 Inline::Math(vec![letter.clone()]),
                 say(format!("{be}{}", step.why)),
@@ -78,6 +99,28 @@ impl Page<'_> {
         if !lines.is_empty() {
             self.solution.push(Part::Display(lines));
         }
+    }
+
+    /// The speed with which a motion along a line begins, as a symbol of its own, where it is long, stands by no name yet, and
+    /// what comes of it is told.
+    fn start(&self, told: &StageTold) -> Option<(Expr, Expr)> {
+        let StageKind::Slide(slide) = &told.placed.kind else {
+            return None;
+        };
+        let along = dot(&told.before.velocity[slide.body], &slide.along);
+        let value = tidied(self.scene, &along);
+        let symbol = Expr::symbol(START);
+        let stages = &self.told.stages;
+        let mut others = stages.iter().filter(|s| !std::ptr::eq(*s, told));
+        let is_other = others.any(|s| matches!(s.placed.kind, StageKind::Slide(_)));
+        let is_taken = self.scene.parameters.iter().any(|p| *p.name == *START)
+            || self.told.answers.iter().any(|a| a.name == START);
+        let serves = |s: &&Step| s.inertia.is_none() && self.serves(told, s);
+        let mut steps = told.steps.iter().filter(serves);
+        let is_used = steps.any(|s| replaced(&s.raw, &value, &symbol) != s.raw);
+        let is_named = self.named(&value) != value;
+        (value.size() > WORTH_A_NAME && is_used && !is_taken && !is_other && !is_named)
+            .then_some((symbol, value))
     }
 
     /// Whether a step is worth telling: a time or a way only where a question or another step needs it.
@@ -145,6 +188,10 @@ impl Page<'_> {
                 let raw = self.by_names(&step.raw, &step.value);
                 self.by_letter(told, "a", WORTH_A_NAME, &raw)
             }
+        };
+        let raw = match self.start(told) {
+            Some((symbol, value)) => replaced(&raw, &value, &symbol),
+            None => raw,
         };
         let raw = neat(self.scene, &raw);
         let written = crate::formula::write_plain;
