@@ -3,7 +3,7 @@
 //! In: questions with their answers in closed form, and the points at which the scene was followed. Out: checks. A threshold is
 //! looked at on both sides, a largest value beside its place and far from it, a limit and an approximation at two distances.
 
-use super::{Compared, Second, Seen, World, points_of, shaken};
+use super::{CLOSE, Compared, Second, Seen, World, points_of, shaken};
 use crate::answer::{Answer, Check};
 use crate::domain::Limit;
 use crate::expr::{Expr, Node, Point, Symbol};
@@ -63,8 +63,12 @@ impl Asked<'_> {
                 Ask::Maximum { of, over } => self.is_largest(seen, (of, over), answer),
                 Ask::Limit { of, .. } | Ask::Approximate { of, .. } => self.nears(seen, of, answer),
                 Ask::Show {
-                    left, right, with, ..
-                } => Some(self.shows(seen, [left, right], with)),
+                    left,
+                    relation,
+                    right,
+                    with,
+                    ..
+                } => Some(self.shows(seen, (left, *relation, right), with)),
                 _ => self.number(seen, question, answer),
             };
             is_asked |= held.is_some();
@@ -114,8 +118,14 @@ impl Asked<'_> {
         })
     }
 
-    /// Whether both sides of an identity are the same number.
-    fn shows(&self, seen: &Seen, sides: [&Expr; 2], with: &[(Symbol, Expr)]) -> Held {
+    /// Whether both sides of an identity are the same number, or those of an inequality stand as told.
+    fn shows(
+        &self,
+        seen: &Seen,
+        (left, relation, right): (&Expr, Relation, &Expr),
+        with: &[(Symbol, Expr)],
+    ) -> Held {
+        let sides = [left, right];
         let [left, right] = sides.map(|side| self.formula(seen, side, with, &[]));
         let (Some(left), Some(right)) = (left, right) else {
             return Held::Unseen;
@@ -133,7 +143,14 @@ impl Asked<'_> {
         });
         let terms = terms.filter_map(|term| term.evaluate(&sizes));
         let size = terms.fold(0.0f64, |size, term| size.max(term.abs()));
-        Held::Same([left, right], size)
+        let noise = CLOSE * size.max(left.abs()).max(right.abs());
+        let stands = match relation {
+            Relation::Less | Relation::LessEqual => left - right <= noise,
+            Relation::Greater | Relation::GreaterEqual => right - left <= noise,
+            _ => return Held::Same([left, right], size),
+        };
+        let otherwise = format!("the left side is {left:.9} and the right side {right:.9}");
+        Held::So(stands, otherwise)
     }
 
     /// Whether the sides of a relation change places at the values told.
