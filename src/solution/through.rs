@@ -47,8 +47,52 @@ impl Writer<'_> {
         }
     }
 
-    /// Says why nothing changes these, and what they are.
+    /// Says why nothing changes these, and what they are. An axis along which no body moves is told once for all.
     pub(super) fn keeps(&mut self, blocks: &[&Block]) {
+        let bodies = self.scene.bodies.iter().filter(|b| !b.is_fixed()).count();
+        let mut rest = blocks.to_vec();
+        for (axis, direction) in super::block::AXES.iter().enumerate() {
+            let rests = |b: &&&Block| {
+                let is_along = matches!(b.unknowns[0], Unknown::Velocity(_, a) if a == axis);
+                is_along && self.d.solution(b).iter().all(Expr::is_zero) && !self.is_asked(b)
+            };
+            let resting: Vec<&Block> = blocks.iter().filter(rests).copied().collect();
+            if resting.len() < bodies.max(2) {
+                continue;
+            }
+            self.say(&format!(
+                "No impulse acts along {direction}, and nothing moves along it."
+            ));
+            for block in &resting {
+                self.kept(block);
+            }
+            rest.retain(|b| !resting.iter().any(|r| std::ptr::eq(*r, *b)));
+        }
+        if !rest.is_empty() {
+            self.keeps_each(&rest);
+        }
+    }
+
+    /// Whether what a block finds is an answer.
+    fn is_asked(&self, block: &Block) -> bool {
+        let name = self.d.names.plain(block.unknowns[0]);
+        self.d.answers.iter().any(|a| a.name == name)
+    }
+
+    /// Claims what nothing changes; gives its symbol and value.
+    fn kept(&mut self, block: &Block) -> [Expr; 2] {
+        let unknown = block.unknowns[0];
+        let value = self.d.solution(block).swap_remove(0);
+        let symbol = Expr::symbol(self.d.names.plain(unknown));
+        if value.is_zero() {
+            self.zero.insert(unknown);
+        }
+        let claim = super::Claim::new(symbol.clone(), value.clone());
+        self.step(Vec::new(), vec![claim], "no impulse changes it");
+        [symbol, value]
+    }
+
+    fn keeps_each(&mut self, blocks: &[&Block]) {
         let mut along: Vec<(usize, Vec<String>)> = Vec::new();
         let mut spins = Vec::new();
         for block in blocks {
@@ -89,32 +133,18 @@ impl Writer<'_> {
                 words::capital(&reasons.join(", and "))
             }
         };
-        let asked = |b: &&Block| {
-            let name = self.d.names.plain(b.unknowns[0]);
-            self.d.answers.iter().any(|a| a.name == name)
-        };
-        if blocks.iter().any(asked) {
+        if blocks.iter().any(|b| self.is_asked(b)) {
             self.say(&format!("{text}, so"));
             return self.solved(blocks, "");
         }
         // What is not asked for is said in the sentence.
         let mut line = vec![say(format!("{text}, so "))];
         for (i, block) in blocks.iter().enumerate() {
-            let unknown = block.unknowns[0];
-            let value = self.d.solution(block).swap_remove(0);
-            let symbol = Expr::symbol(self.d.names.plain(unknown));
             if i > 0 {
                 line.push(say(if i + 1 == blocks.len() { " and " } else { ", " }));
             }
+            let [symbol, value] = self.kept(block);
             line.push(words::equation(&symbol, &value));
-            if value.is_zero() {
-                self.zero.insert(unknown);
-            }
-            let claim = super::Claim {
-                left: symbol,
-                right: value,
-            };
-            self.step(Vec::new(), vec![claim], "no impulse changes it");
         }
         line.push(say("."));
         self.text(line);

@@ -3,7 +3,7 @@
 use super::Page;
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
-use crate::scene::{Ask, Question, Scene};
+use crate::scene::{Ask, EnergyWhen, Question, Scene, SlideEnd, StageKind};
 use crate::solution::known;
 use crate::solution::neat::tidied;
 use crate::solution::opening::NUMBERS;
@@ -105,16 +105,16 @@ impl Page<'_> {
         };
         let ask = here.placed.asked(question).clone();
         // What it comes from goes by the names that were told before.
-        let flown = self.flown(here, &ask, answer);
+        let by_energy = || self.lost(here, &ask);
+        let by_rolling = || self.rolled(here, &ask, formula);
+        let flown = self.flown(here, &ask, answer).or_else(by_energy);
+        let flown = flown.or_else(by_rolling);
         let found = |s: &&Step| {
             let answering = self.answering(here, s);
             answering.is_some_and(|a| a.name == answer.name)
         };
-        let made = here
-            .steps
-            .iter()
-            .find(found)
-            .map(|step| self.made_of(here, step));
+        let made = here.steps.iter().find(found).filter(|_| flown.is_none());
+        let made = made.map(|step| self.made_of(here, step));
         self.solution.meanings.insert(symbol.clone(), meaning);
         for line in self.carried(here, &ask) {
             let known = end.steps.iter().any(|l: &Line| l.math == line.math);
@@ -156,6 +156,31 @@ impl Page<'_> {
             end.boxed.push(Line { math, step });
         }
         end.number(self.scene, &symbol, answer);
+    }
+
+    /// The energy that a motion loses, where its energies stand nowhere above: in the speeds, and to be held against the answer.
+    fn lost(&self, told: &StageTold, ask: &Ask) -> Option<[Expr; 2]> {
+        let when = EnergyWhen::Lost;
+        let is_asked = matches!(ask, Ask::Energy { when: w, of: None } if *w == when);
+        let [start, end] = told.energy.as_ref()?;
+        let [before, after] = [&told.before, &told.after].map(|s| self.energy_at(told, s));
+        (is_asked && !told.steps.is_empty()).then(|| [before - after, start - end])
+    }
+
+    /// The angular velocity of what has come to roll, by its speed over its radius.
+    pub(super) fn rolled(&self, told: &StageTold, ask: &Ask, value: &Expr) -> Option<[Expr; 2]> {
+        let StageKind::Slide(slide) = &told.placed.kind else {
+            return None;
+        };
+        let radius = told.placed.scene.bodies[slide.body].shape.radius()?;
+        let rolls = matches!(slide.until, SlideEnd::Rolls);
+        let speed = told.steps.iter().find(|s| s.letter == "v")?;
+        let way = tidied(self.scene, &(value * radius / &speed.value));
+        let is_rim = way == Expr::one() || way == -Expr::one();
+        (rolls && is_rim && matches!(ask, Ask::Spin { .. })).then(|| {
+            let by = |speed: &Expr| &way * speed / radius;
+            [by(&self.letter_of(told, speed)), by(&speed.value)]
+        })
     }
 
     /// The speed that is asked for at the end of a motion: its formula in the components of a velocity, and the answer.

@@ -20,7 +20,7 @@ use super::opening::{self, AXES};
 use super::rough;
 use super::sentence::{self, full_sentence};
 use super::words::{self, say};
-use super::{Before, Detail, Inline, Part, Scope, Slot, Solution, Writer};
+use super::{Before, Detail, Inline, Math, Part, Scope, Slot, Solution, Writer};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
 use crate::scene::{Ask, Scene, Stage};
@@ -33,6 +33,7 @@ pub(super) fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
         told,
         solution: blank(scene, told, detail),
         valid: Vec::new(),
+        letters: Vec::new(),
     };
     page.opening();
     for i in 0..told.stages.len() {
@@ -99,6 +100,8 @@ struct Page<'a> {
     solution: Solution,
     /// What the impacts are valid for, told at the end.
     valid: Vec<Inline>,
+    /// The letters of motions that were told, with what they stand for.
+    letters: Vec<(Math, &'static str)>,
 }
 
 impl Page<'_> {

@@ -8,7 +8,7 @@ use crate::scene::{Ask, Linkage, Slide, Stage, StageKind, Turn, Until};
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::words::{self, name, say};
 use crate::solution::{Claim, Line, Math, Part, Solution};
-use crate::story::StageTold;
+use crate::story::{StageTold, State};
 
 impl Page<'_> {
     /// A motion: inertia, work and energy, from the beginning to the end.
@@ -66,7 +66,7 @@ impl Page<'_> {
         if let StageKind::Linkage(linkage) = &stage.kind {
             self.velocities(told, linkage);
         }
-        let raw = self.start_energy(stage, told);
+        let raw = self.energy_at(told, &told.before);
         let math = chain(t("-"), &raw, start);
         let step = claim(
             &mut self.solution,
@@ -178,14 +178,18 @@ impl Page<'_> {
             .push(Part::Display(vec![Line { math, step: None }]));
     }
 
-    /// Whether a rotation is asked for its angular acceleration alone, which its moments give without its energy.
-    pub(super) fn is_of_moments(&self, told: &StageTold) -> bool {
+    /// Whether another stage takes over where this one ends.
+    pub(super) fn goes_on(&self, told: &StageTold) -> bool {
         let index = self.told.stages.iter().position(|s| std::ptr::eq(s, told));
         let mut next = self.told.stages.iter();
-        let goes_on = next.any(|s| s.branch.map(|(parent, _)| parent) == index);
+        next.any(|s| s.branch.map(|(parent, _)| parent) == index)
+    }
+
+    /// Whether a rotation is asked for its angular acceleration alone, which its moments give without its energy.
+    pub(super) fn is_of_moments(&self, told: &StageTold) -> bool {
         let whirls = |ask: &Ask| matches!(ask, Ask::AngularAcceleration { .. });
         matches!(told.placed.kind, StageKind::Turn(_))
-            && !goes_on
+            && !self.goes_on(told)
             && self.asked(told, whirls)
             && !self.asked(told, |ask| !whirls(ask))
     }
@@ -260,9 +264,7 @@ impl Page<'_> {
     fn speed(&mut self, stage: &Stage, told: &StageTold) -> Option<Line> {
         let [_, end] = told.energy.as_ref()?;
         let asks = |is: fn(&Ask) -> bool| self.asked(told, is);
-        let index = self.told.stages.iter().position(|s| std::ptr::eq(s, told));
-        let mut next = self.told.stages.iter();
-        let goes_on = next.any(|s| s.branch.map(|(parent, _)| parent) == index);
+        let goes_on = self.goes_on(told);
         let (letter, inertia) = match &stage.kind {
             StageKind::Slide(slide) => {
                 let spins = !told.after.spin[slide.body].is_zero();
@@ -375,17 +377,30 @@ impl Page<'_> {
                 lines.push(Line { math, step: None });
             }
         }
-        self.solution.text(vec![
+        let coordinate = Expr::symbol(&linkage.coordinate);
+        let mut text = vec![
             say("The places of all bodies follow from "),
-            words::formula(&Expr::symbol(&linkage.coordinate)),
-            say(", and their velocities from its rate; with these, translation and rotation make up the kinetic energy:"),
-        ]);
+            words::formula(&coordinate),
+            say(
+                ", and their velocities from its rate; with these, translation and rotation make up the kinetic energy",
+            ),
+        ];
+        if linkage.ends[0] == coordinate {
+            text.extend([
+                say(" (here "),
+                words::formula(&coordinate),
+                say(" is the value on the way, elsewhere the one at the beginning)"),
+            ]);
+        }
+        text.push(say(":"));
+        self.solution.text(text);
         self.solution.push(Part::Display(lines));
     }
 
-    /// Kinetic energy at the beginning of a motion from its velocities, term by term; a spin or speed that has a name by now
-    /// stands by its name.
-    fn start_energy(&self, stage: &Stage, told: &StageTold) -> Expr {
+    /// Kinetic energy of what moves in a stage, from the velocities of this state, term by term; a spin or speed that has a name
+    /// by now stands by its name.
+    pub(super) fn energy_at(&self, told: &StageTold, state: &State) -> Expr {
+        let stage = &told.placed;
         let half = Expr::ratio(1, 2);
         let square = |e: &Expr| {
             let opposite = self.named(&-e);
@@ -393,21 +408,21 @@ impl Page<'_> {
             plain.unwrap_or_else(|| self.named(e)).powi(2)
         };
         if let (Some([_, inertia]), StageKind::Turn(turn)) = (&told.inertia, &stage.kind) {
-            return &half * inertia * square(&told.before.spin[turn.body]);
+            return &half * inertia * square(&state.spin[turn.body]);
         }
         let moved = stage.kind.moved();
         Expr::sum(moved.into_iter().map(|body| {
             let b = &stage.scene.bodies[body];
             if let Some((slide, apparent)) = pulley(stage, body) {
-                let speed = dot(&told.before.velocity[slide.body], &slide.along);
+                let speed = dot(&state.velocity[slide.body], &slide.along);
                 let speed = tidied(self.scene, &speed);
                 return match speed.is_zero() || apparent.is_zero() {
                     true => Expr::zero(),
                     false => &half * tidied(self.scene, &apparent) * square(&speed),
                 };
             }
-            let [x, y] = &told.before.velocity[body];
-            let spin = &told.before.spin[body];
+            let [x, y] = &state.velocity[body];
+            let spin = &state.spin[body];
             let mut energy = Expr::zero();
             if !(x.is_zero() && y.is_zero()) {
                 energy = &half * &b.mass * (square(x) + square(y));

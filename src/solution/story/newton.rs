@@ -5,7 +5,7 @@ use crate::answer::Answer;
 use crate::expr::{Expr, Node, Symbol, dot};
 use crate::scene::{Ask, StageKind};
 use crate::solution::neat::{alike, neat, tidied};
-use crate::solution::words::{self, name, say};
+use crate::solution::words::{name, say};
 use crate::solution::{Claim, Detail, Inline, Line, Math, Meaning, Part};
 use crate::story::{StageTold, Step};
 
@@ -18,17 +18,13 @@ impl Page<'_> {
     /// A motion by Newton's laws: what the letters stand for, then forces, accelerations, and what they come to.
     pub(super) fn steps(&mut self, told: &StageTold) {
         let mut lines = Vec::new();
-        let mut letters = vec![say("Let ")];
+        let mut letters: Vec<(Math, &'static str)> = Vec::new();
         let steps: Vec<&Step> = told.steps.iter().filter(|s| self.serves(told, s)).collect();
         if let Some((symbol, value)) = self.start(told) {
-            letters.extend([
-                words::formula(&symbol),
-                say(" be the speed at the beginning, "),
-            ]);
+            let why = "the speed at the beginning";
+            letters.push((Math::Expr(symbol.clone()), why));
             let claim = Claim::new(symbol.clone(), value.clone());
-            let id = self
-                .solution
-                .step(Vec::new(), vec![claim], "the speed at the beginning");
+            let id = self.solution.step(Vec::new(), vec![claim], why);
             if let Some(step) = self.solution.steps.last_mut() {
                 step.defines = Some(Symbol::from(START));
             }
@@ -39,7 +35,7 @@ impl Page<'_> {
                 step: Some(id),
             });
         }
-        for (i, step) in steps.iter().enumerate() {
+        for step in steps {
             let mark = if matches!(step.letter, "v" | "omega") {
                 "+"
             } else {
@@ -51,16 +47,7 @@ impl Page<'_> {
                 Some(answer) => Math::Expr(Expr::symbol(&answer.name)),
                 None => name(step.letter, self.index(told, step), mark, false),
             };
-            letters.push(say(match (i, steps.len() - i) {
-                (0, _) => "",
-                (_, 1) => " and ",
-                _ => ", ",
-            }));
-            let be = if letters.len() == 2 { " be " } else { " " };
-            letters.extend([
-                Inline::Math(vec![letter.clone()]),
-                say(format!("{be}{}", step.why)),
-            ]);
+            letters.push((letter.clone(), step.why));
             let is_boxed = answer.is_some();
             let made = match &step.inertia {
                 Some(inertia) => inertia * &step.value,
@@ -92,13 +79,38 @@ impl Page<'_> {
                 step: Some(claimed),
             });
         }
-        letters.push(say("."));
-        if self.solution.detail != Detail::Brief {
-            self.solution.text(letters);
-        }
+        self.meant(letters);
         if !lines.is_empty() {
             self.solution.push(Part::Display(lines));
         }
+    }
+
+    /// What letters stand for; what was told of an earlier motion is not told again.
+    fn meant(&mut self, letters: Vec<(Math, &'static str)>) {
+        let (old, new): (Vec<_>, Vec<_>) =
+            letters.into_iter().partition(|l| self.letters.contains(l));
+        if self.solution.detail == Detail::Brief || new.is_empty() {
+            return;
+        }
+        let mut text = vec![say("Let ")];
+        for (i, (letter, why)) in new.iter().enumerate() {
+            text.push(say(match (i, new.len() - i) {
+                (0, _) => "",
+                (_, 1) => " and ",
+                _ => ", ",
+            }));
+            let be = if i == 0 { " be " } else { " " };
+            text.extend([
+                Inline::Math(vec![letter.clone()]),
+                say(format!("{be}{why}")),
+            ]);
+        }
+        text.push(say(match old.is_empty() {
+            true => ".",
+            false => "; the other letters are those above.",
+        }));
+        self.solution.text(text);
+        self.letters.extend(new);
     }
 
     /// The speed with which a motion along a line begins, as a symbol of its own, where it is long, stands by no name yet, and
@@ -134,6 +146,11 @@ impl Page<'_> {
         match step.letter {
             "t" => is_asked || told.steps.iter().any(|s| !s.by_time.is_empty()),
             "s" => is_asked,
+            // What is asked the other way round stands in the box alone.
+            "omega" => {
+                let spins = self.asked(told, |ask| matches!(ask, Ask::Spin { .. }));
+                self.answering(told, step).is_some() || self.goes_on(told) && !spins
+            }
             _ => true,
         }
     }
@@ -150,7 +167,7 @@ impl Page<'_> {
     }
 
     /// The letter of a step as it stands in a formula.
-    fn letter_of(&self, told: &StageTold, step: &Step) -> Expr {
+    pub(super) fn letter_of(&self, told: &StageTold, step: &Step) -> Expr {
         let own = match self.index(told, step) {
             "" => String::from(step.letter),
             index => format!("{}_{index}", step.letter),

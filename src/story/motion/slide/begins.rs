@@ -4,7 +4,7 @@ use super::line::Line;
 use super::lumps;
 use crate::answer::calc::{Seen, at_least_zero, is_zero, sign, tidy};
 use crate::expr::{Expr, Vector, dot};
-use crate::formula::{Sentence, write_plain};
+use crate::formula::{Sentence, sentence, write_plain};
 use crate::scene::{Slide, Stage};
 use crate::story::{Refused, State};
 
@@ -129,7 +129,12 @@ pub(super) fn not_negative(
                 "turn the direction round",
             ));
         }
-        _ => assumptions.push(at_least_zero(size, &stage.scene.domains)),
+        _ => assumptions.push(sentence![
+            at_least_zero(size, &stage.scene.domains),
+            ", so that `",
+            &stage.scene.bodies[slide.body].name,
+            "` does not move backward"
+        ]),
     }
     Ok(())
 }
