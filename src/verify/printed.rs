@@ -439,8 +439,16 @@ impl<'a> Desk<'a> {
             format!("[{}]", shown.join(", "))
         };
         self.identities(&all, printed, finding);
+        let decimal = decimal_in(text).filter(|_| finding.holds == Some(false));
+        let is_number = matches!(all.as_slice(), [(closed, _)] if closed.is_constant());
+        if let Some(decimal) = decimal.filter(|_| is_number) {
+            self.number(printed, decimal, item, finding)?;
+        }
         if let Some((sign, ..)) = bound {
             self.sense(&name, sign, finding);
+        }
+        if decimal.is_some() && is_number {
+            return Ok(());
         }
         if finding.holds == Some(false) && finding.explained.is_none() {
             self.caught(&all, finding);
@@ -557,6 +565,15 @@ impl<'a> Desk<'a> {
         }
         finding.holds = holds;
     }
+}
+
+/// The decimal number in its unit that is printed by itself, or as the bound of something: rounded, like every decimal.
+fn decimal_in(text: &str) -> Option<&str> {
+    let mut sides = text.split(['<', '>', '=', '≤', '≥']).map(str::trim);
+    sides.find(|side| {
+        side.contains('.')
+            && formula::read(side, &Symbols::strict()).is_ok_and(|r| r.literal.is_some())
+    })
 }
 
 /// Which coefficient of friction a threshold bounds, and how it stands to it.
