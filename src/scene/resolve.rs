@@ -336,10 +336,7 @@ impl<'f> Resolver<'f> {
         if self.is_fixed(body) {
             return Fault::new(
                 name.span,
-                format!(
-                    "`{}` is fixed: the collision does not change its motion",
-                    name.text
-                ),
+                format!("`{}` is fixed, and does not move", name.text),
             )
             .add_to(&mut self.faults);
         }

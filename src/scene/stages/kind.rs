@@ -41,10 +41,12 @@ pub(super) fn kind(
         stage.wind.is_some(),
         stage.linkage.is_some(),
     ];
-    if given.iter().filter(|g| **g).count() != 1 {
+    let given = given.iter().filter(|g| **g).count();
+    if given != 1 {
         let message = format!(
-            "the stage `{}` is one of impact, turn, slide, fall, wind and linkage",
-            stage.name.text
+            "the stage `{}` has {} of impact, turn, slide, fall, wind and linkage",
+            stage.name.text,
+            if given == 0 { "none" } else { "more than one" }
         );
         let hint =
             "one stage does one thing; what an impact changes is no motion with conserved energy";
