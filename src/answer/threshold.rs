@@ -181,6 +181,7 @@ fn sides(
     domains: &Domains,
 ) {
     let domains = &exists(out, roots, domains);
+    let gap = &without_idle(out, parameter, gap, domains);
     if let Some(words) = jumps(gap, parameter, domains) {
         let values = roots.inside.iter().map(|r| Sentence::from(&r.value));
         out.text.push(sentence![
@@ -247,6 +248,28 @@ fn sides(
         }
         None => intervals::fill(out, parameter, gap, relation, &roots.inside, domains),
     }
+}
+
+/// The difference without factors that are the same for every value of the parameter, and positive where they are not zero: there
+/// both sides are the same.
+fn without_idle(out: &mut Answer, parameter: &Symbol, gap: &Expr, domains: &Domains) -> Expr {
+    let core = essential(gap, domains);
+    let Node::Product(factors) = core.node() else {
+        return gap.clone();
+    };
+    let is_idle = |f: &Expr| {
+        let seen = sign(f, domains);
+        !f.mentions(parameter) && seen == Seen::Proved(Sign::NotNegative)
+    };
+    let (idle, rest): (Vec<Expr>, Vec<Expr>) = factors.iter().cloned().partition(is_idle);
+    if idle.is_empty() {
+        return gap.clone();
+    }
+    for factor in &idle {
+        let needed = sentence![factor, " > 0 (otherwise both sides are the same)"];
+        out.assumptions.push(needed);
+    }
+    Expr::product(rest)
 }
 
 /// The domains within which there are such values: a symbol they are divided by is not zero.

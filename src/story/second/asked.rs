@@ -356,7 +356,26 @@ impl Asked<'_> {
             replaced.values.insert(name.clone(), value);
         }
         let followed = follow::follow(self.scene, &replaced).ok()?;
+        if !self.goes_as_supposed(&followed) {
+            return None;
+        }
         formula.evaluate(&self.known(&replaced, &followed, formula)?)
+    }
+
+    /// Whether every contact with friction does what the scene supposes of it.
+    fn goes_as_supposed(&self, followed: &Followed) -> bool {
+        let mut stages = self.scene.stages.iter().zip(&followed.stages);
+        stages.all(|(stage, found)| {
+            let supposed = stage.scene.friction().and_then(|(_, law)| law.supposing);
+            let mode = match found.as_ref().map(|found| &found.what) {
+                Ok(What::Impact(impact)) => impact.mode,
+                _ => None,
+            };
+            match (supposed, mode) {
+                (Some(supposed), Some(mode)) => mode.is(supposed),
+                _ => true,
+            }
+        })
     }
 
     /// The point with values for the answers that a formula needs, as they are followed there; `None` where one of them is not a
