@@ -457,12 +457,7 @@ fn read_as(text: &str, symbols: &Symbols, flips: u64, held: prose::Held) -> Faul
     if let Some(last) = prose::conclusion(&inner[start..], held) {
         start += last;
     }
-    // `≈ 1.2 m/s` goes on from what was asked.
-    let rest = inner[start..].trim_start();
-    let about = rest
-        .strip_prefix('≈')
-        .or_else(|| rest.strip_prefix("\\approx"));
-    if let Some(behind) = about {
+    if let Some(behind) = prose::value(&inner[start..]) {
         start = end - behind.len();
     }
     read_either(inner, start, symbols, flips)

@@ -208,6 +208,31 @@ pub(super) fn behind_words(text: &str, known: &dyn Fn(&str) -> bool) -> Option<u
     }
 }
 
+/// The value that goes on from what was asked: `≈ 1.2 m/s`, `= 1.2 m/s`, `about 1.2 m/s`.
+pub(super) fn value(text: &str) -> Option<&str> {
+    const WORDS: [&str; 7] = [
+        "about",
+        "approximately",
+        "approx.",
+        "approx",
+        "roughly",
+        "circa",
+        "ca.",
+    ];
+    let text = text.trim_start();
+    let signed = |sign: &&str| text.strip_prefix(*sign);
+    if let Some(behind) = ["≈", "\\approx", "="].iter().find_map(signed) {
+        return (!behind.starts_with(['=', '>', '<'])).then_some(behind);
+    }
+    let said = |word: &&str| {
+        let (said, behind) = text.split_at_checked(word.len())?;
+        let number = behind.strip_prefix(' ')?.trim_start();
+        let is_number = number.starts_with(|c: char| c.is_ascii_digit() || "-−+.".contains(c));
+        (said.eq_ignore_ascii_case(word) && is_number).then_some(behind)
+    };
+    WORDS.iter().find_map(said)
+}
+
 /// Where the last of several statements starts that follow from each other: `mgh = ½mv² ⟹ v = √(2gh)`; also behind a word
 /// such as `Therefore,`.
 pub(super) fn conclusion(text: &str, held: Held) -> Option<usize> {

@@ -334,7 +334,8 @@ impl Writer<'_> {
         }
         // A bare argument: a name, or a whole number of times a Greek angle.
         let bare = match argument.node() {
-            Node::Symbol(name) => !name.contains(['^', '\'']),
+            // A number goes on: `sinπ √v` is read as sin(π √v).
+            Node::Symbol(name) => &**name != "pi" && !name.contains(['^', '\'']),
             Node::Product(factors) => match factors.as_slice() {
                 [k, name] => {
                     k.as_number()
