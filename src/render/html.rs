@@ -71,7 +71,7 @@ ul{padding-left:1.3rem}
 li{margin:.3rem 0}
 figure{margin:1rem 0;text-align:center}
 figure svg{max-width:100%;height:auto}
-figcaption{font-size:.86rem;color:#555}
+figcaption{font-size:.86rem;color:#555}.value{white-space:nowrap}
 .figures{display:flex;flex-wrap:wrap;gap:1rem;justify-content:center;align-items:flex-end}
 .figures figure{flex:1 1 300px;margin:0;min-width:0;max-width:26rem}
 @media (prefers-color-scheme:dark){body{color:#e6e6e6;background:#16181c}h2{border-color:#444}.source,figcaption{color:#aaa}}
@@ -225,13 +225,25 @@ fn table(s: &Solution, rows: &[Cells], class: &str, most: usize) -> String {
 }
 
 fn caption(pieces: &[Piece]) -> String {
-    let each = pieces.iter().map(|piece| match piece {
-        Piece::Words(words) => escape(words),
-        // It stays on the line of its symbol.
-        Piece::Value(value) => format!(" = {}", escape(value)).replace(' ', "&nbsp;"),
-        Piece::Symbol(label) => format!("<math>{}</math>", from_latex(&label.to_latex())),
-    });
-    each.collect()
+    let mut out = String::new();
+    for (i, piece) in pieces.iter().enumerate() {
+        // A value stays on the line of its symbol: a browser may break between a formula and a space of any kind.
+        let has_value = matches!(pieces.get(i + 1), Some(Piece::Value(_)));
+        match piece {
+            Piece::Words(words) => out.push_str(&escape(words)),
+            Piece::Value(value) => out.push_str(&format!(" = {}</span>", escape(value))),
+            Piece::Symbol(label) => {
+                let span = if has_value {
+                    "<span class=\"value\">"
+                } else {
+                    ""
+                };
+                let symbol = from_latex(&label.to_latex());
+                out.push_str(&format!("{span}<math>{symbol}</math>"));
+            }
+        }
+    }
+    out
 }
 
 /// A sentence as markup, its words escaped.
