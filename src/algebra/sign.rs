@@ -122,6 +122,23 @@ impl Field {
         proved(found)
             .or_else(|| self.by_conjugate(p, depth))
             .or_else(|| self.by_discriminant(p, depth))
+            .or_else(|| self.by_bounds(p, depth))
+    }
+
+    /// What is of the first degree in a sine or cosine lies between its values at −1 and 1, whatever the angle: 1 − cos x ≥ 0.
+    fn by_bounds(&self, p: &Poly, depth: u32) -> Option<Sign> {
+        let is_bounded = |v: &usize| matches!(self.gens[*v].kind, Kind::Cos(_) | Kind::Sin(_));
+        let v = p.variables().into_iter().find(is_bounded)?;
+        let parts = p.by_power(v);
+        let [rest, slope] = parts.as_slice() else {
+            return None;
+        };
+        let ends = [rest.sub(slope), rest.add(slope)];
+        let [low, high] = [
+            self.sign_sub(&ends[0], depth)?,
+            self.sign_sub(&ends[1], depth)?,
+        ];
+        between([(low, false), (high, false)])
     }
 
     /// What is of the first degree in an angle lies between its values at the ends of the angle's interval, which are

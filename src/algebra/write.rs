@@ -221,7 +221,11 @@ impl Field {
                     }
                     let number = matches!(expr.node(), Node::Sum(terms) if terms.iter().any(|t| t.as_number().is_some()));
                     let better = turnable.as_ref().is_none_or(|(had, _)| *had && !number);
-                    if mixed && k % 2 == 1 && better {
+                    // Below the line none is turned to have more minus than plus.
+                    let is_mostly_plus = matches!(expr.node(), Node::Sum(terms)
+                        if 2 * terms.iter().filter(|t| t.is_negative()).count() < terms.len());
+                    let keeps = sign < 0 && is_mostly_plus;
+                    if mixed && !keeps && k % 2 == 1 && better {
                         turnable = Some((number, expr.clone()));
                     }
                     (expr, Rank::Sum, None)

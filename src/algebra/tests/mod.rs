@@ -275,6 +275,22 @@ fn near_misses_are_not_zero() {
 }
 
 #[test]
+fn a_cosine_lies_between_minus_one_and_one_whatever_the_angle() {
+    let cos = s("phi").cos();
+    for (e, sign) in [
+        (n(1) - &cos, Some(Sign::NotNegative)),
+        (s("m") * (&cos - n(1)), Some(Sign::NotPositive)),
+        (n(2) + &cos, Some(Sign::Positive)),
+        (n(1) - n(2) * &cos, None),
+    ] {
+        let mut field = Field::new(&angle_domain("phi", (0, 1), (4, 1)));
+        field.prepare([&e]);
+        let x = field.element(&e).expect("within limits");
+        assert_eq!(field.sign(&x), sign, "{e:?}");
+    }
+}
+
+#[test]
 fn the_domain_fixes_the_sign_of_a_root() {
     let phi = s("phi");
     let half = &phi * &Expr::ratio(1, 2);
