@@ -22,6 +22,7 @@ mod parts;
 pub(crate) mod poly;
 mod powers;
 pub(crate) mod prime;
+mod product;
 mod read;
 mod related;
 mod roots;

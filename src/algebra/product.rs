@@ -1,0 +1,163 @@
+//! Products as a person writes them: the order of their factors, where a minus sign goes, and roots under one sign.
+
+use num_integer::Integer;
+use num_traits::{One, Signed, Zero};
+
+use super::field::Field;
+use super::parts::Parts;
+use crate::expr::{Expr, Int, Node, Rational, ratio};
+
+/// A factor of a written product.
+struct Factor {
+    rank: Rank,
+    base: Expr,
+    power: Rational,
+    /// For a root, its generator.
+    root: Option<usize>,
+}
+
+impl Factor {
+    fn written(self) -> Expr {
+        self.base.power(Expr::from(self.power))
+    }
+}
+
+/// Order of factors.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Rank {
+    Number,
+    /// Masses stand before other symbols, as in m l².
+    Mass,
+    Symbol,
+    Other,
+    Sum,
+}
+
+impl Field {
+    /// A quotient from the factors above and below its line, in the order in which a person writes them.
+    pub(super) fn assemble(&self, above: &Parts, below: &Parts) -> Expr {
+        let mut number = Rational::new(above.content.clone(), below.content.clone());
+        let mut factors: Vec<Factor> = Vec::new();
+        // Sums of mixed signs may be turned round to carry a minus sign; 1 − e² reads better as it is.
+        let mut turnable: Option<(bool, Expr)> = None;
+        for (parts, sign) in [(above, 1i64), (below, -1)] {
+            for (f, k) in &parts.factors {
+                let mut power = ratio(i64::from(*k) * sign, 1);
+                let (expr, rank, root) = if f.len() == 1 {
+                    let v = f.variables()[0];
+                    let (expr, own) = self.generator(v);
+                    let root = (!own.is_one()).then_some(v);
+                    power *= own;
+                    let rank = match expr.node() {
+                        Node::Number(_) => Rank::Number,
+                        Node::Symbol(name) if name.starts_with(['m', 'M']) => Rank::Mass,
+                        Node::Symbol(_) => Rank::Symbol,
+                        _ => Rank::Other,
+                    };
+                    (expr, rank, root)
+                } else {
+                    let (expr, flipped, mixed) = self.sum(f);
+                    if flipped && k % 2 == 1 {
+                        number = -number;
+                    }
+                    let number = matches!(expr.node(), Node::Sum(terms) if terms.iter().any(|t| t.as_number().is_some()));
+                    let better = turnable.as_ref().is_none_or(|(had, _)| *had && !number);
+                    // Below the line none is turned to have more minus than plus.
+                    let is_mostly_plus = matches!(expr.node(), Node::Sum(terms)
+                        if 2 * terms.iter().filter(|t| t.is_negative()).count() < terms.len());
+                    let keeps = sign < 0 && is_mostly_plus;
+                    if mixed && !keeps && k % 2 == 1 && better {
+                        turnable = Some((number, expr.clone()));
+                    }
+                    (expr, Rank::Sum, None)
+                };
+                match factors.iter_mut().find(|other| other.base == expr) {
+                    Some(other) => {
+                        other.power += power;
+                        other.root = other.root.max(root);
+                    }
+                    None => factors.push(Factor {
+                        rank,
+                        base: expr,
+                        power,
+                        root,
+                    }),
+                }
+            }
+        }
+        if let (true, Some((_, sum))) = (number.is_negative(), turnable) {
+            let odd =
+                |f: &&mut Factor| f.base == sum && f.power.is_integer() && f.power.numer().is_odd();
+            if let Some(place) = factors.iter_mut().find(odd) {
+                place.base = turned(&sum);
+                number = -number;
+            }
+        }
+        factors.retain(|f| !f.power.is_zero());
+        factors.sort_by(|a, b| (a.rank, &a.base).cmp(&(b.rank, &b.base)));
+        self.with_one_root(number, factors)
+    }
+
+    /// The product of a number and factors in their order: √a·√b/√c is written √(ab/c) where each of them is known to be real; if
+    /// all but one are, so is that one.
+    fn with_one_root(&self, number: Rational, factors: Vec<Factor>) -> Expr {
+        let mut out = vec![Expr::from(number)];
+        let half = |f: &Factor| f.root.is_some() && *f.power.denom() == Int::from(2);
+        let is_real = |v: usize| {
+            let under = self.gens[v].relation.as_ref().map(|(_, p)| p);
+            let sign = under.and_then(|p| self.sign_poly(p));
+            sign.is_some_and(|s| s.is_not_negative())
+        };
+        let unsure = |f: &Factor| half(f) && !f.root.is_some_and(is_real);
+        // One alone is as real as the whole.
+        let several = factors.iter().filter(|f| half(f)).count() > 1;
+        let apart = several && factors.iter().filter(|f| unsure(f)).count() > 1;
+        let (rooted, mut rest): (Vec<Factor>, Vec<Factor>) = factors
+            .into_iter()
+            .partition(|f| half(f) && !(apart && unsure(f)));
+        // 1/√2 is written √2/2, and numbers stand in front.
+        let numeric = rooted.iter().all(|f| f.rank == Rank::Number);
+        let all_below = !numeric && rooted.iter().all(|f| f.power.is_negative());
+        let mut inside = Vec::new();
+        for f in rooted {
+            let below = f.power.is_negative() && !numeric;
+            let half = ratio(if below { -1 } else { 1 }, 2);
+            if f.power != half {
+                rest.push(Factor {
+                    rank: f.rank,
+                    base: f.base.clone(),
+                    power: &f.power - &half,
+                    root: None,
+                });
+            }
+            inside.push(if below && !all_below {
+                f.base.powi(-1)
+            } else {
+                f.base
+            });
+        }
+        let root = (!inside.is_empty()).then(|| {
+            // Nothing above: 1/√(ab).
+            Expr::product(inside).power(Expr::ratio(if all_below { -1 } else { 1 }, 2))
+        });
+        rest.sort_by(|a, b| (a.rank, &a.base).cmp(&(b.rank, &b.base)));
+        if numeric {
+            out.extend(root);
+            out.extend(rest.into_iter().map(Factor::written));
+        } else {
+            out.extend(rest.into_iter().map(Factor::written));
+            out.extend(root);
+        }
+        Expr::product(out)
+    }
+}
+
+/// The negative of a sum, its positive terms in front again.
+fn turned(sum: &Expr) -> Expr {
+    let Node::Sum(terms) = sum.node() else {
+        return -sum;
+    };
+    let mut terms: Vec<Expr> = terms.iter().map(|t| -t).collect();
+    terms.sort_by_key(Expr::is_negative);
+    Expr::sum(terms)
+}
