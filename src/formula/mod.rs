@@ -332,7 +332,7 @@ fn two_values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fault>> {
         return None;
     }
     let part = |from: usize, to: usize| {
-        let strict = read_inner(&text[..to], from, symbols, false, 0);
+        let strict = read_either(&text[..to], from, symbols, 0);
         let worded = |r: &Reading| r.notes.iter().any(|n| n.remark == Remark::Letters);
         strict.ok().filter(|r| !worded(r))
     };
@@ -364,20 +364,33 @@ fn two_values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fault>> {
             ..second
         }));
     }
-    let named = |content: &Content| match content {
-        Content::Relations(sides, signs) if signs == &[Relation::Equal] => match sides.as_slice() {
-            [Content::Scalar(name), Content::Scalar(value)] => {
-                Some((Some(name.as_symbol()?.clone()), value.clone()))
+    let named = |content: &Content| {
+        let (name, value) = match content {
+            Content::Relations(sides, signs) if signs == &[Relation::Equal] => {
+                match sides.as_slice() {
+                    [Content::Scalar(name), value] => (Some(name.as_symbol()?.clone()), value),
+                    _ => return None,
+                }
             }
+            value => (None, value),
+        };
+        match value {
+            Content::Scalar(value) => Some((name, value.clone(), None)),
+            Content::Quantity(q) => Some((name, q.value.clone(), Some(q.unit.clone()))),
             _ => None,
-        },
-        Content::Scalar(value) => Some((None, value.clone())),
-        _ => None,
+        }
     };
-    let ((name, a), (other, b)) = (named(&first.content)?, named(&second.content)?);
+    let ((name, a, its), (other, b, unit)) = (named(&first.content)?, named(&second.content)?);
     if other.is_some() && other != name {
         return None;
     }
+    let a = match (&its, &unit) {
+        (None, None) => a,
+        (Some(its), Some(unit)) if its.dimension == unit.dimension => a,
+        // `2 or 3 m/s`: the unit behind the last number is that of both.
+        (None, Some(unit)) if a.is_constant() => &a * &unit.value(),
+        _ => return None,
+    };
     let pair = Content::Either([a, b]);
     let content = match name {
         None => pair,
@@ -390,7 +403,7 @@ fn two_values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fault>> {
         content,
         written: first.written.into_iter().chain(second.written).collect(),
         literal: None,
-        unit: None,
+        unit,
         notes: first.notes.into_iter().chain(second.notes).collect(),
         choices: 0,
         slashes: false,
