@@ -609,7 +609,9 @@ fn content(
                 value: &written * &si,
                 written,
                 unit: unit.clone(),
-                unit_text: text[*start..*end].trim().to_string(),
+                unit_text: text[*start..*end]
+                    .trim_matches(|c: char| c.is_whitespace() || c == '$')
+                    .to_string(),
             };
             (Content::Quantity(Box::new(quantity)), None)
         }
