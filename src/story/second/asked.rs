@@ -1,7 +1,7 @@
 //! Answers held against the scene followed in numbers: what a motion is asked for, and what is asked about answers.
 //!
 //! In: questions with their answers in closed form, and the points at which the scene was followed. Out: checks. A threshold is
-//! looked at on both sides, a largest value beside its place and far from it, a limit and an approximation at two distances.
+//! looked at on both sides, a largest value beside its place and far from it, a limit and an approximation closer and closer.
 
 use super::{CLOSE, Compared, Second, Seen, World, points_of, shaken};
 use crate::answer::{Answer, Check};
@@ -17,8 +17,9 @@ use crate::scene::{Ask, ContactLaw, FrictionEvent, Mode, Question, Scene};
 const ASIDE: f64 = 1e-3;
 /// Other values of the parameter at which something that is largest is looked at.
 const OTHERS: usize = 6;
-/// Distances from what a parameter tends to, in parts of its value.
-const NEAR: [f64; 2] = [1e-2, 1e-4];
+/// How much closer, three times over, a parameter comes to what it tends to, and to that near which something stands for a
+/// formula.
+const CLOSER: [f64; 2] = [1e-2, 1e-1];
 /// Relative difference of what was followed that the integrator may have made.
 const NOISE: f64 = 1e-8;
 
@@ -272,9 +273,12 @@ impl Asked<'_> {
         };
         let scale = self.scale(seen, symbol, at);
         let mut others = vec![at - ASIDE * scale, at + ASIDE * scale];
-        let names = [symbol.clone()].into_iter().collect();
-        let far = points_of(names, &self.scene.domains, OTHERS);
-        others.extend(far.iter().filter_map(|p| p.values.get(symbol)));
+        // Far away the scene may go another way through its cases, where something else is largest.
+        if self.worlds.len() == 1 {
+            let names = [symbol.clone()].into_iter().collect();
+            let far = points_of(names, &self.scene.domains, OTHERS);
+            others.extend(far.iter().filter_map(|p| p.values.get(symbol)));
+        }
         others.retain(|value| self.admits(seen, symbol, *value));
         for value in others {
             let other = of_at(&[(symbol.clone(), value)]);
@@ -317,13 +321,21 @@ impl Asked<'_> {
             let found = self.formula(seen, &of, &[], &[there])?;
             Some(((found - told).abs(), found.abs().max(told.abs())))
         };
-        let [Some((far, _)), Some((close, size))] = NEAR.map(gap) else {
+        let step = CLOSER[usize::from(near.order > 0)];
+        let gaps: Vec<(f64, f64)> = (1..=3).filter_map(|k| gap(step.powi(k))).collect();
+        // Far out something else may decide; what comes as close as rounding shows no more.
+        let closer = step.powi(i32::try_from(near.order).unwrap_or(i32::MAX));
+        let steps = gaps.windows(2).map(|pair| (pair[0].0, pair[1]));
+        let mut nears = steps.map(|(far, (close, size))| {
+            let limit = NOISE * size;
+            close <= limit || close <= 0.5 * closer * far
+        });
+        if gaps.len() < 2 {
             return Some(Held::Unseen);
-        };
-        let closer = (NEAR[1] / NEAR[0]).powi(i32::try_from(near.order).unwrap_or(i32::MAX));
-        let nears = close <= 0.5 * closer * far + NOISE * size;
-        let how = format!("{far:.3e} away from it at a distance, and {close:.3e} closer by");
-        Some(Held::So(nears, how))
+        }
+        let gaps: Vec<String> = gaps.iter().map(|(gap, _)| format!("{gap:.3e}")).collect();
+        let how = format!("closer and closer by it is apart by {}", gaps.join(", "));
+        Some(Held::So(nears.any(|nears| nears), how))
     }
 
     /// The value of a formula of answers in the scene followed at a point, with some parameters at other values and others
