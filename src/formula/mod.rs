@@ -7,6 +7,7 @@
 mod calls;
 mod characters;
 mod component;
+mod content;
 mod convert;
 mod differential;
 mod digits;
@@ -22,6 +23,7 @@ mod parser;
 mod product;
 mod prose;
 mod sentence;
+mod several;
 mod symbols;
 mod tex;
 mod units;
@@ -36,6 +38,7 @@ use std::collections::BTreeSet;
 use crate::dimension::Unit;
 use crate::expr::{Expr, Symbol};
 pub use component::with_subscript;
+pub use content::{Content, Quantity, Relation};
 use convert::Value;
 pub use fault::Fault;
 use fault::Faulty;
@@ -53,146 +56,6 @@ pub(crate) use written::{has_arrow, is_component, with_arrow};
 
 /// Longest formula, in bytes.
 pub const MAX_BYTES: usize = 1 << 16;
-
-/// A sign between two sides.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[allow(missing_docs)]
-pub enum Relation {
-    Equal,
-    NotEqual,
-    Less,
-    LessEqual,
-    Greater,
-    GreaterEqual,
-    Approximately,
-}
-
-impl Relation {
-    /// Whether it says which side is the smaller one.
-    pub fn is_order(self) -> bool {
-        self.is_below() || self.turned().is_below()
-    }
-
-    /// Whether the left side is the smaller one, or both may be the same.
-    pub fn is_below(self) -> bool {
-        matches!(self, Relation::Less | Relation::LessEqual)
-    }
-
-    /// The same read from right to left.
-    pub fn turned(self) -> Relation {
-        match self {
-            Relation::Less => Relation::Greater,
-            Relation::LessEqual => Relation::GreaterEqual,
-            Relation::Greater => Relation::Less,
-            Relation::GreaterEqual => Relation::LessEqual,
-            same => same,
-        }
-    }
-
-    /// The sign in Unicode.
-    pub fn sign(self) -> &'static str {
-        match self {
-            Relation::Equal => "=",
-            Relation::NotEqual => "≠",
-            Relation::Less => "<",
-            Relation::LessEqual => "≤",
-            Relation::Greater => ">",
-            Relation::GreaterEqual => "≥",
-            Relation::Approximately => "≈",
-        }
-    }
-}
-
-/// A number, or an expression, with a unit.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Quantity {
-    /// Value in SI units.
-    pub value: Expr,
-    /// Value in the unit written.
-    pub written: Expr,
-    /// The unit.
-    pub unit: Unit,
-    /// The unit as written.
-    pub unit_text: String,
-}
-
-/// What was read.
-#[derive(Clone, PartialEq, Debug)]
-pub enum Content {
-    /// An expression.
-    Scalar(Expr),
-    /// Two values written with ±: the one of the upper sign first.
-    Either([Expr; 2]),
-    /// A vector along x, y and z.
-    Vector([Expr; 3]),
-    /// A value with a unit.
-    Quantity(Box<Quantity>),
-    /// Sides with relations between them; one side more than there are relations.
-    Relations(Vec<Content>, Vec<Relation>),
-}
-
-impl Content {
-    /// The expression, when it is one; a quantity gives its SI value.
-    pub fn expr(&self) -> Option<&Expr> {
-        match self {
-            Content::Scalar(e) => Some(e),
-            Content::Quantity(q) => Some(&q.value),
-            _ => None,
-        }
-    }
-
-    /// What is said of a quantity: the right side of `ω = …`, of `ω = … = …` the last one, else the content itself.
-    pub fn answer(&self) -> &Content {
-        match self {
-            Content::Relations(sides, signs) => {
-                let defines = signs
-                    .iter()
-                    .all(|s| matches!(s, Relation::Equal | Relation::Approximately));
-                let named = sides
-                    .first()
-                    .and_then(Content::expr)
-                    .is_some_and(|e| e.as_symbol().is_some());
-                match sides.last() {
-                    Some(last) if defines && named => last,
-                    _ => self,
-                }
-            }
-            other => other,
-        }
-    }
-
-    /// The same with every expression inside changed; a quantity stays as it is.
-    pub(crate) fn map(&self, change: &dyn Fn(&Expr) -> Expr) -> Content {
-        match self {
-            Content::Scalar(e) => Content::Scalar(change(e)),
-            Content::Either(pair) => Content::Either(pair.each_ref().map(change)),
-            Content::Vector(components) => Content::Vector(components.each_ref().map(change)),
-            Content::Quantity(_) => self.clone(),
-            Content::Relations(sides, signs) => {
-                let sides = sides.iter().map(|side| side.map(change)).collect();
-                Content::Relations(sides, signs.clone())
-            }
-        }
-    }
-
-    /// The names that occur.
-    pub fn symbols(&self) -> BTreeSet<Symbol> {
-        let mut names = BTreeSet::new();
-        self.each(&mut |e| names.append(&mut e.symbols()));
-        names
-    }
-
-    /// Calls `visit` for every expression inside.
-    pub fn each(&self, visit: &mut dyn FnMut(&Expr)) {
-        match self {
-            Content::Scalar(e) => visit(e),
-            Content::Either(pair) => pair.iter().for_each(visit),
-            Content::Vector(components) => components.iter().for_each(visit),
-            Content::Quantity(q) => visit(&q.value),
-            Content::Relations(sides, _) => sides.iter().for_each(|side| side.each(visit)),
-        }
-    }
-}
 
 /// A formula that was read.
 #[derive(Clone, PartialEq, Debug)]
@@ -236,12 +99,12 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         return read(&text, symbols);
     }
     if held.joins()
-        && let Some(pair) = two_values(text, symbols)
+        && let Some(pair) = several::values(text, symbols)
     {
         return pair;
     }
     if held.any(",;")
-        && let Some(between) = interval(text, symbols)
+        && let Some(between) = several::interval(text, symbols)
     {
         return Ok(between);
     }
@@ -288,126 +151,6 @@ fn read_behind_words(text: &str, symbols: &Symbols) -> Option<Reading> {
         let start = prose::behind_words(text, &known)?;
         part((start, text.len())).filter(|reading| !split(reading))
     })
-}
-
-/// `x ∈ [2, 3)` and `x in (0, ∞)` as the relations they stand for.
-fn interval(text: &str, symbols: &Symbols) -> Option<Reading> {
-    let (start, stop) = boxed(text).ok()?;
-    let part = |[from, to]: [usize; 2]| read_inner(&text[..to], from, symbols, false, 0).ok();
-    let ends = prose::interval(&text[start..stop])?.map_bytes(start);
-    let name = part(ends.name)?;
-    let mut sides = vec![name.content.clone()];
-    let mut signs = Vec::new();
-    let strict = |open: bool| match open {
-        true => Relation::Less,
-        false => Relation::LessEqual,
-    };
-    if let Some(low) = ends.low {
-        sides.insert(0, part(low)?.content);
-        signs.push(strict(ends.open[0]));
-    }
-    if let Some(high) = ends.high {
-        sides.push(part(high)?.content);
-        signs.push(strict(ends.open[1]));
-    }
-    let plain = |side: &Content| matches!(side, Content::Scalar(_));
-    (!signs.is_empty() && sides.iter().all(plain)).then_some(Reading {
-        content: Content::Relations(sides, signs),
-        ..name
-    })
-}
-
-/// `x = 3 or x = -3` and `2, -2` as one pair of values, `x > 1 and x < 3` as a chain.
-fn two_values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fault>> {
-    if text.len() > MAX_BYTES {
-        return None;
-    }
-    let (start, stop) = boxed(text).ok()?;
-    let set = prose::without_braces(&text[start..stop]);
-    let set = set.map(|set| format!("{}{set}", " ".repeat(start)));
-    let list = set.is_some();
-    let (text, stop) = set.as_ref().map_or((text, stop), |set| (set, set.len()));
-    let (end, next) = prose::alternatives(&text[start..stop], list)?;
-    if symbols.find("or").is_some() || symbols.find("and").is_some() {
-        return None;
-    }
-    let part = |from: usize, to: usize| {
-        let strict = read_either(&text[..to], from, symbols, 0);
-        let worded = |r: &Reading| r.notes.iter().any(|n| n.remark == Remark::Letters);
-        strict.ok().filter(|r| !worded(r))
-    };
-    let (first, second) = (part(start, start + end)?, part(start + next, stop)?);
-    let word = &text[start + end..start + next];
-    if let (Content::Relations(a, s), Content::Relations(b, t)) = (&first.content, &second.content)
-        && s.iter().chain(t).any(|sign| *sign != Relation::Equal)
-    {
-        let (a, b) = (a.as_slice(), b.as_slice());
-        let ([x, low], [y, high], [s], [t]) = (a, b, s.as_slice(), t.as_slice()) else {
-            return None;
-        };
-        // `a < x, x < b` begins with the lower bound.
-        let (x, low, s) = match x == y {
-            true => (x, low, *s),
-            false => (low, x, s.turned()),
-        };
-        if x != y || word.contains("or") {
-            let fault = Fault::new(
-                "two relations joined by a word are not read",
-                start + end,
-                start + next,
-            );
-            return Some(Err(*fault.hint("write them as one, as in 1 < x < 3")));
-        }
-        let sides = vec![low.clone(), x.clone(), high.clone()];
-        return Some(Ok(Reading {
-            content: Content::Relations(sides, vec![s.turned(), *t]),
-            ..second
-        }));
-    }
-    let named = |content: &Content| {
-        let (name, value) = match content {
-            Content::Relations(sides, signs) if signs == &[Relation::Equal] => {
-                match sides.as_slice() {
-                    [Content::Scalar(name), value] => (Some(name.as_symbol()?.clone()), value),
-                    _ => return None,
-                }
-            }
-            value => (None, value),
-        };
-        match value {
-            Content::Scalar(value) => Some((name, value.clone(), None)),
-            Content::Quantity(q) => Some((name, q.value.clone(), Some(q.unit.clone()))),
-            _ => None,
-        }
-    };
-    let ((name, a, its), (other, b, unit)) = (named(&first.content)?, named(&second.content)?);
-    if other.is_some() && other != name {
-        return None;
-    }
-    let a = match (&its, &unit) {
-        (None, None) => a,
-        (Some(its), Some(unit)) if its.dimension == unit.dimension => a,
-        // `2 or 3 m/s`: the unit behind the last number is that of both.
-        (None, Some(unit)) if a.is_constant() => &a * &unit.value(),
-        _ => return None,
-    };
-    let pair = Content::Either([a, b]);
-    let content = match name {
-        None => pair,
-        Some(name) => {
-            let sides = vec![Content::Scalar(Expr::symbol(&name)), pair];
-            Content::Relations(sides, vec![Relation::Equal])
-        }
-    };
-    Some(Ok(Reading {
-        content,
-        written: first.written.into_iter().chain(second.written).collect(),
-        literal: None,
-        unit,
-        notes: first.notes.into_iter().chain(second.notes).collect(),
-        choices: 0,
-        slashes: false,
-    }))
 }
 
 /// Reads a formula that is a single expression, such as those in scenes.

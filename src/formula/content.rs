@@ -1,0 +1,146 @@
+//! What a formula says: expressions, vectors, values with units, and relations between them.
+
+use std::collections::BTreeSet;
+
+use crate::dimension::Unit;
+use crate::expr::{Expr, Symbol};
+
+/// A sign between two sides.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[allow(missing_docs)]
+pub enum Relation {
+    Equal,
+    NotEqual,
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Approximately,
+}
+
+impl Relation {
+    /// Whether it says which side is the smaller one.
+    pub fn is_order(self) -> bool {
+        self.is_below() || self.turned().is_below()
+    }
+
+    /// Whether the left side is the smaller one, or both may be the same.
+    pub fn is_below(self) -> bool {
+        matches!(self, Relation::Less | Relation::LessEqual)
+    }
+
+    /// The same read from right to left.
+    pub fn turned(self) -> Relation {
+        match self {
+            Relation::Less => Relation::Greater,
+            Relation::LessEqual => Relation::GreaterEqual,
+            Relation::Greater => Relation::Less,
+            Relation::GreaterEqual => Relation::LessEqual,
+            same => same,
+        }
+    }
+
+    /// The sign in Unicode.
+    pub fn sign(self) -> &'static str {
+        match self {
+            Relation::Equal => "=",
+            Relation::NotEqual => "≠",
+            Relation::Less => "<",
+            Relation::LessEqual => "≤",
+            Relation::Greater => ">",
+            Relation::GreaterEqual => "≥",
+            Relation::Approximately => "≈",
+        }
+    }
+}
+
+/// A number, or an expression, with a unit.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Quantity {
+    /// Value in SI units.
+    pub value: Expr,
+    /// Value in the unit written.
+    pub written: Expr,
+    /// The unit.
+    pub unit: Unit,
+    /// The unit as written.
+    pub unit_text: String,
+}
+
+/// What was read.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Content {
+    /// An expression.
+    Scalar(Expr),
+    /// Two values written with ±: the one of the upper sign first.
+    Either([Expr; 2]),
+    /// A vector along x, y and z.
+    Vector([Expr; 3]),
+    /// A value with a unit.
+    Quantity(Box<Quantity>),
+    /// Sides with relations between them; one side more than there are relations.
+    Relations(Vec<Content>, Vec<Relation>),
+}
+
+impl Content {
+    /// The expression, when it is one; a quantity gives its SI value.
+    pub fn expr(&self) -> Option<&Expr> {
+        match self {
+            Content::Scalar(e) => Some(e),
+            Content::Quantity(q) => Some(&q.value),
+            _ => None,
+        }
+    }
+
+    /// What is said of a quantity: the right side of `ω = …`, of `ω = … = …` the last one, else the content itself.
+    pub fn answer(&self) -> &Content {
+        match self {
+            Content::Relations(sides, signs) => {
+                let defines = signs
+                    .iter()
+                    .all(|s| matches!(s, Relation::Equal | Relation::Approximately));
+                let named = sides
+                    .first()
+                    .and_then(Content::expr)
+                    .is_some_and(|e| e.as_symbol().is_some());
+                match sides.last() {
+                    Some(last) if defines && named => last,
+                    _ => self,
+                }
+            }
+            other => other,
+        }
+    }
+
+    /// The same with every expression inside changed; a quantity stays as it is.
+    pub(crate) fn map(&self, change: &dyn Fn(&Expr) -> Expr) -> Content {
+        match self {
+            Content::Scalar(e) => Content::Scalar(change(e)),
+            Content::Either(pair) => Content::Either(pair.each_ref().map(change)),
+            Content::Vector(components) => Content::Vector(components.each_ref().map(change)),
+            Content::Quantity(_) => self.clone(),
+            Content::Relations(sides, signs) => {
+                let sides = sides.iter().map(|side| side.map(change)).collect();
+                Content::Relations(sides, signs.clone())
+            }
+        }
+    }
+
+    /// The names that occur.
+    pub fn symbols(&self) -> BTreeSet<Symbol> {
+        let mut names = BTreeSet::new();
+        self.each(&mut |e| names.append(&mut e.symbols()));
+        names
+    }
+
+    /// Calls `visit` for every expression inside.
+    pub fn each(&self, visit: &mut dyn FnMut(&Expr)) {
+        match self {
+            Content::Scalar(e) => visit(e),
+            Content::Either(pair) => pair.iter().for_each(visit),
+            Content::Vector(components) => components.iter().for_each(visit),
+            Content::Quantity(q) => visit(&q.value),
+            Content::Relations(sides, _) => sides.iter().for_each(|side| side.each(visit)),
+        }
+    }
+}
