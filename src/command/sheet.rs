@@ -3,7 +3,7 @@
 use crate::answer::Answer;
 use crate::derive::friction::table;
 use crate::grade::believed::Story;
-use crate::grade::sheet::{Bound, Sheet};
+use crate::grade::sheet::Sheet;
 use crate::scene::Scene;
 use crate::{story, verify, worked};
 
@@ -24,7 +24,6 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
     }
     notes.extend(worked.refusals());
     let all = worked.answers().to_vec();
-    let bounds = bounds(&all);
     let impacts = story::impacts(&worked.scene, &worked.told);
     let laws = story::lent(&worked.scene, &worked.told);
     let told = worked.scene.has_stages().then(|| worked.scene.clone());
@@ -32,7 +31,6 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
     let sheet = Sheet {
         scene,
         derivation,
-        bounds,
         all,
         impacts: impacts.into_iter().map(|(_, impact)| impact).collect(),
         laws,
@@ -70,22 +68,4 @@ fn gradable(scene: Scene) -> Result<(Scene, Vec<String>), String> {
     let mut common = table.cases.swap_remove(0).scene;
     common.questions = table.about;
     Ok((common, vec![note]))
-}
-
-/// The answers that are one bound on a parameter.
-fn bounds(answers: &[Answer]) -> Vec<Bound> {
-    let bound = |a: &Answer| match a.range.as_slice() {
-        [(of, relation, value)]
-            if a.name == a.question && a.formula().is_none_or(|f| f == value) =>
-        {
-            Some(Bound {
-                name: a.name.clone(),
-                parameter: of.as_symbol()?.clone(),
-                relation: *relation,
-                value: value.clone(),
-            })
-        }
-        _ => None,
-    };
-    answers.iter().filter_map(bound).collect()
 }

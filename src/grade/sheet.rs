@@ -21,8 +21,6 @@ pub struct Sheet {
     pub scene: Scene,
     /// Its derivation.
     pub derivation: Derivation,
-    /// Answers that say for which values of a parameter something holds.
-    pub bounds: Vec<Bound>,
     /// All answers: also those in words, places of largest values and further outcomes, which the derivation leaves out.
     pub all: Vec<Answer>,
     /// The impacts of a scene with stages, each with the motion that comes in and with its own questions.
@@ -67,7 +65,6 @@ pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
     Ok(Sheet {
         scene,
         derivation,
-        bounds: Vec::new(),
         all: Vec::new(),
         impacts: Vec::new(),
         laws: Vec::new(),
@@ -88,6 +85,24 @@ impl Sheet {
         };
         let found = self.impacts.iter().find_map(of);
         found.unwrap_or((&self.scene, &Ask::Describe))
+    }
+
+    /// The answers that are one bound on a parameter.
+    pub fn bounds(&self) -> impl Iterator<Item = Bound> {
+        let bound = |a: &Answer| match a.range.as_slice() {
+            [(of, relation, value)]
+                if a.name == a.question && a.formula().is_none_or(|f| f == value) =>
+            {
+                Some(Bound {
+                    name: a.name.clone(),
+                    parameter: of.as_symbol()?.clone(),
+                    relation: *relation,
+                    value: value.clone(),
+                })
+            }
+            _ => None,
+        };
+        self.all.iter().filter_map(bound)
     }
 
     /// The questions that have an answer.
@@ -160,7 +175,7 @@ impl Sheet {
             dimension: Some(first.dimension.clone()),
         });
         // `d = …` and `d ≤ …` answer a question about d.
-        let bound = self.bounds.iter().find(|b| b.name == first.name);
+        let bound = self.bounds().find(|b| b.name == first.name);
         declared.asked.extend(bound.map(|b| Given {
             name: b.parameter.clone(),
             latex: None,
@@ -236,7 +251,7 @@ impl Sheet {
         let Ok(reading) = super::read::answer(&entry.key, answer) else {
             return grade;
         };
-        if let Some(bound) = self.bounds.iter().find(|b| b.name == entry.name)
+        if let Some(bound) = self.bounds().find(|b| b.name == entry.name)
             && let Content::Relations(_, signs) = &reading.content
             && signs.iter().any(|s| *s != Relation::Equal)
         {

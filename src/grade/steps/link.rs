@@ -352,8 +352,8 @@ impl Desk<'_> {
         let question = match sought.find(|s| s.condition.is_some()) {
             Some(sought) => sought.question.clone(),
             None => {
-                let mut bounds = self.sheet.bounds.iter();
-                bounds.find(|b| b.parameter == *name)?.name.clone()
+                let mut bounds = self.sheet.bounds();
+                bounds.find(|b| b.parameter == *name)?.name
             }
         };
         let entry: Entry = self.sheet.entry(&question).ok()?;
