@@ -5,6 +5,7 @@
 //! says so.
 
 mod asked;
+mod values;
 
 use std::collections::{BTreeMap, BTreeSet};
 

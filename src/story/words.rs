@@ -172,25 +172,9 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                     sentence!["`", name, "` flies freely for ", measured(t, "s")]
                 }
                 (FallEnd::Range(s), _) => {
-                    let (far, way) = counted(s, [" further right", " further left"]);
-                    sentence![
-                        "`",
-                        name,
-                        "` flies freely until it is ",
-                        measured(&far, "m"),
-                        way
-                    ]
+                    flown(name, counted(s, [" further right", " further left"]))
                 }
-                (FallEnd::Drop(h), None) => {
-                    let (far, way) = counted(h, [" lower", " higher"]);
-                    sentence![
-                        "`",
-                        name,
-                        "` flies freely until it is ",
-                        measured(&far, "m"),
-                        way
-                    ]
-                }
+                (FallEnd::Drop(h), None) => flown(name, counted(h, [" lower", " higher"])),
             });
             for b in &fall.with {
                 let other = &scene.bodies[*b].name;
@@ -313,6 +297,12 @@ fn measured(e: &Expr, unit: &str) -> Sentence {
         true => sentence![e, " ", unit],
         false => e.into(),
     }
+}
+
+/// A flight that ends at a place so far away.
+fn flown(name: &str, (far, way): (Expr, &'static str)) -> Sentence {
+    let far = measured(&far, "m");
+    sentence!["`", name, "` flies freely until it is ", far, way]
 }
 
 /// A distance without the minus sign it may begin with, and the word for its direction.

@@ -8,7 +8,7 @@ use crate::scene::{Ask, Linkage, Slide, Stage, StageKind, Turn, Until};
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::words::{self, name, say};
 use crate::solution::{Claim, Line, Math, Part, Solution};
-use crate::story::{StageTold, State};
+use crate::story::{StageTold, State, is_clockwise};
 
 impl Page<'_> {
     /// A motion: inertia, work and energy, from the beginning to the end.
@@ -237,11 +237,7 @@ impl Page<'_> {
                 let arm = &turn.about[0] - &state.center[b][0];
                 &scene.bodies[b].mass * g * tidied(self.scene, &arm)
             });
-            let turns_back = match turn.clockwise {
-                Some(clockwise) => clockwise,
-                None => told.before.spin[turn.body].is_negative(),
-            };
-            let way = Expr::from(if turns_back { -1 } else { 1 });
+            let way = Expr::from(if is_clockwise(told) { -1 } else { 1 });
             let torque = turn.torque.iter().map(|torque| &way * torque);
             let counted = Expr::from(if *clockwise { -1 } else { 1 });
             let moment = Expr::sum(weights.chain(torque).map(|m| &counted * m));

@@ -3,14 +3,13 @@
 //! In: questions with their answers in closed form, and the points at which the scene was followed. Out: checks. A threshold is
 //! looked at on both sides, a largest value beside its place and far from it, a limit and an approximation closer and closer.
 
+use super::values::moved;
 use super::{CLOSE, Compared, Second, Seen, World, points_of, shaken};
 use crate::answer::{Answer, Check};
-use crate::domain::Limit;
-use crate::expr::{Expr, Node, Point, Symbol};
+use crate::expr::{Expr, Node, Symbol};
 use crate::formula::Relation;
 use crate::numeric::Answer as Found;
-use crate::numeric::follow::{self, Followed, What};
-use crate::numeric::points::keeps;
+use crate::numeric::follow::{self, What};
 use crate::scene::{Ask, ContactLaw, FrictionEvent, Mode, Question, Scene};
 
 /// How far from a threshold or a largest value its sides are looked at, in parts of it.
@@ -337,134 +336,6 @@ impl Asked<'_> {
         let how = format!("closer and closer by it is apart by {}", gaps.join(", "));
         Some(Held::So(nears.any(|nears| nears), how))
     }
-
-    /// The value of a formula of answers in the scene followed at a point, with some parameters at other values and others
-    /// replaced.
-    fn formula(
-        &self,
-        seen: &Seen,
-        formula: &Expr,
-        with: &[(Symbol, Expr)],
-        values: &[(Symbol, f64)],
-    ) -> Option<f64> {
-        if with.is_empty() && values.is_empty() {
-            return formula.evaluate(&self.known(&seen.point, &seen.followed, formula)?);
-        }
-        self.formula_at(&moved(&seen.point, values), formula, with)
-    }
-
-    fn formula_at(
-        &self,
-        point: &Point<f64>,
-        formula: &Expr,
-        with: &[(Symbol, Expr)],
-    ) -> Option<f64> {
-        let mut replaced = point.clone();
-        for (name, value) in with {
-            let value = match self.needs(value).is_empty() {
-                true => value.evaluate(point)?,
-                false => self.formula_at(point, value, &[])?,
-            };
-            replaced.values.insert(name.clone(), value);
-        }
-        let followed = follow::follow(self.scene, &replaced).ok()?;
-        if !self.goes_as_supposed(&followed) {
-            return None;
-        }
-        formula.evaluate(&self.known(&replaced, &followed, formula)?)
-    }
-
-    /// Whether every contact with friction does what the scene supposes of it.
-    fn goes_as_supposed(&self, followed: &Followed) -> bool {
-        let mut stages = self.scene.stages.iter().zip(&followed.stages);
-        stages.all(|(stage, found)| {
-            let supposed = stage.scene.friction().and_then(|(_, law)| law.supposing);
-            let mode = match found.as_ref().map(|found| &found.what) {
-                Ok(What::Impact(impact)) => impact.mode,
-                _ => None,
-            };
-            match (supposed, mode) {
-                (Some(supposed), Some(mode)) => mode.is(supposed),
-                _ => true,
-            }
-        })
-    }
-
-    /// The point with values for the answers that a formula needs, as they are followed there; `None` where one of them is not a
-    /// number of the motion, nor a formula of such.
-    fn known(&self, point: &Point<f64>, followed: &Followed, of: &Expr) -> Option<Point<f64>> {
-        let mut out = point.clone();
-        for question in self.needs(of) {
-            let name = question.name.as_str();
-            let found = match &question.ask {
-                Ask::Value { formula, with, .. } if with.is_empty() => {
-                    formula.evaluate(&out).map(Found::Scalar)
-                }
-                Ask::Value { formula, with, .. } => {
-                    self.formula_at(point, formula, with).map(Found::Scalar)
-                }
-                // Where sides meet and what is largest are held against it by themselves.
-                Ask::Condition { .. } | Ask::Maximum { .. } | Ask::Friction { .. } => {
-                    let mut told = self.answers.iter().filter(|a| a.name == name);
-                    let told = told.next().filter(|a| a.worlds.is_empty());
-                    let value = told.and_then(|a| a.formula()?.evaluate(point));
-                    value.map(Found::Scalar)
-                }
-                _ => follow::answer(self.scene, followed, question, point).ok(),
-            };
-            match found {
-                Some(Found::Scalar(value)) => _ = out.values.insert(name.into(), value),
-                Some(Found::Vector(v)) => out.values.extend(
-                    (["x", "y"].iter().zip(v))
-                        .map(|(axis, v)| (format!("{name}_{axis}").into(), v)),
-                ),
-                None => return None,
-            }
-        }
-        Some(out)
-    }
-
-    /// The questions whose answers a formula uses, and those that values of formulas among them use, in the order of the file.
-    fn needs(&self, of: &Expr) -> Vec<&Question> {
-        let mut names = of.symbols();
-        let is_given = |name: &str| self.scene.parameters.iter().any(|p| *p.name == *name);
-        let mut out: Vec<&Question> = Vec::new();
-        for question in self.scene.questions.iter().rev() {
-            let uses = |name: &Symbol| {
-                let rest = name.strip_prefix(question.name.as_str());
-                rest.is_some_and(|rest| ["", "_x", "_y"].contains(&rest)) && !is_given(name)
-            };
-            if names.iter().any(uses) {
-                out.push(question);
-                if let Ask::Value { formula, with, .. } = &question.ask {
-                    let put_in = with.iter().map(|(_, value)| value);
-                    names.extend(put_in.chain([formula]).flat_map(Expr::symbols));
-                }
-            }
-        }
-        out.reverse();
-        out
-    }
-
-    /// What is an ordinary change of a parameter near a value.
-    fn scale(&self, seen: &Seen, parameter: &Symbol, near: f64) -> f64 {
-        let ordinary = || seen.point.values.get(parameter).map_or(1.0, |v| v.abs());
-        match near == 0.0 {
-            true => ordinary(),
-            false => near.abs(),
-        }
-    }
-
-    /// Whether a parameter may have a value, the others as they are.
-    fn admits(&self, seen: &Seen, parameter: &Symbol, value: f64) -> bool {
-        let domains = &self.scene.domains;
-        let within = domains.symbols.get(parameter).is_none_or(|domain| {
-            let end = |limit: &Option<Limit>| limit.as_ref().map(Limit::approximate);
-            end(&domain.low).is_none_or(|low| low <= value)
-                && end(&domain.high).is_none_or(|high| value <= high)
-        });
-        within && keeps(domains, &moved(&seen.point, &[(parameter.clone(), value)]))
-    }
 }
 
 /// Whether an answer is about what happens at a point.
@@ -486,13 +357,6 @@ fn component(formula: &Expr, answer: &Answer) -> Expr {
         (Some(axis), Some(vector)) => Expr::symbol(&format!("{vector}_{}", ["x", "y"][axis])),
         _ => formula.clone(),
     }
-}
-
-/// A point with other values of some parameters.
-fn moved(point: &Point<f64>, values: &[(Symbol, f64)]) -> Point<f64> {
-    let mut point = point.clone();
-    point.values.extend(values.iter().cloned());
-    point
 }
 
 /// Whether a relation changes at a value as told, from the gap between its sides below, at and above it; `None` where too
