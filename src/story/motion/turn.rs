@@ -76,7 +76,7 @@ pub(in crate::story) fn turn(
     if is_balanced(stage, turn, &spin, &r) {
         assumptions.push(pushed(&body.name));
     }
-    assumptions.extend(counts_forward(stage, turn, way)?);
+    assumptions.extend(counts_forward(stage, turn)?);
     let spin_end = if work.is_zero() {
         spin.clone()
     } else {
@@ -169,21 +169,10 @@ fn work(
 }
 
 /// The angle `by` counts forward, in the sense of the rotation.
-fn counts_forward(stage: &Stage, turn: &Turn, way: i64) -> Result<Option<Sentence>, Refused> {
+fn counts_forward(stage: &Stage, turn: &Turn) -> Result<Option<Sentence>, Refused> {
     let Until::By(by) = &turn.until else {
         return Ok(None);
     };
-    let body = &stage.scene.bodies[turn.body];
-    if way < 0 && turn.clockwise.is_none() {
-        return Err(Refused::new(
-            &stage.name,
-            format!(
-                "`{}` turns clockwise, and `by` counts counterclockwise here",
-                body.name
-            ),
-            "add \"clockwise\": true",
-        ));
-    }
     match sign(by, &stage.scene.domains) {
         Seen::Proved(s) if s.is_not_negative() => Ok(None),
         Seen::Proved(_) | Seen::Negative => Err(Refused::new(
@@ -352,10 +341,11 @@ fn rotated(r: &Vector, [c, s]: &Vector) -> Vector {
 
 /// The angle turned through, counterclockwise, where the stage gives it or the time; `None` where it ends at a place.
 fn angle_turned(stage: &Stage, turn: &Turn, spin: &Expr) -> Option<Expr> {
-    let way = if turn.clockwise == Some(true) { -1 } else { 1 };
     match &turn.until {
-        Until::By(by) if way < 0 => Some(-by),
-        Until::By(by) => Some(by.clone()),
+        Until::By(by) => {
+            let (way, _) = sense(stage, spin, turn).ok()?;
+            Some(&Expr::from(way) * by)
+        }
         Until::For(time) => {
             let steady = spin * time;
             let Some(torque) = &turn.torque else {
