@@ -141,9 +141,27 @@ impl Parts {
 
     fn impact(&mut self, work: &mut Work<'_>, law: &ContactLaw) -> Result<(), Stop> {
         match law {
-            ContactLaw::Frictionless { restitution } => self.frictionless(work, restitution),
-            _ => self.sticking(work),
+            ContactLaw::Frictionless { restitution } => self.frictionless(work, restitution)?,
+            _ => self.sticking(work)?,
         }
+        self.bystanders(work)
+    }
+
+    /// What touches nothing keeps its motion.
+    fn bystanders(&mut self, work: &mut Work<'_>) -> Result<(), Stop> {
+        let scene = work.scene;
+        for (b, body) in scene.bodies.iter().enumerate() {
+            if body.is_fixed() || scene.contacts[0].bodies.contains(&b) {
+                continue;
+            }
+            for (axis, before) in body.velocity.iter().enumerate() {
+                let before = work.tidy(before)?;
+                self.values.insert(Unknown::Velocity(b, axis), before);
+            }
+            let before = work.tidy(&body.spin)?;
+            self.values.insert(Unknown::Spin(b), before);
+        }
+        Ok(())
     }
 
     /// About how many terms an impulse has when it is multiplied out.
@@ -165,7 +183,10 @@ impl Parts {
             }
             return Ok(speed * inverse_mass);
         }
+        // A common factor of both components stays one.
+        let direction = terms(&(&approach[0] / &approach[1])).unwrap_or(usize::MAX);
         let speed = terms(&approach[0])? + terms(&approach[1])?;
+        let speed = speed.min(direction.saturating_add(1));
         let (mut a, mut c) = (2, 2);
         for [x, y] in arms.iter().flatten() {
             a += terms(&y.powi(2))?;
