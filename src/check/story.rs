@@ -328,7 +328,7 @@ struct Sizes {
     length: f64,
     /// The largest speed, of a center or by a spin \[m/s\].
     speed: f64,
-    /// The largest spin \[rad/s\].
+    /// The largest spin, or that of the largest speed at the largest distance \[rad/s\].
     spin: f64,
 }
 
@@ -349,7 +349,8 @@ impl Sizes {
         Sizes {
             length,
             speed: speed.max(spin * length),
-            spin,
+            // Where nothing turns, what rounding leaves of the speeds still does.
+            spin: spin.max(speed / length),
         }
     }
 }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, essential, is_zero, sign, tidy};
 use crate::domain::Domain;
-use crate::expr::{Expr, Symbol, dot, minus};
+use crate::expr::{Expr, Node, Symbol, dot, minus};
 use crate::formula::write_plain;
 use crate::scene::{Body, OneSided, Scene, Stage, touch};
 use crate::story::{Refused, State};
@@ -177,6 +177,30 @@ pub(super) fn approach(
     Ok(conditions)
 }
 
+/// Whether a root of symbols occurs; roots of numbers are as good as fractions.
+fn has_root(e: &Expr) -> bool {
+    e.parts().any(|part| match part.node() {
+        Node::Power(base, exponent) => {
+            exponent.as_number().is_none_or(|k| !k.is_integer()) && !base.symbols().is_empty()
+        }
+        _ => false,
+    })
+}
+
+fn is_definite(seen: Seen) -> bool {
+    matches!(seen, Seen::Proved(Sign::Positive | Sign::Negative))
+}
+
+/// The factors without a root, and the others.
+fn split(e: &Expr) -> (Expr, Expr) {
+    let Node::Product(factors) = e.node() else {
+        return (Expr::one(), e.clone());
+    };
+    let (roots, others): (Vec<&Expr>, Vec<&Expr>) = factors.iter().partition(|f| has_root(f));
+    let product = |all: Vec<&Expr>| Expr::product(all.into_iter().cloned());
+    (product(others), product(roots))
+}
+
 /// Replaces what an earlier stage hands on by symbols where it holds roots: the impact is then a matter of fractions, proved
 /// and tried at exact points for any motion handed on, and the roots are put in afterwards. A speed or spin that a question
 /// names keeps that name. Gives what the symbols stand for.
@@ -190,21 +214,24 @@ pub(super) fn hand_on(scene: &mut Scene, named: &[(Symbol, Expr)]) -> BTreeMap<S
         parameters.iter().any(|p| p.name == *n) || asked.iter().any(|q| *q.name == **n)
     };
     let mut replace = |e: &mut Expr, is_spin: bool| {
-        if !e.has_root() {
+        if !has_root(e) {
             return;
         }
+        // What may vanish divides nothing.
+        let ratio = |e: &Expr, value: &Expr| {
+            let ratio = tidy(&(e / value), &original).ok()?;
+            let divides = ratio.as_number().is_some() || is_definite(sign(value, &original));
+            (!has_root(&ratio) && !ratio.is_zero() && divides).then_some(ratio)
+        };
         for (name, value) in &handed {
-            if let Ok(ratio) = tidy(&(&*e / value), &original)
-                && !ratio.has_root()
-            {
+            if let Some(ratio) = ratio(e, value) {
                 *e = &ratio * &Expr::symbol(name);
                 return;
             }
         }
-        let of_question = named.iter().find_map(|(name, value)| {
-            let ratio = tidy(&(&*e / value), &original).ok()?;
-            (!ratio.has_root() && !ratio.is_zero()).then_some((name, value, ratio))
-        });
+        let of_question = named
+            .iter()
+            .find_map(|(name, value)| Some((name, value, ratio(e, value)?)));
         let (name, value, factor) = match of_question {
             Some((name, value, ratio)) => (name.clone(), value.clone(), ratio),
             None => {
@@ -215,10 +242,14 @@ pub(super) fn hand_on(scene: &mut Scene, named: &[(Symbol, Expr)]) -> BTreeMap<S
                     .map(|name| Symbol::from(name.as_str()))
                     .find(|n| !domains.symbols.contains_key(n) && !is_taken(n))
                     .unwrap_or_else(|| Symbol::from("handed"));
-                if sign(e, &original).is_negative() {
-                    (name, -&*e, Expr::from(-1))
+                let (factor, root) = match is_definite(sign(e, &original)) {
+                    true => (Expr::one(), e.clone()),
+                    false => split(e),
+                };
+                if sign(&root, &original).is_negative() {
+                    (name, -root, -factor)
                 } else {
-                    (name, e.clone(), Expr::one())
+                    (name, root, factor)
                 }
             }
         };
