@@ -167,6 +167,11 @@ impl Structure {
             bodies.push(missile);
             questions.push(r#""vm": {"velocity": "missile"}, "P": {"impulse": "K", "on": "missile"}, "loss": {"energy": "lost"}"#.into());
         }
+        // One that takes no part.
+        if self.direction % 2 == 1 {
+            bodies.push(r#""aside": {"shape": "disk", "radius": "r", "mass": "m", "center": [0, "9*l"], "velocity": ["u", "-u/2"], "spin": "w"}"#.into());
+            questions.push(r#""va": {"velocity": "aside"}, "wa": {"spin": "aside"}"#.into());
+        }
         let symbols = |names: &[String], unit: &str| {
             names
                 .iter()
