@@ -5,7 +5,14 @@ use carom::formula::{Content, Symbols, read, write_plain};
 fn show(content: &Content) -> String {
     match content {
         Content::Scalar(e) => write_plain(e),
-        Content::Either([a, b]) => format!("{} or {}", write_plain(a), write_plain(b)),
+        Content::Either(values) => {
+            let values: Vec<String> = values.iter().map(write_plain).collect();
+            values.join(" or ")
+        }
+        Content::Joined(join, parts) => {
+            let parts: Vec<String> = parts.iter().map(show).collect();
+            parts.join(join.word())
+        }
         Content::Vector(v) => format!("[{}]", v.each_ref().map(write_plain).join(", ")),
         Content::Quantity(q) => format!("{} {}", write_plain(&q.value), q.unit.dimension.si()),
         Content::Relations(sides, signs) => {

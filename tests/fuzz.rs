@@ -145,6 +145,9 @@ fn corpus() -> Vec<String> {
     all
 }
 
+/// What a formula may take.
+const LONG: Duration = Duration::from_millis(50);
+
 /// The slowest input so far.
 #[derive(Default)]
 struct Slowest {
@@ -161,7 +164,7 @@ fn run(
     mut one: impl FnMut(&mut Rng) -> (String, Box<dyn FnOnce()>),
 ) {
     let mut slowest = Slowest::default();
-    let mut tenths = 1;
+    let (mut tenths, mut over) = (1, 0u64);
     let begun = Instant::now();
     // What runs away is named rather than waited for.
     let now = Arc::new(Mutex::new(Some((begun, 0, String::new()))));
@@ -188,6 +191,10 @@ fn run(
             panic!("{target}, case {case}: {input:?}");
         }
         let time = start.elapsed();
+        over += u64::from(time > LONG);
+        if time > LONG && std::env::var("SHOW").is_ok() {
+            println!("{time:.0?} {case} {input:?}");
+        }
         if time > slowest.time {
             slowest = Slowest { time, case, input };
         }
@@ -200,7 +207,7 @@ fn run(
     watch.join().expect("a watch");
     let head: String = slowest.input.chars().take(300).collect();
     println!(
-        "{target}: {cases} inputs in {:.0?}; the slowest, case {}, took {:.1?}: {head:?}",
+        "{target}: {cases} inputs in {:.0?}, {over} above {LONG:.0?}; the slowest, case {}, took {:.1?}: {head:?}",
         begun.elapsed(),
         slowest.case,
         slowest.time

@@ -95,15 +95,22 @@ impl Field {
         }
         let mut total = Element::zero();
         for (f, k) in known {
-            // ln √p is half of ln p.
-            let (f, k) = match self.as_generator(&f).map(|v| self.gens[v].clone()) {
+            let (ln, k) = match self.as_generator(&f).map(|v| self.gens[v].clone()) {
+                // ln √p is half of ln p.
                 Some(Generator {
                     kind: Kind::Root,
                     relation: Some((n, value)),
-                }) => (Element::from_poly(value), ratio(k, i64::from(n))),
-                _ => (f, ratio(k, 1)),
+                }) => {
+                    let ln = self.opaque(Function::Ln, Element::from_poly(value));
+                    (ln, ratio(k, i64::from(n)))
+                }
+                // ln eˣ is x.
+                Some(Generator {
+                    kind: Kind::Call(Function::Exp, x),
+                    ..
+                }) => (x, ratio(k, 1)),
+                _ => (self.opaque(Function::Ln, f), ratio(k, 1)),
             };
-            let ln = self.opaque(Function::Ln, f);
             total = self.add(&total, &self.mul(&ln, &self.number(&k))?)?;
         }
         Ok(Some(total))

@@ -102,7 +102,14 @@ fn latex(content: &reader::Content, question: &Question) -> String {
     };
     match content {
         reader::Content::Scalar(e) => write(e),
-        reader::Content::Either([a, b]) => format!("{} \\text{{ or }} {}", write(a), write(b)),
+        reader::Content::Either(values) => {
+            let values: Vec<String> = values.iter().map(write).collect();
+            values.join(" \\text{ or } ")
+        }
+        reader::Content::Joined(join, parts) => {
+            let parts: Vec<String> = parts.iter().map(|part| latex(part, question)).collect();
+            parts.join(&format!(" \\text{{{}}} ", join.word()))
+        }
         reader::Content::Vector([x, y, z]) => {
             let parts = [
                 (x, "\\hat{\\imath}"),

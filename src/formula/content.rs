@@ -72,14 +72,35 @@ pub struct Quantity {
 pub enum Content {
     /// An expression.
     Scalar(Expr),
-    /// Two values written with ±: the one of the upper sign first.
-    Either([Expr; 2]),
+    /// Values of which each will do: with ± the one of the upper sign first.
+    Either(Vec<Expr>),
     /// A vector along x, y and z.
     Vector([Expr; 3]),
     /// A value with a unit.
     Quantity(Box<Quantity>),
     /// Sides with relations between them; one side more than there are relations.
     Relations(Vec<Content>, Vec<Relation>),
+    /// Several relations, two at least.
+    Joined(Join, Vec<Content>),
+}
+
+/// How several relations belong together.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Join {
+    /// All of them hold.
+    And,
+    /// One of them holds.
+    Or,
+}
+
+impl Join {
+    /// The word between two of them.
+    pub fn word(self) -> &'static str {
+        match self {
+            Join::And => " and ",
+            Join::Or => " or ",
+        }
+    }
 }
 
 impl Content {
@@ -99,10 +120,7 @@ impl Content {
                 let defines = signs
                     .iter()
                     .all(|s| matches!(s, Relation::Equal | Relation::Approximately));
-                let named = sides
-                    .first()
-                    .and_then(Content::expr)
-                    .is_some_and(|e| e.as_symbol().is_some());
+                let named = sides.first().is_some_and(Content::is_name);
                 match sides.last() {
                     Some(last) if defines && named => last,
                     _ => self,
@@ -112,16 +130,43 @@ impl Content {
         }
     }
 
+    /// Whether it holds an inequality.
+    pub fn is_bounded(&self) -> bool {
+        match self {
+            Content::Relations(_, signs) => signs.iter().any(|sign| {
+                use Relation::{Greater, GreaterEqual, Less, LessEqual};
+                matches!(sign, Less | LessEqual | Greater | GreaterEqual)
+            }),
+            Content::Joined(_, parts) => parts.iter().any(Content::is_bounded),
+            _ => false,
+        }
+    }
+
+    /// Whether it is a name, or the components of something by their names, as in `(v_x, v_y)`.
+    fn is_name(&self) -> bool {
+        let name = |e: &Expr| e.as_symbol().is_some();
+        match self {
+            Content::Vector(parts) => {
+                parts.iter().any(name) && parts.iter().all(|e| name(e) || e.is_zero())
+            }
+            other => other.expr().is_some_and(name),
+        }
+    }
+
     /// The same with every expression inside changed; a quantity stays as it is.
     pub(crate) fn map(&self, change: &dyn Fn(&Expr) -> Expr) -> Content {
         match self {
             Content::Scalar(e) => Content::Scalar(change(e)),
-            Content::Either(pair) => Content::Either(pair.each_ref().map(change)),
+            Content::Either(values) => Content::Either(values.iter().map(change).collect()),
             Content::Vector(components) => Content::Vector(components.each_ref().map(change)),
             Content::Quantity(_) => self.clone(),
             Content::Relations(sides, signs) => {
                 let sides = sides.iter().map(|side| side.map(change)).collect();
                 Content::Relations(sides, signs.clone())
+            }
+            Content::Joined(join, parts) => {
+                let parts = parts.iter().map(|part| part.map(change)).collect();
+                Content::Joined(*join, parts)
             }
         }
     }
@@ -137,10 +182,12 @@ impl Content {
     pub fn each(&self, visit: &mut dyn FnMut(&Expr)) {
         match self {
             Content::Scalar(e) => visit(e),
-            Content::Either(pair) => pair.iter().for_each(visit),
+            Content::Either(values) => values.iter().for_each(visit),
             Content::Vector(components) => components.iter().for_each(visit),
             Content::Quantity(q) => visit(&q.value),
-            Content::Relations(sides, _) => sides.iter().for_each(|side| side.each(visit)),
+            Content::Relations(parts, _) | Content::Joined(_, parts) => {
+                parts.iter().for_each(|part| part.each(visit));
+            }
         }
     }
 }

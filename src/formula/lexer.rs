@@ -14,6 +14,8 @@ use crate::expr::{Function, Rational, Symbol, ratio};
 
 /// The decision that turns all slashes round; sites below it are turned one by one.
 pub(super) const SLASHES: u32 = 63;
+/// The decision that opens a bar inside bars where a value stands right behind it: `|x+b|y||`.
+pub(super) const BARS: u32 = 62;
 /// Most tokens of one formula.
 const MAX_TOKENS: u32 = 20_000;
 
@@ -173,13 +175,19 @@ impl<'a> Lexer<'a> {
     pub fn usual(&mut self) -> bool {
         let site = self.sites;
         self.sites += 1;
-        site >= SLASHES || self.flips >> site & 1 == 0
+        site >= BARS || self.flips >> site & 1 == 0
     }
 
     /// Whether slashes reach as far as usual. There is one other reading for all of them, and none `inside` a function.
     pub fn usual_slash(&mut self, inside: bool) -> bool {
         self.slashes |= !inside;
         inside || self.flips >> SLASHES & 1 == 0
+    }
+
+    /// Whether a bar that ends at `end`, inside bars and behind a value, opens others.
+    pub fn opens_inside(&self, end: usize) -> bool {
+        let value = |c: char| c.is_alphanumeric() || matches!(c, '\\' | '(');
+        self.flips >> BARS & 1 == 1 && self.text[end..].starts_with(value)
     }
 
     pub fn note(&mut self, remark: Remark, start: usize, middle: usize, end: usize) {

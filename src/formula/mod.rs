@@ -38,7 +38,7 @@ use std::collections::BTreeSet;
 use crate::dimension::Unit;
 use crate::expr::{Expr, Symbol};
 pub use component::with_subscript;
-pub use content::{Content, Quantity, Relation};
+pub use content::{Content, Join, Quantity, Relation};
 use convert::Value;
 pub use fault::Fault;
 use fault::Faulty;
@@ -46,6 +46,7 @@ pub use note::{Note, Remark};
 use parser::{Parser, Side};
 pub(crate) use sentence::sentence;
 pub use sentence::{Piece, Sentence, sides};
+pub(crate) use several::UNNAMED;
 pub use symbols::{Declared, Symbols, letter};
 pub(crate) use symbols::{is_angle_name, is_greek, letters};
 pub(crate) use units::plain_unit;
@@ -104,7 +105,7 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         return pair;
     }
     if held.any(",;")
-        && let Some(between) = several::interval(text, symbols)
+        && let Some(between) = several::interval(text, symbols, false)
     {
         return Ok(between);
     }
@@ -125,9 +126,15 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         && let Some((at, length)) = between(" or ").or_else(|| between(" and "))
     {
         let fault = Fault::new("a word between two formulas", at + 1, at + length - 1);
-        return Err(*fault.hint("at most two values or bounds are read, as in x = 1 or x = 2"));
+        return Err(*fault.hint("values and bounds are joined by words, as in x = 1 or x = 2"));
     }
     usual.map_err(|fault| *fault)
+}
+
+/// Reads a pair of numbers in brackets as an interval: `(0, 1)` and `[0, 1]`.
+pub(crate) fn read_interval(text: &str, symbols: &Symbols) -> Option<Reading> {
+    let short = text.len() <= MAX_BYTES && text.contains([',', ';']);
+    short.then(|| several::interval(text, symbols, true))?
 }
 
 /// A formula with words around or before it.
@@ -179,7 +186,7 @@ pub fn other_readings(text: &str, symbols: &Symbols, slashes: bool) -> Vec<Readi
     let held = prose::Held::of(text);
     let mut out: Vec<Reading> = Vec::new();
     let count = (usual.choices - u32::from(usual.slashes)).min(MAX_READINGS);
-    let all = (count > 1).then_some(!(1u64 << lexer::SLASHES));
+    let all = (count > 1).then_some(!(0b11u64 << lexer::BARS));
     let slashes = (slashes && usual.slashes).then_some(1u64 << lexer::SLASHES);
     let sites = (0..count).map(|site| 1u64 << site);
     for flips in slashes.into_iter().chain(sites).chain(all) {
@@ -221,16 +228,23 @@ fn read_as(text: &str, symbols: &Symbols, flips: u64, held: prose::Held) -> Faul
 
 /// With symbols before units, or where that fails and nothing but the symbols may occur, units before symbols.
 fn read_either(text: &str, start: usize, symbols: &Symbols, flips: u64) -> Faulty<Reading> {
-    read_inner(text, start, symbols, false, flips).or_else(|first| match symbols.is_open() {
-        // The attempt that got further tells more.
-        false => {
-            let second = read_inner(text, start, symbols, true, flips);
-            second.map_err(|second| match second.start > first.start {
-                true => second,
-                false => first,
-            })
-        }
-        true => Err(first),
+    let read = |flips| {
+        read_inner(text, start, symbols, false, flips).or_else(|first| match symbols.is_open() {
+            // The attempt that got further tells more.
+            false => {
+                let second = read_inner(text, start, symbols, true, flips);
+                second.map_err(|second| match second.start > first.start {
+                    true => second,
+                    false => first,
+                })
+            }
+            true => Err(first),
+        })
+    };
+    let nested = text[start..].matches('|').count() > 3;
+    read(flips).or_else(|fault| match nested {
+        true => read(flips | 1u64 << lexer::BARS).map_err(|_| fault),
+        false => Err(fault),
     })
 }
 
@@ -315,7 +329,7 @@ fn content(
             match pair {
                 true => {
                     let lower = convert::one(&side.written, mode(false))?;
-                    (Content::Either([e, lower]), constant)
+                    (Content::Either(vec![e, lower]), constant)
                 }
                 false => (Content::Scalar(e), constant),
             }
@@ -358,7 +372,10 @@ fn content(
             };
             (Content::Quantity(Box::new(quantity)), None)
         }
-        Content::Either(pair) => (Content::Either(pair.map(|e| &e * &si)), Some(unit.clone())),
+        Content::Either(values) => {
+            let values = values.iter().map(|e| e * &si).collect();
+            (Content::Either(values), Some(unit.clone()))
+        }
         Content::Vector(v) => (Content::Vector(v.map(|e| &e * &si)), Some(unit.clone())),
         other => (other, Some(unit.clone())),
     })

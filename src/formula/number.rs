@@ -25,7 +25,7 @@ pub(crate) fn plain(text: &[u8]) -> Option<(Literal, usize)> {
         None => true,
         // Groups of digits may follow.
         Some(b' ') => !text.get(digits + 1).is_some_and(u8::is_ascii_digit),
-        Some(next) => next.is_ascii() && !b".,{\\eE".contains(next),
+        Some(next) => next.is_ascii() && !b".,{\\eE'".contains(next),
     };
     if !ends || !(1..=18).contains(&digits) {
         return None;
@@ -194,7 +194,7 @@ pub(crate) fn repeating(
     Some((literal, end + mark.len() + digits.len() + 1))
 }
 
-/// A number in groups of three digits: `12\,000` and `12 000` with spaces between them, `1,000,000` with two commas or more or
+/// A number in groups of three digits: `12\,000`, `12 000`, `12,\!000` and `12'000`, `1,000,000` with two commas or more or
 /// a point behind, which nothing else could be outside a `list`; `inside` brackets `(1,234.5)` could be one.
 pub(crate) fn grouped(
     text: &str,
@@ -202,7 +202,9 @@ pub(crate) fn grouped(
     list: bool,
     inside: bool,
 ) -> Option<Faulty<(Literal, usize)>> {
-    const BETWEEN: [&str; 6] = ["\\,", "\u{202f}", "\u{2009}", "{,}", " ", ","];
+    const BETWEEN: [&str; 10] = [
+        "\\,", "\u{202f}", "\u{2009}", "{,}", " ", ",\\! ", ",\\!", "'", "’", ",",
+    ];
     let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
     let first = digits(at);
     if !(1..=3).contains(&first) {

@@ -177,7 +177,9 @@ impl Parser<'_> {
 
     pub(super) fn starts_factor(&mut self) -> Faulty<bool> {
         let bars = self.bars;
-        Ok(match self.peek()?.tok {
+        let token = self.peek()?;
+        let end = token.end;
+        Ok(match token.tok {
             Tok::Number(_)
             | Tok::Name(_)
             | Tok::Call(_)
@@ -191,7 +193,7 @@ impl Parser<'_> {
             | Tok::Root(_)
             | Tok::Fraction => true,
             Tok::Open(_) | Tok::OpenBar | Tok::Vulgar(..) => true,
-            Tok::Bar => bars == 0,
+            Tok::Bar => bars == 0 || self.lexer.opens_inside(end),
             _ => false,
         })
     }

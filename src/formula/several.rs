@@ -1,91 +1,323 @@
-//! Several values or bounds that are said as one: alternatives, lists and sets of two, intervals.
+//! Several values or bounds that are said as one: alternatives, lists, sets, intervals and their unions.
 
 use super::{
-    Content, Fault, MAX_BYTES, Reading, Relation, Remark, Symbols, boxed, prose, read_either,
+    Content, Fault, Join, MAX_BYTES, Reading, Relation, Remark, Symbols, boxed, read_either,
     read_inner,
 };
 use crate::dimension::Unit;
 use crate::expr::{Expr, Symbol};
 
-/// `x ∈ [2, 3)` and `x in (0, ∞)` as the relations they stand for.
-pub(super) fn interval(text: &str, symbols: &Symbols) -> Option<Reading> {
-    let (start, stop) = boxed(text).ok()?;
-    let part = |[from, to]: [usize; 2]| read_inner(&text[..to], from, symbols, false, 0).ok();
-    let ends = prose::interval(&text[start..stop])?.map_bytes(start);
-    let name = part(ends.name)?;
-    let mut sides = vec![name.content.clone()];
-    let mut signs = Vec::new();
-    let strict = |open: bool| match open {
-        true => Relation::Less,
-        false => Relation::LessEqual,
+/// What lies in an interval that is written without a name, `[0, 1)`.
+pub(crate) const UNNAMED: &str = "·";
+
+/// Most values or bounds of one text.
+const MOST: usize = 12;
+
+/// `x ∈ [2, 3)`, `x in (0, ∞)`, `x ∈ (−∞, 1) ∪ (2, 3]` and `[0, 1)` as the relations they stand for; without a name only what
+/// could be no vector, unless `pairs` are intervals too.
+pub(super) fn interval(text: &str, symbols: &Symbols, pairs: bool) -> Option<Reading> {
+    const SIGNS: [&str; 6] = ["∈", "\\in ", "\\in\\", "\\in(", "\\in[", " in "];
+    let (mut start, mut stop) = boxed(text).ok()?;
+    let plain = |c: char| c.is_whitespace() || c == '$';
+    start = stop - text[start..stop].trim_start_matches(plain).len();
+    stop = start
+        + text[start..stop]
+            .trim_end_matches(|c| plain(c) || c == '.')
+            .len();
+    let signed = |sign: &&'static str| Some((start + text[start..stop].find(*sign)?, *sign));
+    let sign = SIGNS.iter().find_map(signed);
+    // What opens the interval stands behind the word.
+    let behind = sign.map(|(at, sign)| at + sign.trim_end_matches(['\\', '(', '[']).len());
+    let part = |[from, to]: [usize; 2]| {
+        let read = read_inner(&text[..to], from, symbols, false, 0).ok();
+        read.filter(|reading| matches!(reading.content, Content::Scalar(_)))
     };
-    if let Some(low) = ends.low {
-        sides.insert(0, part(low)?.content);
-        signs.push(strict(ends.open[0]));
+    let pieces = pieces(text, [behind.unwrap_or(start), stop]);
+    let ends: Vec<Ends> = pieces
+        .iter()
+        .map(|piece| ends(text, *piece))
+        .collect::<Option<_>>()?;
+    if sign.is_none() && !pairs && ends.len() == 1 && ends[0].may_be_pair {
+        return None;
     }
-    if let Some(high) = ends.high {
-        sides.push(part(high)?.content);
-        signs.push(strict(ends.open[1]));
+    let (name, mut reading) = match sign {
+        Some((at, _)) => {
+            let name = part([start, at])?;
+            (name.content.clone(), name)
+        }
+        None => {
+            let end = ends[0].low.or(ends[0].high)?;
+            (Content::Scalar(Expr::symbol(UNNAMED)), part(end)?)
+        }
+    };
+    let mut cases = Vec::new();
+    for ends in &ends {
+        let mut sides = vec![name.clone()];
+        let mut signs = Vec::new();
+        let strict = |open: bool| match open {
+            true => Relation::Less,
+            false => Relation::LessEqual,
+        };
+        if let Some(low) = ends.low {
+            sides.insert(0, part(low)?.content);
+            signs.push(strict(ends.open[0]));
+        }
+        if let Some(high) = ends.high {
+            sides.push(part(high)?.content);
+            signs.push(strict(ends.open[1]));
+        }
+        if signs.is_empty() {
+            return None;
+        }
+        cases.push(Content::Relations(sides, signs));
     }
-    let plain = |side: &Content| matches!(side, Content::Scalar(_));
-    (!signs.is_empty() && sides.iter().all(plain)).then_some(Reading {
-        content: Content::Relations(sides, signs),
-        ..name
+    reading.content = joined(Join::Or, cases)?;
+    reading.literal = None;
+    Some(reading)
+}
+
+/// Several relations as one content; the only one as it is.
+fn joined(join: Join, mut parts: Vec<Content>) -> Option<Content> {
+    match parts.len() {
+        0 => None,
+        1 => parts.pop(),
+        _ => Some(Content::Joined(join, parts)),
+    }
+}
+
+/// The parts of a union of sets.
+fn pieces(text: &str, [from, stop]: [usize; 2]) -> Vec<[usize; 2]> {
+    const SIGNS: [&str; 4] = ["∪", "\\cup", "\\bigcup", " U "];
+    let mut out = Vec::new();
+    let mut start = from;
+    loop {
+        let rest = &text[start..stop];
+        let sign = SIGNS
+            .iter()
+            .filter_map(|sign| Some((rest.find(sign)?, sign.len())))
+            .min();
+        let Some((at, length)) = sign else {
+            out.push([start, stop]);
+            return out;
+        };
+        out.push([start, start + at]);
+        start += at + length;
+    }
+}
+
+/// An interval: where its ends stand, from the first byte of each to the one behind it.
+struct Ends {
+    /// Nothing where there is no end on that side.
+    low: Option<[usize; 2]>,
+    high: Option<[usize; 2]>,
+    /// Whether each end is left out.
+    open: [bool; 2],
+    /// Whether it could be two components in brackets as well.
+    may_be_pair: bool,
+}
+
+fn ends(text: &str, [from, stop]: [usize; 2]) -> Option<Ends> {
+    let rest = text[from..stop].trim_start();
+    let rest = rest.strip_prefix("\\left").unwrap_or(rest);
+    let closed = rest.trim_end();
+    let opened = rest.strip_prefix(['(', '[', ']'])?;
+    let from = stop - opened.len();
+    let inside = closed.strip_suffix([')', ']', '['])?;
+    let inside = inside.strip_suffix("\\right").unwrap_or(inside);
+    let to = from + inside.len().checked_sub(rest.len() - opened.len())?;
+    let between = text.get(from..to)?;
+    let comma = between.find([',', ';'])?;
+    let braces = between.contains(['{', '}']) && !between.contains('\\');
+    if between[comma + 1..].contains([',', ';']) || braces {
+        return None;
+    }
+    let bounded = |[from, to]: [usize; 2]| {
+        let end = text[from..to].trim().trim_start_matches(['+', '-', '−']);
+        !matches!(end.trim(), "∞" | "\\infty" | "inf" | "oo")
+    };
+    let [low, high] = [[from, from + comma], [from + comma + 1, to]];
+    let (low, high) = (
+        Some(low).filter(|end| bounded(*end)),
+        Some(high).filter(|end| bounded(*end)),
+    );
+    let brackets = (rest.chars().next()?, closed.chars().next_back()?);
+    Some(Ends {
+        low,
+        high,
+        open: [
+            matches!(brackets.0, '(' | ']'),
+            matches!(brackets.1, ')' | '['),
+        ],
+        may_be_pair: matches!(brackets, ('(', ')') | ('[', ']')) && low.is_some() && high.is_some(),
     })
 }
 
-/// `x = 3 or x = -3` and `2, -2` as one pair of values, `x > 1 and x < 3` as a chain.
+/// `{2, 3}` and `x ∈ {2, 3}` with blanks for the braces and an equals sign for that of membership, byte for byte; nothing
+/// where the text is no set.
+fn without_braces(text: &str) -> Option<String> {
+    let (open, close) = (text.find('{')?, text.rfind('}')?);
+    let inside = text.get(open + 1..close)?;
+    if inside.contains(['{', '}']) || !text[close + 1..].trim().is_empty() {
+        return None;
+    }
+    let escaped = inside.ends_with('\\');
+    let before = match (text[..open].strip_suffix('\\'), escaped) {
+        (Some(before), true) => before,
+        (None, false) => &text[..open],
+        _ => return None,
+    };
+    let inside = &inside[..inside.len() - usize::from(escaped)];
+    let named = before.trim_end();
+    let name = ["∈", "\\in", " in"]
+        .iter()
+        .find_map(|sign| named.strip_suffix(sign));
+    let start = match name {
+        Some(name) => format!("{name}{:<1$}", "=", open - name.len() + 1),
+        None if named.is_empty() => " ".repeat(open + 1),
+        None => return None,
+    };
+    Some(format!("{start}{inside}"))
+}
+
+/// Where the parts of a list end and the next begin: `x = 3 or x = -3`, `2, -2`. In a set any comma parts them.
+fn gaps(text: &str, set: bool) -> Vec<(usize, usize)> {
+    const WORDS: [&str; 8] = [
+        "\\text{ or }",
+        "\\text{or}",
+        "\\mathrm{or}",
+        " or ",
+        "\\text{ and }",
+        "\\text{and}",
+        " and ",
+        "\\quad",
+    ];
+    let mut found: Vec<(usize, usize)> = Vec::new();
+    let mut depth = 0i32;
+    let mut at = 0;
+    while let Some(c) = text[at..].chars().next() {
+        let word = WORDS.iter().find(|word| text[at..].starts_with(**word));
+        let length = match (word, c) {
+            (Some(word), _) if depth == 0 => word.len(),
+            // Behind a comma a sign begins another value: `3,-3`.
+            (None, ',')
+                if depth == 0
+                    && !text[at + 1..].starts_with("\\!")
+                    && (set || text[at + 1..].starts_with([' ', '\\', '-', '−', '±'])) =>
+            {
+                1
+            }
+            _ => 0,
+        };
+        if length > 0 {
+            match found.last_mut() {
+                // `2, 3, and 4`
+                Some((_, end)) if text[*end..at].trim().is_empty() => *end = at + length,
+                _ => found.push((at, at + length)),
+            }
+            at += length;
+            continue;
+        }
+        match c {
+            '(' | '[' | '{' => depth += 1,
+            ')' | ']' | '}' => depth -= 1,
+            _ => {}
+        }
+        at += c.len_utf8();
+    }
+    let inside = |(start, end): &(usize, usize)| {
+        !text[..*start].trim().is_empty() && !text[*end..].trim().is_empty()
+    };
+    match found.iter().all(inside) {
+        true => found,
+        false => Vec::new(),
+    }
+}
+
+/// `x = 3 or x = -3`, `2, -2` and `{1, 2, 3}` as values of which each will do; `x > 1 and x < 3` as a chain; other relations
+/// joined by a word, and values of several names, as they are.
 pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fault>> {
     if text.len() > MAX_BYTES {
         return None;
     }
     let (start, stop) = boxed(text).ok()?;
-    let set = prose::without_braces(&text[start..stop]);
+    let set = without_braces(&text[start..stop]);
     let set = set.map(|set| format!("{}{set}", " ".repeat(start)));
     let list = set.is_some();
     let (text, stop) = set.as_ref().map_or((text, stop), |set| (set, set.len()));
-    let (end, next) = prose::alternatives(&text[start..stop], list)?;
-    if symbols.find("or").is_some() || symbols.find("and").is_some() {
+    let gaps = gaps(&text[start..stop], list);
+    if gaps.is_empty() || symbols.find("or").is_some() || symbols.find("and").is_some() {
         return None;
     }
-    let part = |from: usize, to: usize| {
-        let strict = read_either(&text[..to], from, symbols, 0);
-        let worded = |r: &Reading| r.notes.iter().any(|n| n.remark == Remark::Letters);
-        strict.ok().filter(|r| !worded(r))
-    };
-    let (first, second) = (part(start, start + end)?, part(start + next, stop)?);
-    let word = &text[start + end..start + next];
-    let is_or = word.contains("or");
-    if let (Content::Relations(a, s), Content::Relations(b, t)) = (&first.content, &second.content)
-        && s.iter().chain(t).any(|sign| *sign != Relation::Equal)
-    {
-        let Some(content) = chain((a, s), (b, t), is_or)? else {
-            let what = "two relations joined by a word are not read";
-            let fault = Fault::new(what, start + end, start + next);
-            return Some(Err(*fault.hint("write them as one, as in 1 < x < 3")));
-        };
-        return Some(Ok(Reading { content, ..second }));
+    let mut from = start;
+    let mut parts = Vec::new();
+    let last = [(stop - start, stop - start)];
+    for (end, next) in gaps.iter().chain(&last).take(MOST + 1) {
+        let strict = read_either(&text[..start + end], from, symbols, 0).ok()?;
+        if strict.notes.iter().any(|n| n.remark == Remark::Letters) {
+            return None;
+        }
+        parts.push(strict);
+        from = start + next;
     }
-    let (content, unit) = pair(&first.content, &second.content)?;
+    if parts.len() > MOST {
+        let (first, second) = gaps[0];
+        let what = format!("at most {MOST} values or bounds are read");
+        return Some(Err(*Fault::new(what, start + first, start + second)));
+    }
+    let is_or = gaps
+        .iter()
+        .any(|(end, next)| text[start + end..start + next].contains("or"));
+    let notes = parts
+        .iter()
+        .flat_map(|part| part.notes.iter().cloned())
+        .collect();
+    let (content, unit) = together(&parts, is_or)?;
     Some(Ok(Reading {
         content,
-        written: first.written.into_iter().chain(second.written).collect(),
+        written: parts.into_iter().flat_map(|part| part.written).collect(),
         literal: None,
         unit,
-        notes: first.notes.into_iter().chain(second.notes).collect(),
+        notes,
         choices: 0,
         slashes: false,
     }))
 }
 
-/// `x > 1` and `x < 3` as `1 < x < 3`: nothing where one of them is no single relation, and no content where they bound
-/// different things or one of them is enough.
-fn chain(
-    (a, s): (&[Content], &[Relation]),
-    (b, t): (&[Content], &[Relation]),
-    is_or: bool,
-) -> Option<Option<Content>> {
-    let ([x, low], [y, high], [s], [t]) = (a, b, s, t) else {
+/// Parts that are said together; nothing where they do not belong together.
+fn together(parts: &[Reading], is_or: bool) -> Option<(Content, Option<Unit>)> {
+    let contents: Vec<&Content> = parts.iter().map(|part| &part.content).collect();
+    let signs = |content: &&Content| match content {
+        Content::Relations(_, signs) => Some(signs.clone()),
+        _ => None,
+    };
+    let signs: Option<Vec<Vec<Relation>>> = contents.iter().map(signs).collect();
+    let Some(signs) = signs else {
+        return list(&contents);
+    };
+    let whole = || contents.iter().map(|part| (*part).clone()).collect();
+    if signs.concat().iter().all(|sign| *sign == Relation::Equal) {
+        return list(&contents).or_else(|| match is_or {
+            true => None,
+            false => Some((Content::Joined(Join::And, whole()), None)),
+        });
+    }
+    let content = match contents.as_slice() {
+        [a, b] if !is_or => chain(a, b),
+        _ => None,
+    };
+    let join = if is_or { Join::Or } else { Join::And };
+    Some((
+        content.unwrap_or_else(|| Content::Joined(join, whole())),
+        None,
+    ))
+}
+
+/// `x > 1` and `x < 3` as `1 < x < 3`: nothing where one of them is no single relation, or they bound different things.
+fn chain(first: &Content, second: &Content) -> Option<Content> {
+    let (Content::Relations(a, s), Content::Relations(b, t)) = (first, second) else {
+        return None;
+    };
+    let ([x, low], [y, high], [s], [t]) = (&a[..], &b[..], &s[..], &t[..]) else {
         return None;
     };
     // `a < x, x < b` begins with the lower bound.
@@ -94,28 +326,35 @@ fn chain(
         false => (low, x, s.turned()),
     };
     let sides = vec![low.clone(), x.clone(), high.clone()];
-    let chain = Content::Relations(sides, vec![s.turned(), *t]);
-    Some((x == y && !is_or).then_some(chain))
+    (x == y).then(|| Content::Relations(sides, vec![s.turned(), *t]))
 }
 
-/// Two values of one kind, named alike or not at all, with the unit behind the last.
-fn pair(first: &Content, second: &Content) -> Option<(Content, Option<Unit>)> {
-    let ((name, a, its), (other, b, unit)) = (named(first)?, named(second)?);
-    if other.is_some() && other != name {
+/// Values of one kind, named alike or not at all, with the unit behind the last.
+fn list(parts: &[&Content]) -> Option<(Content, Option<Unit>)> {
+    let parts: Vec<_> = parts
+        .iter()
+        .map(|part| named(part))
+        .collect::<Option<_>>()?;
+    let name = parts[0].0.clone();
+    if parts
+        .iter()
+        .any(|(other, ..)| other.is_some() && *other != name)
+    {
         return None;
     }
-    let a = match (its, &unit) {
-        (None, None) => a,
-        (Some(its), Some(unit)) if its.dimension == unit.dimension => a,
-        // `2 or 3 m/s`: the unit behind the last number is that of both.
-        (None, Some(unit)) if a.is_constant() => &a * &unit.value(),
-        _ => return None,
+    let unit = parts.last()?.2.clone();
+    let value = |(_, value, its): &(_, Expr, Option<Unit>)| match (its, &unit) {
+        (None, None) => Some(value.clone()),
+        (Some(its), Some(unit)) if its.dimension == unit.dimension => Some(value.clone()),
+        // `2 or 3 m/s`: the unit behind the last number is that of all.
+        (None, Some(unit)) if value.is_constant() => Some(value * &unit.value()),
+        _ => None,
     };
-    let pair = Content::Either([a, b]);
+    let values = Content::Either(parts.iter().map(value).collect::<Option<_>>()?);
     let content = match name {
-        None => pair,
+        None => values,
         Some(name) => {
-            let sides = vec![Content::Scalar(Expr::symbol(&name)), pair];
+            let sides = vec![Content::Scalar(Expr::symbol(&name)), values];
             Content::Relations(sides, vec![Relation::Equal])
         }
     };

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use super::{
     Apart, Diagnosis, Key, Options, Proof, Strength, Tolerance, Verdict, number, partial, relation,
-    show, unit,
+    several, show, unit,
 };
 use crate::dimension::Dimension;
 use crate::domain::{Sample, roles, samples};
@@ -135,6 +135,8 @@ fn claim(content: &Content) -> Claim<'_> {
                 Some(name) if !std::ptr::eq(value, content) && free(name) => {
                     Claim::Value(Some(name), value)
                 }
+                // `(v_x, v_y) = (3, 4)`
+                None if !std::ptr::eq(value, content) => Claim::Value(None, value),
                 _ => Claim::Relations(sides, signs),
             }
         }
@@ -153,6 +155,9 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
         && apart(ctx, a, s).is_some()
     {
         return relation::compare(ctx, (a, s), (b, t));
+    }
+    if let Some(found) = several::joined(ctx, &ctx.key.reading.content, &answer.content) {
+        return found;
     }
     // An equation between vectors, solved for another of them.
     if let (Content::Relations(a, s), Content::Relations(b, t)) =
@@ -309,13 +314,20 @@ fn close(ctx: &Context, expected: &Content, side: &Content) -> bool {
 }
 
 /// Whether letters side by side, none of them of the question, are a name such as `KE`; so are the letters of a velocity
-/// with an index, `vf` and `vx`.
+/// with an index, `vf` and `vx`, and the difference, the sum or the quotient of two names, `E_1 − E_2` and `K_2/K_1`.
 fn is_word(ctx: &Context, e: &Expr) -> bool {
-    let Node::Product(parts) = e.node() else {
-        return false;
+    let free = |name: &Symbol| !declared_symbol(ctx, name);
+    let pair = |parts: &[Expr], turned: &dyn Fn(&Expr) -> Expr| {
+        let name = |e: &Expr| e.as_symbol().is_some_and(free);
+        matches!(parts, [a, b] if name(a) && name(&turned(b)) || name(&turned(a)) && name(b))
+    };
+    let parts = match e.node() {
+        Node::Sum(parts) => return pair(parts, &|b| -b) || pair(parts, &Expr::clone),
+        Node::Product(parts) if pair(parts, &|b| b.powi(-1)) => return true,
+        Node::Product(parts) => parts,
+        _ => return false,
     };
     let letters: Option<Vec<&Symbol>> = parts.iter().map(Expr::as_symbol).collect();
-    let free = |name: &Symbol| !declared_symbol(ctx, name);
     let index = |name: &Symbol| free(name) && matches!(&**name, "f" | "i" | "x" | "y");
     let velocity = |name: &Symbol| matches!(&**name, "v" | "u" | "V");
     letters.is_some_and(|letters| {
@@ -421,31 +433,34 @@ fn apart<'a>(ctx: &Context, sides: &'a [Content], signs: &[Relation]) -> Option<
     Some([pair[0], pair[1]])
 }
 
-fn values(ctx: &Context, expected: &Content, answer: &Content) -> Finding {
+pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Finding {
     match (expected, answer) {
         (Content::Scalar(e), Content::Scalar(a)) => scalars(ctx, e, a),
         (Content::Quantity(e), Content::Quantity(a)) => unit::quantities(ctx, e, a),
         (Content::Quantity(e), Content::Scalar(a)) => unit::without(ctx, e, a),
         (Content::Scalar(e), Content::Quantity(a)) => unit::with(ctx, e, a),
         (Content::Vector(e), Content::Vector(a)) => all_of(ctx, e, a),
-        (Content::Either(e), Content::Either(a)) => pairs(ctx, e, a),
+        (Content::Either(e), Content::Either(a)) => several::lists(ctx, e, a),
         (Content::Either(e), Content::Scalar(a)) => {
             let one = e.iter().any(|e| equal(ctx, e, a));
-            let words = match one {
-                true => "one of the two values is missing",
-                false => "two values are expected",
+            let words = match (one, e.len()) {
+                (true, 2) => "one of the two values is missing",
+                (true, _) => "the other values are missing",
+                (false, 2) => "two values are expected",
+                (false, _) => "several values are expected",
             };
             let finding = Finding::different("DIFF_ONE_OF_TWO", "kind", words);
             finding.with(Diagnosis::new("ONE_OF_TWO", words, "there are two values"))
         }
         (Content::Scalar(e), Content::Either(a)) => {
-            let right = a.each_ref().map(|a| equal(ctx, e, a));
-            if right == [true; 2] {
+            let right = a.iter().filter(|a| equal(ctx, e, a)).count();
+            if right == a.len() {
                 return scalars(ctx, e, &a[0]);
             }
-            let words = match right.contains(&true) {
-                true => "one of the two values is the expected one; the other is not",
-                false => "one value is expected",
+            let words = match right {
+                0 => "one value is expected",
+                _ if a.len() > 2 => "one of the values is the expected one; the others are not",
+                _ => "one of the two values is the expected one; the other is not",
             };
             let hint = "the answer is a single value: decide which sign it has";
             let finding = Finding::different("DIFF_TWO_FOR_ONE", "kind", words);
@@ -524,34 +539,4 @@ fn all_of(ctx: &Context, expected: &[Expr; 3], answer: &[Expr; 3]) -> Finding {
     undecided
         .or(total)
         .unwrap_or_else(|| kind("an empty vector"))
-}
-
-/// Unordered pairs.
-fn pairs(ctx: &Context, expected: &[Expr; 2], answer: &[Expr; 2]) -> Finding {
-    let plain = Context {
-        key: ctx.key,
-        options: ctx.options,
-        diagnose: false,
-    };
-    let both = |i: usize, j: usize| {
-        let (a, b) = (
-            scalars(&plain, &expected[0], &answer[i]),
-            scalars(&plain, &expected[1], &answer[j]),
-        );
-        if a.verdict == Verdict::Equivalent {
-            b
-        } else {
-            a
-        }
-    };
-    let straight = both(0, 1);
-    if straight.verdict == Verdict::Equivalent {
-        return straight;
-    }
-    let crossed = both(1, 0);
-    if crossed.verdict == Verdict::Different {
-        straight
-    } else {
-        crossed
-    }
 }

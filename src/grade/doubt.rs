@@ -3,7 +3,7 @@
 use num_traits::Signed;
 
 use super::compare;
-use super::{Diagnosis, Key, Options, Proof, Verdict, read, show};
+use super::{Diagnosis, Grade, Key, Options, Proof, Verdict, read, show};
 use crate::dimension;
 use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{self, Content, Fault, Note, Reading, Remark};
@@ -184,6 +184,42 @@ pub(super) fn turned(
         .diagnosis
         .insert(0, Diagnosis::new("READING", message, hint));
     *reading = other;
+}
+
+/// `1,500 N`: a comma before three digits groups them or begins the decimals. An answer that is right in one of the two ways
+/// is right; otherwise it stays unread.
+pub(super) fn comma(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
+    let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
+    let mut parts = vec![String::new()];
+    let mut rest = answer;
+    while let Some(c) = rest.chars().next() {
+        let sign = ["{,}", ","].into_iter().find(|s| rest.starts_with(s));
+        let behind = parts.last()?.ends_with(|c: char| c.is_ascii_digit());
+        match sign.filter(|s| behind && digits(&rest[s.len()..]) == 3) {
+            Some(sign) => {
+                parts.push(String::new());
+                rest = &rest[sign.len()..];
+            }
+            None => {
+                parts.last_mut()?.push(c);
+                rest = &rest[c.len_utf8()..];
+            }
+        }
+    }
+    if parts.len() == 1 {
+        return None;
+    }
+    ["", "."].into_iter().find_map(|sign| {
+        let text = parts.join(sign);
+        let mut grade = super::judge_here(key, &text, options);
+        (grade.verdict == Verdict::Equivalent).then(|| {
+            let message = format!("right when it is read as {text}");
+            let hint = "write numbers without a comma: it parts thousands in some countries and decimals in others";
+            grade.note = "EQUIV_READING";
+            grade.diagnosis.insert(0, Diagnosis::new("READING", message, hint));
+            grade
+        })
+    })
 }
 
 /// `mv sinθ N s`: a wrong answer with a unit behind its last spaces whose letters the question does not know is right when

@@ -16,6 +16,7 @@ mod number;
 mod partial;
 mod read;
 mod relation;
+mod several;
 pub mod sheet;
 pub mod steps;
 mod unit;
@@ -98,6 +99,8 @@ pub struct Key {
     pub(crate) readable: Symbols,
     /// The key as a quantity, where its text is one as well as a product: `5 m`.
     pub(crate) quantity: Option<Box<Key>>,
+    /// The key as an interval, where its text could be one as well as a vector: `[0, 1]`.
+    pub(crate) range: Option<Box<Key>>,
     /// Whether the question says itself what e is.
     pub(crate) declares_e: bool,
     /// How the formula was read, where slashes could reach further or less far.
@@ -130,6 +133,11 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
         }
         key.quantity = Some(Box::new(alone));
     }
+    let vector = matches!(key.reading.content, Content::Vector(_));
+    let range = vector.then(|| formula::read_interval(expected, &symbols));
+    let range = range
+        .flatten()
+        .map(|range| Box::new(from_reading(range, question)));
     key.told = doubt::told(expected, &key.reading);
     key.unclear = doubt::unclear_slash(expected, &key.reading);
     // With its names declared a text may split otherwise; the same text has to mean the same in key and answer.
@@ -146,6 +154,7 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
             _ => break,
         }
     }
+    key.range = range;
     Ok(key)
 }
 
@@ -208,6 +217,7 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
         question,
         readable,
         quantity: None,
+        range: None,
         declares_e,
         told: None,
         unclear: None,
@@ -280,9 +290,18 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         grade.assumed.push(words);
         return grade;
     }
-    let mut reading = match read::answer(key, answer) {
+    let reading = read::answer(key, answer);
+    let bounds = |reading: &Reading| reading.content.is_bounded();
+    if let Some(range) = &key.range
+        && reading.as_ref().is_ok_and(bounds)
+    {
+        return judge_against(range, answer, options);
+    }
+    let mut reading = match reading {
         Ok(reading) => reading,
-        Err(fault) => return unreadable(fault),
+        Err(fault) => {
+            return doubt::comma(key, answer, options).unwrap_or_else(|| unreadable(fault));
+        }
     };
     if options.strict_slash
         && let Some(fault) = doubt::unclear_slash(answer, &reading)
@@ -347,8 +366,13 @@ fn unreadable(fault: Fault) -> Grade {
 pub fn show(content: &Content) -> String {
     match content {
         Content::Scalar(e) => number::shown(e),
-        Content::Either([a, b]) => {
-            format!("{} or {}", formula::write_plain(a), formula::write_plain(b))
+        Content::Either(values) => {
+            let values: Vec<String> = values.iter().map(formula::write_plain).collect();
+            values.join(" or ")
+        }
+        Content::Joined(join, parts) => {
+            let parts: Vec<String> = parts.iter().map(show).collect();
+            parts.join(join.word())
         }
         Content::Vector(v) => {
             let parts: Vec<String> = v.iter().map(formula::write_plain).collect();

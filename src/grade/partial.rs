@@ -18,6 +18,9 @@ use trial::Trial;
 /// Points weighed before a proof.
 const GLANCES: usize = 4;
 
+/// Most parts of a pair times its symbols: more is too long to look for what is wrong.
+const MOST_LOOKS: usize = 60_000;
+
 /// The note of a grade whose first diagnosis has this code.
 pub(crate) fn note(code: &str) -> &'static str {
     match code {
@@ -46,7 +49,10 @@ pub(crate) fn note(code: &str) -> &'static str {
 
 /// What is wrong with an expression that is known to differ.
 pub(crate) fn diagnose(ctx: &Context, expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
-    if expected.size() + answer.size() > 2_000 || !is_short(expected, answer) {
+    // A symbol is tried at a time, at the cost of a look at the whole.
+    let size = expected.size() + answer.size();
+    let names = expected.symbols().len() + answer.symbols().len();
+    if size > 2_000 || size * names > MOST_LOOKS || !is_short(expected, answer) {
         return Vec::new();
     }
     let mut found = Vec::new();

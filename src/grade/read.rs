@@ -87,21 +87,19 @@ pub(super) fn is_stable(reading: &Reading) -> bool {
 
 /// Reads an answer.
 pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
-    let said = text.trim_end_matches([' ', '.', ')']);
-    let sense = said.len().saturating_sub("clockwise".len());
-    if said
-        .get(sense..)
-        .is_some_and(|word| word.eq_ignore_ascii_case("clockwise"))
-    {
-        return Err(Fault {
-            message: "a sense of rotation is no part of the formula".into(),
-            start: said[..sense].rfind(' ').map_or(0, |at| at + 1),
-            end: said.len(),
-            hint: Some("which sense counts as positive is told by the question".into()),
-            also: Vec::new(),
-        });
+    if let Some(fault) = direction(text) {
+        return Err(fault);
     }
-    let usual = formula::read(text, &key.readable);
+    let mut usual = formula::read(text, &key.readable);
+    // `(0, 1)` and `[0, 1]`, where bounds are asked.
+    if key.reading.content.is_bounded()
+        && !usual
+            .as_ref()
+            .is_ok_and(|reading| reading.content.is_bounded())
+        && let Some(range) = formula::read_interval(text, &key.readable)
+    {
+        usual = Ok(range);
+    }
     // `r × p`, where the expected formula has arrows over these letters.
     let crossed = match &usual {
         Ok(reading) => reading.notes.iter().any(|n| n.remark == Remark::Cross),
@@ -182,6 +180,52 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         formula::read(text, &symbols).ok()
     });
     named.ok_or(fault)
+}
+
+/// Refuses a direction in words behind a formula: `9.31 rad/s clockwise`, `5 N to the left`.
+fn direction(text: &str) -> Option<Fault> {
+    const WORDS: [&str; 13] = [
+        "clockwise",
+        "to the right",
+        "to the left",
+        "upward",
+        "upwards",
+        "downward",
+        "downwards",
+        "rightward",
+        "leftward",
+        "eastward",
+        "westward",
+        "northward",
+        "southward",
+    ];
+    let said = text.trim_end_matches([' ', '.', ')', '}']);
+    let ends = |word: &&&str| {
+        let at = said.len().checked_sub(word.len()).filter(|at| *at > 0);
+        let found = at.and_then(|at| said.get(at..));
+        found.is_some_and(|end| end.eq_ignore_ascii_case(word))
+    };
+    let word = WORDS.iter().find(ends)?;
+    let at = said.len() - word.len();
+    let (what, message) = match *word {
+        "clockwise" => ("sense", "a sense of rotation is no part of the formula"),
+        _ => (
+            "direction",
+            "a direction in words is no part of the formula",
+        ),
+    };
+    Some(Fault {
+        message: message.into(),
+        start: match said[..at].ends_with(' ') {
+            true => at,
+            false => said[..at].rfind(' ').map_or(0, |at| at + 1),
+        },
+        end: said.len(),
+        hint: Some(format!(
+            "which {what} counts as positive is told by the question"
+        )),
+        also: Vec::new(),
+    })
 }
 
 /// Whether a side is the size of something, as in `|v| = 5 m/s`.

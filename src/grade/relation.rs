@@ -17,13 +17,14 @@ mod undone;
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
+use std::slice::from_ref;
 
 use super::compare::{Context, Finding};
 use super::{Apart, Diagnosis, Proof, Verdict};
 use crate::algebra::{Field, Sign};
 use crate::domain::{Coordinate, Domain, Domains, Sample, roles, samples};
 use crate::expr::{Expr, Function, Node, Point, Rational, Symbol, ratio};
-use crate::formula::{Content, Relation, is_angle_name, write_plain};
+use crate::formula::{Content, Join, Relation, is_angle_name, write_plain};
 use crate::interval::{Interval, Outcome, evaluate};
 use cells::holds;
 use factor::{turned_term, unrooted};
@@ -54,7 +55,8 @@ pub(crate) fn compare(
     if let Some(found) = listed::beyond(ctx, &expected, mine) {
         return found;
     }
-    if let Some(found) = system::in_one_symbol(ctx, &expected, &answer, domains) {
+    if let Some(found) = system::in_one_symbol(ctx, from_ref(&expected), from_ref(&answer), domains)
+    {
         return found;
     }
     let found = match (expected.as_slice(), answer.as_slice()) {
@@ -70,8 +72,10 @@ pub(crate) fn compare(
 /// The symbols that a relation is about, which no habit makes positive: the only one of it, unless that is an angle or has a
 /// logarithm, or one that stands alone beside zero or something negative, as in `0 < x < b`, or alone between bars.
 pub(super) fn unsigned(content: &Content) -> Vec<Symbol> {
-    let Content::Relations(sides, signs) = content else {
-        return Vec::new();
+    let (sides, signs) = match content {
+        Content::Relations(sides, signs) => (sides, signs),
+        Content::Joined(_, parts) => return parts.iter().flat_map(unsigned).collect(),
+        _ => return Vec::new(),
     };
     let mut all = Vec::new();
     content.each(&mut |e| all.push(e.clone()));
@@ -106,6 +110,59 @@ fn between_bars(side: &Content) -> Option<Symbol> {
     }
 }
 
+/// Compares relations of which all hold, or one, with others.
+pub(crate) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Finding {
+    let (Some(mine), Some(theirs)) = (cases(expected), cases(answer)) else {
+        let words = "the relation holds something that is not a plain expression";
+        return Finding::different("DIFF_KIND", "kind", words);
+    };
+    let domains = &ctx.key.question.domains;
+    if let Some(found) = system::in_one_symbol(ctx, &mine, &theirs, domains) {
+        return found;
+    }
+    match (mine.as_slice(), theirs.as_slice()) {
+        ([mine], [theirs]) => {
+            let found = system::compare(ctx, mine, theirs, domains);
+            match found.verdict {
+                Verdict::Undecided => apart_at_points(ctx, mine, theirs).unwrap_or(found),
+                _ => found,
+            }
+        }
+        _ => {
+            let same = |a: &Vec<Normal>, b: &Vec<Normal>| {
+                system::compare(ctx, a, b, domains).verdict == Verdict::Equivalent
+            };
+            let found = |cases: &[Vec<Normal>], others: &[Vec<Normal>]| {
+                cases.iter().all(|a| others.iter().any(|b| same(a, b)))
+            };
+            match found(&mine, &theirs) && found(&theirs, &mine) {
+                true => same_solutions("each case of the one is a case of the other"),
+                false => undecided("cases in several symbols are compared one by one"),
+            }
+        }
+    }
+}
+
+/// The systems of which one holds.
+fn cases(content: &Content) -> Option<Vec<Vec<Normal>>> {
+    match content {
+        Content::Relations(sides, signs) => Some(vec![links(sides, signs)?]),
+        Content::Joined(join, parts) => {
+            let parts: Vec<_> = parts.iter().map(cases).collect::<Option<_>>()?;
+            match join {
+                Join::Or => Some(parts.concat()),
+                Join::And => {
+                    let system = |cases: Vec<Vec<Normal>>| <[_; 1]>::try_from(cases).ok();
+                    let all: Vec<[Vec<Normal>; 1]> =
+                        parts.into_iter().map(system).collect::<Option<_>>()?;
+                    Some(vec![all.into_iter().flatten().flatten().collect()])
+                }
+            }
+        }
+        _ => None,
+    }
+}
+
 /// The relations of a chain; an equation between vectors is one for each component, and with ± it is one that vanishes for
 /// either sign.
 fn links(sides: &[Content], signs: &[Relation]) -> Option<Vec<Normal>> {
@@ -122,16 +179,12 @@ fn links(sides: &[Content], signs: &[Relation]) -> Option<Vec<Normal>> {
             {
                 out.extend(v.iter().map(|c| normal(c, &Expr::zero(), *sign)));
             }
-            [Content::Either(a), Content::Either(b)] if equation => {
-                out.push(either(&a[0], &b[0], &a[1], &b[1], *sign));
+            [Content::Either(a), Content::Either(b)] if equation && a.len() == b.len() => {
+                out.push(either(a.iter().zip(b), *sign));
             }
-            [Content::Either(a), b] if equation => {
-                let b = b.expr()?;
-                out.push(either(&a[0], b, &a[1], b, *sign));
-            }
-            [a, Content::Either(b)] if equation => {
-                let a = a.expr()?;
-                out.push(either(a, &b[0], a, &b[1], *sign));
+            [Content::Either(values), other] | [other, Content::Either(values)] if equation => {
+                let other = other.expr()?;
+                out.push(either(values.iter().map(|value| (other, value)), *sign));
             }
             [a, b] => out.push(normal(a.expr()?, b.expr()?, *sign)),
             _ => return None,
@@ -140,9 +193,9 @@ fn links(sides: &[Content], signs: &[Relation]) -> Option<Vec<Normal>> {
     (!out.is_empty()).then_some(out)
 }
 
-fn either(a: &Expr, b: &Expr, c: &Expr, d: &Expr, relation: Relation) -> Normal {
+fn either<'e>(pairs: impl Iterator<Item = (&'e Expr, &'e Expr)>, relation: Relation) -> Normal {
     Normal {
-        difference: (a - b) * (c - d),
+        difference: Expr::product(pairs.map(|(a, b)| a - b).collect::<Vec<_>>()),
         relation,
     }
 }

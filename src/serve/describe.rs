@@ -220,7 +220,17 @@ fn content(names: &Solution, content: &Content) -> String {
     let one = |e: &Expr| mathml::expr(names, e);
     match content {
         Content::Scalar(e) => one(e),
-        Content::Either([a, b]) => format!("{}<mtext> or </mtext>{}", one(a), one(b)),
+        Content::Either(values) => {
+            let values: Vec<String> = values.iter().map(one).collect();
+            values.join("<mtext> or </mtext>")
+        }
+        Content::Joined(join, parts) => {
+            let parts: Vec<String> = parts
+                .iter()
+                .map(|part| self::content(names, part))
+                .collect();
+            parts.join(&format!("<mtext>{}</mtext>", join.word()))
+        }
         Content::Vector([x, y, z]) => {
             let plane = !(x.is_zero() && y.is_zero());
             let mut parts = Vec::new();

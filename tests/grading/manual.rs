@@ -10,7 +10,7 @@ use carom::grade::{Options, judge};
 const SHOWN: usize = 10;
 
 /// Tables in the order of the manual, with what they are about.
-const TABLES: [(&str, &str, &str); 15] = [
+const TABLES: [(&str, &str, &str); 16] = [
     (
         "typing.tsv",
         "Formulas as people type them",
@@ -85,6 +85,11 @@ const TABLES: [(&str, &str, &str); 15] = [
         "relations.tsv",
         "Equations, inequalities, pairs",
         "Equations are the same where they have the same solutions on the domain.",
+    ),
+    (
+        "several.tsv",
+        "Several values, results and bounds",
+        "Values stand in any order and each has to be given; results are compared by their names. `[0, 1)` is an interval; `(0, 1)` is one where the other side sets bounds, else a vector. A comma that could part thousands or decimals is read as what is right.",
     ),
 ];
 

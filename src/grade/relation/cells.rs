@@ -19,6 +19,9 @@ use crate::interval::Enclosure;
 /// Most different absolute values.
 const MOST_FOLDED: usize = 3;
 
+/// Systems of relations of which one holds.
+pub(super) type Cases = [Vec<Normal>];
+
 /// Where two systems of relations hold.
 #[derive(Debug)]
 pub(super) struct Along {
@@ -32,10 +35,16 @@ pub(super) struct Along {
     pub count: [Option<usize>; 2],
 }
 
-/// Compares two systems in one symbol; `None` where there are more, or the differences are no quotients of polynomials in it
+/// The differences of all relations.
+fn differences<'n>(first: &'n Cases, second: &'n Cases) -> Vec<&'n Expr> {
+    let all = first.iter().chain(second).flatten();
+    all.map(|n| &n.difference).collect()
+}
+
+/// Compares the cases of two answers in one symbol; `None` where there are more, or the differences are no quotients of polynomials in it
 /// or in the one square root that it stands under.
-pub(super) fn compare(first: &[Normal], second: &[Normal], domains: &Domains) -> Option<Along> {
-    let all: Vec<&Expr> = first.iter().chain(second).map(|n| &n.difference).collect();
+pub(super) fn compare(first: &Cases, second: &Cases, domains: &Domains) -> Option<Along> {
+    let all = differences(first, second);
     let uses = roles(&all);
     let mut names = uses.symbols.iter();
     let (name, role) = names.next()?;
@@ -77,8 +86,8 @@ fn radicand(all: &[&Expr], name: &Symbol) -> Option<Option<Expr>> {
 /// Two systems with square roots of one linear radicand k x + c: where it is not negative, x is (s² − c)/k of the root s;
 /// elsewhere no relation with the root holds.
 fn under_root(
-    first: &[Normal],
-    second: &[Normal],
+    first: &Cases,
+    second: &Cases,
     (name, inside): (&Symbol, &Expr),
     domains: &Domains,
 ) -> Option<Along> {
@@ -120,7 +129,11 @@ fn under_root(
         difference: rootless(&n.difference, inside, &s).substitute(&there),
         relation: n.relation,
     };
-    let systems = [first, second].map(|system| system.iter().map(put).collect::<Vec<_>>());
+    let each = |cases: &Cases, change: &dyn Fn(&Normal) -> Normal| {
+        let system = |system: &Vec<Normal>| system.iter().map(change).collect();
+        cases.iter().map(system).collect::<Vec<Vec<Normal>>>()
+    };
+    let systems = [first, second].map(|cases| each(cases, &put));
     let mut inner = domains.clone();
     inner.symbols.insert(root.clone(), ends);
     let mut out = along(&systems[0], &systems[1], &root, &inner)?;
@@ -141,7 +154,7 @@ fn under_root(
         let rooted = |n: &Normal| rootless(&n.difference, inside, &s) != n.difference;
         if [first, second]
             .iter()
-            .all(|system| system.iter().any(rooted))
+            .all(|cases| cases.iter().all(|system| system.iter().any(rooted)))
         {
             out.holds.iter_mut().for_each(|seen| seen[1] = true);
             return Some(out);
@@ -153,7 +166,7 @@ fn under_root(
                 relation: Relation::Equal,
             },
         };
-        let systems = [first, second].map(|system| system.iter().map(never).collect::<Vec<_>>());
+        let systems = [first, second].map(|cases| each(cases, &never));
         inner.symbols.insert(name.clone(), rest);
         let outside = along(&systems[0], &systems[1], name, &inner)?;
         out.lost = out.lost.or(outside.lost);
@@ -185,8 +198,8 @@ fn rootless(e: &Expr, inside: &Expr, root: &Expr) -> Expr {
 }
 
 /// The comparison along the domain of the symbol.
-fn along(first: &[Normal], second: &[Normal], name: &Symbol, domains: &Domains) -> Option<Along> {
-    let all: Vec<&Expr> = first.iter().chain(second).map(|n| &n.difference).collect();
+fn along(first: &Cases, second: &Cases, name: &Symbol, domains: &Domains) -> Option<Along> {
+    let all = differences(first, second);
     // The differences for every choice of signs, then what absolute values are taken of.
     let folded = folded(&all)?;
     let choices = (0..1 << folded.len()).flat_map(|signs| {
@@ -212,12 +225,15 @@ fn along(first: &[Normal], second: &[Normal], name: &Symbol, domains: &Domains) 
         count: [Some(0); 2],
     };
     for cell in &cells {
-        let (mine, theirs) = cell.signs[..all.len()].split_at(first.len());
-        let truth = [(first, mine), (second, theirs)].map(|(system, signs)| {
-            let links = system.iter().zip(signs);
-            links
-                .into_iter()
-                .all(|(link, sign)| holds(link.relation, *sign))
+        let mut signs = cell.signs[..all.len()].iter();
+        let truth = [first, second].map(|cases| {
+            let mut any = false;
+            for system in cases {
+                let links = system.iter().zip(signs.by_ref().take(system.len()));
+                let unmet = links.filter(|(link, sign)| !holds(link.relation, **sign));
+                any |= unmet.count() == 0;
+            }
+            any
         });
         for (seen, truth) in out.holds.iter_mut().zip(truth) {
             seen[usize::from(!truth)] = true;

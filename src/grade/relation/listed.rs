@@ -78,8 +78,8 @@ pub(super) fn values(expected: &Normal, answer: &Normal, domains: &Domains) -> O
     if !other.difference.symbols().iter().eq([&name]) {
         return None;
     }
-    let alone = std::slice::from_ref(other);
-    let count = cells::compare(alone, alone, domains)?.count[0]?;
+    let alone = [vec![other.clone()]];
+    let count = cells::compare(&alone, &alone, domains)?.count[0]?;
     let mut inside: Vec<Enclosure> = Vec::new();
     let mut beside = None;
     for value in list {

@@ -2,7 +2,7 @@
 
 use super::super::compare::{Context, Finding};
 use super::super::{Apart, Diagnosis, Verdict};
-use super::cells::{self, Along};
+use super::cells::{self, Along, Cases};
 use super::solved::{rounded, solve_for, unknowns};
 use super::{
     Normal, REALS, apart_at_points, differences, link, over_reals, same_solutions, says_nothing,
@@ -16,11 +16,11 @@ use crate::interval::{Big, Outcome, evaluate};
 use num_traits::Zero;
 use std::collections::BTreeMap;
 
-/// The verdict on relations in one symbol, whose solutions are found.
+/// The verdict on relations in one symbol, whose solutions are found, in one case or several.
 pub(super) fn in_one_symbol(
     ctx: &Context,
-    expected: &[Normal],
-    answer: &[Normal],
+    expected: &Cases,
+    answer: &Cases,
     domains: &Domains,
 ) -> Option<Finding> {
     let along = cells::compare(expected, answer, domains)?;
@@ -34,7 +34,8 @@ pub(super) fn in_one_symbol(
         ));
     }
     debug_assert!(some == mine && not_all == not_mine);
-    let all = differences(expected, answer);
+    let [mine, theirs] = [expected, answer].map(|cases| cases.concat());
+    let all = differences(&mine, &theirs);
     let along = cells::compare(expected, answer, &over_reals(domains, &all))?;
     match along.holds {
         [[false, _], [false, _]] => return Some(says_nothing("has no solution")),
@@ -106,7 +107,7 @@ pub(super) fn scaled(
     let [Some(expected), Some(answer)] = systems else {
         return None;
     };
-    let mut finding = in_one_symbol(ctx, &expected, &answer, &domains)?;
+    let mut finding = in_one_symbol(ctx, &[expected], &[answer], &domains)?;
     if let Some(apart) = &mut finding.counterexample {
         apart.at = format!("{unit} = 1, {}", apart.at);
     }
@@ -114,7 +115,7 @@ pub(super) fn scaled(
 }
 
 /// The finding for relations in one symbol that part at a number.
-fn apart(ctx: &Context, expected: &[Normal], answer: &[Normal], along: &Along) -> Finding {
+fn apart(ctx: &Context, expected: &Cases, answer: &Cases, along: &Along) -> Finding {
     let equation = |n: &Normal| n.relation == Relation::Equal;
     let at = |at: &String, lost: bool| {
         let word = |holds: bool| if holds { "holds" } else { "does not hold" }.to_string();
@@ -128,8 +129,12 @@ fn apart(ctx: &Context, expected: &[Normal], answer: &[Normal], along: &Along) -
         let gained = along.gained.as_ref().map(|x| at(x, false));
         along.lost.as_ref().map(|x| at(x, true)).or(gained)
     };
-    let (note, code, words, hint) = match (expected, answer) {
-        ([e], [a]) if equation(e) && equation(a) => match (&along.lost, &along.gained) {
+    let only = |cases: &Cases| match cases {
+        [system] if system.len() == 1 => system.first().cloned(),
+        _ => None,
+    };
+    let (note, code, words, hint) = match (&only(expected), &only(answer)) {
+        (Some(e), Some(a)) if equation(e) && equation(a) => match (&along.lost, &along.gained) {
             (Some(_), Some(_)) => (
                 "DIFF_EQUATION",
                 "EQUATION",
@@ -150,7 +155,7 @@ fn apart(ctx: &Context, expected: &[Normal], answer: &[Normal], along: &Along) -
             ),
         },
         // Bounds and directions are told as those of inequalities in several symbols.
-        ([e], [a]) => {
+        (Some(e), Some(a)) => {
             let mut finding = link(ctx, e, a);
             if finding.verdict == Verdict::Different {
                 finding.counterexample = somewhere();

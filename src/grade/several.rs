@@ -1,0 +1,224 @@
+//! Several values, named results and relations in one answer.
+
+use super::compare::{Context, Finding, scalars, values};
+use super::{Diagnosis, Verdict, relation, show};
+use crate::expr::{Expr, Symbol};
+use crate::formula::UNNAMED;
+use crate::formula::{Content, Join, Relation};
+
+/// The finding where the expected content or the answer joins several relations.
+pub(super) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Option<Finding> {
+    let is_joined = |content: &Content| matches!(content, Content::Joined(..));
+    let unnamed = |content: &Content| content.symbols().contains(UNNAMED);
+    if unnamed(expected) != unnamed(answer) {
+        let (expected, answer) = (named_as(expected, answer), named_as(answer, expected));
+        return Some(relation::joined(ctx, &expected?, &answer?));
+    }
+    if !is_joined(expected) && !is_joined(answer) {
+        return None;
+    }
+    if let Content::Vector(_) = expected.answer() {
+        let vector = components(answer)?;
+        return Some(values(ctx, expected.answer(), &vector));
+    }
+    let (whole, mine) = (expected, answer);
+    if let (Some(expected), Some(answer)) = (results(whole), results(mine)) {
+        let found = by_name(ctx, &expected, &answer);
+        if found.verdict != Verdict::Different {
+            return Some(found);
+        }
+        // `a = c, b = c` for `a = b, b = c`
+        let system = relation::joined(ctx, whole, mine);
+        let same = system.verdict == Verdict::Equivalent;
+        return Some(if same { system } else { found });
+    }
+    let relations =
+        |content: &Content| matches!(content, Content::Relations(..)) || is_joined(content);
+    match relations(expected) && relations(answer) {
+        true => Some(relation::joined(ctx, expected, answer)),
+        false => None,
+    }
+}
+
+/// A content that says of something without a name what the other says of its symbol.
+fn named_as(content: &Content, other: &Content) -> Option<Content> {
+    if content.symbols().contains(UNNAMED) || !other.symbols().contains(UNNAMED) {
+        return Some(content.clone());
+    }
+    let subject = subject(content)?;
+    let there = [(subject, Expr::symbol(UNNAMED))].into_iter().collect();
+    Some(content.map(&|e| e.substitute(&there)))
+}
+
+/// The symbol that stands alone on a side of every relation.
+fn subject(content: &Content) -> Option<Symbol> {
+    match content {
+        Content::Relations(sides, _) => {
+            let mut alone = sides.iter().filter_map(|side| side.expr()?.as_symbol());
+            alone.next().cloned().or_else(|| {
+                let symbols = content.symbols();
+                symbols
+                    .iter()
+                    .next()
+                    .filter(|_| symbols.len() == 1)
+                    .cloned()
+            })
+        }
+        Content::Joined(_, parts) => {
+            let mut subjects = parts.iter().map(subject);
+            let first = subjects.next()??;
+            subjects
+                .all(|other| other.as_ref() == Some(&first))
+                .then_some(first)
+        }
+        _ => None,
+    }
+}
+
+/// `v_x = 3, v_y = 4` as a vector.
+fn components(content: &Content) -> Option<Content> {
+    let results = results(content)?;
+    let stem = results.first()?.0.rsplit_once('_')?.0;
+    let along = |axis: &str| {
+        let of = |name: &Symbol| name.rsplit_once('_') == Some((stem, axis));
+        results
+            .iter()
+            .find(|(name, _)| of(name))
+            .map(|(_, value)| *value)
+    };
+    let axes = ["x", "y", "z"].map(along);
+    let zero = Expr::zero();
+    let unit_less =
+        |value: Option<&Content>| value.map_or(Some(zero.clone()), |v| v.expr().cloned());
+    let [x, y, z] = axes.map(unit_less);
+    let known = axes.iter().flatten().count() == results.len();
+    known.then_some(Content::Vector([x?, y?, z?]))
+}
+
+/// Results with their names: `v_1 = 2 m/s, v_2 = 3 m/s`.
+fn results(content: &Content) -> Option<Vec<(&Symbol, &Content)>> {
+    match content {
+        Content::Joined(Join::And, parts) => parts.iter().map(result).collect(),
+        part => Some(vec![result(part)?]),
+    }
+}
+
+fn result(part: &Content) -> Option<(&Symbol, &Content)> {
+    match part {
+        Content::Relations(sides, signs) if signs.iter().all(|s| *s == Relation::Equal) => {
+            Some((sides.first()?.expr()?.as_symbol()?, sides.last()?))
+        }
+        _ => None,
+    }
+}
+
+/// Results compared by their names, in any order. One that is not asked for is not judged.
+fn by_name(
+    ctx: &Context,
+    expected: &[(&Symbol, &Content)],
+    answer: &[(&Symbol, &Content)],
+) -> Finding {
+    let mut total: Option<Finding> = None;
+    for (name, value) in expected {
+        let Some((_, mine)) = answer.iter().find(|(other, _)| other == name) else {
+            let words = format!("{name} is missing");
+            let finding = Finding::different("DIFF_ONE_OF_TWO", "kind", words.clone());
+            return finding.with(Diagnosis::new(
+                "ONE_OF_TWO",
+                words,
+                "more results are asked for",
+            ));
+        };
+        let mut finding = values(ctx, value, mine);
+        if finding.verdict == Verdict::Different {
+            let words = format!("{name} is wrong");
+            finding
+                .diagnosis
+                .insert(0, Diagnosis::new("RESULT", words.clone(), words));
+            return finding;
+        }
+        match &mut total {
+            Some(total) if finding.verdict == Verdict::Equivalent => {
+                finding
+                    .assumed
+                    .retain(|words| !total.assumed.contains(words));
+                total.assumed.extend(finding.assumed);
+            }
+            _ => total = Some(finding),
+        }
+    }
+    let mut total = total.unwrap_or_else(|| Finding::different("DIFF_KIND", "kind", "no result"));
+    for (name, value) in answer {
+        if !expected.iter().any(|(other, _)| other == name) {
+            total.assumed.push(format!(
+                "{name} = {} is not asked for and not judged",
+                show(value)
+            ));
+        }
+    }
+    total
+}
+
+/// Values in any order, of which each has to be given.
+pub(super) fn lists(ctx: &Context, expected: &[Expr], answer: &[Expr]) -> Finding {
+    let plain = Context {
+        diagnose: false,
+        ..*ctx
+    };
+    let mut found = vec![false; answer.len()];
+    let (mut total, mut undecided, mut lost) = (None::<Finding>, None, None);
+    for value in expected {
+        let mut here = None;
+        for (k, mine) in answer.iter().enumerate() {
+            let finding = scalars(&plain, value, mine);
+            match finding.verdict {
+                Verdict::Equivalent => {
+                    found[k] = true;
+                    here = Some(finding);
+                }
+                Verdict::Different => {}
+                _ => undecided = Some(finding),
+            }
+        }
+        match (here, &mut total) {
+            (None, _) => lost = lost.or(Some(value)),
+            (Some(finding), None) => total = Some(finding),
+            (Some(finding), Some(total)) => total.assumed.extend(finding.assumed),
+        }
+    }
+    let gained = answer.iter().zip(&found).find(|(_, found)| !**found);
+    if let Some(total) = total.as_mut() {
+        total.assumed.sort();
+        total.assumed.dedup();
+    }
+    match (lost, gained, undecided, total) {
+        (None, None, _, Some(total)) => total,
+        (_, _, Some(undecided), _) => undecided,
+        (Some(lost), None, ..) => {
+            let words = match expected.len() {
+                2 => "one of the two values is missing".to_string(),
+                _ => format!("the value {} is missing", ctx.say(lost)),
+            };
+            let finding = Finding::different("DIFF_ONE_OF_TWO", "kind", words.clone());
+            finding.with(Diagnosis::new("ONE_OF_TWO", words, "there are more values"))
+        }
+        (lost, gained, ..) => {
+            let beside = gained.map_or(&answer[0], |(value, _)| value);
+            match lost {
+                // What is wrong with the only value that is.
+                Some(lost) if found.iter().filter(|found| !**found).count() == 1 => {
+                    scalars(&plain, lost, beside)
+                }
+                _ => {
+                    let words = format!("{} is none of the values", ctx.say(beside));
+                    let finding = Finding::different("DIFF_ROOT_GAINED", "kind", words.clone());
+                    finding.with(Diagnosis::new(
+                        "ROOT_GAINED",
+                        words,
+                        "check each of your values",
+                    ))
+                }
+            }
+        }
+    }
+}
