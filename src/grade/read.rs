@@ -100,6 +100,14 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     {
         usual = Ok(range);
     }
+    // `2,3`, where several values are asked.
+    if matches!(key.reading.content.answer(), Content::Either(_))
+        && !usual.as_ref().is_ok_and(either)
+        && text.contains(',')
+    {
+        let spaced = formula::read(&text.replace(',', ", "), &key.readable);
+        usual = spaced.ok().filter(either).map_or(usual, Ok);
+    }
     // `r × p`, where the expected formula has arrows over these letters.
     let crossed = match &usual {
         Ok(reading) => reading.notes.iter().any(|n| n.remark == Remark::Cross),
@@ -108,7 +116,8 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     if crossed && let Some(reading) = arrows_put(key, text) {
         return worded(key, text, reading);
     }
-    if vector(&key.reading) && !usual.as_ref().is_ok_and(vector) {
+    let several = matches!(key.reading.content, Content::Joined(..));
+    if (vector(&key.reading) || several) && !usual.as_ref().is_ok_and(vector) {
         // Where a vector is asked, `(2,3)` is one, and so is `2i + 3j`.
         let lists = key.readable.clone().with_lists();
         let axes = lists.clone().with_axes();
@@ -362,6 +371,10 @@ fn declared(key: &Key, name: &Symbol) -> bool {
 
 fn quantitative(reading: &Reading) -> bool {
     matches!(reading.content.answer(), Content::Quantity(_))
+}
+
+fn either(reading: &Reading) -> bool {
+    matches!(reading.content.answer(), Content::Either(_))
 }
 
 fn vector(reading: &Reading) -> bool {

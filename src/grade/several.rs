@@ -17,7 +17,18 @@ pub(super) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Opt
     if !is_joined(expected) && !is_joined(answer) {
         return None;
     }
-    if let Content::Vector(_) = expected.answer() {
+    // `(2, 3)` for `x = 2, y = 3`: in their order.
+    if let (Some(expected), Content::Vector(values)) = (results(expected), answer) {
+        let named = expected.iter().zip(values);
+        let answer: Vec<_> = named
+            .map(|((name, _), value)| (name.clone(), Content::Scalar(value.clone())))
+            .collect();
+        let rest = values.iter().skip(expected.len()).all(Expr::is_zero);
+        return rest.then(|| by_name(ctx, &expected, &answer));
+    }
+    if let Content::Vector(_) = expected.answer()
+        && !matches!(expected, Content::Relations(..))
+    {
         let vector = components(answer)?;
         return Some(values(ctx, expected.answer(), &vector));
     }
@@ -84,7 +95,7 @@ fn components(content: &Content) -> Option<Content> {
         results
             .iter()
             .find(|(name, _)| of(name))
-            .map(|(_, value)| *value)
+            .map(|(_, value)| value)
     };
     let axes = ["x", "y", "z"].map(along);
     let zero = Expr::zero();
@@ -95,29 +106,38 @@ fn components(content: &Content) -> Option<Content> {
     known.then_some(Content::Vector([x?, y?, z?]))
 }
 
-/// Results with their names: `v_1 = 2 m/s, v_2 = 3 m/s`.
-fn results(content: &Content) -> Option<Vec<(&Symbol, &Content)>> {
-    match content {
-        Content::Joined(Join::And, parts) => parts.iter().map(result).collect(),
-        part => Some(vec![result(part)?]),
-    }
-}
-
-fn result(part: &Content) -> Option<(&Symbol, &Content)> {
-    match part {
-        Content::Relations(sides, signs) if signs.iter().all(|s| *s == Relation::Equal) => {
-            Some((sides.first()?.expr()?.as_symbol()?, sides.last()?))
+/// Results with their names: `v_1 = 2 m/s, v_2 = 3 m/s`, `(x, y) = (2, 3)`.
+fn results(content: &Content) -> Option<Vec<(Symbol, Content)>> {
+    let parts = match content {
+        Content::Joined(Join::And, parts) => parts.as_slice(),
+        part => std::slice::from_ref(part),
+    };
+    let mut out = Vec::new();
+    for part in parts {
+        let Content::Relations(sides, signs) = part else {
+            return None;
+        };
+        if signs.iter().any(|sign| *sign != Relation::Equal) {
+            return None;
         }
-        _ => None,
+        match (sides.first()?, sides.last()?) {
+            (Content::Vector(names), Content::Vector(values)) => {
+                for (name, value) in names.iter().zip(values) {
+                    match name.as_symbol() {
+                        Some(name) => out.push((name.clone(), Content::Scalar(value.clone()))),
+                        None if name.is_zero() && value.is_zero() => {}
+                        None => return None,
+                    }
+                }
+            }
+            (name, value) => out.push((name.expr()?.as_symbol()?.clone(), value.clone())),
+        }
     }
+    Some(out)
 }
 
 /// Results compared by their names, in any order. One that is not asked for is not judged.
-fn by_name(
-    ctx: &Context,
-    expected: &[(&Symbol, &Content)],
-    answer: &[(&Symbol, &Content)],
-) -> Finding {
+fn by_name(ctx: &Context, expected: &[(Symbol, Content)], answer: &[(Symbol, Content)]) -> Finding {
     let mut total: Option<Finding> = None;
     for (name, value) in expected {
         let Some((_, mine)) = answer.iter().find(|(other, _)| other == name) else {
