@@ -280,68 +280,64 @@ fn zeros_of(p: &Poly, v: usize, (low, high): (EndOf, EndOf)) -> Option<Vec<[Rati
                 .is_none_or(|(h, open)| x < h || x == h && !open)
     };
     let mut left = MOST_HALVINGS;
-    'again: loop {
-        // Zeros that are fractions are taken out as they are met, the ends first.
-        let ends = [low, high]
-            .into_iter()
-            .flatten()
-            .map(|(end, _)| end.clone());
-        for end in ends {
-            if p.len() > 1 && value(&p, &end).is_zero() {
-                p = divided(&p, &end);
-                exact.push(end);
-            }
+    // Zeros that are fractions are taken out as they are met, the ends first.
+    for (end, _) in [low, high].into_iter().flatten() {
+        if p.len() > 1 && value(&p, end).is_zero() {
+            p = divided(&p, end);
+            exact.push(end.clone());
         }
-        if p.len() <= 1 {
-            return Some(sorted(exact, Vec::new(), inside));
-        }
-        let bound = bound(&p);
-        let from = low
-            .as_ref()
-            .map_or(-bound.clone(), |(l, _)| l.clone().max(-bound.clone()));
-        let to = high
-            .as_ref()
-            .map_or(bound.clone(), |(h, _)| h.clone().min(bound.clone()));
-        if from >= to {
-            return Some(sorted(exact, Vec::new(), inside));
-        }
-        let mut open = vec![[from, to]];
-        let mut found: Vec<[Rational; 2]> = Vec::new();
-        while let Some([a, b]) = open.pop() {
-            left = left.checked_sub(1)?;
-            let middle = (&a + &b) * ratio(1, 2);
-            match changes(&p, &a, &b) {
-                0 => {}
-                1 => found.push([a, b]),
-                _ if value(&p, &middle).is_zero() => {
-                    p = divided(&p, &middle);
-                    exact.push(middle);
-                    continue 'again;
-                }
-                _ => open.extend([[a, middle.clone()], [middle, b]]),
-            }
-        }
-        // Narrow, so that no two touch and ends are no zeros of others.
-        for pair in &mut found {
-            let rising = value(&p, &pair[0]).is_negative();
-            let width = ratio(1, 1 << 20);
-            while &pair[1] - &pair[0] > width
-                || exact.iter().any(|x| pair[0] <= *x && *x <= pair[1])
-            {
-                left = left.checked_sub(1)?;
-                let middle = (&pair[0] + &pair[1]) * ratio(1, 2);
-                let here = value(&p, &middle);
-                if here.is_zero() {
-                    p = divided(&p, &middle);
-                    exact.push(middle);
-                    continue 'again;
-                }
-                let at = usize::from(here.is_negative() != rising);
-                pair[at] = middle;
-            }
-        }
-        return Some(sorted(exact, found, inside));
     }
+    if p.len() <= 1 {
+        return Some(sorted(exact, Vec::new(), inside));
+    }
+    let bound = bound(&p);
+    let from = low
+        .as_ref()
+        .map_or(-bound.clone(), |(l, _)| l.clone().max(-bound.clone()));
+    let to = high
+        .as_ref()
+        .map_or(bound.clone(), |(h, _)| h.clone().min(bound.clone()));
+    if from >= to {
+        return Some(sorted(exact, Vec::new(), inside));
+    }
+    let half = |a: &Rational, b: &Rational| (a + b) * ratio(1, 2);
+    let mut open = vec![[from, to]];
+    let mut single: Vec<[Rational; 2]> = Vec::new();
+    while let Some([a, b]) = open.pop() {
+        left = left.checked_sub(1)?;
+        match changes(&p, &a, &b) {
+            0 => {}
+            1 => single.push([a, b]),
+            _ => {
+                let middle = half(&a, &b);
+                if value(&p, &middle).is_zero() {
+                    p = divided(&p, &middle);
+                    exact.push(middle.clone());
+                }
+                open.extend([[a, middle.clone()], [middle, b]]);
+            }
+        }
+    }
+    // Narrow, so that no two touch and ends are no zeros of others.
+    let width = ratio(1, 1 << 20);
+    let mut found: Vec<[Rational; 2]> = Vec::new();
+    'next: for mut pair in single {
+        let rising = value(&p, &pair[0]).is_negative();
+        while &pair[1] - &pair[0] > width || exact.iter().any(|x| pair[0] <= *x && *x <= pair[1]) {
+            left = left.checked_sub(1)?;
+            let middle = half(&pair[0], &pair[1]);
+            let here = value(&p, &middle);
+            if here.is_zero() {
+                p = divided(&p, &middle);
+                exact.push(middle);
+                continue 'next;
+            }
+            let at = usize::from(here.is_negative() != rising);
+            pair[at] = middle;
+        }
+        found.push(pair);
+    }
+    Some(sorted(exact, found, inside))
 }
 
 fn sorted(
@@ -354,11 +350,17 @@ fn sorted(
     found
 }
 
-/// A number above the size of every zero.
+/// A power of two above the size of every zero: twice the largest k-th root of a coefficient, k places below the leading one,
+/// over that (Fujiwara 1916), from the lengths of the coefficients alone.
 fn bound(p: &[Int]) -> Rational {
+    let bits = |k: &Int| k.bits() as i64;
     let (last, rest) = p.split_last().expect("a polynomial that is not constant");
-    let largest = rest.iter().map(Signed::abs).max().unwrap_or_else(Int::zero);
-    Rational::new(largest, last.abs()).ceil() + ratio(2, 1)
+    let powers = rest.iter().rev().zip(1..).filter(|(k, _)| !k.is_zero());
+    let power = |(k, place): (&Int, i64)| {
+        num_integer::Integer::div_ceil(&(bits(k) - bits(last) + 1), &place)
+    };
+    let largest = powers.map(power).max().unwrap_or(0);
+    Rational::from(Int::from(2).pow(largest.max(0) as u32 + 1))
 }
 
 /// The polynomial without the zero at a fraction.
@@ -422,6 +424,16 @@ mod tests {
             .map(|e| field.element(e).expect("small"))
             .collect();
         field.signs_along(&"x".into(), &elements).expect("decided")
+    }
+
+    #[test]
+    fn thirty_whole_numbers_are_thirty_zeros() {
+        let x = Expr::symbol("x");
+        let product = Expr::product((0..30).map(|k| &x - &Expr::from(k)).collect::<Vec<_>>());
+        let cells = cells(Domain::real(), &[product]);
+        let single = cells.iter().filter(|cell| cell.single);
+        let whole: Vec<_> = single.map(|cell| cell.around[0].clone()).collect();
+        assert_eq!(whole, (0..30).map(|k| ratio(k, 1)).collect::<Vec<_>>());
     }
 
     #[test]

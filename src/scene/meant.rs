@@ -41,6 +41,9 @@ pub(super) fn meant(word: &str, here: &[&str]) -> Option<&'static str> {
         "string" | "strings" | "rope" | "cord" | "cable" => {
             "a string that jerks taut stands among the `strings` of an impact, in `stages`; in a scene of one impact it is a blow `along` it, with the velocity along it `after`"
         }
+        "support" | "supports" => {
+            "what holds a body from one side without a jerk stands among the `supports` of an impact, in `stages`"
+        }
         "pulley" | "pulleys" => {
             "a pulley is a body, a disk of mass \"0\" where it is light; a `slide` has `strings` `over` it, and an impact has one of the `strings` on each side of it"
         }

@@ -286,7 +286,12 @@ pub(super) fn fields<'n, 't>(
         if !is_known {
             let fault = Fault::new(entry.key_span, format!("unknown field `{}`", entry.key));
             let near = || nearest(&entry.key, names()).map(|n| format!("did you mean `{n}`?"));
-            let hint = further_in(&entry.key, known, &present)
+            // A scene has these in its figure, and means those of an impact.
+            let held = matches!(&*entry.key, "supports" | "strings");
+            let further = || further_in(&entry.key, known, &present);
+            let hint = Some(further)
+                .filter(|_| !held)
+                .and_then(|further| further())
                 .or_else(|| meant(&entry.key, &names().collect::<Vec<_>>()).map(str::to_owned))
                 .or_else(near)
                 .unwrap_or_else(|| likely(&entry.key, names().collect()));

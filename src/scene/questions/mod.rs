@@ -441,7 +441,7 @@ fn with_names<T>(
     let questions = r.file.questions.iter().flat_map(|m| &m.0);
     let further_down = questions.map(|(name, _)| {
         let hint = format!(
-            "`{name}` is asked further down; a formula takes answers to questions above it",
+            "`{name}` is asked here or further down; a formula takes answers to questions above it",
             name = name.text
         );
         (&name.text, hint)

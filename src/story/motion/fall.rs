@@ -142,6 +142,10 @@ fn duration(
         }
     };
     match sign(&time, domains) {
+        Seen::Proved(Sign::Negative) if matches!(fall.until, FallEnd::Time(_)) => Err(never(
+            "its time is negative",
+            "`for` counts from the beginning of the stage",
+        )),
         Seen::Proved(Sign::Negative) => Err(never(
             "it moves the other way",
             "look at the sign of `height` (counted downwards) or `range` (counted to the right)",
