@@ -99,7 +99,7 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     {
         return read(&text, symbols);
     }
-    if held.joins()
+    if (held.joins() || held.any("\\") && text.contains("\\\\"))
         && let Some(pair) = several::values(text, symbols)
     {
         return pair;

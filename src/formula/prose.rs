@@ -32,7 +32,7 @@ impl Held {
 
     /// Whether there could be a word that joins two values, or a comma.
     pub(super) fn joins(self) -> bool {
-        self.any(",") || self.all("or") || self.all("and")
+        self.any(",;") || self.all("or") || self.all("and")
     }
 
     /// Whether there could be words or an arrow before the last statement.

@@ -181,7 +181,7 @@ fn without_braces(text: &str) -> Option<String> {
 
 /// Where the parts of a list end and the next begin: `x = 3 or x = -3`, `2, -2`. In a set any comma parts them.
 fn gaps(text: &str, set: bool) -> Vec<(usize, usize)> {
-    const WORDS: [&str; 8] = [
+    const WORDS: [&str; 10] = [
         "\\text{ or }",
         "\\text{or}",
         "\\mathrm{or}",
@@ -190,6 +190,8 @@ fn gaps(text: &str, set: bool) -> Vec<(usize, usize)> {
         "\\text{and}",
         " and ",
         "\\quad",
+        "\\\\",
+        "; ",
     ];
     let mut found: Vec<(usize, usize)> = Vec::new();
     let mut depth = 0i32;
@@ -272,6 +274,13 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
         .flat_map(|part| part.notes.iter().cloned())
         .collect();
     let (content, unit) = together(&parts, is_or)?;
+    // Lines hold results with their names; `a\\\\b` is a slip of the pen.
+    let lines = gaps
+        .iter()
+        .any(|(end, next)| text[start + end..start + next].contains("\\\\"));
+    if lines && !matches!(content, Content::Joined(..)) {
+        return None;
+    }
     Some(Ok(Reading {
         content,
         written: parts.into_iter().flat_map(|part| part.written).collect(),

@@ -197,8 +197,12 @@ impl<'a> Lexer<'a> {
 
     /// A piece in another font: a unit behind a number, a function, or a name.
     pub(super) fn font(&mut self, start: usize, word: &str) -> Faulty<Tok> {
-        self.pos = start;
         self.pos = start + 1 + word.len();
+        // Behind a name it could be another name, `m\mathrm{g}`, unless it is written as units are.
+        let as_unit = self.after_value
+            && self
+                .group(start)
+                .is_ok_and(|(i, _)| i.starts_with(' ') || i.contains(['/', '^']));
         if let Ok((inside, end)) = self.group(start)
             && matches!(inside.trim(), "deg" | "degrees" | "°")
             && self.before != Before::Nothing
@@ -207,8 +211,8 @@ impl<'a> Lexer<'a> {
             return Ok(Tok::Degree);
         }
         self.pos = start;
-        if self.before != Before::Nothing
-            && matches!(word, "mathrm" | "text" | "textrm" | "mathsf")
+        if matches!(word, "mathrm" | "text" | "textrm" | "mathsf")
+            && (self.before != Before::Nothing || as_unit)
             && let Some(tok) = self.unit(true)
         {
             return Ok(tok);
