@@ -274,7 +274,7 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
         .flat_map(|part| part.notes.iter().cloned())
         .collect();
     let (content, unit) = together(&parts, is_or)?;
-    // Lines hold results with their names; `a\\\\b` is a slip of the pen.
+    // Lines hold results with their names; `a\\b` is a slip of the pen.
     let lines = gaps
         .iter()
         .any(|(end, next)| text[start + end..start + next].contains("\\\\"));
