@@ -352,14 +352,18 @@ fn list(parts: &[&Content]) -> Option<(Content, Option<Unit>)> {
         return None;
     }
     let unit = parts.last()?.2.clone();
-    let value = |(_, value, its): &(_, Expr, Option<Unit>)| match (its, &unit) {
-        (None, None) => Some(value.clone()),
-        (Some(its), Some(unit)) if its.dimension == unit.dimension => Some(value.clone()),
-        // `2 or 3 m/s`: the unit behind the last number is that of all.
-        (None, Some(unit)) if value.is_constant() => Some(value * &unit.value()),
-        _ => None,
-    };
-    let values = Content::Either(parts.iter().map(value).collect::<Option<_>>()?);
+    let mut values = Vec::new();
+    for (_, given, its) in &parts {
+        let factor = match (its, &unit) {
+            (None, None) => Expr::one(),
+            (Some(its), Some(unit)) if its.dimension == unit.dimension => Expr::one(),
+            // `2 or 3 m/s`: the unit behind the last number is that of all.
+            (None, Some(unit)) if given.iter().all(Expr::is_constant) => unit.value(),
+            _ => return None,
+        };
+        values.extend(given.iter().map(|value| value * &factor));
+    }
+    let values = Content::Either(values);
     let content = match name {
         None => values,
         Some(name) => {
@@ -370,8 +374,8 @@ fn list(parts: &[&Content]) -> Option<(Content, Option<Unit>)> {
     Some((content, unit))
 }
 
-/// A value in SI units, the name it is given, and its unit.
-fn named(content: &Content) -> Option<(Option<Symbol>, Expr, Option<Unit>)> {
+/// A value, or both of `±2`, in SI units, the name it is given, and its unit.
+fn named(content: &Content) -> Option<(Option<Symbol>, Vec<Expr>, Option<Unit>)> {
     let (name, value) = match content {
         Content::Relations(sides, signs) if signs == &[Relation::Equal] => match sides.as_slice() {
             [Content::Scalar(name), value] => (Some(name.as_symbol()?.clone()), value),
@@ -380,8 +384,9 @@ fn named(content: &Content) -> Option<(Option<Symbol>, Expr, Option<Unit>)> {
         value => (None, value),
     };
     match value {
-        Content::Scalar(value) => Some((name, value.clone(), None)),
-        Content::Quantity(q) => Some((name, q.value.clone(), Some(q.unit.clone()))),
+        Content::Scalar(value) => Some((name, vec![value.clone()], None)),
+        Content::Either(values) => Some((name, values.clone(), None)),
+        Content::Quantity(q) => Some((name, vec![q.value.clone()], Some(q.unit.clone()))),
         _ => None,
     }
 }

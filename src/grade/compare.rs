@@ -442,7 +442,11 @@ pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Fin
         (Content::Vector(e), Content::Vector(a)) => all_of(ctx, e, a),
         (Content::Either(e), Content::Either(a)) => several::lists(ctx, e, a),
         (Content::Either(e), Content::Scalar(a)) => {
-            let one = e.iter().any(|e| equal(ctx, e, a));
+            let right = e.iter().filter(|e| equal(ctx, e, a)).count();
+            if right == e.len() {
+                return scalars(ctx, &e[0], a);
+            }
+            let one = right > 0;
             let words = match (one, e.len()) {
                 (true, 2) => "one of the two values is missing",
                 (true, _) => "the other values are missing",

@@ -155,10 +155,18 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     let Ok(reading) = formula::read(text, &open) else {
         return Err(fault);
     };
-    let left = match &reading.content {
+    let first = |content: &Content| match content {
         Content::Relations(sides, _) => sides[0].expr().and_then(|e| e.as_symbol().cloned()),
         _ => None,
     };
+    // `v_1 = 2 m/s, v_2 = 3 m/s` for two values without names.
+    if let Content::Joined(_, parts) = &reading.content {
+        let mut symbols = key.readable.clone();
+        let names = parts.iter().filter_map(first);
+        names.for_each(|name| symbols.declare(&name));
+        return formula::read(text, &symbols).map_err(|_| fault);
+    }
+    let left = first(&reading.content);
     let strange = |name: &Symbol| STRANGERS.contains(&&**name) || left.as_ref() == Some(name);
     let split = reading.notes.iter().any(|n| n.remark == Remark::Letters);
     let named_quantity = measured && left.is_some();

@@ -1,5 +1,7 @@
 //! Several values, named results and relations in one answer.
 
+use std::collections::BTreeSet;
+
 use super::compare::{Context, Finding, scalars, values};
 use super::{Diagnosis, Verdict, relation, show};
 use crate::expr::{Expr, Symbol};
@@ -17,20 +19,37 @@ pub(super) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Opt
     if !is_joined(expected) && !is_joined(answer) {
         return None;
     }
-    // `(2, 3)` for `x = 2, y = 3`: in their order.
-    if let (Some(expected), Content::Vector(values)) = (results(expected), answer) {
-        let named = expected.iter().zip(values);
+    // `(2, 3)` and `2, 3` for `x = 2, y = 3`: in their order.
+    if let (Some(expected), Content::Vector([..]) | Content::Either(_)) =
+        (results(expected), answer)
+    {
+        let given = match answer {
+            Content::Vector(values) => values.as_slice(),
+            Content::Either(values) => values,
+            _ => return None,
+        };
+        let named = expected.iter().zip(given);
         let answer: Vec<_> = named
             .map(|((name, _), value)| (name.clone(), Content::Scalar(value.clone())))
             .collect();
-        let rest = values.iter().skip(expected.len()).all(Expr::is_zero);
+        let rest = given.iter().skip(expected.len()).all(Expr::is_zero);
         return rest.then(|| by_name(ctx, &expected, &answer));
     }
-    if let Content::Vector(_) = expected.answer()
-        && !matches!(expected, Content::Relations(..))
-    {
-        let vector = components(answer)?;
-        return Some(values(ctx, expected.answer(), &vector));
+    match (expected, expected.answer()) {
+        // `v_x = 3, v_y = 4` for the vector `v`
+        (Content::Vector(_), vector) | (_, vector @ Content::Vector(_))
+            if results(expected).is_none_or(|r| r.len() == 1) =>
+        {
+            return unit_missing(ctx, answer)
+                .or_else(|| Some(values(ctx, vector, &components(answer)?)));
+        }
+        // `v_1 = 2, v_2 = 3` for `2, 3`
+        (Content::Either(values), _) => {
+            let given = results(answer)?;
+            let given: Option<Vec<Expr>> = given.iter().map(|(_, v)| v.expr().cloned()).collect();
+            return unit_missing(ctx, answer).or_else(|| Some(lists(ctx, values, &given?)));
+        }
+        _ => {}
     }
     let (whole, mine) = (expected, answer);
     if let (Some(expected), Some(answer)) = (results(whole), results(mine)) {
@@ -51,39 +70,54 @@ pub(super) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Opt
     }
 }
 
+/// The finding where a number stands without the unit of the expected values.
+fn unit_missing(ctx: &Context, answer: &Content) -> Option<Finding> {
+    let unit = ctx.key.reading.unit.as_ref()?;
+    let bare = |value: &Content| match value {
+        Content::Scalar(e) => e.is_constant() && !e.is_zero(),
+        _ => false,
+    };
+    let bare = results(answer)?.iter().any(|(_, value)| bare(value));
+    (bare && !unit.dimension.is_none()).then(|| {
+        let words = format!("the unit {} is missing", unit.dimension.si());
+        Finding::different("DIFF_UNIT_MISSING", "dimension", words.clone()).with(Diagnosis::new(
+            "UNIT_MISSING",
+            words,
+            "a unit is missing",
+        ))
+    })
+}
+
 /// A content that says of something without a name what the other says of its symbol.
 fn named_as(content: &Content, other: &Content) -> Option<Content> {
     if content.symbols().contains(UNNAMED) || !other.symbols().contains(UNNAMED) {
         return Some(content.clone());
     }
-    let subject = subject(content)?;
+    let subject = subject(content, &other.symbols())?;
     let there = [(subject, Expr::symbol(UNNAMED))].into_iter().collect();
     Some(content.map(&|e| e.substitute(&there)))
 }
 
-/// The symbol that stands alone on a side of every relation.
-fn subject(content: &Content) -> Option<Symbol> {
-    match content {
+/// The symbol that stands alone on a side of every relation, and is no bound; the only one of its own.
+fn subject(content: &Content, bounds: &BTreeSet<Symbol>) -> Option<Symbol> {
+    let parts = match content {
+        Content::Joined(_, parts) => parts.as_slice(),
+        part => std::slice::from_ref(part),
+    };
+    let mut own = content.symbols();
+    own.retain(|name| !bounds.contains(name));
+    let alone = |name: &Symbol, part: &Content| match part {
         Content::Relations(sides, _) => {
-            let mut alone = sides.iter().filter_map(|side| side.expr()?.as_symbol());
-            alone.next().cloned().or_else(|| {
-                let symbols = content.symbols();
-                symbols
-                    .iter()
-                    .next()
-                    .filter(|_| symbols.len() == 1)
-                    .cloned()
-            })
+            let mut names = sides.iter().filter_map(|side| side.expr()?.as_symbol());
+            names.any(|other| other == name)
         }
-        Content::Joined(_, parts) => {
-            let mut subjects = parts.iter().map(subject);
-            let first = subjects.next()??;
-            subjects
-                .all(|other| other.as_ref() == Some(&first))
-                .then_some(first)
-        }
-        _ => None,
-    }
+        _ => false,
+    };
+    let everywhere = own
+        .iter()
+        .find(|name| parts.iter().all(|part| alone(name, part)));
+    let only = own.iter().next().filter(|_| own.len() == 1);
+    everywhere.or(only).cloned()
 }
 
 /// `v_x = 3, v_y = 4` as a vector.
