@@ -156,7 +156,7 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
     {
         return relation::compare(ctx, (a, s), (b, t));
     }
-    if let Some(found) = several::joined(ctx, &ctx.key.reading.content, &answer.content) {
+    if let Some(found) = several::joined(ctx, &ctx.key.reading.content, answer) {
         return found;
     }
     // An equation between vectors, solved for another of them.

@@ -4,12 +4,14 @@ use std::collections::BTreeSet;
 
 use super::compare::{Context, Finding, scalars, values};
 use super::{Diagnosis, Verdict, relation, show};
+use crate::dimension::Unit;
 use crate::expr::{Expr, Symbol};
 use crate::formula::UNNAMED;
-use crate::formula::{Content, Join, Relation};
+use crate::formula::{Content, Join, Quantity, Reading, Relation};
 
 /// The finding where the expected content or the answer joins several relations.
-pub(super) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Option<Finding> {
+pub(super) fn joined(ctx: &Context, expected: &Content, reading: &Reading) -> Option<Finding> {
+    let answer = &reading.content;
     let is_joined = |content: &Content| matches!(content, Content::Joined(..));
     let unnamed = |content: &Content| content.symbols().contains(UNNAMED);
     if unnamed(expected) != unnamed(answer) {
@@ -19,18 +21,19 @@ pub(super) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Opt
     if !is_joined(expected) && !is_joined(answer) {
         return None;
     }
-    // `(2, 3)` and `2, 3` for `x = 2, y = 3`: in their order.
-    if let (Some(expected), Content::Vector([..]) | Content::Either(_)) =
-        (results(expected), answer)
-    {
-        let given = match answer {
-            Content::Vector(values) => values.as_slice(),
-            Content::Either(values) => values,
-            _ => return None,
-        };
+    // `(2, 3)`, `F = (2, 3)` and `2, 3` for `x = 2, y = 3`: in their order.
+    let given = match (answer, answer.answer()) {
+        (Content::Vector(values), _) => Some(values.as_slice()),
+        (Content::Either(values), _) => Some(values.as_slice()),
+        (Content::Relations(sides, _), Content::Vector(values)) => {
+            Some(values.as_slice()).filter(|_| sides[0].expr().is_some())
+        }
+        _ => None,
+    };
+    if let (Some(expected), Some(given)) = (results(expected), given) {
         let named = expected.iter().zip(given);
         let answer: Vec<_> = named
-            .map(|((name, _), value)| (name.clone(), Content::Scalar(value.clone())))
+            .map(|((name, _), value)| (name.clone(), measured(value, reading.unit.as_ref())))
             .collect();
         let rest = given.iter().skip(expected.len()).all(Expr::is_zero);
         return rest.then(|| by_name(ctx, &expected, &answer));
@@ -67,6 +70,19 @@ pub(super) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Opt
     match relations(expected) && relations(answer) {
         true => Some(relation::joined(ctx, expected, answer)),
         false => None,
+    }
+}
+
+/// A value in SI units, as a quantity where a unit stands behind it or a list with it.
+fn measured(value: &Expr, unit: Option<&Unit>) -> Content {
+    match unit {
+        Some(unit) if value.is_constant() => Content::Quantity(Box::new(Quantity {
+            value: value.clone(),
+            written: value / &unit.value(),
+            unit: unit.clone(),
+            unit_text: unit.dimension.si(),
+        })),
+        _ => Content::Scalar(value.clone()),
     }
 }
 
