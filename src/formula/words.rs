@@ -351,9 +351,16 @@ impl Lexer<'_> {
             fault = fault.hint(format!("the unit is {small}"));
         } else if let Some(nearest) = self.symbols.nearest(key) {
             fault = fault.hint(format!("did you mean {nearest}?"));
-        } else if !self.symbols.declared().is_empty() && self.symbols.declared().len() <= 24 {
-            let names: Vec<&str> = self.symbols.declared().iter().map(|d| &*d.name).collect();
-            fault = fault.hint(format!("declared are {}", names.join(", ")));
+        } else {
+            let mut names: Vec<&str> = Vec::new();
+            for declared in self.symbols.declared() {
+                if !names.contains(&&*declared.name) {
+                    names.push(&declared.name);
+                }
+            }
+            if (1..=24).contains(&names.len()) {
+                fault = fault.hint(format!("declared are {}", names.join(", ")));
+            }
         }
         if self.unknown.len() >= MAX_FAULTS {
             return Err(fault);

@@ -385,7 +385,7 @@ fn may_hold(ctx: &Context, sides: &[Content], name: &Symbol, value: &Content) ->
     samples(&uses, &domains, POINTS).iter().all(is_zero)
 }
 
-fn kind(words: &str) -> Finding {
+pub(super) fn kind(words: &str) -> Finding {
     Finding::different("DIFF_KIND", "kind", words).with(Diagnosis::new("KIND", words, words))
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::compare::{Context, Finding, scalars, values};
+use super::compare::{Context, Finding, kind, scalars, values};
 use super::{Diagnosis, Verdict, relation, show};
 use crate::dimension::Unit;
 use crate::expr::{Expr, Symbol};
@@ -20,6 +20,22 @@ pub(super) fn joined(ctx: &Context, expected: &Content, reading: &Reading) -> Op
     }
     if !is_joined(expected) && !is_joined(answer) {
         return None;
+    }
+    // `u = v/3, w = 4v/3` where u is asked.
+    let asked = ctx
+        .key
+        .question
+        .asked
+        .first()
+        .map(|given| given.name.clone());
+    if let (None, Some(name), Some(answer)) = (results(expected), asked, results(answer)) {
+        if answer.iter().any(|(other, _)| *other == name) {
+            return Some(by_name(ctx, &[(name, expected.clone())], &answer));
+        }
+        if let Content::Scalar(_) | Content::Quantity(_) = expected {
+            let words = format!("several results are given, and none of them is called {name}");
+            return Some(kind(&words));
+        }
     }
     // `(2, 3)`, `F = (2, 3)` and `2, 3` for `x = 2, y = 3`: in their order.
     let given = match (answer, answer.answer()) {
