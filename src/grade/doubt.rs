@@ -186,19 +186,59 @@ pub(super) fn turned(
     *reading = other;
 }
 
-/// `1,500 N`: a comma before three digits groups them or begins the decimals. An answer that is right in one of the two ways
-/// is right; otherwise it stays unread.
-pub(super) fn comma(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
-    let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
+/// An answer that cannot be read because a number in it has two meanings, and is right in one of them, is right: `1,500 N`,
+/// where a comma groups thousands or begins the decimals, and the mixed number `1 3/4`. Otherwise it stays unread.
+pub(super) fn number(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
+    let comma = |rest: &str| {
+        let sign = ["{,}", ","]
+            .into_iter()
+            .find(|sign| rest.starts_with(sign))?;
+        (digits(&rest[sign.len()..]) == 3).then_some(sign.len())
+    };
+    let fraction = |rest: &str| {
+        let blanks = rest.len() - rest.trim_start().len();
+        let rest = &rest[blanks..];
+        let plain = blanks > 0 && digits(rest) > 0 && rest[digits(rest)..].starts_with('/');
+        (plain || rest.starts_with("\\frac{") || rest.starts_with("\\dfrac{")).then_some(blanks)
+    };
+    let hint = "write numbers without a comma: it parts thousands in some countries and decimals in others";
+    let mixed = "write 7/4 or 1 + 3/4: side by side they could be a product";
+    let comma = parted(answer, comma)
+        .into_iter()
+        .flat_map(|parts| ["", "."].map(|sign| (parts.join(sign), hint)));
+    let fraction = parted(answer, fraction).map(|parts| (parts.join("+"), mixed));
+    comma.chain(fraction).find_map(|(text, hint)| {
+        let mut grade = super::judge_here(key, &text, options);
+        (grade.verdict == Verdict::Equivalent).then(|| {
+            let message = format!("right when it is read as {text}");
+            grade.note = "EQUIV_READING";
+            grade
+                .diagnosis
+                .insert(0, Diagnosis::new("READING", message, hint));
+            grade
+        })
+    })
+}
+
+fn digits(text: &str) -> usize {
+    text.bytes().take_while(u8::is_ascii_digit).count()
+}
+
+/// A text cut behind digits where something stands, which is so many bytes long; nothing where it stands nowhere.
+fn parted(text: &str, stands: impl Fn(&str) -> Option<usize>) -> Option<Vec<String>> {
     let mut parts = vec![String::new()];
-    let mut rest = answer;
+    let mut rest = text;
     while let Some(c) = rest.chars().next() {
-        let sign = ["{,}", ","].into_iter().find(|s| rest.starts_with(s));
         let behind = parts.last()?.ends_with(|c: char| c.is_ascii_digit());
-        match sign.filter(|s| behind && digits(&rest[s.len()..]) == 3) {
-            Some(sign) => {
+        let length = Some(rest).filter(|_| behind).and_then(&stands);
+        match length {
+            Some(length) => {
                 parts.push(String::new());
-                rest = &rest[sign.len()..];
+                rest = &rest[length..];
+                // What follows belongs to the next part whatever it is.
+                let next = rest.chars().next()?;
+                parts.last_mut()?.push(next);
+                rest = &rest[next.len_utf8()..];
             }
             None => {
                 parts.last_mut()?.push(c);
@@ -206,20 +246,7 @@ pub(super) fn comma(key: &Key, answer: &str, options: &Options) -> Option<Grade>
             }
         }
     }
-    if parts.len() == 1 {
-        return None;
-    }
-    ["", "."].into_iter().find_map(|sign| {
-        let text = parts.join(sign);
-        let mut grade = super::judge_here(key, &text, options);
-        (grade.verdict == Verdict::Equivalent).then(|| {
-            let message = format!("right when it is read as {text}");
-            let hint = "write numbers without a comma: it parts thousands in some countries and decimals in others";
-            grade.note = "EQUIV_READING";
-            grade.diagnosis.insert(0, Diagnosis::new("READING", message, hint));
-            grade
-        })
-    })
+    (parts.len() > 1).then_some(parts)
 }
 
 /// `mv sinθ N s`: a wrong answer with a unit behind its last spaces whose letters the question does not know is right when

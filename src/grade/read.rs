@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 
 use super::{Key, Question, declare};
+use crate::dimension;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Content, Fault, Reading, Remark, Symbols};
 
@@ -143,6 +144,15 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         Ok(reading) => return worded(key, text, reading),
         Err(fault) => fault,
     };
+    if quantitative(&key.reading) && dimension::unit(text.trim()).is_ok() {
+        return Err(Fault {
+            message: "a unit without a number".into(),
+            start: 0,
+            end: text.len(),
+            hint: Some("the value is missing".into()),
+            also: Vec::new(),
+        });
+    }
     if !key.question.closed {
         return Err(fault);
     }
