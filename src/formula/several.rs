@@ -33,6 +33,9 @@ pub(super) fn interval(text: &str, symbols: &Symbols, pairs: bool) -> Option<Rea
         read.filter(|reading| matches!(reading.content, Content::Scalar(_)))
     };
     let pieces = pieces(text, [behind.unwrap_or(start), stop]);
+    if pieces.len() > MOST {
+        return None;
+    }
     let ends: Vec<Ends> = pieces
         .iter()
         .map(|piece| ends(text, *piece))

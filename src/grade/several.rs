@@ -14,7 +14,15 @@ pub(super) fn joined(ctx: &Context, expected: &Content, reading: &Reading) -> Op
     let answer = &reading.content;
     let is_joined = |content: &Content| matches!(content, Content::Joined(..));
     let unnamed = |content: &Content| content.symbols().contains(UNNAMED);
+    let relations =
+        |content: &Content| matches!(content, Content::Relations(..) | Content::Joined(..));
     if unnamed(expected) != unnamed(answer) {
+        if !relations(expected) {
+            return Some(kind("a value is expected, and the answer is an interval"));
+        }
+        if !relations(answer) {
+            return Some(kind("an interval is expected, and the answer is a value"));
+        }
         let (expected, answer) = (named_as(expected, answer), named_as(answer, expected));
         return Some(relation::joined(ctx, &expected?, &answer?));
     }
@@ -81,8 +89,6 @@ pub(super) fn joined(ctx: &Context, expected: &Content, reading: &Reading) -> Op
         let same = system.verdict == Verdict::Equivalent;
         return Some(if same { system } else { found });
     }
-    let relations =
-        |content: &Content| matches!(content, Content::Relations(..)) || is_joined(content);
     match relations(expected) && relations(answer) {
         true => Some(relation::joined(ctx, expected, answer)),
         false => None,
