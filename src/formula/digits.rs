@@ -129,6 +129,16 @@ impl Lexer<'_> {
     /// A percent sign behind a number, with nothing behind it that could make it a remainder.
     pub(super) fn percent(&mut self, start: usize, length: usize) -> Faulty<Tok> {
         let end = start + length;
+        // Maxima writes constants with the sign before them: `2*%pi`, `%e^x`.
+        let rest = &self.text[end..];
+        let constant = [("pi", Tok::Name("pi".into())), ("e", Tok::Exponential)];
+        for (word, tok) in constant {
+            let alone = |behind: &str| !behind.starts_with(|c: char| c.is_alphanumeric());
+            if rest.strip_prefix(word).is_some_and(alone) && self.before == Before::Nothing {
+                self.pos = end + word.len();
+                return Ok(tok);
+            }
+        }
         let behind = self.text[end..].trim_start().chars().next();
         let alone = behind.is_none_or(|c| "+-−±*·/=<>≤≥≈)]},;.$|".contains(c));
         if !alone || !matches!(self.before, Before::Number { .. }) {

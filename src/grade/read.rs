@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use super::{Key, Question, declare};
 use crate::dimension;
 use crate::expr::{Expr, Symbol};
-use crate::formula::{self, Content, Fault, Reading, Remark, Symbols};
+use crate::formula::{self, Content, Fault, Note, Reading, Remark, Symbols};
 
 /// Quantities of mechanics that students bring in although a collision does not know them.
 const STRANGERS: [&str; 6] = ["g", "t", "mu", "h", "dt", "F"];
@@ -33,6 +33,9 @@ pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> 
         }
         _ => reading,
     };
+    if let Some(fault) = english(text, &reading) {
+        return Err(fault);
+    }
     // Authors say which product they mean.
     match reading.notes.iter().find(|n| n.remark == Remark::Cross) {
         None => Ok(reading),
@@ -44,6 +47,32 @@ pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> 
             also: Vec::new(),
         }),
     }
+}
+
+/// Refuses an English word that was read as a product of its letters: `5 m/s east`, `at least 5`.
+fn english(text: &str, reading: &Reading) -> Option<Fault> {
+    const WORDS: &str = "about above answer approximately below between both clockwise \
+        counterclockwise degree degrees direction does down downward downwards east equal equals \
+        false from greater horizontal increases infinite infinity joules left less meters metres \
+        more most least neither newtons none north nothing of only positive negative right same \
+        seconds sign solution south than that the then there true undefined upward upwards \
+        vertical west where with yes zero";
+    let split = reading.notes.iter().filter(|n| n.remark == Remark::Letters);
+    let word = |note: &&Note| {
+        let run = text.get(note.start..note.end).unwrap_or_default();
+        run.len() > 2 && WORDS.split(' ').any(|word| run.eq_ignore_ascii_case(word))
+    };
+    let note = split.clone().find(word)?;
+    Some(Fault {
+        message: format!(
+            "`{}` is a word and no product of its letters",
+            &text[note.start..note.end]
+        ),
+        start: note.start,
+        end: note.end,
+        hint: Some("give the formula alone, with signs such as >= for what words say".into()),
+        also: Vec::new(),
+    })
 }
 
 /// A text with letters for the vectors that the expected formula writes with arrows over them.
